@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FileChecks.h
+ * @brief What ITK 5.2 reads without complaint although it should not.
+ *
+ * - A spacing of 0, NaN or infinity in a NIfTI or NRRD header is replaced by 1.
+ * - Of a truncated NIfTI file the missing voxels are read as 0.
+ */
+#ifndef voxplex_cli_FileChecks_h
+#define voxplex_cli_FileChecks_h
+
+#include <string>
+
+namespace voxplex::cli
+{
+
+/**
+ * Checks header and size of a NIfTI-1 file, compressed or not; other files pass.
+ *
+ * @return what is wrong, or an empty string
+ */
+std::string FindFaultOfNIfTI(const std::string& path);
+
+/** Checks the spacings in the text header of an NRRD or MetaImage file. Returns as above. */
+std::string FindFaultOfTextHeader(const std::string& path);
+
+} // namespace voxplex::cli
+
+#endif

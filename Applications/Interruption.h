@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Interruption.h
+ * @brief Ctrl-C and its relatives end the program within a second and leave no temporary file.
+ *
+ * A first SIGINT, SIGTERM or SIGHUP while a cancellable step runs only sets a flag, which the
+ * step's progress observer reads. In any other step, at a second signal, or when the cancellable
+ * step has not ended within a second, the handler removes the registered temporary files and exits
+ * with 128 + the signal's number.
+ */
+#ifndef voxplex_cli_Interruption_h
+#define voxplex_cli_Interruption_h
+
+#include <string>
+
+namespace voxplex::cli
+{
+
+/** Process-wide, as signals are. Everything but Requested() belongs to the main thread. */
+class Interruption
+{
+public:
+  /** Install the handlers, one for abort() too. Ignores SIGXFSZ and SIGPIPE, so that writing
+   * reports an error instead. */
+  static void Install();
+
+  /** Whether a signal came. */
+  static bool Requested();
+
+  /** Tell the user, remove the temporary files and end the program. */
+  [[noreturn]] static void Exit();
+
+  /** Temporary files to remove on the way out; at most 16 at a time, with paths below 4096 bytes.
+   */
+  static void AddTemporary(const std::string& path);
+  static void RemoveTemporary(const std::string& path);
+
+  /** While one lives, a signal sets the flag instead of ending the program. */
+  class CancellableStep
+  {
+  public:
+    CancellableStep();
+    ~CancellableStep();
+    CancellableStep(const CancellableStep&) = delete;
+    CancellableStep& operator=(const CancellableStep&) = delete;
+  };
+
+  /** While one lives, signals wait. */
+  class Deferral
+  {
+  public:
+    Deferral();
+    ~Deferral();
+    Deferral(const Deferral&) = delete;
+    Deferral& operator=(const Deferral&) = delete;
+  };
+};
+
+} // namespace voxplex::cli
+
+#endif

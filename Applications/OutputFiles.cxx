@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutputFiles.h"
+
+#include "Errors.h"
+#include "Interruption.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace voxplex::cli
+{
+namespace
+{
+
+[[noreturn]] void Refuse(const std::string& path, const std::string& reason)
+{
+  throw RunError("cannot write '" + path + "': " + reason);
+}
+
+fs::path FolderOf(const fs::path& path)
+{
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/** Absolute and without links, whether the file exists or not. */
+fs::path Canonical(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+}
+
+/** Creates and removes the temporary: the only test that holds on every file system. */
+void ProbeFolder(const std::string& path, const std::string& temporary)
+{
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0)
+  {
+    Refuse(path, std::string("its folder does not take new files (") + std::strerror(errno) + ")");
+  }
+  close(descriptor);
+  unlink(temporary.c_str());
+}
+
+} // namespace
+
+OutputFiles::~OutputFiles()
+{
+  for (const File& file : this->Files)
+  {
+    unlink(file.Temporary.c_str());
+    Interruption::RemoveTemporary(file.Temporary);
+  }
+}
+
+void OutputFiles::Add(const std::string& path)
+{
+  std::error_code ignored;
+  const fs::path target(path);
+  const fs::path folder = FolderOf(target);
+  if (!fs::is_directory(folder, ignored))
+  {
+    Refuse(path, "there is no folder '" + folder.string() + "'; create it first");
+  }
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::is_directory(status))
+  {
+    Refuse(path, "it is a folder; give a file name");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status))
+  {
+    Refuse(path, "it exists and is not a regular file");
+  }
+  for (const File& file : this->Files)
+  {
+    if (Canonical(file.Path) == Canonical(target))
+    {
+      Refuse(path, "two outputs have this name");
+    }
+  }
+  const std::string name = ".voxplex-" + std::to_string(getpid()) + "-" +
+    std::to_string(this->Files.size()) + target.extension().string();
+  const std::string temporary = (folder / name).string();
+  ProbeFolder(path, temporary);
+  Interruption::AddTemporary(temporary);
+  this->Files.push_back({ path, temporary });
+}
+
+void OutputFiles::ForbidOverwriting(const std::string& inputPath) const
+{
+  for (const File& file : this->Files)
+  {
+    std::error_code ignored;
+    if (fs::equivalent(file.Path, inputPath, ignored))
+    {
+      Refuse(file.Path, "it is the input");
+    }
+  }
+}
+
+const std::string& OutputFiles::TemporaryPath(const std::string& path) const
+{
+  const auto file = std::find_if(
+    this->Files.begin(), this->Files.end(), [&path](const File& f) { return f.Path == path; });
+  if (file == this->Files.end())
+  {
+    throw std::logic_error("OutputFiles: '" + path + "' was not announced");
+  }
+  return file->Temporary;
+}
+
+void OutputFiles::Commit()
+{
+  const Interruption::Deferral deferral;
+  for (const File& file : this->Files)
+  {
+    if (std::rename(file.Temporary.c_str(), file.Path.c_str()) != 0)
+    {
+      Refuse(file.Path, std::strerror(errno));
+    }
+    Interruption::RemoveTemporary(file.Temporary);
+  }
+  this->Files.clear();
+}
+
+} // namespace voxplex::cli

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Parameters.h
+ * @brief What the user asked for on the command line.
+ */
+#ifndef voxplex_cli_Parameters_h
+#define voxplex_cli_Parameters_h
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxplex::cli
+{
+
+/** The patient coordinate system of the mesh: LPS is that of DICOM and ITK, RAS that of NIfTI. */
+enum class Space
+{
+  LPS,
+  RAS
+};
+
+inline const char* ToString(Space space)
+{
+  return space == Space::LPS ? "LPS" : "RAS";
+}
+
+/** An empty string or optional means that the option was not given. Lengths are physical. */
+struct Parameters
+{
+  std::string Input;
+  std::string Series;
+  std::string Output;
+  std::string Interfaces;
+  std::string Statistics;
+  std::string SizeImage;
+
+  std::optional<double> Delta;
+  std::optional<double> RadiusEdgeRatio;
+  std::optional<double> FacetAngle;
+  std::optional<double> SmoothingSigma;
+  std::optional<double> Size;
+  std::map<std::int64_t, double> LabelSizes;
+  std::vector<std::int64_t> Labels;
+  Space OutputSpace = Space::LPS;
+
+  int Threads = 0; ///< 0: all cores
+  bool Force = false;
+  std::uint64_t MemoryLimit = 0; ///< bytes; 0: the machine's memory
+  bool Progress = false;
+};
+
+} // namespace voxplex::cli
+
+#endif

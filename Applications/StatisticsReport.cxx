@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StatisticsReport.h"
+
+#include "Version.h"
+#include "Writers/TextFile.h"
+
+#include <vtkMeshingStatistics.h>
+
+#include <iomanip>
+#include <sstream>
+
+#include <sys/resource.h>
+
+using nlohmann::ordered_json;
+
+namespace voxplex::cli
+{
+namespace
+{
+
+std::uint64_t PeakMemoryBytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+template <typename T>
+ordered_json OrNull(const std::optional<T>& value)
+{
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json OrNull(const std::string& text)
+{
+  return text.empty() ? ordered_json(nullptr) : ordered_json(text);
+}
+
+/** Null for what was left to its default. */
+ordered_json DescribeParameters(const Parameters& p)
+{
+  ordered_json labelSizes = ordered_json::object();
+  for (const auto& [label, size] : p.LabelSizes)
+  {
+    labelSizes[std::to_string(label)] = size;
+  }
+  return { { "input", p.Input }, { "series", OrNull(p.Series) }, { "output", OrNull(p.Output) },
+    { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) }, { "size", OrNull(p.Size) },
+    { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
+    { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
+    { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", p.Labels },
+    { "space", ToString(p.OutputSpace) }, { "threads", p.Threads }, { "force", p.Force },
+    { "memory_limit", p.MemoryLimit } };
+}
+
+ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes& times)
+{
+  return { { "read", times.Read }, { "label_field", s.GetLabelFieldTime() },
+    { "distance_transform", s.GetDistanceTransformTime() }, { "refinement", s.GetRefinementTime() },
+    { "extraction", s.GetExtractionTime() }, { "write", times.Write },
+    { "total_without_io", s.GetTotalTime() } };
+}
+
+/** 436120 as "436,120". */
+std::string Grouped(std::int64_t number)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3;)
+  {
+    i -= 3;
+    text.insert(i, ",");
+  }
+  return text;
+}
+
+std::string Rounded(const ordered_json& number, int decimals)
+{
+  if (!number.is_number())
+  {
+    return "-";
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << number.get<double>();
+  return text.str();
+}
+
+std::string Significant(const ordered_json& number)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << number.get<double>();
+  return text.str();
+}
+
+} // namespace
+
+ordered_json MakeReport(
+  vtkMeshingStatistics* statistics, const Parameters& parameters, const InputOutputTimes& times)
+{
+  ordered_json report = { { "program", "voxplex" }, { "version", Version },
+    { "parameters", DescribeParameters(parameters) } };
+  report.update(ordered_json::parse(statistics->ToJSON()));
+  report["space"] = ToString(parameters.OutputSpace);
+  report["time"] = DescribeTimes(*statistics, times);
+  const double seconds = statistics->GetTotalTime();
+  report["elements_per_second"] = seconds > 0
+    ? ordered_json(static_cast<double>(statistics->GetNumberOfElements()) / seconds)
+    : ordered_json(nullptr);
+  report["peak_memory_bytes"] = PeakMemoryBytes();
+  return report;
+}
+
+void WriteReport(const ordered_json& report, const std::string& path)
+{
+  TextFile file(path);
+  file << report.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+  file.Close();
+}
+
+std::string Summarize(const ordered_json& report)
+{
+  const ordered_json& quality = report["quality"];
+  const ordered_json& time = report["time"];
+  std::ostringstream text;
+  text << Grouped(report["elements"]) << " tetrahedra in " << report["labels"].size()
+       << (report["labels"].size() == 1 ? " label, " : " labels, ") << Grouped(report["vertices"])
+       << " vertices, " << Grouped(report["interface_facets"]) << " interface triangles with delta "
+       << Significant(report["delta"]) << ". Radius-edge ratio at most "
+       << Rounded(quality["max_radius_edge"], 2) << ", dihedral angles from "
+       << Rounded(quality["min_dihedral"], 1) << " to " << Rounded(quality["max_dihedral"], 1)
+       << " degrees, interface angles from " << Rounded(quality["min_planar"], 1)
+       << " degrees. Read in " << Rounded(time["read"], 2) << " s, meshed in "
+       << Rounded(time["total_without_io"], 2) << " s, written in " << Rounded(time["write"], 2)
+       << " s, with at most "
+       << Grouped(report["peak_memory_bytes"].get<std::int64_t>() / (1 << 20))
+       << " MiB of memory.\n";
+  return text.str();
+}
+
+} // namespace voxplex::cli

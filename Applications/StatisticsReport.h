@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file StatisticsReport.h
+ * @brief What --stats writes, and the paragraph that the program ends with.
+ */
+#ifndef voxplex_cli_StatisticsReport_h
+#define voxplex_cli_StatisticsReport_h
+
+#include "Parameters.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+class vtkMeshingStatistics;
+
+namespace voxplex::cli
+{
+
+/** Wall-clock seconds of what happens outside of the filter. */
+struct InputOutputTimes
+{
+  double Read = 0.0;
+  double Write = 0.0; ///< mesh and interfaces
+};
+
+/**
+ * The statistics as Documentation/FileFormats.md lists them: those of the filter, with times,
+ * rates and memory of the whole program and the parameters of the command.
+ */
+nlohmann::ordered_json MakeReport(
+  vtkMeshingStatistics* statistics, const Parameters& parameters, const InputOutputTimes& times);
+
+/** @throws RunError */
+void WriteReport(const nlohmann::ordered_json& report, const std::string& path);
+
+/** One paragraph for people, from a report. */
+std::string Summarize(const nlohmann::ordered_json& report);
+
+} // namespace voxplex::cli
+
+#endif

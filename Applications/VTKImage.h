@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VTKImage.h
+ * @brief From the image that ITK read to vtkImageData, without copying voxels.
+ */
+#ifndef voxplex_cli_VTKImage_h
+#define voxplex_cli_VTKImage_h
+
+#include "Parameters.h"
+#include "ScalarImage.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkDataObject;
+class vtkImageData;
+
+namespace voxplex::cli
+{
+
+/**
+ * The returned image refers to the voxels of the argument and keeps them alive. For Space::RAS, the
+ * first two physical coordinates change sign.
+ */
+vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space);
+
+/** Adds the field-data string array SPACE, which 3D Slicer reads. */
+void AddSpaceArray(vtkDataObject* data, Space space);
+
+} // namespace voxplex::cli
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshView.h
+ * @brief Tetrahedra and interface triangles over one set of points, grouped by label.
+ *
+ * What the formats with references, entities and sets need. Labels and pairs of labels are in
+ * increasing order.
+ */
+#ifndef voxplex_cli_MeshView_h
+#define voxplex_cli_MeshView_h
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <vtkType.h>
+
+class vtkPoints;
+
+namespace voxplex::cli
+{
+
+struct MeshData;
+
+class MeshView
+{
+public:
+  using LabelPair = std::pair<std::int64_t, std::int64_t>; ///< larger label first, 0 for background
+  using CellIds = std::vector<vtkIdType>;
+
+  /** Keeps pointers into mesh. @throws RunError if a label does not fit into 31 bits */
+  explicit MeshView(const MeshData& mesh);
+
+  vtkIdType NumberOfPoints() const;
+  std::array<double, 3> Point(vtkIdType id) const;
+
+  std::vector<std::array<vtkIdType, 4>> Tetrahedra; ///< vertices, in VTK's order
+  std::vector<std::array<vtkIdType, 3>> Triangles;  ///< vertices, as ids of the tetrahedra's points
+  std::vector<std::int64_t> LabelOfTetrahedron;
+  std::vector<LabelPair> PairOfTriangle;
+  std::map<std::int64_t, CellIds> TetrahedraOfLabel;
+  std::map<LabelPair, CellIds> TrianglesOfPair;
+
+  /**
+   * A number for each pair of labels: that of the label where the other side is background; pairs
+   * of two labels are numbered from the largest label + 1 on.
+   */
+  std::map<LabelPair, std::int64_t> PairNumber;
+
+private:
+  vtkPoints* Points;
+};
+
+} // namespace voxplex::cli
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file CompareMesh3.cxx
+ * @brief voxplexCompareMesh3: one image, Voxplex and CGAL Mesh_3, a like number of tetrahedra.
+ *
+ * Every run is a child process of its own and the two meshers take turns, so that drifts of the
+ * machine hit both alike. Quality is measured by the same routine on both meshes. GPL through CGAL:
+ * never installed.
+ */
+#include "MeshComparison.h"
+#include "MeshReport.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+using namespace voxplex::benchmarks;
+
+namespace
+{
+
+constexpr const char* Usage =
+  R"(usage: voxplexCompareMesh3 IMAGE --delta D [options]
+
+Meshes a label image with Voxplex and with CGAL Mesh_3 and prints both, side by side.
+
+  --delta D        sampling density of Voxplex, in the unit of the image's spacing
+  --elements N     tetrahedra to aim at: delta is tuned (from D, if given), and CGAL's size
+                   (default: as many as Voxplex makes with D)
+  --cgal-size S    bound of CGAL's surface Delaunay balls; default: tuned to 5 % of the number of
+                   tetrahedra of Voxplex
+  --cgal-parallel  CGAL's Parallel_tag on one thread too (it orders its work differently)
+  --repeat K       runs of each (default 3); medians are printed
+  --threads T      threads of each (default 1; CGAL takes Parallel_tag for more than one)
+  --no-cgal        Voxplex only
+  --only-cgal      CGAL only; needs --elements or --cgal-size
+  --json FILE      also writes all runs to FILE
+)";
+
+struct Options
+{
+  std::string Image;
+  std::string Json;
+  double Delta = 0.0;
+  double CgalSize = 0.0;
+  double Elements = 0.0;
+  int Repeat = 3;
+  unsigned Threads = 1;
+  bool CgalParallel = false;
+  bool Voxplex = true;
+  bool Cgal = true;
+};
+
+Options ParseArguments(int argc, char** argv)
+{
+  Options options;
+  using Text = const std::string&;
+  const std::map<std::string, std::function<void(Text)>> withValue = {
+    { "--delta", [&](Text value) { options.Delta = std::stod(value); } },
+    { "--elements", [&](Text value) { options.Elements = std::stod(value); } },
+    { "--cgal-size", [&](Text value) { options.CgalSize = std::stod(value); } },
+    { "--repeat", [&](Text value) { options.Repeat = std::stoi(value); } },
+    { "--threads",
+      [&](Text value) { options.Threads = static_cast<unsigned>(std::stoul(value)); } },
+    { "--json", [&](Text value) { options.Json = value; } },
+  };
+  const std::map<std::string, std::function<void()>> flags = {
+    { "--cgal-parallel", [&] { options.CgalParallel = true; } },
+    { "--no-cgal", [&] { options.Cgal = false; } },
+    { "--only-cgal", [&] { options.Voxplex = false; } },
+  };
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
+    {
+      option->second(argv[++i]);
+    }
+    else if (const auto flag = flags.find(argument); flag != flags.end())
+    {
+      flag->second();
+    }
+    else if (options.Image.empty() && argument.rfind("--", 0) != 0)
+    {
+      options.Image = argument;
+    }
+    else
+    {
+      throw std::invalid_argument("unknown or incomplete argument " + argument);
+    }
+  }
+  const bool sized =
+    options.Elements > 0.0 || (options.Voxplex ? options.Delta > 0.0 : options.CgalSize > 0.0);
+  if (options.Image.empty() || !sized)
+  {
+    throw std::invalid_argument("an image and a size are needed");
+  }
+  if (options.Repeat < 1 || options.Threads < 1 || !(options.Voxplex || options.Cgal))
+  {
+    throw std::invalid_argument("nothing to run");
+  }
+  return options;
+}
+
+/** Settles the sizes of both so that they make a like number of tetrahedra. */
+void SettleSizes(
+  const Options& options, const LabelVolume& image, Contestant& voxplex, Contestant& cgal)
+{
+  // Where a search starts if nothing better is known: twice the mean spacing.
+  const double meanSpacing = std::cbrt(image.Spacing[0] * image.Spacing[1] * image.Spacing[2]);
+  const double start = options.Delta > 0.0 ? options.Delta : 2.0 * meanSpacing;
+  const bool tuneCgal = options.Cgal && options.CgalSize == 0.0;
+  double wanted = options.Elements;
+  voxplex.Size = options.Delta;
+  cgal.Size = options.CgalSize;
+  if (options.Voxplex && wanted > 0.0)
+  {
+    wanted = TuneSize(voxplex, start, wanted);
+  }
+  else if (options.Voxplex && tuneCgal)
+  {
+    wanted = CountTetrahedra(voxplex, voxplex.Size);
+  }
+  if (tuneCgal)
+  {
+    TuneSize(cgal, options.Voxplex ? voxplex.Size : start, wanted);
+  }
+}
+
+void Compare(const Options& options)
+{
+  LabelVolume image = ReadLabelVolume(options.Image);
+  const LabelVolumes volumes = VolumesOf(image);
+  Contestant voxplex{ "Voxplex",
+    [&](double delta) { return RunVoxplex(std::move(image), delta, options.Threads); } };
+  Contestant cgal{ "CGAL Mesh_3",
+    [&](double size) { return RunCgal(image, size, options.Threads, options.CgalParallel); } };
+  SettleSizes(options, image, voxplex, cgal);
+  for (int i = 0; i < options.Repeat; ++i)
+  {
+    if (options.Voxplex)
+    {
+      AddRun(voxplex, volumes);
+    }
+    if (options.Cgal)
+    {
+      AddRun(cgal, volumes);
+    }
+  }
+  std::printf("%s, %u thread(s), medians of %d%s\n\n", options.Image.c_str(), options.Threads,
+    options.Repeat, options.CgalParallel ? ", CGAL with Parallel_tag" : "");
+  PrintTable(voxplex, cgal);
+  if (!options.Json.empty())
+  {
+    std::ofstream file(options.Json);
+    WriteJson(file, voxplex, cgal);
+    if (!file.flush())
+    {
+      throw std::runtime_error("cannot write " + options.Json);
+    }
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  Options options;
+  try
+  {
+    options = ParseArguments(argc, argv);
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: %s\n\n%s", error.what(), Usage);
+    return 2;
+  }
+  try
+  {
+    Compare(options);
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshReport.h"
+
+#include "Statistics.h"
+
+#include <cstdio>
+
+namespace voxplex::benchmarks
+{
+namespace
+{
+
+/** A number of a record: its name in the table and in the JSON stream, and how to print it. */
+struct Row
+{
+  const char* Name;
+  const char* Key;
+  const char* Format;
+  bool Ratio; ///< whether the ratio of the two meshers means anything
+  double (*Value)(const Record&);
+};
+
+const Row Rows[] = {
+  { "tetrahedra", "tetrahedra", "%.0f", true, [](const Record& r) { return r.Tetrahedra(); } },
+  { "refinement, s", "refinement", "%.3f", true,
+    [](const Record& r) { return r.RefinementSeconds; } },
+  { "total without files, s", "total_without_io", "%.3f", true,
+    [](const Record& r) { return r.TotalSeconds; } },
+  { "  processor time, s", "cpu", "%.3f", true, [](const Record& r) { return r.CpuSeconds; } },
+  { "tets/s, refinement", "elements_per_second_refinement", "%.0f", true,
+    [](const Record& r) { return r.Tetrahedra() / r.RefinementSeconds; } },
+  { "tets/s, total", "elements_per_second", "%.0f", true,
+    [](const Record& r) { return r.Tetrahedra() / r.TotalSeconds; } },
+  { "peak memory, MB", "peak_memory_mb", "%.1f", true,
+    [](const Record& r) { return static_cast<double>(r.PeakBytes) / 1e6; } },
+  { "radius-edge, largest", "radius_edge_max", "%.3f", false,
+    [](const Record& r) { return r.Quality.RadiusEdgeMax; } },
+  { "dihedral, smallest", "dihedral_min", "%.2f", false,
+    [](const Record& r) { return r.Quality.DihedralMin; } },
+  { "dihedral, largest", "dihedral_max", "%.2f", false,
+    [](const Record& r) { return r.Quality.DihedralMax; } },
+  { "interface facets", "interface_facets", "%.0f", false,
+    [](const Record& r) { return static_cast<double>(r.Quality.InterfaceFacets); } },
+  { "planar angle, smallest", "planar_min", "%.2f", false,
+    [](const Record& r) { return r.Quality.PlanarMin; } },
+  { "  away from junctions", "planar_min_away_from_junctions", "%.2f", false,
+    [](const Record& r) { return r.Quality.PlanarMinAwayFromJunctions; } },
+  { "facets below 30 degrees", "planar_below_30", "%.0f", false,
+    [](const Record& r) { return static_cast<double>(r.Quality.PlanarBelow30); } },
+  { "  away from junctions", "planar_below_30_away_from_junctions", "%.0f", false,
+    [](const Record& r) { return static_cast<double>(r.Quality.PlanarBelow30AwayFromJunctions); } },
+  { "inverted tetrahedra", "inverted", "%.0f", false,
+    [](const Record& r) { return static_cast<double>(r.Quality.Inverted); } },
+  { "labels lost", "labels_lost", "%.0f", false,
+    [](const Record& r) { return static_cast<double>(r.Quality.LabelsLost); } },
+  { "label volume error, %", "label_volume_error_percent", "%.3f", false,
+    [](const Record& r) { return 100.0 * r.Quality.VolumeError; } },
+};
+
+void WriteRuns(std::ostream& stream, const Contestant& contestant)
+{
+  stream << "  \"" << contestant.Name << "\": {\n    \"size\": " << contestant.Size
+         << ",\n    \"runs\": [";
+  for (std::size_t i = 0; i < contestant.Records.size(); ++i)
+  {
+    stream << (i ? ",\n      {" : "\n      {");
+    for (const Row& row : Rows)
+    {
+      stream << (&row == Rows ? " " : ",\n        ") << "\"" << row.Key
+             << "\": " << row.Value(contestant.Records[i]);
+    }
+    stream << " }";
+  }
+  stream << "\n    ]\n  }";
+}
+
+void PrintCell(const char* format, const Contestant& contestant, double value)
+{
+  char text[32] = "-"; // did not run
+  if (!contestant.Records.empty())
+  {
+    std::snprintf(text, sizeof(text), format, value);
+  }
+  std::printf(" %14s", text);
+}
+
+} // namespace
+
+void PrintTable(const Contestant& left, const Contestant& right)
+{
+  std::printf("%-26s %14s %14s %10s\n", "", left.Name, right.Name, "ratio");
+  std::printf("%-26s", "delta, facet size");
+  PrintCell("%.4g", left, left.Size);
+  PrintCell("%.4g", right, right.Size);
+  std::printf("\n");
+  for (const Row& row : Rows)
+  {
+    const PairedMedians medians = MedianPair(left.Records, right.Records, row.Value);
+    std::printf("%-26s", row.Name);
+    PrintCell(row.Format, left, medians.Left);
+    PrintCell(row.Format, right, medians.Right);
+    if (row.Ratio && medians.Ratio > 0.0)
+    {
+      std::printf(" %10.3f", medians.Ratio);
+    }
+    std::printf("\n");
+  }
+}
+
+void WriteJson(std::ostream& stream, const Contestant& left, const Contestant& right)
+{
+  stream.precision(10);
+  stream << "{\n";
+  WriteRuns(stream, left);
+  stream << ",\n";
+  WriteRuns(stream, right);
+  stream << "\n}\n";
+}
+
+} // namespace voxplex::benchmarks

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MesherRun.h
+ * @brief One run of one mesher on one image: what is timed, and what comes out.
+ */
+#ifndef voxplex_MesherRun_h
+#define voxplex_MesherRun_h
+
+#include "LabelVolume.h"
+#include "Mesh/SimplexMesh.h"
+
+#include <cstdint>
+
+namespace voxplex::benchmarks
+{
+
+/** A mesh, the seconds it took, and the peak of memory at the end of them. */
+struct MesherRun
+{
+  SimplexMesh<3> Mesh;
+  double RefinementSeconds = 0.0;
+  double TotalSeconds = 0.0; ///< everything but reading and writing files
+  double CpuSeconds = 0.0;   ///< processor time of the total
+  std::uint64_t PeakBytes = 0;
+};
+
+/**
+ * Voxplex with default options. The total includes the extraction of the mesh into arrays.
+ * @param image consumed: released as soon as the kernel has read it
+ */
+MesherRun RunVoxplex(LabelVolume&& image, double delta, unsigned threads);
+
+/**
+ * CGAL Mesh_3 on the labelled image domain, defaults throughout: facet angle 30 degrees,
+ * radius-edge ratio 2, no perturbation, exudation or global optimisation. GPL: never to be
+ * installed.
+ *
+ * Refinement is the whole of make_mesh_3; the total adds the construction of the domain. Copying
+ * CGAL's mesh into arrays is not counted.
+ * @param size bound of the surface Delaunay balls; tetrahedra are bounded by shape alone, so that
+ * they grow away from the interfaces as they do in Voxplex
+ * @param parallel takes Parallel_tag even for one thread; else that takes Sequential_tag, which
+ * refines the worst element first and is about half as fast
+ */
+MesherRun RunCgal(const LabelVolume& image, double size, unsigned threads, bool parallel);
+
+} // namespace voxplex::benchmarks
+
+#endif

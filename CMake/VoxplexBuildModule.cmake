@@ -1,0 +1,28 @@
+# Builds VTK::Voxplex against an installed VTK: scans vtk.module and lets VTK re-enter the root
+# CMakeLists.txt.
+
+vtk_module_scan(
+  MODULE_FILES      "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module"
+  PROVIDES_MODULES  voxplex_modules
+  WANT_BY_DEFAULT   ON
+  HIDE_MODULES_FROM_CACHE ON
+  ENABLE_TESTS      OFF)
+
+# VTK places a module at ${CMAKE_BINARY_DIR}/<its path below CMAKE_SOURCE_DIR>. For a module at the
+# root that path is empty and the build directory would be entered twice; seen from one folder above
+# it is the repository's name.
+function (voxplex_build_module)
+  set(CMAKE_SOURCE_DIR "${CMAKE_SOURCE_DIR}/..")
+  vtk_module_build(
+    MODULES             ${voxplex_modules}
+    PACKAGE             Voxplex
+    INSTALL_EXPORT      Voxplex
+    VERSION             "${VOXPLEX_VERSION}"
+    SOVERSION           "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
+    ENABLE_WRAPPING     "${VOXPLEX_HAVE_PYTHON}"
+    HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/voxplex-${VOXPLEX_VERSION}"
+    CMAKE_DESTINATION   "${VOXPLEX_PACKAGE_DESTINATION}"
+    HIERARCHY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/vtk/hierarchy/Voxplex"
+    TEST_DIRECTORY_NAME NONE) # Testing/ is added by the root CMakeLists.txt
+endfunction ()
+voxplex_build_module()

@@ -1,0 +1,19 @@
+# Sets VOXPLEX_HAVE_PYTHON: whether VTK's Python wrapping can be used, and if not, says why.
+
+set(VOXPLEX_HAVE_PYTHON OFF)
+
+if (NOT BUILD_SHARED_LIBS)
+  voxplex_skip("Python" "BUILD_SHARED_LIBS is off")
+  return ()
+endif ()
+
+find_package(VTK QUIET
+  COMPONENTS CommonCore CommonDataModel CommonExecutionModel
+  OPTIONAL_COMPONENTS Python WrappingPythonCore WrappingTools)
+if (NOT TARGET VTK::WrappingPythonCore OR NOT TARGET VTK::Python OR NOT TARGET VTK::WrapPython)
+  voxplex_skip("Python"
+    "VTK was found without its Python wrapping (apt-get install python3-vtk9 python3-dev; an interpreter other than VTK's own earlier on the PATH has the same effect: pass -DPython3_EXECUTABLE=/usr/bin/python3)")
+  return ()
+endif ()
+
+set(VOXPLEX_HAVE_PYTHON ON)

@@ -1,0 +1,67 @@
+# Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it.
+#
+# The kernel's objects go into the module's library: nothing of the kernel is installed, neither a
+# library nor a header, and its symbols stay hidden.
+
+if (NOT COMMAND voxplex_skip) # the tests say through it what they leave out
+  function (voxplex_skip what why)
+    message(STATUS "Voxplex leaves out: ${what}: ${why}")
+  endfunction ()
+endif ()
+
+find_package(Threads REQUIRED)
+find_package(CGAL REQUIRED)
+if (NOT TARGET VoxplexKernel)
+  add_subdirectory(Kernel)
+endif ()
+
+vtk_module_add_module(VTK::Voxplex
+  CLASSES
+    Filters/vtkImageToTetMeshFilter
+    Filters/vtkMeshingStatistics
+  PRIVATE_HEADERS
+    Filters/Private/ElementSizes.h
+    Filters/Private/ImageFrame.h
+    Filters/Private/MeshOutput.h
+    Filters/Private/MeshingFigures.h
+    Filters/Private/SmpThreads.h
+  SOURCES
+    Filters/Private/ElementSizes.cxx
+    Filters/Private/ImageFrame.cxx
+    Filters/Private/MeshOutput.cxx
+    Filters/Private/SmpThreads.cxx
+    $<TARGET_OBJECTS:VoxplexExact>
+    $<TARGET_OBJECTS:VoxplexKernel>)
+
+vtk_module_include(VTK::Voxplex
+  PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/Filters>"
+  PRIVATE
+    "${CMAKE_CURRENT_SOURCE_DIR}/Kernel") # and Filters/, for Private/
+
+# The kernel's headers want C++20; the module's own headers do not.
+vtk_module_compile_features(VTK::Voxplex
+  PRIVATE
+    cxx_std_20)
+
+# vtkSMPTools.h of VTK 9.0 and 9.1 is not valid C++20.
+set_source_files_properties(Filters/Private/SmpThreads.cxx PROPERTIES
+  COMPILE_OPTIONS "${CMAKE_CXX17_STANDARD_COMPILE_OPTION}")
+
+# As in the kernel: inline functions of its headers are compiled here, too.
+vtk_module_compile_options(VTK::Voxplex
+  PRIVATE
+    -ffp-contract=off -Wall -Wextra -Wshadow
+    $<$<BOOL:${VOXPLEX_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# The objects bring no libraries with them: threads, and GMP and MPFR for CGAL's exact numbers. Only
+# CGAL's libraries are wanted, not its compiler flags.
+vtk_module_link(VTK::Voxplex
+  PRIVATE
+    "$<LINK_ONLY:CGAL::CGAL>"
+    Threads::Threads)
+
+# What is not exported by name stays inside, as in the kernel.
+set_target_properties(Voxplex PROPERTIES
+  CXX_VISIBILITY_PRESET hidden
+  VISIBILITY_INLINES_HIDDEN ON)

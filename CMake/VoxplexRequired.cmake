@@ -1,0 +1,21 @@
+# The dependencies without which nothing can be built. Each one missing says how to get it.
+
+function (voxplex_require found what debian_package variable)
+  if (NOT found)
+    message(FATAL_ERROR
+      "Voxplex needs ${what}, which was not found.\n"
+      "  Debian, Ubuntu: apt-get install ${debian_package}\n"
+      "  Elsewhere: pass -D${variable}=<folder with its CMake config>.\n"
+      "  Scripts/install-dependencies installs everything on Debian 12.")
+  endif ()
+endfunction ()
+
+find_package(VTK 9.0 QUIET
+  COMPONENTS CommonCore CommonDataModel CommonExecutionModel)
+voxplex_require("${VTK_FOUND}" "VTK 9.0 or newer" "libvtk9-dev" VTK_DIR)
+
+find_package(CGAL 5.0 QUIET)
+voxplex_require("${CGAL_FOUND}" "CGAL 5 (its kernels only)" "libcgal-dev" CGAL_DIR)
+
+find_package(Eigen3 QUIET)
+voxplex_require("${Eigen3_FOUND}" "Eigen 3.3" "libeigen3-dev" Eigen3_DIR)

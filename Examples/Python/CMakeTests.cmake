@@ -1,0 +1,11 @@
+if (NOT VOXPLEX_HAVE_PYTHON)
+  return ()
+endif ()
+find_package(Python3 QUIET COMPONENTS Interpreter)
+add_test(NAME Examples.Python.mesh_segmentation
+  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Python/mesh_segmentation.py"
+    --output "${CMAKE_CURRENT_BINARY_DIR}/phantom.vtu"
+    --interfaces "${CMAKE_CURRENT_BINARY_DIR}/phantom.vtp")
+set_tests_properties(Examples.Python.mesh_segmentation PROPERTIES
+  ENVIRONMENT "${VOXPLEX_PYTHON_TEST_ENVIRONMENT}"
+  TIMEOUT 600 LABELS Examples PASS_REGULAR_EXPRESSION "label 3: [1-9][0-9]+ tetrahedra")

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/ElementSizes.h"
+
+#include "vtkDataArray.h"
+#include "vtkImplicitFunction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+constexpr double NoBound = std::numeric_limits<double>::infinity();
+
+/** NaN, zero and negative values set no bound. */
+double AsBound(double size)
+{
+  return size > 0.0 ? size : NoBound;
+}
+} // namespace
+
+SizeImage::SizeImage(const ImageFrame& frame, vtkDataArray* sizes)
+  : Frame(frame)
+  , Sizes(sizes)
+{
+}
+
+double SizeImage::At(const Point<3>& x) const
+{
+  const GridGeometry<3>& grid = this->Frame.Grid;
+  const Point<3> index = grid.ToIndex(this->Frame.ToFrame(x));
+  std::array<std::int64_t, 3> low;
+  std::array<double, 3> fraction;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double last = static_cast<double>(grid.Dimensions[a] - 1);
+    const double inside = std::clamp(index[a], 0.0, last);
+    low[a] = std::min(
+      static_cast<std::int64_t>(inside), std::max<std::int64_t>(grid.Dimensions[a] - 2, 0));
+    fraction[a] = inside - static_cast<double>(low[a]);
+  }
+
+  double sum = 0.0;
+  double weights = 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner)
+  {
+    double weight = 1.0;
+    std::int64_t voxel = 0;
+    for (std::size_t a = 3; a-- > 0;)
+    {
+      const bool high = (corner >> a) & 1u;
+      weight *= high ? fraction[a] : 1.0 - fraction[a];
+      voxel = voxel * grid.Dimensions[a] + low[a] + (high ? 1 : 0);
+    }
+    if (weight > 0.0) // a weight of 0 may belong to a voxel beyond the last one
+    {
+      const double size = this->Sizes->GetComponent(voxel, 0);
+      if (size > 0.0 && std::isfinite(size))
+      {
+        sum += weight * size;
+        weights += weight;
+      }
+    }
+  }
+  return weights > 0.0 ? sum / weights : NoBound;
+}
+
+bool ElementSizes::Any() const
+{
+  return this->Uniform > 0.0 || !this->PerLabel.empty() || this->Image || this->Implicit ||
+    this->Function;
+}
+
+double ElementSizes::Evaluate(const Point<3>& p, std::int64_t label) const
+{
+  double size = AsBound(this->Uniform);
+  if (!this->PerLabel.empty())
+  {
+    const auto found = this->PerLabel.find(label);
+    if (found != this->PerLabel.end())
+    {
+      size = std::min(size, AsBound(found->second));
+    }
+  }
+  if (!this->Image && !this->Implicit && !this->Function)
+  {
+    return size;
+  }
+  const Point<3> x = this->Frame.ToWorld(p);
+  if (this->Image)
+  {
+    size = std::min(size, this->Image->At(x));
+  }
+  if (this->Implicit)
+  {
+    const std::lock_guard<std::mutex> lock(this->ImplicitMutex);
+    size = std::min(size, AsBound(this->Implicit->FunctionValue(x.data())));
+  }
+  if (this->Function)
+  {
+    size = std::min(size, AsBound(this->Call(x, label)));
+  }
+  return size;
+}
+
+double ElementSizes::Call(const Point<3>& x, std::int64_t label) const
+{
+  if (this->Failed())
+  {
+    return NoBound;
+  }
+  try
+  {
+    return this->Function(x.data(), label);
+  }
+  catch (...) // an exception must not leave a meshing thread: it would end the program
+  {
+    const std::lock_guard<std::mutex> lock(this->FailureMutex);
+    if (!this->Failure)
+    {
+      this->Failure = std::current_exception();
+    }
+    this->HasFailed.store(true, std::memory_order_release);
+    return NoBound;
+  }
+}
+
+void ElementSizes::Rethrow() const
+{
+  const std::lock_guard<std::mutex> lock(this->FailureMutex);
+  if (this->Failure)
+  {
+    std::rethrow_exception(this->Failure);
+  }
+}
+
+} // namespace voxplex

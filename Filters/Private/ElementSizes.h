@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ElementSizes.h
+ * @brief Everything by which a user bounds the size of elements, as the kernel's SizeFunction.
+ */
+#ifndef voxplex_ElementSizes_h
+#define voxplex_ElementSizes_h
+
+#include "Image/SizeFunction.h"
+#include "Private/ImageFrame.h"
+
+#include "vtkSmartPointer.h"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+
+class vtkDataArray;
+class vtkImplicitFunction;
+
+namespace voxplex
+{
+
+/** An image of sizes: linear between voxels, the nearest value outside. */
+class SizeImage
+{
+public:
+  /**
+   * @param frame where the image lies
+   * @param sizes one component per voxel of the frame's grid; kept, not copied
+   */
+  SizeImage(const ImageFrame& frame, vtkDataArray* sizes);
+
+  /**
+   * Size at a point of the world. Voxels whose value is NaN, zero or negative set no bound and are
+   * left out of the interpolation; +infinity where none is left. Thread safe.
+   */
+  double At(const Point<3>& x) const;
+
+private:
+  ImageFrame Frame;
+  vtkSmartPointer<vtkDataArray> Sizes;
+};
+
+/**
+ * @brief The smallest of all sizes that are given.
+ *
+ * Set the members before meshing; Evaluate() is then safe to call from any thread. Implicit
+ * functions are called by one thread at a time, because VTK's are not thread safe in general (they
+ * evaluate their transform into members).
+ */
+class ElementSizes : public SizeFunction<3>
+{
+public:
+  using Callable = std::function<double(const double x[3], long long label)>;
+
+  double Uniform = 0.0; ///< 0: none
+  std::map<std::int64_t, double> PerLabel;
+  std::optional<SizeImage> Image;
+  vtkSmartPointer<vtkImplicitFunction> Implicit;
+  Callable Function;
+  ImageFrame Frame; ///< of the label image
+
+  /** Whether anything is given at all. */
+  bool Any() const;
+
+  double Evaluate(const Point<3>& p, std::int64_t label) const override;
+
+  /** Whether Function has thrown; sizes are then of no use and meshing should stop. */
+  bool Failed() const { return this->HasFailed.load(std::memory_order_acquire); }
+  /** Throws what Function has thrown first, if anything. */
+  void Rethrow() const;
+
+private:
+  double Call(const Point<3>& x, std::int64_t label) const;
+
+  mutable std::mutex ImplicitMutex;
+  mutable std::mutex FailureMutex;
+  mutable std::exception_ptr Failure;
+  mutable std::atomic<bool> HasFailed{ false };
+};
+
+} // namespace voxplex
+
+#endif

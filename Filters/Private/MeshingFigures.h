@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshingFigures.h
+ * @brief What vtkMeshingStatistics holds; for the filters that fill it.
+ */
+#ifndef voxplex_MeshingFigures_h
+#define voxplex_MeshingFigures_h
+
+#include "Mesh/MeshQuality.h"
+#include "MeshingStatistics.h"
+
+#include "vtkMeshingStatistics.h"
+
+#include <cstdint>
+#include <vector>
+
+struct vtkMeshingStatistics::Figures
+{
+  std::int64_t Elements = 0;
+  std::int64_t Vertices = 0;
+  std::int64_t InterfaceFacets = 0;
+  int Threads = 0;
+  std::vector<std::int64_t> LostLabels; ///< in the image, not in the mesh
+  voxplex::MeshingStatistics Run;       ///< its Times include what the filter itself does
+
+  bool HasQuality = false;      ///< whether Quality was measured
+  voxplex::MeshQuality Quality; ///< its Labels, too
+};
+
+#endif

@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkImageToTetMeshFilter
+ * @brief   label image to conforming, quality tetrahedral mesh
+ *
+ * Every tissue of a segmented image becomes a set of tetrahedra; tetrahedra of neighbouring tissues
+ * share the nodes of their common interface. The interfaces are smooth rather than staircases. The
+ * mesh is a Delaunay refinement made directly from the image, with provable bounds on the shape of
+ * elements (P. Foteinos, "Real-time high-quality image-to-mesh conversion for finite element
+ * simulations", 2013, chapters 2 and 3).
+ *
+ * @par Inputs
+ * - Port 0, vtkImageData: one label per voxel, 0 is background. The array is the one chosen by
+ *   `SetInputArrayToProcess(0, 0, 0, association, name)`; by default the active point scalars, else
+ *   the active cell scalars. Point scalars lie at the points, cell scalars at the cell centres. One
+ *   component, any scalar type, whole values, none of them negative. Scalars that lie contiguous
+ *   in memory are read in place.
+ *   Origin, spacing, direction matrix (skewed and left-handed ones included) and extent are
+ *   honoured: the mesh lies in physical space, `origin + direction * diag(spacing) * (i, j, k)`.
+ * - Port 1, vtkImageData, optional: an upper bound of the element size at every point, in physical
+ *   units; see "Element sizes". The array is chosen by `SetInputArrayToProcess(1, 1, 0, ...)`.
+ *
+ * @par Outputs
+ * - Port 0, vtkUnstructuredGrid: `VTK_TETRA` cells, each with positive volume in physical space
+ *   whatever the handedness of the image's axes. Points are double precision, each used by a cell,
+ *   in an order that keeps neighbours near each other.
+ *   - Cell array `Label` (1 component, active scalars): the image's own label value. The type is
+ *     `vtkIntArray`, or `vtkLongLongArray` if a label does not fit into an int.
+ * - Port 1, vtkPolyData: the triangles between two labels, or between a label and the background,
+ *   each once. The points are those of port 0 that the triangles use.
+ *   - Cell array `Labels` (2 components, type as above): the labels on both sides, the larger
+ *     first, 0 for background. The normal given by the right-hand rule points out of the region
+ *     of the first label, into the second.
+ *   - Point array `PointIds` (1 component, vtkIdTypeArray): the index of the point in port 0.
+ *
+ * The field data of port 0 is passed to both outputs.
+ *
+ * @par Element sizes
+ * An element's circumradius stays below each bound that is given at its circumcentre: ElementSize,
+ * the size of its label (SetLabelSize()), the size image (interpolated linearly; points outside
+ * take the nearest value inside), SizeImplicitFunction and the C++ callable (SetSizeFunction()).
+ * The smallest of them applies. Values that are NaN, zero or negative in the image or from a
+ * function set no bound there. Very small sizes are raised to a floor, a fraction of Delta, so that
+ * refinement always ends.
+ *
+ * @par Errors
+ * Misuse is reported with vtkErrorMacro and leaves both outputs empty: no or unsuitable scalars
+ * (several components: see vtkImageToPentatopeMeshFilter for time series), fractional, negative or
+ * non-finite labels, no foreground, fewer than two voxels along an axis, thousands of labels (a
+ * grey-value image), spacing that is not positive and finite, a singular direction matrix,
+ * parameters out of range, a label in SetLabelSize() or AddLabel() that the image does not have, a
+ * mesh that is estimated not to fit in memory, and one that comes out empty. The executive then
+ * adds a message of its own and its Update() returns 0. GetErrorMessage() keeps the reason. Labels
+ * of the image that the mesh lacks, because Delta is too coarse for them, are named with
+ * vtkWarningMacro.
+ *
+ * @par Progress and abort
+ * Progress is reported from the thread that called Update(), at least ten times a second and never
+ * decreasing. Setting AbortExecute, from a progress observer or from another thread, stops within a
+ * second and leaves both outputs empty; GetAborted() then returns true. VTK regards the empty
+ * output as up to date: call Modified() to execute again.
+ *
+ * @par Threads
+ * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. Distinct instances may execute at
+ * the same time. Nothing is kept between executions apart from the statistics.
+ *
+ * @par Pieces
+ * The image cannot be meshed in pieces: piece 0 receives the whole mesh, other pieces are empty.
+ *
+ * @sa vtkMeshingStatistics vtkSurfaceNets3D
+ */
+#ifndef vtkImageToTetMeshFilter_h
+#define vtkImageToTetMeshFilter_h
+
+#include "vtkUnstructuredGridAlgorithm.h"
+#include "vtkVoxplexModule.h" // For export macro
+
+#include <functional> // For std::function
+#include <memory>     // For std::unique_ptr
+#include <string>     // For std::string
+
+class vtkAlgorithmOutput;
+class vtkImageData;
+class vtkImplicitFunction;
+class vtkMeshingStatistics;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+class VTKVOXPLEX_EXPORT vtkImageToTetMeshFilter : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkImageToTetMeshFilter* New();
+  vtkTypeMacro(vtkImageToTetMeshFilter, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The sampling density of interfaces, in physical units: surface triangles have edges of about
+   * this length. Smaller is finer: the number of elements grows with the cube of 1 / Delta. 0, the
+   * default, derives it from the spacing; GetStatistics()->GetDelta() tells which was used.
+   */
+  vtkSetMacro(Delta, double);
+  vtkGetMacro(Delta, double);
+  ///@}
+
+  ///@{
+  /**
+   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 it is not
+   * proved that refinement ends, and the value is refused unless Force is on.
+   */
+  vtkSetMacro(RadiusEdgeRatio, double);
+  vtkGetMacro(RadiusEdgeRatio, double);
+  ///@}
+
+  ///@{
+  /** Lower bound of the angles of interface triangles in degrees, 0 to 30. Default 30. */
+  vtkSetMacro(FacetAngle, double);
+  vtkGetMacro(FacetAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Standard deviation, in voxels along each axis, of the smoothing that turns voxel stairs into
+   * smooth interfaces. It does not shrink objects, and every voxel centre keeps its label. Default
+   * 1; 0 switches it off.
+   */
+  vtkSetMacro(SmoothingSigma, double);
+  vtkGetMacro(SmoothingSigma, double);
+  ///@}
+
+  ///@{
+  /** Upper bound of circumradii everywhere, in physical units. 0, the default, sets none. */
+  vtkSetMacro(ElementSize, double);
+  vtkGetMacro(ElementSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Upper bound of the circumradii of one label's elements, in physical units, by the image's own
+   * label value. A label that does not occur in the image is an error when the filter executes.
+   * GetLabelSize() returns 0 for a label without a size. Sized labels are numbered in increasing
+   * order of their value; GetSizedLabel() returns 0 for an index out of range.
+   */
+  void SetLabelSize(vtkTypeInt64 label, double size);
+  double GetLabelSize(vtkTypeInt64 label) const;
+  void RemoveLabelSize(vtkTypeInt64 label);
+  void ClearLabelSizes();
+  int GetNumberOfLabelSizes() const;
+  vtkTypeInt64 GetSizedLabel(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * Restrict meshing to some labels; the others become background. By default (no label added) all
+   * labels are meshed. A label that does not occur in the image is an error when the filter
+   * executes.
+   */
+  void AddLabel(vtkTypeInt64 label);
+  void RemoveLabel(vtkTypeInt64 label);
+  void RemoveAllLabels();
+  int GetNumberOfSelectedLabels() const;
+  vtkTypeInt64 GetSelectedLabel(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * The value of this function at a physical point is an upper bound of circumradii there. Calls
+   * are serialised, because implicit functions in general are not thread safe: with many threads an
+   * image of sizes, or SetSizeFunction(), is faster.
+   */
+  virtual void SetSizeImplicitFunction(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetSizeImplicitFunction() const;
+  ///@}
+
+  ///@{
+  /** The image of element sizes (input port 1); null removes it. */
+  void SetElementSizeConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
+  void SetElementSizeData(vtkImageData* image);
+  ///@}
+
+#ifndef __VTK_WRAP__
+  /** Upper bound of circumradii at a physical point inside the label with this value. */
+  using SizeFunctionType = std::function<double(const double x[3], vtkTypeInt64 label)>;
+  /**
+   * An upper bound of circumradii as a C++ callable; an empty one removes it. It is called from
+   * every meshing thread at once and must be safe for that. An exception that it throws ends the
+   * execution and is reported as an error.
+   */
+  void SetSizeFunction(SizeFunctionType function);
+#endif
+
+  ///@{
+  /** Threads to mesh with. 0, the default, means vtkSMPTools::GetEstimatedNumberOfThreads(). */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Go on although the mesh is estimated not to fit in memory, or RadiusEdgeRatio is below the
+   * proved bound. Default off.
+   */
+  vtkSetMacro(Force, bool);
+  vtkGetMacro(Force, bool);
+  vtkBooleanMacro(Force, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Bytes that meshing may plan with; a mesh estimated to need more is refused unless Force is on.
+   * 0, the default, means the machine's physical memory.
+   */
+  vtkSetMacro(MemoryLimit, vtkTypeUInt64);
+  vtkGetMacro(MemoryLimit, vtkTypeUInt64);
+  ///@}
+
+  ///@{
+  /** Measure the quality and the labels of the mesh for GetStatistics(). Default off. */
+  vtkSetMacro(ComputeQuality, bool);
+  vtkGetMacro(ComputeQuality, bool);
+  vtkBooleanMacro(ComputeQuality, bool);
+  ///@}
+
+  /** What the last execution did. Owned by the filter; the same object over its whole life. */
+  vtkMeshingStatistics* GetStatistics() const;
+
+  /** Why the last execution failed; empty if it did not. */
+  const std::string& GetErrorMessage() const
+  {
+    return this->ErrorMessage;
+  }
+
+  /** Whether the last execution was stopped by AbortExecute. */
+  bool GetAborted() const
+  {
+    return this->Aborted;
+  }
+
+  ///@{
+  /** The interfaces (output port 1). */
+  vtkPolyData* GetInterfaces();
+  vtkAlgorithmOutput* GetInterfacesPort()
+  {
+    return this->GetOutputPort(1);
+  }
+  ///@}
+
+  /** Counts the SizeImplicitFunction in. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkImageToTetMeshFilter();
+  ~vtkImageToTetMeshFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation*, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  double Delta = 0.0;
+  double RadiusEdgeRatio = 2.0;
+  double FacetAngle = 30.0;
+  double SmoothingSigma = 1.0;
+  double ElementSize = 0.0;
+  int NumberOfThreads = 0;
+  bool Force = false;
+  vtkTypeUInt64 MemoryLimit = 0;
+  bool ComputeQuality = false;
+
+private:
+  vtkImageToTetMeshFilter(const vtkImageToTetMeshFilter&) = delete;
+  void operator=(const vtkImageToTetMeshFilter&) = delete;
+
+  /** Throws voxplex::InputError for parameters out of range. */
+  void CheckParameters() const;
+  /** The execution itself. Throws voxplex::Error, std::bad_alloc, what the size function throws. */
+  void Mesh(
+    vtkInformationVector** inputVector, vtkUnstructuredGrid* tetrahedra, vtkPolyData* interfaces);
+  bool AbortRequested();
+  void WarnOfLostLabels();
+
+  struct Internals;
+  std::unique_ptr<Internals> Private;
+  std::string ErrorMessage;
+  bool Aborted = false;
+};
+
+#endif

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshingStatistics.h"
+
+#include "Private/MeshingFigures.h"
+
+#include "vtkObjectFactory.h"
+
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <vector>
+
+vtkStandardNewMacro(vtkMeshingStatistics);
+
+namespace
+{
+
+/** Writes nested JSON objects of numbers. */
+class JsonWriter
+{
+public:
+  JsonWriter()
+  {
+    this->Text.imbue(std::locale::classic());
+    this->Text.precision(std::numeric_limits<double>::max_digits10);
+    this->Text << "{";
+  }
+
+  void Begin(const std::string& name)
+  {
+    this->Name(name);
+    this->Text << "{";
+    this->First = true;
+  }
+
+  void End()
+  {
+    this->Text << "}";
+    this->First = false;
+  }
+
+  void Add(const std::string& name, double value)
+  {
+    this->Name(name);
+    if (std::isfinite(value))
+    {
+      this->Text << value;
+    }
+    else
+    {
+      this->Text << "null"; // JSON has no infinity
+    }
+  }
+
+  void Add(const std::string& name, std::int64_t value)
+  {
+    this->Name(name);
+    this->Text << value;
+  }
+
+  void Add(const std::string& name, std::uint64_t value)
+  {
+    this->Name(name);
+    this->Text << value;
+  }
+
+  void Add(const std::string& name, const std::vector<std::int64_t>& values)
+  {
+    this->Name(name);
+    this->Text << "[";
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      this->Text << (i ? ", " : "") << values[i];
+    }
+    this->Text << "]";
+  }
+
+  std::string Finish()
+  {
+    this->Text << "}";
+    return this->Text.str();
+  }
+
+private:
+  void Name(const std::string& name)
+  {
+    this->Text << (this->First ? "" : ", ") << '"' << name << "\": ";
+    this->First = false;
+  }
+
+  std::ostringstream Text;
+  bool First = true;
+};
+
+void AddQuality(JsonWriter& json, const voxplex::MeshQuality& quality)
+{
+  json.Begin("labels");
+  for (const auto& label : quality.Labels)
+  {
+    json.Begin(std::to_string(label.Label));
+    json.Add("elements", label.Elements);
+    json.Add("volume", label.Volume);
+    json.End();
+  }
+  json.End();
+  json.Begin("quality");
+  json.Add("max_radius_edge", quality.MaximumRadiusEdgeRatio);
+  json.Add("min_dihedral", quality.MinimumDihedralAngle);
+  json.Add("max_dihedral", quality.MaximumDihedralAngle);
+  json.Add("min_planar", quality.MinimumFacetAngle);
+  json.Add("min_normalized_volume", quality.MinimumNormalizedVolume);
+  json.Add("mean_normalized_volume", quality.MeanNormalizedVolume);
+  json.Add("inverted_elements", quality.InvertedSimplices);
+  json.Add("radius_edge_violations", quality.RadiusEdgeViolations);
+  json.Add("facet_angle_violations", quality.FacetAngleViolations);
+  json.Add("facet_angle_violations_at_junctions", quality.FacetAngleViolationsAtJunctions);
+  json.End();
+}
+
+void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
+{
+  json.Begin("rules");
+  for (std::size_t i = 0; i < rules.Fired.size(); ++i)
+  {
+    json.Add(std::string("R").append(std::to_string(i + 1)), rules.Fired[i]);
+  }
+  json.Add("R6", rules.Removed);
+  json.Add("projected", rules.Projected);
+  json.Add("refused_too_close", rules.RefusedTooClose);
+  json.Add("refused_no_conflict", rules.RefusedNoConflict);
+  json.Add("refused_duplicate", rules.RefusedDuplicate);
+  json.Add("removals_failed", rules.RemovalsFailed);
+  json.Add("closest_surface_point_calls", rules.ClosestSurfacePointCalls);
+  json.Add("evaluated", rules.Evaluated);
+  json.Add("created", rules.Created);
+  json.End();
+}
+
+} // namespace
+
+vtkMeshingStatistics::vtkMeshingStatistics()
+  : Values(std::make_unique<Figures>())
+{
+}
+
+vtkMeshingStatistics::~vtkMeshingStatistics() = default;
+
+void vtkMeshingStatistics::Initialize()
+{
+  *this->Values = Figures();
+  this->Modified();
+}
+
+vtkMeshingStatistics::Figures& vtkMeshingStatistics::Edit()
+{
+  this->Modified();
+  return *this->Values;
+}
+
+// Getters whose figure has another name or type behind it.
+#define VOXPLEX_FIGURE(type, getter, figure)                                                       \
+  type vtkMeshingStatistics::Get##getter() const                                                   \
+  {                                                                                                \
+    return static_cast<type>(this->Values->figure);                                                \
+  }
+
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfElements, Elements)
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfVertices, Vertices)
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfInterfaceFacets, InterfaceFacets)
+VOXPLEX_FIGURE(double, Delta, Run.Delta)
+VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
+VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
+VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
+VOXPLEX_FIGURE(bool, HasQuality, HasQuality)
+VOXPLEX_FIGURE(int, NumberOfLabels, Quality.Labels.size())
+VOXPLEX_FIGURE(double, MaximumRadiusEdgeRatio, Quality.MaximumRadiusEdgeRatio)
+VOXPLEX_FIGURE(double, MinimumDihedralAngle, Quality.MinimumDihedralAngle)
+VOXPLEX_FIGURE(double, MaximumDihedralAngle, Quality.MaximumDihedralAngle)
+VOXPLEX_FIGURE(double, MinimumPlanarAngle, Quality.MinimumFacetAngle)
+VOXPLEX_FIGURE(vtkTypeInt64, RadiusEdgeViolations, Quality.RadiusEdgeViolations)
+VOXPLEX_FIGURE(vtkTypeInt64, FacetAngleViolations, Quality.FacetAngleViolations)
+VOXPLEX_FIGURE(
+  vtkTypeInt64, FacetAngleViolationsAtJunctions, Quality.FacetAngleViolationsAtJunctions)
+VOXPLEX_FIGURE(vtkTypeInt64, InvertedElements, Quality.InvertedSimplices)
+VOXPLEX_FIGURE(double, MinimumNormalizedVolume, Quality.MinimumNormalizedVolume)
+VOXPLEX_FIGURE(double, MeanNormalizedVolume, Quality.MeanNormalizedVolume)
+VOXPLEX_FIGURE(vtkTypeInt64, PointsProjected, Run.Rules.Projected)
+VOXPLEX_FIGURE(vtkTypeInt64, VerticesRemoved, Run.Rules.Removed)
+VOXPLEX_FIGURE(vtkTypeInt64, RefusedTooClose, Run.Rules.RefusedTooClose)
+VOXPLEX_FIGURE(vtkTypeInt64, RefusedNoConflict, Run.Rules.RefusedNoConflict)
+VOXPLEX_FIGURE(vtkTypeInt64, RefusedDuplicate, Run.Rules.RefusedDuplicate)
+VOXPLEX_FIGURE(vtkTypeInt64, RemovalsFailed, Run.Rules.RemovalsFailed)
+VOXPLEX_FIGURE(vtkTypeInt64, ElementsEvaluated, Run.Rules.Evaluated)
+VOXPLEX_FIGURE(vtkTypeInt64, ElementsCreated, Run.Rules.Created)
+VOXPLEX_FIGURE(vtkTypeInt64, ClosestSurfacePointCalls, Run.Rules.ClosestSurfacePointCalls)
+VOXPLEX_FIGURE(vtkTypeInt64, PredicateCalls, Run.Predicates.Calls)
+VOXPLEX_FIGURE(vtkTypeInt64, PredicateFilterFailures, Run.Predicates.StaticFailures)
+VOXPLEX_FIGURE(vtkTypeInt64, PredicateExactCalls, Run.Predicates.ExactCalls)
+VOXPLEX_FIGURE(vtkTypeInt64, PredicatePerturbedCalls, Run.Predicates.Perturbed)
+VOXPLEX_FIGURE(double, LabelFieldTime, Run.Times.LabelField)
+VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
+VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
+VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
+VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
+#undef VOXPLEX_FIGURE
+
+vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfLostLabels()
+    ? this->Values->LostLabels[static_cast<std::size_t>(index)]
+    : 0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfLabels()
+    ? this->Values->Quality.Labels[static_cast<std::size_t>(index)].Label
+    : 0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetLabelElements(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfLabels()
+    ? static_cast<vtkTypeInt64>(
+        this->Values->Quality.Labels[static_cast<std::size_t>(index)].Elements)
+    : 0;
+}
+
+double vtkMeshingStatistics::GetLabelVolume(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfLabels()
+    ? this->Values->Quality.Labels[static_cast<std::size_t>(index)].Volume
+    : 0.0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetRuleFired(int rule) const
+{
+  const auto& fired = this->Values->Run.Rules.Fired;
+  return rule >= 1 && rule <= static_cast<int>(fired.size())
+    ? static_cast<vtkTypeInt64>(fired[static_cast<std::size_t>(rule - 1)])
+    : 0;
+}
+
+std::string vtkMeshingStatistics::ToJSON() const
+{
+  const Figures& v = *this->Values;
+  JsonWriter json;
+  json.Add("elements", v.Elements);
+  json.Add("vertices", v.Vertices);
+  json.Add("interface_facets", v.InterfaceFacets);
+  json.Add("delta", v.Run.Delta);
+  json.Add("smoothing_sigma", v.Run.SmoothingSigma);
+  json.Add("threads", static_cast<std::int64_t>(v.Threads));
+  json.Add("estimated_elements", v.Run.EstimatedElements);
+  json.Add("lost_labels", v.LostLabels);
+  if (v.HasQuality)
+  {
+    AddQuality(json, v.Quality);
+  }
+  AddRules(json, v.Run.Rules);
+  json.Begin("predicates");
+  json.Add("calls", v.Run.Predicates.Calls);
+  json.Add("filter_failures", v.Run.Predicates.StaticFailures);
+  json.Add("exact", v.Run.Predicates.ExactCalls);
+  json.Add("perturbed", v.Run.Predicates.Perturbed);
+  json.End();
+  json.Begin("time");
+  json.Add("label_field", v.Run.Times.LabelField);
+  json.Add("distance_transform", v.Run.Times.DistanceTransform);
+  json.Add("refinement", v.Run.Times.Refinement);
+  json.Add("extraction", v.Run.Times.Extraction);
+  json.Add("total", v.Run.Times.Total());
+  json.End();
+  json.Begin("memory");
+  json.Add("label_field_bytes", v.Run.LabelFieldBytes);
+  json.Add("distance_bytes", v.Run.DistanceBytes);
+  json.End();
+  return json.Finish();
+}
+
+void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfElements: " << this->GetNumberOfElements() << "\n";
+  os << indent << "NumberOfVertices: " << this->GetNumberOfVertices() << "\n";
+  os << indent << "NumberOfInterfaceFacets: " << this->GetNumberOfInterfaceFacets() << "\n";
+  os << indent << "Delta: " << this->GetDelta() << "\n";
+  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << "\n";
+  os << indent << "NumberOfLostLabels: " << this->GetNumberOfLostLabels() << "\n";
+  os << indent << "HasQuality: " << this->GetHasQuality() << "\n";
+  os << indent << "NumberOfLabels: " << this->GetNumberOfLabels() << "\n";
+  os << indent << "TotalTime: " << this->GetTotalTime() << "\n";
+  os << indent << "All figures: " << this->ToJSON() << "\n";
+}

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMeshingStatistics
+ * @brief   what a meshing filter did: counts, quality, rules, predicates, times
+ *
+ * A meshing filter owns one of these (vtkImageToTetMeshFilter::GetStatistics()) and fills it each
+ * time it executes. After an error or an abort counts and times are zero. The figures come in
+ * groups:
+ *
+ * - **Counts** and **times** are always filled.
+ * - **Labels** and **quality** need a pass over the finished mesh and are filled only if the
+ *   filter's ComputeQuality is on (see GetHasQuality()); otherwise counts are zero and angles and
+ *   ratios NaN.
+ *
+ * Lengths and volumes are in the unit of the image's spacing, angles in degrees, times in seconds
+ * of wall clock. ToJSON() gives everything as one JSON object, which Python reads with
+ * json.loads().
+ *
+ * @sa vtkImageToTetMeshFilter
+ */
+#ifndef vtkMeshingStatistics_h
+#define vtkMeshingStatistics_h
+
+#include "vtkObject.h"
+#include "vtkVoxplexModule.h" // For export macro
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class VTKVOXPLEX_EXPORT vtkMeshingStatistics : public vtkObject
+{
+public:
+  static vtkMeshingStatistics* New();
+  vtkTypeMacro(vtkMeshingStatistics, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Size of the mesh. */
+  vtkTypeInt64 GetNumberOfElements() const;
+  vtkTypeInt64 GetNumberOfVertices() const;
+  vtkTypeInt64 GetNumberOfInterfaceFacets() const;
+  ///@}
+
+  /** The delta that was used: the one asked for, or the one derived from the spacing. */
+  double GetDelta() const;
+  /** The number of threads that was used. */
+  int GetNumberOfThreads() const;
+  /** The number of elements that was estimated before meshing. */
+  vtkTypeInt64 GetEstimatedNumberOfElements() const;
+
+  ///@{
+  /**
+   * Labels that the image has but the mesh has not, in increasing order: there should be none; if
+   * there are, Delta is too coarse for them. The filter warns of them. Always filled.
+   */
+  int GetNumberOfLostLabels() const;
+  vtkTypeInt64 GetLostLabel(int index) const;
+  ///@}
+
+  /** Whether the labels and the quality below were measured. */
+  bool GetHasQuality() const;
+
+  ///@{
+  /**
+   * The labels of the mesh in increasing order: value, elements and volume of each. The index runs
+   * from 0 to GetNumberOfLabels() - 1; outside of that the result is 0.
+   */
+  int GetNumberOfLabels() const;
+  vtkTypeInt64 GetLabel(int index) const;
+  vtkTypeInt64 GetLabelElements(int index) const;
+  double GetLabelVolume(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * Quality, for the whole mesh. The radius-edge ratio is circumradius / shortest edge of an
+   * element; the planar angle is the smallest angle of an interface facet; the normalized volume is
+   * that of an element over that of the regular one with the same circumradius (1 is best, 0 is
+   * flat). Inverted elements are those without a positive volume: there are none unless something
+   * is wrong. Violations count the elements whose ratio is not below the filter's RadiusEdgeRatio,
+   * and the interface facets with an angle below its FacetAngle; of the latter, those that touch a
+   * junction of three or more labels are counted separately, too.
+   */
+  double GetMaximumRadiusEdgeRatio() const;
+  double GetMinimumDihedralAngle() const;
+  double GetMaximumDihedralAngle() const;
+  double GetMinimumPlanarAngle() const;
+  double GetMinimumNormalizedVolume() const;
+  double GetMeanNormalizedVolume() const;
+  vtkTypeInt64 GetInvertedElements() const;
+  vtkTypeInt64 GetRadiusEdgeViolations() const;
+  vtkTypeInt64 GetFacetAngleViolations() const;
+  vtkTypeInt64 GetFacetAngleViolationsAtJunctions() const;
+  ///@}
+
+  ///@{
+  /**
+   * How often each rule changed the mesh, and why changes were refused. GetRuleFired(i) counts the
+   * insertions by rule R_i, i = 1 ... 5; vertices removed by R6 are GetVerticesRemoved().
+   */
+  vtkTypeInt64 GetRuleFired(int rule) const;
+  vtkTypeInt64 GetPointsProjected() const;
+  vtkTypeInt64 GetVerticesRemoved() const;
+  vtkTypeInt64 GetRefusedTooClose() const;
+  vtkTypeInt64 GetRefusedNoConflict() const;
+  vtkTypeInt64 GetRefusedDuplicate() const;
+  vtkTypeInt64 GetRemovalsFailed() const;
+  vtkTypeInt64 GetElementsEvaluated() const;
+  vtkTypeInt64 GetElementsCreated() const;
+  vtkTypeInt64 GetClosestSurfacePointCalls() const;
+  ///@}
+
+  ///@{
+  /**
+   * Geometric predicates: all calls; calls that the fast filter could not decide; calls decided by
+   * exact arithmetic; exact ties decided by the symbolic perturbation.
+   */
+  vtkTypeInt64 GetPredicateCalls() const;
+  vtkTypeInt64 GetPredicateFilterFailures() const;
+  vtkTypeInt64 GetPredicateExactCalls() const;
+  vtkTypeInt64 GetPredicatePerturbedCalls() const;
+  ///@}
+
+  ///@{
+  /**
+   * Wall-clock seconds of each stage: reading the labels and smoothing them, the distance
+   * transform, refinement, extraction of the mesh into VTK data. The total is the sum of the four;
+   * measuring the quality is not part of it.
+   */
+  double GetLabelFieldTime() const;
+  double GetDistanceTransformTime() const;
+  double GetRefinementTime() const;
+  double GetExtractionTime() const;
+  double GetTotalTime() const;
+  ///@}
+
+  /**
+   * Everything as one JSON object:
+   * `{"elements", "vertices", "interface_facets", "delta", "threads", "lost_labels": [...],
+   * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "predicates":
+   * {...}, "time": {...}}`. "labels" and "quality" are left out when they were not measured; what
+   * is not finite is null.
+   */
+  std::string ToJSON() const;
+
+  /** Set every figure to zero. */
+  void Initialize();
+
+#ifndef __VTK_WRAP__
+  struct Figures;
+  /** For the filters: the figures behind the getters (Private/MeshingFigures.h, not installed). */
+  Figures& Edit();
+#endif
+
+protected:
+  vtkMeshingStatistics();
+  ~vtkMeshingStatistics() override;
+
+private:
+  vtkMeshingStatistics(const vtkMeshingStatistics&) = delete;
+  void operator=(const vtkMeshingStatistics&) = delete;
+
+  std::unique_ptr<Figures> Values;
+};
+
+#endif

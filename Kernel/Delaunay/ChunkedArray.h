@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ChunkedArray.h
+ * @brief An array that grows without moving its elements.
+ */
+#ifndef voxplex_ChunkedArray_h
+#define voxplex_ChunkedArray_h
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace voxplex
+{
+
+/**
+ * @brief Elements 0 ... 2^32 - 2 in chunks of 2^ChunkBits, allocated on demand.
+ *
+ * Addresses never change, so threads may read elements while others make the array grow. Memory of a
+ * chunk is touched only where elements are written, unless an initial value is given.
+ *
+ * Grow() may be called by several threads at once; two threads that need the same chunk race to
+ * install it and the loser frees its own.
+ */
+template <typename T, unsigned ChunkBits = 14>
+class ChunkedArray
+{
+  static_assert(std::is_trivially_copyable_v<T>, "elements are never constructed or destroyed");
+
+public:
+  static constexpr std::uint32_t ChunkSize = 1u << ChunkBits;
+
+  ChunkedArray()
+    // calloc: untouched pages of the table cost nothing, and zero bits are null pointers
+    : Chunks(static_cast<std::atomic<T*>*>(std::calloc(NumberOfChunks, sizeof(std::atomic<T*>))))
+  {
+    if (!this->Chunks)
+    {
+      throw std::bad_alloc();
+    }
+  }
+  /** Every element of a new chunk starts as a copy of `initial`. */
+  explicit ChunkedArray(const T& initial)
+    : ChunkedArray()
+  {
+    this->Initial = initial;
+    this->Initialise = true;
+  }
+  ChunkedArray(const ChunkedArray&) = delete;
+  ChunkedArray& operator=(const ChunkedArray&) = delete;
+  ~ChunkedArray()
+  {
+    for (std::uint32_t c = 0; c < NumberOfChunks; ++c)
+    {
+      T* chunk = this->Chunks[c].load(std::memory_order_relaxed);
+      if (!chunk)
+      {
+        // Chunks are installed in the order of element numbers, but for races among threads: a gap
+        // is at most a few chunks wide.
+        if (c > this->HighestChunk.load(std::memory_order_relaxed))
+        {
+          break;
+        }
+        continue;
+      }
+      ::operator delete(chunk, std::align_val_t(Alignment));
+    }
+  }
+
+  /** Makes elements [0, end) available. Throws std::bad_alloc. */
+  void Grow(std::uint32_t end)
+  {
+    if (end == 0)
+    {
+      return;
+    }
+    for (std::uint32_t c = (end - 1) >> ChunkBits;; --c)
+    {
+      if (this->Chunks[c].load(std::memory_order_acquire))
+      {
+        break; // the chunks below exist or are being made by those who need them
+      }
+      this->MakeChunk(c);
+      if (c == 0)
+      {
+        break;
+      }
+    }
+  }
+
+  T& operator[](std::uint32_t i)
+  {
+    return this->Chunks[i >> ChunkBits].load(std::memory_order_relaxed)[i & (ChunkSize - 1)];
+  }
+  const T& operator[](std::uint32_t i) const
+  {
+    return this->Chunks[i >> ChunkBits].load(std::memory_order_relaxed)[i & (ChunkSize - 1)];
+  }
+
+private:
+  static constexpr std::uint32_t NumberOfChunks = 1u << (32 - ChunkBits);
+  static constexpr std::size_t Alignment = alignof(T) < 64 ? 64 : alignof(T);
+
+  void MakeChunk(std::uint32_t c)
+  {
+    T* fresh = static_cast<T*>(
+      ::operator new(sizeof(T) * std::size_t(ChunkSize), std::align_val_t(Alignment)));
+    if (this->Initialise)
+    {
+      std::uninitialized_fill_n(fresh, ChunkSize, this->Initial);
+    }
+    T* expected = nullptr;
+    // release: whoever sees the pointer sees the initial values
+    if (!this->Chunks[c].compare_exchange_strong(expected, fresh, std::memory_order_acq_rel))
+    {
+      ::operator delete(fresh, std::align_val_t(Alignment));
+    }
+    std::uint32_t highest = this->HighestChunk.load(std::memory_order_relaxed);
+    while (highest < c &&
+      !this->HighestChunk.compare_exchange_weak(highest, c, std::memory_order_relaxed))
+    {
+    }
+  }
+
+  struct Free
+  {
+    void operator()(std::atomic<T*>* table) const { std::free(table); }
+  };
+  std::unique_ptr<std::atomic<T*>[], Free> Chunks;
+  std::atomic<std::uint32_t> HighestChunk{ 0 };
+  T Initial{};
+  bool Initialise = false;
+};
+
+} // namespace voxplex
+
+#endif

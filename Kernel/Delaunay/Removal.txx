@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Removal of a vertex: its star is emptied and filled by gift wrapping from its boundary.
+//
+// In the Delaunay triangulation without the vertex, the simplex on the inner side of a facet of the
+// hole has its apex in the link and no other point of the link in its circumball; with the symbolic
+// perturbation it is unique. So each open facet finds its apex among the vertices of the link by
+// in-sphere tests alone, and the filling fits whatever lies outside.
+#ifndef voxplex_Removal_txx
+#define voxplex_Removal_txx
+
+#include "Delaunay/Triangulation.h"
+
+#include <utility>
+
+namespace voxplex
+{
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
+{
+  if (this->Vertices[v].Kind == VertexKind::Box)
+  {
+    return RemovalOutcome::OnBox;
+  }
+  try
+  {
+    this->CollectStar(worker, v);
+    if (!this->FillStar(worker))
+    {
+      this->RestoreMarks(worker);
+      return RemovalOutcome::Failed;
+    }
+    this->ReserveSimplices(worker, worker.Filling.Size());
+    worker.FreeVertices.MakeRoom(1);
+  }
+  catch (...)
+  {
+    this->RestoreMarks(worker);
+    throw;
+  }
+  this->CommitFilling(worker);
+  this->Vertices[v].Alive = false;
+  worker.FreeVertices.Push(v);
+  return RemovalOutcome::Removed;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void Triangulation<D>::CollectStar(Worker& worker, VertexId v)
+{
+  worker.Deleted.Clear();
+  worker.Touched.Clear();
+  worker.Boundary.Clear();
+  worker.Link.Clear();
+  const SimplexId first = this->Vertices[v].Incident;
+  worker.Deleted.MakeRoom(1);
+  worker.Deleted.Push(first);
+  this->Marks[first] = SimplexMark::Cavity;
+  for (std::size_t k = 0; k < worker.Deleted.Size(); ++k)
+  {
+    const SimplexId s = worker.Deleted[k];
+    const Simplex& simplex = this->Simplices[s];
+    worker.Deleted.MakeRoom(N);
+    worker.Boundary.MakeRoom(1);
+    worker.Link.MakeRoom(N);
+    for (unsigned i = 0; i < N; ++i)
+    {
+      const SimplexId n = simplex.N[i];
+      if (simplex.V[i] != v)
+      {
+        if (n != None && this->Marks[n] == SimplexMark::Alive)
+        {
+          this->Marks[n] = SimplexMark::Cavity;
+          worker.Deleted.Push(n);
+        }
+        continue;
+      }
+      BoundaryFacet& facet = worker.Boundary.PushUninitialised();
+      facet.V = simplex.V;
+      facet.V[i] = None;
+      facet.Apex = i;
+      facet.Outer = n;
+      facet.OuterIndex = n == None ? 0 : IndexOfNeighbour(this->Simplices[n], s);
+      facet.OuterInFilling = false;
+      for (unsigned j = 0; j < N; ++j)
+      {
+        if (j != i)
+        {
+          facet.Local[j] = this->NumberVertex(worker, simplex.V[j]);
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// worker.Boundary serves as the list of facets: the first ones bound the star, each simplex of the
+// filling then adds those of its facets that had no partner.
+template <int D>
+bool Triangulation<D>::FillStar(Worker& worker)
+{
+  const std::size_t limit = 64 * (worker.Deleted.Size() + worker.Link.Size()) + 1024;
+  worker.Filling.Clear();
+  worker.Front.Begin(2 * worker.Boundary.Size());
+  for (std::size_t k = 0; k < worker.Boundary.Size(); ++k)
+  {
+    worker.Front.Match(this->LocalFacet(worker.Boundary[k]), static_cast<std::uint32_t>(k));
+  }
+  for (std::size_t k = 0; k < worker.Boundary.Size(); ++k)
+  {
+    BoundaryFacet facet = worker.Boundary[k];
+    const typename FacetTable<D>::Face key = this->LocalFacet(facet);
+    if (!worker.Front.IsOpen(key))
+    {
+      continue;
+    }
+    worker.Front.Match(key, 0); // closed from here on
+    const VertexId apex = this->BestApex(worker, facet);
+    if (apex == None || worker.Filling.Size() >= limit)
+    {
+      return false;
+    }
+    facet.V[facet.Apex] = apex;
+    const std::uint32_t number = static_cast<std::uint32_t>(worker.Filling.Size());
+    worker.Filling.MakeRoom(1);
+    worker.Boundary.MakeRoom(N);
+    FillingSimplex& filling = worker.Filling.PushUninitialised();
+    filling.V = facet.V;
+    filling.Neighbours[facet.Apex] = { facet.Outer, facet.OuterIndex, facet.OuterInFilling };
+    if (facet.OuterInFilling)
+    {
+      worker.Filling[facet.Outer].Neighbours[facet.OuterIndex] = { number, facet.Apex, true };
+    }
+    for (unsigned i = 0; i < N; ++i)
+    {
+      if (i == facet.Apex)
+      {
+        continue;
+      }
+      // The same facet seen from the other side: an odd permutation, vertex i left open.
+      BoundaryFacet next;
+      next.V = facet.V;
+      next.V[i] = None;
+      const unsigned a = i == 0 ? 1 : 0;
+      const unsigned b = i <= 1 ? 2 : 1;
+      std::swap(next.V[a], next.V[b]);
+      next.Apex = i;
+      next.Outer = number;
+      next.OuterIndex = i;
+      next.OuterInFilling = true;
+      const std::uint32_t partner = worker.Front.Match(
+        this->LocalFacet(next), static_cast<std::uint32_t>(worker.Boundary.Size()));
+      if (partner == FacetTable<D>::Nothing)
+      {
+        worker.Boundary.Push(next);
+        continue;
+      }
+      // Meets a facet that waited: both sides are known now.
+      const BoundaryFacet& met = worker.Boundary[partner];
+      worker.Filling[number].Neighbours[i] = { met.Outer, met.OuterIndex, met.OuterInFilling };
+      if (met.OuterInFilling)
+      {
+        worker.Filling[met.Outer].Neighbours[met.OuterIndex] = { number, i, true };
+      }
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+// The vertex of the link on the inner side of the facet whose circumball is empty.
+template <int D>
+VertexId Triangulation<D>::BestApex(Worker& worker, const BoundaryFacet& facet)
+{
+  VertexId best = None;
+  std::array<const Point<D>*, N> points;
+  for (unsigned i = 0; i < N; ++i)
+  {
+    points[i] = i == facet.Apex ? nullptr : &this->Position(facet.V[i]);
+  }
+  Circumball<D> ball;
+  bool reliable = false;
+  for (VertexId v : worker.Link)
+  {
+    bool onFacet = false;
+    for (VertexId w : facet.V)
+    {
+      onFacet |= w == v;
+    }
+    if (onFacet)
+    {
+      continue;
+    }
+    const Point<D>& x = this->Position(v);
+    if (best != None)
+    {
+      bool inside = false;
+      bool decided = false;
+      if (reliable)
+      {
+        const double excess = Distance2(x, ball.Center) - ball.Radius2;
+        const double slack = CircumballTolerance * ball.Radius2;
+        inside = excess < -slack;
+        decided = inside || excess > slack;
+      }
+      if (!decided)
+      {
+        inside = worker.Predicates.InSpherePerturbed(points.data(), x);
+      }
+      if (!inside)
+      {
+        continue;
+      }
+    }
+    const Point<D>* previous = points[facet.Apex];
+    points[facet.Apex] = &x;
+    if (worker.Predicates.Orientation(points.data()) <= 0)
+    {
+      points[facet.Apex] = previous;
+      continue;
+    }
+    best = v;
+    reliable = ComputeCircumball<D>(points.data(), ball);
+  }
+  return best;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+typename FacetTable<D>::Face Triangulation<D>::LocalFacet(const BoundaryFacet& facet) const
+{
+  typename FacetTable<D>::Face face{};
+  unsigned m = 0;
+  for (unsigned i = 0; i < N; ++i)
+  {
+    if (i != facet.Apex)
+    {
+      face[m++] = this->Vertices[facet.V[i]].Local;
+    }
+  }
+  return face;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void Triangulation<D>::CommitFilling(Worker& worker)
+{
+  for (SimplexId s : worker.Deleted)
+  {
+    this->Kill(worker, s);
+  }
+  for (SimplexId& s : worker.Created)
+  {
+    s = this->NewSimplex(worker);
+  }
+  for (std::size_t k = 0; k < worker.Filling.Size(); ++k)
+  {
+    const FillingSimplex& filling = worker.Filling[k];
+    const SimplexId s = worker.Created[k];
+    this->WriteSimplex(s, filling.V);
+    for (unsigned i = 0; i < N; ++i)
+    {
+      const typename FillingSimplex::Neighbour& n = filling.Neighbours[i];
+      this->Simplices[s].N[i] = n.InFilling ? worker.Created[n.Id] : n.Id;
+      if (!n.InFilling && n.Id != None)
+      {
+        this->Simplices[n.Id].N[n.Index] = s;
+      }
+    }
+  }
+  worker.NumberOfCreated += worker.Filling.Size();
+}
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Construction, pools, walking; insertion, removal and verification have files of their own. This is
+// the one translation unit that instantiates them all.
+#include "Delaunay/Triangulation.h"
+
+#include "Delaunay/Insertion.txx"
+#include "Delaunay/Removal.txx"
+#include "Delaunay/Verification.txx"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+// Ids that a worker takes from the common counter at a time.
+constexpr std::uint32_t SimplexBlock = 256;
+constexpr std::uint32_t VertexBlock = 64;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Triangulation<D>::Triangulation(const Box<D>& box)
+  : Domain(box)
+  , Vertices(Vertex{ {}, None, 0, VertexKind::Box, false })
+  , Marks(SimplexMark::Unused)
+  , States(SimplexState{ 0, 0, false, false })
+{
+  this->BuildCorners();
+}
+
+//------------------------------------------------------------------------------------------------
+// The corners are co-spherical, so only the predicates can say how they are triangulated: of all
+// simplices that they span, those whose perturbed circumball is empty.
+template <int D>
+void Triangulation<D>::BuildCorners()
+{
+  Worker worker(*this);
+  constexpr std::uint32_t corners = 1u << D;
+  std::array<VertexId, corners> v;
+  for (std::uint32_t c = 0; c < corners; ++c)
+  {
+    Point<D> p;
+    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+    {
+      p[a] = (c >> a) & 1u ? this->Domain.Max[a] : this->Domain.Min[a];
+    }
+    this->ReserveVertex(worker);
+    v[c] = this->NewVertex(worker, p, VertexKind::Box);
+    worker.Link.MakeRoom(1);
+    this->NumberVertex(worker, v[c]);
+  }
+
+  FacetTable<D> facets;
+  facets.Begin(64);
+  std::vector<SimplexId> made;
+  for (std::uint32_t set = 0; set < (1u << corners); ++set)
+  {
+    if (std::popcount(set) != D + 1)
+    {
+      continue;
+    }
+    std::array<VertexId, N> simplex;
+    unsigned m = 0;
+    for (std::uint32_t c = 0; c < corners; ++c)
+    {
+      if ((set >> c) & 1u)
+      {
+        simplex[m++] = v[c];
+      }
+    }
+    std::array<const Point<D>*, N> points = this->Points(simplex);
+    const int orientation = worker.Predicates.Orientation(points.data());
+    if (orientation == 0)
+    {
+      continue;
+    }
+    if (orientation < 0)
+    {
+      std::swap(simplex[0], simplex[1]);
+      std::swap(points[0], points[1]);
+    }
+    bool empty = true;
+    for (std::uint32_t c = 0; c < corners && empty; ++c)
+    {
+      empty = ((set >> c) & 1u) ||
+        !worker.Predicates.InSpherePerturbed(points.data(), this->Position(v[c]));
+    }
+    if (!empty)
+    {
+      continue;
+    }
+    this->ReserveSimplices(worker, 1);
+    const SimplexId s = this->NewSimplex(worker);
+    this->WriteSimplex(s, simplex);
+    const std::uint32_t number = static_cast<std::uint32_t>(made.size());
+    made.push_back(s);
+    for (unsigned i = 0; i < N; ++i)
+    {
+      BoundaryFacet facet;
+      facet.V = simplex;
+      facet.Apex = i;
+      const std::uint32_t partner = facets.Match(this->LocalFacet(facet), number * N + i);
+      this->Simplices[s].N[i] = None;
+      if (partner != FacetTable<D>::Nothing)
+      {
+        this->Simplices[s].N[i] = made[partner / N];
+        this->Simplices[made[partner / N]].N[partner % N] = s;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool Triangulation<D>::InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const
+{
+  ++worker.BallFailures;
+  const Simplex& simplex = this->Simplices[s];
+  for (VertexId v : simplex.V)
+  {
+    if (this->Position(v) == p)
+    {
+      return false; // on the sphere, and the perturbation is for distinct points only
+    }
+  }
+  return worker.Predicates.InSpherePerturbed(this->Points(simplex.V).data(), p);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Circumball<D> Triangulation<D>::GetCircumball(SimplexId s) const
+{
+  const Simplex& simplex = this->Simplices[s];
+  Circumball<D> ball = simplex.Ball;
+  if (!(ball.Radius2 >= 0.0))
+  {
+    ComputeCircumballExactly<D>(this->Points(simplex.V).data(), ball);
+  }
+  return ball;
+}
+
+//------------------------------------------------------------------------------------------------
+// Afterwards the free list holds n ids beside those that the operation frees, and has room for these.
+template <int D>
+void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
+{
+  Stack<SimplexId>& free = worker.FreeSimplices;
+  worker.Created.Resize(n);
+  free.MakeRoom(n + SimplexBlock + worker.Deleted.Size());
+  while (free.Size() < n)
+  {
+    const SimplexId first = this->NextSimplex.fetch_add(SimplexBlock, std::memory_order_relaxed);
+    if (first > None - 2 * SimplexBlock)
+    {
+      throw std::bad_alloc();
+    }
+    this->Simplices.Grow(first + SimplexBlock);
+    this->Marks.Grow(first + SimplexBlock);
+    this->States.Grow(first + SimplexBlock);
+    for (std::uint32_t i = SimplexBlock; i-- > 0;)
+    {
+      free.Push(first + i);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void Triangulation<D>::ReserveVertex(Worker& worker)
+{
+  Stack<VertexId>& free = worker.FreeVertices;
+  if (!free.Empty())
+  {
+    return;
+  }
+  free.MakeRoom(VertexBlock);
+  const VertexId first = this->NextVertex.fetch_add(VertexBlock, std::memory_order_relaxed);
+  if (first > None - 2 * VertexBlock)
+  {
+    throw std::bad_alloc();
+  }
+  this->Vertices.Grow(first + VertexBlock);
+  for (std::uint32_t i = VertexBlock; i-- > 0;)
+  {
+    free.Push(first + i);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// The plane of the facet between two simplices is the radical plane of their circumspheres, so p lies
+// beyond it exactly where its power to the neighbour's sphere is smaller: a visibility walk that reads
+// one record per neighbour. Rounding can make it circle; then exact orientations take over.
+template <int D>
+SimplexId Triangulation<D>::FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const
+{
+  SimplexId s = hint;
+  double power = Distance2(p, this->Simplices[s].Ball.Center) - this->Simplices[s].Ball.Radius2;
+  bool moved = true;
+  while (moved && !(power < 0.0))
+  {
+    moved = false;
+    SimplexId next = s;
+    for (SimplexId n : this->Simplices[s].N)
+    {
+      if (n != None)
+      {
+        const Circumball<D>& ball = this->Simplices[n].Ball;
+        const double other = Distance2(p, ball.Center) - ball.Radius2;
+        if (other < power)
+        {
+          power = other;
+          next = n;
+          moved = true;
+        }
+      }
+    }
+    s = next;
+  }
+  if (this->InConflict(worker, s, p))
+  {
+    return s;
+  }
+  return this->FindConflictExactly(worker, p, s);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+SimplexId Triangulation<D>::FindConflictExactly(
+  Worker& worker, const Point<D>& p, SimplexId hint) const
+{
+  SimplexId s = hint;
+  SimplexId previous = None;
+  for (unsigned turn = 0;; ++turn)
+  {
+    const Simplex& simplex = this->Simplices[s];
+    std::array<const Point<D>*, N> points = this->Points(simplex.V);
+    SimplexId next = None;
+    for (unsigned k = 0; k < N && next == None; ++k)
+    {
+      const unsigned i = (k + turn) % N; // a changing first facet; the walk cannot cycle anyway
+      if (simplex.N[i] == None || simplex.N[i] == previous)
+      {
+        continue;
+      }
+      const Point<D>* vertex = points[i];
+      points[i] = &p;
+      if (worker.Predicates.Orientation(points.data()) < 0)
+      {
+        next = simplex.N[i];
+      }
+      points[i] = vertex;
+    }
+    if (next == None)
+    {
+      break; // s contains p
+    }
+    previous = s;
+    s = next;
+  }
+  return this->InConflict(worker, s, p) ? s : None;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::uint64_t Triangulation<D>::MemoryBytes() const
+{
+  return this->SimplexIdEnd() * (sizeof(Simplex) + sizeof(SimplexMark) + sizeof(SimplexState)) +
+    this->VertexIdEnd() * sizeof(Vertex);
+}
+
+template class Triangulation<3>;
+template class Triangulation<4>;
+
+} // namespace voxplex

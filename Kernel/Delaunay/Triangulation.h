@@ -1,0 +1,354 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Triangulation.h
+ * @brief The Delaunay triangulation of a box under insertion and removal of points.
+ */
+#ifndef voxplex_Triangulation_h
+#define voxplex_Triangulation_h
+
+#include "Delaunay/RidgeTable.h"
+#include "Delaunay/Stack.h"
+#include "Delaunay/Stores.h"
+#include "Geometry/Box.h"
+#include "Geometry/Predicates.h"
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace voxplex
+{
+
+enum class InsertionOutcome
+{
+  Inserted,
+  NoConflict, ///< the point does not conflict with the simplex that was given
+  Duplicate,  ///< the point is a vertex already
+  TooClose    ///< the point is nearer than asked for to a vertex that stays
+};
+
+enum class RemovalOutcome
+{
+  Removed,
+  OnBox, ///< vertices on the box stay
+  Failed ///< the star could not be re-triangulated; the triangulation is unchanged
+};
+
+/**
+ * @brief The perturbed Delaunay triangulation of a set of points in a box, corners included.
+ *
+ * Insertion is Bowyer and Watson's from a simplex already known to be in conflict; removal
+ * re-triangulates the star. Ties of the in-sphere test are broken by a symbolic perturbation that
+ * depends on the points alone (Devillers and Teillaud 2003), so the triangulation is a function of the
+ * set of vertices, whatever the order of insertions and removals.
+ *
+ * There is no infinite vertex: the domain is the box and facets on it have no neighbour. Points on the
+ * box must have coordinates exactly equal to those of its faces.
+ *
+ * What an operation needs of scratch space, free lists and counters is in a Worker, one per thread.
+ * Every operation first collects all simplices that it will change, then changes them; nothing is
+ * modified before the first phase has succeeded. One operation at a time may run so far; reading
+ * between operations is safe from any thread.
+ *
+ * Complexity: linear in the simplices deleted and created for an insertion; for a removal linear in
+ * (simplices created) x (vertices of the link).
+ */
+template <int D>
+class Triangulation
+{
+public:
+  static constexpr unsigned N = D + 1; ///< vertices of a simplex
+  using Simplex = SimplexRecord<D>;
+  using Vertex = VertexRecord<D>;
+
+  /** Per-thread state: predicates, pools, scratch space, and what the last operation did. */
+  struct Worker
+  {
+    explicit Worker(const Triangulation& t)
+      : Predicates(t.GetBox().Min, t.GetBox().Max)
+    {
+    }
+
+    voxplex::Predicates<D> Predicates;
+
+    /** Simplices made by the last successful operation. */
+    Stack<SimplexId> Created;
+    /** The vertex made by the last successful insertion. */
+    VertexId NewVertex = None;
+    /** Simplices created so far. */
+    std::uint64_t NumberOfCreated = 0;
+    /** Conflict tests so far, and how many the cached ball left to the predicates. */
+    std::uint64_t BallTests = 0;
+    std::uint64_t BallFailures = 0;
+
+    /** All tests of this worker; those that a cached ball decided included. */
+    PredicateStatistics GetPredicateStatistics() const
+    {
+      PredicateStatistics statistics = this->Predicates.GetStatistics();
+      statistics.Calls += this->BallTests - this->BallFailures;
+      return statistics;
+    }
+
+  private:
+    friend class Triangulation;
+
+    /** A facet of the boundary of a cavity or star, seen from inside, and the new simplex on it. */
+    struct BoundaryFacet
+    {
+      std::array<VertexId, N> V; ///< vertices of the new simplex; V[Apex] is still to come
+      std::array<std::uint32_t, N> Local; ///< their numbers in Link
+      std::uint32_t Apex;
+      SimplexId Outer;             ///< simplex beyond, or None; a number in Filling if OuterInFilling
+      std::uint32_t OuterIndex;    ///< number of the facet in Outer
+      bool OuterInFilling = false;
+    };
+    /** A simplex that will fill the star, before it has an id. */
+    struct FillingSimplex
+    {
+      struct Neighbour
+      {
+        std::uint32_t Id;
+        std::uint32_t Index;
+        bool InFilling;
+      };
+      std::array<VertexId, N> V;
+      std::array<Neighbour, N> Neighbours;
+    };
+
+    Stack<SimplexId> FreeSimplices;
+    Stack<VertexId> FreeVertices;
+    Stack<SimplexId> Deleted;      ///< the cavity or star
+    Stack<SimplexId> Touched;      ///< simplices marked Outside
+    Stack<BoundaryFacet> Boundary;
+    Stack<VertexId> Joined;        ///< vertices of the cavity, with repetitions
+    Stack<VertexId> Link;          ///< vertices of Boundary; Link[v.Local] == v
+    Stack<Point<D>> LinkOffsets;   ///< of the link's vertices from the new vertex
+    Stack<double> LinkNorms2;      ///< squared norms of the offsets
+    RidgeTable<D> Ridges;
+    EdgeTable Edges;
+    FacetTable<D> Front;
+    Stack<FillingSimplex> Filling;
+  };
+
+  /** Triangulates the corners of the box. */
+  explicit Triangulation(const Box<D>& box);
+
+  const Box<D>& GetBox() const { return this->Domain; }
+
+  /**
+   * Inserts a point.
+   * @param p inside or on the box
+   * @param seed a living simplex that should be in conflict with p
+   * @param clearance if positive: refuse points nearer than this to a vertex, free ones excepted if
+   *   the point is a feature point (they give way)
+   * On success worker.Created and worker.NewVertex tell what was made.
+   * @throws std::bad_alloc with the triangulation unchanged
+   */
+  InsertionOutcome Insert(Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed,
+    double clearance = 0.0);
+
+  /**
+   * Removes a vertex that is not on the box. On success worker.Created tells what was made.
+   * @throws std::bad_alloc with the triangulation unchanged
+   */
+  RemovalOutcome Remove(Worker& worker, VertexId v);
+
+  /**
+   * A simplex in conflict with p, by walking from a living simplex; None if p is a vertex.
+   * Expected O(n^(1/D)) from a random start, O(1) from one nearby.
+   */
+  SimplexId FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const;
+
+  /** True if p is in the (perturbed) open circumball of a simplex; never wrong. Inlined by force: a
+   * call costs more than the test. */
+  [[gnu::always_inline]] bool InConflict(Worker& worker, SimplexId s, const Point<D>& p) const
+  {
+    const Simplex& simplex = this->Simplices[s];
+    const double distance2 = Distance2(p, simplex.Ball.Center);
+    const double excess = distance2 - simplex.Ball.Radius2;
+    const double slack = CircumballTolerance * simplex.Ball.Radius2;
+    ++worker.BallTests;
+    if (excess > slack)
+    {
+      return false;
+    }
+    if (excess < -slack)
+    {
+      return true;
+    }
+    return this->InConflictExactly(worker, s, p); // NaN comes here too
+  }
+
+  /** The circumball: the cached one if reliable, else computed exactly and rounded. */
+  Circumball<D> GetCircumball(SimplexId s) const;
+
+  const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }
+  const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }
+  const Point<D>& Position(VertexId v) const { return this->Vertices[v].Position; }
+
+  SimplexState& State(SimplexId s) { return this->States[s]; }
+  const SimplexState& State(SimplexId s) const { return this->States[s]; }
+  bool IsAlive(SimplexId s) const { return this->Marks[s] != SimplexMark::Unused; }
+
+  /** All simplex ids lie below this one; test each with IsAlive(). */
+  SimplexId SimplexIdEnd() const { return this->NextSimplex.load(std::memory_order_relaxed); }
+  /** All vertex ids lie below this one; test each with GetVertex(v).Alive. */
+  VertexId VertexIdEnd() const { return this->NextVertex.load(std::memory_order_relaxed); }
+
+  /** Bytes of the vertex and simplex records in use or ever used. */
+  std::uint64_t MemoryBytes() const;
+
+  /**
+   * What is wrong with the triangulation, empty if nothing: orientation, mutual neighbours, facets
+   * shared rightly, hull on the box, local (perturbed) Delaunay property, incidence.
+   */
+  std::vector<std::string> Verify(Worker& worker) const;
+
+private:
+  using BoundaryFacet = typename Worker::BoundaryFacet;
+  using FillingSimplex = typename Worker::FillingSimplex;
+
+  bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
+  SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
+  void VerifySimplex(Worker& worker, SimplexId s, std::vector<std::string>& complaints) const;
+  std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
+  static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
+  std::uint32_t NumberVertex(Worker& worker, VertexId v);
+  void BuildCorners();
+
+  // Pools. Reserve...() may throw and leaves all as it was; what follows it does not throw.
+  void ReserveSimplices(Worker& worker, std::size_t n);
+  void ReserveVertex(Worker& worker);
+  SimplexId NewSimplex(Worker& worker);
+  VertexId NewVertex(Worker& worker, const Point<D>& p, VertexKind kind);
+  void WriteSimplex(SimplexId s, const std::array<VertexId, N>& v);
+  void Kill(Worker& worker, SimplexId s);
+  void RestoreMarks(Worker& worker);
+
+  // Insertion
+  void CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed);
+  void FillCavity(Worker& worker, VertexId apex);
+  void NumberLink(Worker& worker, const Point<D>& apex);
+  void SetBall(Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex);
+  void LinkRidges(Worker& worker);
+  void LinkEdges(Worker& worker, bool closed)
+    requires(D == 3);
+  bool IsClear(Worker& worker, const Point<D>& p, VertexKind kind, double clearance) const;
+  void Prefetch(SimplexId s, const Simplex& simplex, std::uint32_t newVertex) const;
+  unsigned PlanesOfPoint(const Point<D>& p) const;
+  bool OnPlane(const std::array<VertexId, N>& v, unsigned except, unsigned planes) const;
+
+  // Removal
+  void CollectStar(Worker& worker, VertexId v);
+  bool FillStar(Worker& worker);
+  VertexId BestApex(Worker& worker, const BoundaryFacet& facet);
+  void CommitFilling(Worker& worker);
+  typename FacetTable<D>::Face LocalFacet(const BoundaryFacet& facet) const;
+
+  Box<D> Domain;
+  ChunkedArray<Vertex> Vertices;
+  ChunkedArray<Simplex> Simplices;
+  ChunkedArray<SimplexMark, 16> Marks; ///< apart: every step of a cavity search reads one
+  ChunkedArray<SimplexState> States;
+  std::atomic<std::uint32_t> NextVertex{ 0 };
+  std::atomic<std::uint32_t> NextSimplex{ 0 };
+};
+
+// Small steps of the hot paths, inlined into insertion and removal.
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline std::array<const Point<D>*, Triangulation<D>::N> Triangulation<D>::Points(
+  const std::array<VertexId, N>& v) const
+{
+  std::array<const Point<D>*, N> points;
+  for (unsigned i = 0; i < N; ++i)
+  {
+    points[i] = &this->Position(v[i]);
+  }
+  return points;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline std::uint32_t Triangulation<D>::NumberVertex(Worker& worker, VertexId v)
+{
+  std::uint32_t& local = this->Vertices[v].Local;
+  if (local >= worker.Link.Size() || worker.Link[local] != v)
+  {
+    local = static_cast<std::uint32_t>(worker.Link.Size());
+    worker.Link.Push(v); // whoever calls makes room
+  }
+  return local;
+}
+
+//------------------------------------------------------------------------------------------------
+// Without a branch: which neighbour it is cannot be predicted.
+template <int D>
+inline std::uint32_t Triangulation<D>::IndexOfNeighbour(
+  const Simplex& simplex, SimplexId neighbour)
+{
+  std::uint32_t index = 0;
+  for (unsigned i = 1; i < N; ++i)
+  {
+    index += simplex.N[i] == neighbour ? i : 0u;
+  }
+  return index;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline SimplexId Triangulation<D>::NewSimplex(Worker& worker)
+{
+  const SimplexId s = worker.FreeSimplices.Pop();
+  this->Marks[s] = SimplexMark::Alive;
+  return s;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, VertexKind kind)
+{
+  const VertexId v = worker.FreeVertices.Pop();
+  this->Vertices[v] = Vertex{ p, None, 0, kind, true };
+  return v;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline void Triangulation<D>::WriteSimplex(SimplexId s, const std::array<VertexId, N>& v)
+{
+  Simplex& simplex = this->Simplices[s];
+  simplex.V = v;
+  std::array<const Point<D>*, N> points;
+  for (unsigned i = 0; i < N; ++i)
+  {
+    Vertex& vertex = this->Vertices[v[i]];
+    vertex.Incident = s;
+    points[i] = &vertex.Position;
+  }
+  if (!ComputeCircumball<D>(points.data(), simplex.Ball))
+  {
+    simplex.Ball.Radius2 = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline void Triangulation<D>::Kill(Worker& worker, SimplexId s)
+{
+  this->Marks[s] = SimplexMark::Unused;
+  SimplexState& state = this->States[s];
+  state = SimplexState{ state.Generation + 1, 0, false, false };
+  worker.FreeSimplices.Push(s);
+}
+
+extern template class Triangulation<3>;
+extern template class Triangulation<4>;
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Error.h
+ * @brief What the kernel throws.
+ *
+ * The kernel never prints, exits or aborts. Whatever is wrong with the input is an Error whose
+ * message says what is wrong, where, and what to do; callers (filters, command line) show it.
+ */
+#ifndef voxplex_Error_h
+#define voxplex_Error_h
+
+#include <stdexcept>
+#include <string>
+
+namespace voxplex
+{
+
+/** Base of everything that the kernel throws on purpose. */
+class Error : public std::runtime_error
+{
+public:
+  explicit Error(const std::string& what)
+    : std::runtime_error(what)
+  {
+  }
+};
+
+/** The image or a parameter cannot be meshed as it is. */
+class InputError : public Error
+{
+public:
+  using Error::Error;
+};
+
+/** The mesh that was asked for is estimated not to fit in memory; MeshingOptions::Force overrides. */
+class TooLargeError : public Error
+{
+public:
+  using Error::Error;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Box.h
+ * @brief An axis-aligned box of the mesher's frame.
+ */
+#ifndef voxplex_Box_h
+#define voxplex_Box_h
+
+#include "Geometry/Point.h"
+
+namespace voxplex
+{
+
+template <int D>
+struct Box
+{
+  Point<D> Min;
+  Point<D> Max;
+
+  /** Inside or on the box. */
+  bool Contains(const Point<D>& p) const
+  {
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      if (!(p[i] >= this->Min[i] && p[i] <= this->Max[i]))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /** The point of the box closest to p; coordinates moved are exactly those of the box. */
+  Point<D> Clamp(const Point<D>& p) const
+  {
+    Point<D> q = p;
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      q[i] = p[i] < this->Min[i] ? this->Min[i] : p[i] > this->Max[i] ? this->Max[i] : p[i];
+    }
+    return q;
+  }
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file SimplexQuality.h
+ * @brief Shape measures of one simplex.
+ *
+ * Simplices are given as D + 1 pointers to points. Angles are in degrees, and accurate near 0 and
+ * 180: they come from atan2 of a sine and a cosine that share their scale, never from acos.
+ * Measures of shape do not depend on orientation. All functions are pure and safe to call from any
+ * thread.
+ */
+#ifndef voxplex_SimplexQuality_h
+#define voxplex_SimplexQuality_h
+
+#include "Geometry/Circumball.h"
+#include "Geometry/Determinants.h"
+#include "Geometry/Point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace voxplex
+{
+
+constexpr double DegreesPerRadian = 180.0 / std::numbers::pi;
+
+inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
+{
+  return { Minor2(a[1], a[2], b[1], b[2]), Minor2(a[2], a[0], b[2], b[0]),
+    Minor2(a[0], a[1], b[0], b[1]) };
+}
+
+/** D-dimensional volume, positive for positively oriented simplices. */
+template <int D>
+inline double SignedVolume(const Point<D>* const* v)
+{
+  std::array<Point<D>, static_cast<std::size_t>(D)> edges;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    edges[i] = Subtract(*v[i + 1], *v[0]);
+  }
+  return Determinant(edges) / (D == 3 ? 6.0 : 24.0);
+}
+
+/** Squared length of the shortest edge. */
+template <int D>
+inline double ShortestEdge2(const Point<D>* const* v)
+{
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      shortest = std::min(shortest, Distance2(*v[i], *v[j]));
+    }
+  }
+  return shortest;
+}
+
+/** Squared circumradius, from exact arithmetic where double is not certain; infinity if flat. */
+template <int D>
+inline double Circumradius2(const Point<D>* const* v)
+{
+  Circumball<D> ball;
+  if (!ComputeCircumball<D>(v, ball))
+  {
+    ComputeCircumballExactly<D>(v, ball);
+  }
+  return ball.Radius2;
+}
+
+/**
+ * Circumradius over shortest edge (rho of the thesis): sqrt(6)/4 = 0.612 for the regular
+ * tetrahedron, sqrt(10)/5 = 0.632 for the regular pentatope, larger for all others; infinity if
+ * flat.
+ * @param radius2 Circumradius2(v)
+ */
+template <int D>
+inline double RadiusEdgeRatio(const Point<D>* const* v, double radius2)
+{
+  return std::sqrt(radius2 / ShortestEdge2<D>(v));
+}
+
+template <int D>
+inline double RadiusEdgeRatio(const Point<D>* const* v)
+{
+  return RadiusEdgeRatio<D>(v, Circumradius2<D>(v));
+}
+
+/**
+ * Volume over that of the regular simplex with the same circumradius (tau-hat of the thesis'
+ * chapter 4, for any D): 1 for the regular simplex, 0 for a flat one.
+ * @param radius2 Circumradius2(v)
+ */
+template <int D>
+inline double NormalizedVolume(const Point<D>* const* v, double radius2)
+{
+  // The regular simplex inscribed in the unit sphere: sqrt(D + 1) / D! ((D + 1) / D)^(D/2).
+  const double regular = D == 3 ? 8.0 / (9.0 * std::numbers::sqrt3) : 25.0 * std::sqrt(5.0) / 384.0;
+  const double radiusPower = D == 3 ? radius2 * std::sqrt(radius2) : radius2 * radius2;
+  return std::abs(SignedVolume<D>(v)) / (regular * radiusPower);
+}
+
+template <int D>
+inline double NormalizedVolume(const Point<D>* const* v)
+{
+  return NormalizedVolume<D>(v, Circumradius2<D>(v));
+}
+
+/**
+ * The dihedral angles of a tetrahedron at its edges 01, 02, 03, 12, 13, 23.
+ *
+ * With N_k the outward normals of the facets opposite to vertex k, of length twice the area, the
+ * angle at edge ij between the facets opposite to k and l has the cosine -N_k . N_l and the sine
+ * |N_k x N_l| = |edge ij| |det|, both over |N_k| |N_l|.
+ */
+inline std::array<double, 6> DihedralAngles(const Point<3>* const* v)
+{
+  const Point<3> e01 = Subtract(*v[1], *v[0]);
+  const Point<3> e02 = Subtract(*v[2], *v[0]);
+  const Point<3> e03 = Subtract(*v[3], *v[0]);
+  const Point<3> e12 = Subtract(*v[2], *v[1]);
+  const Point<3> e13 = Subtract(*v[3], *v[1]);
+  const Point<3> e23 = Subtract(*v[3], *v[2]);
+  const Point<3> n0 = Cross(e12, e13);
+  const Point<3> n1 = Cross(e03, e02);
+  const Point<3> n2 = Cross(e01, e03);
+  const Point<3> n3 = Cross(e02, e01);
+  const double determinant = std::abs(Dot(e01, n1));
+  const auto angle = [determinant](const Point<3>& edge, const Point<3>& a, const Point<3>& b)
+  { return std::atan2(std::sqrt(Dot(edge, edge)) * determinant, -Dot(a, b)) * DegreesPerRadian; };
+  return { angle(e01, n2, n3), angle(e02, n1, n3), angle(e03, n1, n2), angle(e12, n0, n3),
+    angle(e13, n0, n2), angle(e23, n0, n1) };
+}
+
+/** The angles of a triangle at a, b and c. */
+inline std::array<double, 3> PlanarAngles(const Point<3>& a, const Point<3>& b, const Point<3>& c)
+{
+  const Point<3> ab = Subtract(b, a);
+  const Point<3> ac = Subtract(c, a);
+  const Point<3> bc = Subtract(c, b);
+  const Point<3> normal = Cross(ab, ac);
+  const double twiceArea = std::sqrt(Dot(normal, normal));
+  return { std::atan2(twiceArea, Dot(ab, ac)) * DegreesPerRadian,
+    std::atan2(twiceArea, -Dot(ab, bc)) * DegreesPerRadian,
+    std::atan2(twiceArea, Dot(ac, bc)) * DegreesPerRadian };
+}
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file BitMask.h
+ * @brief One bit per voxel of a grid.
+ */
+#ifndef voxplex_BitMask_h
+#define voxplex_BitMask_h
+
+#include "Image/GridGeometry.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief One bit per voxel of a D-dimensional grid, all 0 at first.
+ *
+ * Each row along the first axis begins in a new 64-bit word; the bits past its end are 0. Distinct
+ * rows may be written by distinct threads at the same time; reading is thread safe.
+ */
+template <int D>
+class BitMask
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  BitMask() = default;
+  /** @param dimensions voxels along each axis, at least 1 */
+  explicit BitMask(const Index& dimensions)
+    : Extent(dimensions)
+    , Words((static_cast<std::size_t>(dimensions[0]) + 63) / 64)
+  {
+    std::size_t rows = 1;
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      rows *= static_cast<std::size_t>(dimensions[a]);
+    }
+    this->Bits.resize(rows * this->Words);
+  }
+
+  const Index& Dimensions() const { return this->Extent; }
+  std::size_t NumberOfRows() const { return this->Words ? this->Bits.size() / this->Words : 0; }
+  std::size_t WordsPerRow() const { return this->Words; }
+
+  /** Row number of an index: its position among the rows, second axis fastest. */
+  std::size_t RowOf(const Index& index) const
+  {
+    std::size_t row = 0;
+    for (std::size_t a = D; a-- > 1;)
+    {
+      row = row * static_cast<std::size_t>(this->Extent[a]) + static_cast<std::size_t>(index[a]);
+    }
+    return row;
+  }
+
+  /** The words of a row; bit i of word w is voxel 64 w + i. */
+  std::span<const std::uint64_t> Row(std::size_t row) const
+  {
+    return { this->Bits.data() + row * this->Words, this->Words };
+  }
+  std::span<std::uint64_t> Row(std::size_t row)
+  {
+    return { this->Bits.data() + row * this->Words, this->Words };
+  }
+
+  /** @param index inside the grid */
+  bool Test(const Index& index) const
+  {
+    const auto x = static_cast<std::size_t>(index[0]);
+    return (this->Bits[this->RowOf(index) * this->Words + x / 64] >> (x % 64)) & 1u;
+  }
+  void Set(const Index& index)
+  {
+    const auto x = static_cast<std::size_t>(index[0]);
+    this->Bits[this->RowOf(index) * this->Words + x / 64] |= std::uint64_t{ 1 } << (x % 64);
+  }
+
+  std::size_t MemoryBytes() const { return this->Bits.size() * sizeof(std::uint64_t); }
+
+private:
+  Index Extent{};
+  std::size_t Words = 0;
+  std::vector<std::uint64_t> Bits;
+};
+
+} // namespace voxplex
+
+#endif

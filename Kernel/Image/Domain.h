@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Domain.h
+ * @brief All that the refinement rules ask of what is being meshed.
+ */
+#ifndef voxplex_Domain_h
+#define voxplex_Domain_h
+
+#include "Geometry/Box.h"
+#include "Image/LabelImage.h"
+
+namespace voxplex
+{
+
+/** Bounds of a distance: Lower <= distance <= Upper. */
+struct DistanceInterval
+{
+  double Lower;
+  double Upper;
+};
+
+/**
+ * @brief A partition of space into labels, with interfaces between them.
+ *
+ * The interfaces (the boundary of Omega of the thesis) are where Label() changes. An image is one such
+ * domain (ImageDomain); an isosurface of a grey-value image could be another. All methods are const
+ * and safe to call from any number of threads.
+ */
+template <int D>
+class Domain
+{
+public:
+  virtual ~Domain() = default;
+
+  /** Bounding box of everything that is not background; all interfaces lie inside or on it. */
+  virtual Box<D> Bounds() const = 0;
+
+  /** Label of a point; 0 (background) outside of Bounds(). */
+  virtual LabelId Label(const Point<D>& p) const = 0;
+
+  /** The image's value of a label id. */
+  virtual std::int64_t LabelValue(LabelId id) const = 0;
+
+  /** Bounds of the distance from p to the nearest interface; cheap: one table look-up. */
+  virtual DistanceInterval DistanceBounds(const Point<D>& p) const = 0;
+
+  /**
+   * cfp(p) of the thesis: a point of an interface that is closest to p, up to about half a voxel.
+   * @param label Label(p)
+   * @return false if no interface point was found
+   */
+  virtual bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const = 0;
+
+  /**
+   * Where the segment from a to b first leaves the label of a (up to features thinner than half a
+   * voxel).
+   * @param labelOfA Label(a)
+   * @return false if no change of label was found
+   */
+  virtual bool FirstCrossing(
+    const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const = 0;
+};
+
+} // namespace voxplex
+
+#endif

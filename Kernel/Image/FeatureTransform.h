@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FeatureTransform.h
+ * @brief The nearest site of every point of a lattice (exact Euclidean feature transform).
+ */
+#ifndef voxplex_FeatureTransform_h
+#define voxplex_FeatureTransform_h
+
+#include "Geometry/Point.h"
+#include "Image/BitMask.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Nearest site of every cell centre of a lattice that may be coarser than the sites' grid.
+ *
+ * Sites are voxels of a grid. The grid is cut in cells of Stride()[a] voxels along axis a (the last
+ * ones may stick out); the query of a cell is its centre. With stride 1 everywhere the cells are
+ * the voxels and this is the usual feature transform. The answer is exact for every query whatever
+ * the stride: coarser queries make it cheaper, not less precise. Lengths are those of orthogonal
+ * axes with the given spacings.
+ *
+ * Separable, one axis after the other, by lower envelopes of parabolas (Maurer, Qi and Raghavan
+ * 2003, which the thesis cites in 3.1; Meijster et al. 2000): time linear in the voxels of the
+ * first pass (64 at a time), then in the partial results, which shrink by the stride with each
+ * axis. Of equally near sites any may be the answer, the same whatever the number of threads.
+ *
+ * Immutable after construction, so safe to read from any thread.
+ */
+template <int D>
+class FeatureTransform
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+  using Array = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
+
+  /** The site of a query if there are no sites at all. */
+  static constexpr std::uint32_t NoSite = std::numeric_limits<std::uint32_t>::max();
+
+  /**
+   * @param sites the sites' grid; fewer than 2^32 - 1 voxels
+   * @param spacing lengths of a voxel step along each axis, positive
+   * @param stride voxels of a cell along each axis, at least 1
+   * @param threads threads used; 0 means all cores. The result does not depend on it.
+   * @throws InputError if the grid has too many voxels; std::bad_alloc
+   */
+  FeatureTransform(
+    const BitMask<D>& sites, const Point<D>& spacing, const Array& stride, unsigned threads = 1);
+
+  const Array& Stride() const { return this->CellStride; }
+  /** Cells along each axis. */
+  const Array& CellDimensions() const { return this->Cells; }
+  std::size_t NumberOfCells() const { return this->Features.size(); }
+
+  /** Linear index of the voxel that is the nearest site of a cell's centre, or NoSite. */
+  std::uint32_t Site(std::size_t cell) const { return this->Features[cell]; }
+  /** Distance from the cell's centre to its nearest site, to float precision; infinite without
+   * sites. */
+  float Distance(std::size_t cell) const { return this->Distances[cell]; }
+
+  /** Index of a voxel from its linear index. */
+  Index IndexOf(std::uint32_t voxel) const
+  {
+    Index index;
+    for (std::size_t a = 0; a + 1 < D; ++a)
+    {
+      const std::uint32_t q = voxel / this->Voxels[a];
+      index[a] = voxel - q * this->Voxels[a];
+      voxel = q;
+    }
+    index[D - 1] = voxel;
+    return index;
+  }
+
+  /** Coordinate (continuous index) along an axis of the centre of the c-th cell. */
+  double Centre(std::size_t axis, std::size_t c) const
+  {
+    return static_cast<double>(c * this->CellStride[axis]) + this->CentreOffset[axis];
+  }
+
+  /** The cell, along one axis, whose box contains a coordinate; clamped to the first and last. */
+  std::uint32_t CellOf(std::size_t axis, double coordinate) const
+  {
+    const double c = (coordinate + 0.5) * this->InverseStride[axis];
+    const auto last = static_cast<double>(this->Cells[axis] - 1);
+    return static_cast<std::uint32_t>(c > 0.0 ? (c < last ? c : last) : 0.0);
+  }
+
+  std::size_t MemoryBytes() const
+  {
+    return this->Features.size() * (sizeof(std::uint32_t) + sizeof(float));
+  }
+
+private:
+  class Envelope;
+
+  void FirstPass(const BitMask<D>& sites, unsigned threads);
+  void Pass(std::size_t axis, unsigned threads);
+  double LowerDistance2(
+    std::size_t axes, std::uint32_t site, const std::array<double, D>& query) const;
+
+  Array Voxels{};
+  Array Cells{};
+  Array CellStride{};
+  Point<D> Spacing{};
+  Point<D> CentreOffset{};
+  Point<D> InverseStride{};
+  std::vector<std::uint32_t> Features;
+  std::vector<float> Distances;
+};
+
+extern template class FeatureTransform<3>;
+extern template class FeatureTransform<4>;
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file GridGeometry.h
+ * @brief How voxel indices map to the mesher's frame.
+ *
+ * The mesher's frame has its origin at the centre of voxel (0, ..., 0). Index i lies at
+ * `IndexToFrame * i`, where IndexToFrame is upper triangular with a positive diagonal: the R of the QR
+ * decomposition of (direction * spacing). For orthogonal axes, the usual case, it is the diagonal
+ * matrix of the spacings. The caller keeps Q (a rotation, or a reflection for left-handed axes) and
+ * the origin, and applies them to what the mesher returns.
+ */
+#ifndef voxplex_GridGeometry_h
+#define voxplex_GridGeometry_h
+
+#include "Geometry/Point.h"
+
+#include <array>
+#include <cstdint>
+
+namespace voxplex
+{
+
+template <int D>
+struct GridGeometry
+{
+  using Index = std::array<std::int64_t, static_cast<std::size_t>(D)>;
+  using Matrix = std::array<Point<D>, static_cast<std::size_t>(D)>; ///< rows
+
+  /** Number of voxels along each axis; the first axis varies fastest in memory. */
+  Index Dimensions{};
+  /** Upper triangular, positive diagonal; row r, column c at IndexToFrame[r][c]. */
+  Matrix IndexToFrame{};
+
+  /** A grid with orthogonal axes and these spacings. */
+  static GridGeometry Orthogonal(const Index& dimensions, const Point<D>& spacing)
+  {
+    GridGeometry g;
+    g.Dimensions = dimensions;
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      g.IndexToFrame[i].fill(0.0);
+      g.IndexToFrame[i][i] = spacing[i];
+    }
+    return g;
+  }
+
+  /** Frame coordinates of a continuous index. */
+  Point<D> ToFrame(const Point<D>& index) const
+  {
+    Point<D> p;
+    for (std::size_t r = 0; r < D; ++r)
+    {
+      p[r] = this->IndexToFrame[r][r] * index[r];
+      for (std::size_t c = r + 1; c < D; ++c)
+      {
+        p[r] += this->IndexToFrame[r][c] * index[c];
+      }
+    }
+    return p;
+  }
+
+  /** Continuous index of a point of the frame (back substitution). */
+  Point<D> ToIndex(const Point<D>& p) const
+  {
+    Point<D> index;
+    for (std::size_t k = D; k-- > 0;)
+    {
+      double s = p[k];
+      for (std::size_t c = k + 1; c < D; ++c)
+      {
+        s -= this->IndexToFrame[k][c] * index[c];
+      }
+      index[k] = s / this->IndexToFrame[k][k];
+    }
+    return index;
+  }
+
+  /** Length of the step of one voxel along an axis. */
+  double Spacing(int axis) const
+  {
+    double s = 0.0;
+    for (std::size_t r = 0; r < D; ++r)
+    {
+      const double v = this->IndexToFrame[r][static_cast<std::size_t>(axis)];
+      s += v * v;
+    }
+    return std::sqrt(s);
+  }
+
+  /** Volume (area, hypervolume) of one voxel. */
+  double VoxelVolume() const
+  {
+    double v = 1.0;
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      v *= this->IndexToFrame[i][i];
+    }
+    return v;
+  }
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,650 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/ImageDomain.h"
+
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace voxplex
+{
+namespace
+{
+
+/** Root finding stops when the bracket is shorter, in voxels. */
+constexpr double RootTolerance = 0.005;
+/** Steps of ClosestSurfacePoint towards the foot point, at most; and the gain, in voxel diagonals,
+ *  below which none is made. */
+constexpr int FootSteps = 2;
+constexpr double FootGain = 0.02;
+/** Relative error of a stored distance and of the few operations on it. */
+constexpr double DistanceError = 1e-6;
+
+/** Runs a step of the constructor and notes how long it took. */
+template <typename Function>
+auto Timed(double& seconds, Function&& function)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  auto result = function();
+  seconds += std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+/** Voxels of the lattice with a face neighbour of another label. */
+template <int D>
+BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads)
+{
+  using Index = typename GridGeometry<D>::Index;
+  const Index& crop = image.CropDimensions();
+  Index lattice = crop;
+  for (std::int64_t& n : lattice)
+  {
+    n += 2;
+  }
+  BitMask<D> sites(lattice);
+  const auto n = static_cast<std::size_t>(crop[0]);
+  const std::vector<LabelId> background(n, LabelId{ 0 });
+
+  // The ids of a row of the crop, by its lattice index; background outside.
+  const auto rowAt = [&](const Index& index)
+  {
+    std::int64_t at = 0;
+    for (std::size_t a = D; a-- > 1;)
+    {
+      if (index[a] < 1 || index[a] > crop[a])
+      {
+        return background.data();
+      }
+      at = at * crop[a] + index[a] - 1;
+    }
+    return image.Ids().data() + at * crop[0];
+  };
+  ParallelFor(0, sites.NumberOfRows(), 64, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<LabelId> differs(n);
+      std::vector<std::uint8_t> flags(sites.WordsPerRow() * 64, std::uint8_t{ 0 });
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        Index index{};
+        std::size_t rest = row;
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          index[a] = static_cast<std::int64_t>(rest % static_cast<std::size_t>(lattice[a]));
+          rest /= static_cast<std::size_t>(lattice[a]);
+        }
+        const LabelId* own = rowAt(index);
+        std::fill(differs.begin(), differs.end(), LabelId{ 0 });
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          Index neighbour = index;
+          --neighbour[a];
+          const LabelId* low = rowAt(neighbour);
+          neighbour[a] += 2;
+          const LabelId* high = rowAt(neighbour);
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            differs[i] = static_cast<LabelId>(differs[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
+          }
+        }
+        // Along x the crop's ends have a background voxel beside them, which is a site, too.
+        differs[0] = static_cast<LabelId>(differs[0] | own[0]);
+        differs[n - 1] = static_cast<LabelId>(differs[n - 1] | own[n - 1]);
+        for (std::size_t i = 0; i + 1 < n; ++i)
+        {
+          flags[i + 1] = (differs[i] | (own[i] ^ own[i + 1])) != 0;
+        }
+        flags[n] = differs[n - 1] != 0;
+        for (std::size_t i = 1; i < n; ++i)
+        {
+          flags[i + 1] = static_cast<std::uint8_t>(flags[i + 1] | (own[i] != own[i - 1]));
+        }
+        flags[0] = own[0] != 0;
+        flags[n + 1] = own[n - 1] != 0;
+        const std::span<std::uint64_t> words = sites.Row(row);
+        for (std::size_t w = 0; w < words.size(); ++w)
+        {
+          std::uint64_t word = 0;
+          for (std::size_t byte = 0; byte < 8; ++byte)
+          {
+            std::uint64_t eight = 0;
+            std::memcpy(&eight, flags.data() + w * 64 + byte * 8, 8);
+            // Gathers the lowest bits of eight bytes (little endian) in the top byte.
+            word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
+          }
+          words[w] = word;
+        }
+      }
+    });
+  return sites;
+}
+
+/** Cells of about ImageDomain::CoarseCell smallest spacings along each axis. */
+template <int D>
+typename FeatureTransform<D>::Array ChooseStride(const Point<D>& spacing)
+{
+  const double smallest = *std::min_element(spacing.begin(), spacing.end());
+  typename FeatureTransform<D>::Array stride;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    stride[a] = static_cast<std::uint32_t>(
+      std::max(1.0, std::floor(ImageDomain<D>::CoarseCell * smallest / spacing[a] + 0.5)));
+  }
+  return stride;
+}
+
+template <int D>
+Point<D> Spacings(const GridGeometry<D>& grid)
+{
+  Point<D> spacing;
+  for (int a = 0; a < D; ++a)
+  {
+    spacing[static_cast<std::size_t>(a)] = grid.Spacing(a);
+  }
+  return spacing;
+}
+
+/** Smallest and largest eigenvalue of a symmetric matrix (cyclic Jacobi rotations). */
+template <int D>
+void ExtremeEigenvalues(typename GridGeometry<D>::Matrix m, double& smallest, double& largest)
+{
+  for (int sweep = 0; sweep < 50; ++sweep)
+  {
+    for (std::size_t p = 0; p < D; ++p)
+    {
+      for (std::size_t q = p + 1; q < D; ++q)
+      {
+        if (m[p][q] == 0.0)
+        {
+          continue;
+        }
+        const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
+        const double c = 1.0 / std::hypot(t, 1.0);
+        const double s = t * c;
+        for (std::size_t k = 0; k < D; ++k)
+        {
+          const double kp = m[k][p];
+          const double kq = m[k][q];
+          m[k][p] = c * kp - s * kq;
+          m[k][q] = s * kp + c * kq;
+        }
+        for (std::size_t k = 0; k < D; ++k)
+        {
+          const double pk = m[p][k];
+          const double qk = m[q][k];
+          m[p][k] = c * pk - s * qk;
+          m[q][k] = s * pk + c * qk;
+        }
+      }
+    }
+  }
+  smallest = largest = m[0][0];
+  for (std::size_t a = 1; a < D; ++a)
+  {
+    smallest = std::min(smallest, m[a][a]);
+    largest = std::max(largest, m[a][a]);
+  }
+}
+
+} // namespace
+
+template <int D>
+ImageDomain<D>::ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads)
+  : Image(image)
+  , Field(Timed(this->FieldSeconds, [&] { return LabelField<D>(image, sigma, threads); }))
+  , Sites(Timed(this->FeatureSeconds, [&] { return FindSites(image, threads); }))
+  , Spacing(Spacings(image.Grid()))
+  , Features(Timed(this->FeatureSeconds,
+      [&]
+      {
+        return FeatureTransform<D>(
+          this->Sites, this->Spacing, ChooseStride<D>(this->Spacing), threads);
+      }))
+{
+  const GridGeometry<D>& grid = image.Grid();
+  this->IsOrthogonal = true;
+  typename GridGeometry<D>::Matrix gram; // of the unit vectors along the axes
+  for (std::size_t r = 0; r < D; ++r)
+  {
+    for (std::size_t c = 0; c < D; ++c)
+    {
+      gram[r][c] = 0.0;
+      for (std::size_t k = 0; k < D; ++k)
+      {
+        gram[r][c] += grid.IndexToFrame[k][r] * grid.IndexToFrame[k][c];
+      }
+      gram[r][c] /= this->Spacing[r] * this->Spacing[c];
+      this->IsOrthogonal = this->IsOrthogonal && (r == c || grid.IndexToFrame[r][c] == 0.0);
+    }
+  }
+  if (!this->IsOrthogonal)
+  {
+    double smallest = 1.0;
+    double largest = 1.0;
+    ExtremeEigenvalues<D>(gram, smallest, largest);
+    this->SmallestStretch = std::sqrt(std::max(0.0, smallest - 1e-12));
+    this->LargestStretch = std::sqrt(largest + 1e-12);
+  }
+
+  // An interface point lies in a cell two corners of which share an edge and are sites: it is
+  // within half that edge of one of them along the edge.
+  const double diagonal2 = Dot(this->Spacing, this->Spacing);
+  const double smallest = *std::min_element(this->Spacing.begin(), this->Spacing.end());
+  this->LowerSlack = std::sqrt(diagonal2 - 0.75 * smallest * smallest);
+  this->UpperSlack = *std::max_element(this->Spacing.begin(), this->Spacing.end());
+  this->VoxelDiagonal = std::sqrt(diagonal2);
+
+  this->BoundingBox.Min.fill(std::numeric_limits<double>::max());
+  this->BoundingBox.Max.fill(std::numeric_limits<double>::lowest());
+  for (unsigned corner = 0; corner < (1u << D); ++corner)
+  {
+    Point<D> x{};
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] = (corner >> a) & 1u ? static_cast<double>(this->Field.LatticeDimensions()[a] - 1) : 0.0;
+    }
+    const Point<D> p = this->Field.ToFrame(x);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      this->BoundingBox.Min[a] = std::min(this->BoundingBox.Min[a], p[a]);
+      this->BoundingBox.Max[a] = std::max(this->BoundingBox.Max[a], p[a]);
+    }
+  }
+}
+
+template <int D>
+inline LabelId ImageDomain<D>::VoxelId(const Index& lattice) const
+{
+  const Index& crop = this->Image.CropDimensions();
+  std::int64_t at = 0;
+  for (std::size_t a = D; a-- > 0;)
+  {
+    if (lattice[a] < 1 || lattice[a] > crop[a])
+    {
+      return 0;
+    }
+    at = at * crop[a] + lattice[a] - 1;
+  }
+  return this->Image.Ids()[static_cast<std::size_t>(at)];
+}
+
+template <int D>
+inline double ImageDomain<D>::Length2(const Point<D>& step) const
+{
+  if (!this->IsOrthogonal)
+  {
+    const Point<D> d = this->Image.Grid().ToFrame(step);
+    return Dot(d, d);
+  }
+  double sum = 0.0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const double d = this->Spacing[a] * step[a];
+    sum += d * d;
+  }
+  return sum;
+}
+
+template <int D>
+inline DistanceInterval ImageDomain<D>::DistanceBoundsAt(const Point<D>& x) const
+{
+  // All lengths as if the axes were orthogonal; stretched at the end.
+  double outside2 = 0.0; // from x to the lattice
+  double offset2 = 0.0;  // from there to the centre of the cell
+  std::size_t cell = 0;
+  for (std::size_t a = D; a-- > 0;)
+  {
+    const auto last = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
+    const double inside = std::clamp(x[a], 0.0, last);
+    const double out = this->Spacing[a] * (x[a] - inside);
+    outside2 += out * out;
+    const std::uint32_t c = this->Features.CellOf(a, inside);
+    const double offset = this->Spacing[a] * (inside - this->Features.Centre(a, c));
+    offset2 += offset * offset;
+    cell = cell * this->Features.CellDimensions()[a] + c;
+  }
+  const double distance = static_cast<double>(this->Features.Distance(cell));
+  const double offset = std::sqrt(offset2);
+  double lower = std::max(0.0, distance * (1.0 - DistanceError) - offset - this->LowerSlack);
+  double upper = distance * (1.0 + DistanceError) + offset + this->UpperSlack;
+  if (outside2 > 0.0)
+  {
+    // All interfaces lie in the lattice's box, so the angle there is at least a right one.
+    lower = std::sqrt(lower * lower + outside2);
+    upper += std::sqrt(outside2);
+  }
+  return { this->SmallestStretch * lower, this->LargestStretch * upper };
+}
+
+template <int D>
+inline bool ImageDomain<D>::NearSite(const Point<D>& x, Index& site) const
+{
+  // The nearest sites of the 2^D cells around x: one of them is nearest to x, or nearly so.
+  std::array<std::uint32_t, D> low;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    low[a] = this->Features.CellOf(a, x[a] - 0.5 * static_cast<double>(this->Features.Stride()[a]));
+  }
+  double best = std::numeric_limits<double>::infinity();
+  std::uint32_t previous = FeatureTransform<D>::NoSite;
+  for (unsigned corner = 0; corner < (1u << D); ++corner)
+  {
+    std::size_t cell = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      const std::uint32_t c =
+        std::min(low[a] + ((corner >> a) & 1u), this->Features.CellDimensions()[a] - 1);
+      cell = cell * this->Features.CellDimensions()[a] + c;
+    }
+    const std::uint32_t voxel = this->Features.Site(cell);
+    if (voxel == previous || voxel == FeatureTransform<D>::NoSite)
+    {
+      continue;
+    }
+    previous = voxel;
+    const Index candidate = this->Features.IndexOf(voxel);
+    Point<D> step;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      step[a] = static_cast<double>(candidate[a]) - x[a];
+    }
+    const double distance2 = this->Length2(step);
+    if (distance2 < best)
+    {
+      best = distance2;
+      site = candidate;
+    }
+  }
+  return best < std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
+  const Point<D>& x, LabelId label, Index& voxel) const
+{
+  Index site;
+  if (!this->NearSite(x, site))
+  {
+    return false;
+  }
+  if (this->VoxelId(site) != label)
+  {
+    voxel = site;
+    return true;
+  }
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    for (int side = -1; side <= 1; side += 2)
+    {
+      Index candidate = site;
+      candidate[a] += side;
+      if (this->VoxelId(candidate) == label)
+      {
+        continue;
+      }
+      Point<D> step;
+      for (std::size_t b = 0; b < D; ++b)
+      {
+        step[b] = static_cast<double>(candidate[b]) - x[b];
+      }
+      const double distance2 = this->Length2(step);
+      if (distance2 < best)
+      {
+        best = distance2;
+        voxel = candidate;
+      }
+    }
+  }
+  return best < std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+inline double ImageDomain<D>::FindRoot(
+  const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside) const
+{
+  double voxels = 0.0; // per unit of t
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxels = std::max(voxels, std::abs(d[a]));
+  }
+  const auto margin = [&](double t)
+  {
+    Point<D> at;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      at[a] = x[a] + t * d[a];
+    }
+    return this->Field.MarginAt(at, label);
+  };
+  double insideMargin = margin(inside);
+  double outsideMargin = margin(outside);
+  int last = 0; // which end moved last
+  for (int i = 0; i < 40 && std::abs(outside - inside) * voxels > RootTolerance; ++i)
+  {
+    // Illinois: regula falsi, halving the value of an end that stays twice.
+    double t = inside + (outside - inside) * (insideMargin / (insideMargin - outsideMargin));
+    if (!((t - inside) * (t - outside) < 0.0))
+    {
+      t = 0.5 * (inside + outside);
+    }
+    const double value = margin(t);
+    if (std::abs(value) < RootTolerance)
+    {
+      return t;
+    }
+    if (value > 0.0)
+    {
+      inside = t;
+      insideMargin = value;
+      outsideMargin *= last == 1 ? 0.5 : 1.0;
+      last = 1;
+    }
+    else
+    {
+      outside = t;
+      outsideMargin = value;
+      insideMargin *= last == -1 ? 0.5 : 1.0;
+      last = -1;
+    }
+  }
+  return 0.5 * (inside + outside);
+}
+
+template <int D>
+inline bool ImageDomain<D>::MoveTowardsFoot(
+  const Point<D>& p, const Point<D>& x, LabelId label, Point<D>& z) const
+{
+  Point<D> gradient;
+  if (!this->Field.MarginGradientAt(this->Field.ToLattice(z), label, gradient))
+  {
+    return false;
+  }
+  // To the frame: the transposed inverse of IndexToFrame, by forward substitution.
+  const auto& matrix = this->Image.Grid().IndexToFrame;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    for (std::size_t r = 0; r < k; ++r)
+    {
+      gradient[k] -= matrix[r][k] * gradient[r];
+    }
+    gradient[k] /= matrix[k][k];
+  }
+  const double length = std::sqrt(Dot(gradient, gradient));
+  const Point<D> toZ = Subtract(z, p);
+  const double distance = std::sqrt(Dot(toZ, toZ));
+  if (!(length > 0.0))
+  {
+    return false;
+  }
+  // The plane is `foot` away from p, straight against the gradient.
+  const double foot = -Dot(toZ, gradient) / length;
+  if (!(foot > 0.0 && foot < distance - FootGain * this->VoxelDiagonal))
+  {
+    return false;
+  }
+  Point<D> d; // lattice coordinates per unit of length
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    d[a] = -gradient[a] / length;
+  }
+  const Point<D> direction = d;
+  d = this->Image.Grid().ToIndex(d);
+  const auto hasLabel = [&](double t)
+  {
+    Point<D> at;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      at[a] = x[a] + t * d[a];
+    }
+    return this->Field.LabelAt(at) == label;
+  };
+  double outside = std::min(distance, foot + 0.5 * this->VoxelDiagonal);
+  double inside = std::max(0.0, foot - 0.5 * this->VoxelDiagonal);
+  if (hasLabel(outside))
+  {
+    return false;
+  }
+  if (inside > 0.0 && !hasLabel(inside))
+  {
+    outside = inside;
+    inside = 0.0;
+  }
+  const double t = this->FindRoot(x, d, label, inside, outside);
+  if (t >= distance)
+  {
+    return false;
+  }
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    z[a] = p[a] + t * direction[a];
+  }
+  return true;
+}
+
+template <int D>
+bool ImageDomain<D>::ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const
+{
+  const Point<D> x = this->Field.ToLattice(p);
+  Index voxel;
+  if (!this->NearVoxelOfOtherLabel(x, label, voxel))
+  {
+    return false;
+  }
+  Point<D> n; // margin < 0 here
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    n[a] = static_cast<double>(voxel[a]);
+  }
+  const Point<D> d = Subtract(x, n);
+  const double length = std::sqrt(this->Length2(d));
+  double outside = 0.0;
+  double inside = 1.0;
+  if (length > 1.5 * this->VoxelDiagonal)
+  {
+    // The interface is near n: look for it there in steps of half a voxel.
+    double longest = 0.0;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      longest = std::max(longest, std::abs(d[a]));
+    }
+    const double step = 0.5 / longest;
+    const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / length);
+    for (double t = step; t < end; t += step)
+    {
+      if (this->Field.LabelAt(Interpolate(n, x, t)) == label)
+      {
+        inside = t;
+        break;
+      }
+      outside = t;
+    }
+  }
+  if (inside == 1.0 && this->Field.LabelAt(x) != label)
+  {
+    return false;
+  }
+  z = this->Field.ToFrame(Interpolate(n, x, this->FindRoot(n, d, label, inside, outside)));
+  for (int i = 0; i < FootSteps && this->MoveTowardsFoot(p, x, label, z); ++i)
+  {
+  }
+  return true;
+}
+
+template <int D>
+bool ImageDomain<D>::FirstCrossing(
+  const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const
+{
+  const Point<D> x = this->Field.ToLattice(a);
+  const Point<D> d = Subtract(this->Field.ToLattice(b), x);
+  double longest = 0.0;
+  double begin = 0.0;
+  double end = 1.0;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    // Clip to the lattice: all is background outside.
+    const auto last = static_cast<double>(this->Field.LatticeDimensions()[k] - 1);
+    longest = std::max(longest, std::abs(d[k]));
+    if (d[k] == 0.0)
+    {
+      if (x[k] < 0.0 || x[k] > last)
+      {
+        return false;
+      }
+      continue;
+    }
+    const double t0 = -x[k] / d[k];
+    const double t1 = (last - x[k]) / d[k];
+    begin = std::max(begin, std::min(t0, t1));
+    end = std::min(end, std::max(t0, t1));
+  }
+  if (!(longest > 0.0) || !(begin <= end))
+  {
+    return false;
+  }
+  const double step = 0.5 / longest;
+  const double perLength = 1.0 / std::sqrt(this->Length2(d));
+  double before = begin;
+  while (before < end)
+  {
+    Point<D> at;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      at[k] = x[k] + before * d[k];
+    }
+    const double free = this->DistanceBoundsAt(at).Lower * perLength;
+    const double t = std::min(end, before + std::max(step, free));
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      at[k] = x[k] + t * d[k];
+    }
+    if (this->Field.LabelAt(at) != labelOfA)
+    {
+      z = this->Field.ToFrame(
+        [&]
+        {
+          const double root = this->FindRoot(x, d, labelOfA, before, t);
+          Point<D> r;
+          for (std::size_t k = 0; k < D; ++k)
+          {
+            r[k] = x[k] + root * d[k];
+          }
+          return r;
+        }());
+      return true;
+    }
+    before = t;
+  }
+  return false;
+}
+
+template class ImageDomain<3>;
+template class ImageDomain<4>;
+
+} // namespace voxplex

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ImageDomain.h
+ * @brief A label image as the rules see it: labels, distances to interfaces, points on interfaces.
+ */
+#ifndef voxplex_ImageDomain_h
+#define voxplex_ImageDomain_h
+
+#include "Image/BitMask.h"
+#include "Image/Domain.h"
+#include "Image/FeatureTransform.h"
+#include "Image/LabelField.h"
+
+namespace voxplex
+{
+
+/**
+ * @brief The domain of a label image.
+ *
+ * Labels come from a LabelField. Distances come from the feature transform of the surface voxels
+ * (the sites): those of the crop and of the layer of background around it that have a face
+ * neighbour with another label. Every interface point lies in a cell between voxel centres of which
+ * two corners that share an edge are sites; and next to every site, on a grid edge, there is an
+ * interface point. Distance bounds follow from these two facts and are rigorous. The nearest site
+ * is stored for cells of about CoarseCell smallest voxel spacings only.
+ *
+ * cfp (thesis, 3.1): march along the ray through the nearest site and find the root of the
+ * label's margin by regula falsi, starting from the site's end; the ray ends at a voxel centre of
+ * another label, which the field preserves, so it always crosses an interface.
+ *
+ * Immutable after construction: all methods are const and safe to call from any thread.
+ */
+template <int D>
+class ImageDomain final : public Domain<D>
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** Edge of a cell of the feature transform in smallest voxel spacings, about. */
+  static constexpr double CoarseCell = 4.0;
+
+  /**
+   * @param image the labels; must live as long as this
+   * @param sigma smoothing in voxels, see LabelField
+   * @param threads threads used for the construction; 0 means all cores. The result does not
+   *   depend on it.
+   * @throws InputError if sigma is out of range or the image too large; std::bad_alloc
+   */
+  ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads = 1);
+  /** The domain does not keep the image alive. */
+  ImageDomain(LabelImage<D>&&, double, unsigned = 1) = delete;
+
+  /** The box of the crop and the layer of background around it; interfaces lie strictly inside. */
+  Box<D> Bounds() const override { return this->BoundingBox; }
+  LabelId Label(const Point<D>& p) const override { return this->Field.Label(p); }
+  std::int64_t LabelValue(LabelId id) const override { return this->Image.Values()[id]; }
+  DistanceInterval DistanceBounds(const Point<D>& p) const override
+  {
+    return this->DistanceBoundsAt(this->Field.ToLattice(p));
+  }
+  /**
+   * The point found lies on an interface of `label` to 0.005 voxel and is on average a few
+   * hundredths of a voxel farther from p than the nearest one. False only if p does not have
+   * `label`.
+   */
+  bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
+  /** Steps of half a voxel, longer ones where the distance bounds allow it. */
+  bool FirstCrossing(
+    const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
+
+  const LabelImage<D>& GetImage() const { return this->Image; }
+  const LabelField<D>& GetLabelField() const { return this->Field; }
+  /** Of the lattice of GetLabelField(). */
+  const FeatureTransform<D>& GetFeatureTransform() const { return this->Features; }
+  /** The sites, on the lattice of GetLabelField(). */
+  const BitMask<D>& GetSites() const { return this->Sites; }
+
+  /** Wall-clock seconds spent in the constructor on the label field. */
+  double LabelFieldSeconds() const { return this->FieldSeconds; }
+  /** Wall-clock seconds spent in the constructor on sites and feature transform. */
+  double DistanceSeconds() const { return this->FeatureSeconds; }
+  /** Memory held, without the image, bytes. */
+  std::size_t MemoryBytes() const
+  {
+    return this->Field.MemoryBytes() + this->Features.MemoryBytes() + this->Sites.MemoryBytes();
+  }
+
+private:
+  /** Dense id of a voxel at a lattice index; background outside of the crop. */
+  LabelId VoxelId(const Index& lattice) const;
+  DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
+  /** Squared length in the frame of a step in lattice coordinates. */
+  double Length2(const Point<D>& step) const;
+  /** A site near x, close to the nearest one. */
+  bool NearSite(const Point<D>& x, Index& site) const;
+  /** A voxel near x with another label, next to a site near x. */
+  bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
+  /** The root of the label's margin on x + t d between `inside` (margin > 0) and `outside`. */
+  double FindRoot(
+    const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside) const;
+
+  /** Replaces z by the interface point straight below p on the tangent plane at z, if that is
+   * nearer. */
+  bool MoveTowardsFoot(const Point<D>& p, const Point<D>& x, LabelId label, Point<D>& z) const;
+
+  const LabelImage<D>& Image;
+  double FieldSeconds = 0.0;
+  double FeatureSeconds = 0.0;
+  LabelField<D> Field;
+  BitMask<D> Sites;
+  Point<D> Spacing;
+  FeatureTransform<D> Features;
+  bool IsOrthogonal;
+  double SmallestStretch = 1.0; ///< of lengths, from orthogonal axes to the real ones
+  double LargestStretch = 1.0;
+  double LowerSlack; ///< from an interface point to the nearest site, at most
+  double UpperSlack; ///< from a site to an interface point, at most
+  double VoxelDiagonal;
+  Box<D> BoundingBox;
+};
+
+extern template class ImageDomain<3>;
+extern template class ImageDomain<4>;
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LabelField.h
+ * @brief Where the interfaces of a label image are, to a fraction of a voxel.
+ */
+#ifndef voxplex_LabelField_h
+#define voxplex_LabelField_h
+
+#include "Image/LabelImage.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Label of every point of space: the arg max over labels of smoothed, interpolated
+ * indicators.
+ *
+ * **Definition.** For a label l let u_l be +1 at the voxels of l and -1 at all others (background
+ * outside of the image), smoothed by a non-shrinking kernel. At a voxel where the own label lost
+ * against another, its value is raised above the other's, so that *every voxel centre keeps its
+ * label* and thin structures survive. Between the voxels u_l is interpolated multilinearly.
+ * Label(p) is the label with the largest u_l(p); the smallest id among equals.
+ *
+ * **Kernel.** The tensor product of the 1D kernel (1 + c) g - c g*g, where g is a Gaussian of 1.2
+ * sigma voxels along each axis and c, about 1, makes the second moment of the truncated kernel
+ * vanish. It is the separable form of 2G - G*G: having no second moments it does not, to second
+ * order, move curved interfaces, and it needs one separable pass instead of two. On a digital ball
+ * of radius 20:
+ *
+ *     kernel             sigma   mean distance   normal error   volume   volume, radius 5
+ *     none                 0     0.146 voxel     19.6 deg        0.0 %    -1.7 %
+ *     2G - G*G            1.0    0.066            4.8           -0.3      -6.7
+ *     this one            0.7    0.087            8.4           -0.2      -4.3
+ *     this one            1.0    0.064            4.2           -0.4      -7.0
+ *     this one            1.3    0.062            2.6           -0.6     -10.8
+ *
+ * **Storage.** The lattice (the crop of the label image and one layer of background around it) is
+ * cut in tiles of TileCells cells along each axis. A tile stores its samples on all of its
+ * (TileCells + 1)^D corners, so that a query reads one tile only:
+ *
+ *     directory: one 64-bit word a tile        samples of a mixed tile, 16-bit fixed point
+ *     +--------------------------+             +---+----------+-----------------------------+
+ *     | label << 1 | 1   uniform |             | k | k labels | planes of 8^D samples       |
+ *     | address          mixed   | ----------> |   | ascending| k = 2: one, (u_0 - u_1) / 2 |
+ *     +--------------------------+             +---+----------+ k > 2: k, u_l of each label |
+ *                                                             +-----------------------------+
+ *
+ * Samples depend on their neighbourhood alone and not on the tile: two tiles agree on the face that
+ * they share. A tile whose samples all have one label is uniform: by the definition no other
+ * label can win inside of it.
+ *
+ * Immutable after construction: all methods are const and safe to call from any thread. A query
+ * costs O(1) in a uniform tile, O(2^D k) in a mixed one.
+ */
+template <int D>
+class LabelField
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** Cells of a tile along each axis; its 8 samples along x fill one vector register. */
+  static constexpr unsigned TileCells = 7;
+  /** Largest standard deviation of the smoothing, voxels. */
+  static constexpr double MaximumSigma = 5.0;
+
+  /**
+   * @param image the labels; not referenced after construction
+   * @param sigma standard deviation of the smoothing in voxels, 0 (none) to MaximumSigma
+   * @param threads threads used for the construction; 0 means all cores. The result does not
+   *   depend on it.
+   * @throws InputError if sigma is out of range; std::bad_alloc
+   */
+  LabelField(const LabelImage<D>& image, double sigma, unsigned threads = 1);
+  LabelField(LabelField&&) noexcept = default;
+  LabelField& operator=(LabelField&&) noexcept = default;
+
+  /** Samples of the lattice along each axis: the crop's voxels + 2. */
+  const Index& LatticeDimensions() const { return this->Dimensions; }
+
+  /** Lattice coordinates of a point of the frame: 0 is the layer of background before the crop. */
+  Point<D> ToLattice(const Point<D>& p) const
+  {
+    Point<D> x;
+    if (this->IsOrthogonal)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        x[a] = p[a] * this->PerSpacing[a] - this->Shift[a];
+      }
+      return x;
+    }
+    x = this->Grid.ToIndex(p);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] -= this->Shift[a];
+    }
+    return x;
+  }
+  /** Point of the frame at lattice coordinates. */
+  Point<D> ToFrame(Point<D> x) const
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] += this->Shift[a];
+    }
+    return this->Grid.ToFrame(x);
+  }
+
+  /** Label of a point of the frame; background outside of the lattice. */
+  LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
+
+  /**
+   * By how much a label wins (> 0, exactly where Label(p) == label) or loses (<= 0) at a point:
+   * u_label(p) - max over the other labels of u_l(p), between -2 and +2 or a little more.
+   * Continuous in a mixed tile and across the faces of mixed tiles; +2 or -2 in uniform tiles.
+   */
+  double Margin(const Point<D>& p, LabelId label) const
+  {
+    return this->MarginAt(this->ToLattice(p), label);
+  }
+
+  /** Label() at lattice coordinates. */
+  LabelId LabelAt(const Point<D>& x) const;
+  /** Margin() at lattice coordinates. */
+  double MarginAt(const Point<D>& x, LabelId label) const;
+
+  /**
+   * Gradient of MarginAt() with respect to the lattice coordinates.
+   * @return false in a uniform tile, or where `label` is not near: the gradient is unknown
+   */
+  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
+
+  /** Memory held, bytes. */
+  std::size_t MemoryBytes() const;
+  std::size_t NumberOfTiles() const { return this->Directory.size(); }
+  std::size_t NumberOfMixedTiles() const { return this->MixedTiles; }
+
+private:
+  using Sample = std::int16_t;
+  static constexpr unsigned TileSamples = TileCells + 1;
+  static constexpr unsigned PlaneSize = D == 3 ? 512 : 4096;
+  static constexpr double SampleOne = 16384.0; ///< fixed-point representation of 1
+
+  /** Blocks of memory from which one thread at a time takes the samples of its tiles. */
+  struct Arena;
+
+  /** The cell that contains a point. */
+  struct Cell
+  {
+    const Sample* Tile; ///< null in a uniform tile
+    LabelId Uniform;
+    unsigned Offset; ///< of the cell's first corner in a plane
+    std::array<float, static_cast<std::size_t>(D)> Fraction;
+  };
+  Cell Locate(const Point<D>& x) const;
+  static float InterpolatePlane(const Sample* plane, const Cell& cell);
+  static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
+  static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
+
+  class Builder;
+
+  GridGeometry<D> Grid;
+  bool IsOrthogonal = true;
+  Point<D> PerSpacing{};
+  Point<D> Shift{};
+  Index Dimensions{};
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
+  std::vector<std::uintptr_t> Directory;
+  std::vector<std::unique_ptr<Sample[]>> Blocks;
+  std::size_t BlockBytes = 0;
+  std::size_t MixedTiles = 0;
+};
+
+template <int D>
+inline typename LabelField<D>::Cell LabelField<D>::Locate(const Point<D>& x) const
+{
+  Cell cell;
+  cell.Tile = nullptr;
+  cell.Uniform = 0;
+  cell.Offset = 0;
+  std::uint32_t tile = 0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const double last = static_cast<double>(this->LastCell[a]);
+    if (!(x[a] >= 0.0 && x[a] <= last + 1.0)) // NaN is outside, too
+    {
+      return cell;
+    }
+    const auto c =
+      std::min(static_cast<std::uint32_t>(static_cast<std::int64_t>(x[a])), this->LastCell[a]);
+    cell.Fraction[a] = static_cast<float>(x[a] - static_cast<double>(c));
+    const std::uint32_t t = c / TileCells;
+    tile += t * this->TileStride[a];
+    cell.Offset += (c - t * TileCells) << (3 * a);
+  }
+  const std::uintptr_t entry = this->Directory[tile];
+  if (entry & 1)
+  {
+    cell.Uniform = static_cast<LabelId>(entry >> 1);
+  }
+  else
+  {
+    cell.Tile = reinterpret_cast<const Sample*>(entry);
+  }
+  return cell;
+}
+
+template <int D>
+inline float LabelField<D>::InterpolatePlane(const Sample* plane, const Cell& cell)
+{
+  constexpr unsigned corners = 1u << (D - 1);
+  const Sample* s = plane + cell.Offset;
+  std::array<float, corners> v;
+  for (unsigned c = 0; c < corners; ++c)
+  {
+    unsigned at = 0;
+    for (unsigned a = 1; a < static_cast<unsigned>(D); ++a)
+    {
+      at += ((c >> (a - 1)) & 1u) << (3 * a);
+    }
+    const float low = s[at];
+    v[c] = low + cell.Fraction[0] * (static_cast<float>(s[at + 1]) - low);
+  }
+  for (unsigned a = 1; a < static_cast<unsigned>(D); ++a)
+  {
+    for (unsigned c = 0; c < (corners >> a); ++c)
+    {
+      v[c] = v[2 * c] + cell.Fraction[a] * (v[2 * c + 1] - v[2 * c]);
+    }
+  }
+  return v[0];
+}
+
+template <int D>
+inline LabelId LabelField<D>::LabelAt(const Point<D>& x) const
+{
+  const Cell cell = this->Locate(x);
+  if (!cell.Tile)
+  {
+    return cell.Uniform;
+  }
+  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const Sample* planes = cell.Tile + HeaderSize(labels);
+  if (labels == 2)
+  {
+    return static_cast<LabelId>(cell.Tile[InterpolatePlane(planes, cell) >= 0.0f ? 1 : 2]);
+  }
+  std::size_t best = 0;
+  float bestValue = InterpolatePlane(planes, cell);
+  for (std::size_t l = 1; l < labels; ++l)
+  {
+    const float value = InterpolatePlane(planes + l * PlaneSize, cell);
+    if (value > bestValue)
+    {
+      best = l;
+      bestValue = value;
+    }
+  }
+  return static_cast<LabelId>(cell.Tile[1 + best]);
+}
+
+template <int D>
+inline double LabelField<D>::MarginAt(const Point<D>& x, LabelId label) const
+{
+  const Cell cell = this->Locate(x);
+  if (!cell.Tile)
+  {
+    return cell.Uniform == label ? 2.0 : -2.0;
+  }
+  // Of equal values the smallest id wins: the margin of the winner must be positive.
+  constexpr double tie = std::numeric_limits<double>::min();
+  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const Sample* planes = cell.Tile + HeaderSize(labels);
+  if (labels == 2)
+  {
+    const double difference =
+      (2.0 / SampleOne) * static_cast<double>(InterpolatePlane(planes, cell));
+    if (label == static_cast<LabelId>(cell.Tile[1]))
+    {
+      return difference != 0.0 ? difference : tie;
+    }
+    return label == static_cast<LabelId>(cell.Tile[2]) ? -difference : -2.0;
+  }
+  float own = -static_cast<float>(SampleOne); // of a label that is not near
+  float other = -std::numeric_limits<float>::max();
+  bool first = true; // no smaller id has the largest value of the others
+  for (std::size_t l = 0; l < labels; ++l)
+  {
+    const float value = InterpolatePlane(planes + l * PlaneSize, cell);
+    const auto id = static_cast<LabelId>(cell.Tile[1 + l]);
+    if (id == label)
+    {
+      own = value;
+    }
+    else if (value > other)
+    {
+      other = value;
+      first = id > label;
+    }
+  }
+  const double margin = (1.0 / SampleOne) * static_cast<double>(own - other);
+  return margin != 0.0 || !first ? margin : tie;
+}
+
+extern template class LabelField<3>;
+extern template class LabelField<4>;
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,497 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/LabelImage.h"
+
+#include "Error.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace voxplex
+{
+namespace
+{
+
+/** Types whose values index a table; all others go through a hash. */
+template <typename T>
+inline constexpr bool IsSmall = std::is_integral_v<T> && sizeof(T) <= 2;
+
+/** Whether a scalar can be a label at all. */
+template <typename T>
+bool IsLabelValue(T value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // 2^63 is exact in both types; NaN fails the first comparison.
+    return value >= T(0) && value < static_cast<T>(9223372036854775808.0) &&
+      std::floor(value) == value;
+  }
+  else if constexpr (std::is_signed_v<T>)
+  {
+    return value >= 0;
+  }
+  else if constexpr (sizeof(T) == 8)
+  {
+    return value <= static_cast<T>(std::numeric_limits<std::int64_t>::max());
+  }
+  else
+  {
+    return true;
+  }
+}
+
+/** Slots of small values: a table over all of them. */
+template <typename T>
+class SlotTable
+{
+public:
+  static constexpr std::uint16_t None = 0xffff;
+
+  SlotTable()
+    : Slots(std::size_t{ 1 } << (8 * sizeof(T)), None)
+  {
+  }
+  std::uint16_t Find(T value) const { return this->Slots[Key(value)]; }
+  void Insert(T value, std::uint16_t slot) { this->Slots[Key(value)] = slot; }
+
+private:
+  static std::size_t Key(T value) { return static_cast<std::make_unsigned_t<T>>(value); }
+  std::vector<std::uint16_t> Slots;
+};
+
+/** Slots of large values: open addressing; at most MaximumNumberOfLabels + 2 are ever inserted. */
+template <typename T>
+requires(!IsSmall<T>) class SlotTable<T>
+{
+public:
+  static constexpr std::uint16_t None = 0xffff;
+
+  SlotTable()
+    : Keys(Capacity, T(0))
+    , Slots(Capacity, None)
+  {
+  }
+  std::uint16_t Find(T value) const { return this->Slots[this->Position(value)]; }
+  void Insert(T value, std::uint16_t slot)
+  {
+    const std::size_t at = this->Position(value);
+    this->Keys[at] = value;
+    this->Slots[at] = slot;
+  }
+
+private:
+  static constexpr std::size_t Capacity = 8192;
+  static_assert(Capacity > 2 * (MaximumNumberOfLabels + 2));
+
+  std::size_t Position(T value) const
+  {
+    const auto key = static_cast<std::uint64_t>(value);
+    std::size_t at = (key * 0x9e3779b97f4a7c15u) >> 51;
+    while (this->Slots[at] != None && this->Keys[at] != value)
+    {
+      at = (at + 1) % Capacity;
+    }
+    return at;
+  }
+  std::vector<T> Keys;
+  std::vector<std::uint16_t> Slots;
+};
+
+/** What one thread learns about the values of the rows that it reads. */
+template <typename T, int D>
+struct Census
+{
+  SlotTable<T> Slots;
+  std::vector<T> Values; ///< of each slot
+  std::vector<std::int64_t> Counts;
+  std::vector<char> Kept;
+  std::array<std::int64_t, static_cast<std::size_t>(D)> Min;
+  std::array<std::int64_t, static_cast<std::size_t>(D)> Max;
+
+  Census()
+  {
+    this->Min.fill(std::numeric_limits<std::int64_t>::max());
+    this->Max.fill(-1);
+  }
+};
+
+template <typename Index>
+Index IndexOfVoxel(std::size_t linear, const Index& dimensions)
+{
+  Index index{};
+  for (std::size_t a = 0; a < dimensions.size(); ++a)
+  {
+    index[a] = static_cast<std::int64_t>(linear % static_cast<std::size_t>(dimensions[a]));
+    linear /= static_cast<std::size_t>(dimensions[a]);
+  }
+  return index;
+}
+
+template <typename Array>
+std::string Format(const Array& values, const char* separator = ", ")
+{
+  std::ostringstream s;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    s << (i ? separator : "") << values[i];
+  }
+  return s.str();
+}
+
+template <int D>
+void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars)
+{
+  std::size_t voxels = 1;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const std::int64_t n = grid.Dimensions[a];
+    if (n < 2)
+    {
+      throw InputError("The image has " + std::to_string(n) + " voxel(s) along axis " +
+        std::to_string(a) + " (dimensions " + Format(grid.Dimensions, " x ") + "); a " +
+        std::to_string(D) + "D mesh needs at least two along each axis.");
+    }
+    if (voxels > std::numeric_limits<std::size_t>::max() / 16 / static_cast<std::size_t>(n))
+    {
+      throw InputError("The image's dimensions " + Format(grid.Dimensions, " x ") +
+        " are too large to be addressed; crop or resample it.");
+    }
+    voxels *= static_cast<std::size_t>(n);
+  }
+  if (voxels != scalars)
+  {
+    throw InputError("The image has " + std::to_string(scalars) + " scalars, but its dimensions " +
+      Format(grid.Dimensions, " x ") + " ask for " + std::to_string(voxels) +
+      "; pass exactly one value per voxel.");
+  }
+  for (std::size_t r = 0; r < D; ++r)
+  {
+    for (std::size_t c = 0; c < D; ++c)
+    {
+      const double v = grid.IndexToFrame[r][c];
+      const bool good = r == c ? std::isfinite(v) && v > 0.0 : r < c ? std::isfinite(v) : v == 0.0;
+      if (good)
+      {
+        continue;
+      }
+      std::ostringstream s;
+      if (r == c)
+      {
+        s << "The spacing along axis " << r << " is " << v
+          << "; it must be positive and finite. Correct the image's spacing.";
+      }
+      else
+      {
+        s << "Element (" << r << ", " << c << ") of the index-to-frame matrix is " << v
+          << "; the matrix must be finite and upper triangular. Correct the image's axes.";
+      }
+      throw InputError(s.str());
+    }
+  }
+}
+
+template <typename T, int D>
+[[noreturn]] void ThrowBadValue(T value, std::size_t voxel, const GridGeometry<D>& grid)
+{
+  std::ostringstream s;
+  s.precision(std::numeric_limits<T>::max_digits10);
+  s << "The value " << +value << " at index (" << Format(IndexOfVoxel(voxel, grid.Dimensions))
+    << ") ";
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    if (!std::isfinite(value))
+    {
+      s << "is not finite";
+    }
+    else if (std::floor(value) != value)
+    {
+      s << "is not whole";
+    }
+    else if (value < T(0))
+    {
+      s << "is negative";
+    }
+    else
+    {
+      s << "exceeds the largest label, 9223372036854775807";
+    }
+  }
+  else
+  {
+    s << (std::is_signed_v<T> ? "is negative" : "exceeds the largest label, 9223372036854775807");
+  }
+  s << "; labels are whole numbers from 0 (background). Segment or relabel the image first.";
+  throw InputError(s.str());
+}
+
+template <int D>
+[[noreturn]] void ThrowTooManyLabels(std::size_t atLeast)
+{
+  throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
+    " distinct labels (" + std::to_string(atLeast) +
+    " were seen before giving up); it is most likely a grey-value image. Segment it first, or "
+    "choose the array that holds the segmentation.");
+}
+
+} // namespace
+
+template <int D>
+template <typename T>
+LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
+  std::span<const std::int64_t> keep, unsigned threads)
+{
+  using CensusType = Census<T, D>;
+  CheckGrid(grid, scalars.size());
+  const auto n0 = static_cast<std::size_t>(grid.Dimensions[0]);
+  const std::size_t rows = scalars.size() / n0;
+
+  std::vector<std::int64_t> kept(keep.begin(), keep.end());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  const auto isKept = [&kept](T value)
+  {
+    return value != T(0) &&
+      (kept.empty() ||
+        std::binary_search(kept.begin(), kept.end(), static_cast<std::int64_t>(value)));
+  };
+
+  // First reading: which values occur how often, and the bounding box of those that are kept. Rows
+  // are read run by run, as segmentations consist of long runs.
+  std::vector<std::unique_ptr<CensusType>> censuses; // of the chunks; idle ones wait in `idle`
+  std::vector<CensusType*> idle;
+  std::mutex mutex;
+  std::atomic<std::size_t> firstBad{ scalars.size() };
+  std::atomic<std::size_t> tooMany{ 0 };
+  const auto readRow = [&](CensusType& census, std::size_t row)
+  {
+    const T* values = scalars.data() + row * n0;
+    Index index = IndexOfVoxel(row * n0, grid.Dimensions);
+    for (std::size_t i = 0; i < n0;)
+    {
+      const T value = values[i];
+      std::size_t end = i + 1;
+      while (end < n0 && values[end] == value)
+      {
+        ++end;
+      }
+      if (!IsLabelValue(value))
+      {
+        std::size_t bad = firstBad.load(std::memory_order_relaxed);
+        while (row * n0 + i < bad && !firstBad.compare_exchange_weak(bad, row * n0 + i))
+        {
+        }
+        return;
+      }
+      std::uint16_t slot = census.Slots.Find(value);
+      if (slot == SlotTable<T>::None)
+      {
+        if (census.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels) + 1)
+        {
+          tooMany.store(census.Values.size() - 1, std::memory_order_relaxed);
+          return;
+        }
+        slot = static_cast<std::uint16_t>(census.Values.size());
+        census.Slots.Insert(value, slot);
+        census.Values.push_back(value);
+        census.Counts.push_back(0);
+        census.Kept.push_back(isKept(value) ? 1 : 0);
+      }
+      census.Counts[slot] += static_cast<std::int64_t>(end - i);
+      if (census.Kept[slot])
+      {
+        index[0] = static_cast<std::int64_t>(i);
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          census.Min[a] = std::min(census.Min[a], index[a]);
+          census.Max[a] = std::max(census.Max[a], index[a]);
+        }
+        census.Max[0] = std::max(census.Max[0], static_cast<std::int64_t>(end) - 1);
+      }
+      i = end;
+    }
+  };
+  const std::size_t grain = std::max<std::size_t>(1, (std::size_t{ 1 } << 18) / n0);
+  ParallelFor(0, rows, grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      CensusType* census = nullptr;
+      {
+        const std::scoped_lock lock(mutex);
+        if (idle.empty())
+        {
+          censuses.push_back(std::make_unique<CensusType>());
+          idle.push_back(censuses.back().get());
+        }
+        census = idle.back();
+        idle.pop_back();
+      }
+      for (std::size_t row = begin; row < end && tooMany.load(std::memory_order_relaxed) == 0;
+           ++row)
+      {
+        readRow(*census, row);
+      }
+      const std::scoped_lock lock(mutex);
+      idle.push_back(census);
+    });
+  if (firstBad != scalars.size())
+  {
+    ThrowBadValue<T, D>(scalars[firstBad], firstBad, grid);
+  }
+  if (tooMany != 0)
+  {
+    ThrowTooManyLabels<D>(tooMany);
+  }
+
+  // Join what the threads learnt: all values in increasing order.
+  LabelImage image;
+  image.WholeGrid = grid;
+  std::vector<std::pair<T, std::int64_t>> all;
+  Index min;
+  Index max;
+  min.fill(std::numeric_limits<std::int64_t>::max());
+  max.fill(-1);
+  for (const auto& census : censuses)
+  {
+    for (std::size_t s = 0; s < census->Values.size(); ++s)
+    {
+      all.emplace_back(census->Values[s], census->Counts[s]);
+    }
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      min[a] = std::min(min[a], census->Min[a]);
+      max[a] = std::max(max[a], census->Max[a]);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  SlotTable<T> ids;
+  std::vector<std::int64_t> occurring;
+  image.LabelValues.push_back(0);
+  image.LabelCounts.push_back(0);
+  std::size_t distinct = 0;
+  for (std::size_t i = 0; i < all.size();)
+  {
+    const T value = all[i].first;
+    std::int64_t count = 0;
+    for (; i < all.size() && all[i].first == value; ++i)
+    {
+      count += all[i].second;
+    }
+    if (value == T(0))
+    {
+      ids.Insert(value, 0);
+      continue;
+    }
+    if (++distinct > static_cast<std::size_t>(MaximumNumberOfLabels))
+    {
+      ThrowTooManyLabels<D>(distinct);
+    }
+    occurring.push_back(static_cast<std::int64_t>(value));
+    if (!isKept(value))
+    {
+      ids.Insert(value, 0);
+      continue;
+    }
+    ids.Insert(value, static_cast<std::uint16_t>(image.LabelValues.size()));
+    image.LabelValues.push_back(static_cast<std::int64_t>(value));
+    image.LabelCounts.push_back(count);
+  }
+  for (const std::int64_t value : kept)
+  {
+    if (value == 0)
+    {
+      throw InputError(
+        "Label 0 was asked for, but 0 is background, which is never meshed; remove it "
+        "from the labels to keep.");
+    }
+    if (!std::binary_search(occurring.begin(), occurring.end(), value))
+    {
+      std::vector<std::int64_t> shown(
+        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
+      throw InputError("Label " + std::to_string(value) +
+        " was asked for, but does not occur in the image; its labels are " + Format(shown) +
+        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels to keep.");
+    }
+  }
+  if (image.LabelValues.size() == 1)
+  {
+    throw InputError("The image has no foreground: all " + std::to_string(scalars.size()) +
+      " voxels are 0. Choose the array that holds the segmentation.");
+  }
+
+  // Second reading: the dense ids of the bounding box.
+  image.Origin = min;
+  std::size_t cropRows = 1;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    image.Extent[a] = max[a] - min[a] + 1;
+    cropRows *= a > 0 ? static_cast<std::size_t>(image.Extent[a]) : 1;
+  }
+  const auto e0 = static_cast<std::size_t>(image.Extent[0]);
+  image.Voxels.resize(e0 * cropRows);
+  ParallelFor(0, cropRows, grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        const Index at = IndexOfVoxel(row * e0, image.Extent);
+        std::size_t from = 0;
+        for (std::size_t a = D; a-- > 0;)
+        {
+          from = from * static_cast<std::size_t>(grid.Dimensions[a]) +
+            static_cast<std::size_t>(at[a] + min[a]);
+        }
+        const T* in = scalars.data() + from;
+        LabelId* out = image.Voxels.data() + row * e0;
+        for (std::size_t i = 0; i < e0;)
+        {
+          const T value = in[i];
+          const LabelId id = ids.Find(value);
+          do
+          {
+            out[i++] = id;
+          } while (i < e0 && in[i] == value);
+        }
+      }
+    });
+  image.LabelCounts[0] = static_cast<std::int64_t>(image.Voxels.size());
+  for (std::size_t id = 1; id < image.LabelCounts.size(); ++id)
+  {
+    image.LabelCounts[0] -= image.LabelCounts[id];
+  }
+  return image;
+}
+
+template class LabelImage<3>;
+template class LabelImage<4>;
+
+#define VOXPLEX_INSTANTIATE(T)                                                                     \
+  template LabelImage<3> LabelImage<3>::FromScalars<T>(                                            \
+    std::span<const T>, const GridGeometry<3>&, std::span<const std::int64_t>, unsigned);          \
+  template LabelImage<4> LabelImage<4>::FromScalars<T>(                                            \
+    std::span<const T>, const GridGeometry<4>&, std::span<const std::int64_t>, unsigned)
+VOXPLEX_INSTANTIATE(char);
+VOXPLEX_INSTANTIATE(signed char);
+VOXPLEX_INSTANTIATE(unsigned char);
+VOXPLEX_INSTANTIATE(short);
+VOXPLEX_INSTANTIATE(unsigned short);
+VOXPLEX_INSTANTIATE(int);
+VOXPLEX_INSTANTIATE(unsigned int);
+VOXPLEX_INSTANTIATE(long);
+VOXPLEX_INSTANTIATE(unsigned long);
+VOXPLEX_INSTANTIATE(long long);
+VOXPLEX_INSTANTIATE(unsigned long long);
+VOXPLEX_INSTANTIATE(float);
+VOXPLEX_INSTANTIATE(double);
+#undef VOXPLEX_INSTANTIATE
+
+} // namespace voxplex

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LabelImage.h
+ * @brief A label image as the kernel keeps it: dense label ids, cropped to the foreground.
+ */
+#ifndef voxplex_LabelImage_h
+#define voxplex_LabelImage_h
+
+#include "Image/GridGeometry.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Dense label id: 0 is background, 1 ... n are the image's labels in increasing order of value. */
+using LabelId = std::uint16_t;
+
+/** More distinct labels than this and the image is taken for a grey-value image. */
+inline constexpr int MaximumNumberOfLabels = 2000;
+
+/**
+ * @brief Dense labels of the bounding box of the foreground; everything outside is background.
+ *
+ * Immutable after construction, so safe to read from any thread.
+ */
+template <int D>
+class LabelImage
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /**
+   * Reads the scalars of an image: the first axis varies fastest.
+   *
+   * @param scalars one value per voxel; 0 is background. Any arithmetic type; values must be whole,
+   *   finite and not negative.
+   * @param keep label values to mesh, the others become background; empty keeps all
+   * @param threads threads used for the conversion; 0 means all cores
+   * @throws InputError: fewer than two voxels along an axis, spacing not positive and finite,
+   *   fractional, negative or non-finite values (says which value and at which index), no foreground,
+   *   more than MaximumNumberOfLabels labels (a grey-value image?), a kept label that does not occur
+   */
+  template <typename T>
+  static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
+    std::span<const std::int64_t> keep = {}, unsigned threads = 1);
+
+  /** The whole grid, as given. */
+  const GridGeometry<D>& Grid() const { return this->WholeGrid; }
+
+  /** First voxel of the bounding box of the foreground, in indices of the whole grid. */
+  const Index& CropOrigin() const { return this->Origin; }
+  /** Voxels of the bounding box along each axis. */
+  const Index& CropDimensions() const { return this->Extent; }
+  /** Dense ids of the bounding box, first axis fastest. */
+  std::span<const LabelId> Ids() const { return this->Voxels; }
+
+  /** The image's label value of each dense id; Values()[0] = 0. */
+  std::span<const std::int64_t> Values() const { return this->LabelValues; }
+  /** Voxels of each dense id (that of background counts the bounding box only). */
+  std::span<const std::int64_t> Counts() const { return this->LabelCounts; }
+  int NumberOfLabels() const { return static_cast<int>(this->LabelValues.size()) - 1; }
+
+private:
+  GridGeometry<D> WholeGrid;
+  Index Origin{};
+  Index Extent{};
+  std::vector<LabelId> Voxels;
+  std::vector<std::int64_t> LabelValues;
+  std::vector<std::int64_t> LabelCounts;
+};
+
+} // namespace voxplex
+
+#endif

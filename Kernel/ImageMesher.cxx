@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ImageMesher.h"
+
+#include "Error.h"
+#include "Geometry/Predicates.h"
+#include "Image/ImageDomain.h"
+#include "Mesh/MeshExtraction.h"
+#include "MeshSizeEstimate.h"
+#include "Refinement/Refiner.h"
+#include "Refinement/Rules3D.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+namespace voxplex
+{
+
+namespace
+{
+
+class Stopwatch
+{
+public:
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+std::string Number(double x)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", x);
+  return text;
+}
+
+template <int D>
+void CheckOptions(const MeshingOptions<D>& options)
+{
+  if (!(options.Delta >= 0.0) || std::isinf(options.Delta))
+  {
+    throw InputError("delta must be a positive length, or 0 to derive it from the spacing; it is " +
+      Number(options.Delta));
+  }
+  if (!(options.RadiusEdgeRatio > 0.0) || std::isinf(options.RadiusEdgeRatio))
+  {
+    throw InputError(
+      "the radius-edge ratio must be positive; it is " + Number(options.RadiusEdgeRatio));
+  }
+  if (options.RadiusEdgeRatio < 1.93 && !options.Force)
+  {
+    throw InputError("a radius-edge ratio of " + Number(options.RadiusEdgeRatio) +
+      " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force it");
+  }
+  if (!(options.FacetAngle >= 0.0 && options.FacetAngle <= 30.0))
+  {
+    throw InputError(
+      "the facet angle must be between 0 and 30 degrees; it is " + Number(options.FacetAngle));
+  }
+  if (!FloatingPointIsStrict())
+  {
+    throw Error("this build of Voxplex fuses or extends floating-point operations, which makes its "
+                "predicates unreliable; compile it with -ffp-contract=off and without -ffast-math");
+  }
+}
+
+/** How much of a run each stage takes, about; only progress depends on it. */
+constexpr double PreparationShare = 0.2;
+constexpr double RefinementShare = 0.95; ///< end of refinement
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+double DefaultDelta(const GridGeometry<D>& grid)
+{
+  return 2.0 * std::pow(grid.VoxelVolume(), 1.0 / D);
+}
+
+//------------------------------------------------------------------------------------------------
+/** The stages of a run, on whatever thread; shares only atomics with the thread that reports. */
+template <int D>
+class ImageMesher<D>::Stages
+{
+public:
+  Stages(const MeshingOptions<D>& options, MeshingStatistics& statistics)
+    : Options(options)
+    , Stats(statistics)
+  {
+  }
+
+  std::atomic<double> Fraction{ 0.0 };
+  std::atomic<bool> Stop{ false };
+
+  /** False if stopped. */
+  bool Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
+  {
+    const ImageDomain<D> domain(image, this->Options.SmoothingSigma, this->Options.Threads);
+    this->Stats.Times.LabelField = domain.LabelFieldSeconds();
+    this->Stats.Times.DistanceTransform = domain.DistanceSeconds();
+    this->Stats.LabelFieldBytes = domain.GetLabelField().MemoryBytes();
+    this->Stats.DistanceBytes =
+      domain.GetFeatureTransform().MemoryBytes() + domain.GetSites().MemoryBytes();
+    this->Fraction = PreparationShare;
+    if (this->Stop)
+    {
+      return false;
+    }
+
+    const MeshSizeEstimate estimate = EstimateMeshSize<D>(image, this->Stats.Delta,
+      SpacingFloorFraction * this->Stats.Delta, this->Options.Size.get(), this->Options.Threads);
+    this->Stats.EstimatedElements = estimate.Elements;
+    if (!this->Options.Force)
+    {
+      CheckMemory(estimate, this->Options.MemoryLimit);
+    }
+
+    Stopwatch refinement;
+    RefinementContext<D> context(
+      domain, this->Settings(), this->MakeBox(domain), estimate.InterfaceVertices);
+    Refiner<Rules3D> refiner(context);
+    const double expected = static_cast<double>(estimate.Vertices);
+    const bool done = refiner.Run(
+      [&](std::uint64_t vertices)
+      {
+        const double part = std::min(0.98, static_cast<double>(vertices) / expected);
+        this->Fraction = PreparationShare + (RefinementShare - PreparationShare) * part;
+        return !this->Stop;
+      });
+    this->Stats.Times.Refinement = refinement.Seconds();
+    this->Stats.Rules = refiner.GetWorker().Statistics;
+    this->Stats.Rules.Created = refiner.GetWorker().Kernel.NumberOfCreated;
+    this->Stats.Predicates = refiner.GetWorker().Kernel.GetPredicateStatistics();
+    if (!done)
+    {
+      return false;
+    }
+    this->Fraction = RefinementShare;
+
+    Stopwatch extraction;
+    ExtractMesh<D>(context.Mesh, domain, mesh);
+    this->Stats.Times.Extraction = extraction.Seconds();
+    return !this->Stop;
+  }
+
+private:
+  RefinementSettings<D> Settings() const
+  {
+    RefinementSettings<D> settings;
+    settings.Delta = this->Stats.Delta;
+    settings.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
+    settings.FacetAngle = this->Options.FacetAngle;
+    settings.Size = this->Options.Size.get();
+    return settings;
+  }
+
+  /** At least 2 delta from every interface (thesis, section 2.2). */
+  Box<D> MakeBox(const Domain<D>& domain) const
+  {
+    Box<D> box = domain.Bounds();
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      box.Min[a] -= 2.0 * this->Stats.Delta;
+      box.Max[a] += 2.0 * this->Stats.Delta;
+    }
+    return box;
+  }
+
+  const MeshingOptions<D>& Options;
+  MeshingStatistics& Stats;
+};
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
+{
+  mesh = SimplexMesh<D>();
+  this->Stats = MeshingStatistics();
+  CheckOptions(this->Options);
+  this->Stats.Delta =
+    this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid());
+  this->Stats.SmoothingSigma = this->Options.SmoothingSigma;
+
+  Stages stages(this->Options, this->Stats);
+  const bool done =
+    this->Progress ? this->RunReporting(stages, image, mesh) : stages.Run(image, mesh);
+  if (!done)
+  {
+    mesh = SimplexMesh<D>();
+    return MeshingOutcome::Cancelled;
+  }
+  return MeshingOutcome::Done;
+}
+
+//------------------------------------------------------------------------------------------------
+// The stages run on a thread of their own, so that the caller's thread can report at a steady pace
+// whatever they are doing.
+template <int D>
+bool ImageMesher<D>::RunReporting(
+  Stages& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh)
+{
+  bool done = false;
+  std::exception_ptr error;
+  std::atomic<bool> finished{ false };
+  std::jthread worker(
+    [&]
+    {
+      try
+      {
+        done = stages.Run(image, mesh);
+      }
+      catch (...)
+      {
+        error = std::current_exception();
+      }
+      finished = true;
+      finished.notify_all();
+    });
+  constexpr auto Period = std::chrono::milliseconds(20);
+  double reported = 0.0;
+  while (!finished)
+  {
+    const double fraction = std::max(reported, stages.Fraction.load());
+    reported = fraction;
+    if (!stages.Stop && !this->Progress(fraction))
+    {
+      stages.Stop = true;
+    }
+    std::this_thread::sleep_for(Period);
+  }
+  worker.join();
+  if (error)
+  {
+    std::rethrow_exception(error);
+  }
+  if (done && !this->Progress(1.0))
+  {
+    done = false;
+  }
+  return done;
+}
+
+template class ImageMesher<3>;
+template double DefaultDelta<3>(const GridGeometry<3>&);
+template double DefaultDelta<4>(const GridGeometry<4>&);
+
+} // namespace voxplex

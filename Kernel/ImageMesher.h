@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ImageMesher.h
+ * @brief The kernel's front door: a label image in, a simplex mesh out.
+ */
+#ifndef voxplex_ImageMesher_h
+#define voxplex_ImageMesher_h
+
+#include "Image/LabelImage.h"
+#include "Image/SizeFunction.h"
+#include "Mesh/SimplexMesh.h"
+#include "MeshingStatistics.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace voxplex
+{
+
+/** What the user asks for. Lengths are in the unit of the image's spacing. */
+template <int D>
+struct MeshingOptions
+{
+  /** Sampling density of interfaces (delta of the thesis); 0 derives it from the spacing (DefaultDelta). */
+  double Delta = 0.0;
+  /** Upper bound of circumradius / shortest edge; below 1.93 termination is not proved (needs Force). */
+  double RadiusEdgeRatio = 2.0;
+  /** Lower bound of the angles of interface facets, degrees, 0 to 30. */
+  double FacetAngle = 30.0;
+  /** Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. */
+  double SmoothingSigma = 1.0;
+  /** Upper bound of circumradii, or null. */
+  std::shared_ptr<const SizeFunction<D>> Size;
+  /** Threads; 0 means all cores. */
+  unsigned Threads = 1;
+  /** Go on although the mesh is estimated not to fit in memory, or the ratio is below the proved bound. */
+  bool Force = false;
+  /** Bytes that the mesher may plan with; 0 means the machine's physical memory. */
+  std::uint64_t MemoryLimit = 0;
+};
+
+/** How a run ended. Errors are exceptions (Error.h). */
+enum class MeshingOutcome
+{
+  Done,
+  Cancelled ///< the progress callback returned false; the mesh is empty
+};
+
+/** The smallest radius-edge ratio for which termination is proved: sqrt(sqrt(3) + 2) (thesis, 2.3). */
+inline constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;
+
+/** Delta used when none is given: see Documentation/Algorithm.md. */
+template <int D>
+double DefaultDelta(const GridGeometry<D>& grid);
+
+/**
+ * @brief Meshes one label image.
+ *
+ * Run() may be called repeatedly; distinct instances may run at the same time in one process. With
+ * one thread the mesh is bit-for-bit reproducible.
+ */
+template <int D>
+class ImageMesher
+{
+public:
+  explicit ImageMesher(MeshingOptions<D> options)
+    : Options(std::move(options))
+  {
+  }
+
+  /**
+   * Called from the thread that called Run(), at least ten times a second, with the fraction done
+   * (0 to 1, never decreasing). Returning false cancels the run.
+   */
+  std::function<bool(double fraction)> Progress;
+
+  /**
+   * @param image label image; may be released by the caller after Run() returns
+   * @param mesh receives the mesh; empty when cancelled
+   * @throws InputError, TooLargeError, std::bad_alloc
+   */
+  MeshingOutcome Run(const LabelImage<D>& image, SimplexMesh<D>& mesh);
+
+  const MeshingStatistics& Statistics() const { return this->Stats; }
+
+private:
+  class Stages;
+  bool RunReporting(Stages& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh);
+
+  MeshingOptions<D> Options;
+  MeshingStatistics Stats;
+};
+
+extern template class ImageMesher<3>;
+extern template double DefaultDelta<3>(const GridGeometry<3>&);
+extern template double DefaultDelta<4>(const GridGeometry<4>&);
+
+} // namespace voxplex
+
+#endif

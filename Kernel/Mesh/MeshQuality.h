@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshQuality.h
+ * @brief How good a mesh is: shapes, bounds that were promised, volume of each label.
+ */
+#ifndef voxplex_MeshQuality_h
+#define voxplex_MeshQuality_h
+
+#include "Mesh/SimplexMesh.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Size of one label. */
+struct LabelMeasure
+{
+  std::int64_t Label = 0;
+  std::uint64_t Elements = 0;
+  double Volume = 0.0; ///< D-dimensional, in the mesh's unit of length
+};
+
+/** Angles are in degrees. What does not apply (no element, no facet, not for this D) is NaN or 0.
+ */
+struct MeshQuality
+{
+  static constexpr double NotApplicable = std::numeric_limits<double>::quiet_NaN();
+
+  double MaximumRadiusEdgeRatio = NotApplicable;
+  std::uint64_t RadiusEdgeViolations = 0; ///< elements at or above the bound
+
+  double MinimumDihedralAngle = NotApplicable; ///< 3D only
+  double MaximumDihedralAngle = NotApplicable; ///< 3D only
+
+  /** Volume over that of the regular simplex with the same circumradius; 1 is best, 0 is flat. */
+  double MinimumNormalizedVolume = NotApplicable;
+  double MeanNormalizedVolume = NotApplicable;
+
+  double MinimumFacetAngle = NotApplicable; ///< planar angle of the interface facets; 3D only
+  std::uint64_t FacetAngleViolations = 0;   ///< facets with an angle below the bound; 3D only
+  /** Those of them that touch a junction: a vertex where three or more labels, background counted,
+   * meet. */
+  std::uint64_t FacetAngleViolationsAtJunctions = 0;
+
+  std::uint64_t InvertedSimplices = 0; ///< not positively oriented, flat ones included; exact
+
+  std::vector<LabelMeasure> Labels; ///< sorted by label
+};
+
+/**
+ * Measures a mesh.
+ *
+ * Ratios and angles are computed in double (radii of nearly flat elements exactly, see
+ * SimplexQuality.h) and compared with the bounds as they are. The result does not depend on the
+ * number of threads.
+ *
+ * @param radiusEdgeBound elements with a radius-edge ratio of this or more are counted
+ * @param facetAngleBound interface facets with a planar angle below this many degrees are counted
+ * (3D)
+ * @param threads how many threads to use, 0 for all cores
+ * Complexity: O(n log labels) for n elements and facets.
+ * @throws std::bad_alloc
+ */
+template <int D>
+MeshQuality MeasureQuality(
+  const SimplexMesh<D>& mesh, double radiusEdgeBound, double facetAngleBound, unsigned threads);
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshSizeEstimate.h"
+
+#include "Error.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <unistd.h>
+
+namespace voxplex
+{
+
+namespace
+{
+
+// Calibrated on the phantoms and atlases of Documentation/Benchmarks.md, D = 3.
+constexpr double VerticesPerArea = 0.65;     ///< interface vertices per delta^2 of interface
+constexpr double ElementsPerInterfaceVertex = 4.7;
+constexpr double ElementsPerBall = 5.0;      ///< elements per size^3 of volume
+constexpr double VerticesPerElement = 0.3;   ///< of the whole triangulation
+constexpr double BytesPerElement = 400.0;    ///< triangulation, output and its copy
+
+/** Faces of voxels between different labels, by axis; the crop is closed by background. */
+template <int D>
+std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
+  const LabelImage<D>& image, unsigned threads)
+{
+  const auto& n = image.CropDimensions();
+  const std::span<const LabelId> ids = image.Ids();
+  const std::size_t row = static_cast<std::size_t>(n[0]);
+  const std::size_t rows = ids.size() / row;
+  std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(D)> faces{};
+  ParallelFor(0, rows, 256, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<std::uint64_t, static_cast<std::size_t>(D)> count{};
+      for (std::size_t r = first; r < last; ++r)
+      {
+        const LabelId* voxels = ids.data() + r * row;
+        count[0] += (voxels[0] != 0) + (voxels[row - 1] != 0);
+        for (std::size_t i = 1; i < row; ++i)
+        {
+          count[0] += voxels[i] != voxels[i - 1];
+        }
+        std::size_t stride = row;
+        std::size_t rest = r;
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          const std::size_t extent = static_cast<std::size_t>(n[a]);
+          const std::size_t position = rest % extent;
+          rest /= extent;
+          const LabelId* before = voxels - stride;
+          for (std::size_t i = 0; i < row; ++i)
+          {
+            count[a] += voxels[i] != (position == 0 ? LabelId(0) : before[i]);
+          }
+          if (position + 1 == extent)
+          {
+            count[a] += static_cast<std::uint64_t>(
+              row - static_cast<std::size_t>(std::count(voxels, voxels + row, LabelId(0))));
+          }
+          stride *= extent;
+        }
+      }
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        faces[a] += count[a];
+      }
+    });
+  std::array<std::uint64_t, static_cast<std::size_t>(D)> result;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    result[a] = faces[a];
+  }
+  return result;
+}
+
+/** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
+template <int D>
+double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor)
+{
+  const auto& n = image.CropDimensions();
+  const std::span<const LabelId> ids = image.Ids();
+  const std::size_t step = std::max<std::size_t>(1, ids.size() / 50000);
+  double sum = 0.0;
+  for (std::size_t k = step / 2; k < ids.size(); k += step)
+  {
+    if (ids[k] == 0)
+    {
+      continue;
+    }
+    Point<D> index;
+    std::size_t rest = k;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const std::size_t extent = static_cast<std::size_t>(n[a]);
+      index[a] = static_cast<double>(rest % extent) + static_cast<double>(image.CropOrigin()[a]);
+      rest /= extent;
+    }
+    const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[ids[k]]);
+    if (s > 0.0 && std::isfinite(s))
+    {
+      sum += std::pow(std::max(s, floor), -D);
+    }
+  }
+  return sum * static_cast<double>(step) * image.Grid().VoxelVolume();
+}
+
+std::string InUnits(double bytes)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f GiB", bytes / (1024.0 * 1024.0 * 1024.0));
+  return text;
+}
+
+std::uint64_t Saturate(double x)
+{
+  return x < 1.8e19 ? static_cast<std::uint64_t>(x) : ~std::uint64_t(0);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, double sizeFloor,
+  const SizeFunction<D>* size, unsigned threads)
+{
+  const auto faces = CountInterfaceFaces(image, threads);
+  double area = 0.0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    area += static_cast<double>(faces[a]) * image.Grid().VoxelVolume() /
+      image.Grid().Spacing(static_cast<int>(a));
+  }
+  area *= 2.0 / 3.0; // what the stairs add to a surface of no preferred direction
+  const double interfaceVertices = VerticesPerArea * area / std::pow(delta, D - 1);
+  double elements = ElementsPerInterfaceVertex * interfaceVertices;
+  if (size)
+  {
+    // Where sizes are small the interface is sampled by them, and its elements are among these.
+    elements += ElementsPerBall * BallsInObject(image, *size, sizeFloor);
+  }
+  MeshSizeEstimate estimate;
+  estimate.InterfaceVertices = Saturate(interfaceVertices);
+  estimate.Elements = Saturate(elements);
+  estimate.Vertices = Saturate(elements * VerticesPerElement) + 64;
+  estimate.Bytes = Saturate(elements * BytesPerElement);
+  return estimate;
+}
+
+//------------------------------------------------------------------------------------------------
+void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
+{
+  double available = static_cast<double>(limit);
+  if (limit == 0)
+  {
+    available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+      static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
+  const double bytes = static_cast<double>(estimate.Bytes);
+  constexpr std::uint64_t MostElements = 1u << 31; // twice as many ids, and free ones besides
+  if (bytes > available || estimate.Elements > MostElements)
+  {
+    char elements[32];
+    std::snprintf(elements, sizeof(elements), "%.3g", static_cast<double>(estimate.Elements));
+    throw TooLargeError("the mesh is estimated to have " + std::string(elements) +
+      " elements and to need " + InUnits(bytes) + " of memory, of which there are " +
+      InUnits(available) + "; choose a larger delta or element size, or force it");
+  }
+}
+
+template MeshSizeEstimate EstimateMeshSize<3>(
+  const LabelImage<3>&, double, double, const SizeFunction<3>*, unsigned);
+template MeshSizeEstimate EstimateMeshSize<4>(
+  const LabelImage<4>&, double, double, const SizeFunction<4>*, unsigned);
+
+} // namespace voxplex

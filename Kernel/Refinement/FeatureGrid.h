@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FeatureGrid.h
+ * @brief Answers 'is there a feature vertex near this point?'.
+ */
+#ifndef voxplex_FeatureGrid_h
+#define voxplex_FeatureGrid_h
+
+#include "Delaunay/ChunkedArray.h"
+#include "Geometry/Point.h"
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+
+namespace voxplex
+{
+
+/**
+ * @brief Feature vertices hashed by the cell of a uniform grid; they are added and never removed.
+ *
+ * Cells have twice the side of the largest query radius, so a query visits at most 2^D of them. Every
+ * cell is a list whose head sits in a table of fixed size.
+ */
+template <int D>
+class FeatureGrid
+{
+public:
+  /**
+   * @param radius largest radius that will be asked for
+   * @param expected about how many vertices will be added; more make queries slower, not wrong
+   */
+  FeatureGrid(const Point<D>& origin, double radius, std::uint64_t expected)
+    : Origin(origin)
+    , InverseCell(0.5 / radius)
+  {
+    const std::uint64_t buckets =
+      std::bit_ceil(std::min<std::uint64_t>(std::max<std::uint64_t>(expected, 1024), 1u << 24));
+    this->Mask = static_cast<std::uint32_t>(buckets - 1);
+    this->Heads.reset(new std::uint32_t[buckets]);
+    std::fill_n(this->Heads.get(), buckets, End);
+  }
+
+  void Add(const Point<D>& p)
+  {
+    const std::uint32_t n = this->Count++;
+    this->Nodes.Grow(n + 1);
+    std::uint32_t& head = this->Heads[this->Bucket(this->CellOf(p))];
+    this->Nodes[n] = Node{ p, head };
+    head = n;
+  }
+
+  /** True if a vertex is nearer to p than `distance` (at most the radius of the constructor). */
+  bool AnyWithin(const Point<D>& p, double distance) const
+  {
+    const double distance2 = distance * distance;
+    const Cell centre = this->CellOf(p);
+    if (this->AnyInCell(centre, p, distance2))
+    {
+      return true;
+    }
+    // Along each axis the ball reaches into at most one of the two next cells.
+    std::array<std::int64_t, static_cast<std::size_t>(D)> step;
+    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+    {
+      const double low = std::floor((p[a] - distance - this->Origin[a]) * this->InverseCell);
+      const double high = std::floor((p[a] + distance - this->Origin[a]) * this->InverseCell);
+      step[a] = low < static_cast<double>(centre[a]) ? -1
+        : high > static_cast<double>(centre[a])      ? 1
+                                                     : 0;
+    }
+    for (std::uint32_t set = 1; set < (1u << D); ++set)
+    {
+      Cell cell = centre;
+      bool reached = true;
+      for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+      {
+        if ((set >> a) & 1u)
+        {
+          reached &= step[a] != 0;
+          cell[a] += step[a];
+        }
+      }
+      if (reached && this->AnyInCell(cell, p, distance2))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::uint32_t Size() const { return this->Count; }
+
+private:
+  static constexpr std::uint32_t End = 0xffffffffu;
+  using Cell = std::array<std::int64_t, static_cast<std::size_t>(D)>;
+  struct Node
+  {
+    Point<D> Position;
+    std::uint32_t Next;
+  };
+
+  Cell CellOf(const Point<D>& p) const
+  {
+    Cell cell;
+    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+    {
+      cell[a] = static_cast<std::int64_t>(std::floor((p[a] - this->Origin[a]) * this->InverseCell));
+    }
+    return cell;
+  }
+
+  // Neighbouring cells of a row share cache lines.
+  std::uint32_t Bucket(const Cell& cell) const
+  {
+    std::uint64_t h = static_cast<std::uint64_t>(cell[0]);
+    std::uint64_t k = 0x9e3779b97f4a7c15ull;
+    for (unsigned a = 1; a < static_cast<unsigned>(D); ++a)
+    {
+      h += (static_cast<std::uint64_t>(cell[a]) * k) >> 20;
+      k *= 0xc2b2ae3d27d4eb4full;
+    }
+    return static_cast<std::uint32_t>(h) & this->Mask;
+  }
+
+  bool AnyInCell(const Cell& cell, const Point<D>& p, double distance2) const
+  {
+    for (std::uint32_t n = this->Heads[this->Bucket(cell)]; n != End; n = this->Nodes[n].Next)
+    {
+      if (Distance2(this->Nodes[n].Position, p) < distance2)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  Point<D> Origin;
+  double InverseCell;
+  std::uint32_t Mask = 0;
+  std::unique_ptr<std::uint32_t[]> Heads;
+  ChunkedArray<Node> Nodes;
+  std::uint32_t Count = 0;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Rules3D.h
+ * @brief The rules R1 to R6 of the thesis' section 3.1, with the projection onto the box of 2.2.
+ *
+ * With c(t) and r(t) the centre and radius of the circumball of a tetrahedron t, dOmega the union of
+ * the interfaces, cfp(p) the feature point (point of an interface) closest to p, and Delta(z) the
+ * sampling density at a feature point z (RefinementContext::Delta):
+ *
+ * | rule | applies to | if | then |
+ * | --- | --- | --- | --- |
+ * | R1 | t whose circumball meets dOmega | z = cfp(c(t)) has no feature vertex nearer than Delta(z) | insert z |
+ * | R2 | t whose circumball meets dOmega | r(t) >= 2 Delta(z) | insert c(t), or its projection if outside the box |
+ * | R3 | facet f whose dual edge meets dOmega at z | an angle of f is below the bound, or a vertex of f is not a feature vertex | insert z |
+ * | R4 | t with c(t) inside the object | r(t) / shortest edge >= rho-bar | insert c(t) |
+ * | R5 | t with c(t) inside the object | r(t) >= sf(c(t)) | insert c(t) |
+ * | R6 | a new feature vertex z (R1, R3) | free vertices of its star nearer than 2 Delta(z) | remove them |
+ *
+ * **Termination**, whatever the input. Feature vertices are never removed, and none is inserted nearer
+ * than SpacingFloor to another or to the box: in the box there is room for finitely many, so R1 and R3
+ * fire finitely often. R6 follows only these. Between two of them only R2, R4 and R5 insert, each a
+ * point at least min(2 Delta, rho-bar * shortest edge, size floor) from every vertex (the circumball
+ * is empty; projected points are tested), so again finitely often.
+ */
+#ifndef voxplex_Rules3D_h
+#define voxplex_Rules3D_h
+
+#include "Refinement/RefinementContext.h"
+
+namespace voxplex
+{
+
+/**
+ * @brief Screens new tetrahedra and refines poor ones. Holds no state of its own but references;
+ * one instance per thread.
+ */
+class Rules3D
+{
+public:
+  static constexpr int Dimension = 3;
+
+  Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker);
+
+  /** Pushes the new simplices of the last operation that may be poor, by cheap bounds alone. */
+  void ScreenCreated();
+
+  /**
+   * Applies the first rule that t violates and that can be applied.
+   * @return true if the triangulation changed; t may have survived the change and is then to be
+   * judged again
+   */
+  bool Refine(SimplexId t);
+
+private:
+  /** What the rules know of the tetrahedron under evaluation. */
+  struct Element
+  {
+    SimplexId Id;
+    Circumball<3> Ball;
+    double Radius;
+    LabelId Label; ///< of c(t)
+  };
+
+  bool MayBePoor(SimplexId t);
+  LabelId LabelOf(SimplexId t);
+  LabelId LabelOf(SimplexId t, const Point<3>& centre);
+  double ShortestEdge(SimplexId t) const;
+
+  bool R1(const Element& t, const Point<3>& z, double delta);
+  bool R2(const Element& t, double delta);
+  bool R3(const Element& t);
+  bool R4(const Element& t);
+  bool R5(const Element& t);
+  void R6(VertexId z, double delta);
+  double DeltaBehind(const Element& t, const Point<3>& z) const;
+
+  bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
+  bool FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
+  bool InsertCircumcentre(const Element& t, std::uint64_t& fired);
+  bool InsertFeature(const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed,
+    std::uint64_t& fired);
+  bool CountOutcome(InsertionOutcome outcome, std::uint64_t& fired);
+
+  RefinementContext<3>& Context;
+  RefinementWorker<3>& Worker;
+  const double CosineOfFacetAngle;
+  std::vector<VertexId> ToRemove; ///< scratch of R6
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,41 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Real segmentations. Each is used where it is found and skipped, with a message, where not."""
+import os
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import meshfiles
+from program import ProgramTestCase, main
+
+AAL = Path("/usr/share/mricron/templates/aal.nii.gz")  # Debian: mricron-data
+KNEE = Path(__file__).resolve().parents[3] / "shared" / "data" / "spl-knee-atlas.nrrd"
+
+
+class Atlases(ProgramTestCase):
+    @unittest.skipUnless(AAL.exists(), "package mricron-data is not installed")
+    def test_every_region_of_the_brain(self):
+        report = self.statistics("--input", AAL, "--delta", 2.5, "--output", "aal.vtu", "--plc", "aal.vtp")
+        mesh = meshfiles.read_tetrahedra(self.folder / "aal.vtu")
+        self.assertEqual(sorted(set(mesh.labels)), list(range(1, 117)))
+        self.assertEqual(len(report["labels"]), 116)
+        self.assertGreater(mesh.volumes().min(), 0.0)
+        self.assertEqual(len(np.unique(mesh.cells)), len(mesh.points), "points that no element uses")
+        surface = meshfiles.read_triangles(self.folder / "aal.vtp")
+        np.testing.assert_array_equal(surface.points, mesh.points[surface.point_ids])
+
+    @unittest.skipUnless(KNEE.exists(), "the knee atlas is not beside the checkout")
+    @unittest.skipIf("asan" in os.environ.get("VOXPLEX_PROGRAM", ""), "too slow under a sanitizer")
+    def test_every_tissue_of_the_knee(self):
+        report = self.statistics("--input", KNEE, "--delta", 2, "--output", "knee.vtu")
+        mesh = meshfiles.read_tetrahedra(self.folder / "knee.vtu")
+        self.assertEqual(len(set(mesh.labels)), 49)
+        self.assertGreater(mesh.volumes().min(), 0.0)
+        self.assertLess(report["quality"]["max_radius_edge"], 2.0)
+
+
+if __name__ == "__main__":
+    main()

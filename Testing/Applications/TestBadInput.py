@@ -1,0 +1,251 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrong calls and bad input: a clear message, the right status, nothing written."""
+import os
+import resource
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import images
+from program import ProgramTestCase, main
+
+
+class CommandLine(ProgramTestCase):
+    def refuse(self, pattern, *arguments):
+        self.assert_refused(2, pattern, *arguments)
+
+    def test_no_arguments(self):
+        self.refuse("--input is missing")
+
+    def test_unknown_flag(self):
+        self.refuse("unknown option '--inptu'; did you mean --input", "--inptu", "a.nrrd")
+        self.refuse("unknown option '--quality'", "--input", "a.nrrd", "--quality", "1")
+
+    def test_abbreviations_are_not_guessed(self):
+        self.refuse("unknown option '--thread'; did you mean --threads", "--input", "a.nrrd", "--thread", "2")
+
+    def test_argument_without_flag(self):
+        self.refuse("'a.nrrd' is not understood", "a.nrrd")
+        self.refuse("'b.nrrd' is not understood", "--input", "a.nrrd", "b.nrrd")
+
+    def test_missing_values(self):
+        self.refuse("--input.* needs a value", "--input")
+        self.refuse("--delta.* needs a value", "--input", "a.nrrd", "--delta")
+
+    def test_repeated_flag(self):
+        self.refuse("--delta.* more than once", "--input", "a.nrrd", "--delta", "1", "--delta", "2")
+
+    def test_delta(self):
+        for value in ("0", "-1", "-0.5", "0.0"):
+            self.refuse("--delta: must be greater than 0, not " + value, "--input", "a.nrrd", "--delta", value)
+        for value in ("nan", "inf", "-inf"):
+            self.refuse("--delta: must be a finite number", "--input", "a.nrrd", "--delta", value)
+        for value in ("1,5", "1mm", "", "one", "1 2"):
+            self.refuse("--delta: '.*' is not a number", "--input", "a.nrrd", "--delta", value)
+
+    def test_other_numbers(self):
+        for arguments, pattern in (
+            (("--size", "-2"), "--size: must be greater than 0"),
+            (("--radius-edge", "0.5"), "--radius-edge: no tetrahedron"),
+            (("--radius-edge", "1.5"), "--radius-edge: .*--force"),
+            (("--facet-angle", "31"), "--facet-angle: must lie between 0 and 30"),
+            (("--facet-angle", "-1"), "--facet-angle: must lie between 0 and 30"),
+            (("--smoothing", "-1"), "--smoothing: must lie between"),
+            (("--threads", "-2"), "--threads: must be a whole number"),
+            (("--threads", "1.5"), "--threads: must be a whole number"),
+            (("--memory-limit", "much"), "--memory-limit: 'much' is not an amount"),
+        ):
+            with self.subTest(arguments):
+                self.refuse(pattern, "--input", "a.nrrd", *arguments)
+
+    def test_labels(self):
+        for arguments, pattern in (
+            (("--labels", "1,,2"), "--labels: '' is not a label"),
+            (("--labels", "1,two"), "--labels: 'two' is not a label"),
+            (("--labels", "0"), "--labels: '0' is not a label"),
+            (("--label-size", "3"), "--label-size: '3' is not of the form"),
+            (("--label-size", "3=0"), "--label-size: must be greater than 0"),
+            (("--label-size", "x=1"), "--label-size: 'x' is not a label"),
+            (("--label-size", "3=1", "--label-size", "3=2"), "--label-size: label 3 is given twice"),
+            (("--labels", "1", "--label-size", "3=1"), "label 3 is not among those of --labels"),
+            (("--space", "xyz"), "--space: must be lps or ras"),
+        ):
+            with self.subTest(arguments):
+                self.refuse(pattern, "--input", "a.nrrd", *arguments)
+
+    def test_extensions(self):
+        """Refused before the input is even looked at."""
+        self.refuse("--output: the format '.foo' is not known", "--input", "a.nrrd", "--output", "m.foo")
+        self.refuse("--output: 'mesh' has no extension", "--input", "a.nrrd", "--output", "mesh")
+        self.refuse("--output: .*goes with --plc", "--input", "a.nrrd", "--output", "m.stl")
+        self.refuse("--plc: .*goes with --output", "--input", "a.nrrd", "--plc", "m.msh")
+        self.refuse("--stats: .*use .json", "--input", "a.nrrd", "--stats", "m.txt")
+
+
+class Outputs(ProgramTestCase):
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
+
+    def refuse(self, pattern, *arguments, **options):
+        return self.assert_refused(1, pattern, "--input", self.input, "--delta", 3, *arguments, **options)
+
+    def test_missing_folder(self):
+        self.refuse("cannot write 'nowhere/m.vtu': there is no folder 'nowhere'", "--output", "nowhere/m.vtu")
+
+    def test_file_in_place_of_the_folder(self):
+        self.refuse("there is no folder", "--output", "ball.nrrd/m.vtu")
+
+    def test_folder_that_takes_no_files(self):
+        self.refuse("cannot write '/proc/m.vtu'", "--output", "/proc/m.vtu")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_read_only_folder(self):
+        (self.folder / "locked").mkdir(mode=0o500)
+        self.refuse("cannot write 'locked/m.vtu'.*permission", "--output", "locked/m.vtu")
+
+    def test_output_is_a_folder(self):
+        (self.folder / "m.vtu").mkdir()
+        self.refuse("it is a folder", "--output", "m.vtu")
+
+    def test_one_name_twice(self):
+        self.refuse("two outputs have this name", "--output", "m.vtk", "--plc", "./m.vtk")
+
+    def test_output_is_the_input(self):
+        os.link(self.input, self.folder / "ball.vtk")
+        self.refuse("it is the input", "--output", "ball.vtk")
+
+    def test_full_disk(self):
+        """A limit on the size of files stands in for it. What was there before stays."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        for name in ("m.vtu", "m.vtk", "m.mesh", "m.msh", "m.inp"):
+            with self.subTest(name):
+                (self.folder / name).write_text("old")
+                self.assert_refused(1, "cannot write '%s': " % name, "--input", self.input, "--delta", 1.5,
+                                    "--output", name, preexec_fn=limit)
+        for name in ("i.vtp", "i.stl", "i.ply", "i.vtk"):
+            with self.subTest(name):
+                self.assert_refused(1, "cannot write '%s': " % name, "--input", self.input, "--delta", 1.2,
+                                    "--plc", name, preexec_fn=limit)
+
+
+class Files(ProgramTestCase):
+    def refuse(self, pattern, path, *arguments):
+        done = self.assert_refused(1, pattern, "--input", path, "--output", "mesh.vtu", *arguments)
+        self.assertIn(os.path.basename(str(path)), done.stderr)
+        return done
+
+    def test_missing(self):
+        self.refuse("cannot read 'none.nrrd': there is no such file", "none.nrrd")
+
+    def test_empty(self):
+        (self.folder / "empty.nrrd").touch()
+        self.refuse("the file is empty", "empty.nrrd")
+
+    def test_no_image(self):
+        rng = np.random.default_rng(5)
+        for name, magic in (("text.txt", b"hello"), ("text.nrrd", b"hello"), ("noise.nii", b""), ("noise.nii.gz", b""),
+                            ("noise.png", b"\x89PNG\r\n\x1a\n"), ("noise.h5", b"\x89HDF\r\n\x1a\n"),
+                            ("noise.tif", b"II*\0"), ("noise.dcm", b"\0" * 128 + b"DICM")):
+            with self.subTest(name):
+                (self.folder / name).write_bytes(magic + rng.bytes(1000))
+                self.assert_refused(1, "ITK reads|damaged", "--input", name, "--output", "mesh.vtu")
+
+    def test_truncated(self):
+        array = np.random.default_rng(3).integers(0, 3, (20, 20, 20)).astype(np.uint16)
+        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
+                            (images.write_nifti, "i.nii"), (images.write_nifti, "i.nii.gz")):
+            whole = Path(write(self.folder / name, array)).read_bytes()
+            for part in (0.02, 0.5, 0.9, 0.995):
+                with self.subTest(name=name, part=part):
+                    (self.folder / name).write_bytes(whole[:int(len(whole) * part)])
+                    self.refuse("truncated|damaged", name)
+
+    def test_spacing(self):
+        array = images.ball(12, 4.0)
+        plain = {"space": None, "space directions": None, "space origin": None}
+        for bad in ("0 1 1", "1 -1 1", "1 1 nan", "inf 1 1"):
+            with self.subTest(bad):
+                self.refuse("spacing", images.write_nrrd(
+                    self.folder / "i.nrrd", array, header_lines={**plain, "spacings": bad}))
+                self.refuse("spacing", images.write_metaimage(
+                    self.folder / "i.mha", array, header_lines={"ElementSpacing": bad}))
+                self.refuse("spacing", images.write_nifti(
+                    self.folder / "i.nii", array, pixdim=[float(word) for word in bad.split()]))
+        self.refuse("spacing", images.write_nrrd(
+            self.folder / "i.nrrd", array, header_lines={"space directions": "(nan,0,0) (0,1,0) (0,0,1)"}))
+
+    def test_singular_direction(self):
+        self.refuse("axes are not independent", images.write_nrrd(
+            self.folder / "i.nrrd", images.ball(12, 4.0),
+            header_lines={"space directions": "(1,0,0) (1,0,0) (0,0,1)"}))
+
+    def test_components(self):
+        ball = images.ball(12, 4.0)
+        self.refuse("3 components", images.write_nrrd(
+            self.folder / "i.nrrd", np.stack([ball] * 3, axis=-1), components=True))
+
+    def test_four_dimensions(self):
+        ball = images.ball(12, 4.0)
+        self.refuse("4 dimensions.*12 x 12 x 12 x 2", images.write_nifti(self.folder / "i.nii", np.stack([ball] * 2)))
+
+    def test_series_of_a_file(self):
+        self.refuse("--series needs a folder", images.write_nrrd(self.folder / "i.nrrd", images.ball()),
+                    "--series", "1.2")
+
+    def test_bad_size_image(self):
+        path = images.write_nrrd(self.folder / "i.nrrd", images.ball())
+        self.assert_refused(1, "cannot read 'none.nrrd'", "--input", path, "--size-image", "none.nrrd")
+
+
+class Labels(ProgramTestCase):
+    def refuse(self, pattern, array, *arguments):
+        path = images.write_nrrd(self.folder / "i.nrrd", array)
+        self.assert_refused(1, "cannot mesh '.*i.nrrd': .*" + pattern, "--input", path, "--output", "mesh.vtu",
+                            *arguments)
+
+    def test_no_foreground(self):
+        self.refuse("no foreground", np.zeros((8, 8, 8), dtype=np.uint8))
+
+    def test_single_slice(self):
+        self.refuse("1 voxel.* along axis 2", images.ball(12, 4.0)[5:6])
+
+    def test_one_voxel(self):
+        self.refuse("1 voxel", np.ones((1, 1, 1), dtype=np.uint8))
+
+    def test_fractional(self):
+        self.refuse("1.5.*whole", images.ball(12, 4.0).astype(np.float32) * 1.5)
+
+    def test_not_finite(self):
+        array = images.ball(12, 4.0).astype(np.float32)
+        array[5, 5, 5] = np.nan
+        self.refuse("nan", array)
+
+    def test_negative(self):
+        self.refuse("-1.*negative", images.ball(12, 4.0).astype(np.int16) * -1)
+
+    def test_thousands_of_labels(self):
+        self.refuse("grey-value", np.arange(20**3, dtype=np.uint16).reshape(20, 20, 20))
+
+    def test_unknown_labels(self):
+        self.refuse("--label-size.* label 5", images.ball(12, 4.0), "--label-size", "5=1")
+        self.refuse("label 5.* --labels", images.ball(12, 4.0), "--labels", "1,5")
+
+    def test_too_fine(self):
+        self.refuse("elements.* memory.* larger delta.* --force", images.ball(24, 9.0), "--delta", "1e-5")
+
+    def test_memory_limit(self):
+        array = images.ball(40, 16.0)
+        self.refuse("elements.* memory.* --force", array, "--delta", "0.2", "--memory-limit", "5M")
+        # --force goes on all the same; coarse enough to end soon.
+        path = images.write_nrrd(self.folder / "i.nrrd", array)
+        self.mesh("--input", path, "--delta", "2", "--memory-limit", "100K", "--force", "--output", "mesh.vtu")
+
+
+if __name__ == "__main__":
+    main()

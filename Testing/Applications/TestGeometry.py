@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The mesh lies where the image lies: formats of images, axes, spaces."""
+import numpy as np
+
+import images
+import meshfiles
+from program import ProgramTestCase, main
+
+
+def rotation(degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+class Geometry(ProgramTestCase):
+    def mesh_of(self, path, *arguments, name="mesh.vtu"):
+        self.mesh("--input", path, "--delta", 1, "--smoothing", 0, "--threads", 1, "--output", name, *arguments)
+        mesh = meshfiles.read_tetrahedra(self.folder / name)
+        self.assertGreater(mesh.volumes().min(), 0.0, "inverted elements")
+        return mesh
+
+    def check_ball(self, mesh, array, geometry):
+        """Volume and centroid of a label's mesh against its voxels."""
+        index = np.argwhere(array)[:, ::-1]
+        expected = len(index) * geometry.voxel_volume()
+        volumes = mesh.volumes()
+        self.assertAlmostEqual(volumes.sum() / expected, 1.0, delta=0.05)
+        centroid = (volumes[:, None] * mesh.points[mesh.cells].mean(axis=1)).sum(axis=0) / volumes.sum()
+        np.testing.assert_allclose(centroid, geometry.physical(index).mean(axis=0), atol=0.1)
+
+    def test_same_image_in_every_format(self):
+        """NRRD, MetaImage (both LPS), NIfTI (RAS) and DICOM give one mesh."""
+        array = images.ball(20, 6.5, center=(8, 9, 10), dtype=np.uint16)
+        geometry = images.Geometry((-30, 12.5, 4), (1.0, 1.25, 1.5), rotation(30))
+        (self.folder / "series").mkdir()
+        images.write_dicom_series(self.folder / "series", array, geometry)
+        paths = [
+            images.write_nrrd(self.folder / "ball.nrrd", array, geometry),
+            images.write_metaimage(self.folder / "ball.mha", array, geometry),
+            images.write_nifti(self.folder / "ball.nii", array, geometry),
+            images.write_nifti(self.folder / "ball.nii.gz", array, geometry),
+            self.folder / "series",
+        ]
+        meshes = [self.mesh_of(path) for path in paths]
+        self.check_ball(meshes[0], array, geometry)
+        for path, mesh in zip(paths[1:], meshes[1:]):
+            with self.subTest(path):
+                # Headers hold single precision or few digits, so meshes may differ in details.
+                self.check_ball(mesh, array, geometry)
+                self.assertAlmostEqual(mesh.volumes().sum() / meshes[0].volumes().sum(), 1.0, delta=0.01)
+        np.testing.assert_array_equal(meshes[2].points, meshes[3].points)
+
+    def test_scalar_types(self):
+        expected = None
+        for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
+            with self.subTest(code):
+                path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(16, 5.0, dtype=np.dtype(code)))
+                mesh = self.mesh_of(path)
+                expected = mesh if expected is None else expected
+                np.testing.assert_array_equal(mesh.points, expected.points)
+                np.testing.assert_array_equal(mesh.cells, expected.cells)
+
+    def test_left_handed_axes(self):
+        array = images.ball(18, 6.0, center=(7, 8, 9))
+        geometry = images.Geometry((100, 0, 0), (1.0, 1.0, 1.2), np.diag([-1.0, 1.0, 1.0]))
+        self.check_ball(self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array, geometry)), array, geometry)
+
+    def test_skewed_axes(self):
+        array = images.ball(18, 6.0, center=(7, 8, 9))
+        skew = np.array([[1.0, 0.3, 0.0], [0.0, 1.0, 0.2], [0.0, 0.0, 1.0]])
+        skew /= np.linalg.norm(skew, axis=0)
+        geometry = images.Geometry((1, 2, 3), (1.0, 1.1, 1.2), skew)
+        self.check_ball(self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array, geometry)), array, geometry)
+
+    def test_space_ras(self):
+        array = images.ball(18, 6.0, center=(7, 8, 9))
+        geometry = images.Geometry((10, 20, 30), (1.0, 1.1, 1.2), rotation(20))
+        path = images.write_nrrd(self.folder / "i.nrrd", array, geometry)
+        lps = self.mesh_of(path, "--plc", "lps.vtp")
+        ras = self.mesh_of(path, "--space", "RAS", "--plc", "ras.vtp")
+        self.assertEqual((lps.space, ras.space), ("LPS", "RAS"))
+        np.testing.assert_array_equal(ras.cells, lps.cells)
+        np.testing.assert_allclose(ras.points, lps.points * [-1, -1, 1], atol=1e-9)
+        surfaces = [meshfiles.read_triangles(self.folder / name) for name in ("lps.vtp", "ras.vtp")]
+        self.assertEqual([surface.space for surface in surfaces], ["LPS", "RAS"])
+        self.assertAlmostEqual(surfaces[0].enclosed_volume(), surfaces[1].enclosed_volume(), delta=1e-6)
+
+    def test_fourth_dimension_of_one_frame(self):
+        array = images.ball(16, 5.0)
+        path = images.write_nrrd(self.folder / "i.nrrd", array[None])
+        self.check_ball(self.mesh_of(path), array, images.Geometry())
+
+    def test_object_cut_by_the_border(self):
+        array = np.ones((8, 9, 10), dtype=np.uint8)
+        mesh = self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array))
+        self.check_ball(mesh, array, images.Geometry())
+
+
+class Series(ProgramTestCase):
+    def setUp(self):
+        super().setUp()
+        self.series = self.folder / "series"
+        self.series.mkdir()
+        self.first = "1.2.826.0.1.3680043.2.1125.1.1"
+        self.second = "1.2.826.0.1.3680043.2.1125.1.2"
+        images.write_dicom_series(self.series, images.ball(12, 4.0, dtype=np.uint16), series=self.first)
+
+    def test_choice_of_series(self):
+        images.write_dicom_series(self.series, images.ball(14, 5.0, label=9, dtype=np.uint16), series=self.second,
+                                  number=2)
+        done = self.call("--input", "series", "--output", "mesh.vtu")
+        self.assertEqual(done.returncode, 1)
+        for uid in (self.first, self.second):
+            self.assertIn("--series " + uid, done.stderr)
+        self.assertFalse((self.folder / "mesh.vtu").exists())
+        self.mesh("--input", "series", "--series", self.second, "--delta", 2, "--output", "mesh.vtu")
+        self.assertEqual(set(meshfiles.read_tetrahedra(self.folder / "mesh.vtu").labels), {9})
+
+    def test_unknown_series(self):
+        done = self.call("--input", "series", "--series", "1.9")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "no DICOM series '1.9'")
+
+    def test_missing_slice(self):
+        sorted(self.series.iterdir())[6].unlink()
+        self.assert_refused(1, "slices are missing", "--input", "series", "--output", "mesh.vtu")
+
+    def test_folder_without_dicom(self):
+        (self.folder / "empty").mkdir()
+        self.assert_refused(1, "'empty'.*no DICOM", "--input", "empty", "--output", "mesh.vtu")
+
+
+if __name__ == "__main__":
+    main()

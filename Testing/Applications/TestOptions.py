@@ -1,0 +1,232 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the flags do: labels, sizes, statistics, help, progress."""
+import json
+import os
+import pty
+import subprocess
+
+import numpy as np
+
+import images
+import meshfiles
+from program import PROGRAM, ProgramTestCase, main
+
+
+class Options(ProgramTestCase):
+    def setUp(self):
+        super().setUp()
+        self.array = images.two_labels()
+        self.input = images.write_nrrd(self.folder / "two.nrrd", self.array)
+
+    def elements_of_labels(self, *arguments):
+        report = self.statistics("--input", self.input, "--threads", 1, *arguments)
+        return {int(label): figures["elements"] for label, figures in report["labels"].items()}
+
+    def test_subset_of_labels(self):
+        self.mesh("--input", self.input, "--labels", "7", "--smoothing", 0, "--delta", 1, "--output", "mesh.vtu", "--plc", "i.vtp")
+        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
+        self.assertEqual(set(mesh.labels), {7})
+        self.assertAlmostEqual(mesh.volumes().sum() / (self.array == 7).sum(), 1.0, delta=0.05)
+        surface = meshfiles.read_triangles(self.folder / "i.vtp")
+        self.assertEqual({tuple(pair) for pair in surface.labels}, {(7, 0)})
+
+    def test_delta_controls_density(self):
+        coarse = sum(self.elements_of_labels("--delta", 4).values())
+        fine = sum(self.elements_of_labels("--delta", 2).values())
+        self.assertGreater(fine, 2 * coarse)
+
+    def test_size(self):
+        free = sum(self.elements_of_labels("--delta", 4).values())
+        bound = sum(self.elements_of_labels("--delta", 4, "--size", 1.5).values())
+        self.assertGreater(bound, 2 * free)
+
+    def test_size_of_a_label(self):
+        free = self.elements_of_labels("--delta", 4)
+        bound = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2")
+        self.assertGreater(bound[3], 2 * free[3])
+        # Label 7 only grows towards the common interface.
+        self.assertGreater(bound[3], 2 * bound[7])
+        both = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2", "--label-size", "7=1.2")
+        self.assertGreater(both[7], 1.5 * bound[7])
+
+    def test_size_image(self):
+        sizes = np.zeros(self.array.shape, dtype=np.float32)
+        sizes[:, :, 12:] = 1.2
+        images.write_nrrd(self.folder / "sizes.nrrd", sizes)
+        self.mesh("--input", self.input, "--delta", 4, "--size-image", "sizes.nrrd", "--output", "mesh.vtu")
+        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
+        right = (mesh.points[mesh.cells].mean(axis=1)[:, 0] > 12).sum()
+        self.assertGreater(right, 2 * (len(mesh.cells) - right))
+
+    def test_size_image_in_ras(self):
+        """The image of sizes turns with the labels."""
+        sizes = np.zeros(self.array.shape, dtype=np.float32)
+        sizes[:, :, 12:] = 1.2
+        images.write_nrrd(self.folder / "sizes.nrrd", sizes)
+        self.mesh("--input", self.input, "--delta", 4, "--size-image", "sizes.nrrd", "--space", "ras",
+                  "--output", "mesh.vtu")
+        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
+        right = (mesh.points[mesh.cells].mean(axis=1)[:, 0] < -12).sum()
+        self.assertGreater(right, 2 * (len(mesh.cells) - right))
+
+    def test_smoothing(self):
+        areas = []
+        for sigma in (0, 1):
+            self.mesh("--input", self.input, "--delta", 1.5, "--smoothing", sigma, "--plc", "i.vtp")
+            areas.append(meshfiles.read_triangles(self.folder / "i.vtp").areas().sum())
+        # Stairs have more area than what they stand for.
+        self.assertGreater(areas[0], areas[1])
+
+    def test_one_thread_is_reproducible(self):
+        for name in ("a.mesh", "b.mesh"):
+            self.mesh("--input", self.input, "--delta", 2, "--threads", 1, "--output", name)
+        self.assertEqual((self.folder / "a.mesh").read_bytes(), (self.folder / "b.mesh").read_bytes())
+
+    def test_radius_edge_below_the_proved_bound(self):
+        self.assert_refused(2, "radius-edge.*--force", "--input", self.input, "--radius-edge", 1.9)
+        report = self.statistics("--input", self.input, "--delta", 3, "--radius-edge", 1.9, "--force")
+        self.assertTrue(report["parameters"]["force"])
+
+    def test_relative_and_absolute_names(self):
+        (self.folder / "sub").mkdir()
+        self.mesh("--input", "two.nrrd", "--delta", 3, "--output", "sub/mesh.vtu",
+                  "--plc", self.folder / "sub" / "surface.vtp")
+        self.assertEqual(sorted(os.listdir(self.folder / "sub")), ["mesh.vtu", "surface.vtp"])
+
+    def test_equals_sign(self):
+        self.mesh("--input=" + self.input, "--delta=3", "--output=mesh.vtu")
+
+
+class Statistics(ProgramTestCase):
+    def test_schema(self):
+        path = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
+        report = self.statistics("--input", path, "--delta", 2, "--threads", 1, "--output", "mesh.vtu",
+                                 "--plc", "interfaces.vtp", "--label-size", "3=2.5")
+        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
+        surface = meshfiles.read_triangles(self.folder / "interfaces.vtp")
+        self.assertEqual(report["elements"], len(mesh.cells))
+        self.assertEqual(report["vertices"], len(mesh.points))
+        self.assertEqual(report["interface_facets"], len(surface.cells))
+        self.assertEqual(report["delta"], 2)
+        self.assertEqual(report["space"], "LPS")
+
+        self.assertEqual(set(report["labels"]), {"3", "7"})
+        for label, volume in mesh.volume_of_label().items():
+            figures = report["labels"][str(label)]
+            self.assertEqual(figures["elements"], int((mesh.labels == label).sum()))
+            self.assertAlmostEqual(figures["volume"], volume, delta=1e-6 * volume)
+
+        self.check_quality(report["quality"], mesh, surface)
+        time = report["time"]
+        stages = ("label_field", "distance_transform", "refinement", "extraction")
+        for name in ("read", "write", "total_without_io") + stages:
+            self.assertIsInstance(time[name], float)
+            self.assertGreaterEqual(time[name], 0.0)
+        self.assertAlmostEqual(time["total_without_io"], sum(time[name] for name in stages), delta=1e-6)
+        self.assertGreater(time["refinement"], 0.0)
+        self.assertAlmostEqual(report["elements_per_second"] * time["total_without_io"], report["elements"],
+                               delta=1e-6 * report["elements"])
+        self.assertGreater(report["peak_memory_bytes"], 10 << 20)
+        self.assertLess(report["peak_memory_bytes"], 4 << 30)
+
+        for rule in ("R1", "R2", "R3", "R4", "R5", "R6"):
+            self.assertIsInstance(report["rules"][rule], int)
+        self.assertGreater(report["rules"]["R1"], 0)
+        self.assertGreater(report["predicates"]["calls"], 0)
+        self.assertIsInstance(report["predicates"]["exact"], int)
+        self.assertEqual(report["parameters"]["input"], path)
+        self.assertEqual(report["parameters"]["label_size"], {"3": 2.5})
+        self.assertIsNone(report["parameters"]["size"])
+        version = self.call("--version").stdout.split()
+        self.assertEqual(version, ["voxplex", report["version"]])
+
+    def check_quality(self, quality, mesh, surface):
+        """Against figures worked out here from the files."""
+        p = mesh.points[mesh.cells]
+        edges = np.stack([p[:, i] - p[:, j] for i in range(4) for j in range(i)], axis=1)
+        shortest = np.linalg.norm(edges, axis=2).min(axis=1)
+        a = p[:, 1:] - p[:, :1]
+        center = np.linalg.solve(2 * a, (a**2).sum(axis=2)[..., None])[..., 0]
+        ratio = (np.linalg.norm(center, axis=1) / shortest).max()
+        self.assertAlmostEqual(quality["max_radius_edge"], ratio, places=6)
+        self.assertLess(quality["max_radius_edge"], 2.0)
+        self.assertEqual(quality["radius_edge_violations"], 0)
+
+        normals = np.stack([np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a])
+                            for a, b, c in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))], axis=1)
+        normals /= np.linalg.norm(normals, axis=2)[..., None]
+        cosines = np.stack([-(normals[:, i] * normals[:, j]).sum(axis=1) for i in range(4) for j in range(i)])
+        dihedral = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+        self.assertAlmostEqual(quality["min_dihedral"], dihedral.min(), places=4)
+        self.assertAlmostEqual(quality["max_dihedral"], dihedral.max(), places=4)
+
+        t = surface.points[surface.cells]
+        angles = []
+        for i in range(3):
+            u, v = t[:, (i + 1) % 3] - t[:, i], t[:, (i + 2) % 3] - t[:, i]
+            cosine = (u * v).sum(axis=1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
+            angles.append(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
+        self.assertAlmostEqual(quality["min_planar"], np.min(angles), places=4)
+        self.assertEqual(quality["facet_angle_violations"], int((np.min(angles, axis=0) < 30).sum()))
+
+
+class Talk(ProgramTestCase):
+    """What the program says, and where."""
+
+    def test_help(self):
+        done = self.call("--help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for flag in ("--threads", "--input", "--delta", "--output", "--plc", "--size ", "--label-size", "--size-image",
+                     "--labels", "--smoothing", "--radius-edge", "--facet-angle", "--force", "--memory-limit",
+                     "--stats", "--progress", "--space", "--series", "--version", "--help"):
+            self.assertIn(flag, done.stdout)
+        self.assertIn("Examples:", done.stdout)
+        for line in done.stdout.split("\n"):
+            self.assertLessEqual(len(line), 100, line)
+        # --help wins over whatever else is there.
+        self.assertEqual(self.call("--nonsense", "--help").stdout, done.stdout)
+
+    def test_version(self):
+        done = self.call("--version")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"^voxplex \d+\.\d+\.\d+\n$")
+
+    def test_summary(self):
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
+        done = self.mesh("--input", path, "--delta", 3, "--stats", "s.json")
+        report = json.loads((self.folder / "s.json").read_text())
+        self.assertIn("{:,} tetrahedra in 1 label,".format(report["elements"]), done.stdout)
+
+    def test_progress_is_silent_in_a_pipe(self):
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
+        self.mesh("--input", path, "--delta", 3, "--progress")
+
+    def test_progress_on_a_terminal(self):
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(40, 16.0))
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([PROGRAM, "--input", path, "--delta", "1.2", "--progress"], stdout=subprocess.PIPE,
+                              stderr=theirs, text=True) as process:
+            os.close(theirs)
+            shown = b""
+            while True:
+                try:
+                    chunk = os.read(ours, 4096)
+                except OSError:  # the other end was closed
+                    break
+                if not chunk:
+                    break
+                shown += chunk
+            self.assertRegex(process.stdout.read(), "tetrahedra")
+        os.close(ours)
+        self.assertEqual(process.returncode, 0)
+        text = shown.decode()
+        self.assertRegex(text, r"\[=* *\] +\d+ %")
+        percents = [int(part.split("]")[1].split("%")[0]) for part in text.split("\r")[1:] if "%" in part]
+        self.assertEqual(percents, sorted(percents))
+        self.assertTrue(text.endswith("\r\033[K"), "the bar is wiped at the end")
+
+
+if __name__ == "__main__":
+    main()

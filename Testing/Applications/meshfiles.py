@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads every format that the program writes. VTK's by VTK's readers, the others by hand."""
+from dataclasses import dataclass, field
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkUnstructuredGridReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+
+@dataclass
+class Tetrahedra:
+    points: np.ndarray
+    cells: np.ndarray
+    labels: np.ndarray
+    space: str = ""
+    triangles: np.ndarray = None
+    references: np.ndarray = None  # of the triangles
+    names: dict = field(default_factory=dict)
+    node_sets: dict = field(default_factory=dict)
+
+    def volumes(self):
+        a, b, c, d = (self.points[self.cells[:, i]] for i in range(4))
+        return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
+
+    def volume_of_label(self):
+        volumes = self.volumes()
+        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
+
+
+@dataclass
+class Triangles:
+    points: np.ndarray
+    cells: np.ndarray
+    labels: np.ndarray = None  # two columns
+    point_ids: np.ndarray = None
+    space: str = ""
+
+    def areas(self):
+        a, b, c = (self.points[self.cells[:, i]] for i in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+
+    def enclosed_volume(self):
+        a, b, c = (self.points[self.cells[:, i]] for i in range(3))
+        return float(np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6.0)
+
+
+def _space(data):
+    array = data.GetFieldData().GetAbstractArray("SPACE")
+    return array.GetValue(0) if array else ""
+
+
+def _points(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def _read(reader, path):
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def read_tetrahedra(path):
+    path = str(path)
+    if path.endswith(".vtu"):
+        return _from_grid(_read(vtkXMLUnstructuredGridReader(), path))
+    if path.endswith(".vtk"):
+        return _from_grid(_read(vtkUnstructuredGridReader(), path))
+    if path.endswith(".mesh"):
+        return _read_medit(path)
+    if path.endswith(".msh"):
+        return _read_gmsh(path)
+    if path.endswith(".inp"):
+        return _read_abaqus(path)
+    raise ValueError(path)
+
+
+def _from_grid(grid):
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    if not (types == 10).all():
+        raise AssertionError("cells that are not tetrahedra")
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+    return Tetrahedra(_points(grid), cells, labels, _space(grid))
+
+
+def _read_medit(path):
+    with open(path) as file:
+        lines = file.read().split("\n")
+    space = next(line.split("SPACE=")[1] for line in lines if "SPACE=" in line)
+    names = {}
+    for line in lines:
+        if line.startswith("#   "):
+            number, pair = line[1:].split(":")
+            names[int(number)] = tuple(int(label) for label in pair.split())
+    words = " ".join(line for line in lines if not line.startswith("#")).split()
+    if words[:4] != ["MeshVersionFormatted", "2", "Dimension", "3"] or words[-1] != "End":
+        raise AssertionError("head or end of the file")
+    sections = {}
+    at = 4
+    for name, width in (("Vertices", 4), ("Triangles", 4), ("Tetrahedra", 5)):
+        if words[at] != name:
+            raise AssertionError("section %s" % name)
+        count = int(words[at + 1])
+        at += 2
+        sections[name] = np.array(words[at:at + count * width], dtype=float).reshape(count, width)
+        at += count * width
+    if at != len(words) - 1:
+        raise AssertionError("something between the last section and End")
+    tetrahedra = sections["Tetrahedra"].astype(int)
+    triangles = sections["Triangles"].astype(int)
+    return Tetrahedra(sections["Vertices"][:, :3], tetrahedra[:, :4] - 1, tetrahedra[:, 4], space,
+                      triangles[:, :3] - 1, triangles[:, 3], names)
+
+
+def _read_gmsh(path):
+    """Element i of the file's numbering becomes row i - 1; the order of blocks does not matter."""
+    with open(path) as file:
+        text = file.read()
+    sections = {}
+    lines = text.split("\n")
+    at = 0
+    while at < len(lines):
+        if lines[at].startswith("$"):
+            name = lines[at][1:]
+            end = lines.index("$End" + name, at)
+            sections[name] = lines[at + 1:end]
+            at = end
+        at += 1
+    if sections["MeshFormat"] != ["4.1 0 8"]:
+        raise AssertionError(sections["MeshFormat"])
+    names = {}
+    for line in sections["PhysicalNames"][1:]:
+        dimension, tag, name = line.split()
+        names[(int(dimension), int(tag))] = name.strip('"')
+    physical = _gmsh_entities(sections["Entities"])
+
+    nodes = sections["Nodes"]
+    blocks, count, low, high = (int(word) for word in nodes[0].split())
+    points = np.full((count, 3), np.nan)
+    at = 1
+    for _ in range(blocks):
+        size = int(nodes[at].split()[3])
+        tags = np.array(nodes[at + 1:at + 1 + size], dtype=int)
+        coordinates = np.array([line.split() for line in nodes[at + 1 + size:at + 1 + 2 * size]], dtype=float)
+        points[tags - 1] = coordinates
+        at += 1 + 2 * size
+    if at != len(nodes) or (low, high) != (1, count) or np.isnan(points).any():
+        raise AssertionError("nodes")
+
+    elements = sections["Elements"]
+    blocks, count, low, high = (int(word) for word in elements[0].split())
+    found = {2: {}, 3: {}}
+    at = 1
+    for _ in range(blocks):
+        dimension, entity, kind, size = (int(word) for word in elements[at].split())
+        if kind != {2: 2, 3: 4}[dimension]:
+            raise AssertionError("element type %d" % kind)
+        for line in elements[at + 1:at + 1 + size]:
+            tag, *vertices = (int(word) for word in line.split())
+            found[dimension][tag] = (vertices, physical[(dimension, entity)])
+        at += 1 + size
+    tags = sorted(found[3]) + sorted(found[2])
+    if at != len(elements) or tags != list(range(1, count + 1)) or (low, high) != (1, count):
+        raise AssertionError("elements")
+    columns = {}
+    for dimension in (2, 3):
+        rows = [found[dimension][tag] for tag in sorted(found[dimension])]
+        columns[dimension] = (np.array([row[0] for row in rows]) - 1, np.array([row[1] for row in rows]))
+    space = text.split("SPACE=")[1].split("\n")[0]
+    return Tetrahedra(points, *columns[3], space, *columns[2], names)
+
+
+def _gmsh_entities(lines):
+    """The physical group of each (dimension, entity); checks that bounding surfaces exist."""
+    points, curves, surfaces, volumes = (int(word) for word in lines[0].split())
+    if points or curves:
+        raise AssertionError("unexpected entities")
+    physical = {}
+    for n, line in enumerate(lines[1:]):
+        words = line.split()
+        dimension = 2 if n < surfaces else 3
+        tag, groups, group = int(words[0]), int(words[7]), int(words[8])
+        if groups != 1:
+            raise AssertionError("one physical group a entity")
+        physical[(dimension, tag)] = group
+        for boundary in words[10:]:
+            if (dimension - 1, abs(int(boundary))) not in physical:
+                raise AssertionError("boundary %s of entity %d" % (boundary, tag))
+        if len(words) != 10 + int(words[9]):
+            raise AssertionError("entity %d" % tag)
+    if len(lines) != 1 + surfaces + volumes:
+        raise AssertionError("number of entities")
+    return physical
+
+
+def _read_abaqus(path):
+    nodes, elements, labels, sets = {}, {}, {}, {}
+    keyword, space = "", ""
+    with open(path) as file:
+        for line in file:
+            line = line.strip()
+            if line.startswith("*"):
+                keyword = line
+                continue
+            words = [word.strip() for word in line.split(",")]
+            if keyword == "*HEADING":
+                space = line.split("SPACE=")[1]
+            elif keyword == "*NODE":
+                nodes[int(words[0])] = [float(word) for word in words[1:]]
+            elif keyword.startswith("*ELEMENT, TYPE=C3D4, ELSET=LABEL_"):
+                elements[int(words[0])] = [int(word) for word in words[1:]]
+                labels[int(words[0])] = int(keyword.rsplit("_", 1)[1])
+            elif keyword.startswith("*NSET, NSET="):
+                if len(words) > 16:
+                    raise AssertionError("more than 16 numbers on a line")
+                sets.setdefault(keyword[12:], []).extend(int(word) for word in words)
+            else:
+                raise AssertionError(keyword)
+    if sorted(nodes) != list(range(1, len(nodes) + 1)) or sorted(elements) != list(range(1, len(elements) + 1)):
+        raise AssertionError("numbering")
+    order = sorted(elements)
+    return Tetrahedra(np.array([nodes[n] for n in sorted(nodes)]), np.array([elements[e] for e in order]) - 1,
+                      np.array([labels[e] for e in order]), space, node_sets=sets)
+
+
+def read_triangles(path):
+    path = str(path)
+    if path.endswith(".vtp"):
+        return _from_polydata(_read(vtkXMLPolyDataReader(), path))
+    if path.endswith(".vtk"):
+        return _from_polydata(_read(vtkPolyDataReader(), path))
+    if path.endswith(".ply"):
+        return _read_ply(path)
+    if path.endswith(".stl"):
+        with open(path, "rb") as file:
+            header = file.read(80)
+        return _from_polydata(_read(vtkSTLReader(), path), header.split(b"SPACE=")[1][:3].decode())
+    raise ValueError(path)
+
+
+def _read_ply(path):
+    """VTK's reader knows the triangles, not the labels."""
+    with open(path, "rb") as file:
+        head, body = file.read().split(b"end_header\n", 1)
+    head = head.decode()
+    surface = _from_polydata(_read(vtkPLYReader(), path), head.split("SPACE=")[1][:3])
+    faces = np.frombuffer(body[12 * len(surface.points):],
+                          dtype=[("size", "u1"), ("vertices", "<i4", 3), ("labels", "<i4", 2)])
+    np.testing.assert_array_equal(faces["vertices"], surface.cells)
+    surface.labels = faces["labels"]
+    return surface
+
+
+def _from_polydata(data, space=None):
+    cells = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    labels = data.GetCellData().GetArray("Labels")
+    point_ids = data.GetPointData().GetArray("PointIds")
+    return Triangles(_points(data), cells, vtk_to_numpy(labels) if labels else None,
+                     vtk_to_numpy(point_ids) if point_ids else None, space or _space(data))

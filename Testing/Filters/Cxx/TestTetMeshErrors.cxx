@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Misuse: a clear message through ErrorEvent, empty outputs, and the filter goes on working.
+#include "FilterTesting.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkMeshingStatistics.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <stdexcept>
+
+using namespace testing;
+
+namespace
+{
+
+/**
+ * The filter must fail with one message of its own that has all of these words in it. Then, with
+ * `repair` undoing the damage, it must work.
+ */
+void ExpectError(const char* name, vtkImageToTetMeshFilter* filter,
+  const std::vector<std::string>& words, const std::function<void()>& repair = nullptr)
+{
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  const int updated = filter->GetExecutive()->Update();
+  CHECK(updated == 0, name);
+  if (CHECK(errors->FromFilter.size() == 1, name, errors->FromFilter.size()))
+  {
+    const std::string& text = errors->FromFilter.front();
+    for (const std::string& word : words)
+    {
+      CHECK(text.find(word) != std::string::npos, name, word, text);
+    }
+    CHECK(text.find(filter->GetErrorMessage()) != std::string::npos, name);
+  }
+  CHECK(!filter->GetErrorMessage().empty(), name);
+  CHECK(!filter->GetAborted(), name);
+  CHECK(Empty(filter), name);
+  CHECK(filter->GetStatistics()->GetNumberOfElements() == 0, name);
+  filter->RemoveObserver(errors);
+  filter->GetExecutive()->RemoveObserver(errors);
+  if (repair)
+  {
+    repair();
+    filter->Update();
+    CHECK(filter->GetErrorMessage().empty(), name, filter->GetErrorMessage());
+    CHECK(filter->GetOutput()->GetNumberOfCells() > 0, name);
+  }
+}
+
+/** An image that is bad in itself. */
+void ExpectImageError(const char* name, vtkImageData* image, const std::vector<std::string>& words)
+{
+  const auto filter = MakeFilter(image);
+  const auto good = MakeBall(5.0);
+  ExpectError(name, filter, words, [&] { filter->SetInputData(good); });
+}
+
+vtkSmartPointer<vtkImageData> WithScalar(double bad)
+{
+  const auto image = MakeBall(8.0);
+  image->GetPointData()->GetScalars()->SetTuple1(16 + 32 * (16 + 32 * 16), bad);
+  return image;
+}
+
+void TestScalars()
+{
+  const auto none = MakeBall();
+  none->GetPointData()->Initialize();
+  ExpectImageError("no scalars", none, { "array", "SetInputArrayToProcess" });
+
+  vtkNew<vtkImageData> empty;
+  ExpectImageError("empty image", empty, {});
+
+  const auto text = MakeBall();
+  vtkNew<vtkStringArray> strings;
+  strings->SetName("Text");
+  strings->SetNumberOfValues(text->GetNumberOfPoints());
+  text->GetPointData()->AddArray(strings);
+  const auto named = MakeFilter(text);
+  named->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Text");
+  ExpectError("strings", named, { "Text", "numbers" });
+  named->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
+  ExpectError("missing array", named, { "SetInputArrayToProcess" });
+
+  const auto several = MakeBall();
+  vtkNew<vtkUnsignedCharArray> frames;
+  frames->SetName("Frames");
+  frames->SetNumberOfComponents(3);
+  frames->SetNumberOfTuples(several->GetNumberOfPoints());
+  frames->Fill(1);
+  several->GetPointData()->SetScalars(frames);
+  ExpectImageError(
+    "components", several, { "Frames", "3 components", "vtkImageToPentatopeMeshFilter" });
+
+  ExpectImageError("fraction", WithScalar(1.5), { "1.5", "whole", "(16, 16, 16)" });
+  ExpectImageError("negative", WithScalar(-3), { "-3", "negative" });
+  ExpectImageError("NaN", WithScalar(vtkMath::Nan()), { "finite" });
+  ExpectImageError("infinite", WithScalar(vtkMath::Inf()), { "finite" });
+
+  const auto grey = MakeBall();
+  for (vtkIdType i = 0; i < grey->GetNumberOfPoints(); ++i)
+  {
+    grey->GetPointData()->GetScalars()->SetTuple1(i, static_cast<double>(i % 5000));
+  }
+  ExpectImageError("grey values", grey, { "grey-value", "labels" });
+
+  ExpectImageError("no foreground", MakeBall(-1.0), { "foreground" });
+
+  Placement slice;
+  slice.Extent = { 0, 31, 0, 31, 7, 7 };
+  const auto one = [](const Vector&) { return 1.0; };
+  ExpectImageError("one slice", MakeImage(slice, one), { "1 voxel" });
+  slice.Extent = { 3, 3, 0, 0, 7, 7 };
+  ExpectImageError("one voxel", MakeImage(slice, one), { "1 voxel" });
+}
+
+void TestGeometry()
+{
+  for (const double bad : { 0.0, -1.0, vtkMath::Nan(), vtkMath::Inf() })
+  {
+    const auto image = MakeBall();
+    image->SetSpacing(1.0, bad, 1.0);
+    ExpectImageError("spacing", image, { "spacing", "positive" });
+  }
+  const auto far = MakeBall();
+  far->SetOrigin(0, vtkMath::Nan(), 0);
+  ExpectImageError("origin", far, { "origin", "finite" });
+
+  const auto flat = MakeBall();
+  const double coincide[9] = { 1, 1, 0, 0, 0, 0, 0, 0, 1 };
+  flat->SetDirectionMatrix(coincide);
+  ExpectImageError("coinciding axes", flat, { "direction", "singular" });
+  const double planar[9] = { 1, 0, 1, 0, 1, 1, 0, 0, 0 };
+  flat->SetDirectionMatrix(planar);
+  ExpectImageError("axes in a plane", flat, { "direction", "singular" });
+  const double zero[9] = {};
+  flat->SetDirectionMatrix(zero);
+  ExpectImageError("zero direction", flat, { "direction", "singular" });
+  const double nan[9] = { vtkMath::Nan(), 0, 0, 0, 1, 0, 0, 0, 1 };
+  flat->SetDirectionMatrix(nan);
+  ExpectImageError("NaN direction", flat, { "direction", "finite" });
+}
+
+void TestParameters()
+{
+  const auto filter = MakeFilter(MakeTwoLabels(6.0));
+  for (const double bad : { -1.0, vtkMath::Nan(), vtkMath::Inf() })
+  {
+    filter->SetDelta(bad);
+    ExpectError("delta", filter, { "Delta" }, [&] { filter->SetDelta(2.0); });
+    filter->SetSmoothingSigma(bad);
+    ExpectError("sigma", filter, { "SmoothingSigma" }, [&] { filter->SetSmoothingSigma(1.0); });
+    filter->SetElementSize(bad);
+    ExpectError("size", filter, { "ElementSize" }, [&] { filter->SetElementSize(0.0); });
+    filter->SetRadiusEdgeRatio(bad);
+    ExpectError("ratio", filter, { "RadiusEdgeRatio" }, [&] { filter->SetRadiusEdgeRatio(2.0); });
+    filter->SetFacetAngle(bad);
+    ExpectError("angle", filter, { "FacetAngle" }, [&] { filter->SetFacetAngle(30.0); });
+    filter->SetLabelSize(1, bad);
+    ExpectError("label size", filter, { "label 1" }, [&] { filter->ClearLabelSizes(); });
+  }
+  filter->SetLabelSize(2, 0.0);
+  ExpectError("label size 0", filter, { "label 2" }, [&] { filter->RemoveLabelSize(2); });
+  filter->SetFacetAngle(31.0);
+  ExpectError(
+    "angle above 30", filter, { "FacetAngle", "30" }, [&] { filter->SetFacetAngle(20.0); });
+
+  filter->SetRadiusEdgeRatio(1.8);
+  ExpectError("unproved ratio", filter, { "1.93", "Force" }, [&] { filter->ForceOn(); });
+  filter->SetRadiusEdgeRatio(0.5);
+  ExpectError("impossible ratio", filter, { "RadiusEdgeRatio" },
+    [&]
+    {
+      filter->SetRadiusEdgeRatio(2.0);
+      filter->ForceOff();
+    });
+
+  filter->SetLabelSize(9, 1.0);
+  ExpectError("unknown label", filter, { "label 9", "1, 2" }, [&] { filter->ClearLabelSizes(); });
+  filter->AddLabel(1);
+  filter->SetLabelSize(2, 1.0);
+  ExpectError("label not selected", filter, { "label 2", "1" }, [&] { filter->ClearLabelSizes(); });
+  filter->AddLabel(77);
+  ExpectError("unknown selection", filter, { "77", "1, 2" }, [&] { filter->RemoveLabel(77); });
+}
+
+void TestMemory()
+{
+  const auto filter = MakeFilter(MakeBall());
+  filter->SetDelta(1e-4);
+  ExpectError("tiny delta", filter, { "memory" }, [&] { filter->SetDelta(2.0); });
+  filter->SetMemoryLimit(1000);
+  filter->Modified();
+  ExpectError("tiny limit", filter, { "memory" }, [&] { filter->ForceOn(); });
+}
+
+void TestSizeImage()
+{
+  const auto filter = MakeFilter(MakeBall(6.0));
+  const auto sizes = MakeImage(
+    {}, [](const Vector&) { return 2.0; }, VTK_DOUBLE);
+  sizes->SetSpacing(1, 1, 0);
+  filter->SetElementSizeData(sizes);
+  ExpectError("size image spacing", filter, { "image of element sizes", "spacing" },
+    [&] { sizes->SetSpacing(1, 1, 1); });
+  vtkNew<vtkDoubleArray> pairs;
+  pairs->SetNumberOfComponents(2);
+  pairs->SetNumberOfTuples(sizes->GetNumberOfPoints());
+  pairs->Fill(1.0);
+  sizes->GetPointData()->SetScalars(pairs);
+  ExpectError("size image components", filter, { "image of element sizes", "2 components" },
+    [&] { filter->SetElementSizeData(nullptr); });
+  vtkNew<vtkImageData> bare;
+  bare->SetDimensions(2, 2, 2);
+  filter->SetElementSizeData(bare);
+  ExpectError("size image without scalars", filter, { "image of element sizes" },
+    [&] { filter->SetElementSizeData(nullptr); });
+}
+
+void TestThrowingFunction()
+{
+  for (const int threads : { 1, 2 })
+  {
+    const auto filter = MakeFilter(MakeBall());
+    filter->SetNumberOfThreads(threads);
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double
+      { throw std::runtime_error("the user's own words"); });
+    ExpectError(
+      "exception", filter, { "the user's own words" }, [&] { filter->SetSizeFunction(nullptr); });
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double { throw 42; });
+    ExpectError(
+      "odd exception", filter, { "size function" }, [&] { filter->SetSizeFunction(nullptr); });
+  }
+}
+
+/** No input at all is the executive's error, not the filter's. */
+void TestNoInput()
+{
+  vtkNew<vtkImageToTetMeshFilter> filter;
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  filter->Update();
+  CHECK(!errors->FromOthers.empty());
+  CHECK(Empty(filter));
+}
+
+} // namespace
+
+int TestTetMeshErrors(int, char*[])
+{
+  TestScalars();
+  TestGeometry();
+  TestParameters();
+  TestMemory();
+  TestSizeImage();
+  TestThrowingFunction();
+  TestNoInput();
+  return Result();
+}

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Every way to hand over labels gives the same mesh: scalar types, memory layouts, array choice.
+#include "FilterTesting.h"
+
+#include "vtkBitArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+using namespace testing;
+
+namespace
+{
+
+double Label(const Vector& x)
+{
+  return std::hypot(x[0] - 15.5, x[1] - 15.5, x[2] - 15.5) < 6.0 ? 1.0 : 0.0;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> MeshOf(vtkImageData* image)
+{
+  const auto filter = MakeFilter(image);
+  filter->Update();
+  CHECK(filter->GetErrorMessage().empty(), filter->GetErrorMessage());
+  return filter->GetOutput();
+}
+
+void TestTypes(vtkUnstructuredGrid* expected)
+{
+  for (const int type : { VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT,
+         VTK_UNSIGNED_SHORT, VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG,
+         VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE, VTK_FLOAT, VTK_DOUBLE })
+  {
+    const auto mesh = MeshOf(MakeImage({}, Label, type));
+    CHECK(SameMesh(mesh, expected), vtkImageScalarTypeNameMacro(type));
+  }
+}
+
+void TestLayouts(vtkUnstructuredGrid* expected)
+{
+  const auto image = MakeImage({}, Label);
+  vtkDataArray* plain = image->GetPointData()->GetScalars();
+  vtkNew<vtkSOADataArrayTemplate<short>> separate;
+  separate->SetNumberOfComponents(1);
+  separate->SetNumberOfTuples(plain->GetNumberOfTuples());
+  vtkNew<vtkBitArray> bits;
+  for (vtkIdType i = 0; i < plain->GetNumberOfTuples(); ++i)
+  {
+    separate->SetValue(i, static_cast<short>(plain->GetComponent(i, 0)));
+    bits->InsertNextValue(static_cast<int>(plain->GetComponent(i, 0)));
+  }
+  image->GetPointData()->SetScalars(separate);
+  CHECK(SameMesh(MeshOf(image), expected), "structure of arrays");
+  image->GetPointData()->SetScalars(bits);
+  CHECK(SameMesh(MeshOf(image), expected), "bits");
+}
+
+/** Point scalars go before cell scalars; a name and an association choose any array. */
+void TestChoice(vtkUnstructuredGrid* expected)
+{
+  const auto image = MakeImage({}, Label);
+  vtkNew<vtkUnsignedCharArray> cells;
+  cells->SetName("Cells");
+  cells->SetNumberOfTuples(image->GetNumberOfCells());
+  cells->Fill(0);
+  for (vtkIdType i = 12; i < 20; ++i)
+  {
+    for (vtkIdType j = 12; j < 20; ++j)
+    {
+      for (vtkIdType k = 12; k < 20; ++k)
+      {
+        cells->SetValue(i + 31 * (j + 31 * k), 5);
+      }
+    }
+  }
+  image->GetCellData()->SetScalars(cells);
+  vtkNew<vtkUnsignedCharArray> other;
+  other->SetName("Other");
+  other->SetNumberOfTuples(image->GetNumberOfPoints());
+  other->Fill(0);
+  image->GetPointData()->AddArray(other);
+
+  const auto filter = MakeFilter(image);
+  filter->Update();
+  CHECK(SameMesh(filter->GetOutput(), expected), "point scalars first");
+
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Cells");
+  filter->SetDelta(1.0); // a cube loses its edges
+  filter->Update();
+  CheckMesh(filter);
+  const Tetrahedra mesh = Read(filter->GetOutput());
+  CHECK(!mesh.Labels.empty() && mesh.Labels.front() == 5);
+  CHECK(std::abs(mesh.VolumeOf() / 512.0 - 1.0) < 0.2, mesh.VolumeOf());
+  for (const double c : mesh.Centroid())
+  {
+    CHECK(std::abs(c - 16.0) < 0.1, c);
+  }
+
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segmentation");
+  filter->SetDelta(0.0);
+  filter->Update();
+  CHECK(SameMesh(filter->GetOutput(), expected), "by name");
+
+  image->GetPointData()->Initialize();
+  const auto onlyCells = MakeFilter(image);
+  onlyCells->Update();
+  CHECK(Read(onlyCells->GetOutput()).Labels.front() == 5, "cell scalars where there is no other");
+}
+
+/** Scalars are read in place: the filter must not change them. */
+void TestUntouched()
+{
+  const auto image = MakeImage({}, Label);
+  const auto copy = vtkSmartPointer<vtkImageData>::New();
+  copy->DeepCopy(image);
+  MeshOf(image);
+  vtkDataArray* a = image->GetPointData()->GetScalars();
+  vtkDataArray* b = copy->GetPointData()->GetScalars();
+  bool same = true;
+  for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+  {
+    same = same && a->GetComponent(i, 0) == b->GetComponent(i, 0);
+  }
+  CHECK(same);
+}
+
+} // namespace
+
+int TestTetMeshInputs(int, char*[])
+{
+  const auto expected = MeshOf(MakeImage({}, Label));
+  CHECK(expected->GetNumberOfCells() > 0);
+  TestTypes(expected);
+  TestLayouts(expected);
+  TestChoice(expected);
+  TestUntouched();
+  return Result();
+}

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Several labels: a conforming mesh, every pair of neighbours has its interface, subsets.
+#include "FilterTesting.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkMeshingStatistics.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+using namespace testing;
+
+namespace
+{
+
+using Pairs = std::set<std::pair<long long, long long>>;
+
+Pairs InterfacePairs(vtkImageToTetMeshFilter* filter)
+{
+  vtkDataArray* labels = filter->GetInterfaces()->GetCellData()->GetArray("Labels");
+  Pairs pairs;
+  for (vtkIdType c = 0; labels && c < labels->GetNumberOfTuples(); ++c)
+  {
+    pairs.emplace(static_cast<long long>(labels->GetComponent(c, 0)),
+      static_cast<long long>(labels->GetComponent(c, 1)));
+  }
+  return pairs;
+}
+
+std::set<long long> LabelsOf(vtkImageToTetMeshFilter* filter)
+{
+  const Tetrahedra mesh = Read(filter->GetOutput());
+  return { mesh.Labels.begin(), mesh.Labels.end() };
+}
+
+void TestTouching()
+{
+  const auto filter = MakeFilter(MakeTwoLabels());
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(InterfacePairs(filter) == Pairs({ { 1, 0 }, { 2, 0 }, { 2, 1 } }));
+  const Tetrahedra mesh = Read(filter->GetOutput());
+  CHECK(
+    std::abs(mesh.VolumeOf(1) / mesh.VolumeOf(2) - 1.0) < 0.05, mesh.VolumeOf(1), mesh.VolumeOf(2));
+}
+
+void TestNested()
+{
+  const auto filter = MakeFilter(MakeImage({},
+    [](const Vector& x)
+    {
+      const double r = std::hypot(x[0] - 15.5, x[1] - 15.5, x[2] - 15.5);
+      return r < 5.0 ? 40.0 : r < 10.0 ? 3.0 : 0.0;
+    }));
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(InterfacePairs(filter) == Pairs({ { 3, 0 }, { 40, 3 } }));
+}
+
+/** No background at all: the object reaches every border of the image. */
+void TestFullImage()
+{
+  Placement small;
+  small.Extent = { 0, 9, 0, 9, 0, 9 };
+  const auto filter =
+    MakeFilter(MakeImage(small, [](const Vector& x) { return x[0] < 4.5 ? 1.0 : 2.0; }));
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(InterfacePairs(filter) == Pairs({ { 1, 0 }, { 2, 0 }, { 2, 1 } }));
+}
+
+void TestSubset()
+{
+  const auto filter = MakeFilter(MakeTwoLabels());
+  CHECK(filter->GetNumberOfSelectedLabels() == 0);
+  filter->AddLabel(2);
+  CHECK(filter->GetNumberOfSelectedLabels() == 1 && filter->GetSelectedLabel(0) == 2);
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(LabelsOf(filter) == std::set<long long>({ 2 }));
+  CHECK(InterfacePairs(filter) == Pairs({ { 2, 0 } }));
+
+  filter->AddLabel(1);
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1, 2 }));
+  filter->RemoveLabel(2);
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1 }));
+  filter->RemoveAllLabels();
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1, 2 }));
+}
+
+/** Labels that the mesh lacks are named: in the statistics, and in one warning. */
+void TestLostLabels()
+{
+  const auto filter = MakeFilter(MakeImage({},
+    [](const Vector& x)
+    {
+      const bool speck = x == Vector{ 2, 2, 2 };
+      return speck ? 9.0 : std::hypot(x[0] - 18, x[1] - 18, x[2] - 18) < 10.0 ? 4.0 : 0.0;
+    }));
+  filter->SetDelta(6.0);
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  filter->Update();
+  const std::set<long long> present = LabelsOf(filter);
+  const auto* statistics = filter->GetStatistics();
+  CHECK(present.count(4) == 1);
+  if (present.count(9) == 1) // the mesher is free to keep it
+  {
+    CHECK(statistics->GetNumberOfLostLabels() == 0);
+    CHECK(errors->FromFilter.empty());
+  }
+  else
+  {
+    CHECK(statistics->GetNumberOfLostLabels() == 1 && statistics->GetLostLabel(0) == 9);
+    CHECK(statistics->ToJSON().find("\"lost_labels\": [9]") != std::string::npos);
+    CHECK(errors->FromFilter.size() == 1 &&
+      errors->FromFilter.front().find("lacks") != std::string::npos);
+  }
+  CHECK(statistics->GetLostLabel(5) == 0);
+}
+
+} // namespace
+
+int TestTetMeshLabels(int, char*[])
+{
+  TestTouching();
+  TestNested();
+  TestFullImage();
+  TestSubset();
+  TestLostLabels();
+  return Result();
+}

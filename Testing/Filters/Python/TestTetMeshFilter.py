@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkImageToTetMeshFilter from Python, together with VTK's own classes."""
+
+import json
+import math
+import threading
+import unittest
+
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdList, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkImageData, vtkPlane
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_STRING
+
+import voxplex
+
+N = 24
+CENTRE = 0.5 * (N - 1)
+
+
+def make_image(label, spacing=(1, 1, 1)):
+    """A cube of N voxels; label(i, j, k) gives their values."""
+    scalars = vtkUnsignedCharArray()
+    scalars.SetName("Segmentation")
+    scalars.SetNumberOfValues(N ** 3)
+    voxel = 0
+    for k in range(N):
+        for j in range(N):
+            for i in range(N):
+                scalars.SetValue(voxel, label(i, j, k))
+                voxel += 1
+    image = vtkImageData()
+    image.SetDimensions(N, N, N)
+    image.SetSpacing(spacing)
+    image.GetPointData().SetScalars(scalars)
+    return image
+
+
+def two_labels(i, j, k):
+    """A ball of radius 8, label 3 on the left, 7 on the right."""
+    if math.dist((i, j, k), (CENTRE, CENTRE, CENTRE)) >= 8.0:
+        return 0
+    return 3 if i < CENTRE else 7
+
+
+def make_filter(image):
+    mesher = voxplex.vtkImageToTetMeshFilter()
+    mesher.SetInputData(image)
+    mesher.SetNumberOfThreads(1)
+    return mesher
+
+
+def tetrahedra(mesh):
+    """Corner coordinates of each cell."""
+    ids = vtkIdList()
+    for cell in range(mesh.GetNumberOfCells()):
+        mesh.GetCellPoints(cell, ids)
+        yield [mesh.GetPoint(ids.GetId(i)) for i in range(4)]
+
+
+def volume(t):
+    a, b, c = ([p - q for p, q in zip(corner, t[0])] for corner in t[1:])
+    return (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6.0
+
+
+class ErrorCollector:
+    """Keeps the text of the filter's error events."""
+
+    def __init__(self, mesher):
+        self.messages = []
+
+        @calldata_type(VTK_STRING)
+        def keep(_caller, _event, text):
+            self.messages.append(text)
+
+        @calldata_type(VTK_STRING)
+        def ignore(_caller, _event, _text):
+            pass
+
+        mesher.AddObserver("ErrorEvent", keep)
+        mesher.GetExecutive().AddObserver("ErrorEvent", ignore)
+
+
+class Outputs(unittest.TestCase):
+    def setUp(self):
+        self.mesher = make_filter(make_image(two_labels, (0.5, 1, 1)))
+        self.mesher.SetDelta(1.5)
+        self.mesher.ComputeQualityOn()
+        self.mesher.Update()
+        self.assertEqual(self.mesher.GetErrorMessage(), "")
+
+    def test_mesh(self):
+        mesh = self.mesher.GetOutput()
+        self.assertGreater(mesh.GetNumberOfCells(), 100)
+        self.assertEqual({mesh.GetCellType(c) for c in range(mesh.GetNumberOfCells())}, {VTK_TETRA})
+        labels = mesh.GetCellData().GetArray("Label")
+        self.assertEqual({labels.GetValue(c) for c in range(mesh.GetNumberOfCells())}, {3, 7})
+        volumes = [volume(t) for t in tetrahedra(mesh)]
+        self.assertGreater(min(volumes), 0.0)
+        truth = 0.5 * 4.0 / 3.0 * math.pi * 8 ** 3
+        self.assertLess(abs(sum(volumes) / truth - 1.0), 0.1)
+
+    def test_interfaces(self):
+        interfaces = self.mesher.GetInterfaces()
+        labels = interfaces.GetCellData().GetArray("Labels")
+        pairs = {labels.GetTuple2(c) for c in range(interfaces.GetNumberOfCells())}
+        self.assertEqual(pairs, {(3.0, 0.0), (7.0, 0.0), (7.0, 3.0)})
+
+    def test_statistics(self):
+        statistics = self.mesher.GetStatistics()
+        figures = json.loads(statistics.ToJSON())
+        self.assertEqual(figures["elements"], self.mesher.GetOutput().GetNumberOfCells())
+        self.assertEqual(figures["vertices"], self.mesher.GetOutput().GetNumberOfPoints())
+        self.assertEqual(
+            figures["interface_facets"], self.mesher.GetInterfaces().GetNumberOfCells())
+        self.assertEqual(figures["delta"], 1.5)
+        self.assertEqual(set(figures["labels"]), {"3", "7"})
+        self.assertEqual(
+            sum(entry["elements"] for entry in figures["labels"].values()), figures["elements"])
+        self.assertLess(figures["quality"]["max_radius_edge"], 2.0)
+        self.assertEqual(
+            figures["quality"]["max_radius_edge"], statistics.GetMaximumRadiusEdgeRatio())
+        self.assertGreater(figures["rules"]["R1"], 0)
+        self.assertEqual(figures["rules"]["R1"], statistics.GetRuleFired(1))
+        self.assertGreater(figures["time"]["refinement"], 0.0)
+        self.assertGreater(figures["predicates"]["calls"], 0)
+
+    def test_repr(self):
+        self.assertIn("SmoothingSigma: 1", str(self.mesher))
+        self.assertIn("tetrahedral", voxplex.vtkImageToTetMeshFilter.__doc__)
+
+
+class Sizes(unittest.TestCase):
+    def setUp(self):
+        self.mesher = make_filter(make_image(two_labels))
+        self.mesher.SetDelta(4.0)
+        self.mesher.Update()
+        self.without = self.mesher.GetOutput().GetNumberOfCells()
+
+    def expect_more(self):
+        self.mesher.Update()
+        self.assertEqual(self.mesher.GetErrorMessage(), "")
+        self.assertGreater(self.mesher.GetOutput().GetNumberOfCells(), 1.3 * self.without)
+
+    def test_number(self):
+        self.mesher.SetElementSize(1.5)
+        self.expect_more()
+
+    def test_label(self):
+        self.mesher.SetLabelSize(7, 1.2)
+        self.assertEqual(self.mesher.GetLabelSize(7), 1.2)
+        self.expect_more()
+
+    def test_image(self):
+        sizes = vtkDoubleArray()
+        sizes.SetNumberOfValues(N ** 3)
+        sizes.Fill(1.5)
+        image = vtkImageData()
+        image.SetDimensions(N, N, N)
+        image.GetPointData().SetScalars(sizes)
+        self.mesher.SetElementSizeData(image)
+        self.expect_more()
+        producer = vtkTrivialProducer()
+        producer.SetOutput(image)
+        producer.SetWholeExtent(image.GetExtent())
+        self.mesher.SetElementSizeConnection(producer.GetOutputPort())
+        self.expect_more()
+
+    def test_implicit_function(self):
+        plane = vtkPlane()
+        plane.SetNormal(0.1, 0, 0)
+        plane.SetOrigin(-10, 0, 0)
+        self.mesher.SetSizeImplicitFunction(plane)
+        self.expect_more()
+        first = self.mesher.GetOutput().GetNumberOfCells()
+        plane.SetOrigin(-5, 0, 0)
+        self.mesher.Update()
+        self.assertGreater(self.mesher.GetOutput().GetNumberOfCells(), first)
+
+
+class Behaviour(unittest.TestCase):
+    def test_errors(self):
+        mesher = make_filter(make_image(two_labels))
+        errors = ErrorCollector(mesher)
+        cases = [
+            (lambda: mesher.SetDelta(-1), lambda: mesher.SetDelta(0), "Delta"),
+            (lambda: mesher.SetDelta(math.nan), lambda: mesher.SetDelta(0), "Delta"),
+            (lambda: mesher.SetLabelSize(5, 1), mesher.ClearLabelSizes, "label 5"),
+            (lambda: mesher.AddLabel(9), mesher.RemoveAllLabels, "9"),
+            (lambda: mesher.SetRadiusEdgeRatio(1.5), lambda: mesher.SetRadiusEdgeRatio(2), "1.93"),
+        ]
+        for damage, repair, words in cases:
+            with self.subTest(words):
+                errors.messages.clear()
+                damage()
+                mesher.Update()
+                self.assertEqual(len(errors.messages), 1)
+                self.assertIn(words, errors.messages[0])
+                self.assertIn(words, mesher.GetErrorMessage())
+                self.assertEqual(mesher.GetOutput().GetNumberOfCells(), 0)
+                self.assertEqual(mesher.GetInterfaces().GetNumberOfCells(), 0)
+                repair()
+                mesher.Update()
+                self.assertGreater(mesher.GetOutput().GetNumberOfCells(), 0)
+
+    def test_wrong_types(self):
+        mesher = voxplex.vtkImageToTetMeshFilter()
+        with self.assertRaises(TypeError):
+            mesher.SetDelta("fine")
+        with self.assertRaises(AttributeError):
+            mesher.SetDetla(1.0)
+
+    def test_progress(self):
+        mesher = make_filter(make_image(two_labels))
+        mesher.SetDelta(0.8)
+        fractions = []
+        threads = set()
+
+        @calldata_type(VTK_DOUBLE)
+        def observe(_caller, _event, fraction):
+            fractions.append(fraction)
+            threads.add(threading.get_ident())
+
+        mesher.AddObserver("ProgressEvent", observe)
+        mesher.Update()
+        self.assertGreater(len(fractions), 2)
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual(fractions[-1], 1.0)
+        self.assertEqual(threads, {threading.get_ident()})
+
+    def test_abort(self):
+        mesher = make_filter(make_image(two_labels))
+        mesher.SetDelta(0.3)
+        errors = ErrorCollector(mesher)
+        mesher.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
+        mesher.Update()
+        self.assertTrue(mesher.GetAborted())
+        self.assertEqual(errors.messages, [])
+        self.assertEqual(mesher.GetOutput().GetNumberOfCells(), 0)
+
+    def test_reproducible(self):
+        meshes = []
+        for _ in range(2):
+            mesher = make_filter(make_image(two_labels))
+            mesher.Update()
+            meshes.append(list(tetrahedra(mesher.GetOutput())))
+        self.assertGreater(len(meshes[0]), 0)
+        self.assertEqual(meshes[0], meshes[1])
+
+    def test_version(self):
+        self.assertRegex(voxplex.__version__, r"^\d+\.\d+\.\d+$")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Label images of known shapes.
+#ifndef voxplex_Phantoms_h
+#define voxplex_Phantoms_h
+
+#include "Image/LabelImage.h"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace voxplex::phantoms
+{
+
+/** A label image whose voxels have the label that a function gives their centre. */
+inline LabelImage<3> Make(const GridGeometry<3>& grid,
+  const std::function<std::int16_t(const Point<3>&)>& label,
+  std::span<const std::int64_t> keep = {})
+{
+  const auto& n = grid.Dimensions;
+  std::vector<std::int16_t> scalars;
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < n[0]; ++i)
+      {
+        scalars.push_back(label(grid.ToFrame(
+          { static_cast<double>(i), static_cast<double>(j), static_cast<double>(k) })));
+      }
+    }
+  }
+  return LabelImage<3>::FromScalars<std::int16_t>(scalars, grid, keep);
+}
+
+inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)
+{
+  return GridGeometry<3>::Orthogonal({ n, n, n }, { spacing, spacing, spacing });
+}
+
+inline LabelImage<3> Ball(double radius, double spacing = 1.0)
+{
+  const std::int64_t n = static_cast<std::int64_t>(2 * radius / spacing) + 8;
+  const double c = 0.5 * spacing * static_cast<double>(n - 1);
+  return Make(Cube(n, spacing), [=](const Point<3>& p) -> std::int16_t
+    { return Distance(p, { c, c, c }) < radius ? 1 : 0; });
+}
+
+inline LabelImage<3> Torus(double major, double minor)
+{
+  const std::int64_t n = static_cast<std::int64_t>(2 * (major + minor)) + 8;
+  const double c = 0.5 * static_cast<double>(n - 1);
+  return Make(Cube(n),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      const double ring = std::hypot(p[0] - c, p[1] - c) - major;
+      return std::hypot(ring, p[2] - c) < minor ? 1 : 0;
+    });
+}
+
+/** Label 3 inside, 7 around it, 200 outermost. */
+inline LabelImage<3> NestedBalls(double radius)
+{
+  const std::int64_t n = static_cast<std::int64_t>(2 * radius) + 8;
+  const double c = 0.5 * static_cast<double>(n - 1);
+  return Make(Cube(n),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      const double r = Distance(p, { c, c, c });
+      return r < radius / 3 ? 3 : r < 2 * radius / 3 ? 7 : r < radius ? 200 : 0;
+    });
+}
+
+/** A box of two labels that touch in a plane; three regions meet along its rim. */
+inline LabelImage<3> TouchingLabels(std::int64_t side)
+{
+  const std::int64_t n = side + 8;
+  const double low = 3.5;
+  const double high = low + static_cast<double>(side);
+  return Make(Cube(n),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      for (const double x : p)
+      {
+        if (x < low || x > high)
+        {
+          return 0;
+        }
+      }
+      return p[0] < 0.5 * (low + high) ? 1 : 2;
+    });
+}
+
+/** A square sheet one voxel thick. */
+inline LabelImage<3> Sheet(std::int64_t side)
+{
+  const std::int64_t n = side + 8;
+  return Make(Cube(n),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      const auto within = [=](double x) { return x >= 4 && x < static_cast<double>(side + 4); };
+      return within(p[0]) && within(p[1]) && p[2] == std::floor(static_cast<double>(n) / 2) ? 1 : 0;
+    });
+}
+
+/** Half a ball: the image's border cuts it through the centre. */
+inline LabelImage<3> CutBall(std::int64_t radius)
+{
+  const std::int64_t n = 2 * radius + 8;
+  const double c = 0.5 * static_cast<double>(n - 1);
+  return Make(GridGeometry<3>::Orthogonal({ n, n, radius }, { 1.0, 1.0, 1.0 }),
+    [=](const Point<3>& p) -> std::int16_t
+    { return Distance(p, { c, c, 0.0 }) < static_cast<double>(radius) - 2.5 ? 1 : 0; });
+}
+
+} // namespace voxplex::phantoms
+
+#endif

@@ -1,0 +1,369 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Error.h"
+#include "Image/ImageDomain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace voxplex;
+
+namespace
+{
+
+/** Overlapping balls of labels 1 ... balls; the later wins. */
+template <int D>
+LabelImage<D> Balls(const GridGeometry<D>& grid, int balls, std::mt19937& random)
+{
+  std::size_t voxels = 1;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxels *= static_cast<std::size_t>(grid.Dimensions[a]);
+    smallest = std::min(smallest, static_cast<double>(grid.Dimensions[a]));
+  }
+  std::vector<short> scalars(voxels, 0);
+  for (int b = 1; b <= balls; ++b)
+  {
+    Point<D> centre;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      centre[a] = std::uniform_real_distribution<double>(0.2, 0.8)(random) *
+        static_cast<double>(grid.Dimensions[a]);
+    }
+    const double radius = std::uniform_real_distribution<double>(0.1, 0.35)(random) * smallest;
+    for (std::size_t i = 0; i < voxels; ++i)
+    {
+      std::size_t rest = i;
+      Point<D> p;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        p[a] = static_cast<double>(rest % static_cast<std::size_t>(grid.Dimensions[a]));
+        rest /= static_cast<std::size_t>(grid.Dimensions[a]);
+      }
+      if (Distance(p, centre) <= radius)
+      {
+        scalars[i] = static_cast<short>(b);
+      }
+    }
+  }
+  return LabelImage<D>::template FromScalars<short>(scalars, grid);
+}
+
+GridGeometry<3> SkewedGrid()
+{
+  GridGeometry<3> grid = GridGeometry<3>::Orthogonal({ 26, 24, 15 }, { 0.5, 0.7, 1.1 });
+  grid.IndexToFrame[0][1] = 0.2;
+  grid.IndexToFrame[0][2] = -0.3;
+  grid.IndexToFrame[1][2] = 0.4;
+  return grid;
+}
+
+template <int D>
+std::vector<GridGeometry<D>> Grids()
+{
+  if constexpr (D == 3)
+  {
+    return { GridGeometry<3>::Orthogonal({ 24, 25, 26 }, { 1.0, 1.0, 1.0 }),
+      GridGeometry<3>::Orthogonal({ 36, 33, 12 }, { 0.3, 0.3, 1.0 }), SkewedGrid() };
+  }
+  else
+  {
+    GridGeometry<4> skewed = GridGeometry<4>::Orthogonal({ 12, 11, 10, 9 }, { 1.0, 0.7, 1.2, 0.8 });
+    skewed.IndexToFrame[0][3] = 0.3;
+    return { GridGeometry<4>::Orthogonal({ 12, 11, 13, 9 }, { 0.5, 0.5, 0.5, 1.5 }), skewed };
+  }
+}
+
+template <int D>
+Point<D> RandomPoint(const Box<D>& box, double enlarge, std::mt19937& random)
+{
+  Point<D> p;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const double more = enlarge * (box.Max[a] - box.Min[a]);
+    p[a] = std::uniform_real_distribution<double>(box.Min[a] - more, box.Max[a] + more)(random);
+  }
+  return p;
+}
+
+/** Interface points: where Label() changes along random short segments, to 1e-6. */
+template <int D>
+std::vector<Point<D>> SampleInterfaces(
+  const ImageDomain<D>& domain, std::size_t count, std::mt19937& random)
+{
+  std::vector<Point<D>> samples;
+  const double step = domain.GetImage().Grid().IndexToFrame[0][0];
+  while (samples.size() < count)
+  {
+    Point<D> a = RandomPoint<D>(domain.Bounds(), 0.0, random);
+    Point<D> b = a;
+    for (double& x : b)
+    {
+      x += std::uniform_real_distribution<double>(-step, step)(random);
+    }
+    const LabelId label = domain.Label(a);
+    if (label == domain.Label(b))
+    {
+      continue;
+    }
+    while (Distance(a, b) > 1e-6)
+    {
+      const Point<D> middle = Interpolate(a, b, 0.5);
+      (domain.Label(middle) == label ? a : b) = middle;
+    }
+    samples.push_back(a);
+  }
+  return samples;
+}
+
+template <int D>
+double NearestSample(const std::vector<Point<D>>& samples, const Point<D>& p)
+{
+  double best = std::numeric_limits<double>::infinity();
+  for (const Point<D>& s : samples)
+  {
+    best = std::min(best, Distance2(p, s));
+  }
+  return std::sqrt(best);
+}
+
+/** Whether Label() is `label` at a point within r of z, and another at another. */
+template <int D>
+bool IsOnInterface(const ImageDomain<D>& domain, const Point<D>& z, LabelId label, double r)
+{
+  std::mt19937 random(1);
+  bool same = false;
+  bool other = false;
+  for (int i = 0; i < 400 && !(same && other); ++i)
+  {
+    Point<D> p = z;
+    for (double& x : p)
+    {
+      x += std::uniform_real_distribution<double>(-r, r)(random);
+    }
+    (domain.Label(p) == label ? same : other) = true;
+  }
+  return same && other;
+}
+
+template <int D>
+double SmallestSpacing(const GridGeometry<D>& grid)
+{
+  double s = grid.Spacing(0);
+  for (int a = 1; a < D; ++a)
+  {
+    s = std::min(s, grid.Spacing(a));
+  }
+  return s;
+}
+
+template <int D>
+double Diagonal(const GridGeometry<D>& grid)
+{
+  double s = 0.0;
+  for (int a = 0; a < D; ++a)
+  {
+    s += grid.Spacing(a) * grid.Spacing(a);
+  }
+  return std::sqrt(s);
+}
+
+template <int D>
+class ImageDomainIn : public testing::Test
+{
+};
+
+template <int D>
+void CheckDistanceBounds(const GridGeometry<D>& grid, std::mt19937& random)
+{
+  const LabelImage<D> image = Balls<D>(grid, 4, random);
+  const ImageDomain<D> domain(image, 1.0);
+  const std::vector<Point<D>> samples = SampleInterfaces<D>(domain, 6000, random);
+  const double diagonal = Diagonal(grid);
+  double looseness = 0.0;
+  constexpr int queries = 600;
+  for (int q = 0; q < queries; ++q)
+  {
+    const Point<D> p = RandomPoint<D>(domain.Bounds(), q % 3 == 0 ? 2.0 : 0.0, random);
+    const DistanceInterval bounds = domain.DistanceBounds(p);
+    const double sampled = NearestSample<D>(samples, p); // at least the true distance
+    ASSERT_LE(bounds.Lower, sampled + 1e-5);
+    // A sample of the true foot point's neighbourhood is missing at most.
+    ASSERT_GE(bounds.Upper, 0.0);
+    ASSERT_GE(bounds.Upper, bounds.Lower);
+    Point<D> z;
+    if (domain.ClosestSurfacePoint(p, domain.Label(p), z))
+    {
+      ASSERT_GE(Distance(p, z), bounds.Lower - 1e-9);
+    }
+    ASSERT_LE(sampled - (D == 3 ? 0.5 : 1.0) * diagonal, bounds.Upper);
+    looseness += (bounds.Upper - bounds.Lower) / queries;
+  }
+  EXPECT_LT(looseness, 9.0 * diagonal);
+}
+
+template <int D>
+void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
+{
+  const LabelImage<D> image = Balls<D>(grid, 4, random);
+  const ImageDomain<D> domain(image, 1.0);
+  const std::vector<Point<D>> samples = SampleInterfaces<D>(domain, 20000, random);
+  const double diagonal = Diagonal(grid);
+  double excess = 0.0;
+  constexpr int queries = 300;
+  for (int q = 0; q < queries; ++q)
+  {
+    const Point<D> p = RandomPoint<D>(domain.Bounds(), q % 3 == 0 ? 0.5 : 0.0, random);
+    const LabelId label = domain.Label(p);
+    Point<D> z;
+    ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
+    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)));
+    const double more = Distance(p, z) - NearestSample<D>(samples, p);
+    ASSERT_LT(more, 2.5 * diagonal); // a rare point; the mean below is what counts
+    excess += std::max(0.0, more) / queries;
+  }
+  EXPECT_LT(excess, 0.2 * diagonal);
+}
+
+template <int D>
+void CheckFirstCrossing(const GridGeometry<D>& grid, std::mt19937& random)
+{
+  const LabelImage<D> image = Balls<D>(grid, 4, random);
+  const ImageDomain<D> domain(image, 1.0);
+  int found = 0;
+  for (int q = 0; q < 300; ++q)
+  {
+    const double enlarge = q % 3 == 0 ? 3.0 : 0.0;
+    const Point<D> a = RandomPoint<D>(domain.Bounds(), enlarge, random);
+    const Point<D> b = RandomPoint<D>(domain.Bounds(), enlarge, random);
+    const LabelId label = domain.Label(a);
+    Point<D> z;
+    const bool crosses = domain.FirstCrossing(a, label, b, z);
+    // Dense sampling of the segment; what is thinner than half a voxel may be missed.
+    const double length = Distance(a, b);
+    const int steps = static_cast<int>(length / (0.02 * SmallestSpacing(grid))) + 1;
+    double first = std::numeric_limits<double>::infinity();
+    double run = 0.0;
+    for (int i = 0; i <= steps; ++i)
+    {
+      const double t = static_cast<double>(i) / steps;
+      if (domain.Label(Interpolate(a, b, t)) != label)
+      {
+        first = std::min(first, t * length);
+        run += length / steps;
+      }
+    }
+    if (!crosses)
+    {
+      ASSERT_LE(run, 0.5 * Diagonal(grid));
+      continue;
+    }
+    ++found;
+    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)));
+    ASSERT_NEAR(Distance(a, z) + Distance(z, b), length, 1e-6 * length + 1e-9);
+    ASSERT_GE(Distance(a, z), first - 0.05 * SmallestSpacing(grid));
+  }
+  EXPECT_GT(found, 20);
+}
+
+} // namespace
+
+TEST(ImageDomain, DistanceBoundsHold)
+{
+  std::mt19937 random(1);
+  for (const auto& grid : Grids<3>())
+  {
+    CheckDistanceBounds<3>(grid, random);
+  }
+  for (const auto& grid : Grids<4>())
+  {
+    CheckDistanceBounds<4>(grid, random);
+  }
+}
+
+TEST(ImageDomain, ClosestSurfacePointIsOnAnInterfaceAndNear)
+{
+  std::mt19937 random(2);
+  for (const auto& grid : Grids<3>())
+  {
+    CheckClosestSurfacePoint<3>(grid, random);
+  }
+  for (const auto& grid : Grids<4>())
+  {
+    CheckClosestSurfacePoint<4>(grid, random);
+  }
+}
+
+TEST(ImageDomain, FirstCrossingIsFirst)
+{
+  std::mt19937 random(3);
+  for (const auto& grid : Grids<3>())
+  {
+    CheckFirstCrossing<3>(grid, random);
+  }
+  for (const auto& grid : Grids<4>())
+  {
+    CheckFirstCrossing<4>(grid, random);
+  }
+}
+
+TEST(ImageDomain, SegmentsThatMissTheImage)
+{
+  std::mt19937 random(4);
+  const LabelImage<3> image = Balls<3>(Grids<3>()[0], 2, random);
+  const ImageDomain<3> domain(image, 1.0);
+  const Box<3> box = domain.Bounds();
+  Point<3> z;
+  EXPECT_FALSE(
+    domain.FirstCrossing({ box.Min[0] - 1.0, 0.0, 0.0 }, 0, { box.Min[0] - 1.0, 30.0, 30.0 }, z));
+  EXPECT_FALSE(domain.FirstCrossing(box.Min, 0, box.Min, z));
+  EXPECT_FALSE(domain.FirstCrossing(box.Max, 0, { 1e6, 1e6, 1e6 }, z));
+}
+
+TEST(ImageDomain, SitesAreTheVoxelsBesideAnotherLabel)
+{
+  std::mt19937 random(5);
+  const LabelImage<3> image = Balls<3>(Grids<3>()[1], 3, random);
+  const ImageDomain<3> domain(image, 1.0, 3);
+  const auto& n = domain.GetLabelField().LatticeDimensions();
+  const auto id = [&](std::int64_t x, std::int64_t y, std::int64_t z)
+  {
+    const auto& c = image.CropDimensions();
+    const bool inside = x > 0 && y > 0 && z > 0 && x <= c[0] && y <= c[1] && z <= c[2];
+    return inside ? image.Ids()[static_cast<std::size_t>(x - 1 + c[0] * (y - 1 + c[1] * (z - 1)))]
+                  : LabelId{ 0 };
+  };
+  for (std::int64_t z = 0; z < n[2]; ++z)
+    for (std::int64_t y = 0; y < n[1]; ++y)
+      for (std::int64_t x = 0; x < n[0]; ++x)
+      {
+        const LabelId own = id(x, y, z);
+        const bool site = own != id(x - 1, y, z) || own != id(x + 1, y, z) ||
+          own != id(x, y - 1, z) || own != id(x, y + 1, z) || own != id(x, y, z - 1) ||
+          own != id(x, y, z + 1);
+        ASSERT_EQ(domain.GetSites().Test({ x, y, z }), site) << x << " " << y << " " << z;
+      }
+}
+
+TEST(ImageDomain, BoundsAndValues)
+{
+  std::vector<short> scalars(8 * 8 * 8, 0);
+  scalars[3 + 8 * (4 + 8 * 5)] = 77;
+  const auto grid = GridGeometry<3>::Orthogonal({ 8, 8, 8 }, { 0.5, 1.0, 2.0 });
+  const LabelImage<3> image = LabelImage<3>::FromScalars<short>(scalars, grid);
+  const ImageDomain<3> domain(image, 1.0);
+  EXPECT_EQ(domain.Bounds().Min, (Point<3>{ 1.0, 3.0, 8.0 }));
+  EXPECT_EQ(domain.Bounds().Max, (Point<3>{ 2.0, 5.0, 12.0 }));
+  EXPECT_EQ(domain.LabelValue(1), 77);
+  EXPECT_EQ(domain.LabelValue(0), 0);
+  // A single voxel is still there, and its surface is found from both sides.
+  EXPECT_EQ(domain.Label({ 1.5, 4.0, 10.0 }), 1);
+  Point<3> z;
+  EXPECT_TRUE(domain.ClosestSurfacePoint({ 1.5, 4.0, 10.0 }, 1, z));
+  EXPECT_TRUE(domain.ClosestSurfacePoint({ -20.0, 50.0, 10.0 }, 0, z));
+  EXPECT_GT(domain.MemoryBytes(), 0u);
+  EXPECT_GE(domain.LabelFieldSeconds(), 0.0);
+}
