@@ -46,6 +46,15 @@ public:
   virtual DistanceInterval DistanceBounds(const Point<D>& p) const = 0;
 
   /**
+   * A quick estimate of cfp(p): some interface point lies within `error` of z, and is nearly as close
+   * to p as the closest. For tests that most points fail.
+   * @param label Label(p)
+   * @return false if no interface point was found
+   */
+  virtual bool NearSurfacePoint(
+    const Point<D>& p, LabelId label, Point<D>& z, double& error) const = 0;
+
+  /**
    * cfp(p) of the thesis: a point of an interface that is closest to p, up to about half a voxel.
    * @param label Label(p)
    * @return false if no interface point was found

@@ -15,8 +15,9 @@ namespace voxplex
 namespace
 {
 
-/** Root finding stops when the bracket is shorter, in voxels. */
+/** Root finding stops when the bracket is shorter or the margin smaller, in voxels. */
 constexpr double RootTolerance = 0.005;
+constexpr double QuickTolerance = 0.1;
 /** Steps of ClosestSurfacePoint towards the foot point, at most; and the gain, in voxel diagonals,
  *  below which none is made. */
 constexpr int FootSteps = 2;
@@ -407,7 +408,8 @@ inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
 
 template <int D>
 inline double ImageDomain<D>::FindRoot(
-  const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside) const
+  const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside,
+  double tolerance) const
 {
   double voxels = 0.0; // per unit of t
   for (std::size_t a = 0; a < D; ++a)
@@ -426,7 +428,7 @@ inline double ImageDomain<D>::FindRoot(
   double insideMargin = margin(inside);
   double outsideMargin = margin(outside);
   int last = 0; // which end moved last
-  for (int i = 0; i < 40 && std::abs(outside - inside) * voxels > RootTolerance; ++i)
+  for (int i = 0; i < 40 && std::abs(outside - inside) * voxels > tolerance; ++i)
   {
     // Illinois: regula falsi, halving the value of an end that stays twice.
     double t = inside + (outside - inside) * (insideMargin / (insideMargin - outsideMargin));
@@ -435,7 +437,7 @@ inline double ImageDomain<D>::FindRoot(
       t = 0.5 * (inside + outside);
     }
     const double value = margin(t);
-    if (std::abs(value) < RootTolerance)
+    if (std::abs(value) < tolerance)
     {
       return t;
     }
@@ -516,7 +518,7 @@ inline bool ImageDomain<D>::MoveTowardsFoot(
     outside = inside;
     inside = 0.0;
   }
-  const double t = this->FindRoot(x, d, label, inside, outside);
+  const double t = this->FindRoot(x, d, label, inside, outside, RootTolerance);
   if (t >= distance)
   {
     return false;
@@ -529,18 +531,17 @@ inline bool ImageDomain<D>::MoveTowardsFoot(
 }
 
 template <int D>
-bool ImageDomain<D>::ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const
+inline bool ImageDomain<D>::FindOnRay(
+  const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& root) const
 {
-  const Point<D> x = this->Field.ToLattice(p);
   Index voxel;
   if (!this->NearVoxelOfOtherLabel(x, label, voxel))
   {
     return false;
   }
-  Point<D> n; // margin < 0 here
   for (std::size_t a = 0; a < D; ++a)
   {
-    n[a] = static_cast<double>(voxel[a]);
+    n[a] = static_cast<double>(voxel[a]); // margin < 0 here
   }
   const Point<D> d = Subtract(x, n);
   const double length = std::sqrt(this->Length2(d));
@@ -570,7 +571,44 @@ bool ImageDomain<D>::ClosestSurfacePoint(const Point<D>& p, LabelId label, Point
   {
     return false;
   }
-  z = this->Field.ToFrame(Interpolate(n, x, this->FindRoot(n, d, label, inside, outside)));
+  root = this->FindRoot(n, d, label, inside, outside, tolerance);
+  return true;
+}
+
+template <int D>
+bool ImageDomain<D>::NearSurfacePoint(
+  const Point<D>& p, LabelId label, Point<D>& z, double& error) const
+{
+  const Point<D> x = this->Field.ToLattice(p);
+  Point<D> n;
+  double t;
+  if (!this->FindOnRay(x, label, QuickTolerance, n, t))
+  {
+    return false;
+  }
+  z = this->Field.ToFrame(Interpolate(n, x, t));
+  // The margin rises by about 1 per voxel; half of that is allowed for.
+  const Point<D> d = Subtract(x, n);
+  double voxels = 0.0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxels = std::max(voxels, std::abs(d[a]));
+  }
+  error = voxels > 0.0 ? 2.0 * QuickTolerance * std::sqrt(this->Length2(d)) / voxels : 0.0;
+  return true;
+}
+
+template <int D>
+bool ImageDomain<D>::ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const
+{
+  const Point<D> x = this->Field.ToLattice(p);
+  Point<D> n;
+  double t;
+  if (!this->FindOnRay(x, label, RootTolerance, n, t))
+  {
+    return false;
+  }
+  z = this->Field.ToFrame(Interpolate(n, x, t));
   for (int i = 0; i < FootSteps && this->MoveTowardsFoot(p, x, label, z); ++i)
   {
   }
@@ -629,7 +667,7 @@ bool ImageDomain<D>::FirstCrossing(
       z = this->Field.ToFrame(
         [&]
         {
-          const double root = this->FindRoot(x, d, labelOfA, before, t);
+          const double root = this->FindRoot(x, d, labelOfA, before, t, RootTolerance);
           Point<D> r;
           for (std::size_t k = 0; k < D; ++k)
           {

@@ -59,6 +59,9 @@ public:
   {
     return this->DistanceBoundsAt(this->Field.ToLattice(p));
   }
+  /** Within 0.1 voxel of an interface of `label`, on the ray to the nearest site. */
+  bool NearSurfacePoint(
+    const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**
    * The point found lies on an interface of `label` to 0.005 voxel and is on average a few
    * hundredths of a voxel farther from p than the nearest one. False only if p does not have
@@ -96,9 +99,16 @@ private:
   bool NearSite(const Point<D>& x, Index& site) const;
   /** A voxel near x with another label, next to a site near x. */
   bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
-  /** The root of the label's margin on x + t d between `inside` (margin > 0) and `outside`. */
-  double FindRoot(
-    const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside) const;
+  /**
+   * The root of the label's margin on x + t d between `inside` (margin > 0) and `outside`, to
+   * `tolerance` voxels.
+   */
+  double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, double inside,
+    double outside, double tolerance) const;
+  /**
+   * The root of the label's margin on the ray from a voxel near x with another label, n + t (x - n).
+   */
+  bool FindOnRay(const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& t) const;
 
   /** Replaces z by the interface point straight below p on the tangent plane at z, if that is
    * nearer. */

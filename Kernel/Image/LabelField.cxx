@@ -51,10 +51,10 @@ constexpr double KernelWidth = 1.2;
  * 0.7 for radius 6, sigma 1:
  *
  *   moment | mean distance, radius 20 | normals  | volume, radius 20 | volume, radius 6
- *      0   | 0.069 voxel              | 3.1 deg  | -1.06 %           | -5.2 %
- *   -0.4   | 0.072                    | 3.4      | -0.92             | -3.6
- *   -0.8   | 0.076                    | 3.6      | -0.79             | -2.2
- *   -1.2   | 0.082                    | 4.1      | -0.64             | -1.0
+ *      0   | 0.067 voxel              | 3.1 deg  | -1.20 %           | -5.3 %
+ *   -0.4   | 0.070                    | 3.3      | -1.05             | -3.6
+ *   -0.8   | 0.076                    | 3.5      | -0.94             | -2.2
+ *   -1.2   | 0.080                    | 3.8      | -0.75             | -1.1
  */
 constexpr double KernelMoment = -0.8;
 

@@ -25,23 +25,17 @@ namespace voxplex
  * indicators.
  *
  * **Definition.** For a label l let u_l be +1 at the voxels of l and -1 at all others (background
- * outside of the image), smoothed by a non-shrinking kernel. At a voxel where the own label lost
- * against another, its value is raised above the other's, so that *every voxel centre keeps its
- * label* and thin structures survive. Between the voxels u_l is interpolated multilinearly.
- * Label(p) is the label with the largest u_l(p); the smallest id among equals.
+ * outside of the image), smoothed by the kernel below. At a voxel where the own label lost against
+ * another, its value is raised above the other's, so that *every voxel centre keeps its label*; where an
+ * object is one voxel thin it is raised by so much that the object stays about one voxel thick. Between
+ * the voxels u_l is interpolated multilinearly. Label(p) is the label with the largest u_l(p); the
+ * smallest id among equals.
  *
- * **Kernel.** The tensor product of the 1D kernel (1 + c) g - c g*g, where g is a Gaussian of 1.2
- * sigma voxels along each axis and c, about 1, makes the second moment of the truncated kernel
- * vanish. It is the separable form of 2G - G*G: having no second moments it does not, to second
- * order, move curved interfaces, and it needs one separable pass instead of two. On a digital ball
- * of radius 20:
- *
- *     kernel             sigma   mean distance   normal error   volume   volume, radius 5
- *     none                 0     0.146 voxel     19.6 deg        0.0 %    -1.7 %
- *     2G - G*G            1.0    0.066            4.8           -0.3      -6.7
- *     this one            0.7    0.087            8.4           -0.2      -4.3
- *     this one            1.0    0.064            4.2           -0.4      -7.0
- *     this one            1.3    0.062            2.6           -0.6     -10.8
+ * **Kernel.** The tensor product of a 1D kernel (1 + c) g - c g*g, where g is a Gaussian of about sigma
+ * voxels along each axis. Like 2G - G*G, of which it is a separable form, it hardly moves curved
+ * interfaces; it needs one separable pass, not two. Its second moment is not 0 but a little less, which
+ * makes up for what remains of the shrinking and for the chords of the mesh. Documentation/Algorithm.md
+ * has the measured accuracy.
  *
  * **Storage.** The lattice (the crop of the label image and one layer of background around it) is
  * cut in tiles of TileCells cells along each axis. A tile stores its samples on all of its

@@ -91,7 +91,7 @@ bool Rules3D::Refine(SimplexId id)
   t.Radius = std::sqrt(t.Ball.Radius2);
   t.Label = this->LabelOf(id, t.Ball.Center);
 
-  if (this->Context.Mesh.State(id).NearSurface)
+  if (this->Context.Mesh.State(id).NearSurface && !this->IsSampled(t))
   {
     Point<3> z;
     ++this->Worker.Statistics.ClosestSurfacePointCalls;
@@ -106,6 +106,22 @@ bool Rules3D::Refine(SimplexId id)
     }
   }
   return this->R3(t) || this->R4(t) || this->R5(t);
+}
+
+//------------------------------------------------------------------------------------------------
+// Most tetrahedra near an interface have a feature vertex near cfp(c(t)): a quick look at where that is tells
+// that neither R1 nor R2 applies.
+bool Rules3D::IsSampled(const Element& t) const
+{
+  const double delta = this->Context.Settings.Delta;
+  if (this->Context.Settings.Size || t.Radius >= 2.0 * delta)
+  {
+    return false;
+  }
+  Point<3> z;
+  double error;
+  return this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error) &&
+    error < delta && this->FeatureVertexNear(t, z, delta - error);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -266,7 +282,7 @@ bool Rules3D::FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) cons
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const
+bool Rules3D::OwnFeatureVertexNear(const Element& t, const Point<3>& z, double distance) const
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   for (const VertexId v : mesh.GetSimplex(t.Id).V)
@@ -277,7 +293,13 @@ bool Rules3D::FeatureVertexNear(const Element& t, const Point<3>& z, double dist
       return true;
     }
   }
-  return this->Context.Features.AnyWithin(z, distance);
+  return false;
+}
+
+//------------------------------------------------------------------------------------------------
+bool Rules3D::FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const
+{
+  return this->OwnFeatureVertexNear(t, z, distance) || this->Context.Features.AnyWithin(z, distance);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -67,6 +67,7 @@ private:
   LabelId LabelOf(SimplexId t, const Point<3>& centre);
   double ShortestEdge(SimplexId t) const;
 
+  bool IsSampled(const Element& t) const;
   bool R1(const Element& t, const Point<3>& z, double delta);
   bool R2(const Element& t, double delta);
   bool R3(const Element& t);
@@ -76,6 +77,7 @@ private:
   double DeltaBehind(const Element& t, const Point<3>& z) const;
 
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
+  bool OwnFeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
   bool FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
   bool InsertCircumcentre(const Element& t, std::uint64_t& fired);
   bool InsertFeature(const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed,

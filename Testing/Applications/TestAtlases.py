@@ -2,7 +2,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Real segmentations. Each is used where it is found and skipped, with a message, where not."""
-import os
 import unittest
 from pathlib import Path
 
@@ -28,7 +27,6 @@ class Atlases(ProgramTestCase):
         np.testing.assert_array_equal(surface.points, mesh.points[surface.point_ids])
 
     @unittest.skipUnless(KNEE.exists(), "the knee atlas is not beside the checkout")
-    @unittest.skipIf("asan" in os.environ.get("VOXPLEX_PROGRAM", ""), "too slow under a sanitizer")
     def test_every_tissue_of_the_knee(self):
         report = self.statistics("--input", KNEE, "--delta", 2, "--output", "knee.vtu")
         mesh = meshfiles.read_tetrahedra(self.folder / "knee.vtu")

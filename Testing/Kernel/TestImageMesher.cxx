@@ -184,7 +184,7 @@ TEST(ImageMesher, NestedBallsKeepTheirLabels)
 TEST(ImageMesher, TouchingLabelsShareTheirInterface)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(16);
-  const SimplexMesh<3> mesh = Mesh(image, 1.5);
+  const SimplexMesh<3> mesh = Mesh(image, 1.0);
   ExpectGood(mesh, 0.0);
   const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
   EXPECT_NEAR(volumes.at(1), volumes.at(2), 0.02 * volumes.at(1));

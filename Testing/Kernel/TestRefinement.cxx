@@ -52,6 +52,12 @@ public:
     }
     return true;
   }
+  bool NearSurfacePoint(
+    const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
+  {
+    error = 0.0;
+    return this->ClosestSurfacePoint(p, label, z);
+  }
   bool FirstCrossing(
     const Point<3>& a, LabelId, const Point<3>& b, Point<3>& z) const override
   {
