@@ -117,6 +117,29 @@ void WriteReport(const ordered_json& report, const std::string& path)
   file.Close();
 }
 
+std::vector<std::string> Warnings(const ordered_json& report)
+{
+  std::vector<std::string> warnings;
+  const ordered_json& lost = report["lost_labels"];
+  if (!lost.empty())
+  {
+    std::string labels;
+    for (const ordered_json& label : lost)
+    {
+      labels += (labels.empty() ? "" : ", ") + label.dump();
+    }
+    warnings.push_back("too small for this delta and not in the mesh: label" +
+      std::string(lost.size() == 1 ? " " : "s ") + labels + "; use a smaller --delta to keep " +
+      (lost.size() == 1 ? "it" : "them"));
+  }
+  if (report["sizes_raised_to"].get<double>() > 0.0)
+  {
+    warnings.push_back("some element sizes are below a tenth of delta and were raised to " +
+      Significant(report["sizes_raised_to"]) + "; use a smaller --delta for smaller elements");
+  }
+  return warnings;
+}
+
 std::string Summarize(const ordered_json& report)
 {
   const ordered_json& quality = report["quality"];

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 class vtkMeshingStatistics;
 
@@ -34,6 +35,9 @@ nlohmann::ordered_json MakeReport(
 
 /** @throws RunError */
 void WriteReport(const nlohmann::ordered_json& report, const std::string& path);
+
+/** How the mesh deviates from what was asked for, from a report: one line each. */
+std::vector<std::string> Warnings(const nlohmann::ordered_json& report);
 
 /** One paragraph for people, from a report. */
 std::string Summarize(const nlohmann::ordered_json& report);

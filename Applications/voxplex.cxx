@@ -76,6 +76,14 @@ void Announce(OutputFiles& files, const Parameters& p)
   }
 }
 
+void Warn(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    std::cerr << "voxplex: warning: " << warning << '\n';
+  }
+}
+
 MeshingInput Read(const Parameters& p)
 {
   std::vector<std::string> warnings;
@@ -84,10 +92,7 @@ MeshingInput Read(const Parameters& p)
   {
     input.Sizes = ReadImage(p.SizeImage, "", warnings);
   }
-  for (const std::string& warning : warnings)
-  {
-    std::cerr << "voxplex: warning: " << warning << '\n';
-  }
+  Warn(warnings);
   return input;
 }
 
@@ -152,6 +157,7 @@ void Run(const Parameters& p)
     WriteReport(report, files.TemporaryPath(p.Statistics));
   }
   files.Commit();
+  Warn(Warnings(report));
   std::cout << Summarize(report) << std::flush;
 }
 

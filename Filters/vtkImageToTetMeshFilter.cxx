@@ -478,7 +478,7 @@ int vtkImageToTetMeshFilter::RequestData(
     vtkFieldData* fields = vtkDataObject::GetData(inputVector[0])->GetFieldData();
     tetrahedra->GetFieldData()->PassData(fields);
     interfaces->GetFieldData()->PassData(fields);
-    this->WarnOfLostLabels();
+    this->WarnOfDeviations();
     return 1;
   }
   tetrahedra->Initialize();
@@ -574,9 +574,14 @@ void vtkImageToTetMeshFilter::Mesh(
 }
 
 //----------------------------------------------------------------------------------------------------
-void vtkImageToTetMeshFilter::WarnOfLostLabels()
+void vtkImageToTetMeshFilter::WarnOfDeviations()
 {
   const vtkMeshingStatistics::Figures& figures = this->Private->Statistics->Edit();
+  if (figures.Run.SizesRaisedTo > 0.0)
+  {
+    vtkWarningMacro(<< "Some element sizes are below a tenth of Delta and were raised to "
+                    << figures.Run.SizesRaisedTo << "; use a smaller Delta for smaller elements.");
+  }
   if (!figures.LostLabels.empty())
   {
     vtkWarningMacro(

@@ -282,7 +282,7 @@ private:
   void Mesh(
     vtkInformationVector** inputVector, vtkUnstructuredGrid* tetrahedra, vtkPolyData* interfaces);
   bool AbortRequested();
-  void WarnOfLostLabels();
+  void WarnOfDeviations();
 
   struct Internals;
   std::unique_ptr<Internals> Private;

@@ -254,6 +254,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("smoothing_sigma", v.Run.SmoothingSigma);
   json.Add("threads", static_cast<std::int64_t>(v.Threads));
   json.Add("estimated_elements", v.Run.EstimatedElements);
+  json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
   json.Add("lost_labels", v.LostLabels);
   if (v.HasQuality)
   {

@@ -137,7 +137,7 @@ public:
 
   /**
    * Everything as one JSON object:
-   * `{"elements", "vertices", "interface_facets", "delta", "threads", "lost_labels": [...],
+   * `{"elements", "vertices", "interface_facets", "delta", "threads", "sizes_raised_to", "lost_labels": [...],
    * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "predicates":
    * {...}, "time": {...}}`. "labels" and "quality" are left out when they were not measured; what
    * is not finite is null.

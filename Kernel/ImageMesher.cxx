@@ -119,6 +119,10 @@ public:
     const MeshSizeEstimate estimate = EstimateMeshSize<D>(image, this->Stats.Delta,
       SpacingFloorFraction * this->Stats.Delta, this->Options.Size.get(), this->Options.Threads);
     this->Stats.EstimatedElements = estimate.Elements;
+    if (estimate.SizesBelowFloor)
+    {
+      this->Stats.SizesRaisedTo = SpacingFloorFraction * this->Stats.Delta;
+    }
     if (!this->Options.Force)
     {
       CheckMemory(estimate, this->Options.MemoryLimit);

@@ -82,7 +82,8 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
 
 /** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
 template <int D>
-double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor)
+double BallsInObject(
+  const LabelImage<D>& image, const SizeFunction<D>& size, double floor, bool& belowFloor)
 {
   const auto& n = image.CropDimensions();
   const std::span<const LabelId> ids = image.Ids();
@@ -105,6 +106,7 @@ double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, do
     const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[ids[k]]);
     if (s > 0.0 && std::isfinite(s))
     {
+      belowFloor |= s < floor;
       sum += std::pow(std::max(s, floor), -D);
     }
   }
@@ -140,12 +142,12 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
   area *= 2.0 / 3.0; // what the stairs add to a surface of no preferred direction
   const double interfaceVertices = VerticesPerArea * area / std::pow(delta, D - 1);
   double elements = ElementsPerInterfaceVertex * interfaceVertices;
+  MeshSizeEstimate estimate;
   if (size)
   {
     // Where sizes are small the interface is sampled by them, and its elements are among these.
-    elements += ElementsPerBall * BallsInObject(image, *size, sizeFloor);
+    elements += ElementsPerBall * BallsInObject(image, *size, sizeFloor, estimate.SizesBelowFloor);
   }
-  MeshSizeEstimate estimate;
   estimate.InterfaceVertices = Saturate(interfaceVertices);
   estimate.Elements = Saturate(elements);
   estimate.Vertices = Saturate(elements * VerticesPerElement) + 64;

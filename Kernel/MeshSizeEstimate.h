@@ -20,6 +20,7 @@ struct MeshSizeEstimate
   std::uint64_t Elements = 0;          ///< of the final mesh
   std::uint64_t Vertices = 0;          ///< of the triangulation, those outside of the object included
   std::uint64_t InterfaceVertices = 0;
+  bool SizesBelowFloor = false;        ///< some sampled size had to be raised
   std::uint64_t Bytes = 0;             ///< memory of the run at its peak, without the image
 };
 

@@ -58,6 +58,7 @@ struct MeshingStatistics
   double Delta = 0.0;          ///< the delta that was used, in the image's unit of length
   double SmoothingSigma = 0.0; ///< voxels
   std::uint64_t EstimatedElements = 0;
+  double SizesRaisedTo = 0.0;  ///< the floor of sizes, if some were below it; else 0
   std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
   std::uint64_t DistanceBytes = 0;   ///< feature transform
 };

@@ -42,6 +42,21 @@ class Options(ProgramTestCase):
         bound = sum(self.elements_of_labels("--delta", 4, "--size", 1.5).values())
         self.assertGreater(bound, 2 * free)
 
+    def test_sizes_below_the_floor_are_announced(self):
+        done = self.call("--input", self.input, "--delta", 8, "--size", 0.01, "--stats", "s.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "^voxplex: warning: .*raised to 0.8.*--delta.*\n$")
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["sizes_raised_to"], 0.8)
+        self.assertEqual(self.statistics("--input", self.input, "--delta", 4)["sizes_raised_to"], 0)
+
+    def test_labels_that_are_lost_are_announced(self):
+        self.array[2, 2, 2] = 5
+        images.write_nrrd(self.input, self.array)
+        done = self.call("--input", self.input, "--delta", 4, "--stats", "s.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "^voxplex: warning: .*not in the mesh: label 5;.*--delta.*\n$")
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["lost_labels"], [5])
+
     def test_size_of_a_label(self):
         free = self.elements_of_labels("--delta", 4)
         bound = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2")
