@@ -260,8 +260,9 @@ OptionGroups DeclareOptions()
     ("stats", text("FILE"), "figures about the mesh and the run: .json");
   groups.Mesh.add_options() //
     ("delta", text("LENGTH"),
-      "length of the triangles' edges on the interfaces, about; the number of elements grows with "
-      "the cube of 1/delta (default: derived from the spacing)")                     //
+      "sampling density of the interfaces: their triangles' edges are about one to two times as "
+      "long; the number of elements grows with the square of 1/delta (default: derived from the "
+      "spacing)")                                                                    //
     ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere") //
     ("label-size", po::value<std::vector<std::string>>()->composing()->value_name("LABEL=LENGTH"),
       "the same in one label; may be repeated") //

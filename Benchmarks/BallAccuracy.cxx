@@ -56,8 +56,8 @@ Accuracy Measure(const LabelImage<3>& image, double radius, double sigma, double
   }
   for (const std::uint32_t v : vertices)
   {
-    accuracy.Distance += std::abs(Distance(mesh.Points[v], centre) - radius) /
-      static_cast<double>(vertices.size());
+    accuracy.Distance +=
+      std::abs(Distance(mesh.Points[v], centre) - radius) / static_cast<double>(vertices.size());
   }
   double volume = 0.0;
   for (const auto& [label, v] : checks::Volumes(mesh))
@@ -76,11 +76,13 @@ int main(int argc, char** argv)
   const double radius = argc > 1 ? std::atof(argv[1]) : 20.0;
   if (argc > 2 || !(radius >= 2.0 && radius <= 200.0))
   {
-    std::fprintf(stderr, "usage: voxplexBallAccuracy [RADIUS]\nRADIUS: 2 to 200 voxels, default 20\n");
+    std::fprintf(
+      stderr, "usage: voxplexBallAccuracy [RADIUS]\nRADIUS: 2 to 200 voxels, default 20\n");
     return 2;
   }
   const LabelImage<3> image = phantoms::Ball(radius);
-  std::printf("ball of radius %g voxels\nsigma  delta  distance  normal, deg  volume, %%  elements\n",
+  std::printf(
+    "ball of radius %g voxels\nsigma  delta  distance  normal, deg  volume, %%  elements\n",
     radius);
   for (const double sigma : { 0.0, 0.7, 1.0, 1.3 })
   {

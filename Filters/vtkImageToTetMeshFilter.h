@@ -96,9 +96,10 @@ public:
 
   ///@{
   /**
-   * The sampling density of interfaces, in physical units: surface triangles have edges of about
-   * this length. Smaller is finer: the number of elements grows with the cube of 1 / Delta. 0, the
-   * default, derives it from the spacing; GetStatistics()->GetDelta() tells which was used.
+   * The sampling density of interfaces, in physical units: the edges of surface triangles are
+   * about one to two times as long. Smaller is finer: the number of elements grows about with the
+   * square of 1 / Delta. 0, the default, derives it from the spacing; GetStatistics()->GetDelta()
+   * tells which was used.
    */
   vtkSetMacro(Delta, double);
   vtkGetMacro(Delta, double);

@@ -10,6 +10,7 @@
 #ifndef voxplex_Error_h
 #define voxplex_Error_h
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -33,11 +34,24 @@ public:
   using Error::Error;
 };
 
-/** The mesh that was asked for is estimated not to fit in memory; MeshingOptions::Force overrides. */
+/**
+ * The mesh that was asked for is estimated not to fit in memory; MeshingOptions::Force overrides.
+ */
 class TooLargeError : public Error
 {
 public:
   using Error::Error;
+};
+
+/**
+ * A run was cancelled: thrown inside the kernel, by whatever was given a std::stop_token of which a
+ * stop was requested. Nothing is wrong, so it is no Error; it never leaves ImageMesher::Run(),
+ * which returns MeshingOutcome::Cancelled instead.
+ */
+class Cancelled : public std::exception
+{
+public:
+  const char* what() const noexcept override { return "the run was cancelled"; }
 };
 
 } // namespace voxplex

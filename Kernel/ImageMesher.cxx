@@ -7,6 +7,7 @@
 #include "Image/ImageDomain.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
+#include "Parallel/ParallelFor.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <stop_token>
 #include <thread>
 
 namespace voxplex
@@ -59,7 +61,8 @@ void CheckOptions(const MeshingOptions<D>& options)
   if (options.RadiusEdgeRatio < 1.93 && !options.Force)
   {
     throw InputError("a radius-edge ratio of " + Number(options.RadiusEdgeRatio) +
-      " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force it");
+      " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force "
+      "it");
   }
   if (!(options.FacetAngle >= 0.0 && options.FacetAngle <= 30.0))
   {
@@ -87,7 +90,10 @@ double DefaultDelta(const GridGeometry<D>& grid)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The stages of a run, on whatever thread; shares only atomics with the thread that reports. */
+/**
+ * The stages of a run, on whatever thread; shares only the fraction and the request to stop with
+ * the thread that reports.
+ */
 template <int D>
 class ImageMesher<D>::Stages
 {
@@ -99,22 +105,34 @@ public:
   }
 
   std::atomic<double> Fraction{ 0.0 };
-  std::atomic<bool> Stop{ false };
+  std::stop_source Stop;
 
   /** False if stopped. */
   bool Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
   {
-    const ImageDomain<D> domain(image, this->Options.SmoothingSigma, this->Options.Threads);
+    try
+    {
+      return this->RunUnlessStopped(image, mesh);
+    }
+    catch (const Cancelled&)
+    {
+      return false;
+    }
+  }
+
+private:
+  /** @throws Cancelled if stopped while preparing; false if stopped later */
+  bool RunUnlessStopped(const LabelImage<D>& image, SimplexMesh<D>& mesh)
+  {
+    const std::stop_token stop = this->Stop.get_token();
+    const ImageDomain<D> domain(image, this->Options.SmoothingSigma, this->Options.Threads, stop);
     this->Stats.Times.LabelField = domain.LabelFieldSeconds();
     this->Stats.Times.DistanceTransform = domain.DistanceSeconds();
     this->Stats.LabelFieldBytes = domain.GetLabelField().MemoryBytes();
     this->Stats.DistanceBytes =
       domain.GetFeatureTransform().MemoryBytes() + domain.GetSites().MemoryBytes();
     this->Fraction = PreparationShare;
-    if (this->Stop)
-    {
-      return false;
-    }
+    ThrowIfStopped(stop);
 
     const MeshSizeEstimate estimate = EstimateMeshSize<D>(image, this->Stats.Delta,
       SpacingFloorFraction * this->Stats.Delta, this->Options.Size.get(), this->Options.Threads);
@@ -138,7 +156,7 @@ public:
       {
         const double part = std::min(0.98, static_cast<double>(vertices) / expected);
         this->Fraction = PreparationShare + (RefinementShare - PreparationShare) * part;
-        return !this->Stop;
+        return !stop.stop_requested();
       });
     this->Stats.Times.Refinement = refinement.Seconds();
     this->Stats.Rules = refiner.GetWorker().Statistics;
@@ -153,10 +171,9 @@ public:
     Stopwatch extraction;
     ExtractMesh<D>(context.Mesh, domain, mesh);
     this->Stats.Times.Extraction = extraction.Seconds();
-    return !this->Stop;
+    return !stop.stop_requested();
   }
 
-private:
   RefinementSettings<D> Settings() const
   {
     RefinementSettings<D> settings;
@@ -209,8 +226,7 @@ MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& m
 // The stages run on a thread of their own, so that the caller's thread can report at a steady pace
 // whatever they are doing.
 template <int D>
-bool ImageMesher<D>::RunReporting(
-  Stages& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh)
+bool ImageMesher<D>::RunReporting(Stages& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh)
 {
   bool done = false;
   std::exception_ptr error;
@@ -227,19 +243,25 @@ bool ImageMesher<D>::RunReporting(
         error = std::current_exception();
       }
       finished = true;
-      finished.notify_all();
     });
   constexpr auto Period = std::chrono::milliseconds(20);
   double reported = 0.0;
-  while (!finished)
+  try
   {
-    const double fraction = std::max(reported, stages.Fraction.load());
-    reported = fraction;
-    if (!stages.Stop && !this->Progress(fraction))
+    while (!finished)
     {
-      stages.Stop = true;
+      reported = std::max(reported, stages.Fraction.load());
+      if (!stages.Stop.stop_requested() && !this->Progress(reported))
+      {
+        stages.Stop.request_stop();
+      }
+      std::this_thread::sleep_for(Period);
     }
-    std::this_thread::sleep_for(Period);
+  }
+  catch (...) // from the callback: the worker joins on the way out
+  {
+    stages.Stop.request_stop();
+    throw;
   }
   worker.join();
   if (error)

@@ -72,7 +72,7 @@ public:
 
   /**
    * Called from the thread that called Run(), at least ten times a second, with the fraction done
-   * (0 to 1, never decreasing). Returning false cancels the run.
+   * (0 to 1, never decreasing). Returning false cancels the run; what it throws leaves Run().
    */
   std::function<bool(double fraction)> Progress;
 

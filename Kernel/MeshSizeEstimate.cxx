@@ -19,11 +19,11 @@ namespace
 {
 
 // Calibrated on the phantoms and atlases of Documentation/Benchmarks.md, D = 3.
-constexpr double VerticesPerArea = 0.65;     ///< interface vertices per delta^2 of interface
+constexpr double VerticesPerArea = 0.65; ///< interface vertices per delta^2 of interface
 constexpr double ElementsPerInterfaceVertex = 4.7;
-constexpr double ElementsPerBall = 5.0;      ///< elements per size^3 of volume
-constexpr double VerticesPerElement = 0.3;   ///< of the whole triangulation
-constexpr double BytesPerElement = 400.0;    ///< triangulation, output and its copy
+constexpr double ElementsPerBall = 5.0;    ///< elements per size^3 of volume
+constexpr double VerticesPerElement = 0.3; ///< of the whole triangulation
+constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its copy
 
 /** Faces of voxels between different labels, by axis; the crop is closed by background. */
 template <int D>
@@ -161,8 +161,8 @@ void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
   double available = static_cast<double>(limit);
   if (limit == 0)
   {
-    available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-      static_cast<double>(sysconf(_SC_PAGESIZE));
+    available =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   }
   const double bytes = static_cast<double>(estimate.Bytes);
   constexpr std::uint64_t MostElements = 1u << 31; // twice as many ids, and free ones besides

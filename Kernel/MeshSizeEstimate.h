@@ -17,11 +17,11 @@ namespace voxplex
 
 struct MeshSizeEstimate
 {
-  std::uint64_t Elements = 0;          ///< of the final mesh
-  std::uint64_t Vertices = 0;          ///< of the triangulation, those outside of the object included
+  std::uint64_t Elements = 0; ///< of the final mesh
+  std::uint64_t Vertices = 0; ///< of the triangulation, those outside of the object included
   std::uint64_t InterfaceVertices = 0;
-  bool SizesBelowFloor = false;        ///< some sampled size had to be raised
-  std::uint64_t Bytes = 0;             ///< memory of the run at its peak, without the image
+  bool SizesBelowFloor = false; ///< some sampled size had to be raised
+  std::uint64_t Bytes = 0;      ///< memory of the run at its peak, without the image
 };
 
 /**
@@ -33,9 +33,8 @@ struct MeshSizeEstimate
  * @param threads 0 means all cores
  */
 template <int D>
-MeshSizeEstimate EstimateMeshSize(
-  const LabelImage<D>& image, double delta, double sizeFloor, const SizeFunction<D>* size,
-  unsigned threads);
+MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, double sizeFloor,
+  const SizeFunction<D>* size, unsigned threads);
 
 /**
  * @param limit bytes that may be used; 0 means the machine's physical memory

@@ -16,22 +16,22 @@ namespace voxplex
 /** How often each rule changed the mesh, and why changes were refused. */
 struct RuleStatistics
 {
-  std::array<std::uint64_t, 5> Fired{};    ///< insertions by R1 ... R5
-  std::uint64_t Projected = 0;             ///< R2 circumcentres outside the box, moved onto it
-  std::uint64_t Removed = 0;               ///< free vertices removed by R6
-  std::uint64_t RefusedTooClose = 0;       ///< R3 points closer than the spacing floor to a vertex
-  std::uint64_t RefusedNoConflict = 0;     ///< points that conflict with none of the candidates
-  std::uint64_t RefusedDuplicate = 0;      ///< points equal to a vertex
-  std::uint64_t RemovalsFailed = 0;        ///< vertices whose star could not be re-triangulated
+  std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5
+  std::uint64_t Projected = 0;          ///< R2 circumcentres outside the box, moved onto it
+  std::uint64_t Removed = 0;            ///< free vertices removed by R6
+  std::uint64_t RefusedTooClose = 0;    ///< R3 points closer than the spacing floor to a vertex
+  std::uint64_t RefusedNoConflict = 0;  ///< points that conflict with none of the candidates
+  std::uint64_t RefusedDuplicate = 0;   ///< points equal to a vertex
+  std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
   std::uint64_t ClosestSurfacePointCalls = 0;
-  std::uint64_t Evaluated = 0;             ///< simplices whose rules were evaluated
-  std::uint64_t Created = 0;               ///< simplices created, those that died included
+  std::uint64_t Evaluated = 0; ///< simplices whose rules were evaluated
+  std::uint64_t Created = 0;   ///< simplices created, those that died included
 };
 
 /** How often a predicate was asked and what answered. */
 struct PredicateStatistics
 {
-  std::uint64_t Calls = 0;          ///< orientation and in-sphere tests, the cached-ball filter included
+  std::uint64_t Calls = 0; ///< orientation and in-sphere tests, the cached-ball filter included
   std::uint64_t StaticFailures = 0; ///< not decided by the static or cached-ball filter
   std::uint64_t ExactCalls = 0;     ///< decided by exact arithmetic only
   std::uint64_t Perturbed = 0;      ///< exact zeros, decided by the symbolic perturbation
@@ -58,7 +58,7 @@ struct MeshingStatistics
   double Delta = 0.0;          ///< the delta that was used, in the image's unit of length
   double SmoothingSigma = 0.0; ///< voxels
   std::uint64_t EstimatedElements = 0;
-  double SizesRaisedTo = 0.0;  ///< the floor of sizes, if some were below it; else 0
+  double SizesRaisedTo = 0.0;        ///< the floor of sizes, if some were below it; else 0
   std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
   std::uint64_t DistanceBytes = 0;   ///< feature transform
 };

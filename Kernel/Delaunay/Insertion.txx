@@ -296,8 +296,7 @@ inline void Triangulation<D>::LinkRidges(Worker& worker)
 // (apex, i, From, To) is an even permutation of the tetrahedron's vertices: seen from the apex the edge
 // opposite i runs one way in this tetrahedron and the other way in its neighbour.
 template <int D>
-inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed)
-  requires(D == 3)
+inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed) requires(D == 3)
 {
   // clang-format off
   static constexpr std::uint8_t From[4][4] = { { 0, 2, 3, 1 }, { 3, 0, 0, 2 }, { 1, 3, 0, 0 }, { 2, 0, 1, 0 } };
@@ -323,8 +322,7 @@ inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed)
     for (unsigned m = 0; m < 3; ++m)
     {
       const unsigned i = m + (m >= facet.Apex ? 1 : 0);
-      simplex.N[i] =
-        edges.Find(facet.Local[To[facet.Apex][i]], facet.Local[From[facet.Apex][i]]);
+      simplex.N[i] = edges.Find(facet.Local[To[facet.Apex][i]], facet.Local[From[facet.Apex][i]]);
     }
   }
 }

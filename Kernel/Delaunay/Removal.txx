@@ -196,20 +196,8 @@ VertexId Triangulation<D>::BestApex(Worker& worker, const BoundaryFacet& facet)
     const Point<D>& x = this->Position(v);
     if (best != None)
     {
-      bool inside = false;
-      bool decided = false;
-      if (reliable)
-      {
-        const double excess = Distance2(x, ball.Center) - ball.Radius2;
-        const double slack = CircumballTolerance * ball.Radius2;
-        inside = excess < -slack;
-        decided = inside || excess > slack;
-      }
-      if (!decided)
-      {
-        inside = worker.Predicates.InSpherePerturbed(points.data(), x);
-      }
-      if (!inside)
+      const int side = reliable ? SideOfCircumball(ball, x) : 0;
+      if (side < 0 || (side == 0 && !worker.Predicates.InSpherePerturbed(points.data(), x)))
       {
         continue;
       }

@@ -49,8 +49,8 @@ template <int D>
 struct VertexRecord
 {
   Point<D> Position;
-  SimplexId Incident; ///< some simplex of the star
-  std::uint32_t Local;   ///< scratch of the operation that owns the vertex: its number there
+  SimplexId Incident;  ///< some simplex of the star
+  std::uint32_t Local; ///< scratch of the operation that owns the vertex: its number there
   VertexKind Kind;
   bool Alive;
 };
@@ -67,10 +67,10 @@ struct alignas(D == 3 ? 64 : 16) SimplexRecord
 
 enum class SimplexMark : std::uint8_t
 {
-  Unused,  ///< not part of the triangulation
+  Unused, ///< not part of the triangulation
   Alive,
-  Cavity,  ///< in the cavity (or star) of the operation under way
-  Outside  ///< tested by the operation under way and not in conflict
+  Cavity, ///< in the cavity (or star) of the operation under way
+  Outside ///< tested by the operation under way and not in conflict
 };
 
 /** What the refinement knows of a simplex. */

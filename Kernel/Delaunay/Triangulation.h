@@ -98,11 +98,11 @@ public:
     /** A facet of the boundary of a cavity or star, seen from inside, and the new simplex on it. */
     struct BoundaryFacet
     {
-      std::array<VertexId, N> V; ///< vertices of the new simplex; V[Apex] is still to come
+      std::array<VertexId, N> V;          ///< vertices of the new simplex; V[Apex] is still to come
       std::array<std::uint32_t, N> Local; ///< their numbers in Link
       std::uint32_t Apex;
-      SimplexId Outer;             ///< simplex beyond, or None; a number in Filling if OuterInFilling
-      std::uint32_t OuterIndex;    ///< number of the facet in Outer
+      SimplexId Outer;          ///< simplex beyond, or None; a number in Filling if OuterInFilling
+      std::uint32_t OuterIndex; ///< number of the facet in Outer
       bool OuterInFilling = false;
     };
     /** A simplex that will fill the star, before it has an id. */
@@ -120,13 +120,13 @@ public:
 
     Stack<SimplexId> FreeSimplices;
     Stack<VertexId> FreeVertices;
-    Stack<SimplexId> Deleted;      ///< the cavity or star
-    Stack<SimplexId> Touched;      ///< simplices marked Outside
+    Stack<SimplexId> Deleted; ///< the cavity or star
+    Stack<SimplexId> Touched; ///< simplices marked Outside
     Stack<BoundaryFacet> Boundary;
-    Stack<VertexId> Joined;        ///< vertices of the cavity, with repetitions
-    Stack<VertexId> Link;          ///< vertices of Boundary; Link[v.Local] == v
-    Stack<Point<D>> LinkOffsets;   ///< of the link's vertices from the new vertex
-    Stack<double> LinkNorms2;      ///< squared norms of the offsets
+    Stack<VertexId> Joined;      ///< vertices of the cavity, with repetitions
+    Stack<VertexId> Link;        ///< vertices of Boundary; Link[v.Local] == v
+    Stack<Point<D>> LinkOffsets; ///< of the link's vertices from the new vertex
+    Stack<double> LinkNorms2;    ///< squared norms of the offsets
     RidgeTable<D> Ridges;
     EdgeTable Edges;
     FacetTable<D> Front;
@@ -147,8 +147,8 @@ public:
    * On success worker.Created and worker.NewVertex tell what was made.
    * @throws std::bad_alloc with the triangulation unchanged
    */
-  InsertionOutcome Insert(Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed,
-    double clearance = 0.0);
+  InsertionOutcome Insert(
+    Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed, double clearance = 0.0);
 
   /**
    * Removes a vertex that is not on the box. On success worker.Created tells what was made.
@@ -166,18 +166,11 @@ public:
    * call costs more than the test. */
   [[gnu::always_inline]] bool InConflict(Worker& worker, SimplexId s, const Point<D>& p) const
   {
-    const Simplex& simplex = this->Simplices[s];
-    const double distance2 = Distance2(p, simplex.Ball.Center);
-    const double excess = distance2 - simplex.Ball.Radius2;
-    const double slack = CircumballTolerance * simplex.Ball.Radius2;
     ++worker.BallTests;
-    if (excess > slack)
+    const int side = SideOfCircumball(this->Simplices[s].Ball, p);
+    if (side != 0)
     {
-      return false;
-    }
-    if (excess < -slack)
-    {
-      return true;
+      return side > 0;
     }
     return this->InConflictExactly(worker, s, p); // NaN comes here too
   }
@@ -234,8 +227,7 @@ private:
   void NumberLink(Worker& worker, const Point<D>& apex);
   void SetBall(Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex);
   void LinkRidges(Worker& worker);
-  void LinkEdges(Worker& worker, bool closed)
-    requires(D == 3);
+  void LinkEdges(Worker& worker, bool closed) requires(D == 3);
   bool IsClear(Worker& worker, const Point<D>& p, VertexKind kind, double clearance) const;
   void Prefetch(SimplexId s, const Simplex& simplex, std::uint32_t newVertex) const;
   unsigned PlanesOfPoint(const Point<D>& p) const;
@@ -288,8 +280,7 @@ inline std::uint32_t Triangulation<D>::NumberVertex(Worker& worker, VertexId v)
 //------------------------------------------------------------------------------------------------
 // Without a branch: which neighbour it is cannot be predicted.
 template <int D>
-inline std::uint32_t Triangulation<D>::IndexOfNeighbour(
-  const Simplex& simplex, SimplexId neighbour)
+inline std::uint32_t Triangulation<D>::IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour)
 {
   std::uint32_t index = 0;
   for (unsigned i = 1; i < N; ++i)

@@ -69,10 +69,13 @@ struct Circumball
 template <int D>
 inline int SideOfCircumball(const Circumball<D>& ball, const Point<D>& p)
 {
-  const double d2 = Distance2(p, ball.Center);
-  return d2 < ball.Radius2 * (1.0 - CircumballTolerance)
-    ? 1
-    : (d2 > ball.Radius2 * (1.0 + CircumballTolerance) ? -1 : 0);
+  const double excess = Distance2(p, ball.Center) - ball.Radius2;
+  const double slack = CircumballTolerance * ball.Radius2;
+  if (excess > slack)
+  {
+    return -1;
+  }
+  return excess < -slack ? 1 : 0;
 }
 
 /** N, 2 det and prod |a_i|^2 of the edges a_1, a_2, a_3 with squared norms l. */

@@ -22,7 +22,8 @@ using Point = std::array<double, static_cast<std::size_t>(D)>;
 
 /** a - b. */
 template <std::size_t D>
-inline std::array<double, D> Subtract(const std::array<double, D>& a, const std::array<double, D>& b)
+inline std::array<double, D> Subtract(
+  const std::array<double, D>& a, const std::array<double, D>& b)
 {
   std::array<double, D> r;
   for (std::size_t i = 0; i < D; ++i)

@@ -55,6 +55,19 @@ std::int64_t SetBitAbove(std::span<const std::uint64_t> words, std::int64_t posi
   return static_cast<std::int64_t>(w * 64) + std::countr_zero(word);
 }
 
+/** Makes an empty vector n zeros long, piece by piece: gigabytes take seconds. */
+template <typename T>
+void FillUnlessStopped(std::vector<T>& vector, std::size_t n, const std::stop_token& stop)
+{
+  constexpr std::size_t piece = std::size_t{ 1 } << 24;
+  vector.reserve(n);
+  while (vector.size() < n)
+  {
+    ThrowIfStopped(stop);
+    vector.resize(std::min(n, vector.size() + piece));
+  }
+}
+
 } // namespace
 
 /**
@@ -136,8 +149,8 @@ private:
 };
 
 template <int D>
-FeatureTransform<D>::FeatureTransform(
-  const BitMask<D>& sites, const Point<D>& spacing, const Array& stride, unsigned threads)
+FeatureTransform<D>::FeatureTransform(const BitMask<D>& sites, const Point<D>& spacing,
+  const Array& stride, unsigned threads, const std::stop_token& stop)
   : CellStride(stride)
   , Spacing(spacing)
 {
@@ -156,20 +169,22 @@ FeatureTransform<D>::FeatureTransform(
       std::to_string(static_cast<std::uint64_t>(voxels)) +
       " voxels; at most 4294967294 are supported. Crop or resample the image.");
   }
-  this->FirstPass(sites, threads);
+  this->FirstPass(sites, threads, stop);
   for (std::size_t a = 1; a < D; ++a)
   {
-    this->Pass(a, threads);
+    this->Pass(a, threads, stop);
   }
 }
 
 /** Along x: the nearest site in the same row, found a word of bits at a time. */
 template <int D>
-void FeatureTransform<D>::FirstPass(const BitMask<D>& sites, unsigned threads)
+void FeatureTransform<D>::FirstPass(
+  const BitMask<D>& sites, unsigned threads, const std::stop_token& stop)
 {
   const std::size_t cells = this->Cells[0];
-  this->Features.resize(sites.NumberOfRows() * cells);
-  ParallelFor(0, sites.NumberOfRows(), 256, threads,
+  FillUnlessStopped(this->Features, sites.NumberOfRows() * cells, stop);
+  ParallelFor(
+    0, sites.NumberOfRows(), 256, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t row = begin; row < end; ++row)
@@ -193,7 +208,8 @@ void FeatureTransform<D>::FirstPass(const BitMask<D>& sites, unsigned threads)
           out[c] = static_cast<std::uint32_t>(useBelow ? below : above); // -1 becomes NoSite
         }
       }
-    });
+    },
+    stop);
 }
 
 /** Squared distance along the first `axes` axes from a query to a partial result. */
@@ -215,7 +231,7 @@ inline double FeatureTransform<D>::LowerDistance2(
 
 /** Along another axis: cells along the axes before it, voxels along those after. */
 template <int D>
-void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads)
+void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads, const std::stop_token& stop)
 {
   std::size_t inner = 1; // lines side by side
   std::uint32_t siteStride = 1;
@@ -228,12 +244,14 @@ void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads)
   const std::size_t cells = this->Cells[axis];
   const std::size_t lines = this->Features.size() / n;
   const bool isLast = axis + 1 == D;
-  std::vector<std::uint32_t> out(lines * cells);
+  std::vector<std::uint32_t> out;
+  FillUnlessStopped(out, lines * cells, stop);
   if (isLast)
   {
-    this->Distances.resize(out.size());
+    FillUnlessStopped(this->Distances, out.size(), stop);
   }
-  ParallelFor(0, lines, std::max<std::size_t>(16, 32768 / n), threads,
+  ParallelFor(
+    0, lines, std::max<std::size_t>(16, 32768 / n), threads,
     [&](std::size_t begin, std::size_t end)
     {
       Envelope envelope(n);
@@ -275,7 +293,8 @@ void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads)
           }
         }
       }
-    });
+    },
+    stop);
   this->Features.swap(out);
 }
 

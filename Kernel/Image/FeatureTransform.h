@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex
@@ -51,10 +52,11 @@ public:
    * @param spacing lengths of a voxel step along each axis, positive
    * @param stride voxels of a cell along each axis, at least 1
    * @param threads threads used; 0 means all cores. The result does not depend on it.
-   * @throws InputError if the grid has too many voxels; std::bad_alloc
+   * @param stop ends the construction early; the default never does
+   * @throws InputError if the grid has too many voxels; Cancelled if stopped; std::bad_alloc
    */
-  FeatureTransform(
-    const BitMask<D>& sites, const Point<D>& spacing, const Array& stride, unsigned threads = 1);
+  FeatureTransform(const BitMask<D>& sites, const Point<D>& spacing, const Array& stride,
+    unsigned threads = 1, const std::stop_token& stop = {});
 
   const Array& Stride() const { return this->CellStride; }
   /** Cells along each axis. */
@@ -103,8 +105,8 @@ public:
 private:
   class Envelope;
 
-  void FirstPass(const BitMask<D>& sites, unsigned threads);
-  void Pass(std::size_t axis, unsigned threads);
+  void FirstPass(const BitMask<D>& sites, unsigned threads, const std::stop_token& stop);
+  void Pass(std::size_t axis, unsigned threads, const std::stop_token& stop);
   double LowerDistance2(
     std::size_t axes, std::uint32_t site, const std::array<double, D>& query) const;
 

@@ -38,7 +38,7 @@ auto Timed(double& seconds, Function&& function)
 
 /** Voxels of the lattice with a face neighbour of another label. */
 template <int D>
-BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads)
+BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
 {
   using Index = typename GridGeometry<D>::Index;
   const Index& crop = image.CropDimensions();
@@ -65,7 +65,8 @@ BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads)
     }
     return image.Ids().data() + at * crop[0];
   };
-  ParallelFor(0, sites.NumberOfRows(), 64, threads,
+  ParallelFor(
+    0, sites.NumberOfRows(), 64, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<LabelId> differs(n);
@@ -121,7 +122,8 @@ BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads)
           words[w] = word;
         }
       }
-    });
+    },
+    stop);
   return sites;
 }
 
@@ -196,16 +198,17 @@ void ExtremeEigenvalues(typename GridGeometry<D>::Matrix m, double& smallest, do
 } // namespace
 
 template <int D>
-ImageDomain<D>::ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads)
+ImageDomain<D>::ImageDomain(
+  const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
   : Image(image)
-  , Field(Timed(this->FieldSeconds, [&] { return LabelField<D>(image, sigma, threads); }))
-  , Sites(Timed(this->FeatureSeconds, [&] { return FindSites(image, threads); }))
+  , Field(Timed(this->FieldSeconds, [&] { return LabelField<D>(image, sigma, threads, stop); }))
+  , Sites(Timed(this->FeatureSeconds, [&] { return FindSites(image, threads, stop); }))
   , Spacing(Spacings(image.Grid()))
   , Features(Timed(this->FeatureSeconds,
       [&]
       {
         return FeatureTransform<D>(
-          this->Sites, this->Spacing, ChooseStride<D>(this->Spacing), threads);
+          this->Sites, this->Spacing, ChooseStride<D>(this->Spacing), threads, stop);
       }))
 {
   const GridGeometry<D>& grid = image.Grid();
@@ -407,9 +410,8 @@ inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
 }
 
 template <int D>
-inline double ImageDomain<D>::FindRoot(
-  const Point<D>& x, const Point<D>& d, LabelId label, double inside, double outside,
-  double tolerance) const
+inline double ImageDomain<D>::FindRoot(const Point<D>& x, const Point<D>& d, LabelId label,
+  double inside, double outside, double tolerance) const
 {
   double voxels = 0.0; // per unit of t
   for (std::size_t a = 0; a < D; ++a)

@@ -12,6 +12,8 @@
 #include "Image/FeatureTransform.h"
 #include "Image/LabelField.h"
 
+#include <stop_token>
+
 namespace voxplex
 {
 
@@ -45,11 +47,14 @@ public:
    * @param sigma smoothing in voxels, see LabelField
    * @param threads threads used for the construction; 0 means all cores. The result does not
    *   depend on it.
-   * @throws InputError if sigma is out of range or the image too large; std::bad_alloc
+   * @param stop ends the construction early; the default never does
+   * @throws InputError if sigma is out of range or the image too large; Cancelled if stopped;
+   *   std::bad_alloc
    */
-  ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads = 1);
+  ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads = 1,
+    const std::stop_token& stop = {});
   /** The domain does not keep the image alive. */
-  ImageDomain(LabelImage<D>&&, double, unsigned = 1) = delete;
+  ImageDomain(LabelImage<D>&&, double, unsigned = 1, const std::stop_token& = {}) = delete;
 
   /** The box of the crop and the layer of background around it; interfaces lie strictly inside. */
   Box<D> Bounds() const override { return this->BoundingBox; }
@@ -106,7 +111,8 @@ private:
   double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, double inside,
     double outside, double tolerance) const;
   /**
-   * The root of the label's margin on the ray from a voxel near x with another label, n + t (x - n).
+   * The root of the label's margin on the ray from a voxel near x with another label,
+   * n + t (x - n).
    */
   bool FindOnRay(const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& t) const;
 

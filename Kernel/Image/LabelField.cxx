@@ -3,294 +3,25 @@
 #include "Image/LabelField.h"
 
 #include "Error.h"
+#include "Image/LabelSmoothing.h"
 #include "Parallel/ParallelFor.h"
 
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <sstream>
-
-// The smoothing passes are compiled twice and chosen when the library is loaded. Both give the same
-// result: vectors of another width, but the same operations (no fused multiply-add). Sanitizers
-// cannot instrument the code that chooses.
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&       \
-  !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define VOXPLEX_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define VOXPLEX_VECTOR_CLONES
-#endif
 
 namespace voxplex
 {
 namespace
 {
 
-/** Kernel weights are multiples of 2^-14: sums over a constant neighbourhood are exact. */
-constexpr int KernelOne = 1 << 14;
 /**
- * By how much the own label of a voxel wins at least, and where its object is one voxel thin: there the
- * voxels beside it lose it by about as much, so that the object comes out about one voxel thick. In
- * samples (SampleOne is 1); even.
+ * By how much the own label of a voxel wins at least, and where its object is one voxel thin: there
+ * the voxels beside it lose it by about as much, so that the object comes out about one voxel
+ * thick. In samples (SampleOne is 1); even.
  */
 constexpr int KeptMargin = 328;
 constexpr int ThinMargin = 16384;
-
-/**
- * Width of the Gaussians of the separable kernel, in sigmas. Along the diagonals the product of
- * 2g - g*g smooths less than 2G - G*G; this width makes up for it: on a ball of radius 20 the
- * product with 1.2 sigma has errors of 0.064 voxel and 4.2 degrees, 2G - G*G with sigma has 0.066
- * and 4.8.
- */
-constexpr double KernelWidth = 1.2;
-
-/**
- * Second moment of the kernel in sigma^2. With 0 an interface moves by nothing to second order of its
- * curvature; what is left is of higher order and shrinks, and a mesh shrinks besides because its facets
- * are chords. A little less than 0 makes up for both. Mesh of a ball, delta 2 voxels for radius 20,
- * 0.7 for radius 6, sigma 1:
- *
- *   moment | mean distance, radius 20 | normals  | volume, radius 20 | volume, radius 6
- *      0   | 0.067 voxel              | 3.1 deg  | -1.20 %           | -5.3 %
- *   -0.4   | 0.070                    | 3.3      | -1.05             | -3.6
- *   -0.8   | 0.076                    | 3.5      | -0.94             | -2.2
- *   -1.2   | 0.080                    | 3.8      | -0.75             | -1.1
- */
-constexpr double KernelMoment = -0.8;
-
-/**
- * The 1D kernel (1 + c) g - c g*g as weights of the distances 0 ... R, in units of 1 / KernelOne;
- * {KernelOne} for sigma 0. c is chosen such that the second moment is KernelMoment; about 1 would make
- * it 0.
- */
-std::vector<int> NonShrinkingKernel(double sigma)
-{
-  const int radius = static_cast<int>(std::ceil(4.0 * sigma));
-  std::vector<double> w(static_cast<std::size_t>(radius) + 1, 1.0);
-  if (radius > 0)
-  {
-    std::vector<double> g(w.size());
-    std::vector<double> gg(w.size());
-    std::array<double, 2> sum{};
-    std::array<double, 2> moment{};
-    for (std::size_t t = 0; t < w.size(); ++t)
-    {
-      const double x = static_cast<double>(t) / (KernelWidth * sigma);
-      const double sides = t == 0 ? 1.0 : 2.0;
-      g[t] = std::exp(-0.5 * x * x);
-      gg[t] = std::exp(-0.25 * x * x);
-      sum[0] += sides * g[t];
-      sum[1] += sides * gg[t];
-      moment[0] += sides * static_cast<double>(t * t) * g[t];
-      moment[1] += sides * static_cast<double>(t * t) * gg[t];
-    }
-    const double c = (moment[0] / sum[0] - KernelMoment * sigma * sigma) /
-      (moment[1] / sum[1] - moment[0] / sum[0]);
-    for (std::size_t t = 0; t < w.size(); ++t)
-    {
-      w[t] = (1.0 + c) * g[t] / sum[0] - c * gg[t] / sum[1];
-    }
-  }
-  std::vector<int> weights;
-  int rest = KernelOne;
-  for (std::size_t t = 1; t < w.size(); ++t)
-  {
-    weights.push_back(static_cast<int>(std::lround(w[t] * KernelOne)));
-    rest -= 2 * weights.back();
-  }
-  weights.insert(weights.begin(), rest);
-  return weights;
-}
-
-/**
- * Tables of the pass along x. A row of indicators is a word of 8 + 2R bits; each of its bytes adds
- * to the 8 results what its bits contribute: table j, byte b, result i at ((j * 256) + b) * 8 + i.
- */
-std::vector<std::int16_t> ByteTables(const std::vector<int>& weights)
-{
-  const int radius = static_cast<int>(weights.size()) - 1;
-  const int width = 8 + 2 * radius;
-  const int bytes = (width + 7) / 8;
-  std::vector<std::int16_t> tables(static_cast<std::size_t>(bytes) * 256 * 8);
-  for (int j = 0; j < bytes; ++j)
-  {
-    for (int b = 0; b < 256; ++b)
-    {
-      for (int i = 0; i < 8; ++i)
-      {
-        int sum = 0;
-        for (int bit = 0; bit < 8; ++bit)
-        {
-          const int distance = std::abs(8 * j + bit - radius - i);
-          if (distance <= radius)
-          {
-            const int w = weights[static_cast<std::size_t>(distance)];
-            sum += ((b >> bit) & 1) ? w : -w;
-          }
-        }
-        tables[static_cast<std::size_t>((j * 256 + b) * 8 + i)] = static_cast<std::int16_t>(sum);
-      }
-    }
-  }
-  return tables;
-}
-
-#if defined(__GNUC__)
-// Spelt out because GCC 12 does not vectorise these loops by itself (measured: 3 times slower).
-using Floats = float __attribute__((vector_size(32), aligned(4), may_alias));
-using Shorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
-#define VOXPLEX_TO_FLOATS(shorts) __builtin_convertvector(shorts, Floats)
-#else
-/** Eight numbers, by the same name. */
-template <typename T>
-struct Eight
-{
-  T V[8];
-  Eight operator+(const Eight& o) const
-  {
-    Eight r;
-    for (int i = 0; i < 8; ++i)
-    {
-      r.V[i] = static_cast<T>(this->V[i] + o.V[i]);
-    }
-    return r;
-  }
-  friend Eight operator*(T w, const Eight& o)
-  {
-    Eight r;
-    for (int i = 0; i < 8; ++i)
-    {
-      r.V[i] = static_cast<T>(w * o.V[i]);
-    }
-    return r;
-  }
-};
-using Floats = Eight<float>;
-using Shorts = Eight<std::int16_t>;
-inline Floats VOXPLEX_TO_FLOATS(const Shorts& shorts)
-{
-  Floats r;
-  for (int i = 0; i < 8; ++i)
-  {
-    r.V[i] = shorts.V[i];
-  }
-  return r;
-}
-#endif
-
-/** Pass along x: words of bits in, 8 results a row out. */
-VOXPLEX_VECTOR_CLONES
-void PassAlongX(const std::uint64_t* __restrict words, std::size_t rows, std::size_t bytes,
-  const std::int16_t* __restrict tables, float* __restrict out)
-{
-  const auto* table = reinterpret_cast<const Shorts*>(tables);
-  auto* results = reinterpret_cast<Floats*>(out);
-  for (std::size_t r = 0; r < rows; ++r)
-  {
-    const std::uint64_t word = words[r];
-    Shorts sum = table[word & 255];
-    for (std::size_t j = 1; j < bytes; ++j)
-    {
-      sum = sum + table[j * 256 + ((word >> (8 * j)) & 255)];
-    }
-    results[r] = VOXPLEX_TO_FLOATS(sum);
-  }
-}
-
-/**
- * Pass along another axis: `outer` blocks of 8 + 2 radius slices of `inner` (a multiple of 8)
- * values in, of 8 slices out.
- */
-VOXPLEX_VECTOR_CLONES
-void PassAcross(const float* __restrict in, std::size_t outer, std::size_t inner,
-  std::size_t radius, const float* __restrict weights, float* __restrict out)
-{
-  const std::size_t slice = inner / 8;
-  const std::size_t width = 8 + 2 * radius;
-  const auto* values = reinterpret_cast<const Floats*>(in);
-  auto* results = reinterpret_cast<Floats*>(out);
-  for (std::size_t o = 0; o < outer; ++o)
-  {
-    for (std::size_t j = 0; j < 8; ++j)
-    {
-      for (std::size_t i = 0; i < slice; ++i)
-      {
-        const Floats* centre = values + (o * width + j + radius) * slice + i;
-        Floats sum = weights[0] * *centre;
-        const Floats* low = centre;
-        const Floats* high = centre;
-        for (std::size_t t = 1; t <= radius; ++t)
-        {
-          low -= slice;
-          high += slice;
-          sum = sum + weights[t] * (*low + *high);
-        }
-        results[(o * 8 + j) * slice + i] = sum;
-      }
-    }
-  }
-}
-
-/** Rounds to 16-bit samples, symmetrically about 0, and clamps to -1 ... 1. */
-VOXPLEX_VECTOR_CLONES
-void ToSamples(const float* __restrict in, std::size_t n, std::int16_t* __restrict out)
-{
-  // Adding 1.5 * 2^23 leaves the rounded value in the last bits; GCC vectorises this, not lrint.
-  constexpr float shift = 12582912.0f;
-  constexpr std::int32_t zero = std::bit_cast<std::int32_t>(shift);
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    std::int32_t v = std::bit_cast<std::int32_t>(in[i] + shift) - zero;
-    v = v > 16384 ? 16384 : v;
-    v = v < -16384 ? -16384 : v;
-    out[i] = static_cast<std::int16_t>(v);
-  }
-}
-
-/** Two labels: makes the difference plane (u_0 - u_1) / 2 win where `own` says so. */
-VOXPLEX_VECTOR_CLONES
-void KeepOwnOfTwo(
-  const std::uint16_t* __restrict own, const std::int16_t* __restrict margins, std::size_t n,
-  std::int16_t* __restrict plane)
-{
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::int16_t v = plane[i];
-    const std::int16_t margin = static_cast<std::int16_t>(margins[i] / 2);
-    const std::int16_t high = v > margin ? v : margin;
-    const std::int16_t low = v < -margin ? v : static_cast<std::int16_t>(-margin);
-    plane[i] = own[i] == 0 ? high : low;
-  }
-}
-
-/** Largest sample of the labels that are not the own one, one plane at a time. */
-VOXPLEX_VECTOR_CLONES
-void LargestOther(const std::uint16_t* __restrict own, std::uint16_t label,
-  const std::int16_t* __restrict plane, std::size_t n, std::int16_t* __restrict other)
-{
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::int16_t v = plane[i];
-    const std::int16_t o = other[i];
-    const std::int16_t larger = v > o ? v : o;
-    other[i] = own[i] == label ? o : larger;
-  }
-}
-
-/** Raises a plane where it belongs to the own label and does not win by the margin. */
-VOXPLEX_VECTOR_CLONES
-void KeepOwn(const std::uint16_t* __restrict own, std::uint16_t label,
-  const std::int16_t* __restrict other, const std::int16_t* __restrict margins, std::size_t n,
-  std::int16_t* __restrict plane)
-{
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::int16_t v = plane[i];
-    const int raised = other[i] + margins[i];
-    const int kept = v > raised ? v : raised;
-    plane[i] = own[i] == label ? static_cast<std::int16_t>(kept > 32767 ? 32767 : kept) : v;
-  }
-}
 
 } // namespace
 
@@ -327,29 +58,22 @@ template <int D>
 class LabelField<D>::Builder
 {
 public:
-  Builder(const LabelImage<D>& image, const std::vector<int>& weights,
-    const std::vector<std::int16_t>& tables)
+  Builder(const LabelImage<D>& image, const LabelSmoothing& smoothing)
     : Image(image)
-    , Tables(tables)
-    , Radius(weights.size() - 1)
+    , Smoothing(smoothing)
+    , Radius(smoothing.Radius())
     , Width(TileSamples + 2 * this->Radius)
     , SlotOf(image.Values().size(), NoSlot)
     , OwnSlots(PlaneSize)
     , Margins(PlaneSize)
     , Other(PlaneSize)
   {
-    for (const int w : weights)
-    {
-      this->Weights.push_back(static_cast<float>(w) / static_cast<float>(KernelOne));
-    }
     this->Rows = 1;
     for (int a = 1; a < D; ++a)
     {
       this->Rows *= this->Width;
     }
     this->Halo.resize(this->Rows * this->Width);
-    this->Buffers[0].resize(this->Rows * 8);
-    this->Buffers[1].resize(this->Rows / this->Width * 64);
   }
 
   /** The directory's entry of the tile whose first sample is at these lattice coordinates. */
@@ -515,21 +239,8 @@ private:
   /** Samples of one label, before the own label is kept. */
   void SmoothLabel(LabelId label, Sample* plane)
   {
-    std::size_t rows = this->Rows;
     const std::size_t slot = this->SlotOf[label];
-    PassAlongX(this->Words.data() + slot * this->Rows, rows, (this->Width + 7) / 8,
-      this->Tables.data(), this->Buffers[0].data());
-    std::size_t from = 0;
-    std::size_t inner = 8;
-    for (int a = 1; a < D; ++a)
-    {
-      rows /= this->Width;
-      PassAcross(this->Buffers[from].data(), rows, inner, this->Radius, this->Weights.data(),
-        this->Buffers[1 - from].data());
-      from = 1 - from;
-      inner *= 8;
-    }
-    ToSamples(this->Buffers[from].data(), PlaneSize, plane);
+    this->Smoothing.Smooth(D, this->Words.data() + slot * this->Rows, this->Buffers, plane);
   }
 
   /** All planes of the tile whose labels have been gathered. */
@@ -551,22 +262,8 @@ private:
     }
     this->GatherOwn();
     this->GatherMargins();
-    if (labels == 2)
-    {
-      KeepOwnOfTwo(this->OwnSlots.data(), this->Margins.data(), PlaneSize, tile + header);
-      return tile;
-    }
-    std::fill(this->Other.begin(), this->Other.end(), Sample{ -32768 });
-    for (std::size_t l = 0; l < planes; ++l)
-    {
-      LargestOther(this->OwnSlots.data(), static_cast<std::uint16_t>(l),
-        tile + header + l * PlaneSize, PlaneSize, this->Other.data());
-    }
-    for (std::size_t l = 0; l < planes; ++l)
-    {
-      KeepOwn(this->OwnSlots.data(), static_cast<std::uint16_t>(l), this->Other.data(),
-        this->Margins.data(), PlaneSize, tile + header + l * PlaneSize);
-    }
+    KeepOwnLabels(this->OwnSlots.data(), this->Margins.data(), labels, PlaneSize, tile + header,
+      this->Other.data());
     return tile;
   }
 
@@ -629,8 +326,8 @@ private:
   }
 
   /**
-   * Whether a voxel between two others along some axis belongs to something one voxel thin, not to a
-   * bump on something thicker: no face neighbour with its label is thick itself.
+   * Whether a voxel between two others along some axis belongs to something one voxel thin, not to
+   * a bump on something thicker: no face neighbour with its label is thick itself.
    */
   bool IsThinObject(const LabelId* voxel) const
   {
@@ -666,8 +363,7 @@ private:
   }
 
   const LabelImage<D>& Image;
-  const std::vector<std::int16_t>& Tables;
-  std::vector<float> Weights;
+  const LabelSmoothing& Smoothing;
   std::size_t Radius;
   std::size_t Width; ///< samples of the halo along each axis
   std::size_t Rows;  ///< of the halo
@@ -675,14 +371,15 @@ private:
   std::vector<LabelId> Labels; ///< of the halo
   std::vector<std::uint16_t> SlotOf;
   std::vector<std::uint64_t> Words;
-  std::array<std::vector<float>, 2> Buffers;
+  LabelSmoothing::Buffers Buffers;
   std::vector<std::uint16_t> OwnSlots;
   std::vector<Sample> Margins;
   std::vector<Sample> Other;
 };
 
 template <int D>
-LabelField<D>::LabelField(const LabelImage<D>& image, double sigma, unsigned threads)
+LabelField<D>::LabelField(
+  const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
   : Grid(image.Grid())
 {
   if (!(sigma >= 0.0 && sigma <= MaximumSigma))
@@ -710,12 +407,12 @@ LabelField<D>::LabelField(const LabelImage<D>& image, double sigma, unsigned thr
   }
   this->Directory.resize(numberOfTiles);
 
-  const std::vector<int> weights = NonShrinkingKernel(sigma);
-  const std::vector<std::int16_t> tables = ByteTables(weights);
+  const LabelSmoothing smoothing(sigma);
   std::vector<std::unique_ptr<Builder>> builders;
   std::vector<Builder*> idle;
   std::mutex mutex;
-  ParallelFor(0, numberOfTiles, 128, threads,
+  ParallelFor(
+    0, numberOfTiles, 128, threads,
     [&](std::size_t begin, std::size_t end)
     {
       Builder* builder = nullptr;
@@ -723,7 +420,7 @@ LabelField<D>::LabelField(const LabelImage<D>& image, double sigma, unsigned thr
         const std::scoped_lock lock(mutex);
         if (idle.empty())
         {
-          builders.push_back(std::make_unique<Builder>(image, weights, tables));
+          builders.push_back(std::make_unique<Builder>(image, smoothing));
           idle.push_back(builders.back().get());
         }
         builder = idle.back();
@@ -731,6 +428,7 @@ LabelField<D>::LabelField(const LabelImage<D>& image, double sigma, unsigned thr
       }
       for (std::size_t tile = begin; tile < end; ++tile)
       {
+        ThrowIfStopped(stop); // a tile in 4D with many labels and much smoothing takes a while
         Index first{};
         std::size_t rest = tile;
         for (std::size_t a = 0; a < D; ++a)
@@ -743,7 +441,8 @@ LabelField<D>::LabelField(const LabelImage<D>& image, double sigma, unsigned thr
       }
       const std::scoped_lock lock(mutex);
       idle.push_back(builder);
-    });
+    },
+    stop);
   for (const auto& builder : builders)
   {
     this->MixedTiles += builder->MixedTiles;

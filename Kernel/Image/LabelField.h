@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex
@@ -26,16 +27,16 @@ namespace voxplex
  *
  * **Definition.** For a label l let u_l be +1 at the voxels of l and -1 at all others (background
  * outside of the image), smoothed by the kernel below. At a voxel where the own label lost against
- * another, its value is raised above the other's, so that *every voxel centre keeps its label*; where an
- * object is one voxel thin it is raised by so much that the object stays about one voxel thick. Between
- * the voxels u_l is interpolated multilinearly. Label(p) is the label with the largest u_l(p); the
- * smallest id among equals.
+ * another, its value is raised above the other's, so that *every voxel centre keeps its label*;
+ * where an object is one voxel thin it is raised by so much that the object stays about one voxel
+ * thick. Between the voxels u_l is interpolated multilinearly. Label(p) is the label with the
+ * largest u_l(p); the smallest id among equals.
  *
- * **Kernel.** The tensor product of a 1D kernel (1 + c) g - c g*g, where g is a Gaussian of about sigma
- * voxels along each axis. Like 2G - G*G, of which it is a separable form, it hardly moves curved
- * interfaces; it needs one separable pass, not two. Its second moment is not 0 but a little less, which
- * makes up for what remains of the shrinking and for the chords of the mesh. Documentation/Algorithm.md
- * has the measured accuracy.
+ * **Kernel.** The tensor product of a 1D kernel (1 + c) g - c g*g, where g is a Gaussian of about
+ * sigma voxels along each axis. Like 2G - G*G, of which it is a separable form, it hardly moves
+ * curved interfaces; it needs one separable pass, not two. Its second moment is not 0 but a little
+ * less, which makes up for what remains of the shrinking and for the chords of the mesh.
+ * Documentation/Algorithm.md has the measured accuracy.
  *
  * **Storage.** The lattice (the crop of the label image and one layer of background around it) is
  * cut in tiles of TileCells cells along each axis. A tile stores its samples on all of its
@@ -71,9 +72,11 @@ public:
    * @param sigma standard deviation of the smoothing in voxels, 0 (none) to MaximumSigma
    * @param threads threads used for the construction; 0 means all cores. The result does not
    *   depend on it.
-   * @throws InputError if sigma is out of range; std::bad_alloc
+   * @param stop ends the construction early, within the time of a tile; the default never does
+   * @throws InputError if sigma is out of range; Cancelled if stopped; std::bad_alloc
    */
-  LabelField(const LabelImage<D>& image, double sigma, unsigned threads = 1);
+  LabelField(const LabelImage<D>& image, double sigma, unsigned threads = 1,
+    const std::stop_token& stop = {});
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
 

@@ -7,11 +7,14 @@
 #ifndef voxplex_ParallelFor_h
 #define voxplex_ParallelFor_h
 
+#include "Error.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <stop_token>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -25,6 +28,15 @@ inline unsigned NumberOfThreads(unsigned requested)
   return requested != 0 ? requested : std::max(1u, std::thread::hardware_concurrency());
 }
 
+/** @throws Cancelled if a stop was requested; otherwise costs an atomic load. */
+inline void ThrowIfStopped(const std::stop_token& stop)
+{
+  if (stop.stop_requested())
+  {
+    throw Cancelled();
+  }
+}
+
 /**
  * Calls function(first, last) on disjoint chunks that together cover [begin, end).
  *
@@ -36,13 +48,16 @@ inline unsigned NumberOfThreads(unsigned requested)
  * @param threads threads that take part, the caller's included; 0 means all cores
  * @param function callable as void(std::size_t first, std::size_t last), from several threads at
  * once
+ * @param stop checked before each chunk; the default never stops
+ * @throws Cancelled if a stop was requested before the last chunk was started; chunks that run are
+ *   finished first
  * @throws the first exception that a chunk threw, after all threads have stopped; chunks that had
  *   not been started by then are not run. std::system_error never escapes: if a thread cannot be
  *   started, those that run do its work.
  */
 template <typename Function>
-void ParallelFor(
-  std::size_t begin, std::size_t end, std::size_t grain, unsigned threads, Function&& function)
+void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned threads,
+  Function&& function, const std::stop_token& stop = {})
 {
   if (begin >= end)
   {
@@ -64,6 +79,7 @@ void ParallelFor(
       const std::size_t first = begin + chunk * grain;
       try
       {
+        ThrowIfStopped(stop);
         function(first, std::min(end, first + std::min(grain, end - first)));
       }
       catch (...)

@@ -113,15 +113,15 @@ bool Rules3D::Refine(SimplexId id)
 // that neither R1 nor R2 applies.
 bool Rules3D::IsSampled(const Element& t) const
 {
-  const double delta = this->Context.Settings.Delta;
-  if (this->Context.Settings.Size || t.Radius >= 2.0 * delta)
+  Point<3> z;
+  double error;
+  if (t.Radius >= 2.0 * this->Context.Settings.Delta ||
+    !this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error))
   {
     return false;
   }
-  Point<3> z;
-  double error;
-  return this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error) &&
-    error < delta && this->FeatureVertexNear(t, z, delta - error);
+  const double delta = this->DeltaBehind(t, z);
+  return t.Radius < 2.0 * delta && error < delta && this->FeatureVertexNear(t, z, delta - error);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -156,8 +156,7 @@ bool Rules3D::R3(const Element& t)
       continue;
     }
     Point<3> z;
-    if (!this->Context.Image.FirstCrossing(
-          t.Ball.Center, t.Label, mesh.GetCircumball(n).Center, z))
+    if (!this->Context.Image.FirstCrossing(t.Ball.Center, t.Label, mesh.GetCircumball(n).Center, z))
     {
       continue;
     }
@@ -299,7 +298,8 @@ bool Rules3D::OwnFeatureVertexNear(const Element& t, const Point<3>& z, double d
 //------------------------------------------------------------------------------------------------
 bool Rules3D::FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const
 {
-  return this->OwnFeatureVertexNear(t, z, distance) || this->Context.Features.AnyWithin(z, distance);
+  return this->OwnFeatureVertexNear(t, z, distance) ||
+    this->Context.Features.AnyWithin(z, distance);
 }
 
 //------------------------------------------------------------------------------------------------

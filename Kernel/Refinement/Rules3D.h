@@ -8,14 +8,16 @@
  * the interfaces, cfp(p) the feature point (point of an interface) closest to p, and Delta(z) the
  * sampling density at a feature point z (RefinementContext::Delta):
  *
- * | rule | applies to | if | then |
- * | --- | --- | --- | --- |
- * | R1 | t whose circumball meets dOmega | z = cfp(c(t)) has no feature vertex nearer than Delta(z) | insert z |
- * | R2 | t whose circumball meets dOmega | r(t) >= 2 Delta(z) | insert c(t), or its projection if outside the box |
- * | R3 | facet f whose dual edge meets dOmega at z | an angle of f is below the bound, or a vertex of f is not a feature vertex | insert z |
- * | R4 | t with c(t) inside the object | r(t) / shortest edge >= rho-bar | insert c(t) |
- * | R5 | t with c(t) inside the object | r(t) >= sf(c(t)) | insert c(t) |
- * | R6 | a new feature vertex z (R1, R3) | free vertices of its star nearer than 2 Delta(z) | remove them |
+ * - R1: t whose circumball meets dOmega; z = cfp(c(t)) has no feature vertex nearer than Delta(z):
+ *   insert z.
+ * - R2: t whose circumball meets dOmega; r(t) >= 2 Delta(z): insert c(t), or its projection onto the
+ *   box if it lies outside.
+ * - R3: facet f whose dual edge meets dOmega at z; an angle of f is below the bound, or a vertex of f
+ *   is not a feature vertex: insert z.
+ * - R4: t with c(t) inside the object; r(t) / shortest edge >= rho-bar: insert c(t).
+ * - R5: t with c(t) inside the object; r(t) >= sf(c(t)): insert c(t).
+ * - R6: a new feature vertex z (of R1 or R3): remove the free vertices of its star that are nearer than
+ *   2 Delta(z).
  *
  * **Termination**, whatever the input. Feature vertices are never removed, and none is inserted nearer
  * than SpacingFloor to another or to the box: in the box there is room for finitely many, so R1 and R3
@@ -80,8 +82,8 @@ private:
   bool OwnFeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
   bool FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
   bool InsertCircumcentre(const Element& t, std::uint64_t& fired);
-  bool InsertFeature(const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed,
-    std::uint64_t& fired);
+  bool InsertFeature(
+    const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed, std::uint64_t& fired);
   bool CountOutcome(InsertionOutcome outcome, std::uint64_t& fired);
 
   RefinementContext<3>& Context;

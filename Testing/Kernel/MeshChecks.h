@@ -66,8 +66,8 @@ inline double RadiusEdge(const SimplexMesh<3>& mesh, std::size_t t)
   {
     for (unsigned j = 0; j < i; ++j)
     {
-      shortest = std::min(shortest,
-        Distance(mesh.Points[mesh.Simplices[t][i]], mesh.Points[mesh.Simplices[t][j]]));
+      shortest = std::min(
+        shortest, Distance(mesh.Points[mesh.Simplices[t][i]], mesh.Points[mesh.Simplices[t][j]]));
     }
   }
   return Circumradius(mesh, t) / shortest;
@@ -82,8 +82,8 @@ inline double SmallestAngle(const SimplexMesh<3>& mesh, const std::array<std::ui
     const Point<3> a = Subtract(mesh.Points[f[(i + 1) % 3]], mesh.Points[f[i]]);
     const Point<3> b = Subtract(mesh.Points[f[(i + 2) % 3]], mesh.Points[f[i]]);
     const Point<3> c = Cross(a, b);
-    smallest = std::min(
-      smallest, std::atan2(std::sqrt(Dot(c, c)), Dot(a, b)) * 180.0 / std::numbers::pi);
+    smallest =
+      std::min(smallest, std::atan2(std::sqrt(Dot(c, c)), Dot(a, b)) * 180.0 / std::numbers::pi);
   }
   return smallest;
 }

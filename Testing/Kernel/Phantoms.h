@@ -44,8 +44,10 @@ inline LabelImage<3> Ball(double radius, double spacing = 1.0)
 {
   const std::int64_t n = static_cast<std::int64_t>(2 * radius / spacing) + 8;
   const double c = 0.5 * spacing * static_cast<double>(n - 1);
-  return Make(Cube(n, spacing), [=](const Point<3>& p) -> std::int16_t
-    { return Distance(p, { c, c, c }) < radius ? 1 : 0; });
+  return Make(Cube(n, spacing),
+    [=](const Point<3>& p) -> std::int16_t {
+      return Distance(p, { c, c, c }) < radius ? 1 : 0;
+    });
 }
 
 inline LabelImage<3> Torus(double major, double minor)
@@ -111,8 +113,9 @@ inline LabelImage<3> CutBall(std::int64_t radius)
   const std::int64_t n = 2 * radius + 8;
   const double c = 0.5 * static_cast<double>(n - 1);
   return Make(GridGeometry<3>::Orthogonal({ n, n, radius }, { 1.0, 1.0, 1.0 }),
-    [=](const Point<3>& p) -> std::int16_t
-    { return Distance(p, { c, c, 0.0 }) < static_cast<double>(radius) - 2.5 ? 1 : 0; });
+    [=](const Point<3>& p) -> std::int16_t {
+      return Distance(p, { c, c, 0.0 }) < static_cast<double>(radius) - 2.5 ? 1 : 0;
+    });
 }
 
 } // namespace voxplex::phantoms

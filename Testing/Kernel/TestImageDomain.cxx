@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Error.h"
 #include "Image/ImageDomain.h"
+#include "Parallel/ParallelFor.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
+#include <stop_token>
 
 using namespace voxplex;
 
@@ -366,4 +369,39 @@ TEST(ImageDomain, BoundsAndValues)
   EXPECT_TRUE(domain.ClosestSurfacePoint({ -20.0, 50.0, 10.0 }, 0, z));
   EXPECT_GT(domain.MemoryBytes(), 0u);
   EXPECT_GE(domain.LabelFieldSeconds(), 0.0);
+}
+
+TEST(ImageDomain, StoppedConstructorsThrowCancelled)
+{
+  std::mt19937 random(6);
+  const LabelImage<3> image = Balls<3>(Grids<3>()[0], 3, random);
+  const ImageDomain<3> domain(image, 1.0); // never stopped by default
+  const Point<3> spacing{ 1.0, 1.0, 1.0 };
+  std::stop_source source;
+  const std::stop_token stop = source.get_token();
+  EXPECT_NO_THROW(ImageDomain<3>(image, 1.0, 2, stop)); // not yet
+  source.request_stop();
+  for (const unsigned threads : { 1u, 4u })
+  {
+    EXPECT_THROW(LabelField<3>(image, 1.0, threads, stop), Cancelled);
+    EXPECT_THROW(
+      FeatureTransform<3>(domain.GetSites(), spacing, { 4, 4, 4 }, threads, stop), Cancelled);
+    EXPECT_THROW(ImageDomain<3>(image, 1.0, threads, stop), Cancelled);
+  }
+}
+
+TEST(ImageDomain, StoppedLoopsStartNoMoreChunks)
+{
+  for (const unsigned threads : { 1u, 4u })
+  {
+    std::stop_source source;
+    std::atomic<std::size_t> chunks = 0;
+    const auto stopAtOnce = [&](std::size_t, std::size_t)
+    {
+      ++chunks;
+      source.request_stop();
+    };
+    EXPECT_THROW(ParallelFor(0, 1000, 1, threads, stopAtOnce, source.get_token()), Cancelled);
+    EXPECT_LE(chunks, threads); // those that were running
+  }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole meshes of phantoms: invariants, accuracy, sizes, options, cancelling.
 #include "Error.h"
+#include "Image/LabelField.h"
 #include "ImageMesher.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
@@ -128,8 +129,7 @@ TEST(ImageMesher, BallIsAccurate)
     Point<3> outwards;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      outwards[k] =
-        (mesh.Points[f[0]][k] + mesh.Points[f[1]][k] + mesh.Points[f[2]][k]) / 3.0 - c;
+      outwards[k] = (mesh.Points[f[0]][k] + mesh.Points[f[1]][k] + mesh.Points[f[2]][k]) / 3.0 - c;
     }
     const Point<3> x = checks::Cross(n, outwards);
     normalError += std::atan2(std::sqrt(Dot(x, x)), Dot(n, outwards)) * 180.0 / std::numbers::pi;
@@ -162,7 +162,8 @@ TEST(ImageMesher, Torus)
   {
     vertices.insert(f.begin(), f.end());
   }
-  EXPECT_EQ(2 * static_cast<std::int64_t>(vertices.size()), static_cast<std::int64_t>(mesh.Facets.size()));
+  EXPECT_EQ(
+    2 * static_cast<std::int64_t>(vertices.size()), static_cast<std::int64_t>(mesh.Facets.size()));
 }
 
 TEST(ImageMesher, NestedBallsKeepTheirLabels)
@@ -222,8 +223,10 @@ TEST(ImageMesher, ObjectCutByTheImageBorderIsClosed)
 TEST(ImageMesher, AnisotropicSpacing)
 {
   const GridGeometry<3> grid = GridGeometry<3>::Orthogonal({ 60, 60, 20 }, { 0.3, 0.3, 1.0 });
-  const LabelImage<3> image = phantoms::Make(grid, [](const Point<3>& p) -> std::int16_t
-    { return Distance(p, { 9.0, 9.0, 9.5 }) < 7.0 ? 4 : 0; });
+  const LabelImage<3> image = phantoms::Make(grid,
+    [](const Point<3>& p) -> std::int16_t {
+      return Distance(p, { 9.0, 9.0, 9.5 }) < 7.0 ? 4 : 0;
+    });
   const SimplexMesh<3> mesh = Mesh(image, 0.8);
   ExpectGood(mesh);
   EXPECT_NEAR(MeshVolume(mesh), ImageVolume(image), 0.04 * ImageVolume(image));
@@ -235,8 +238,8 @@ TEST(ImageMesher, SkewedAxesAreMeshedInRealLengths)
   grid.IndexToFrame[0][1] = 0.4;
   grid.IndexToFrame[1][2] = -0.3;
   const Point<3> centre = grid.ToFrame({ 19.5, 19.5, 19.5 });
-  const LabelImage<3> image = phantoms::Make(grid, [&](const Point<3>& p) -> std::int16_t
-    { return Distance(p, centre) < 12.0 ? 1 : 0; });
+  const LabelImage<3> image = phantoms::Make(
+    grid, [&](const Point<3>& p) -> std::int16_t { return Distance(p, centre) < 12.0 ? 1 : 0; });
   const SimplexMesh<3> mesh = Mesh(image, 1.6);
   ExpectGood(mesh);
   double farthest = 0.0;
@@ -251,9 +254,8 @@ TEST(ImageMesher, NoiseTerminates)
 {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> label(0, 5);
-  const LabelImage<3> image =
-    phantoms::Make(phantoms::Cube(9), [&](const Point<3>&) -> std::int16_t
-      { return static_cast<std::int16_t>(label(random)); });
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(9),
+    [&](const Point<3>&) -> std::int16_t { return static_cast<std::int16_t>(label(random)); });
   for (const double delta : { 0.3, 1.0, 3.0 })
   {
     const SimplexMesh<3> mesh = Mesh(image, delta);
@@ -263,8 +265,10 @@ TEST(ImageMesher, NoiseTerminates)
 
 TEST(ImageMesher, OneVoxelObject)
 {
-  const LabelImage<3> image = phantoms::Make(phantoms::Cube(7), [](const Point<3>& p) -> std::int16_t
-    { return p == Point<3>{ 3.0, 3.0, 3.0 } ? 9 : 0; });
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(7),
+    [](const Point<3>& p) -> std::int16_t {
+      return p == Point<3>{ 3.0, 3.0, 3.0 } ? 9 : 0;
+    });
   const SimplexMesh<3> mesh = Mesh(image, 0.3);
   ExpectGood(mesh);
   EXPECT_EQ(mesh.Labels.front(), 9);
@@ -354,8 +358,8 @@ TEST(ImageMesher, BadOptionsSaySo)
 {
   const LabelImage<3> image = phantoms::Ball(5.0);
   MeshingOptions<3> options;
-  for (const double delta : { -1.0, std::numeric_limits<double>::quiet_NaN(),
-         std::numeric_limits<double>::infinity() })
+  for (const double delta :
+    { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     options = MeshingOptions<3>();
     options.Delta = delta;
@@ -431,6 +435,16 @@ TEST(ImageMesher, ProgressRisesAndComesFromTheCaller)
   EXPECT_FALSE(mesh.Simplices.empty());
 }
 
+TEST(ImageMesher, WhatTheCallbackThrowsEndsTheRun)
+{
+  MeshingOptions<3> options;
+  options.Delta = 0.2;
+  ImageMesher<3> mesher(options);
+  mesher.Progress = [](double) -> bool { throw std::runtime_error("enough"); };
+  SimplexMesh<3> mesh;
+  EXPECT_THROW(mesher.Run(phantoms::Ball(20.0), mesh), std::runtime_error);
+}
+
 TEST(ImageMesher, CancellingGivesAnEmptyMesh)
 {
   MeshingOptions<3> options;
@@ -443,4 +457,31 @@ TEST(ImageMesher, CancellingGivesAnEmptyMesh)
   EXPECT_EQ(mesher.Run(phantoms::Ball(20.0), mesh), MeshingOutcome::Cancelled);
   EXPECT_TRUE(mesh.Points.empty());
   EXPECT_TRUE(mesh.Simplices.empty());
+}
+
+TEST(ImageMesher, CancellingAtOnceDoesNotWaitForThePreparation)
+{
+  // Noise and the widest smoothing: a label field that takes far longer than the first report.
+  std::mt19937 random(12);
+  std::uniform_int_distribution<int> label(0, 5);
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(100),
+    [&](const Point<3>&) -> std::int16_t { return static_cast<std::int16_t>(label(random)); });
+  for (const unsigned threads : { 1u, 4u })
+  {
+    MeshingOptions<3> options;
+    options.SmoothingSigma = LabelField<3>::MaximumSigma;
+    options.Threads = threads;
+    ImageMesher<3> mesher(options);
+    int calls = 0;
+    mesher.Progress = [&](double)
+    {
+      ++calls;
+      return false;
+    };
+    SimplexMesh<3> mesh;
+    EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Cancelled);
+    EXPECT_EQ(calls, 1); // who has cancelled is not asked again
+    EXPECT_TRUE(mesh.Simplices.empty());
+    EXPECT_EQ(mesher.Statistics().LabelFieldBytes, 0u); // the preparation was not finished
+  }
 }

@@ -52,14 +52,12 @@ public:
     }
     return true;
   }
-  bool NearSurfacePoint(
-    const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
+  bool NearSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
   {
     error = 0.0;
     return this->ClosestSurfacePoint(p, label, z);
   }
-  bool FirstCrossing(
-    const Point<3>& a, LabelId, const Point<3>& b, Point<3>& z) const override
+  bool FirstCrossing(const Point<3>& a, LabelId, const Point<3>& b, Point<3>& z) const override
   {
     const Point<3> d = Subtract(b, a);
     const double qa = Dot(d, d);
@@ -182,8 +180,8 @@ TEST(Refinement, NoRuleAppliesAfterwards)
   const HalfSpaceSize size;
   for (const double delta : { 2.0, 1.0, 0.5 })
   {
-    for (const SizeFunction<3>* sf : { static_cast<const SizeFunction<3>*>(nullptr),
-           static_cast<const SizeFunction<3>*>(&size) })
+    for (const SizeFunction<3>* sf :
+      { static_cast<const SizeFunction<3>*>(nullptr), static_cast<const SizeFunction<3>*>(&size) })
     {
       SCOPED_TRACE("delta " + std::to_string(delta) + (sf ? " with sizes" : ""));
       RefinementSettings<3> settings;

@@ -139,8 +139,8 @@ SimplexId AnyAlive(const Triangulation<D>& t)
 }
 
 template <int D>
-InsertionOutcome Insert(Triangulation<D>& t, typename Triangulation<D>::Worker& w, const Point<D>& p,
-  VertexKind kind = VertexKind::Free)
+InsertionOutcome Insert(Triangulation<D>& t, typename Triangulation<D>::Worker& w,
+  const Point<D>& p, VertexKind kind = VertexKind::Free)
 {
   const SimplexId seed = t.FindConflict(w, p, AnyAlive(t));
   return seed == None ? InsertionOutcome::Duplicate : t.Insert(w, p, kind, seed);
@@ -197,7 +197,8 @@ std::vector<Point<D>> LatticePoints(int n, int side, double spacing, std::mt1993
 template <int D>
 VertexKind KindOf(const Point<D>& p, double size)
 {
-  const bool onBox = std::any_of(p.begin(), p.end(), [&](double x) { return x == 0.0 || x == size; });
+  const bool onBox =
+    std::any_of(p.begin(), p.end(), [&](double x) { return x == 0.0 || x == size; });
   return onBox ? VertexKind::Box : VertexKind::Free;
 }
 
@@ -320,7 +321,8 @@ TEST(Triangulation, OutcomesSayWhatHappened)
 {
   Triangulation<3> t(UnitBox<3>(1.0));
   Triangulation<3>::Worker worker(t);
-  ASSERT_EQ(Insert<3>(t, worker, { 0.5, 0.5, 0.5 }, VertexKind::Feature), InsertionOutcome::Inserted);
+  ASSERT_EQ(
+    Insert<3>(t, worker, { 0.5, 0.5, 0.5 }, VertexKind::Feature), InsertionOutcome::Inserted);
   EXPECT_EQ(t.GetVertex(worker.NewVertex).Kind, VertexKind::Feature);
   for (SimplexId s : worker.Created)
   {
@@ -333,7 +335,8 @@ TEST(Triangulation, OutcomesSayWhatHappened)
   {
     if (t.IsAlive(s))
     {
-      EXPECT_NE(t.Insert(worker, { 0.5, 0.5, 0.5 }, VertexKind::Free, s), InsertionOutcome::Inserted);
+      EXPECT_NE(
+        t.Insert(worker, { 0.5, 0.5, 0.5 }, VertexKind::Free, s), InsertionOutcome::Inserted);
     }
   }
   const Point<3> close = { 0.5, 0.5, 0.51 };
