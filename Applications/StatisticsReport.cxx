@@ -149,7 +149,7 @@ std::string Summarize(const ordered_json& report)
        << (report["labels"].size() == 1 ? " label, " : " labels, ") << Grouped(report["vertices"])
        << " vertices, " << Grouped(report["interface_facets"]) << " interface triangles with delta "
        << Significant(report["delta"]) << ". Radius-edge ratio at most "
-       << Rounded(quality["max_radius_edge"], 3) << ", dihedral angles from "
+       << Rounded(quality["max_radius_edge"], 4) << ", dihedral angles from "
        << Rounded(quality["min_dihedral"], 1) << " to " << Rounded(quality["max_dihedral"], 1)
        << " degrees, interface angles from " << Rounded(quality["min_planar"], 1)
        << " degrees. Read in " << Rounded(time["read"], 2) << " s, meshed in "
