@@ -16,6 +16,3 @@ voxplex_require("${VTK_FOUND}" "VTK 9.0 or newer" "libvtk9-dev" VTK_DIR)
 
 find_package(CGAL 5.0 QUIET)
 voxplex_require("${CGAL_FOUND}" "CGAL 5 (its kernels only)" "libcgal-dev" CGAL_DIR)
-
-find_package(Eigen3 QUIET)
-voxplex_require("${Eigen3_FOUND}" "Eigen 3.3" "libeigen3-dev" Eigen3_DIR)
