@@ -46,8 +46,9 @@ public:
   virtual DistanceInterval DistanceBounds(const Point<D>& p) const = 0;
 
   /**
-   * A quick estimate of cfp(p): some interface point lies within `error` of z, and is nearly as close
-   * to p as the closest. For tests that most points fail.
+   * A quick estimate of cfp(p): an interface point nearly as close to p as the closest lies about
+   * `error` from z. Not a bound: where an interface bends sharply it may be a few times farther. For
+   * a first test that settles most points.
    * @param label Label(p)
    * @return false if no interface point was found
    */

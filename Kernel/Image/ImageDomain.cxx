@@ -36,6 +36,18 @@ auto Timed(double& seconds, Function&& function)
   return result;
 }
 
+/** Length of a step in voxels, along the axis where it is longest. */
+template <int D>
+double LargestComponent(const Point<D>& step)
+{
+  double largest = 0.0;
+  for (const double component : step)
+  {
+    largest = std::max(largest, std::abs(component));
+  }
+  return largest;
+}
+
 /** Voxels of the lattice with a face neighbour of another label. */
 template <int D>
 BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
@@ -413,11 +425,7 @@ template <int D>
 inline double ImageDomain<D>::FindRoot(const Point<D>& x, const Point<D>& d, LabelId label,
   double inside, double outside, double tolerance) const
 {
-  double voxels = 0.0; // per unit of t
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxels = std::max(voxels, std::abs(d[a]));
-  }
+  const double voxels = LargestComponent<D>(d); // per unit of t
   const auto margin = [&](double t)
   {
     Point<D> at;
@@ -552,12 +560,7 @@ inline bool ImageDomain<D>::FindOnRay(
   if (length > 1.5 * this->VoxelDiagonal)
   {
     // The interface is near n: look for it there in steps of half a voxel.
-    double longest = 0.0;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      longest = std::max(longest, std::abs(d[a]));
-    }
-    const double step = 0.5 / longest;
+    const double step = 0.5 / LargestComponent<D>(d);
     const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / length);
     for (double t = step; t < end; t += step)
     {
@@ -591,11 +594,7 @@ bool ImageDomain<D>::NearSurfacePoint(
   z = this->Field.ToFrame(Interpolate(n, x, t));
   // The margin rises by about 1 per voxel; half of that is allowed for.
   const Point<D> d = Subtract(x, n);
-  double voxels = 0.0;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxels = std::max(voxels, std::abs(d[a]));
-  }
+  const double voxels = LargestComponent<D>(d);
   error = voxels > 0.0 ? 2.0 * QuickTolerance * std::sqrt(this->Length2(d)) / voxels : 0.0;
   return true;
 }

@@ -64,7 +64,7 @@ public:
   {
     return this->DistanceBoundsAt(this->Field.ToLattice(p));
   }
-  /** Within 0.1 voxel of an interface of `label`, on the ray to the nearest site. */
+  /** Where the margin of `label` is below 0.1 on the ray to the nearest site. */
   bool NearSurfacePoint(
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**

@@ -216,6 +216,7 @@ void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
   const std::vector<Point<D>> samples = SampleInterfaces<D>(domain, 20000, random);
   const double diagonal = Diagonal(grid);
   double excess = 0.0;
+  double off = 0.0;
   constexpr int queries = 300;
   for (int q = 0; q < queries; ++q)
   {
@@ -225,10 +226,18 @@ void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
     ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
     ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)));
     const double more = Distance(p, z) - NearestSample<D>(samples, p);
+    // The quick estimate: next to an interface too, by the samples' own spacing.
+    Point<D> quick;
+    double error;
+    ASSERT_TRUE(domain.NearSurfacePoint(p, label, quick, error));
+    ASSERT_LE(error, 0.25 * diagonal);
+    off +=
+      (NearestSample<D>(samples, quick) - NearestSample<D>(samples, z)) / (diagonal * queries);
     ASSERT_LT(more, 2.5 * diagonal); // a rare point; the mean below is what counts
     excess += std::max(0.0, more) / queries;
   }
   EXPECT_LT(excess, 0.2 * diagonal);
+  EXPECT_LT(off, 0.05);
 }
 
 template <int D>
