@@ -9,10 +9,12 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -177,19 +179,29 @@ std::uint64_t ParseBytes(const std::string& option, const std::string& text)
   return static_cast<std::uint64_t>(*value * scale);
 }
 
-Space ParseSpace(const std::string& option, std::string text)
+/** One of several words, whatever the case. */
+std::string ParseWord(
+  const std::string& option, const std::string& text, std::span<const std::string_view> words)
 {
-  std::transform(text.begin(), text.end(), text.begin(),
+  std::string word = text;
+  std::transform(word.begin(), word.end(), word.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (text == "lps")
+  if (std::find(words.begin(), words.end(), word) != words.end())
   {
-    return Space::LPS;
+    return word;
   }
-  if (text == "ras")
+  std::string choice;
+  for (std::size_t i = 0; i < words.size(); ++i)
   {
-    return Space::RAS;
+    choice.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
   }
-  throw UsageError("--" + option + ": must be lps or ras, not " + Quoted(text));
+  throw UsageError("--" + option + ": must be " + choice + ", not " + Quoted(text));
+}
+
+Space ParseSpace(const std::string& option, const std::string& text)
+{
+  constexpr std::array<std::string_view, 2> spaces{ "lps", "ras" };
+  return ParseWord(option, text, spaces) == spaces[0] ? Space::LPS : Space::RAS;
 }
 
 /** Levenshtein distance, for "did you mean". */
@@ -278,8 +290,18 @@ OptionGroups DeclareOptions()
     ("labels", text("LIST"),
       "mesh these labels only, such as 1,2,5; the others become background") //
     ("space", text("lps|ras"), "coordinates of the mesh (default lps, ITK's physical space)");
-  groups.Run.add_options()                                               //
-    ("threads", text("NUMBER"), "threads to use (default 0: all cores)") //
+  groups.Run.add_options() //
+    ("threads", text("NUMBER"),
+      "threads to use in every stage, refinement included (default 0: all cores); with 1 the mesh "
+      "is the same, bit for bit, in every run") //
+    ("contention", text("MANAGER"),
+      "what a thread does when another holds what it needs: aggressive (try again at once), random "
+      "(sleep now and then), global or local (wait until another thread makes progress; default "
+      "local)") //
+    ("balance", text("rws|hws"),
+      "from whom a thread without work gets some: whichever thread looks first (rws) or the "
+      "nearest (hws, default)")                                                              //
+    ("pin", "keep each thread on a core of its own; not while other programs use the cores") //
     ("memory-limit", text("BYTES"),
       "refuse meshes estimated to need more, such as 8G (default: the machine's memory)")     //
     ("force", "go on although the mesh is estimated not to fit, or --radius-edge is too low") //
@@ -420,6 +442,15 @@ Parameters ToParameters(const po::variables_map& values)
     }
     p.Threads = *threads;
   }
+  if (const auto* text = given("contention"))
+  {
+    p.Contention = ParseWord("contention", *text, ContentionManagers);
+  }
+  if (const auto* text = given("balance"))
+  {
+    p.Balance = ParseWord("balance", *text, LoadBalancers);
+  }
+  p.PinThreads = values.count("pin") > 0;
   if (const auto* text = given("memory-limit"))
   {
     p.MemoryLimit = ParseBytes("memory-limit", *text);

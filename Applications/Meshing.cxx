@@ -10,7 +10,9 @@
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkNew.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +20,18 @@ namespace voxplex::cli
 {
 namespace
 {
+
+/** Which of the words this is, which is also the filter's number for it. */
+int IndexOf(std::string_view word, std::span<const std::string_view> words)
+{
+  return static_cast<int>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+static_assert(ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_AGGRESSIVE] == "aggressive" &&
+  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_RANDOM] == "random" &&
+  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_GLOBAL] == "global" &&
+  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_LOCAL] == "local");
+static_assert(LoadBalancers[vtkImageToTetMeshFilter::RANDOM_WORK_STEALING] == "rws" &&
+  LoadBalancers[vtkImageToTetMeshFilter::HIERARCHICAL_WORK_STEALING] == "hws");
 
 void Configure(vtkImageToTetMeshFilter* filter, const Parameters& p)
 {
@@ -50,6 +64,15 @@ void Configure(vtkImageToTetMeshFilter* filter, const Parameters& p)
     filter->AddLabel(label);
   }
   filter->SetNumberOfThreads(p.Threads);
+  if (!p.Contention.empty())
+  {
+    filter->SetContentionManager(IndexOf(p.Contention, ContentionManagers));
+  }
+  if (!p.Balance.empty())
+  {
+    filter->SetLoadBalancer(IndexOf(p.Balance, LoadBalancers));
+  }
+  filter->SetPinThreads(p.PinThreads);
   filter->SetForce(p.Force);
   filter->SetMemoryLimit(p.MemoryLimit);
   filter->ComputeQualityOn();

@@ -7,10 +7,12 @@
 #ifndef voxplex_cli_Parameters_h
 #define voxplex_cli_Parameters_h
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxplex::cli
@@ -27,6 +29,11 @@ inline const char* ToString(Space space)
 {
   return space == Space::LPS ? "LPS" : "RAS";
 }
+
+/** What --contention and --balance take. */
+inline constexpr std::array<std::string_view, 4> ContentionManagers{ "aggressive", "random",
+  "global", "local" };
+inline constexpr std::array<std::string_view, 2> LoadBalancers{ "rws", "hws" };
 
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
@@ -47,7 +54,10 @@ struct Parameters
   std::vector<std::int64_t> Labels;
   Space OutputSpace = Space::LPS;
 
-  int Threads = 0; ///< 0: all cores
+  int Threads = 0;        ///< 0: all cores
+  std::string Contention; ///< one of ContentionManagers
+  std::string Balance;    ///< one of LoadBalancers
+  bool PinThreads = false;
   bool Force = false;
   std::uint64_t MemoryLimit = 0; ///< bytes; 0: the machine's memory
   bool Progress = false;

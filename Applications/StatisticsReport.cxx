@@ -50,8 +50,9 @@ ordered_json DescribeParameters(const Parameters& p)
     { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
     { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", p.Labels },
-    { "space", ToString(p.OutputSpace) }, { "threads", p.Threads }, { "force", p.Force },
-    { "memory_limit", p.MemoryLimit } };
+    { "space", ToString(p.OutputSpace) }, { "threads", p.Threads },
+    { "contention", OrNull(p.Contention) }, { "balance", OrNull(p.Balance) },
+    { "pin", p.PinThreads }, { "force", p.Force }, { "memory_limit", p.MemoryLimit } };
 }
 
 ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes& times)
@@ -136,6 +137,17 @@ std::vector<std::string> Warnings(const ordered_json& report)
   {
     warnings.push_back("some element sizes are below a tenth of delta and were raised to " +
       Significant(report["sizes_raised_to"]) + "; use a smaller --delta for smaller elements");
+  }
+  if (report["switched_to_local"].get<bool>())
+  {
+    std::int64_t rollbacks = 0;
+    for (const ordered_json& thread : report["thread_statistics"])
+    {
+      rollbacks += thread["rollbacks"].get<std::int64_t>();
+    }
+    warnings.push_back("the threads made no progress with --contention " +
+      report["contention"].get<std::string>() + " (" + Grouped(rollbacks) +
+      " rollbacks), and local took over; leave --contention out");
   }
   return warnings;
 }

@@ -36,7 +36,7 @@ nlohmann::ordered_json MakeReport(
 /** @throws RunError */
 void WriteReport(const nlohmann::ordered_json& report, const std::string& path);
 
-/** How the mesh deviates from what was asked for, from a report: one line each. */
+/** How the mesh or the run deviates from what was asked for, from a report: one line each. */
 std::vector<std::string> Warnings(const nlohmann::ordered_json& report);
 
 /** One paragraph for people, from a report. */

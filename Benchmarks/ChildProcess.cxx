@@ -10,6 +10,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace voxplex::benchmarks
 {
@@ -29,7 +30,7 @@ std::uint64_t PeakResidentBytes()
 
 namespace
 {
-/** The whole life of the child; never returns, so that the parent's objects are not destroyed
+/** The whole life of a child; never returns, so that the parent's objects are not destroyed
  * twice. */
 [[noreturn]] void LiveAsChild(
   int pipeEnd, void (*body)(void*, void*), void* context, void* result, std::size_t size)
@@ -46,33 +47,73 @@ namespace
   const bool sent = write(pipeEnd, result, size) == static_cast<ssize_t>(size);
   _exit(sent ? EXIT_SUCCESS : EXIT_FAILURE);
 }
-} // namespace
 
-void detail::RunInChild(
-  void (*body)(void* context, void* result), void* context, void* result, std::size_t size)
+struct Child
+{
+  pid_t Process;
+  int PipeEnd; ///< to read the result from
+};
+
+Child StartChild(void (*body)(void*, void*), void* context, void* result, std::size_t size)
 {
   int ends[2];
   if (pipe(ends) != 0)
   {
     throw std::runtime_error("cannot make a pipe");
   }
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0)
-  {
-    throw std::runtime_error("cannot start a child process");
-  }
-  if (child == 0)
+  const pid_t process = fork();
+  if (process == 0)
   {
     close(ends[0]);
     LiveAsChild(ends[1], body, context, result, size);
   }
   close(ends[1]);
-  const ssize_t received = read(ends[0], result, size);
-  close(ends[0]);
+  if (process < 0)
+  {
+    close(ends[0]);
+    throw std::runtime_error("cannot start a child process");
+  }
+  return { process, ends[0] };
+}
+
+/** Whether the child did well. */
+bool FinishChild(const Child& child, void* result, std::size_t size)
+{
+  const ssize_t received = read(child.PipeEnd, result, size);
+  close(child.PipeEnd);
   int status = 0;
-  waitpid(child, &status, 0);
-  if (status != 0 || received != static_cast<ssize_t>(size))
+  waitpid(child.Process, &status, 0);
+  return status == 0 && received == static_cast<ssize_t>(size);
+}
+} // namespace
+
+void detail::RunInChildren(std::size_t copies, void (*body)(void* context, void* result),
+  void* context, void* results, std::size_t size)
+{
+  std::fflush(nullptr);
+  std::vector<Child> children;
+  std::exception_ptr failure;
+  try
+  {
+    for (std::size_t i = 0; i < copies; ++i)
+    {
+      children.push_back(StartChild(body, context, static_cast<char*>(results) + i * size, size));
+    }
+  }
+  catch (const std::exception&)
+  {
+    failure = std::current_exception();
+  }
+  bool well = true;
+  for (std::size_t i = 0; i < children.size(); ++i)
+  {
+    well &= FinishChild(children[i], static_cast<char*>(results) + i * size, size);
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+  if (!well)
   {
     throw std::runtime_error("a measurement failed in its child process");
   }

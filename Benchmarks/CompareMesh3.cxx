@@ -10,6 +10,7 @@
  */
 #include "MeshComparison.h"
 #include "MeshReport.h"
+#include "Statistics.h"
 
 #include <cmath>
 #include <cstdio>
@@ -35,14 +36,14 @@ Meshes a label image with Voxplex and with CGAL Mesh_3 and prints both, side by 
   --delta D        sampling density of Voxplex, in the unit of the image's spacing
   --elements N     tetrahedra to aim at: delta is tuned (from D, if given), and CGAL's size
                    (default: as many as Voxplex makes with D)
-  --cgal-size S    bound of CGAL's surface Delaunay balls; default: tuned to 5 % of the number of
+  --cgal-size S    bound of CGAL's surface Delaunay balls; default: tuned to 3 % of the number of
                    tetrahedra of Voxplex
   --cgal-parallel  CGAL's Parallel_tag on one thread too (it orders its work differently)
   --repeat K       runs of each (default 3); medians are printed
   --threads T      threads of each (default 1; CGAL takes Parallel_tag for more than one)
   --no-cgal        Voxplex only
   --only-cgal      CGAL only; needs --elements or --cgal-size
-  --json FILE      also writes all runs to FILE
+  --json FILE      also writes medians, ratios and all runs to FILE
 )";
 
 struct Options
@@ -135,6 +136,38 @@ void SettleSizes(
   }
 }
 
+/** Times of meshes that differ in size are no comparison. */
+void WarnIfUnlike(const Contestant& voxplex, const Contestant& cgal)
+{
+  const double ratio =
+    MedianPair(voxplex.Records, cgal.Records, [](const Record& r) { return r.Tetrahedra(); }).Ratio;
+  if (ratio > 0.0 && std::abs(ratio - 1.0) > SizeTolerance)
+  {
+    std::fprintf(
+      stderr, "warning: the meshes differ in size by more than %.0f %%\n", 100.0 * SizeTolerance);
+  }
+}
+
+void WriteJsonFile(const Options& options, const Contestant& voxplex, const Contestant& cgal)
+{
+  std::ofstream file(options.Json);
+  file.precision(10);
+  file << "{\n  \"threads\": " << options.Threads << ",\n  \"cgal_tag\": \""
+       << (options.CgalParallel || options.Threads > 1 ? "Parallel_tag" : "Sequential_tag") << "\"";
+  for (const Contestant* contestant : { &voxplex, &cgal })
+  {
+    file << ",\n  \"" << contestant->Name << "\": ";
+    WriteJson(file, *contestant);
+  }
+  file << ",\n  \"ratios\":\n      ";
+  WriteRatios(file, voxplex, cgal);
+  file << "\n}\n";
+  if (!file.flush())
+  {
+    throw std::runtime_error("cannot write " + options.Json);
+  }
+}
+
 void Compare(const Options& options)
 {
   LabelVolume image = ReadLabelVolume(options.Image);
@@ -156,16 +189,12 @@ void Compare(const Options& options)
     }
   }
   std::printf("%s, %u thread(s), medians of %d%s\n\n", options.Image.c_str(), options.Threads,
-    options.Repeat, options.CgalParallel ? ", CGAL with Parallel_tag" : "");
+    options.Repeat, options.CgalParallel || options.Threads > 1 ? ", CGAL with Parallel_tag" : "");
   PrintTable(voxplex, cgal);
+  WarnIfUnlike(voxplex, cgal);
   if (!options.Json.empty())
   {
-    std::ofstream file(options.Json);
-    WriteJson(file, voxplex, cgal);
-    if (!file.flush())
-    {
-      throw std::runtime_error("cannot write " + options.Json);
-    }
+    WriteJsonFile(options, voxplex, cgal);
   }
 }
 

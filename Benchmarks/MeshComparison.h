@@ -39,11 +39,14 @@ struct Contestant
   std::vector<Record> Records{};
 };
 
+/** By how much the numbers of tetrahedra of two meshes of a like size may differ. */
+inline constexpr double SizeTolerance = 0.05;
+
 /** Tetrahedra that a size gives; one run, its progress on standard error. */
 double CountTetrahedra(const Contestant& contestant, double size);
 
 /**
- * Sets contestant.Size so that the mesher makes `wanted` tetrahedra within 5 %: secants of
+ * Sets contestant.Size so that the mesher makes `wanted` tetrahedra within 3 %: secants of
  * log(tetrahedra) over log(size), at most eight runs.
  * @param size where to start
  * @return the number of tetrahedra

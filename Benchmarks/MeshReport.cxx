@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshReport.h"
 
+#include "MarkdownTable.h"
 #include "Statistics.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
 
 namespace voxplex::benchmarks
 {
@@ -52,27 +55,29 @@ const Row Rows[] = {
     [](const Record& r) { return static_cast<double>(r.Quality.PlanarBelow30AwayFromJunctions); } },
   { "inverted tetrahedra", "inverted", "%.0f", false,
     [](const Record& r) { return static_cast<double>(r.Quality.Inverted); } },
+  { "labels present", "labels", "%.0f", false,
+    [](const Record& r)
+    { return static_cast<double>(r.Quality.LabelsInImage - r.Quality.LabelsLost); } },
   { "labels lost", "labels_lost", "%.0f", false,
     [](const Record& r) { return static_cast<double>(r.Quality.LabelsLost); } },
   { "label volume error, %", "label_volume_error_percent", "%.3f", false,
     [](const Record& r) { return 100.0 * r.Quality.VolumeError; } },
 };
 
-void WriteRuns(std::ostream& stream, const Contestant& contestant)
+/** One number of each row, as a JSON object. */
+template <typename NumberOf>
+void WriteNumbers(std::ostream& stream, bool onlyRatios, NumberOf numberOf)
 {
-  stream << "  \"" << contestant.Name << "\": {\n    \"size\": " << contestant.Size
-         << ",\n    \"runs\": [";
-  for (std::size_t i = 0; i < contestant.Records.size(); ++i)
+  const char* separator = "{ ";
+  for (const Row& row : Rows)
   {
-    stream << (i ? ",\n      {" : "\n      {");
-    for (const Row& row : Rows)
+    if (row.Ratio || !onlyRatios)
     {
-      stream << (&row == Rows ? " " : ",\n        ") << "\"" << row.Key
-             << "\": " << row.Value(contestant.Records[i]);
+      stream << separator << "\"" << row.Key << "\": " << numberOf(row);
+      separator = ",\n        ";
     }
-    stream << " }";
   }
-  stream << "\n    ]\n  }";
+  stream << " }";
 }
 
 void PrintCell(const char* format, const Contestant& contestant, double value)
@@ -108,14 +113,43 @@ void PrintTable(const Contestant& left, const Contestant& right)
   }
 }
 
-void WriteJson(std::ostream& stream, const Contestant& left, const Contestant& right)
+void PrintSpread(const Contestant& one, const Contestant& many)
 {
-  stream.precision(10);
-  stream << "{\n";
-  WriteRuns(stream, left);
-  stream << ",\n";
-  WriteRuns(stream, right);
-  stream << "\n}\n";
+  MarkdownTable table({ "", one.Name, std::string(many.Name) + ", smallest", "median", "largest" });
+  for (const Row& row : Rows)
+  {
+    double smallest = row.Value(many.Records.front());
+    double largest = smallest;
+    for (const Record& record : many.Records)
+    {
+      smallest = std::min(smallest, row.Value(record));
+      largest = std::max(largest, row.Value(record));
+    }
+    table.Add({ row.Name, Format(MedianOf(one.Records, row.Value), row.Format),
+      Format(smallest, row.Format), Format(MedianOf(many.Records, row.Value), row.Format),
+      Format(largest, row.Format) });
+  }
+  table.Print();
+}
+
+void WriteJson(std::ostream& stream, const Contestant& contestant)
+{
+  stream << "{\n    \"size\": " << contestant.Size << ",\n    \"medians\":\n      ";
+  WriteNumbers(
+    stream, false, [&](const Row& row) { return MedianOf(contestant.Records, row.Value); });
+  stream << ",\n    \"runs\": [";
+  for (std::size_t i = 0; i < contestant.Records.size(); ++i)
+  {
+    stream << (i ? ",\n      " : "\n      ");
+    WriteNumbers(stream, false, [&](const Row& row) { return row.Value(contestant.Records[i]); });
+  }
+  stream << "\n    ]\n  }";
+}
+
+void WriteRatios(std::ostream& stream, const Contestant& left, const Contestant& right)
+{
+  WriteNumbers(stream, true,
+    [&](const Row& row) { return MedianPair(left.Records, right.Records, row.Value).Ratio; });
 }
 
 } // namespace voxplex::benchmarks

@@ -18,8 +18,15 @@ namespace voxplex::benchmarks
  * (Statistics.h). */
 void PrintTable(const Contestant& left, const Contestant& right);
 
-/** All runs of both as a JSON object; keys are those of `voxplex --stats` where these have them. */
-void WriteJson(std::ostream& stream, const Contestant& left, const Contestant& right);
+/** A table on standard output: the medians of `one`, and how far the runs of `many` spread. */
+void PrintSpread(const Contestant& one, const Contestant& many);
+
+/** Size, medians and all runs as a JSON object; keys are those of `voxplex --stats` where these have
+ * them. */
+void WriteJson(std::ostream& stream, const Contestant& contestant);
+
+/** Medians of the ratios of `left` to `right`, as a JSON object with the same keys; 0 unless both ran. */
+void WriteRatios(std::ostream& stream, const Contestant& left, const Contestant& right);
 
 } // namespace voxplex::benchmarks
 

@@ -1,32 +1,41 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MesherRun.h"
+#include "VoxplexRun.h"
 
 #include "ChildProcess.h"
-#include "ImageMesher.h"
 #include "Stopwatch.h"
+
+#include <utility>
 
 namespace voxplex::benchmarks
 {
 
-MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads)
+VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
 {
-  MesherRun run;
+  VoxplexRun result;
+  MesherRun& run = result.Run;
   const Stopwatch total;
   const auto grid = GridGeometry<3>::Orthogonal(volume.Dimensions, volume.Spacing);
-  const auto image = LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, threads);
+  const auto image =
+    LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, options.Threads);
   volume.Labels = {}; // the kernel keeps labels of its own
 
-  MeshingOptions<3> options;
-  options.Delta = delta;
-  options.Threads = threads;
   ImageMesher<3> mesher(options);
   mesher.Run(image, run.Mesh);
   run.TotalSeconds = total.Seconds();
   run.CpuSeconds = total.CpuSeconds();
-  run.RefinementSeconds = mesher.Statistics().Times.Refinement;
+  result.Statistics = mesher.Statistics();
+  run.RefinementSeconds = result.Statistics.Times.Refinement;
   run.PeakBytes = PeakResidentBytes();
-  return run;
+  return result;
+}
+
+MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads)
+{
+  MeshingOptions<3> options;
+  options.Delta = delta;
+  options.Threads = threads;
+  return RunVoxplex(std::move(volume), options).Run;
 }
 
 } // namespace voxplex::benchmarks

@@ -54,12 +54,13 @@ vtk_module_compile_options(VTK::Voxplex
     -ffp-contract=off -Wall -Wextra -Wshadow
     $<$<BOOL:${VOXPLEX_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# The objects bring no libraries with them: threads, and GMP and MPFR for CGAL's exact numbers. Only
-# CGAL's libraries are wanted, not its compiler flags.
+# The objects bring no libraries with them: threads and what knows the hardware, and GMP and MPFR for
+# CGAL's exact numbers. Only CGAL's libraries are wanted, not its compiler flags.
+get_target_property(voxplex_kernel_libraries VoxplexKernel INTERFACE_LINK_LIBRARIES)
 vtk_module_link(VTK::Voxplex
   PRIVATE
     "$<LINK_ONLY:CGAL::CGAL>"
-    Threads::Threads)
+    ${voxplex_kernel_libraries})
 
 # What is not exported by name stays inside, as in the kernel.
 set_target_properties(Voxplex PROPERTIES

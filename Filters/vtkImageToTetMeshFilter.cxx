@@ -63,6 +63,14 @@ constexpr double KernelProgress = 0.97;
 /** voxplex::ProvedRadiusEdgeRatio, rounded down to what one types. */
 constexpr double ProvedRadiusEdgeRatio = 1.93;
 
+// The class's constants are the kernel's: casts lead from one to the other.
+using Filter = vtkImageToTetMeshFilter;
+static_assert(Filter::CONTENTION_RANDOM == static_cast<int>(voxplex::ContentionPolicy::Random) &&
+  Filter::CONTENTION_GLOBAL == static_cast<int>(voxplex::ContentionPolicy::Global) &&
+  Filter::CONTENTION_LOCAL == static_cast<int>(voxplex::ContentionPolicy::Local));
+static_assert(
+  Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
+
 class StopWatch
 {
 public:
@@ -190,7 +198,7 @@ std::string ListLabels(std::span<const std::int64_t> labels)
 
 /** The labels of the image that no element has. */
 std::vector<std::int64_t> FindLostLabels(
-  const voxplex::LabelImage<3>& image, const std::vector<std::int64_t>& elements)
+  const voxplex::LabelImage<3>& image, std::span<const std::int64_t> elements)
 {
   const auto values = image.Values().subspan(1); // without background
   std::vector<char> found(values.size(), 0);
@@ -367,6 +375,16 @@ void vtkImageToTetMeshFilter::SetSizeFunction(SizeFunctionType function)
   this->Modified();
 }
 
+const char* vtkImageToTetMeshFilter::GetContentionManagerAsString() const
+{
+  return voxplex::ContentionPolicyNames[static_cast<std::size_t>(this->ContentionManager)].data();
+}
+
+const char* vtkImageToTetMeshFilter::GetLoadBalancerAsString() const
+{
+  return voxplex::BalancePolicyNames[static_cast<std::size_t>(this->LoadBalancer)].data();
+}
+
 vtkMeshingStatistics* vtkImageToTetMeshFilter::GetStatistics() const
 {
   return this->Private->Statistics;
@@ -523,6 +541,9 @@ void vtkImageToTetMeshFilter::Mesh(
   options.SmoothingSigma = this->SmoothingSigma;
   options.Threads = static_cast<unsigned>(
     this->NumberOfThreads > 0 ? this->NumberOfThreads : voxplex::SmpThreads());
+  options.Contention = static_cast<voxplex::ContentionPolicy>(this->ContentionManager);
+  options.Balance = static_cast<voxplex::BalancePolicy>(this->LoadBalancer);
+  options.PinThreads = this->PinThreads;
   options.Force = this->Force;
   options.MemoryLimit = this->MemoryLimit;
   if (sizes->Any())
@@ -568,7 +589,7 @@ void vtkImageToTetMeshFilter::Mesh(
     figures.HasQuality = true;
   }
   StopWatch writing;
-  voxplex::MoveToOutput(std::move(mesh), input.Frame, tetrahedra, interfaces);
+  voxplex::MoveToOutput(std::move(mesh), input.Frame, tetrahedra, interfaces, options.Threads);
   figures.Run.Times.LabelField += readingTime;
   figures.Run.Times.Extraction += writing.Seconds();
 }
@@ -587,6 +608,13 @@ void vtkImageToTetMeshFilter::WarnOfDeviations()
     vtkWarningMacro(
       << "The mesh lacks these labels of the image, which are too small for a Delta of "
       << figures.Run.Delta << ": " << ListLabels(figures.LostLabels) << ".");
+  }
+  if (figures.Run.SwitchedToLocal)
+  {
+    vtkWarningMacro(<< "The threads made no progress with the contention manager '"
+                    << this->GetContentionManagerAsString()
+                    << "', which cannot exclude a livelock, and the local one took over; use "
+                       "SetContentionManagerToLocal().");
   }
 }
 
@@ -653,6 +681,9 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << indent << "SizeFunction: " << (this->Private->SizeFunction ? "set" : "(none)") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "ContentionManager: " << this->GetContentionManagerAsString() << "\n";
+  os << indent << "LoadBalancer: " << this->GetLoadBalancerAsString() << "\n";
+  os << indent << "PinThreads: " << (this->PinThreads ? "On" : "Off") << "\n";
   os << indent << "Force: " << (this->Force ? "On" : "Off") << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "ComputeQuality: " << (this->ComputeQuality ? "On" : "Off") << "\n";

@@ -53,7 +53,7 @@
  * mesh that is estimated not to fit in memory, and one that comes out empty. The executive then
  * adds a message of its own and its Update() returns 0. GetErrorMessage() keeps the reason. Labels
  * of the image that the mesh lacks, because Delta is too coarse for them, are named with
- * vtkWarningMacro.
+ * vtkWarningMacro; so are sizes that were raised, and a ContentionManager that was replaced.
  *
  * @par Progress and abort
  * Progress is reported from the thread that called Update(), at least ten times a second and never
@@ -62,8 +62,16 @@
  * output as up to date: call Modified() to execute again.
  *
  * @par Threads
- * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. Distinct instances may execute at
- * the same time. Nothing is kept between executions apart from the statistics.
+ * All stages use NumberOfThreads threads. Refinement is speculative: threads lock the vertices that
+ * an operation touches, and one that finds a vertex locked gives its operation up (a rollback).
+ * ContentionManager, LoadBalancer and PinThreads say how threads get along; the defaults are the
+ * right choice but for experiments, and with one thread none of the three matters.
+ * vtkMeshingStatistics tells how much time each thread lost, and to what.
+ *
+ * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. With more it differs from run to
+ * run; the bounds on shapes and sizes hold all the same. Events are sent from the thread that called
+ * Update() only. Distinct instances may execute at the same time. Nothing is kept between
+ * executions apart from the statistics.
  *
  * @par Pieces
  * The image cannot be meshed in pieces: piece 0 receives the whole mesh, other pieces are empty.
@@ -192,9 +200,100 @@ public:
 #endif
 
   ///@{
-  /** Threads to mesh with. 0, the default, means vtkSMPTools::GetEstimatedNumberOfThreads(). */
+  /**
+   * Threads to mesh with, in every stage. 0, the default, means what VTK's SMP setting says:
+   * vtkSMPTools::GetEstimatedNumberOfThreads() when the filter executes. More threads than cores
+   * are allowed, but slower.
+   */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /** Values of ContentionManager. */
+  enum ContentionManagers
+  {
+    CONTENTION_AGGRESSIVE = 0,
+    CONTENTION_RANDOM = 1,
+    CONTENTION_GLOBAL = 2,
+    CONTENTION_LOCAL = 3
+  };
+
+  ///@{
+  /**
+   * What a refinement thread does after a rollback (thesis, section 3.3). Default local.
+   * - Aggressive: it tries again at once.
+   * - Random: after several rollbacks in a row it sleeps for a random time.
+   * - Global: it waits in one list for all, until a thread that makes progress wakes it.
+   * - Local: it waits in the list of the thread that held the vertex, until that one makes progress.
+   *
+   * Global and local cannot livelock. Aggressive and random can; when no thread makes progress any
+   * more the local manager takes over and the filter warns of it
+   * (vtkMeshingStatistics::GetSwitchedToLocal()). The values are those of ContentionManagers, others
+   * are clamped to them.
+   */
+  vtkSetClampMacro(ContentionManager, int, CONTENTION_AGGRESSIVE, CONTENTION_LOCAL);
+  vtkGetMacro(ContentionManager, int);
+  void SetContentionManagerToAggressive()
+  {
+    this->SetContentionManager(CONTENTION_AGGRESSIVE);
+  }
+  void SetContentionManagerToRandom()
+  {
+    this->SetContentionManager(CONTENTION_RANDOM);
+  }
+  void SetContentionManagerToGlobal()
+  {
+    this->SetContentionManager(CONTENTION_GLOBAL);
+  }
+  void SetContentionManagerToLocal()
+  {
+    this->SetContentionManager(CONTENTION_LOCAL);
+  }
+  /** "aggressive", "random", "global" or "local". */
+  const char* GetContentionManagerAsString() const;
+  ///@}
+
+  /** Values of LoadBalancer. */
+  enum LoadBalancers
+  {
+    RANDOM_WORK_STEALING = 0,
+    HIERARCHICAL_WORK_STEALING = 1
+  };
+
+  ///@{
+  /**
+   * From whom a refinement thread without work gets some (thesis, sections 3.2.4 and 3.4.1).
+   * Default hierarchical.
+   * - Random work stealing (RWS): from whichever thread looks first, wherever it runs.
+   * - Hierarchical work stealing (HWS): from one of its socket before one of its NUMA node before
+   *   the rest of the machine, so that less work travels far. On a machine with one socket there is
+   *   little difference.
+   *
+   * The values are those of LoadBalancers, others are clamped to them.
+   */
+  vtkSetClampMacro(LoadBalancer, int, RANDOM_WORK_STEALING, HIERARCHICAL_WORK_STEALING);
+  vtkGetMacro(LoadBalancer, int);
+  void SetLoadBalancerToRandomWorkStealing()
+  {
+    this->SetLoadBalancer(RANDOM_WORK_STEALING);
+  }
+  void SetLoadBalancerToHierarchicalWorkStealing()
+  {
+    this->SetLoadBalancer(HIERARCHICAL_WORK_STEALING);
+  }
+  /** "rws" or "hws". */
+  const char* GetLoadBalancerAsString() const;
+  ///@}
+
+  ///@{
+  /**
+   * Keep each refinement thread on a core of its own, where the system allows it. Default off. Leave
+   * it off where other programs, or other instances of this filter, share the cores. The thread that
+   * called Update() is never pinned.
+   */
+  vtkSetMacro(PinThreads, bool);
+  vtkGetMacro(PinThreads, bool);
+  vtkBooleanMacro(PinThreads, bool);
   ///@}
 
   ///@{
@@ -269,6 +368,9 @@ protected:
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;
   int NumberOfThreads = 0;
+  int ContentionManager = CONTENTION_LOCAL;
+  int LoadBalancer = HIERARCHICAL_WORK_STEALING;
+  bool PinThreads = false;
   bool Force = false;
   vtkTypeUInt64 MemoryLimit = 0;
   bool ComputeQuality = false;

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <span>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshingStatistics);
@@ -17,7 +19,7 @@ vtkStandardNewMacro(vtkMeshingStatistics);
 namespace
 {
 
-/** Writes nested JSON objects of numbers. */
+/** Writes nested JSON objects. */
 class JsonWriter
 {
 public:
@@ -38,6 +40,26 @@ public:
   void End()
   {
     this->Text << "}";
+    this->First = false;
+  }
+
+  void BeginList(const std::string& name)
+  {
+    this->Name(name);
+    this->Text << "[";
+    this->First = true;
+  }
+
+  /** An object of a list; ends with End(). */
+  void BeginItem()
+  {
+    this->Text << (this->First ? "{" : ", {");
+    this->First = true;
+  }
+
+  void EndList()
+  {
+    this->Text << "]";
     this->First = false;
   }
 
@@ -66,7 +88,21 @@ public:
     this->Text << value;
   }
 
-  void Add(const std::string& name, const std::vector<std::int64_t>& values)
+  void Add(const std::string& name, bool value)
+  {
+    this->Name(name);
+    this->Text << (value ? "true" : "false");
+  }
+
+  /** The text must not need escapes. */
+  void Add(const std::string& name, std::string_view text)
+  {
+    this->Name(name);
+    this->Text << '"' << text << '"';
+  }
+
+  template <typename T>
+  void Add(const std::string& name, std::span<const T> values)
   {
     this->Name(name);
     this->Text << "[";
@@ -138,6 +174,26 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
   json.End();
 }
 
+void AddThreads(JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& threads)
+{
+  json.BeginList("thread_statistics");
+  for (const auto& thread : threads)
+  {
+    json.BeginItem();
+    json.Add("insertions", thread.Insertions);
+    json.Add("removals", thread.Removals);
+    json.Add("rollbacks", thread.Rollbacks);
+    json.Add("waits", thread.Waits);
+    json.Add("contention_seconds", thread.ContentionSeconds);
+    json.Add("load_balance_seconds", thread.LoadBalanceSeconds);
+    json.Add("rollback_seconds", thread.RollbackSeconds);
+    json.Add<std::uint64_t>("received", thread.Received);
+    json.Add("received_elements", thread.ReceivedElements);
+    json.End();
+  }
+  json.EndList();
+}
+
 } // namespace
 
 vtkMeshingStatistics::vtkMeshingStatistics()
@@ -204,7 +260,62 @@ VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
 VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
 VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
 VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
+VOXPLEX_FIGURE(double, SeedingTime, Run.SeedingSeconds)
+VOXPLEX_FIGURE(bool, SwitchedToLocal, Run.SwitchedToLocal)
+VOXPLEX_FIGURE(int, NumberOfRefinementThreads, Run.Threads.size())
 #undef VOXPLEX_FIGURE
+
+// Figures of one refinement thread.
+#define VOXPLEX_THREAD_FIGURE(type, getter, figure)                                                \
+  type vtkMeshingStatistics::GetThread##getter(int thread) const                                   \
+  {                                                                                                \
+    return thread >= 0 && thread < this->GetNumberOfRefinementThreads()                            \
+      ? static_cast<type>(this->Values->Run.Threads[static_cast<std::size_t>(thread)].figure)      \
+      : type{};                                                                                    \
+  }
+
+// Figures of one refinement thread, and their sum over all.
+#define VOXPLEX_SUMMED_FIGURE(type, getter, figure)                                                \
+  VOXPLEX_THREAD_FIGURE(type, getter, figure)                                                      \
+  type vtkMeshingStatistics::Get##getter() const                                                   \
+  {                                                                                                \
+    type sum{};                                                                                    \
+    for (const auto& thread : this->Values->Run.Threads)                                           \
+    {                                                                                              \
+      sum += static_cast<type>(thread.figure);                                                     \
+    }                                                                                              \
+    return sum;                                                                                    \
+  }
+
+VOXPLEX_THREAD_FIGURE(vtkTypeInt64, Insertions, Insertions)
+VOXPLEX_THREAD_FIGURE(vtkTypeInt64, Removals, Removals)
+VOXPLEX_SUMMED_FIGURE(vtkTypeInt64, Rollbacks, Rollbacks)
+VOXPLEX_SUMMED_FIGURE(vtkTypeInt64, Waits, Waits)
+VOXPLEX_SUMMED_FIGURE(double, ContentionTime, ContentionSeconds)
+VOXPLEX_SUMMED_FIGURE(double, LoadBalanceTime, LoadBalanceSeconds)
+VOXPLEX_SUMMED_FIGURE(double, RollbackTime, RollbackSeconds)
+VOXPLEX_SUMMED_FIGURE(vtkTypeInt64, ReceivedElements, ReceivedElements)
+#undef VOXPLEX_SUMMED_FIGURE
+#undef VOXPLEX_THREAD_FIGURE
+
+vtkTypeInt64 vtkMeshingStatistics::GetThreadReceived(int thread, int level) const
+{
+  return thread >= 0 && thread < this->GetNumberOfRefinementThreads() && level >= 0 &&
+      level < static_cast<int>(voxplex::StealingLevels)
+    ? static_cast<vtkTypeInt64>(this->Values->Run.Threads[static_cast<std::size_t>(thread)]
+                                  .Received[static_cast<std::size_t>(level)])
+    : 0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetReceived(int level) const
+{
+  vtkTypeInt64 sum = 0;
+  for (int thread = 0; thread < this->GetNumberOfRefinementThreads(); ++thread)
+  {
+    sum += this->GetThreadReceived(thread, level);
+  }
+  return sum;
+}
 
 vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
 {
@@ -253,9 +364,14 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("delta", v.Run.Delta);
   json.Add("smoothing_sigma", v.Run.SmoothingSigma);
   json.Add("threads", static_cast<std::int64_t>(v.Threads));
+  json.Add(
+    "contention", voxplex::ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)]);
+  json.Add("balance", voxplex::BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)]);
+  json.Add("switched_to_local", v.Run.SwitchedToLocal);
+  json.Add("seeding_seconds", v.Run.SeedingSeconds);
   json.Add("estimated_elements", v.Run.EstimatedElements);
   json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
-  json.Add("lost_labels", v.LostLabels);
+  json.Add<std::int64_t>("lost_labels", v.LostLabels);
   if (v.HasQuality)
   {
     AddQuality(json, v.Quality);
@@ -278,6 +394,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("label_field_bytes", v.Run.LabelFieldBytes);
   json.Add("distance_bytes", v.Run.DistanceBytes);
   json.End();
+  AddThreads(json, v.Run.Threads);
   return json.Finish();
 }
 
@@ -293,5 +410,8 @@ void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HasQuality: " << this->GetHasQuality() << "\n";
   os << indent << "NumberOfLabels: " << this->GetNumberOfLabels() << "\n";
   os << indent << "TotalTime: " << this->GetTotalTime() << "\n";
+  os << indent << "NumberOfRefinementThreads: " << this->GetNumberOfRefinementThreads() << "\n";
+  os << indent << "Rollbacks: " << this->GetRollbacks() << "\n";
+  os << indent << "SwitchedToLocal: " << this->GetSwitchedToLocal() << "\n";
   os << indent << "All figures: " << this->ToJSON() << "\n";
 }

@@ -8,7 +8,7 @@
  * time it executes. After an error or an abort counts and times are zero. The figures come in
  * groups:
  *
- * - **Counts** and **times** are always filled.
+ * - **Counts**, **times** and **threads** are always filled.
  * - **Labels** and **quality** need a pass over the finished mesh and are filled only if the
  *   filter's ComputeQuality is on (see GetHasQuality()); otherwise counts are zero and angles and
  *   ratios NaN.
@@ -44,7 +44,7 @@ public:
 
   /** The delta that was used: the one asked for, or the one derived from the spacing. */
   double GetDelta() const;
-  /** The number of threads that was used. */
+  /** The number of threads that was asked for, or that VTK's SMP setting gave. */
   int GetNumberOfThreads() const;
   /** The number of elements that was estimated before meshing. */
   vtkTypeInt64 GetEstimatedNumberOfElements() const;
@@ -136,11 +136,76 @@ public:
   ///@}
 
   /**
+   * The start of refinement, before there is work for all threads; part of GetRefinementTime().
+   */
+  double GetSeedingTime() const;
+
+  /**
+   * Whether the filter's ContentionManager (aggressive or random) made no progress and was replaced
+   * by the local one. The filter warns of it.
+   */
+  bool GetSwitchedToLocal() const;
+
+  ///@{
+  /**
+   * What each refinement thread did. There are GetNumberOfThreads() of them, or fewer if the system
+   * gave no more. The index runs from 0 to GetNumberOfRefinementThreads() - 1; outside of that the
+   * result is 0. Insertions and removals are operations that succeeded; a rollback is one that was
+   * given up because another thread held a vertex; a wait is a rollback after which the contention
+   * manager made the thread wait.
+   */
+  int GetNumberOfRefinementThreads() const;
+  vtkTypeInt64 GetThreadInsertions(int thread) const;
+  vtkTypeInt64 GetThreadRemovals(int thread) const;
+  vtkTypeInt64 GetThreadRollbacks(int thread) const;
+  vtkTypeInt64 GetThreadWaits(int thread) const;
+  ///@}
+
+  ///@{
+  /**
+   * The three overheads of a refinement thread, in seconds (thesis, section 3.3.5): contention is
+   * the time in the contention manager, load balance the time without work, rollback the time spent
+   * on operations that were given up.
+   */
+  double GetThreadContentionTime(int thread) const;
+  double GetThreadLoadBalanceTime(int thread) const;
+  double GetThreadRollbackTime(int thread) const;
+  ///@}
+
+  ///@{
+  /**
+   * Gifts of work that a refinement thread received while it had none, and the elements in them.
+   * The level says how far a gift came: 0 from within the socket, 1 from within the NUMA node, 2
+   * from elsewhere in the machine.
+   */
+  vtkTypeInt64 GetThreadReceived(int thread, int level) const;
+  vtkTypeInt64 GetThreadReceivedElements(int thread) const;
+  ///@}
+
+  ///@{
+  /**
+   * Sums over all refinement threads. Those of times are thus up to GetNumberOfRefinementThreads()
+   * times as long as refinement took.
+   */
+  vtkTypeInt64 GetRollbacks() const;
+  vtkTypeInt64 GetWaits() const;
+  double GetContentionTime() const;
+  double GetLoadBalanceTime() const;
+  double GetRollbackTime() const;
+  vtkTypeInt64 GetReceived(int level) const;
+  vtkTypeInt64 GetReceivedElements() const;
+  ///@}
+
+  /**
    * Everything as one JSON object:
-   * `{"elements", "vertices", "interface_facets", "delta", "threads", "sizes_raised_to", "lost_labels": [...],
+   * `{"elements", "vertices", "interface_facets", "delta", "threads", "contention", "balance",
+   * "switched_to_local", "seeding_seconds", "sizes_raised_to", "lost_labels": [...],
    * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "predicates":
-   * {...}, "time": {...}}`. "labels" and "quality" are left out when they were not measured; what
-   * is not finite is null.
+   * {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
+   * "contention_seconds", "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA
+   * node, machine], "received_elements"}, ...]}`. "contention" and "balance" name the policies that
+   * were asked for. "labels" and "quality" are left out when they were not measured; what is not
+   * finite is null.
    */
   std::string ToJSON() const;
 

@@ -15,8 +15,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
@@ -134,8 +136,9 @@ private:
     this->Fraction = PreparationShare;
     ThrowIfStopped(stop);
 
-    const MeshSizeEstimate estimate = EstimateMeshSize<D>(image, this->Stats.Delta,
-      SpacingFloorFraction * this->Stats.Delta, this->Options.Size.get(), this->Options.Threads);
+    const MeshSizeEstimate estimate =
+      EstimateMeshSize<D>(image, this->Stats.Delta, SpacingFloorFraction * this->Stats.Delta,
+        this->Options.Size.get(), this->Options.Threads, stop);
     this->Stats.EstimatedElements = estimate.Elements;
     if (estimate.SizesBelowFloor)
     {
@@ -149,7 +152,7 @@ private:
     Stopwatch refinement;
     RefinementContext<D> context(
       domain, this->Settings(), this->MakeBox(domain), estimate.InterfaceVertices);
-    Refiner<Rules3D> refiner(context);
+    Refiner<Rules3D> refiner(context, this->Team());
     const double expected = static_cast<double>(estimate.Vertices);
     const bool done = refiner.Run(
       [&](std::uint64_t vertices)
@@ -159,9 +162,11 @@ private:
         return !stop.stop_requested();
       });
     this->Stats.Times.Refinement = refinement.Seconds();
-    this->Stats.Rules = refiner.GetWorker().Statistics;
-    this->Stats.Rules.Created = refiner.GetWorker().Kernel.NumberOfCreated;
-    this->Stats.Predicates = refiner.GetWorker().Kernel.GetPredicateStatistics();
+    this->Stats.Rules = refiner.GetRuleStatistics();
+    this->Stats.Predicates = refiner.GetPredicateStatistics();
+    this->Stats.Threads = refiner.GetThreadStatistics();
+    this->Stats.SeedingSeconds = refiner.GetSecondsToSeed();
+    this->Stats.SwitchedToLocal = refiner.SwitchedToLocal();
     if (!done)
     {
       return false;
@@ -169,7 +174,7 @@ private:
     this->Fraction = RefinementShare;
 
     Stopwatch extraction;
-    ExtractMesh<D>(context.Mesh, domain, mesh);
+    ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
     this->Stats.Times.Extraction = extraction.Seconds();
     return !stop.stop_requested();
   }
@@ -182,6 +187,19 @@ private:
     settings.FacetAngle = this->Options.FacetAngle;
     settings.Size = this->Options.Size.get();
     return settings;
+  }
+
+  TeamOptions Team() const
+  {
+    TeamOptions team;
+    team.Threads = std::min(NumberOfThreads(this->Options.Threads), MaximumNumberOfWorkers);
+    team.Contention = this->Options.Contention;
+    team.Balance = this->Options.Balance;
+    team.Pin = this->Options.PinThreads;
+    team.Synchronise = this->Options.Synchronise;
+    team.RemoveEagerly = this->Options.RemoveEagerly;
+    team.SeedsPerThread = this->Options.SeedsPerThread;
+    return team;
   }
 
   /** At least 2 delta from every interface (thesis, section 2.2). */
@@ -210,6 +228,8 @@ MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& m
   this->Stats.Delta =
     this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid());
   this->Stats.SmoothingSigma = this->Options.SmoothingSigma;
+  this->Stats.Contention = this->Options.Contention;
+  this->Stats.Balance = this->Options.Balance;
 
   Stages stages(this->Options, this->Stats);
   const bool done =
@@ -230,7 +250,9 @@ bool ImageMesher<D>::RunReporting(Stages& stages, const LabelImage<D>& image, Si
 {
   bool done = false;
   std::exception_ptr error;
-  std::atomic<bool> finished{ false };
+  bool finished = false;
+  std::mutex mutex; // of finished
+  std::condition_variable changed;
   std::jthread worker(
     [&]
     {
@@ -242,20 +264,23 @@ bool ImageMesher<D>::RunReporting(Stages& stages, const LabelImage<D>& image, Si
       {
         error = std::current_exception();
       }
+      const std::scoped_lock lock(mutex);
       finished = true;
+      changed.notify_one();
     });
   constexpr auto Period = std::chrono::milliseconds(20);
   double reported = 0.0;
   try
   {
-    while (!finished)
+    for (bool over = false; !over;)
     {
       reported = std::max(reported, stages.Fraction.load());
       if (!stages.Stop.stop_requested() && !this->Progress(reported))
       {
         stages.Stop.request_stop();
       }
-      std::this_thread::sleep_for(Period);
+      std::unique_lock lock(mutex);
+      over = changed.wait_for(lock, Period, [&] { return finished; });
     }
   }
   catch (...) // from the callback: the worker joins on the way out

@@ -11,6 +11,7 @@
 #include "Image/SizeFunction.h"
 #include "Mesh/SimplexMesh.h"
 #include "MeshingStatistics.h"
+#include "Parallel/Policies.h"
 
 #include <cstdint>
 #include <functional>
@@ -35,6 +36,20 @@ struct MeshingOptions
   std::shared_ptr<const SizeFunction<D>> Size;
   /** Threads; 0 means all cores. */
   unsigned Threads = 1;
+  /** What a refinement thread does when it meets another. */
+  ContentionPolicy Contention = ContentionPolicy::Local;
+  /** From whom an idle refinement thread gets work. */
+  BalancePolicy Balance = BalancePolicy::Hierarchical;
+  /** Keep each refinement thread on a core of its own, where the system allows it. */
+  bool PinThreads = false;
+  /** Refine with the code for several threads even if there is one: to measure what that costs. */
+  bool Synchronise = false;
+  /** Several threads: take simplices out of the lists of poor elements when they die (the thesis'
+   * REMOVE_ON_THE_FLY), not when they come up. */
+  bool RemoveEagerly = false;
+  /** Several threads: interface points a thread, about, that are inserted before the threads start, so
+   * that all have work from the first moment; 0 for none, as in the thesis. */
+  unsigned SeedsPerThread = 128;
   /** Go on although the mesh is estimated not to fit in memory, or the ratio is below the proved bound. */
   bool Force = false;
   /** Bytes that the mesher may plan with; 0 means the machine's physical memory. */

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 namespace voxplex
 {
@@ -28,14 +29,15 @@ constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its co
 /** Faces of voxels between different labels, by axis; the crop is closed by background. */
 template <int D>
 std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
-  const LabelImage<D>& image, unsigned threads)
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
 {
   const auto& n = image.CropDimensions();
   const std::span<const LabelId> ids = image.Ids();
   const std::size_t row = static_cast<std::size_t>(n[0]);
   const std::size_t rows = ids.size() / row;
   std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(D)> faces{};
-  ParallelFor(0, rows, 256, threads,
+  ParallelFor(
+    0, rows, 256, threads,
     [&](std::size_t first, std::size_t last)
     {
       std::array<std::uint64_t, static_cast<std::size_t>(D)> count{};
@@ -71,7 +73,8 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
       {
         faces[a] += count[a];
       }
-    });
+    },
+    stop);
   std::array<std::uint64_t, static_cast<std::size_t>(D)> result;
   for (std::size_t a = 0; a < D; ++a)
   {
@@ -80,35 +83,66 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
   return result;
 }
 
+/** What a run of samples adds up to. */
+struct BallCount
+{
+  double Sum = 0.0; ///< of 1 / size^D
+  bool BelowFloor = false;
+};
+
+/** One voxel of the crop; nothing if it is background. */
+template <int D>
+void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
+  std::size_t voxel, BallCount& count)
+{
+  const LabelId id = image.Ids()[voxel];
+  if (id == 0)
+  {
+    return;
+  }
+  Point<D> index;
+  std::size_t rest = voxel;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const std::size_t extent = static_cast<std::size_t>(image.CropDimensions()[a]);
+    index[a] = static_cast<double>(rest % extent) + static_cast<double>(image.CropOrigin()[a]);
+    rest /= extent;
+  }
+  const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[id]);
+  if (s > 0.0 && std::isfinite(s))
+  {
+    count.BelowFloor |= s < floor;
+    count.Sum += std::pow(std::max(s, floor), -D);
+  }
+}
+
 /** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
 template <int D>
-double BallsInObject(
-  const LabelImage<D>& image, const SizeFunction<D>& size, double floor, bool& belowFloor)
+double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
+  bool& belowFloor, unsigned threads, const std::stop_token& stop)
 {
-  const auto& n = image.CropDimensions();
-  const std::span<const LabelId> ids = image.Ids();
-  const std::size_t step = std::max<std::size_t>(1, ids.size() / 50000);
+  constexpr std::size_t grain = 512; // fixed, so that the sum does not depend on the threads
+  const std::size_t voxels = image.Ids().size();
+  const std::size_t step = std::max<std::size_t>(1, voxels / 50000);
+  const std::size_t samples = (voxels - step / 2 + step - 1) / step;
+  std::vector<BallCount> chunks((samples + grain - 1) / grain);
+  ParallelFor(
+    0, samples, grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      BallCount count;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        CountBalls(image, size, floor, step / 2 + k * step, count);
+      }
+      chunks[first / grain] = count;
+    },
+    stop);
   double sum = 0.0;
-  for (std::size_t k = step / 2; k < ids.size(); k += step)
+  for (const BallCount& chunk : chunks)
   {
-    if (ids[k] == 0)
-    {
-      continue;
-    }
-    Point<D> index;
-    std::size_t rest = k;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const std::size_t extent = static_cast<std::size_t>(n[a]);
-      index[a] = static_cast<double>(rest % extent) + static_cast<double>(image.CropOrigin()[a]);
-      rest /= extent;
-    }
-    const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[ids[k]]);
-    if (s > 0.0 && std::isfinite(s))
-    {
-      belowFloor |= s < floor;
-      sum += std::pow(std::max(s, floor), -D);
-    }
+    sum += chunk.Sum;
+    belowFloor |= chunk.BelowFloor;
   }
   return sum * static_cast<double>(step) * image.Grid().VoxelVolume();
 }
@@ -130,9 +164,9 @@ std::uint64_t Saturate(double x)
 //------------------------------------------------------------------------------------------------
 template <int D>
 MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, double sizeFloor,
-  const SizeFunction<D>* size, unsigned threads)
+  const SizeFunction<D>* size, unsigned threads, const std::stop_token& stop)
 {
-  const auto faces = CountInterfaceFaces(image, threads);
+  const auto faces = CountInterfaceFaces(image, threads, stop);
   double area = 0.0;
   for (std::size_t a = 0; a < D; ++a)
   {
@@ -146,7 +180,8 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
   if (size)
   {
     // Where sizes are small the interface is sampled by them, and its elements are among these.
-    elements += ElementsPerBall * BallsInObject(image, *size, sizeFloor, estimate.SizesBelowFloor);
+    elements += ElementsPerBall *
+      BallsInObject(image, *size, sizeFloor, estimate.SizesBelowFloor, threads, stop);
   }
   estimate.InterfaceVertices = Saturate(interfaceVertices);
   estimate.Elements = Saturate(elements);
@@ -177,8 +212,8 @@ void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
 }
 
 template MeshSizeEstimate EstimateMeshSize<3>(
-  const LabelImage<3>&, double, double, const SizeFunction<3>*, unsigned);
+  const LabelImage<3>&, double, double, const SizeFunction<3>*, unsigned, const std::stop_token&);
 template MeshSizeEstimate EstimateMeshSize<4>(
-  const LabelImage<4>&, double, double, const SizeFunction<4>*, unsigned);
+  const LabelImage<4>&, double, double, const SizeFunction<4>*, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -11,6 +11,7 @@
 #include "Image/SizeFunction.h"
 
 #include <cstdint>
+#include <stop_token>
 
 namespace voxplex
 {
@@ -26,15 +27,17 @@ struct MeshSizeEstimate
 
 /**
  * Right to about a factor of two. A size function is sampled at some ten thousand voxels.
- * Cost: one pass over the image's bounding box.
+ * Cost: one pass over the image's bounding box. The result
+ * does not depend on the number of threads.
  *
  * @param sizeFloor sizes below this are raised to it
  * @param size may be null
  * @param threads 0 means all cores
+ * @throws Cancelled if a stop was requested before the end
  */
 template <int D>
 MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, double sizeFloor,
-  const SizeFunction<D>* size, unsigned threads);
+  const SizeFunction<D>* size, unsigned threads, const std::stop_token& stop = {});
 
 /**
  * @param limit bytes that may be used; 0 means the machine's physical memory

@@ -22,9 +22,11 @@ namespace voxplex
  *
  * For left-handed axes the map to the world is a reflection; two vertices of every tetrahedron and
  * triangle change places, so that tetrahedra stay positive and normals keep their side.
+ *
+ * @param threads 0 means all cores
  */
 void MoveToOutput(SimplexMesh<3>&& mesh, const ImageFrame& frame, vtkUnstructuredGrid* tetrahedra,
-  vtkPolyData* interfaces);
+  vtkPolyData* interfaces, unsigned threads);
 
 } // namespace voxplex
 

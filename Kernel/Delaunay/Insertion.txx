@@ -28,7 +28,11 @@ InsertionOutcome Triangulation<D>::Insert(
   }
   try
   {
-    this->CollectCavity(worker, p, seed);
+    if (!this->CollectCavity(worker, p, seed))
+    {
+      this->RestoreMarks(worker);
+      return InsertionOutcome::Contended;
+    }
     if (clearance > 0.0 && !this->IsClear(worker, p, kind, clearance))
     {
       this->RestoreMarks(worker);
@@ -51,8 +55,10 @@ InsertionOutcome Triangulation<D>::Insert(
 //------------------------------------------------------------------------------------------------
 // Breadth first over neighbours. Marks: Cavity for simplices in conflict, Outside for those tested
 // and found free of it, so that each is tested once. A simplex that joins brings at most one new vertex.
+// The vertices of a simplex are taken when its neighbours are about to be tested. False if one belongs to
+// another worker.
 template <int D>
-void Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed)
+bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed)
 {
   worker.Deleted.Clear();
   worker.Touched.Clear();
@@ -62,6 +68,10 @@ void Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
   worker.LinkNorms2.Clear();
   const unsigned planes = this->PlanesOfPoint(p);
 
+  if (!this->TryLockAll(worker, this->Simplices[seed].V))
+  {
+    return false;
+  }
   worker.Deleted.MakeRoom(1);
   worker.Deleted.Push(seed);
   this->Marks[seed] = SimplexMark::Cavity;
@@ -79,6 +89,11 @@ void Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
     worker.Touched.MakeRoom(N);
     worker.Boundary.MakeRoom(N);
     worker.Joined.MakeRoom(N);
+    worker.Owned.MakeRoom(1);
+    if (k > 0 && !this->TryOwn(worker, worker.Joined[k + N - 1])) // the vertex that s brought
+    {
+      return false;
+    }
     for (unsigned i = 0; i < N; ++i)
     {
       const SimplexId n = simplex.N[i];
@@ -118,6 +133,7 @@ void Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
     }
   }
   this->NumberLink(worker, p);
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -206,8 +222,8 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
     const SimplexId s = this->NewSimplex(worker);
     worker.Created[k] = s;
     Simplex& simplex = this->Simplices[s];
-    simplex.V = facet.V;
-    simplex.V[facet.Apex] = apex;
+    facet.V[facet.Apex] = apex;
+    this->SetVertices(simplex, facet.V);
     for (unsigned m = 0; m < static_cast<unsigned>(D); ++m)
     {
       const unsigned i = m + (m >= facet.Apex ? 1 : 0);

@@ -26,7 +26,11 @@ RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
   }
   try
   {
-    this->CollectStar(worker, v);
+    if (!this->CollectStar(worker, v))
+    {
+      this->RestoreMarks(worker);
+      return RemovalOutcome::Contended;
+    }
     if (!this->FillStar(worker))
     {
       this->RestoreMarks(worker);
@@ -47,14 +51,20 @@ RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
 }
 
 //------------------------------------------------------------------------------------------------
+// Every vertex of the star is taken before the simplices are looked at; false if one belongs to another
+// worker.
 template <int D>
-void Triangulation<D>::CollectStar(Worker& worker, VertexId v)
+bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
 {
   worker.Deleted.Clear();
   worker.Touched.Clear();
   worker.Boundary.Clear();
   worker.Link.Clear();
   const SimplexId first = this->Vertices[v].Incident;
+  if (!this->TryLockAll(worker, this->Simplices[first].V))
+  {
+    return false;
+  }
   worker.Deleted.MakeRoom(1);
   worker.Deleted.Push(first);
   this->Marks[first] = SimplexMark::Cavity;
@@ -65,6 +75,10 @@ void Triangulation<D>::CollectStar(Worker& worker, VertexId v)
     worker.Deleted.MakeRoom(N);
     worker.Boundary.MakeRoom(1);
     worker.Link.MakeRoom(N);
+    if (!this->TryLockAll(worker, simplex.V))
+    {
+      return false;
+    }
     for (unsigned i = 0; i < N; ++i)
     {
       const SimplexId n = simplex.N[i];
@@ -93,6 +107,7 @@ void Triangulation<D>::CollectStar(Worker& worker, VertexId v)
       }
     }
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@
 #include "Image/LabelImage.h"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 namespace voxplex
@@ -36,6 +37,10 @@ using SimplexId = std::uint32_t;
 
 /** No vertex, no simplex. */
 inline constexpr std::uint32_t None = 0xffffffffu;
+
+/** Names a thread in the lock word of a vertex; 0 is nobody. */
+using WorkerId = std::uint16_t;
+inline constexpr unsigned MaximumNumberOfWorkers = 0xffffu;
 
 /** Where a vertex comes from (thesis, sections 2.1 and 2.2). */
 enum class VertexKind : std::uint8_t
@@ -51,6 +56,7 @@ struct VertexRecord
   Point<D> Position;
   SimplexId Incident;  ///< some simplex of the star
   std::uint32_t Local; ///< scratch of the operation that owns the vertex: its number there
+  WorkerId Owner;      ///< whoever may change the star, 0 if nobody; accessed atomically
   VertexKind Kind;
   bool Alive;
 };
@@ -76,10 +82,18 @@ enum class SimplexMark : std::uint8_t
 /** What the refinement knows of a simplex. */
 struct SimplexState
 {
-  std::uint32_t Generation; ///< incremented whenever the simplex dies
+  std::uint32_t Generation; ///< incremented whenever the simplex dies; accessed atomically
   LabelId Label;            ///< label of the circumcentre, valid if Labelled
   bool Labelled;
   bool NearSurface; ///< its circumball may meet an interface
+
+  /** Whoever holds no vertex of the simplex may call this. */
+  std::uint32_t CurrentGeneration() const
+  {
+    // const_cast: atomic_ref to const is not in C++20; only read here
+    return std::atomic_ref<std::uint32_t>(const_cast<std::uint32_t&>(this->Generation))
+      .load(std::memory_order_relaxed);
+  }
 };
 
 } // namespace voxplex

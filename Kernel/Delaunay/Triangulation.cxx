@@ -26,7 +26,7 @@ constexpr std::uint32_t VertexBlock = 64;
 template <int D>
 Triangulation<D>::Triangulation(const Box<D>& box)
   : Domain(box)
-  , Vertices(Vertex{ {}, None, 0, VertexKind::Box, false })
+  , Vertices(Vertex{ {}, None, 0, 0, VertexKind::Box, false })
   , Marks(SimplexMark::Unused)
   , States(SimplexState{ 0, 0, false, false })
 {
@@ -170,11 +170,13 @@ void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
 }
 
 //------------------------------------------------------------------------------------------------
+// Afterwards the worker owns the vertex on top of its free list. Another may own it for a moment, having
+// guessed wrongly in Lock(); nobody can guess the vertices of a new block.
 template <int D>
 void Triangulation<D>::ReserveVertex(Worker& worker)
 {
   Stack<VertexId>& free = worker.FreeVertices;
-  if (!free.Empty())
+  if (!free.Empty() && this->TryLock(worker, free.Back()))
   {
     return;
   }
@@ -189,6 +191,7 @@ void Triangulation<D>::ReserveVertex(Worker& worker)
   {
     free.Push(first + i);
   }
+  this->TryLock(worker, free.Back());
 }
 
 //------------------------------------------------------------------------------------------------

@@ -27,14 +27,23 @@ enum class InsertionOutcome
   Inserted,
   NoConflict, ///< the point does not conflict with the simplex that was given
   Duplicate,  ///< the point is a vertex already
-  TooClose    ///< the point is nearer than asked for to a vertex that stays
+  TooClose,   ///< the point is nearer than asked for to a vertex that stays
+  Contended   ///< another worker owns a vertex of the cavity
 };
 
 enum class RemovalOutcome
 {
   Removed,
-  OnBox, ///< vertices on the box stay
-  Failed ///< the star could not be re-triangulated; the triangulation is unchanged
+  OnBox,    ///< vertices on the box stay
+  Failed,   ///< the star could not be re-triangulated; the triangulation is unchanged
+  Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
+};
+
+enum class LockOutcome
+{
+  Locked,
+  Dead,     ///< the simplex is no more
+  Contended ///< another worker owns one of its vertices
 };
 
 /**
@@ -50,8 +59,18 @@ enum class RemovalOutcome
  *
  * What an operation needs of scratch space, free lists and counters is in a Worker, one per thread.
  * Every operation first collects all simplices that it will change, then changes them; nothing is
- * modified before the first phase has succeeded. One operation at a time may run so far; reading
- * between operations is safe from any thread.
+ * modified before the first phase has succeeded.
+ *
+ * **Concurrency** (thesis, section 3.2.2). Workers with distinct numbers may operate at the same time;
+ * a worker that is alone has the number 0 and takes no locks. Every vertex has a lock word. A worker
+ * owns all vertices of every simplex that it deletes: it takes them while it collects, and gives up
+ * (Contended) as soon as one is taken. It keeps what it owns, after a success too, until Unlock().
+ *
+ * Whoever owns D of the D+1 vertices of a simplex may read all of its record, and of its neighbours
+ * which they are: neither it nor any neighbour can be deleted by somebody else, since each of its facets
+ * has one of these D vertices (D - 1 >= 1 of them). Two workers cannot both own D of D+1 vertices, so
+ * the marks and the state of a simplex are written by one worker at a time. All this is ordered by the
+ * lock words: taking one acquires what its last owner released.
  *
  * Complexity: linear in the simplices deleted and created for an insertion; for a removal linear in
  * (simplices created) x (vertices of the link).
@@ -67,8 +86,10 @@ public:
   /** Per-thread state: predicates, pools, scratch space, and what the last operation did. */
   struct Worker
   {
-    explicit Worker(const Triangulation& t)
+    /** @param id distinct for workers that operate at the same time; 0 for a worker that is alone */
+    explicit Worker(const Triangulation& t, WorkerId id = 0)
       : Predicates(t.GetBox().Min, t.GetBox().Max)
+      , Id(id)
     {
     }
 
@@ -78,11 +99,17 @@ public:
     Stack<SimplexId> Created;
     /** The vertex made by the last successful insertion. */
     VertexId NewVertex = None;
+    /** The simplices that the last successful operation deleted; their ids may be in Created again. */
+    Stack<SimplexId> Deleted;
     /** Simplices created so far. */
     std::uint64_t NumberOfCreated = 0;
+    /** Whom the last operation that was Contended lost to. */
+    WorkerId Winner = 0;
     /** Conflict tests so far, and how many the cached ball left to the predicates. */
     std::uint64_t BallTests = 0;
     std::uint64_t BallFailures = 0;
+
+    std::size_t NumberOfOwned() const { return this->Owned.Size(); }
 
     /** All tests of this worker; those that a cached ball decided included. */
     PredicateStatistics GetPredicateStatistics() const
@@ -118,9 +145,10 @@ public:
       std::array<Neighbour, N> Neighbours;
     };
 
+    const WorkerId Id;
+    Stack<VertexId> Owned;
     Stack<SimplexId> FreeSimplices;
     Stack<VertexId> FreeVertices;
-    Stack<SimplexId> Deleted; ///< the cavity or star
     Stack<SimplexId> Touched; ///< simplices marked Outside
     Stack<BoundaryFacet> Boundary;
     Stack<VertexId> Joined;      ///< vertices of the cavity, with repetitions
@@ -139,25 +167,41 @@ public:
   const Box<D>& GetBox() const { return this->Domain; }
 
   /**
+   * Takes all vertices of a simplex.
+   * @param generation State(s).Generation when the caller met the simplex
+   */
+  LockOutcome Lock(Worker& worker, SimplexId s, std::uint32_t generation);
+
+  /** Takes a vertex. @return false if another worker owns it: worker.Winner */
+  bool TryLock(Worker& worker, VertexId v);
+
+  /** Gives back all vertices that the worker owns. */
+  void Unlock(Worker& worker);
+
+  /**
    * Inserts a point.
    * @param p inside or on the box
-   * @param seed a living simplex that should be in conflict with p
+   * @param seed a living simplex that should be in conflict with p; the worker owns at least D of
+   *   its vertices, unless it is alone
    * @param clearance if positive: refuse points nearer than this to a vertex, free ones excepted if
    *   the point is a feature point (they give way)
-   * On success worker.Created and worker.NewVertex tell what was made.
+   * On success worker.Created and worker.NewVertex tell what was made, and the worker owns all their
+   * vertices.
    * @throws std::bad_alloc with the triangulation unchanged
    */
   InsertionOutcome Insert(
     Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed, double clearance = 0.0);
 
   /**
-   * Removes a vertex that is not on the box. On success worker.Created tells what was made.
+   * Removes a living vertex that is not on the box; unless the worker is alone it owns the vertex. On
+   * success worker.Created tells what was made.
    * @throws std::bad_alloc with the triangulation unchanged
    */
   RemovalOutcome Remove(Worker& worker, VertexId v);
 
   /**
-   * A simplex in conflict with p, by walking from a living simplex; None if p is a vertex.
+   * A simplex in conflict with p, by walking from a living simplex; None if p is a vertex. Nobody may
+   * operate meanwhile.
    * Expected O(n^(1/D)) from a random start, O(1) from one nearby.
    */
   SimplexId FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const;
@@ -210,6 +254,9 @@ private:
   std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
   static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
   std::uint32_t NumberVertex(Worker& worker, VertexId v);
+  bool TryOwn(Worker& worker, VertexId v);
+  bool TryLockAll(Worker& worker, const std::array<VertexId, N>& v);
+  void SetVertices(Simplex& simplex, const std::array<VertexId, N>& v);
   void BuildCorners();
 
   // Pools. Reserve...() may throw and leaves all as it was; what follows it does not throw.
@@ -222,7 +269,7 @@ private:
   void RestoreMarks(Worker& worker);
 
   // Insertion
-  void CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed);
+  [[nodiscard]] bool CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed);
   void FillCavity(Worker& worker, VertexId apex);
   void NumberLink(Worker& worker, const Point<D>& apex);
   void SetBall(Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex);
@@ -234,7 +281,7 @@ private:
   bool OnPlane(const std::array<VertexId, N>& v, unsigned except, unsigned planes) const;
 
   // Removal
-  void CollectStar(Worker& worker, VertexId v);
+  [[nodiscard]] bool CollectStar(Worker& worker, VertexId v);
   bool FillStar(Worker& worker);
   VertexId BestApex(Worker& worker, const BoundaryFacet& facet);
   void CommitFilling(Worker& worker);
@@ -304,8 +351,113 @@ template <int D>
 inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, VertexKind kind)
 {
   const VertexId v = worker.FreeVertices.Pop();
-  this->Vertices[v] = Vertex{ p, None, 0, kind, true };
+  Vertex& vertex = this->Vertices[v];
+  vertex.Position = p;
+  vertex.Incident = None;
+  vertex.Local = 0;
+  vertex.Kind = kind;
+  vertex.Alive = true;
   return v;
+}
+
+//------------------------------------------------------------------------------------------------
+// Whoever asks has made room in Owned.
+template <int D>
+inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
+{
+  if (worker.Id == 0)
+  {
+    return true;
+  }
+  const std::atomic_ref<WorkerId> owner(this->Vertices[v].Owner);
+  WorkerId current = owner.load(std::memory_order_relaxed);
+  if (current == worker.Id)
+  {
+    return true;
+  }
+  if (current == 0 &&
+    owner.compare_exchange_strong(
+      current, worker.Id, std::memory_order_acquire, std::memory_order_relaxed))
+  {
+    worker.Owned.Push(v);
+    return true;
+  }
+  worker.Winner = current;
+  return false;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline bool Triangulation<D>::TryLock(Worker& worker, VertexId v)
+{
+  worker.Owned.MakeRoom(1);
+  return this->TryOwn(worker, v);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline bool Triangulation<D>::TryLockAll(Worker& worker, const std::array<VertexId, N>& v)
+{
+  worker.Owned.MakeRoom(N);
+  for (const VertexId w : v)
+  {
+    if (!this->TryOwn(worker, w))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+// Before it owns anything the worker can only guess which vertices these are; if the simplex is still
+// the same once they are taken, the guess was right: whoever deleted it owned its vertices then, and
+// whoever reused its record owned the new ones, so one of the vertices that were taken tells of the
+// new generation.
+template <int D>
+inline LockOutcome Triangulation<D>::Lock(Worker& worker, SimplexId s, std::uint32_t generation)
+{
+  const SimplexState& state = this->States[s];
+  if (state.CurrentGeneration() != generation)
+  {
+    return LockOutcome::Dead;
+  }
+  if (worker.Id == 0)
+  {
+    return LockOutcome::Locked;
+  }
+  std::array<VertexId, N> v;
+  for (unsigned i = 0; i < N; ++i)
+  {
+    v[i] = std::atomic_ref<VertexId>(this->Simplices[s].V[i]).load(std::memory_order_acquire);
+  }
+  if (!this->TryLockAll(worker, v))
+  {
+    return state.CurrentGeneration() != generation ? LockOutcome::Dead : LockOutcome::Contended;
+  }
+  return state.CurrentGeneration() != generation ? LockOutcome::Dead : LockOutcome::Locked;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline void Triangulation<D>::Unlock(Worker& worker)
+{
+  for (const VertexId v : worker.Owned)
+  {
+    std::atomic_ref<WorkerId>(this->Vertices[v].Owner).store(0, std::memory_order_release);
+  }
+  worker.Owned.Clear();
+}
+
+//------------------------------------------------------------------------------------------------
+// Others may be guessing (Lock): whoever reads a vertex here also sees that it exists.
+template <int D>
+inline void Triangulation<D>::SetVertices(Simplex& simplex, const std::array<VertexId, N>& v)
+{
+  for (unsigned i = 0; i < N; ++i)
+  {
+    std::atomic_ref<VertexId>(simplex.V[i]).store(v[i], std::memory_order_release);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -313,7 +465,7 @@ template <int D>
 inline void Triangulation<D>::WriteSimplex(SimplexId s, const std::array<VertexId, N>& v)
 {
   Simplex& simplex = this->Simplices[s];
-  simplex.V = v;
+  this->SetVertices(simplex, v);
   std::array<const Point<D>*, N> points;
   for (unsigned i = 0; i < N; ++i)
   {
@@ -333,7 +485,11 @@ inline void Triangulation<D>::Kill(Worker& worker, SimplexId s)
 {
   this->Marks[s] = SimplexMark::Unused;
   SimplexState& state = this->States[s];
-  state = SimplexState{ state.Generation + 1, 0, false, false };
+  std::atomic_ref<std::uint32_t>(state.Generation)
+    .store(state.Generation + 1, std::memory_order_relaxed);
+  state.Label = 0;
+  state.Labelled = false;
+  state.NearSurface = false;
   worker.FreeSimplices.Push(s);
 }
 

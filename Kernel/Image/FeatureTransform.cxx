@@ -55,19 +55,6 @@ std::int64_t SetBitAbove(std::span<const std::uint64_t> words, std::int64_t posi
   return static_cast<std::int64_t>(w * 64) + std::countr_zero(word);
 }
 
-/** Makes an empty vector n zeros long, piece by piece: gigabytes take seconds. */
-template <typename T>
-void FillUnlessStopped(std::vector<T>& vector, std::size_t n, const std::stop_token& stop)
-{
-  constexpr std::size_t piece = std::size_t{ 1 } << 24;
-  vector.reserve(n);
-  while (vector.size() < n)
-  {
-    ThrowIfStopped(stop);
-    vector.resize(std::min(n, vector.size() + piece));
-  }
-}
-
 } // namespace
 
 /**
@@ -182,7 +169,7 @@ void FeatureTransform<D>::FirstPass(
   const BitMask<D>& sites, unsigned threads, const std::stop_token& stop)
 {
   const std::size_t cells = this->Cells[0];
-  FillUnlessStopped(this->Features, sites.NumberOfRows() * cells, stop);
+  this->Features.resize(sites.NumberOfRows() * cells);
   ParallelFor(
     0, sites.NumberOfRows(), 256, threads,
     [&](std::size_t begin, std::size_t end)
@@ -244,11 +231,10 @@ void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads, const std::st
   const std::size_t cells = this->Cells[axis];
   const std::size_t lines = this->Features.size() / n;
   const bool isLast = axis + 1 == D;
-  std::vector<std::uint32_t> out;
-  FillUnlessStopped(out, lines * cells, stop);
+  UninitialisedVector<std::uint32_t> out(lines * cells);
   if (isLast)
   {
-    FillUnlessStopped(this->Distances, out.size(), stop);
+    this->Distances.resize(out.size());
   }
   ParallelFor(
     0, lines, std::max<std::size_t>(16, 32768 / n), threads,

@@ -9,6 +9,7 @@
 
 #include "Geometry/Point.h"
 #include "Image/BitMask.h"
+#include "Parallel/UninitialisedVector.h"
 
 #include <array>
 #include <cstddef>
@@ -16,7 +17,6 @@
 #include <limits>
 #include <span>
 #include <stop_token>
-#include <vector>
 
 namespace voxplex
 {
@@ -116,8 +116,8 @@ private:
   Point<D> Spacing{};
   Point<D> CentreOffset{};
   Point<D> InverseStride{};
-  std::vector<std::uint32_t> Features;
-  std::vector<float> Distances;
+  UninitialisedVector<std::uint32_t> Features;
+  UninitialisedVector<float> Distances;
 };
 
 extern template class FeatureTransform<3>;

@@ -422,51 +422,51 @@ inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
 }
 
 template <int D>
+inline typename ImageDomain<D>::Probe ImageDomain<D>::ProbeAt(
+  const Point<D>& x, const Point<D>& d, LabelId label, double t) const
+{
+  Point<D> at;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    at[a] = x[a] + t * d[a];
+  }
+  return { t, this->Field.MarginAt(at, label) };
+}
+
+template <int D>
 inline double ImageDomain<D>::FindRoot(const Point<D>& x, const Point<D>& d, LabelId label,
-  double inside, double outside, double tolerance) const
+  Probe inside, Probe outside, double tolerance) const
 {
   const double voxels = LargestComponent<D>(d); // per unit of t
-  const auto margin = [&](double t)
-  {
-    Point<D> at;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      at[a] = x[a] + t * d[a];
-    }
-    return this->Field.MarginAt(at, label);
-  };
-  double insideMargin = margin(inside);
-  double outsideMargin = margin(outside);
-  int last = 0; // which end moved last
-  for (int i = 0; i < 40 && std::abs(outside - inside) * voxels > tolerance; ++i)
+  int last = 0;                                 // which end moved last
+  for (int i = 0; i < 40 && std::abs(outside.T - inside.T) * voxels > tolerance; ++i)
   {
     // Illinois: regula falsi, halving the value of an end that stays twice.
-    double t = inside + (outside - inside) * (insideMargin / (insideMargin - outsideMargin));
-    if (!((t - inside) * (t - outside) < 0.0))
+    double t =
+      inside.T + (outside.T - inside.T) * (inside.Margin / (inside.Margin - outside.Margin));
+    if (!((t - inside.T) * (t - outside.T) < 0.0))
     {
-      t = 0.5 * (inside + outside);
+      t = 0.5 * (inside.T + outside.T);
     }
-    const double value = margin(t);
-    if (std::abs(value) < tolerance)
+    const Probe probe = this->ProbeAt(x, d, label, t);
+    if (std::abs(probe.Margin) < tolerance)
     {
       return t;
     }
-    if (value > 0.0)
+    if (probe.Margin > 0.0)
     {
-      inside = t;
-      insideMargin = value;
-      outsideMargin *= last == 1 ? 0.5 : 1.0;
+      inside = probe;
+      outside.Margin *= last == 1 ? 0.5 : 1.0;
       last = 1;
     }
     else
     {
-      outside = t;
-      outsideMargin = value;
-      insideMargin *= last == -1 ? 0.5 : 1.0;
+      outside = probe;
+      inside.Margin *= last == -1 ? 0.5 : 1.0;
       last = -1;
     }
   }
-  return 0.5 * (inside + outside);
+  return 0.5 * (inside.T + outside.T);
 }
 
 template <int D>
@@ -508,25 +508,16 @@ inline bool ImageDomain<D>::MoveTowardsFoot(
   }
   const Point<D> direction = d;
   d = this->Image.Grid().ToIndex(d);
-  const auto hasLabel = [&](double t)
-  {
-    Point<D> at;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      at[a] = x[a] + t * d[a];
-    }
-    return this->Field.LabelAt(at) == label;
-  };
-  double outside = std::min(distance, foot + 0.5 * this->VoxelDiagonal);
-  double inside = std::max(0.0, foot - 0.5 * this->VoxelDiagonal);
-  if (hasLabel(outside))
+  Probe outside = this->ProbeAt(x, d, label, std::min(distance, foot + 0.5 * this->VoxelDiagonal));
+  if (outside.Margin > 0.0)
   {
     return false;
   }
-  if (inside > 0.0 && !hasLabel(inside))
+  Probe inside = this->ProbeAt(x, d, label, std::max(0.0, foot - 0.5 * this->VoxelDiagonal));
+  if (inside.T > 0.0 && !(inside.Margin > 0.0))
   {
     outside = inside;
-    inside = 0.0;
+    inside = this->ProbeAt(x, d, label, 0.0);
   }
   const double t = this->FindRoot(x, d, label, inside, outside, RootTolerance);
   if (t >= distance)
@@ -555,8 +546,8 @@ inline bool ImageDomain<D>::FindOnRay(
   }
   const Point<D> d = Subtract(x, n);
   const double length = std::sqrt(this->Length2(d));
-  double outside = 0.0;
-  double inside = 1.0;
+  Probe outside = this->ProbeAt(n, d, label, 0.0);
+  Probe inside{ 1.0, 0.0 };
   if (length > 1.5 * this->VoxelDiagonal)
   {
     // The interface is near n: look for it there in steps of half a voxel.
@@ -564,17 +555,22 @@ inline bool ImageDomain<D>::FindOnRay(
     const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / length);
     for (double t = step; t < end; t += step)
     {
-      if (this->Field.LabelAt(Interpolate(n, x, t)) == label)
+      const Probe probe = this->ProbeAt(n, d, label, t);
+      if (probe.Margin > 0.0)
       {
-        inside = t;
+        inside = probe;
         break;
       }
-      outside = t;
+      outside = probe;
     }
   }
-  if (inside == 1.0 && this->Field.LabelAt(x) != label)
+  if (inside.T == 1.0)
   {
-    return false;
+    inside.Margin = this->Field.MarginAt(x, label);
+    if (!(inside.Margin > 0.0))
+    {
+      return false;
+    }
   }
   root = this->FindRoot(n, d, label, inside, outside, tolerance);
   return true;
@@ -649,36 +645,28 @@ bool ImageDomain<D>::FirstCrossing(
   }
   const double step = 0.5 / longest;
   const double perLength = 1.0 / std::sqrt(this->Length2(d));
-  double before = begin;
-  while (before < end)
+  const auto pointAt = [&](double t)
   {
     Point<D> at;
     for (std::size_t k = 0; k < D; ++k)
     {
-      at[k] = x[k] + before * d[k];
-    }
-    const double free = this->DistanceBoundsAt(at).Lower * perLength;
-    const double t = std::min(end, before + std::max(step, free));
-    for (std::size_t k = 0; k < D; ++k)
-    {
       at[k] = x[k] + t * d[k];
     }
-    if (this->Field.LabelAt(at) != labelOfA)
+    return at;
+  };
+  Probe before = this->ProbeAt(x, d, labelOfA, begin);
+  while (before.T < end)
+  {
+    const double free = this->DistanceBoundsAt(pointAt(before.T)).Lower * perLength;
+    const Probe probe =
+      this->ProbeAt(x, d, labelOfA, std::min(end, before.T + std::max(step, free)));
+    if (!(probe.Margin > 0.0))
     {
-      z = this->Field.ToFrame(
-        [&]
-        {
-          const double root = this->FindRoot(x, d, labelOfA, before, t, RootTolerance);
-          Point<D> r;
-          for (std::size_t k = 0; k < D; ++k)
-          {
-            r[k] = x[k] + root * d[k];
-          }
-          return r;
-        }());
+      z =
+        this->Field.ToFrame(pointAt(this->FindRoot(x, d, labelOfA, before, probe, RootTolerance)));
       return true;
     }
-    before = t;
+    before = probe;
   }
   return false;
 }

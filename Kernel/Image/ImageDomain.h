@@ -104,12 +104,19 @@ private:
   bool NearSite(const Point<D>& x, Index& site) const;
   /** A voxel near x with another label, next to a site near x. */
   bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
+  /** A point x + t d of a line, and by how much a label wins there. */
+  struct Probe
+  {
+    double T;
+    double Margin;
+  };
+  Probe ProbeAt(const Point<D>& x, const Point<D>& d, LabelId label, double t) const;
   /**
    * The root of the label's margin on x + t d between `inside` (margin > 0) and `outside`, to
    * `tolerance` voxels.
    */
-  double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, double inside,
-    double outside, double tolerance) const;
+  double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, Probe inside, Probe outside,
+    double tolerance) const;
   /**
    * The root of the label's margin on the ray from a voxel near x with another label,
    * n + t (x - n).

@@ -248,7 +248,7 @@ template <int D>
 template <int D>
 template <typename T>
 LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
-  std::span<const std::int64_t> keep, unsigned threads)
+  std::span<const std::int64_t> keep, unsigned threads, const std::stop_token& stop)
 {
   using CensusType = Census<T, D>;
   CheckGrid(grid, scalars.size());
@@ -321,7 +321,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     }
   };
   const std::size_t grain = std::max<std::size_t>(1, (std::size_t{ 1 } << 18) / n0);
-  ParallelFor(0, rows, grain, threads,
+  ParallelFor(
+    0, rows, grain, threads,
     [&](std::size_t begin, std::size_t end)
     {
       CensusType* census = nullptr;
@@ -342,7 +343,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
       }
       const std::scoped_lock lock(mutex);
       idle.push_back(census);
-    });
+    },
+    stop);
   if (firstBad != scalars.size())
   {
     ThrowBadValue<T, D>(scalars[firstBad], firstBad, grid);
@@ -438,7 +440,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   }
   const auto e0 = static_cast<std::size_t>(image.Extent[0]);
   image.Voxels.resize(e0 * cropRows);
-  ParallelFor(0, cropRows, grain, threads,
+  ParallelFor(
+    0, cropRows, grain, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t row = begin; row < end; ++row)
@@ -462,7 +465,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
           } while (i < e0 && in[i] == value);
         }
       }
-    });
+    },
+    stop);
   image.LabelCounts[0] = static_cast<std::int64_t>(image.Voxels.size());
   for (std::size_t id = 1; id < image.LabelCounts.size(); ++id)
   {
@@ -475,10 +479,10 @@ template class LabelImage<3>;
 template class LabelImage<4>;
 
 #define VOXPLEX_INSTANTIATE(T)                                                                     \
-  template LabelImage<3> LabelImage<3>::FromScalars<T>(                                            \
-    std::span<const T>, const GridGeometry<3>&, std::span<const std::int64_t>, unsigned);          \
-  template LabelImage<4> LabelImage<4>::FromScalars<T>(                                            \
-    std::span<const T>, const GridGeometry<4>&, std::span<const std::int64_t>, unsigned)
+  template LabelImage<3> LabelImage<3>::FromScalars<T>(std::span<const T>, const GridGeometry<3>&, \
+    std::span<const std::int64_t>, unsigned, const std::stop_token&);                              \
+  template LabelImage<4> LabelImage<4>::FromScalars<T>(std::span<const T>, const GridGeometry<4>&, \
+    std::span<const std::int64_t>, unsigned, const std::stop_token&)
 VOXPLEX_INSTANTIATE(char);
 VOXPLEX_INSTANTIATE(signed char);
 VOXPLEX_INSTANTIATE(unsigned char);

@@ -8,10 +8,12 @@
 #define voxplex_LabelImage_h
 
 #include "Image/GridGeometry.h"
+#include "Parallel/UninitialisedVector.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex
@@ -41,13 +43,15 @@ public:
    *   finite and not negative.
    * @param keep label values to mesh, the others become background; empty keeps all
    * @param threads threads used for the conversion; 0 means all cores
+   * @throws Cancelled if a stop was requested before the end
    * @throws InputError: fewer than two voxels along an axis, spacing not positive and finite,
    *   fractional, negative or non-finite values (says which value and at which index), no foreground,
    *   more than MaximumNumberOfLabels labels (a grey-value image?), a kept label that does not occur
    */
   template <typename T>
   static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
-    std::span<const std::int64_t> keep = {}, unsigned threads = 1);
+    std::span<const std::int64_t> keep = {}, unsigned threads = 1,
+    const std::stop_token& stop = {});
 
   /** The whole grid, as given. */
   const GridGeometry<D>& Grid() const { return this->WholeGrid; }
@@ -69,7 +73,7 @@ private:
   GridGeometry<D> WholeGrid;
   Index Origin{};
   Index Extent{};
-  std::vector<LabelId> Voxels;
+  UninitialisedVector<LabelId> Voxels;
   std::vector<std::int64_t> LabelValues;
   std::vector<std::int64_t> LabelCounts;
 };

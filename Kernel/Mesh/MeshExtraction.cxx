@@ -3,8 +3,15 @@
 #include "Mesh/MeshExtraction.h"
 
 #include "Mesh/HilbertOrder.h"
+#include "Parallel/ChunkCounts.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelSort.h"
+#include "Parallel/UninitialisedVector.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -13,126 +20,165 @@ namespace voxplex
 namespace
 {
 
-/** The three steps of an extraction and what they hand on. */
+/** The steps of an extraction and what they hand on. */
 template <int D>
 class Extraction
 {
 public:
-  Extraction(const Triangulation<D>& triangulation, const Domain<D>& image, SimplexMesh<D>& mesh)
+  Extraction(const Triangulation<D>& triangulation, const Domain<D>& image, unsigned threads,
+    const std::stop_token& stop)
     : Source(triangulation)
     , Image(image)
-    , Mesh(mesh)
+    , Threads(threads)
+    , Stop(stop)
+    , Ids(triangulation.SimplexIdEnd())
+    , Vertices(triangulation.VertexIdEnd())
+    , Inside(Ids)
   {
   }
 
-  void Run()
+  SimplexMesh<D> Run()
   {
-    this->Mesh = SimplexMesh<D>();
     this->LabelSimplices();
     this->NumberPoints();
-    this->CollectSimplices();
-    this->CollectFacets();
+    this->SortSimplices();
+    this->WriteSimplices();
+    this->WriteFacets();
+    return std::move(this->Mesh);
   }
 
 private:
   static constexpr unsigned N = D + 1;
   using Facet = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
 
-  /** Labels of all simplices, those of the object in Inside. */
+  /** A number to sort by, and whose it is. */
+  struct Ranked
+  {
+    std::uint64_t Key;
+    VertexId Id;
+  };
+
+  template <typename Function>
+  void ForChunks(std::size_t iterations, Function&& function)
+  {
+    ParallelFor(0, iterations, ChunkCounts::Grain, this->Threads, std::forward<Function>(function),
+      this->Stop);
+  }
+
+  /** Labels of all simplices, 0 for what is not alive; marks the vertices of those inside. */
   void LabelSimplices()
   {
-    const SimplexId end = this->Source.SimplexIdEnd();
-    this->Labels.assign(end, 0);
-    for (SimplexId s = 0; s < end; ++s)
+    this->Numbers.resize(this->Vertices);
+    this->ForChunks(this->Vertices,
+      [this](std::size_t first, std::size_t last)
+      { std::fill(this->Numbers.data() + first, this->Numbers.data() + last, None); });
+
+    this->Labels.resize(this->Ids);
+    this->ForChunks(this->Ids,
+      [this](std::size_t first, std::size_t last)
+      {
+        std::size_t inside = 0;
+        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+        {
+          const LabelId label = this->Source.IsAlive(s) ? this->LabelOf(s) : LabelId(0);
+          this->Labels[s] = label;
+          if (label != 0)
+          {
+            ++inside;
+            this->MarkVertices(s);
+          }
+        }
+        this->Inside.OfChunk(first) = inside;
+      });
+    this->NumberOfSimplices = this->Inside.TurnIntoPlaces();
+  }
+
+  LabelId LabelOf(SimplexId s) const
+  {
+    const SimplexState& state = this->Source.State(s);
+    return state.Labelled ? state.Label : this->Image.Label(this->Source.GetCircumball(s).Center);
+  }
+
+  void MarkVertices(SimplexId s)
+  {
+    for (const VertexId v : this->Source.GetSimplex(s).V)
     {
-      if (!this->Source.IsAlive(s))
+      // Relaxed: threads write the same number, and the loop's end orders it before its readers.
+      // Most are marked already: looking first leaves the cache line with the other threads.
+      const std::atomic_ref<std::uint32_t> number(this->Numbers[v]);
+      if (number.load(std::memory_order_relaxed) == None)
       {
-        continue;
-      }
-      const SimplexState& state = this->Source.State(s);
-      this->Labels[s] =
-        state.Labelled ? state.Label : this->Image.Label(this->Source.GetCircumball(s).Center);
-      if (this->Labels[s] != 0)
-      {
-        this->Inside.push_back(s);
+        number.store(0, std::memory_order_relaxed);
       }
     }
   }
 
+  /** Along a Hilbert curve; points at the same place of it by their ids. */
   void NumberPoints()
   {
-    this->Numbers.assign(this->Source.VertexIdEnd(), None);
-    std::vector<std::pair<std::uint64_t, VertexId>> order;
-    for (const SimplexId s : this->Inside)
-    {
-      for (const VertexId v : this->Source.GetSimplex(s).V)
+    ChunkCounts places(this->Vertices);
+    this->ForChunks(this->Vertices,
+      [&](std::size_t first, std::size_t last)
       {
-        if (this->Numbers[v] == None)
+        const std::uint32_t* const numbers = this->Numbers.data();
+        places.OfChunk(first) = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(last - first) -
+          std::count(numbers + first, numbers + last, None));
+      });
+    const std::size_t points = places.TurnIntoPlaces();
+
+    UninitialisedVector<Ranked> memory(2 * points);
+    const std::span<Ranked> records(memory);
+    this->ForChunks(this->Vertices,
+      [&](std::size_t first, std::size_t last)
+      {
+        std::size_t place = places.OfChunk(first);
+        for (auto v = static_cast<VertexId>(first); v < last; ++v)
         {
-          this->Numbers[v] = 0;
-          order.push_back({ HilbertIndex<D>(this->Source.Position(v), this->Source.GetBox()), v });
+          if (this->Numbers[v] != None)
+          {
+            records[place++] = { HilbertIndex<D>(this->Source.Position(v), this->Source.GetBox()),
+              v };
+          }
         }
-      }
-    }
-    std::sort(order.begin(), order.end());
-    this->Mesh.Points.reserve(order.size());
-    for (const auto& [index, v] : order)
-    {
-      this->Numbers[v] = static_cast<std::uint32_t>(this->Mesh.Points.size());
-      this->Mesh.Points.push_back(this->Source.Position(v));
-    }
+      });
+    const std::span<Ranked> sorted = ParallelRadixSort(
+      records.first(points), records.last(points), 63,
+      [](const Ranked& record) { return record.Key; }, this->Threads, this->Stop);
+
+    this->Mesh.Points.resize(points);
+    this->ForChunks(points,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->Numbers[sorted[i].Id] = static_cast<std::uint32_t>(i);
+          this->Mesh.Points[i] = this->Source.Position(sorted[i].Id);
+        }
+      });
   }
 
-  /** Simplices in the order of their smallest point: a counting sort. */
-  void CollectSimplices()
+  /** The ids of the simplices inside in the order of their smallest point. */
+  void SortSimplices()
   {
-    std::vector<std::uint32_t> first(this->Mesh.Points.size() + 1, 0);
-    for (const SimplexId s : this->Inside)
-    {
-      ++first[this->SmallestPoint(s) + 1];
-    }
-    for (std::size_t i = 1; i < first.size(); ++i)
-    {
-      first[i] += first[i - 1];
-    }
-    std::vector<SimplexId> sorted(this->Inside.size());
-    for (const SimplexId s : this->Inside)
-    {
-      sorted[first[this->SmallestPoint(s)]++] = s;
-    }
-    this->Inside.swap(sorted);
-
-    this->Mesh.Simplices.resize(this->Inside.size());
-    this->Mesh.Labels.resize(this->Inside.size());
-    for (std::size_t k = 0; k < this->Inside.size(); ++k)
-    {
-      const SimplexId s = this->Inside[k];
-      for (unsigned i = 0; i < N; ++i)
+    const std::size_t n = this->NumberOfSimplices;
+    this->SortMemory.resize(2 * n);
+    const std::span<std::uint64_t> memory(this->SortMemory);
+    this->ForChunks(this->Ids,
+      [this, memory](std::size_t first, std::size_t last)
       {
-        this->Mesh.Simplices[k][i] = this->Numbers[this->Source.GetSimplex(s).V[i]];
-      }
-      this->Mesh.Labels[k] = this->Image.LabelValue(this->Labels[s]);
-    }
-  }
-
-  /** Each facet between two labels once, from the side of the larger one. */
-  void CollectFacets()
-  {
-    for (std::size_t k = 0; k < this->Inside.size(); ++k)
-    {
-      const SimplexId s = this->Inside[k];
-      for (unsigned i = 0; i < N; ++i)
-      {
-        const SimplexId n = this->Source.GetSimplex(s).N[i];
-        const LabelId other = n == None ? LabelId(0) : this->Labels[n];
-        if (other >= this->Labels[s])
+        std::size_t k = this->Inside.OfChunk(first);
+        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
-          continue; // ids ascend with the image's values
+          if (this->Labels[s] != 0)
+          {
+            memory[k++] = (std::uint64_t{ this->SmallestPoint(s) } << 32) | s;
+          }
         }
-        this->Mesh.Facets.push_back(OutwardFacet(this->Mesh.Simplices[k], i));
-        this->Mesh.FacetLabels.push_back({ this->Mesh.Labels[k], this->Image.LabelValue(other) });
-      }
-    }
+      });
+    this->Sorted = ParallelRadixSort(
+      memory.first(n), memory.last(n),
+      static_cast<unsigned>(std::bit_width(this->Mesh.Points.size())),
+      [](std::uint64_t record) { return record >> 32; }, this->Threads, this->Stop);
   }
 
   std::uint32_t SmallestPoint(SimplexId s) const
@@ -145,44 +191,136 @@ private:
     return smallest;
   }
 
+  SimplexId SortedId(std::size_t k) const { return static_cast<SimplexId>(this->Sorted[k]); }
+
+  /** Simplices and labels; notes which facets are interfaces. */
+  void WriteSimplices()
+  {
+    const std::size_t n = this->NumberOfSimplices;
+    this->Mesh.Simplices.resize(n);
+    this->Mesh.Labels.resize(n);
+    this->Interfaces.resize(n);
+    this->FacetCounts = ChunkCounts(n);
+    this->ForChunks(n,
+      [this, n](std::size_t first, std::size_t last)
+      {
+        // Neighbours in the mesh lie anywhere in the triangulation.
+        constexpr std::size_t Ahead = 16;
+        std::size_t facets = 0;
+        for (std::size_t k = first; k < last; ++k)
+        {
+          __builtin_prefetch(&this->Source.GetSimplex(this->SortedId(std::min(k + Ahead, n - 1))));
+          facets += this->WriteSimplex(k);
+        }
+        this->FacetCounts.OfChunk(first) = facets;
+      });
+  }
+
+  /** Returns the number of its facets to write. */
+  unsigned WriteSimplex(std::size_t k)
+  {
+    const SimplexId s = this->SortedId(k);
+    const auto& simplex = this->Source.GetSimplex(s);
+    unsigned interfaces = 0;
+    for (unsigned i = 0; i < N; ++i)
+    {
+      this->Mesh.Simplices[k][i] = this->Numbers[simplex.V[i]];
+      // Each facet once, from the side of the larger label; ids ascend with the image's values.
+      interfaces |= (this->LabelOrBackground(simplex.N[i]) < this->Labels[s] ? 1u : 0u) << i;
+    }
+    this->Mesh.Labels[k] = this->Image.LabelValue(this->Labels[s]);
+    this->Interfaces[k] = static_cast<std::uint8_t>(interfaces);
+    return static_cast<unsigned>(std::popcount(interfaces));
+  }
+
+  void WriteFacets()
+  {
+    const std::size_t facets = this->FacetCounts.TurnIntoPlaces();
+    this->Mesh.Facets.resize(facets);
+    this->Mesh.FacetLabels.resize(facets);
+    this->ForChunks(this->NumberOfSimplices,
+      [this](std::size_t first, std::size_t last)
+      {
+        std::size_t f = this->FacetCounts.OfChunk(first);
+        for (std::size_t k = first; k < last; ++k)
+        {
+          for (unsigned rest = this->Interfaces[k]; rest != 0; rest &= rest - 1)
+          {
+            const auto i = static_cast<unsigned>(std::countr_zero(rest));
+            const SimplexId other = this->Source.GetSimplex(this->SortedId(k)).N[i];
+            this->Mesh.Facets[f] = OutwardFacet(this->Mesh.Simplices[k], i);
+            this->Mesh.FacetLabels[f] = { this->Mesh.Labels[k],
+              this->Image.LabelValue(this->LabelOrBackground(other)) };
+            ++f;
+          }
+        }
+      });
+  }
+
+  LabelId LabelOrBackground(SimplexId s) const { return s == None ? LabelId(0) : this->Labels[s]; }
+
   /** Facet i of a positively oriented simplex; in 3D its right-hand normal points outwards. */
   static Facet OutwardFacet(const std::array<std::uint32_t, N>& simplex, unsigned i)
   {
+    static constexpr std::array<Facet, N> corners = OutwardCorners();
     Facet facet;
-    unsigned m = 0;
-    for (unsigned j = 0; j < N; ++j)
+    for (unsigned m = 0; m < facet.size(); ++m)
     {
-      if (j != i)
-      {
-        facet[m++] = simplex[j];
-      }
-    }
-    if (i % 2 == 1)
-    {
-      std::swap(facet[0], facet[1]);
+      facet[m] = simplex[corners[i][m]];
     }
     return facet;
   }
 
+  /** Which vertices of a simplex each of its facets has. */
+  static constexpr std::array<Facet, N> OutwardCorners()
+  {
+    std::array<Facet, N> corners{};
+    for (unsigned i = 0; i < N; ++i)
+    {
+      for (unsigned m = 0; m < D; ++m)
+      {
+        corners[i][m] = m + (m < i ? 0 : 1);
+      }
+      if (i % 2 == 1)
+      {
+        std::swap(corners[i][0], corners[i][1]);
+      }
+    }
+    return corners;
+  }
+
   const Triangulation<D>& Source;
   const Domain<D>& Image;
-  SimplexMesh<D>& Mesh;
-  std::vector<LabelId> Labels;
-  std::vector<SimplexId> Inside;
-  std::vector<std::uint32_t> Numbers;
+  const unsigned Threads;
+  const std::stop_token& Stop;
+  const std::size_t Ids;      ///< all simplex ids are below
+  const std::size_t Vertices; ///< all vertex ids are below
+  SimplexMesh<D> Mesh;
+  UninitialisedVector<LabelId> Labels;        ///< of each simplex id
+  ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
+  std::size_t NumberOfSimplices = 0;          ///< inside
+  UninitialisedVector<std::uint32_t> Numbers; ///< of each vertex in the mesh, None if it has none
+  UninitialisedVector<std::uint64_t> SortMemory;
+  std::span<const std::uint64_t> Sorted; ///< smallest point, in the low half simplex id
+  UninitialisedVector<std::uint8_t>
+    Interfaces;            ///< of each simplex of the mesh: a bit for each facet
+  ChunkCounts FacetCounts; ///< by chunks of simplices of the mesh
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void ExtractMesh(
-  const Triangulation<D>& triangulation, const Domain<D>& image, SimplexMesh<D>& mesh)
+void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
+  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
 {
-  Extraction<D>(triangulation, image, mesh).Run();
+  mesh = SimplexMesh<D>();
+  mesh = Extraction<D>(triangulation, image, threads, stop).Run();
 }
 
-template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&);
-template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&);
+template void ExtractMesh<3>(
+  const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
+template void ExtractMesh<4>(
+  const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -11,23 +11,33 @@
 #include "Image/Domain.h"
 #include "Mesh/SimplexMesh.h"
 
+#include <stop_token>
+
 namespace voxplex
 {
 
 /**
  * Collects the simplices whose circumcentre lies inside the object (the final mesh of the thesis,
  * section 2.2), each with the label found there, and the facets between different labels (definition
- * 2.6). Numbers points along a Hilbert curve and sorts simplices by their points.
+ * 2.6). Numbers points along a Hilbert curve and sorts simplices by their smallest point, those with
+ * the same one by their id in the triangulation. One triangulation gives one mesh, whatever the
+ * number of threads.
  *
- * @param mesh receives the mesh; what it held is lost
+ * Nobody may change the triangulation meanwhile.
+ *
+ * @param mesh receives the mesh; what it held is lost; empty if this throws
+ * @param threads 0 means all cores
+ * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */
 template <int D>
-void ExtractMesh(
-  const Triangulation<D>& triangulation, const Domain<D>& image, SimplexMesh<D>& mesh);
+void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
+  SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
 
-extern template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&);
-extern template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&);
+extern template void ExtractMesh<3>(
+  const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
+extern template void ExtractMesh<4>(
+  const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

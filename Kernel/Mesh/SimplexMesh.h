@@ -8,10 +8,10 @@
 #define voxplex_SimplexMesh_h
 
 #include "Geometry/Point.h"
+#include "Parallel/UninitialisedVector.h"
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace voxplex
 {
@@ -27,15 +27,17 @@ namespace voxplex
  * - Facets: D point indices of each facet that separates two labels (or a label and background), once
  *   per facet. In 3D the right-hand normal points out of the region of the first label of FacetLabels.
  * - FacetLabels: the two labels of a facet, the larger first, 0 for background.
+ *
+ * resize() leaves what it adds uninitialised.
  */
 template <int D>
 struct SimplexMesh
 {
-  std::vector<Point<D>> Points;
-  std::vector<std::array<std::uint32_t, static_cast<std::size_t>(D + 1)>> Simplices;
-  std::vector<std::int64_t> Labels;
-  std::vector<std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
-  std::vector<std::array<std::int64_t, 2>> FacetLabels;
+  UninitialisedVector<Point<D>> Points;
+  UninitialisedVector<std::array<std::uint32_t, static_cast<std::size_t>(D + 1)>> Simplices;
+  UninitialisedVector<std::int64_t> Labels;
+  UninitialisedVector<std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
+  UninitialisedVector<std::array<std::int64_t, 2>> FacetLabels;
 };
 
 } // namespace voxplex

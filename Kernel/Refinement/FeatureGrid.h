@@ -10,6 +10,7 @@
 #include "Delaunay/ChunkedArray.h"
 #include "Geometry/Point.h"
 
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,9 @@ namespace voxplex
  *
  * Cells have twice the side of the largest query radius, so a query visits at most 2^D of them. Every
  * cell is a list whose head sits in a table of fixed size.
+ *
+ * All methods may be called by any number of threads at once; a query sees what was added before it
+ * began. No thread ever waits for another.
  */
 template <int D>
 class FeatureGrid
@@ -38,17 +42,24 @@ public:
     const std::uint64_t buckets =
       std::bit_ceil(std::min<std::uint64_t>(std::max<std::uint64_t>(expected, 1024), 1u << 24));
     this->Mask = static_cast<std::uint32_t>(buckets - 1);
-    this->Heads.reset(new std::uint32_t[buckets]);
-    std::fill_n(this->Heads.get(), buckets, End);
+    this->Heads.reset(new std::atomic<std::uint32_t>[buckets]);
+    for (std::uint64_t b = 0; b < buckets; ++b)
+    {
+      this->Heads[b].store(End, std::memory_order_relaxed);
+    }
   }
 
   void Add(const Point<D>& p)
   {
-    const std::uint32_t n = this->Count++;
+    const std::uint32_t n = this->Count.fetch_add(1, std::memory_order_relaxed);
     this->Nodes.Grow(n + 1);
-    std::uint32_t& head = this->Heads[this->Bucket(this->CellOf(p))];
-    this->Nodes[n] = Node{ p, head };
-    head = n;
+    std::atomic<std::uint32_t>& head = this->Heads[this->Bucket(this->CellOf(p))];
+    Node& node = this->Nodes[n];
+    node = Node{ p, head.load(std::memory_order_relaxed) };
+    while (!head.compare_exchange_weak(
+      node.Next, n, std::memory_order_release, std::memory_order_relaxed))
+    {
+    }
   }
 
   /** True if a vertex is nearer to p than `distance` (at most the radius of the constructor). */
@@ -90,7 +101,7 @@ public:
     return false;
   }
 
-  std::uint32_t Size() const { return this->Count; }
+  std::uint32_t Size() const { return this->Count.load(std::memory_order_relaxed); }
 
 private:
   static constexpr std::uint32_t End = 0xffffffffu;
@@ -126,7 +137,8 @@ private:
 
   bool AnyInCell(const Cell& cell, const Point<D>& p, double distance2) const
   {
-    for (std::uint32_t n = this->Heads[this->Bucket(cell)]; n != End; n = this->Nodes[n].Next)
+    for (std::uint32_t n = this->Heads[this->Bucket(cell)].load(std::memory_order_acquire);
+         n != End; n = this->Nodes[n].Next)
     {
       if (Distance2(this->Nodes[n].Position, p) < distance2)
       {
@@ -139,9 +151,9 @@ private:
   Point<D> Origin;
   double InverseCell;
   std::uint32_t Mask = 0;
-  std::unique_ptr<std::uint32_t[]> Heads;
+  std::unique_ptr<std::atomic<std::uint32_t>[]> Heads;
   ChunkedArray<Node> Nodes;
-  std::uint32_t Count = 0;
+  std::atomic<std::uint32_t> Count{ 0 };
 };
 
 } // namespace voxplex

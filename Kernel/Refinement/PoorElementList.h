@@ -9,6 +9,8 @@
 
 #include "Delaunay/Stores.h"
 
+#include <atomic>
+#include <thread>
 #include <vector>
 
 namespace voxplex
@@ -17,9 +19,16 @@ namespace voxplex
 /**
  * @brief Simplices that may violate a rule, last in first out.
  *
- * Entries of simplices that died meanwhile are recognised by their generation and dropped when taken
- * (lazy removal, REMOVE_ON_THE_FLY off in the thesis' terms). The last simplices made are the first
- * refined: most simplices die young, and their data are still in the cache.
+ * The last simplices made are the first refined: most simplices die young, and their data are still in
+ * the cache.
+ *
+ * **Lazy removal** (the default). Entries of simplices that died meanwhile are recognised by their
+ * generation and dropped when taken. Only the owner touches its list, but for a gift to it while it
+ * waits for work.
+ *
+ * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). Whoever deletes a simplex takes it
+ * out of the list that it is in, its own or another's; the list then needs a lock, and a directory that
+ * says where every simplex is. What the directory no longer knows is left to lazy removal.
  */
 class PoorElementList
 {
@@ -30,18 +39,177 @@ public:
     std::uint32_t Generation;
   };
 
-  void Push(SimplexId s, std::uint32_t generation) { this->Entries.push_back({ s, generation }); }
-  bool Empty() const { return this->Entries.empty(); }
-  std::size_t Size() const { return this->Entries.size(); }
+  /** Which list a simplex is in, and where: shared by all lists of a run. */
+  class Directory
+  {
+  public:
+    struct Place
+    {
+      std::uint32_t List;
+      std::uint32_t Index;
+    };
+    /** @return List is None if the simplex was never in a list */
+    Place Find(SimplexId s)
+    {
+      this->Places.Grow(s + 1);
+      const std::uint64_t place =
+        std::atomic_ref<std::uint64_t>(this->Places[s]).load(std::memory_order_relaxed);
+      return { static_cast<std::uint32_t>(place >> 32), static_cast<std::uint32_t>(place) };
+    }
+    void Set(SimplexId s, Place place)
+    {
+      this->Places.Grow(s + 1);
+      std::atomic_ref<std::uint64_t>(this->Places[s])
+        .store((std::uint64_t{ place.List } << 32) | place.Index, std::memory_order_relaxed);
+    }
+
+  private:
+    ChunkedArray<std::uint64_t> Places{ ~std::uint64_t{ 0 } };
+  };
+
+  /** Switches to eager removal. @param number of this list, distinct from those of others */
+  void RemoveEagerly(Directory& directory, std::uint32_t number)
+  {
+    this->Where = &directory;
+    this->Number = number;
+  }
+
+  void Push(SimplexId s, std::uint32_t generation)
+  {
+    const Guard guard(*this);
+    this->PushGuarded({ s, generation });
+  }
+
+  /** Nothing is left, or nothing but what eager removal has taken out. */
+  bool Empty()
+  {
+    const Guard guard(*this);
+    this->DropRemoved();
+    return this->Entries.empty();
+  }
+  /** Entries, dead ones included. */
+  std::size_t Size()
+  {
+    const Guard guard(*this);
+    return this->Entries.size();
+  }
+
+  /** The last entry; with eager removal its Id may be None. The list must not have been empty. */
   Entry Pop()
   {
+    const Guard guard(*this);
+    this->DropRemoved();
+    if (this->Entries.empty())
+    {
+      return { None, 0 };
+    }
     const Entry e = this->Entries.back();
     this->Entries.pop_back();
     return e;
   }
 
+  /** With eager removal: takes a dead simplex out if it is there. Any thread may call this. */
+  void Remove(const Entry& e, std::uint32_t index)
+  {
+    const Guard guard(*this);
+    if (index < this->Entries.size() && this->Entries[index].Id == e.Id &&
+      this->Entries[index].Generation == e.Generation)
+    {
+      this->Entries[index].Id = None;
+    }
+  }
+
+  /**
+   * Drops the entries that `isAlive` does not hold for and, if at least `fewest` remain, moves the older
+   * half of them to another list. The oldest simplices are the largest and the farthest from where the
+   * owner is at work.
+   * @return how many were moved
+   */
+  template <typename Predicate>
+  std::size_t GiveOlderHalf(PoorElementList& receiver, std::size_t fewest, Predicate&& isAlive)
+  {
+    std::vector<Entry> gift;
+    {
+      const Guard guard(*this);
+      std::size_t kept = 0;
+      for (const Entry& e : this->Entries)
+      {
+        if (e.Id != None && isAlive(e))
+        {
+          this->Entries[kept++] = e;
+        }
+      }
+      this->Entries.resize(kept);
+      const std::size_t moved = kept >= fewest ? kept / 2 : 0;
+      gift.assign(
+        this->Entries.begin(), this->Entries.begin() + static_cast<std::ptrdiff_t>(moved));
+      this->Entries.erase(
+        this->Entries.begin(), this->Entries.begin() + static_cast<std::ptrdiff_t>(moved));
+      this->NoteAll();
+    }
+    const Guard guard(receiver);
+    for (const Entry& e : gift)
+    {
+      receiver.PushGuarded(e);
+    }
+    return gift.size();
+  }
+
 private:
+  /** Holds the list's lock if it needs one: for a few instructions, so others spin. */
+  class Guard
+  {
+  public:
+    explicit Guard(PoorElementList& list)
+      : Lock(list.Where ? &list.Busy : nullptr)
+    {
+      while (this->Lock && this->Lock->test_and_set(std::memory_order_acquire))
+      {
+        std::this_thread::yield();
+      }
+    }
+    ~Guard()
+    {
+      if (this->Lock)
+      {
+        this->Lock->clear(std::memory_order_release);
+      }
+    }
+    Guard(const Guard&) = delete;
+    Guard& operator=(const Guard&) = delete;
+
+  private:
+    std::atomic_flag* Lock;
+  };
+
+  void PushGuarded(const Entry& e)
+  {
+    this->Entries.push_back(e);
+    if (this->Where)
+    {
+      this->Where->Set(
+        e.Id, { this->Number, static_cast<std::uint32_t>(this->Entries.size() - 1) });
+    }
+  }
+  void DropRemoved()
+  {
+    while (!this->Entries.empty() && this->Entries.back().Id == None)
+    {
+      this->Entries.pop_back();
+    }
+  }
+  void NoteAll()
+  {
+    for (std::size_t i = 0; this->Where && i < this->Entries.size(); ++i)
+    {
+      this->Where->Set(this->Entries[i].Id, { this->Number, static_cast<std::uint32_t>(i) });
+    }
+  }
+
   std::vector<Entry> Entries;
+  Directory* Where = nullptr;
+  std::uint32_t Number = 0;
+  std::atomic_flag Busy;
 };
 
 } // namespace voxplex

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace voxplex
 {
@@ -87,17 +88,68 @@ struct RefinementContext
   FeatureGrid<D> Features;
 };
 
-/** One thread's own. */
-template <int D>
-struct RefinementWorker
+/** What came of an element's evaluation, or of another task of a worker. */
+enum class Verdict
 {
-  explicit RefinementWorker(const RefinementContext<D>& context)
-    : Kernel(context.Mesh)
+  Good,     ///< no rule applies, or none can be applied: nothing changed
+  Changed,  ///< the triangulation changed
+  Contended ///< given up because another thread owns a vertex; to be tried again
+};
+
+/** A removal by R6 that another thread was in the way of. */
+template <int D>
+struct PendingRemoval
+{
+  VertexId Vertex;
+  Point<D> Feature; ///< the vertex goes if it is a free one nearer than ...
+  double Radius;    ///< ... this to the feature vertex
+};
+
+/** Whose list of poor elements an entry may be taken out of when its simplex dies. */
+struct EagerRemoval
+{
+  PoorElementList::Directory Directory;
+  std::vector<PoorElementList*> Lists; ///< by number
+  std::vector<unsigned> Socket;        ///< of the list's thread
+};
+
+/** One thread's own; threads that run write to no common cache line. */
+template <int D>
+struct alignas(128) RefinementWorker
+{
+  explicit RefinementWorker(const RefinementContext<D>& context, WorkerId id = 0)
+    : Kernel(context.Mesh, id)
   {
+  }
+
+  /**
+   * Takes what the last operation deleted out of the lists of poor elements; those of another socket are
+   * left to lazy removal (thesis, section 3.2.3). Does nothing unless removal is eager.
+   */
+  void RemoveDeleted(const Triangulation<D>& mesh)
+  {
+    if (!this->Eager)
+    {
+      return;
+    }
+    for (const SimplexId s : this->Kernel.Deleted)
+    {
+      const PoorElementList::Directory::Place place = this->Eager->Directory.Find(s);
+      if (place.List != None &&
+        this->Eager->Socket[place.List] == this->Eager->Socket[this->Number])
+      {
+        const std::uint32_t generation = mesh.State(s).CurrentGeneration() - 1;
+        this->Eager->Lists[place.List]->Remove({ s, generation }, place.Index);
+      }
+    }
   }
 
   typename Triangulation<D>::Worker Kernel;
   PoorElementList Poor;
+  EagerRemoval* Eager = nullptr;                ///< null if removal is lazy
+  unsigned Number = 0;                          ///< of this worker's list
+  std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
+  std::vector<PendingRemoval<D>> PendingRemovals;
   RuleStatistics Statistics;
 };
 

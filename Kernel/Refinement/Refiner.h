@@ -7,18 +7,29 @@
 #ifndef voxplex_Refiner_h
 #define voxplex_Refiner_h
 
+#include "Parallel/CycleClock.h"
 #include "Refinement/RefinementContext.h"
+#include "Refinement/RefinementTeam.h"
+#include "Refinement/Seeding.h"
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 namespace voxplex
 {
 
 /**
- * @brief Refines the triangulation of a context by a set of rules.
+ * @brief Refines the triangulation of a context by a set of rules, with any number of threads.
  *
  * Rules is a class with `static constexpr int Dimension`, a constructor (context, worker),
- * `ScreenCreated()` and `Refine(simplex)`, as Rules3D; the loop does not know which it runs.
+ * `ScreenCreated()`, `Refine(simplex)` and `RemovePending()`, as Rules3D; the loop does not know which
+ * it runs.
+ *
+ * Refinement by several threads is speculative (section 3.2): a thread takes the vertices of what it is
+ * about to change one by one; if one is another's, it gives up, gives back what it took, and asks the
+ * contention manager what to do. A thread without work waits until the load balancer brings some.
+ * One thread takes no locks and gives a mesh that is the same bit for bit in every run.
  */
 template <typename Rules>
 class Refiner
@@ -26,65 +37,355 @@ class Refiner
 public:
   static constexpr int D = Rules::Dimension;
 
-  explicit Refiner(RefinementContext<D>& context)
+  /** Called every few hundred evaluations with the number of vertices so far, by any of the threads, by
+   * several at once; false stops refinement. */
+  using Monitor = std::function<bool(std::uint64_t vertices)>;
+
+  explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {})
     : Context(context)
-    , Worker(context)
+    , Options(options)
+    , Team(options)
   {
   }
 
   /**
-   * Refines until no rule applies.
-   * @param goOn called every few hundred evaluations with the number of elements created so far;
-   *   false stops refinement
+   * Refines until no rule applies. Call once.
    * @return false if stopped by goOn
    * @throws std::bad_alloc
    */
-  bool Run(const std::function<bool(std::uint64_t vertices)>& goOn)
+  bool Run(const Monitor& goOn)
   {
-    Rules rules(this->Context, this->Worker);
-    Triangulation<D>& mesh = this->Context.Mesh;
-    this->Worker.Kernel.Created.Clear();
+    if (this->Options.Threads <= 1 && !this->Options.Synchronise)
+    {
+      this->Workers.push_back(std::make_unique<RefinementWorker<D>>(this->Context));
+      this->PushAll();
+      return this->WorkAlone(goOn);
+    }
+    const CycleClock clock;
+    this->Team.Run(
+      [&](unsigned threads)
+      {
+        this->MakeWorkers(threads);
+        this->SecondsToSeed = clock.Seconds();
+      },
+      [&](unsigned thread) { this->Work(thread, goOn); });
+    this->SecondsPerTick = clock.SecondsPerTick();
+    return !this->Team.Stopped();
+  }
+
+  /** Of all threads together. */
+  RuleStatistics GetRuleStatistics() const
+  {
+    RuleStatistics sum;
+    for (const auto& worker : this->Workers)
+    {
+      sum += worker->Statistics;
+      sum.Created += worker->Kernel.NumberOfCreated;
+    }
+    return sum;
+  }
+  PredicateStatistics GetPredicateStatistics() const
+  {
+    PredicateStatistics sum;
+    for (const auto& worker : this->Workers)
+    {
+      sum += worker->Kernel.GetPredicateStatistics();
+    }
+    return sum;
+  }
+  std::vector<ThreadStatistics> GetThreadStatistics() const
+  {
+    std::vector<ThreadStatistics> threads;
+    for (std::size_t t = 0; t < this->Workers.size(); ++t)
+    {
+      ThreadStatistics statistics;
+      if (!this->Overheads.empty())
+      {
+        statistics = this->Overheads[t]->Counts;
+        statistics.ContentionSeconds = this->Seconds(this->Overheads[t]->Contention);
+        statistics.LoadBalanceSeconds = this->Seconds(this->Overheads[t]->LoadBalance);
+        statistics.RollbackSeconds = this->Seconds(this->Overheads[t]->Rollback);
+      }
+      const RuleStatistics& rules = this->Workers[t]->Statistics;
+      for (const std::uint64_t fired : rules.Fired)
+      {
+        statistics.Insertions += fired;
+      }
+      statistics.Removals = rules.Removed;
+      threads.push_back(statistics);
+    }
+    return threads;
+  }
+  /** Until all threads had work; 0 for one thread. */
+  double GetSecondsToSeed() const { return this->SecondsToSeed; }
+  bool SwitchedToLocal()
+  {
+    return !this->Overheads.empty() && this->Team.Contention().SwitchedToLocal();
+  }
+
+private:
+  /** Fewest poor elements of which a thread gives (thesis, section 3.2.4). */
+  static constexpr std::size_t GiveThreshold = 5;
+
+  /**
+   * A thread gives its vertices back when it owns so many, not after every turn: elements that follow each
+   * other in its list mostly share vertices, and taking them is what locks cost.
+   */
+  static constexpr std::size_t MostKept = 128;
+
+  /** Where a thread's time went that was not spent on refining. */
+  struct alignas(128) Overhead
+  {
+    CycleClock::Ticks Contention = 0;
+    CycleClock::Ticks LoadBalance = 0;
+    CycleClock::Ticks Rollback = 0;
+    ThreadStatistics Counts;
+  };
+
+  /** Every simplex of the triangulation, in the order of ids, to the only worker. */
+  void PushAll()
+  {
+    const Triangulation<D>& mesh = this->Context.Mesh;
+    std::vector<SimplexId> simplices;
     for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
     {
       if (mesh.IsAlive(s))
       {
-        this->Worker.Kernel.Created.MakeRoom(1);
-        this->Worker.Kernel.Created.Push(s);
+        simplices.push_back(s);
       }
     }
-    rules.ScreenCreated();
+    this->Screen(*this->Workers[0], simplices.data(), simplices.data() + simplices.size());
+  }
 
-    std::uint64_t turns = 0;
-    while (!this->Worker.Poor.Empty())
+  /** Workers 1, 2 ..., each with its share of a seeded triangulation. */
+  void MakeWorkers(unsigned threads)
+  {
+    for (unsigned t = 0; t < threads; ++t)
     {
-      if ((++turns & 255u) == 0 && goOn && !goOn(mesh.VertexIdEnd()))
+      this->Workers.push_back(
+        std::make_unique<RefinementWorker<D>>(this->Context, static_cast<WorkerId>(t + 1)));
+      this->Overheads.push_back(std::make_unique<Overhead>());
+    }
+    if (this->Options.RemoveEagerly)
+    {
+      this->RemoveEagerly();
+    }
+    const std::vector<SimplexId> simplices = SeedTriangulation(
+      this->Context, *this->Workers[0], std::size_t{ this->Options.SeedsPerThread } * threads);
+    for (std::size_t t = 0; t < threads; ++t)
+    {
+      this->Screen(*this->Workers[t], simplices.data() + simplices.size() * t / threads,
+        simplices.data() + simplices.size() * (t + 1) / threads);
+    }
+  }
+
+  void RemoveEagerly()
+  {
+    for (unsigned t = 0; t < this->Workers.size(); ++t)
+    {
+      RefinementWorker<D>& worker = *this->Workers[t];
+      this->Eager.Lists.push_back(&worker.Poor);
+      this->Eager.Socket.push_back(this->Team.Places().Group[t][0]);
+      worker.Eager = &this->Eager;
+      worker.Number = t;
+      worker.Poor.RemoveEagerly(this->Eager.Directory, t);
+    }
+  }
+
+  void Screen(RefinementWorker<D>& worker, const SimplexId* first, const SimplexId* last)
+  {
+    worker.Kernel.Created.Clear();
+    for (; first != last; ++first)
+    {
+      worker.Kernel.Created.MakeRoom(1);
+      worker.Kernel.Created.Push(*first);
+    }
+    Rules(this->Context, worker).ScreenCreated();
+  }
+
+  bool WorkAlone(const Monitor& goOn)
+  {
+    RefinementWorker<D>& me = *this->Workers[0];
+    Rules rules(this->Context, me);
+    std::uint64_t turns = 0;
+    while (!me.Poor.Empty())
+    {
+      if ((++turns & 255u) == 0 && goOn && !goOn(this->Context.Mesh.VertexIdEnd()))
       {
         return false;
       }
-      const PoorElementList::Entry e = this->Worker.Poor.Pop();
-      if (this->Dead(e))
+      const PoorElementList::Entry e = me.Poor.Pop();
+      if (this->IsAlive(e) && rules.Refine(e.Id) == Verdict::Changed && this->IsAlive(e))
       {
-        continue;
-      }
-      if (rules.Refine(e.Id) && !this->Dead(e))
-      {
-        this->Worker.Poor.Push(e.Id, e.Generation);
+        me.Poor.Push(e.Id, e.Generation);
       }
     }
     return true;
   }
 
-  const RefinementWorker<D>& GetWorker() const { return this->Worker; }
-
-private:
-  bool Dead(const PoorElementList::Entry& e) const
+  void Work(unsigned thread, const Monitor& goOn)
   {
-    return !this->Context.Mesh.IsAlive(e.Id) ||
-      this->Context.Mesh.State(e.Id).Generation != e.Generation;
+    RefinementWorker<D>& me = *this->Workers[thread];
+    Overhead& overhead = *this->Overheads[thread];
+    Rules rules(this->Context, me);
+    std::uint64_t turns = 0;
+    for (;;)
+    {
+      if (!this->HasWork(me))
+      {
+        if (!this->Beg(thread))
+        {
+          return;
+        }
+        continue; // what was given may have turned out to be dead
+      }
+      if ((++turns & 255u) == 0 && goOn && !goOn(this->Context.Mesh.VertexIdEnd()))
+      {
+        this->Team.Stop();
+      }
+      if (this->Team.Stopped())
+      {
+        this->Context.Mesh.Unlock(me.Kernel);
+        return;
+      }
+      const CycleClock::Ticks start = CycleClock::Now();
+      const Verdict verdict = this->Turn(me, rules);
+      if (verdict == Verdict::Contended || me.Kernel.NumberOfOwned() >= MostKept)
+      {
+        this->Context.Mesh.Unlock(me.Kernel);
+      }
+      if (verdict == Verdict::Contended)
+      {
+        const CycleClock::Ticks rollback = CycleClock::Now();
+        overhead.Rollback += rollback - start;
+        ++overhead.Counts.Rollbacks;
+        const bool waited = this->Team.Contention().RollbackOccurred(thread, me.Kernel.Winner - 1u);
+        overhead.Counts.Waits += waited ? 1 : 0;
+        overhead.Contention += CycleClock::Now() - rollback;
+        continue;
+      }
+      if (verdict == Verdict::Changed)
+      {
+        this->Team.Contention().RollbackNotOccurred(thread);
+        this->TakeUpDeferred(me);
+      }
+      if (this->Team.Balance().SomeoneBegs())
+      {
+        this->Give(thread);
+      }
+    }
+  }
+
+  /** One element, or one removal that was put off. */
+  Verdict Turn(RefinementWorker<D>& me, Rules& rules)
+  {
+    if (!me.PendingRemovals.empty())
+    {
+      return rules.RemovePending();
+    }
+    if (me.Poor.Empty())
+    {
+      this->TakeUpDeferred(me);
+    }
+    const PoorElementList::Entry e = me.Poor.Pop();
+    if (e.Id == None)
+    {
+      return Verdict::Good;
+    }
+    Verdict verdict = Verdict::Good;
+    switch (this->Context.Mesh.Lock(me.Kernel, e.Id, e.Generation))
+    {
+      case LockOutcome::Dead:
+        return Verdict::Good;
+      case LockOutcome::Contended:
+        verdict = Verdict::Contended;
+        break;
+      case LockOutcome::Locked:
+        verdict = rules.Refine(e.Id);
+        break;
+    }
+    if (verdict == Verdict::Contended)
+    {
+      me.Deferred.push_back(e);
+    }
+    else if (verdict == Verdict::Changed && this->IsAlive(e))
+    {
+      me.Poor.Push(e.Id, e.Generation);
+    }
+    return verdict;
+  }
+
+  static bool HasWork(RefinementWorker<D>& me)
+  {
+    return !me.Poor.Empty() || !me.Deferred.empty() || !me.PendingRemovals.empty();
+  }
+
+  static void TakeUpDeferred(RefinementWorker<D>& me)
+  {
+    for (const PoorElementList::Entry& e : me.Deferred)
+    {
+      me.Poor.Push(e.Id, e.Generation);
+    }
+    me.Deferred.clear();
+  }
+
+  /** Waits for work; false if there is none any more. */
+  bool Beg(unsigned thread)
+  {
+    const CycleClock::Ticks start = CycleClock::Now();
+    this->Context.Mesh.Unlock(this->Workers[thread]->Kernel);
+    this->Team.Contention().BecomesIdle(thread);
+    const bool goOn = this->Team.Balance().Beg(thread);
+    if (goOn)
+    {
+      this->Team.Contention().BecomesBusy(thread);
+    }
+    this->Overheads[thread]->LoadBalance += CycleClock::Now() - start;
+    return goOn;
+  }
+
+  /** Work for one of those who beg. */
+  void Give(unsigned thread)
+  {
+    RefinementWorker<D>& me = *this->Workers[thread];
+    if (me.Poor.Size() < GiveThreshold)
+    {
+      return;
+    }
+    const LoadBalancer::Beggar beggar = this->Team.Balance().TakeBeggar(thread);
+    if (beggar.Thread == LoadBalancer::Nobody)
+    {
+      return;
+    }
+    const std::size_t given = me.Poor.GiveOlderHalf(this->Workers[beggar.Thread]->Poor,
+      GiveThreshold, [this](const PoorElementList::Entry& e) { return this->IsAlive(e); });
+    if (given > 0)
+    {
+      ThreadStatistics& counts = this->Overheads[beggar.Thread]->Counts;
+      ++counts.Received[beggar.Level];
+      counts.ReceivedElements += given;
+    }
+    this->Team.Balance().Wake(beggar.Thread);
+  }
+
+  bool IsAlive(const PoorElementList::Entry& e) const
+  {
+    return this->Context.Mesh.State(e.Id).CurrentGeneration() == e.Generation;
+  }
+
+  double Seconds(CycleClock::Ticks ticks) const
+  {
+    return static_cast<double>(ticks) * this->SecondsPerTick;
   }
 
   RefinementContext<D>& Context;
-  RefinementWorker<D> Worker;
+  const TeamOptions Options;
+  RefinementTeam Team;
+  EagerRemoval Eager;
+  std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
+  std::vector<std::unique_ptr<Overhead>> Overheads;
+  double SecondsToSeed = 0.0;
+  double SecondsPerTick = 0.0;
 };
 
 } // namespace voxplex

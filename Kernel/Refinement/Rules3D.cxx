@@ -27,6 +27,7 @@ Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
 //------------------------------------------------------------------------------------------------
 void Rules3D::ScreenCreated()
 {
+  this->Worker.RemoveDeleted(this->Context.Mesh);
   for (const SimplexId t : this->Worker.Kernel.Created)
   {
     if (this->MayBePoor(t))
@@ -82,7 +83,7 @@ bool Rules3D::MayBePoor(SimplexId t)
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::Refine(SimplexId id)
+Verdict Rules3D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   Element t;
@@ -99,13 +100,17 @@ bool Rules3D::Refine(SimplexId id)
       Distance2(z, t.Ball.Center) <= t.Ball.Radius2)
     {
       const double delta = this->DeltaBehind(t, z);
-      if (this->R1(t, z, delta) || this->R2(t, delta))
+      Verdict verdict = this->R1(t, z, delta);
+      verdict = verdict == Verdict::Good ? this->R2(t, delta) : verdict;
+      if (verdict != Verdict::Good)
       {
-        return true;
+        return verdict;
       }
     }
   }
-  return this->R3(t) || this->R4(t) || this->R5(t);
+  Verdict verdict = this->R3(t);
+  verdict = verdict == Verdict::Good ? this->R4(t) : verdict;
+  return verdict == Verdict::Good ? this->R5(t) : verdict;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -125,20 +130,22 @@ bool Rules3D::IsSampled(const Element& t) const
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::R1(const Element& t, const Point<3>& z, double delta)
+Verdict Rules3D::R1(const Element& t, const Point<3>& z, double delta)
 {
-  return !this->FeatureVertexNear(t, z, delta) &&
-    this->InsertFeature(z, delta, t.Id, None, this->Worker.Statistics.Fired[0]);
+  return this->FeatureVertexNear(t, z, delta)
+    ? Verdict::Good
+    : this->InsertFeature(z, delta, delta, t.Id, None, this->Worker.Statistics.Fired[0]);
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::R2(const Element& t, double delta)
+Verdict Rules3D::R2(const Element& t, double delta)
 {
-  return t.Radius >= 2.0 * delta && this->InsertCircumcentre(t, this->Worker.Statistics.Fired[1]);
+  return t.Radius >= 2.0 * delta ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[1])
+                                 : Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::R3(const Element& t)
+Verdict Rules3D::R3(const Element& t)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex& simplex = mesh.GetSimplex(t.Id);
@@ -166,27 +173,30 @@ bool Rules3D::R3(const Element& t)
       continue;
     }
     const double delta = this->Context.Delta(z, t.Label, other);
-    if (this->InsertFeature(z, delta, t.Id, n, this->Worker.Statistics.Fired[2]))
+    const Verdict verdict = this->InsertFeature(
+      z, delta, this->Context.SpacingFloor, t.Id, n, this->Worker.Statistics.Fired[2]);
+    if (verdict != Verdict::Good)
     {
-      return true; // z need not conflict with t: whoever called judges t again if it lives
+      return verdict; // z need not conflict with t: whoever called judges t again if it lives
     }
   }
-  return false;
+  return Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::R4(const Element& t)
+Verdict Rules3D::R4(const Element& t)
 {
-  return t.Label != 0 &&
-    t.Radius >= Safety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t.Id) &&
-    this->InsertCircumcentre(t, this->Worker.Statistics.Fired[3]);
+  const bool applies = t.Label != 0 &&
+    t.Radius >= Safety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t.Id);
+  return applies ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[3]) : Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::R5(const Element& t)
+Verdict Rules3D::R5(const Element& t)
 {
-  return t.Label != 0 && t.Radius >= Safety * this->Context.Size(t.Ball.Center, t.Label) &&
-    this->InsertCircumcentre(t, this->Worker.Statistics.Fired[4]);
+  const bool applies =
+    t.Label != 0 && t.Radius >= Safety * this->Context.Size(t.Ball.Center, t.Label);
+  return applies ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[4]) : Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -232,17 +242,52 @@ void Rules3D::R6(VertexId z, double delta)
       return;
     }
     const VertexId v = this->ToRemove[done++];
-    if (mesh.Remove(this->Worker.Kernel, v) == RemovalOutcome::Removed)
+    if (this->Remove(v) == RemovalOutcome::Contended)
     {
-      ++this->Worker.Statistics.Removed;
-      this->ScreenCreated();
-    }
-    else
-    {
-      ++this->Worker.Statistics.RemovalsFailed;
-      this->Worker.Kernel.Created.Clear();
+      this->Worker.PendingRemovals.push_back({ v, centre, 2.0 * delta });
     }
   }
+}
+
+//------------------------------------------------------------------------------------------------
+// Afterwards worker.Created holds what was made, if anything.
+RemovalOutcome Rules3D::Remove(VertexId v)
+{
+  const RemovalOutcome outcome = this->Context.Mesh.Remove(this->Worker.Kernel, v);
+  if (outcome == RemovalOutcome::Removed)
+  {
+    ++this->Worker.Statistics.Removed;
+    this->ScreenCreated();
+    return outcome;
+  }
+  this->Worker.Statistics.RemovalsFailed += outcome == RemovalOutcome::Contended ? 0 : 1;
+  this->Worker.Kernel.Created.Clear();
+  return outcome;
+}
+
+//------------------------------------------------------------------------------------------------
+// The vertex may be another one by now; then it goes if it, too, is a free one so near.
+Verdict Rules3D::RemovePending()
+{
+  const PendingRemoval<3> pending = this->Worker.PendingRemovals.back();
+  if (!this->Context.Mesh.TryLock(this->Worker.Kernel, pending.Vertex))
+  {
+    return Verdict::Contended;
+  }
+  const Triangulation<3>::Vertex& vertex = this->Context.Mesh.GetVertex(pending.Vertex);
+  Verdict verdict = Verdict::Good;
+  if (vertex.Alive && vertex.Kind == VertexKind::Free &&
+    Distance2(vertex.Position, pending.Feature) < pending.Radius * pending.Radius)
+  {
+    const RemovalOutcome outcome = this->Remove(pending.Vertex);
+    if (outcome == RemovalOutcome::Contended)
+    {
+      return Verdict::Contended;
+    }
+    verdict = outcome == RemovalOutcome::Removed ? Verdict::Changed : Verdict::Good;
+  }
+  this->Worker.PendingRemovals.pop_back();
+  return verdict;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -303,7 +348,7 @@ bool Rules3D::FeatureVertexNear(const Element& t, const Point<3>& z, double dist
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::InsertCircumcentre(const Element& t, std::uint64_t& fired)
+Verdict Rules3D::InsertCircumcentre(const Element& t, std::uint64_t& fired)
 {
   Triangulation<3>& mesh = this->Context.Mesh;
   const bool inside = mesh.GetBox().Contains(t.Ball.Center);
@@ -311,55 +356,59 @@ bool Rules3D::InsertCircumcentre(const Element& t, std::uint64_t& fired)
   // The circumball is empty: only a projected point can be near a vertex.
   const InsertionOutcome outcome = mesh.Insert(this->Worker.Kernel, p,
     inside ? VertexKind::Free : VertexKind::Box, t.Id, inside ? 0.0 : this->Context.SpacingFloor);
-  if (!this->CountOutcome(outcome, fired))
+  const Verdict verdict = this->CountOutcome(outcome, fired);
+  if (verdict == Verdict::Changed)
   {
-    return false;
+    this->Worker.Statistics.Projected += inside ? 0 : 1;
+    this->ScreenCreated();
   }
-  this->Worker.Statistics.Projected += inside ? 0 : 1;
-  this->ScreenCreated();
-  return true;
+  return verdict;
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::InsertFeature(
-  const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed, std::uint64_t& fired)
+// Nothing is nearer to z than the clearance but for what another thread has inserted meanwhile.
+Verdict Rules3D::InsertFeature(const Point<3>& z, double delta, double clearance, SimplexId seed,
+  SimplexId otherSeed, std::uint64_t& fired)
 {
   Triangulation<3>& mesh = this->Context.Mesh;
-  InsertionOutcome outcome = mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, seed);
+  InsertionOutcome outcome =
+    mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, seed, clearance);
   if (outcome == InsertionOutcome::NoConflict && otherSeed != None)
   {
-    outcome = mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, otherSeed);
+    outcome = mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, otherSeed, clearance);
   }
-  if (!this->CountOutcome(outcome, fired))
+  const Verdict verdict = this->CountOutcome(outcome, fired);
+  if (verdict == Verdict::Changed)
   {
-    return false;
+    this->Context.Features.Add(z);
+    this->ScreenCreated();
+    this->R6(this->Worker.Kernel.NewVertex, delta);
   }
-  this->Context.Features.Add(z);
-  this->ScreenCreated();
-  this->R6(this->Worker.Kernel.NewVertex, delta);
-  return true;
+  return verdict;
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::CountOutcome(InsertionOutcome outcome, std::uint64_t& fired)
+Verdict Rules3D::CountOutcome(InsertionOutcome outcome, std::uint64_t& fired)
 {
   RuleStatistics& statistics = this->Worker.Statistics;
   switch (outcome)
   {
     case InsertionOutcome::Inserted:
       ++fired;
-      return true;
+      return Verdict::Changed;
     case InsertionOutcome::NoConflict:
       ++statistics.RefusedNoConflict;
-      return false;
+      return Verdict::Good;
     case InsertionOutcome::Duplicate:
       ++statistics.RefusedDuplicate;
-      return false;
+      return Verdict::Good;
     case InsertionOutcome::TooClose:
       ++statistics.RefusedTooClose;
-      return false;
+      return Verdict::Good;
+    case InsertionOutcome::Contended:
+      return Verdict::Contended;
   }
-  return false;
+  return Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -24,6 +24,12 @@
  * fire finitely often. R6 follows only these. Between two of them only R2, R4 and R5 insert, each a
  * point at least min(2 Delta, rho-bar * shortest edge, size floor) from every vertex (the circumball
  * is empty; projected points are tested), so again finitely often.
+ *
+ * With several threads two feature points may pass the test of their distance at the same time, unless
+ * one is a vertex of the other's cavity, which is tested again under the locks. Points too near to
+ * each other were then all under way at once, so there are at most as many in one place as there are
+ * threads, and the argument holds. A removal that another thread is in the way of is put off, not
+ * dropped.
  */
 #ifndef voxplex_Rules3D_h
 #define voxplex_Rules3D_h
@@ -44,15 +50,17 @@ public:
 
   Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker);
 
-  /** Pushes the new simplices of the last operation that may be poor, by cheap bounds alone. */
+  /** After every operation: pushes the new simplices that may be poor, by cheap bounds alone. */
   void ScreenCreated();
 
   /**
-   * Applies the first rule that t violates and that can be applied.
-   * @return true if the triangulation changed; t may have survived the change and is then to be
-   * judged again
+   * Applies the first rule that t violates and that can be applied. The worker owns the vertices of t,
+   * or is alone. After a change t may be alive still and is then to be judged again.
    */
-  bool Refine(SimplexId t);
+  Verdict Refine(SimplexId t);
+
+  /** Tries the last of the worker's pending removals again. */
+  Verdict RemovePending();
 
 private:
   /** What the rules know of the tetrahedron under evaluation. */
@@ -70,21 +78,22 @@ private:
   double ShortestEdge(SimplexId t) const;
 
   bool IsSampled(const Element& t) const;
-  bool R1(const Element& t, const Point<3>& z, double delta);
-  bool R2(const Element& t, double delta);
-  bool R3(const Element& t);
-  bool R4(const Element& t);
-  bool R5(const Element& t);
+  Verdict R1(const Element& t, const Point<3>& z, double delta);
+  Verdict R2(const Element& t, double delta);
+  Verdict R3(const Element& t);
+  Verdict R4(const Element& t);
+  Verdict R5(const Element& t);
   void R6(VertexId z, double delta);
   double DeltaBehind(const Element& t, const Point<3>& z) const;
 
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
   bool OwnFeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
   bool FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
-  bool InsertCircumcentre(const Element& t, std::uint64_t& fired);
-  bool InsertFeature(
-    const Point<3>& z, double delta, SimplexId seed, SimplexId otherSeed, std::uint64_t& fired);
-  bool CountOutcome(InsertionOutcome outcome, std::uint64_t& fired);
+  Verdict InsertCircumcentre(const Element& t, std::uint64_t& fired);
+  Verdict InsertFeature(const Point<3>& z, double delta, double clearance, SimplexId seed,
+    SimplexId otherSeed, std::uint64_t& fired);
+  Verdict CountOutcome(InsertionOutcome outcome, std::uint64_t& fired);
+  RemovalOutcome Remove(VertexId v);
 
   RefinementContext<3>& Context;
   RefinementWorker<3>& Worker;

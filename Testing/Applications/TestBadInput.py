@@ -35,7 +35,20 @@ class CommandLine(ProgramTestCase):
         self.refuse("--input.* needs a value", "--input")
         self.refuse("--delta.* needs a value", "--input", "a.nrrd", "--delta")
 
+        self.refuse("--contention.* needs a value", "--input", "a.nrrd", "--contention")
+        self.refuse("--balance.* needs a value", "--input", "a.nrrd", "--balance")
+
+    def test_flags_take_no_value(self):
+        self.refuse("'yes' is not understood", "--input", "a.nrrd", "--pin", "yes")
+        self.refuse("--pin", "--input", "a.nrrd", "--pin=yes")
+
+    def test_misspelt_threads(self):
+        self.refuse("unknown option '--contension'; did you mean --contention", "--contension", "local")
+        self.refuse("unknown option '--balances'; did you mean --balance", "--balances", "hws")
+
     def test_repeated_flag(self):
+        self.refuse("--contention.* more than once", "--input", "a.nrrd", "--contention", "local", "--contention",
+                    "random")
         self.refuse("--delta.* more than once", "--input", "a.nrrd", "--delta", "1", "--delta", "2")
 
     def test_delta(self):
@@ -57,6 +70,11 @@ class CommandLine(ProgramTestCase):
             (("--threads", "-2"), "--threads: must be a whole number"),
             (("--threads", "1.5"), "--threads: must be a whole number"),
             (("--memory-limit", "much"), "--memory-limit: 'much' is not an amount"),
+            (("--contention", "loc"), "--contention: must be aggressive, random, global or local, not 'loc'"),
+            (("--contention", ""), "--contention: must be aggressive, random, global or local, not ''"),
+            (("--contention", "hws"), "--contention: must be aggressive.*, not 'hws'"),
+            (("--balance", "local"), "--balance: must be rws or hws, not 'local'"),
+            (("--balance", "0"), "--balance: must be rws or hws, not '0'"),
         ):
             with self.subTest(arguments):
                 self.refuse(pattern, "--input", "a.nrrd", *arguments)

@@ -252,6 +252,23 @@ TEST(LabelImage, ThreadsAndTypesAgree)
     static_cast<std::int64_t>(one.Ids().size()));
 }
 
+TEST(LabelImage, StopsWhenAsked)
+{
+  const std::vector<short> scalars(20 * 20 * 20, 1);
+  std::stop_source source;
+  const auto read = [&](unsigned threads)
+  {
+    return LabelImage<3>::FromScalars<short>(
+      scalars, Grid(20, 20, 20), {}, threads, source.get_token());
+  };
+  EXPECT_EQ(read(2).NumberOfLabels(), 1); // not yet
+  source.request_stop();
+  for (const unsigned threads : { 1u, 2u, 3u, 8u })
+  {
+    EXPECT_THROW(read(threads), Cancelled);
+  }
+}
+
 TEST(ParallelFor, CoversEveryIterationOnce)
 {
   for (const unsigned threads : { 0u, 1u, 3u, 8u })

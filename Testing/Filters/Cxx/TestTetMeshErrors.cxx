@@ -230,7 +230,7 @@ void TestSizeImage()
 
 void TestThrowingFunction()
 {
-  for (const int threads : { 1, 2 })
+  for (const int threads : { 1, 2, 8 })
   {
     const auto filter = MakeFilter(MakeBall());
     filter->SetNumberOfThreads(threads);

@@ -42,6 +42,17 @@ void TestBall()
   }
 }
 
+/** Points and cells enough for several chunks of the loops that write them. */
+void TestThreads()
+{
+  const auto filter = MakeFilter(MakeTwoLabels(14.0));
+  filter->SetDelta(0.5);
+  filter->SetNumberOfThreads(3);
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(filter->GetOutput()->GetNumberOfPoints() > 10000, filter->GetOutput()->GetNumberOfPoints());
+}
+
 void TestLargeLabels()
 {
   const double large = 5e9; // does not fit into an int
@@ -129,6 +140,7 @@ void TestFieldData()
 int TestTetMeshOutputs(int, char*[])
 {
   TestBall();
+  TestThreads();
   TestLargeLabels();
   TestStatistics();
   TestFieldData();

@@ -88,10 +88,16 @@ void TestExecutions()
   expectExecution("MemoryLimit", [&] { filter->SetMemoryLimit(1ull << 40); });
   expectExecution("ComputeQuality", [&] { filter->ComputeQualityOn(); });
   expectExecution("NumberOfThreads", [&] { filter->SetNumberOfThreads(2); });
+  expectExecution("ContentionManager", [&] { filter->SetContentionManagerToGlobal(); });
+  expectExecution("LoadBalancer", [&] { filter->SetLoadBalancerToRandomWorkStealing(); });
+  expectExecution("PinThreads", [&] { filter->PinThreadsOn(); });
   expectExecution("the image", [&] { image->Modified(); });
 
   executions = 0;
   filter->SetDelta(2.5);
+  filter->SetContentionManagerToGlobal();
+  filter->SetLoadBalancerToRandomWorkStealing();
+  filter->PinThreadsOn();
   filter->SetLabelSize(7, 1.0);
   filter->RemoveLabelSize(7);
   filter->RemoveLabel(99);
@@ -162,8 +168,9 @@ void TestPrintSelf()
   for (const char* line :
     { "Delta: 1.25", "RadiusEdgeRatio: 2", "FacetAngle: 30", "SmoothingSigma: 1", "ElementSize: 0",
       "LabelSizes: 1=3.5", "SelectedLabels: 1", "SizeImplicitFunction:", "SizeFunction: (none)",
-      "NumberOfThreads: 1", "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off",
-      "ErrorMessage: (none)", "Aborted: No", "Statistics:", "NumberOfElements:" })
+      "NumberOfThreads: 1", "ContentionManager: local", "LoadBalancer: hws", "PinThreads: Off",
+      "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off", "ErrorMessage: (none)",
+      "Aborted: No", "Statistics:", "NumberOfElements:" })
   {
     CHECK(text.str().find(line) != std::string::npos, line);
   }

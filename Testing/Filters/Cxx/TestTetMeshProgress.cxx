@@ -46,9 +46,10 @@ vtkSmartPointer<ProgressCommand> Observe(
 }
 
 /** Takes seconds, so that there is something to stop. */
-vtkSmartPointer<vtkImageToTetMeshFilter> MakeSlow()
+vtkSmartPointer<vtkImageToTetMeshFilter> MakeSlow(int threads)
 {
   const auto filter = MakeFilter(MakeBall(14.0));
+  filter->SetNumberOfThreads(threads);
   filter->SetDelta(0.25);
   filter->SetElementSize(0.3);
   return filter;
@@ -89,16 +90,19 @@ void CheckAborted(vtkImageToTetMeshFilter* filter)
 }
 
 /** Aborting from a progress observer, at the start and in the midst of it. */
-void TestAbortFromObserver(double at)
+void TestAbortFromObserver(double at, int threads)
 {
-  const auto filter = MakeSlow();
+  const auto filter = MakeSlow(threads);
   const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
   errors->Watch(filter);
   Clock::time_point asked;
   bool hasAsked = false;
+  bool sameThread = true;
+  const auto caller = std::this_thread::get_id();
   const auto observer = Observe(filter,
     [&](vtkAlgorithm* algorithm, double fraction)
     {
+      sameThread = sameThread && std::this_thread::get_id() == caller;
       if (fraction >= at && !hasAsked)
       {
         hasAsked = true;
@@ -108,7 +112,8 @@ void TestAbortFromObserver(double at)
     });
   filter->Update();
   CHECK(hasAsked, at);
-  CHECK(SecondsSince(asked) < 1.0, at, SecondsSince(asked));
+  CHECK(sameThread);
+  CHECK(SecondsSince(asked) < 1.0, at, threads, SecondsSince(asked));
   CheckAborted(filter);
   CHECK(errors->FromFilter.empty() && errors->FromOthers.empty());
 
@@ -119,15 +124,17 @@ void TestAbortFromObserver(double at)
   filter->Update();
   CHECK(!filter->GetAborted());
   CheckMesh(filter);
+  filter->SetNumberOfThreads(1);
+  filter->Update();
   const auto fresh = MakeFilter(MakeBall(14.0));
   fresh->SetDelta(2.0);
   fresh->Update();
   CHECK(SameMesh(filter->GetOutput(), fresh->GetOutput()));
 }
 
-void TestAbortFromThread()
+void TestAbortFromThread(int threads)
 {
-  const auto filter = MakeSlow();
+  const auto filter = MakeSlow(threads);
   const auto start = Clock::now();
   std::thread user(
     [&]
@@ -139,17 +146,22 @@ void TestAbortFromThread()
   const double took = SecondsSince(start);
   user.join();
   CheckAborted(filter);
-  CHECK(took < 1.3, took);
+  CHECK(took < 1.3, threads, took);
 }
 
 } // namespace
 
 int TestTetMeshProgress(int, char*[])
 {
-  TestProgress(1);
-  TestProgress(2);
-  TestAbortFromObserver(0.0);
-  TestAbortFromObserver(0.3);
-  TestAbortFromThread();
+  for (const int threads : { 1, 2, 8 })
+  {
+    TestProgress(threads);
+  }
+  for (const int threads : { 1, 8 })
+  {
+    TestAbortFromObserver(0.0, threads);
+    TestAbortFromObserver(0.3, threads);
+    TestAbortFromThread(threads);
+  }
   return Result();
 }

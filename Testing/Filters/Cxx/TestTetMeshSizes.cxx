@@ -177,8 +177,8 @@ void TestImplicitFunction()
   filter->Update();
   CHECK(filter->GetOutput()->GetNumberOfCells() > before);
 
-  filter->SetNumberOfThreads(2);
-  CheckSizes(filter, "implicit, 2 threads",
+  filter->SetNumberOfThreads(4);
+  CheckSizes(filter, "implicit, 4 threads",
     [](const Vector& x, long long) { return 0.15 * (x[0] + 8) + 1e-9; });
 }
 
@@ -197,6 +197,11 @@ void TestCallable()
   CheckSizes(filter, "callable",
     [](const Vector& x, long long label) { return label == 1 ? Graded(x[0]) : VTK_DOUBLE_MAX; });
   CHECK(calls > 0 && goodLabels);
+  filter->SetNumberOfThreads(4);
+  CheckSizes(filter, "callable, 4 threads",
+    [](const Vector& x, long long label) { return label == 1 ? Graded(x[0]) : VTK_DOUBLE_MAX; });
+  CHECK(goodLabels);
+  filter->SetNumberOfThreads(1);
   filter->SetSizeFunction(nullptr);
   filter->Update();
   CHECK(filter->GetOutput()->GetNumberOfCells() == CountWithout());

@@ -8,7 +8,7 @@ import math
 import threading
 import unittest
 
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdList, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdList, vtkSMPTools, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkImageData, vtkPlane
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.util.misc import calldata_type
@@ -181,6 +181,92 @@ class Sizes(unittest.TestCase):
         self.assertGreater(self.mesher.GetOutput().GetNumberOfCells(), first)
 
 
+class Threads(unittest.TestCase):
+    MANAGERS = {"aggressive": "Aggressive", "random": "Random", "global": "Global", "local": "Local"}
+    BALANCERS = {"rws": "RandomWorkStealing", "hws": "HierarchicalWorkStealing"}
+
+    def test_properties(self):
+        mesher = voxplex.vtkImageToTetMeshFilter()
+        self.assertEqual(mesher.GetContentionManager(), mesher.CONTENTION_LOCAL)
+        self.assertEqual(mesher.GetLoadBalancer(), mesher.HIERARCHICAL_WORK_STEALING)
+        self.assertFalse(mesher.GetPinThreads())
+        for value, (name, method) in enumerate(self.MANAGERS.items()):
+            getattr(mesher, "SetContentionManagerTo" + method)()
+            self.assertEqual(mesher.GetContentionManager(), value)
+            self.assertEqual(mesher.GetContentionManagerAsString(), name)
+            self.assertEqual(getattr(mesher, "CONTENTION_" + name.upper()), value)
+        for value, (name, method) in enumerate(self.BALANCERS.items()):
+            getattr(mesher, "SetLoadBalancerTo" + method)()
+            self.assertEqual(mesher.GetLoadBalancer(), value)
+            self.assertEqual(mesher.GetLoadBalancerAsString(), name)
+        mesher.PinThreadsOn()
+        self.assertIn("PinThreads: On", str(mesher))
+
+    def test_every_policy(self):
+        for manager, set_manager in self.MANAGERS.items():
+            for balancer, set_balancer in self.BALANCERS.items():
+                with self.subTest(manager=manager, balancer=balancer):
+                    mesher = make_filter(make_image(two_labels))
+                    mesher.SetNumberOfThreads(4)
+                    mesher.ComputeQualityOn()
+                    getattr(mesher, "SetContentionManagerTo" + set_manager)()
+                    getattr(mesher, "SetLoadBalancerTo" + set_balancer)()
+                    mesher.Update()
+                    figures = json.loads(mesher.GetStatistics().ToJSON())
+                    self.assertEqual((figures["contention"], figures["balance"]), (manager, balancer))
+                    self.assertEqual(set(figures["labels"]), {"3", "7"})
+                    self.assertLessEqual(figures["quality"]["max_radius_edge"], 2.0)
+                    self.assertEqual(figures["quality"]["inverted_elements"], 0)
+                    self.assertGreater(min(volume(t) for t in tetrahedra(mesher.GetOutput())), 0.0)
+
+    def test_statistics(self):
+        mesher = make_filter(make_image(two_labels))
+        mesher.SetNumberOfThreads(4)
+        mesher.Update()
+        statistics = mesher.GetStatistics()
+        figures = json.loads(statistics.ToJSON())
+        self.assertEqual(figures["threads"], 4)
+        self.assertIs(figures["switched_to_local"], False)
+        self.assertEqual(figures["seeding_seconds"], statistics.GetSeedingTime())
+        entries = figures["thread_statistics"]
+        self.assertEqual(len(entries), 4)
+        self.assertEqual(statistics.GetNumberOfRefinementThreads(), 4)
+        getters = {
+            "insertions": statistics.GetThreadInsertions,
+            "removals": statistics.GetThreadRemovals,
+            "rollbacks": statistics.GetThreadRollbacks,
+            "waits": statistics.GetThreadWaits,
+            "contention_seconds": statistics.GetThreadContentionTime,
+            "load_balance_seconds": statistics.GetThreadLoadBalanceTime,
+            "rollback_seconds": statistics.GetThreadRollbackTime,
+            "received_elements": statistics.GetThreadReceivedElements,
+        }
+        for thread, entry in enumerate(entries):
+            self.assertEqual({name: getter(thread) for name, getter in getters.items()},
+                             {name: entry[name] for name in getters})
+            self.assertEqual([statistics.GetThreadReceived(thread, level) for level in range(3)],
+                             entry["received"])
+        self.assertGreater(sum(entry["insertions"] for entry in entries), 0)
+        self.assertEqual(statistics.GetRollbacks(), sum(entry["rollbacks"] for entry in entries))
+        self.assertEqual([statistics.GetReceived(level) for level in range(3)],
+                         [sum(entry["received"][level] for entry in entries) for level in range(3)])
+
+    def test_default_is_the_setting_of_vtk(self):
+        before = vtkSMPTools.GetEstimatedNumberOfThreads()
+        self.addCleanup(vtkSMPTools.Initialize, before)
+        mesher = make_filter(make_image(two_labels))
+        mesher.SetNumberOfThreads(0)
+        for number in (3, 1):
+            vtkSMPTools.Initialize(number)
+            expected = vtkSMPTools.GetEstimatedNumberOfThreads()  # always 1 without a parallel backend
+            mesher.Modified()
+            mesher.Update()
+            statistics = mesher.GetStatistics()
+            self.assertEqual(statistics.GetNumberOfThreads(), expected)
+            self.assertEqual(statistics.GetNumberOfRefinementThreads(), expected)
+            self.assertEqual(mesher.GetNumberOfThreads(), 0)
+
+
 class Behaviour(unittest.TestCase):
     def test_errors(self):
         mesher = make_filter(make_image(two_labels))
@@ -214,8 +300,14 @@ class Behaviour(unittest.TestCase):
             mesher.SetDetla(1.0)
 
     def test_progress(self):
+        for threads in (1, 8):
+            with self.subTest(threads):
+                self.check_progress(threads)
+
+    def check_progress(self, number):
         mesher = make_filter(make_image(two_labels))
         mesher.SetDelta(0.8)
+        mesher.SetNumberOfThreads(number)
         fractions = []
         threads = set()
 
@@ -232,14 +324,17 @@ class Behaviour(unittest.TestCase):
         self.assertEqual(threads, {threading.get_ident()})
 
     def test_abort(self):
-        mesher = make_filter(make_image(two_labels))
-        mesher.SetDelta(0.3)
-        errors = ErrorCollector(mesher)
-        mesher.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
-        mesher.Update()
-        self.assertTrue(mesher.GetAborted())
-        self.assertEqual(errors.messages, [])
-        self.assertEqual(mesher.GetOutput().GetNumberOfCells(), 0)
+        for threads in (1, 8):
+            with self.subTest(threads):
+                mesher = make_filter(make_image(two_labels))
+                mesher.SetDelta(0.3)
+                mesher.SetNumberOfThreads(threads)
+                errors = ErrorCollector(mesher)
+                mesher.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
+                mesher.Update()
+                self.assertTrue(mesher.GetAborted())
+                self.assertEqual(errors.messages, [])
+                self.assertEqual(mesher.GetOutput().GetNumberOfCells(), 0)
 
     def test_reproducible(self):
         meshes = []

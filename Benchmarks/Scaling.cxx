@@ -1,0 +1,394 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Scaling.cxx
+ * @brief voxplexScaling: one image with one thread, with several, and with more than there are cores.
+ *
+ * Every run is a child process of its own; all configurations take turns.
+ */
+#include "MeshComparison.h"
+#include "MeshReport.h"
+#include "Parallel/ParallelFor.h"
+#include "ScalingOptions.h"
+#include "ScalingTables.h"
+#include "VoxplexRun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+using namespace voxplex;
+using namespace voxplex::benchmarks;
+
+namespace
+{
+
+const char* NameOf(ContentionPolicy policy)
+{
+  return ContentionPolicyNames[static_cast<std::size_t>(policy)].data();
+}
+
+const char* NameOf(BalancePolicy policy)
+{
+  return BalancePolicyNames[static_cast<std::size_t>(policy)].data();
+}
+
+/** What is to run, and which table each series is for. */
+class Experiment
+{
+public:
+  Experiment(const ScalingOptions& options, LabelVolume& image)
+    : Opts(options)
+    , Runs(image)
+  {
+    this->Baseline = this->Runs.Add(this->With(1));
+    if (options.Strong)
+    {
+      this->AddStrong();
+    }
+    if (options.Synchronise)
+    {
+      Configuration what = this->With(1);
+      what.Synchronise = true;
+      this->Synchronised = this->Runs.Add(what);
+    }
+    if (options.Oversubscribe > 0)
+    {
+      this->AddOversubscribed();
+    }
+    if (options.Ceiling)
+    {
+      this->AddCeiling();
+    }
+    if (options.Weak)
+    {
+      this->AddWeak();
+    }
+  }
+
+  void Run() { this->Runs.Run(this->Opts.Repeat); }
+  void Print() const;
+  void WriteJson(std::ostream& stream) const { this->Tables().WriteJson(stream); }
+
+private:
+  ScalingTables Tables() const { return { this->Runs, this->Baseline }; }
+
+  /** With the first manager and the first balancer of the lists; the sequential code for one thread. */
+  Configuration With(unsigned threads) const
+  {
+    Configuration what;
+    what.Delta = this->Opts.Delta;
+    what.Threads = threads;
+    what.Contention = this->Opts.Managers.front();
+    what.Balance = this->Opts.Balancers.front();
+    what.Pin = this->Opts.Pin;
+    return what;
+  }
+
+  /** Calls function(configuration) for every manager and balancer. */
+  template <typename Function>
+  void ForEachPolicy(Configuration what, Function function) const
+  {
+    for (const BalancePolicy balance : this->Opts.Balancers)
+    {
+      for (const ContentionPolicy contention : this->Opts.Managers)
+      {
+        what.Balance = balance;
+        what.Contention = contention;
+        function(what);
+      }
+    }
+  }
+
+  void AddStrong()
+  {
+    for (const unsigned threads : this->Opts.Threads)
+    {
+      if (threads > 1)
+      {
+        this->ForEachPolicy(this->With(threads),
+          [&](const Configuration& what) { this->Strong.push_back(this->Runs.Add(what)); });
+      }
+    }
+  }
+
+  void AddOversubscribed()
+  {
+    this->ForEachPolicy(this->With(this->Opts.Oversubscribe),
+      [&](const Configuration& many)
+      {
+        Configuration few = many;
+        few.Threads = NumberOfThreads(0);
+        this->Oversubscribed.emplace_back(this->Runs.Add(many), this->Runs.Add(few));
+      });
+  }
+
+  void AddCeiling()
+  {
+    for (const unsigned copies : this->Opts.Threads)
+    {
+      Configuration what = this->With(1);
+      what.Copies = copies;
+      this->Ceiling.push_back(this->Runs.Add(what));
+    }
+  }
+
+  /**
+   * One run with delta n^(-1/3) tells how the number of tetrahedra depends on delta on this image:
+   * between delta^(-2), as interfaces have, and delta^(-3), as what lies between them.
+   */
+  void AddWeak()
+  {
+    const double one = this->Runs.Try(this->With(1)).Tetrahedra;
+    this->Weak.push_back(this->Baseline);
+    for (const unsigned threads : this->Opts.Threads)
+    {
+      if (threads > 1)
+      {
+        Configuration what = this->With(threads);
+        what.Delta = this->Opts.Delta * std::pow(threads, -1.0 / 3.0);
+        const double measured = this->Runs.Try(what).Tetrahedra;
+        const double exponent = std::log(measured / one) / std::log(this->Opts.Delta / what.Delta);
+        what.Delta = this->Opts.Delta * std::pow(threads, -1.0 / std::clamp(exponent, 1.0, 4.0));
+        this->ForEachPolicy(
+          what, [&](const Configuration& each) { this->Weak.push_back(this->Runs.Add(each)); });
+      }
+    }
+  }
+
+  /** The members of a selection for which condition(configuration) holds. */
+  template <typename Condition>
+  Selection Select(const Selection& from, Condition condition) const
+  {
+    Selection result;
+    std::copy_if(from.begin(), from.end(), std::back_inserter(result),
+      [&](std::size_t i) { return condition(this->Runs[i].What); });
+    return result;
+  }
+
+  void PrintPolicies(const Selection& strong) const;
+
+  const ScalingOptions& Opts;
+  ScalingRuns Runs;
+  std::size_t Baseline = 0;
+  Selection Strong;
+  Selection Weak;
+  Selection Ceiling;
+  std::optional<std::size_t> Synchronised;
+  std::vector<std::pair<std::size_t, std::size_t>> Oversubscribed;
+};
+
+/** Managers side by side for each number of threads; balancers side by side for the first manager. */
+void Experiment::PrintPolicies(const Selection& strong) const
+{
+  std::vector<unsigned> numbers;
+  for (const std::size_t i : strong)
+  {
+    numbers.push_back(this->Runs[i].What.Threads);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (const unsigned threads : numbers)
+  {
+    std::printf("Contention managers, %u threads, %s; overheads of all threads together (as table "
+                "3.1 of the thesis):\n\n",
+      threads, NameOf(this->Opts.Balancers.front()));
+    this->Tables().PrintManagers(this->Select(strong,
+      [&](const Configuration& what)
+      { return what.Threads == threads && what.Balance == this->Opts.Balancers.front(); }));
+  }
+  if (this->Opts.Balancers.size() > 1)
+  {
+    std::printf("Load balancers (as figure 3.5 of the thesis):\n\n");
+    this->Tables().PrintBalancers(this->Select(strong,
+      [&](const Configuration& what) { return what.Contention == this->Opts.Managers.front(); }));
+  }
+}
+
+void Experiment::Print() const
+{
+  const ScalingTables tables = this->Tables();
+  Selection strong = this->Strong;
+  for (const auto& [many, few] : this->Oversubscribed)
+  {
+    for (const std::size_t i : { few, many })
+    {
+      if (std::find(strong.begin(), strong.end(), i) == strong.end())
+      {
+        strong.push_back(i);
+      }
+    }
+  }
+  if (!strong.empty())
+  {
+    Selection all = strong;
+    all.insert(all.begin(), this->Baseline);
+    std::printf("### Strong scaling\n\n");
+    tables.PrintTimes(all);
+    tables.PrintOverheads(all);
+    this->PrintPolicies(strong);
+  }
+  if (!this->Oversubscribed.empty())
+  {
+    std::printf("### More threads than cores\n\n");
+    tables.PrintOversubscribed(this->Oversubscribed);
+  }
+  if (!this->Ceiling.empty())
+  {
+    std::printf("### What the machine gives: independent processes of one thread\n\n");
+    tables.PrintCeiling(this->Ceiling);
+  }
+  if (this->Synchronised)
+  {
+    std::printf("### What the code for several threads costs one\n\n");
+    tables.PrintSynchronised(*this->Synchronised);
+  }
+  if (!this->Weak.empty())
+  {
+    std::printf("### Weak scaling (as table 3.4 of the thesis)\n\n");
+    this->ForEachPolicy(this->With(1),
+      [&](const Configuration& policy)
+      {
+        std::printf("%s, %s:\n\n", NameOf(policy.Contention), NameOf(policy.Balance));
+        tables.PrintWeak(this->Select(this->Weak,
+          [&](const Configuration& what)
+          {
+            return what.Threads == 1 ||
+              (what.Contention == policy.Contention && what.Balance == policy.Balance);
+          }));
+      });
+  }
+}
+
+MeshingOptions<3> DefaultsOf(const ScalingOptions& options, unsigned threads)
+{
+  MeshingOptions<3> result;
+  result.Threads = threads;
+  result.Contention = options.Managers.front();
+  result.Balance = options.Balancers.front();
+  result.PinThreads = options.Pin;
+  return result;
+}
+
+/** Quality of several meshes with so many threads, next to that of one thread. */
+void CompareQuality(
+  const ScalingOptions& options, LabelVolume& image, unsigned threads, std::ostream& json)
+{
+  const std::string name = std::to_string(threads) + " threads";
+  const auto contestant = [&](const char* title, unsigned number)
+  {
+    return Contestant{ title,
+      [&, number](double delta)
+      {
+        MeshingOptions<3> meshing = DefaultsOf(options, number);
+        meshing.Delta = delta;
+        return RunVoxplex(std::move(image), meshing).Run;
+      },
+      options.Delta };
+  };
+  Contestant one = contestant("one thread", 1);
+  Contestant many = contestant(name.c_str(), threads);
+  const LabelVolumes volumes = VolumesOf(image);
+  AddRun(one, volumes); // one is enough: always the same mesh
+  for (int i = 0; i < options.Quality; ++i)
+  {
+    std::fprintf(stderr, "quality with %u threads, %d of %d\n", threads, i + 1, options.Quality);
+    AddRun(many, volumes);
+  }
+  std::printf("### Quality of %d meshes with %u threads (%s, %s)\n\n", options.Quality, threads,
+    NameOf(options.Managers.front()), NameOf(options.Balancers.front()));
+  PrintSpread(one, many);
+  json << "{ \"threads\": " << threads << ",\n  \"one\": ";
+  WriteJson(json, one);
+  json << ",\n  \"many\": ";
+  WriteJson(json, many);
+  json << " }";
+}
+
+/** Sets options.Delta so that there are options.Elements tetrahedra. */
+void Tune(ScalingOptions& options, LabelVolume& image)
+{
+  Contestant voxplex{ "Voxplex",
+    [&](double delta) { return RunVoxplex(std::move(image), delta, options.Threads.back()); } };
+  const double spacing = std::cbrt(image.Spacing[0] * image.Spacing[1] * image.Spacing[2]);
+  TuneSize(voxplex, options.Delta > 0.0 ? options.Delta : 2.0 * spacing, options.Elements);
+  options.Delta = voxplex.Size;
+}
+
+void Measure(ScalingOptions options)
+{
+  LabelVolume image = ReadLabelVolume(options.Image);
+  if (options.Elements > 0.0)
+  {
+    Tune(options, image);
+  }
+  std::ostringstream json;
+  json.precision(10);
+  json << "{\n  \"delta\": " << options.Delta << ",\n  \"cores\": " << NumberOfThreads(0);
+
+  std::printf("Delta %.4g, %u cores, medians of %d runs of each, in turns.\n\n", options.Delta,
+    NumberOfThreads(0), options.Repeat);
+  if (options.Strong || options.Weak || options.Synchronise || options.Ceiling ||
+    options.Oversubscribe > 0)
+  {
+    Experiment experiment(options, image);
+    experiment.Run();
+    experiment.Print();
+    json << ",\n  \"series\": ";
+    experiment.WriteJson(json);
+  }
+  json << ",\n  \"quality\": [";
+  if (options.Quality > 0)
+  {
+    CompareQuality(options, image, options.Threads.back(), json);
+    if (options.Oversubscribe > 0)
+    {
+      json << ", ";
+      CompareQuality(options, image, options.Oversubscribe, json);
+    }
+  }
+  json << "]\n}\n";
+  if (!options.Json.empty())
+  {
+    std::ofstream file(options.Json);
+    file << json.str();
+    if (!file.flush())
+    {
+      throw std::runtime_error("cannot write " + options.Json);
+    }
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  ScalingOptions options;
+  try
+  {
+    options = ParseScalingOptions(argc, argv);
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: %s\n\n%s", error.what(), ScalingUsage);
+    return 2;
+  }
+  try
+  {
+    Measure(options);
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file CycleClock.h
+ * @brief A clock that can be read twice in every operation.
+ */
+#ifndef voxplex_CycleClock_h
+#define voxplex_CycleClock_h
+
+#include <chrono>
+#include <cstdint>
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <x86intrin.h>
+#endif
+
+namespace voxplex
+{
+
+/**
+ * @brief Counts ticks, and says afterwards how long a tick was.
+ *
+ * On x86-64 a tick is one of the processor's time stamp counter, which is the same on all cores and reads
+ * several times faster than the system's clock; elsewhere it is one of std::chrono::steady_clock.
+ */
+class CycleClock
+{
+public:
+  using Ticks = std::uint64_t;
+
+  static Ticks Now()
+  {
+#if defined(__x86_64__) && defined(__GNUC__)
+    return __rdtsc();
+#else
+    return static_cast<Ticks>(std::chrono::steady_clock::now().time_since_epoch().count());
+#endif
+  }
+
+  /** Seconds of a tick, from what passed since the clock was made. */
+  double SecondsPerTick() const
+  {
+    const double seconds = this->Seconds();
+    const Ticks ticks = Now() - this->StartTicks;
+    return ticks == 0 ? 0.0 : seconds / static_cast<double>(ticks);
+  }
+
+  /** Seconds since the clock was made. */
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+  Ticks StartTicks = Now();
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ParallelSort.h
+ * @brief A stable sort by whole numbers.
+ */
+#ifndef voxplex_ParallelSort_h
+#define voxplex_ParallelSort_h
+
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * Sorts by a whole number, from small to large; what has the same number keeps its order, so the
+ * result is the same for any number of threads.
+ *
+ * Radix sort from the lowest digit: for each digit every block of values is counted, then written to
+ * where its values belong, from one array into the other. Digits that all values share cost the
+ * counting only. O(n bits / 10).
+ *
+ * @param values what to sort, fewer than 2^32; left in any order
+ * @param scratch as large as values; what it holds does not matter
+ * @param bits the keys are below 2^bits; 0 ... 64
+ * @param key callable as an unsigned whole number(const T&), from several threads at once; does not
+ *   throw
+ * @param threads 0 means all cores
+ * @return whichever of values and scratch the sorted values are in
+ * @throws Cancelled if a stop was requested before the end
+ * @throws std::bad_alloc
+ */
+template <typename T, typename Key>
+std::span<T> ParallelRadixSort(std::span<T> values, std::span<T> scratch, unsigned bits, Key&& key,
+  unsigned threads, const std::stop_token& stop = {})
+{
+  // With more bins the places that are being written to do not stay in the cache, with fewer there
+  // are more passes. Of 8 to 13 bits 10 is the fastest or nearly so for 0.1 M to 8 M values; five
+  // times faster than std::sort for keys of 63 bits.
+  constexpr unsigned LongestDigit = 10;
+  constexpr std::size_t SmallestBlock = std::size_t{ 1 } << 16; // smaller ones do not pay a thread
+  ThrowIfStopped(stop);
+  const std::size_t n = values.size();
+  const unsigned passes = (bits + LongestDigit - 1) / LongestDigit;
+  if (n < 2 || passes == 0)
+  {
+    return values;
+  }
+  const unsigned digit = (bits + passes - 1) / passes;
+  const std::size_t bins = std::size_t{ 1 } << digit;
+  const std::size_t workers = NumberOfThreads(threads);
+  // Two blocks a thread, in case the machine does not let all run at the same speed.
+  const std::size_t wanted = workers == 1 ? 1 : 2 * workers;
+  const std::size_t block = std::max(SmallestBlock, (n - 1) / wanted + 1);
+  const std::size_t blocks = (n - 1) / block + 1;
+
+  std::vector<std::uint32_t> places(blocks * bins); // by block; counts first, then where to write
+  for (unsigned pass = 0; pass < passes; ++pass)
+  {
+    const unsigned shift = pass * digit;
+    const auto binOf = [&key, shift, bins](const T& value)
+    { return static_cast<std::size_t>((std::uint64_t{ key(value) } >> shift) & (bins - 1)); };
+    ParallelFor(
+      0, n, block, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        std::uint32_t* const counts = places.data() + first / block * bins;
+        std::fill_n(counts, bins, 0u);
+        for (std::size_t i = first; i < last; ++i)
+        {
+          ++counts[binOf(values[i])];
+        }
+      },
+      stop);
+
+    std::uint32_t place = 0;
+    bool oneBin = false;
+    for (std::size_t bin = 0; bin < bins; ++bin)
+    {
+      const std::uint32_t before = place;
+      for (std::size_t b = 0; b < blocks; ++b)
+      {
+        place += std::exchange(places[b * bins + bin], place);
+      }
+      oneBin = oneBin || place - before == n;
+    }
+    if (oneBin)
+    {
+      continue;
+    }
+
+    ParallelFor(
+      0, n, block, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        std::uint32_t* const to = places.data() + first / block * bins;
+        for (std::size_t i = first; i < last; ++i)
+        {
+          scratch[to[binOf(values[i])]++] = values[i];
+        }
+      },
+      stop);
+    std::swap(values, scratch);
+  }
+  return values;
+}
+
+} // namespace voxplex
+
+#endif

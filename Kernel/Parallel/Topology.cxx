@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Parallel/Topology.h"
+
+#include "Parallel/TopologyDiscovery.h"
+
+#ifdef VOXPLEX_HAVE_HWLOC
+#include <hwloc.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <type_traits>
+#endif
+
+namespace voxplex
+{
+
+Topology FlatTopology(unsigned threads)
+{
+  Topology flat;
+  flat.Group.assign(threads, { 0, 0, 0 });
+  return flat;
+}
+
+#ifdef VOXPLEX_HAVE_HWLOC
+
+namespace
+{
+
+struct DestroyTopology
+{
+  void operator()(hwloc_topology_t topology) const { hwloc_topology_destroy(topology); }
+};
+using HwlocTopology = std::unique_ptr<std::remove_pointer_t<hwloc_topology_t>, DestroyTopology>;
+
+struct FreeBitmap
+{
+  void operator()(hwloc_bitmap_t bitmap) const { hwloc_bitmap_free(bitmap); }
+};
+using Bitmap = std::unique_ptr<std::remove_pointer_t<hwloc_bitmap_t>, FreeBitmap>;
+
+/** This machine, or the one described; null where hwloc fails. */
+HwlocTopology Load(const char* description)
+{
+  hwloc_topology_t raw = nullptr;
+  if (hwloc_topology_init(&raw) != 0)
+  {
+    return nullptr;
+  }
+  HwlocTopology topology(raw);
+  if (description != nullptr && hwloc_topology_set_synthetic(raw, description) != 0)
+  {
+    return nullptr;
+  }
+  if (hwloc_topology_load(raw) != 0)
+  {
+    return nullptr;
+  }
+  return topology;
+}
+
+/** This machine, read once: it takes up to a tenth of a second. Reading it is thread-safe. */
+hwloc_topology_t ThisMachine()
+{
+  static const HwlocTopology machine = Load(nullptr);
+  return machine.get();
+}
+
+/** A logical processor. */
+struct Processor
+{
+  unsigned Number;     ///< the operating system's
+  unsigned Package;    ///< logical number of the socket
+  unsigned Numa;       ///< logical number of the NUMA node
+  unsigned RankInCore; ///< 0 for the first hyper-thread of a core that may be used, ...
+};
+
+unsigned NumaNodeOf(hwloc_topology_t topology, hwloc_obj_t processor)
+{
+  // Memory hangs beside the tree of processors. Where a processor has several nodes (fast and large
+  // memory) the first stands for all.
+  for (hwloc_obj_t node = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_NUMANODE, nullptr);
+       node != nullptr; node = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_NUMANODE, node))
+  {
+    if (hwloc_bitmap_isset(node->cpuset, processor->os_index))
+    {
+      return node->logical_index;
+    }
+  }
+  return 0;
+}
+
+/** The processors of `allowed`, in the machine's order: those of a socket are together. */
+std::vector<Processor> AllowedProcessors(hwloc_topology_t topology, hwloc_const_bitmap_t allowed)
+{
+  std::vector<Processor> processors;
+  hwloc_obj_t lastCore = nullptr;
+  unsigned rankInCore = 0;
+  for (hwloc_obj_t unit = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PU, nullptr);
+       unit != nullptr; unit = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PU, unit))
+  {
+    if (!hwloc_bitmap_isset(allowed, unit->os_index))
+    {
+      continue;
+    }
+    const hwloc_obj_t core = hwloc_get_ancestor_obj_by_type(topology, HWLOC_OBJ_CORE, unit);
+    rankInCore = core != nullptr && core == lastCore ? rankInCore + 1 : 0;
+    lastCore = core;
+    const hwloc_obj_t package = hwloc_get_ancestor_obj_by_type(topology, HWLOC_OBJ_PACKAGE, unit);
+    processors.push_back({ unit->os_index, package != nullptr ? package->logical_index : 0,
+      NumaNodeOf(topology, unit), rankInCore });
+  }
+  return processors;
+}
+
+/** True if processors with the same `inner` have the same `outer`. */
+bool Nests(
+  const std::vector<Processor>& processors, unsigned Processor::*inner, unsigned Processor::*outer)
+{
+  std::map<unsigned, unsigned> outerOf;
+  return std::all_of(processors.begin(), processors.end(),
+    [&](const Processor& processor) {
+      return outerOf.emplace(processor.*inner, processor.*outer).first->second == processor.*outer;
+    });
+}
+
+/** Numbers things from 0 in the order in which they come. */
+class Numbering
+{
+public:
+  unsigned operator()(unsigned thing)
+  {
+    return this->Numbers.emplace(thing, static_cast<unsigned>(this->Numbers.size())).first->second;
+  }
+
+private:
+  std::map<unsigned, unsigned> Numbers;
+};
+
+Topology Spread(std::vector<Processor> processors, unsigned threads)
+{
+  if (processors.empty())
+  {
+    return FlatTopology(threads);
+  }
+  unsigned Processor::*inner = &Processor::Package;
+  unsigned Processor::*outer = &Processor::Numa;
+  bool nested = Nests(processors, inner, outer);
+  if (!nested)
+  {
+    std::swap(inner, outer);
+    nested = Nests(processors, inner, outer);
+    if (!nested) // no known machine: sockets, then the whole
+    {
+      inner = &Processor::Package;
+    }
+  }
+  // One hyper-thread of every core before the second of any; stable, so socket after socket.
+  std::stable_sort(processors.begin(), processors.end(),
+    [](const Processor& a, const Processor& b) { return a.RankInCore < b.RankInCore; });
+
+  Topology spread;
+  spread.Group.reserve(threads);
+  spread.Processor.reserve(threads);
+  Numbering innerNumber;
+  Numbering outerNumber;
+  for (unsigned t = 0; t < threads; ++t)
+  {
+    const Processor& processor = processors[t % processors.size()];
+    spread.Group.push_back(
+      { innerNumber(processor.*inner), nested ? outerNumber(processor.*outer) : 0, 0 });
+    spread.Processor.push_back(processor.Number);
+  }
+  return spread;
+}
+
+} // namespace
+
+bool CanDiscoverTopology()
+{
+  return true;
+}
+
+Topology DescribedTopology(
+  const std::string& description, const std::vector<unsigned>& allowed, unsigned threads)
+{
+  const HwlocTopology topology = Load(description.c_str());
+  const Bitmap set(hwloc_bitmap_alloc());
+  if (!topology || !set)
+  {
+    return FlatTopology(threads);
+  }
+  if (allowed.empty())
+  {
+    hwloc_bitmap_fill(set.get());
+  }
+  for (const unsigned processor : allowed)
+  {
+    hwloc_bitmap_set(set.get(), processor);
+  }
+  return Spread(AllowedProcessors(topology.get(), set.get()), threads);
+}
+
+Topology DiscoverTopology(unsigned threads)
+{
+  const hwloc_topology_t topology = ThisMachine();
+  const Bitmap allowed(hwloc_bitmap_alloc());
+  if (topology == nullptr || !allowed)
+  {
+    return FlatTopology(threads);
+  }
+  // What taskset, a batch system or a container leaves to us. (The machine as hwloc loads it is
+  // already without what the control group forbids.)
+  if (hwloc_get_cpubind(topology, allowed.get(), HWLOC_CPUBIND_PROCESS) != 0)
+  {
+    hwloc_bitmap_fill(allowed.get());
+  }
+  return Spread(AllowedProcessors(topology, allowed.get()), threads);
+}
+
+bool PinThisThread(const Topology& topology, unsigned t)
+{
+  const hwloc_topology_t machine = ThisMachine();
+  const Bitmap processor(hwloc_bitmap_alloc());
+  if (t >= topology.Processor.size() || machine == nullptr || !processor)
+  {
+    return false;
+  }
+  hwloc_bitmap_set(processor.get(), topology.Processor[t]);
+  return hwloc_set_cpubind(machine, processor.get(), HWLOC_CPUBIND_THREAD) == 0;
+}
+
+#else // without hwloc
+
+bool CanDiscoverTopology()
+{
+  return false;
+}
+
+Topology DescribedTopology(const std::string&, const std::vector<unsigned>&, unsigned threads)
+{
+  return FlatTopology(threads);
+}
+
+Topology DiscoverTopology(unsigned threads)
+{
+  return FlatTopology(threads);
+}
+
+bool PinThisThread(const Topology&, unsigned)
+{
+  return false;
+}
+
+#endif
+
+} // namespace voxplex

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file TopologyDiscovery.h
+ * @brief Topologies of machines that are not there. Private to Topology.cxx and its test.
+ */
+#ifndef voxplex_TopologyDiscovery_h
+#define voxplex_TopologyDiscovery_h
+
+#include "Parallel/Topology.h"
+
+#include <string>
+#include <vector>
+
+namespace voxplex
+{
+
+/** False if the kernel was built without hwloc: DiscoverTopology() is FlatTopology() then. */
+bool CanDiscoverTopology();
+
+/**
+ * What DiscoverTopology() would find on another machine.
+ *
+ * @param description the machine, in hwloc's synthetic notation: "pack:2 numa:1 core:4 pu:2"
+ * @param allowed the processors that the process may use, by the operating system's number; empty
+ *   means all
+ * @return the flat topology if hwloc does not understand the description or was not built in
+ */
+Topology DescribedTopology(
+  const std::string& description, const std::vector<unsigned>& allowed, unsigned threads);
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file WaitingList.h
+ * @brief Threads that wait, first come, first served.
+ */
+#ifndef voxplex_WaitingList_h
+#define voxplex_WaitingList_h
+
+#include <limits>
+
+namespace voxplex
+{
+
+/**
+ * @brief A queue of thread numbers, linked through their slots, so that it never allocates.
+ *
+ * A thread is in at most one queue at a time. Queues are not thread-safe: the mutex that guards a
+ * queue guards the NextInList of the threads in it, too.
+ *
+ * @tparam Slots has an operator[] whose elements have a member `unsigned NextInList`
+ */
+struct WaitingList
+{
+  static constexpr unsigned Nobody = std::numeric_limits<unsigned>::max();
+  unsigned First = Nobody;
+  unsigned Last = Nobody;
+
+  bool IsEmpty() const { return this->First == Nobody; }
+
+  template <typename Slots>
+  void Append(Slots& slots, unsigned thread)
+  {
+    slots[thread].NextInList = Nobody;
+    if (this->IsEmpty())
+    {
+      this->First = thread;
+    }
+    else
+    {
+      slots[this->Last].NextInList = thread;
+    }
+    this->Last = thread;
+  }
+
+  /** @return Nobody if the list is empty */
+  template <typename Slots>
+  unsigned TakeFirst(const Slots& slots)
+  {
+    const unsigned first = this->First;
+    if (first != Nobody)
+    {
+      this->First = slots[first].NextInList;
+    }
+    return first;
+  }
+};
+
+} // namespace voxplex
+
+#endif

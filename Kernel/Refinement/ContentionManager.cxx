@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/ContentionManager.h"
+
+#include "Refinement/Contention/AggressiveContentionManager.h"
+#include "Refinement/Contention/GlobalContentionManager.h"
+#include "Refinement/Contention/LocalContentionManager.h"
+#include "Refinement/Contention/RandomContentionManager.h"
+
+namespace voxplex
+{
+
+std::unique_ptr<ContentionManager> MakeContentionManager(ContentionPolicy policy, unsigned threads)
+{
+  switch (policy)
+  {
+    case ContentionPolicy::Aggressive:
+      return std::make_unique<AggressiveContentionManager>(threads);
+    case ContentionPolicy::Random:
+      return std::make_unique<RandomContentionManager>(threads);
+    case ContentionPolicy::Global:
+      return std::make_unique<GlobalContentionManager>(threads);
+    case ContentionPolicy::Local:
+      break;
+  }
+  return std::make_unique<LocalContentionManager>(threads);
+}
+
+} // namespace voxplex

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Seeding.h
+ * @brief A start that gives every thread work.
+ */
+#ifndef voxplex_Seeding_h
+#define voxplex_Seeding_h
+
+#include "Mesh/HilbertOrder.h"
+#include "Refinement/RefinementContext.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * Feature points closest to the nodes of a coarse lattice over the domain, no two nearer than delta: points
+ * that R1 might insert as well, so nothing that the rules promise changes.
+ *
+ * @param number about how many nodes; fewer where these would be nearer than a few delta; 0 for none
+ */
+template <int D>
+std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std::size_t number)
+{
+  if (number == 0)
+  {
+    return {};
+  }
+  const Box<D> bounds = context.Image.Bounds();
+  double volume = 1.0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    volume *= std::max(bounds.Max[a] - bounds.Min[a], context.Settings.Delta);
+  }
+  constexpr double FewestDeltas = 4.0;
+  const double spacing = std::max(
+    FewestDeltas * context.Settings.Delta, std::pow(volume / static_cast<double>(number), 1.0 / D));
+  std::array<std::size_t, static_cast<std::size_t>(D)> nodes;
+  std::size_t count = 1;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    nodes[a] =
+      std::max<std::size_t>(1, static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) / spacing));
+    count *= nodes[a];
+  }
+  std::vector<Point<D>> sample;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    Point<D> p;
+    std::size_t rest = k;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double fraction =
+        (static_cast<double>(rest % nodes[a]) + 0.5) / static_cast<double>(nodes[a]);
+      p[a] = bounds.Min[a] + fraction * (bounds.Max[a] - bounds.Min[a]);
+      rest /= nodes[a];
+    }
+    Point<D> z;
+    if (context.Image.DistanceBounds(p).Lower < spacing &&
+      context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z))
+    {
+      sample.push_back(z);
+    }
+  }
+  return sample;
+}
+
+/**
+ * Inserts a sample of the interfaces and lists all living simplices so that neighbours in the list are
+ * near each other in space: consecutive pieces of it are good starts for threads.
+ *
+ * The thesis starts all threads from the few simplices of the box and loses its first seconds to
+ * rollbacks and idling (section 3.4.3, figure 3.6); a few dozen points a thread cure that. They are
+ * counted as insertions by R1.
+ *
+ * @param worker inserts; nobody else may operate meanwhile
+ * @param nodes about how many points the sample has, 0 for none
+ */
+template <int D>
+std::vector<SimplexId> SeedTriangulation(
+  RefinementContext<D>& context, RefinementWorker<D>& worker, std::size_t nodes)
+{
+  Triangulation<D>& mesh = context.Mesh;
+  std::vector<std::pair<std::uint64_t, Point<D>>> sample;
+  for (const Point<D>& z : SampleInterfaces(context, nodes))
+  {
+    sample.push_back({ HilbertIndex<D>(z, mesh.GetBox()), z });
+  }
+  std::sort(sample.begin(), sample.end());
+  SimplexId near = 0;
+  for (const auto& [index, z] : sample)
+  {
+    if (context.Features.AnyWithin(z, context.Settings.Delta))
+    {
+      continue;
+    }
+    const SimplexId seed = mesh.FindConflict(worker.Kernel, z, near);
+    if (seed != None &&
+      mesh.Insert(worker.Kernel, z, VertexKind::Feature, seed) == InsertionOutcome::Inserted)
+    {
+      context.Features.Add(z);
+      ++worker.Statistics.Fired[0];
+      near = worker.Kernel.Created[0];
+    }
+  }
+  mesh.Unlock(worker.Kernel);
+
+  std::vector<std::pair<std::uint64_t, SimplexId>> order;
+  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+  {
+    if (mesh.IsAlive(s))
+    {
+      Point<D> centre{};
+      for (const VertexId v : mesh.GetSimplex(s).V)
+      {
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          centre[a] += mesh.Position(v)[a] / (D + 1);
+        }
+      }
+      order.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()), s });
+    }
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<SimplexId> simplices;
+  simplices.reserve(order.size());
+  for (const auto& [index, s] : order)
+  {
+    simplices.push_back(s);
+  }
+  return simplices;
+}
+
+} // namespace voxplex
+
+#endif

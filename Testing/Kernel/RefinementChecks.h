@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold of a triangulation after refinement.
+#ifndef voxplex_RefinementChecks_h
+#define voxplex_RefinementChecks_h
+
+#include "BallDomain.h"
+#include "MeshChecks.h"
+#include "Refinement/RefinementContext.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace voxplex::checks
+{
+
+/** Every rule of the thesis' section 3.1, stated anew, on every tetrahedron. */
+inline void ExpectNoRuleApplies(const RefinementContext<3>& context, const BallDomain& ball)
+{
+  const Triangulation<3>& mesh = context.Mesh;
+  std::vector<Point<3>> features;
+  for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
+  {
+    if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind == VertexKind::Feature)
+    {
+      features.push_back(mesh.Position(v));
+      ASSERT_NEAR(BallDomain::Norm(mesh.Position(v)), ball.R, 1e-9) << "feature vertex off dOmega";
+    }
+  }
+  for (std::size_t i = 0; i < features.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      ASSERT_GE(Distance(features[i], features[j]), context.SpacingFloor);
+    }
+  }
+  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+  {
+    if (!mesh.IsAlive(s))
+    {
+      continue;
+    }
+    const Circumball<3> c = mesh.GetCircumball(s);
+    const double radius = std::sqrt(c.Radius2);
+    const double distance = std::abs(BallDomain::Norm(c.Center) - ball.R);
+    const bool inside = ball.Label(c.Center) != 0;
+    if (distance < radius * (1.0 - 1e-9))
+    {
+      Point<3> z;
+      ball.ClosestSurfacePoint(c.Center, 0, z);
+      const double local = context.Delta(z, 1, 0);
+      ASSERT_TRUE(std::any_of(features.begin(), features.end(),
+        [&](const Point<3>& f) { return Distance(f, z) < local; }))
+        << "R1";
+      ASSERT_LT(radius, 2.0 * local) << "R2";
+    }
+    const auto& v = mesh.GetSimplex(s).V;
+    double shortest = 1e300;
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      for (unsigned j = 0; j < i; ++j)
+      {
+        shortest = std::min(shortest, Distance(mesh.Position(v[i]), mesh.Position(v[j])));
+      }
+      const SimplexId n = mesh.GetSimplex(s).N[i];
+      if (n != None && inside && ball.Label(mesh.GetCircumball(n).Center) == 0)
+      {
+        SimplexMesh<3> facet;
+        for (unsigned j = 0; j < 4; ++j)
+        {
+          if (j != i)
+          {
+            ASSERT_EQ(mesh.GetVertex(v[j]).Kind, VertexKind::Feature) << "R3";
+            facet.Points.push_back(mesh.Position(v[j]));
+          }
+        }
+        ASSERT_GE(SmallestAngle(facet, { 0, 1, 2 }), 30.0 - 1e-6) << "R3";
+      }
+    }
+    if (inside)
+    {
+      ASSERT_LT(radius / shortest, context.Settings.RadiusEdgeRatio) << "R4";
+      ASSERT_LT(radius, context.Size(c.Center, 1)) << "R5";
+    }
+  }
+}
+
+} // namespace voxplex::checks
+
+#endif

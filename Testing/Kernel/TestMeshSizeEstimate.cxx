@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimate does not depend on threads and can be stopped; TestImageMesher.cxx compares it with
+// meshes.
+#include "Error.h"
+#include "MeshSizeEstimate.h"
+#include "Phantoms.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+using namespace voxplex;
+
+namespace
+{
+
+/** Sizes that differ from voxel to voxel; requests a stop in one of the calls. */
+class Sizes final : public SizeFunction<3>
+{
+public:
+  double Evaluate(const Point<3>& p, std::int64_t) const override
+  {
+    if (++this->Calls == this->StopAt)
+    {
+      this->Stop.request_stop();
+    }
+    return 0.1 + 0.01 * std::abs(std::sin(p[0] + 10.0 * p[1] + 100.0 * p[2]));
+  }
+
+  std::size_t StopAt = 0;
+  mutable std::atomic<std::size_t> Calls = 0;
+  mutable std::stop_source Stop;
+};
+
+} // namespace
+
+TEST(MeshSizeEstimate, DoesNotDependOnThreads)
+{
+  const LabelImage<3> image = phantoms::NestedBalls(40.0); // more rows and samples than one chunk
+  const Sizes sizes;
+  for (const double floor : { 0.01, 0.105, 0.2 })
+  {
+    const MeshSizeEstimate one = EstimateMeshSize<3>(image, 1.0, floor, &sizes, 1);
+    EXPECT_EQ(one.SizesBelowFloor, floor > 0.1);
+    // Sizes are between 0.1 and 0.11 but for the floor; five elements per size^3.
+    const double volume = 4.0 / 3.0 * 3.14159265 * 40.0 * 40.0 * 40.0;
+    EXPECT_GT(static_cast<double>(one.Elements), 0.95 * 5.0 * volume / std::pow(0.2, 3));
+    EXPECT_LT(static_cast<double>(one.Elements), 1.10 * 5.0 * volume / std::pow(0.1, 3));
+    for (const unsigned threads : { 0u, 2u, 3u, 8u })
+    {
+      const MeshSizeEstimate other = EstimateMeshSize<3>(image, 1.0, floor, &sizes, threads);
+      EXPECT_EQ(one.Elements, other.Elements);
+      EXPECT_EQ(one.Vertices, other.Vertices);
+      EXPECT_EQ(one.InterfaceVertices, other.InterfaceVertices);
+      EXPECT_EQ(one.Bytes, other.Bytes);
+      EXPECT_EQ(one.SizesBelowFloor, other.SizesBelowFloor);
+    }
+  }
+}
+
+TEST(MeshSizeEstimate, TinyImages)
+{
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(3),
+    [](const Point<3>& p) -> std::int16_t {
+      return p == Point<3>{ 1.0, 1.0, 1.0 } ? 1 : 0;
+    });
+  const Sizes sizes;
+  for (const unsigned threads : { 1u, 8u })
+  {
+    sizes.Calls = 0;
+    EXPECT_GT(EstimateMeshSize<3>(image, 1.0, 0.1, &sizes, threads).Elements, 1000u);
+    EXPECT_EQ(sizes.Calls, 1u);
+  }
+}
+
+TEST(MeshSizeEstimate, Stops)
+{
+  const LabelImage<3> image = phantoms::NestedBalls(40.0);
+  const Sizes counted;
+  EstimateMeshSize<3>(image, 1.0, 0.1, &counted, 1);
+  ASSERT_GT(counted.Calls, 10000u);
+  for (const unsigned threads : { 1u, 2u, 3u, 8u })
+  {
+    Sizes sizes;
+    sizes.StopAt = 100;
+    EXPECT_THROW(
+      EstimateMeshSize<3>(image, 1.0, 0.1, &sizes, threads, sizes.Stop.get_token()), Cancelled);
+    EXPECT_LT(sizes.Calls, counted.Calls) << threads;
+    // Counting the faces, too.
+    EXPECT_THROW(
+      EstimateMeshSize<3>(image, 1.0, 0.1, nullptr, threads, sizes.Stop.get_token()), Cancelled);
+  }
+}

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ThreadTesting.h
+ * @brief For tests of what makes threads wait: a test that hangs ends, and says where.
+ */
+#ifndef voxplex_ThreadTesting_h
+#define voxplex_ThreadTesting_h
+
+#include "Parallel/Policies.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace voxplex::testing
+{
+
+inline constexpr std::array<ContentionPolicy, 4> AllPolicies = { ContentionPolicy::Aggressive,
+  ContentionPolicy::Random, ContentionPolicy::Global, ContentionPolicy::Local };
+
+inline std::string NameOf(ContentionPolicy policy)
+{
+  return std::string(ContentionPolicyNames[static_cast<std::size_t>(policy)]);
+}
+
+/** Ends the program if it lives too long: threads that hang cannot be ended one by one. */
+class Watchdog
+{
+public:
+  explicit Watchdog(std::string what, std::chrono::seconds patience = std::chrono::seconds(100))
+    : Thread([this, what = std::move(what), patience]() { this->Watch(what, patience); })
+  {
+  }
+  ~Watchdog()
+  {
+    {
+      const std::scoped_lock lock(this->Mutex);
+      this->Done = true;
+    }
+    this->Changed.notify_all();
+    this->Thread.join();
+  }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+private:
+  void Watch(const std::string& what, std::chrono::seconds patience)
+  {
+    std::unique_lock lock(this->Mutex);
+    if (!this->Changed.wait_for(lock, patience, [this]() { return this->Done; }))
+    {
+      std::cerr << "HANGS: " << what << std::endl;
+      std::abort();
+    }
+  }
+
+  std::mutex Mutex;
+  std::condition_variable Changed;
+  bool Done = false;
+  std::thread Thread; // last: it uses the others
+};
+
+/** Waits until something is true that other threads bring about; false after `patience`. */
+inline bool Soon(const std::function<bool()>& condition,
+  std::chrono::milliseconds patience = std::chrono::milliseconds(20000))
+{
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition())
+  {
+    if (std::chrono::steady_clock::now() > end)
+    {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+  return true;
+}
+
+/** True if something stays true for a while. */
+inline bool Stays(const std::function<bool()>& condition,
+  std::chrono::milliseconds duration = std::chrono::milliseconds(20))
+{
+  return !Soon([&condition]() { return !condition(); }, duration);
+}
+
+/** A call that may wait, made in a thread of its own. */
+class Call
+{
+public:
+  explicit Call(std::function<bool()> function)
+    : Thread([this, function = std::move(function)]()
+        { this->Result.store(function() ? 1 : 0, std::memory_order_release); })
+  {
+  }
+  bool Returned() const { return this->Result.load(std::memory_order_acquire) >= 0; }
+  bool ReturnsSoon() const
+  {
+    return Soon([this]() { return this->Returned(); });
+  }
+  /** What the call returned. */
+  bool Value() const { return this->Result.load(std::memory_order_acquire) == 1; }
+
+private:
+  std::atomic<int> Result{ -1 };
+  std::jthread Thread; // last: it uses the others
+};
+
+} // namespace voxplex::testing
+
+#endif

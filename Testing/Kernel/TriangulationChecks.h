@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Points to triangulate, and a brute-force oracle of what the triangulation of them is.
+#ifndef voxplex_TriangulationChecks_h
+#define voxplex_TriangulationChecks_h
+
+#include "Delaunay/Triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace voxplex::checks
+{
+
+template <int D>
+Box<D> UnitBox(double size)
+{
+  Box<D> box;
+  box.Min.fill(0.0);
+  box.Max.fill(size);
+  return box;
+}
+
+template <int D>
+using SimplexSet = std::set<std::array<Point<D>, D + 1>>;
+
+/** The simplices by the coordinates of their vertices, so that numbering does not matter. */
+template <int D>
+SimplexSet<D> Simplices(const Triangulation<D>& t)
+{
+  SimplexSet<D> simplices;
+  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  {
+    if (t.IsAlive(s))
+    {
+      std::array<Point<D>, D + 1> points;
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        points[i] = t.Position(t.GetSimplex(s).V[i]);
+      }
+      std::sort(points.begin(), points.end());
+      simplices.insert(points);
+    }
+  }
+  return simplices;
+}
+
+template <int D>
+std::vector<Point<D>> Points(const Triangulation<D>& t)
+{
+  std::vector<Point<D>> points;
+  for (VertexId v = 0; v < t.VertexIdEnd(); ++v)
+  {
+    if (t.GetVertex(v).Alive)
+    {
+      points.push_back(t.Position(v));
+    }
+  }
+  return points;
+}
+
+/** Every simplex of the triangulation must have no other vertex in conflict, and fill the box. */
+template <int D>
+void ExpectDelaunay(const Triangulation<D>& t, double size)
+{
+  typename Triangulation<D>::Worker worker(t);
+  const std::vector<std::string> complaints = t.Verify(worker);
+  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  const std::vector<Point<D>> points = Points(t);
+  double volume = 0.0;
+  std::set<Point<D>> used;
+  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  {
+    if (!t.IsAlive(s))
+    {
+      continue;
+    }
+    std::array<const Point<D>*, D + 1> p;
+    for (unsigned i = 0; i <= D; ++i)
+    {
+      p[i] = &t.Position(t.GetSimplex(s).V[i]);
+      used.insert(*p[i]);
+    }
+    for (const Point<D>& q : points)
+    {
+      const bool own = std::any_of(p.begin(), p.end(), [&](const Point<D>* x) { return *x == q; });
+      ASSERT_TRUE(own || !worker.Predicates.InSpherePerturbed(p.data(), q));
+      ASSERT_EQ(t.InConflict(worker, s, q), false);
+    }
+    // Gaussian elimination of the edge matrix
+    std::array<Point<D>, D> m;
+    for (unsigned i = 0; i < D; ++i)
+    {
+      m[i] = Subtract(*p[i + 1], *p[0]);
+    }
+    double det = 1.0;
+    for (unsigned c = 0; c < D; ++c)
+    {
+      unsigned pivot = c;
+      for (unsigned r = c + 1; r < D; ++r)
+      {
+        pivot = std::abs(m[r][c]) > std::abs(m[pivot][c]) ? r : pivot;
+      }
+      std::swap(m[c], m[pivot]);
+      det *= m[c][c];
+      for (unsigned r = c + 1; r < D && m[c][c] != 0.0; ++r)
+      {
+        const double f = m[r][c] / m[c][c];
+        for (unsigned k = c; k < D; ++k)
+        {
+          m[r][k] -= f * m[c][k];
+        }
+      }
+    }
+    volume += std::abs(det);
+  }
+  ASSERT_EQ(used.size(), points.size());
+  double factorial = 1.0;
+  for (int i = 2; i <= D; ++i)
+  {
+    factorial *= i;
+  }
+  ASSERT_NEAR(volume / factorial, std::pow(size, D), 1e-9 * std::pow(size, D));
+}
+
+template <int D>
+SimplexId AnyAlive(const Triangulation<D>& t)
+{
+  SimplexId s = 0;
+  while (!t.IsAlive(s))
+  {
+    ++s;
+  }
+  return s;
+}
+
+template <int D>
+InsertionOutcome Insert(Triangulation<D>& t, typename Triangulation<D>::Worker& w,
+  const Point<D>& p, VertexKind kind = VertexKind::Free)
+{
+  const SimplexId seed = t.FindConflict(w, p, AnyAlive(t));
+  return seed == None ? InsertionOutcome::Duplicate : t.Insert(w, p, kind, seed);
+}
+
+template <int D>
+VertexId FindVertex(const Triangulation<D>& t, const Point<D>& p)
+{
+  for (VertexId v = 0; v < t.VertexIdEnd(); ++v)
+  {
+    if (t.GetVertex(v).Alive && t.Position(v) == p)
+    {
+      return v;
+    }
+  }
+  return None;
+}
+
+template <int D>
+std::vector<Point<D>> RandomPoints(int n, double size, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(0.0, size);
+  std::vector<Point<D>> points(static_cast<std::size_t>(n));
+  for (Point<D>& p : points)
+  {
+    for (double& x : p)
+    {
+      x = uniform(random);
+    }
+  }
+  return points;
+}
+
+/** Distinct points of a lattice, faces, edges and corners of the box among them. */
+template <int D>
+std::vector<Point<D>> LatticePoints(int n, int side, double spacing, std::mt19937& random)
+{
+  std::uniform_int_distribution<int> uniform(0, side);
+  std::set<Point<D>> points;
+  while (points.size() < static_cast<std::size_t>(n))
+  {
+    Point<D> p;
+    for (double& x : p)
+    {
+      x = spacing * uniform(random);
+    }
+    points.insert(p);
+  }
+  std::vector<Point<D>> shuffled(points.begin(), points.end());
+  std::shuffle(shuffled.begin(), shuffled.end(), random);
+  return shuffled;
+}
+
+template <int D>
+VertexKind KindOf(const Point<D>& p, double size)
+{
+  const bool onBox =
+    std::any_of(p.begin(), p.end(), [&](double x) { return x == 0.0 || x == size; });
+  return onBox ? VertexKind::Box : VertexKind::Free;
+}
+
+/** Vertices that some worker owns. */
+template <int D>
+std::vector<VertexId> LockedVertices(const Triangulation<D>& t)
+{
+  std::vector<VertexId> locked;
+  for (VertexId v = 0; v < t.VertexIdEnd(); ++v)
+  {
+    if (t.GetVertex(v).Owner != 0)
+    {
+      locked.push_back(v);
+    }
+  }
+  return locked;
+}
+
+template <int D>
+void ExpectSound(const Triangulation<D>& t)
+{
+  typename Triangulation<D>::Worker worker(t);
+  const std::vector<std::string> complaints = t.Verify(worker);
+  EXPECT_TRUE(complaints.empty()) << complaints.size()
+                                  << " complaints, first: " << complaints.front();
+}
+
+/** Sound, and nobody owns anything any more. */
+template <int D>
+void ExpectSoundAndUnlocked(const Triangulation<D>& t)
+{
+  ExpectSound(t);
+  EXPECT_TRUE(LockedVertices(t).empty());
+}
+
+} // namespace voxplex::checks
+
+#endif
