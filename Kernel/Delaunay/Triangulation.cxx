@@ -154,14 +154,19 @@ void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
   free.MakeRoom(n + SimplexBlock + worker.Deleted.Size());
   while (free.Size() < n)
   {
-    const SimplexId first = this->NextSimplex.fetch_add(SimplexBlock, std::memory_order_relaxed);
-    if (first > None - 2 * SimplexBlock)
+    // Ids are handed out when their records exist: whoever goes through all ids meets no others.
+    SimplexId first = this->NextSimplex.load(std::memory_order_relaxed);
+    do
     {
-      throw std::bad_alloc();
-    }
-    this->Simplices.Grow(first + SimplexBlock);
-    this->Marks.Grow(first + SimplexBlock);
-    this->States.Grow(first + SimplexBlock);
+      if (first > None - 2 * SimplexBlock)
+      {
+        throw std::bad_alloc();
+      }
+      this->Simplices.Grow(first + SimplexBlock);
+      this->Marks.Grow(first + SimplexBlock);
+      this->States.Grow(first + SimplexBlock);
+    } while (!this->NextSimplex.compare_exchange_weak(
+      first, first + SimplexBlock, std::memory_order_relaxed));
     for (std::uint32_t i = SimplexBlock; i-- > 0;)
     {
       free.Push(first + i);
@@ -181,12 +186,16 @@ void Triangulation<D>::ReserveVertex(Worker& worker)
     return;
   }
   free.MakeRoom(VertexBlock);
-  const VertexId first = this->NextVertex.fetch_add(VertexBlock, std::memory_order_relaxed);
-  if (first > None - 2 * VertexBlock)
+  VertexId first = this->NextVertex.load(std::memory_order_relaxed);
+  do
   {
-    throw std::bad_alloc();
-  }
-  this->Vertices.Grow(first + VertexBlock);
+    if (first > None - 2 * VertexBlock)
+    {
+      throw std::bad_alloc();
+    }
+    this->Vertices.Grow(first + VertexBlock);
+  } while (
+    !this->NextVertex.compare_exchange_weak(first, first + VertexBlock, std::memory_order_relaxed));
   for (std::uint32_t i = VertexBlock; i-- > 0;)
   {
     free.Push(first + i);

@@ -19,7 +19,8 @@ namespace voxplex
  * @brief Told by every thread of its rollbacks and successes; may make it wait after a rollback.
  *
  * Threads are numbered from 0. All methods are called by the thread they name, but for Stop() and
- * SwitchedToLocal(), which anyone may call at any time. A thread holds no vertex while it calls.
+ * SwitchedToLocal(), which anyone may call at any time. A thread holds no vertex when it tells of a
+ * rollback or becomes idle, since it may then have to wait.
  *
  * The policies rely on three things. Every thread that was announced runs: at first all count as
  * busy. A thread leaves for good only when it is idle or after Stop(); one that gives up for an

@@ -97,11 +97,10 @@ enum class Verdict
 };
 
 /** A removal by R6 that another thread was in the way of. */
-template <int D>
 struct PendingRemoval
 {
   VertexId Vertex;
-  Point<D> Feature; ///< the vertex goes if it is a free one nearer than ...
+  VertexId Feature; ///< the vertex goes if it is a free one nearer than ...
   double Radius;    ///< ... this to the feature vertex
 };
 
@@ -149,7 +148,7 @@ struct alignas(128) RefinementWorker
   EagerRemoval* Eager = nullptr;                ///< null if removal is lazy
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
-  std::vector<PendingRemoval<D>> PendingRemovals;
+  std::vector<PendingRemoval> PendingRemovals;
   RuleStatistics Statistics;
 };
 

@@ -248,8 +248,12 @@ private:
         this->Context.Mesh.Unlock(me.Kernel);
         return;
       }
+      // Most entries are dead when they come up: no clock for these.
+      const PoorElementList::Entry e =
+        me.PendingRemovals.empty() ? this->NextAlive(me) : PoorElementList::Entry{ None, 0 };
       const CycleClock::Ticks start = CycleClock::Now();
-      const Verdict verdict = this->Turn(me, rules);
+      const Verdict verdict =
+        me.PendingRemovals.empty() ? this->Refine(me, rules, e) : rules.RemovePending();
       if (verdict == Verdict::Contended || me.Kernel.NumberOfOwned() >= MostKept)
       {
         this->Context.Mesh.Unlock(me.Kernel);
@@ -276,18 +280,26 @@ private:
     }
   }
 
-  /** One element, or one removal that was put off. */
-  Verdict Turn(RefinementWorker<D>& me, Rules& rules)
+  /** The next entry that seems to be alive; its Id is None if there is none. */
+  PoorElementList::Entry NextAlive(RefinementWorker<D>& me)
   {
-    if (!me.PendingRemovals.empty())
-    {
-      return rules.RemovePending();
-    }
     if (me.Poor.Empty())
     {
       this->TakeUpDeferred(me);
     }
-    const PoorElementList::Entry e = me.Poor.Pop();
+    while (!me.Poor.Empty())
+    {
+      const PoorElementList::Entry e = me.Poor.Pop();
+      if (e.Id != None && this->IsAlive(e))
+      {
+        return e;
+      }
+    }
+    return { None, 0 };
+  }
+
+  Verdict Refine(RefinementWorker<D>& me, Rules& rules, const PoorElementList::Entry& e)
+  {
     if (e.Id == None)
     {
       return Verdict::Good;

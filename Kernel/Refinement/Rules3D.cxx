@@ -218,25 +218,11 @@ double Rules3D::DeltaBehind(const Element& t, const Point<3>& z) const
 // adjacent, so it goes on until none is left. worker.Created holds the star of z on entry.
 void Rules3D::R6(VertexId z, double delta)
 {
-  Triangulation<3>& mesh = this->Context.Mesh;
-  const Point<3> centre = mesh.Position(z);
-  const double radius2 = 4.0 * delta * delta;
   std::size_t done = 0;
   this->ToRemove.clear();
   for (;;)
   {
-    for (const SimplexId t : this->Worker.Kernel.Created)
-    {
-      for (const VertexId v : mesh.GetSimplex(t).V)
-      {
-        const Triangulation<3>::Vertex& vertex = mesh.GetVertex(v);
-        if (vertex.Kind == VertexKind::Free && Distance2(vertex.Position, centre) < radius2 &&
-          std::find(this->ToRemove.begin(), this->ToRemove.end(), v) == this->ToRemove.end())
-        {
-          this->ToRemove.push_back(v);
-        }
-      }
-    }
+    this->FindVerticesToRemove(z, 2.0 * delta);
     if (done == this->ToRemove.size())
     {
       return;
@@ -244,7 +230,27 @@ void Rules3D::R6(VertexId z, double delta)
     const VertexId v = this->ToRemove[done++];
     if (this->Remove(v) == RemovalOutcome::Contended)
     {
-      this->Worker.PendingRemovals.push_back({ v, centre, 2.0 * delta });
+      this->Worker.PendingRemovals.push_back({ v, z, 2.0 * delta });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// Adds the free vertices of worker.Created that are nearer than the radius to z to ToRemove.
+void Rules3D::FindVerticesToRemove(VertexId z, double radius)
+{
+  const Triangulation<3>& mesh = this->Context.Mesh;
+  const Point<3> centre = mesh.Position(z);
+  for (const SimplexId t : this->Worker.Kernel.Created)
+  {
+    for (const VertexId v : mesh.GetSimplex(t).V)
+    {
+      const Triangulation<3>::Vertex& vertex = mesh.GetVertex(v);
+      if (vertex.Kind == VertexKind::Free && Distance2(vertex.Position, centre) < radius * radius &&
+        std::find(this->ToRemove.begin(), this->ToRemove.end(), v) == this->ToRemove.end())
+      {
+        this->ToRemove.push_back(v);
+      }
     }
   }
 }
@@ -266,10 +272,11 @@ RemovalOutcome Rules3D::Remove(VertexId v)
 }
 
 //------------------------------------------------------------------------------------------------
-// The vertex may be another one by now; then it goes if it, too, is a free one so near.
+// The vertex may be another one by now; then it goes if it, too, is a free one so near. What its removal
+// brings up goes after it.
 Verdict Rules3D::RemovePending()
 {
-  const PendingRemoval<3> pending = this->Worker.PendingRemovals.back();
+  const PendingRemoval pending = this->Worker.PendingRemovals.back();
   if (!this->Context.Mesh.TryLock(this->Worker.Kernel, pending.Vertex))
   {
     return Verdict::Contended;
@@ -277,7 +284,8 @@ Verdict Rules3D::RemovePending()
   const Triangulation<3>::Vertex& vertex = this->Context.Mesh.GetVertex(pending.Vertex);
   Verdict verdict = Verdict::Good;
   if (vertex.Alive && vertex.Kind == VertexKind::Free &&
-    Distance2(vertex.Position, pending.Feature) < pending.Radius * pending.Radius)
+    Distance2(vertex.Position, this->Context.Mesh.Position(pending.Feature)) <
+      pending.Radius * pending.Radius)
   {
     const RemovalOutcome outcome = this->Remove(pending.Vertex);
     if (outcome == RemovalOutcome::Contended)
@@ -287,6 +295,15 @@ Verdict Rules3D::RemovePending()
     verdict = outcome == RemovalOutcome::Removed ? Verdict::Changed : Verdict::Good;
   }
   this->Worker.PendingRemovals.pop_back();
+  if (verdict == Verdict::Changed)
+  {
+    this->ToRemove.clear();
+    this->FindVerticesToRemove(pending.Feature, pending.Radius);
+    for (const VertexId v : this->ToRemove)
+    {
+      this->Worker.PendingRemovals.push_back({ v, pending.Feature, pending.Radius });
+    }
+  }
   return verdict;
 }
 

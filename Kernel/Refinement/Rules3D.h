@@ -84,6 +84,7 @@ private:
   Verdict R4(const Element& t);
   Verdict R5(const Element& t);
   void R6(VertexId z, double delta);
+  void FindVerticesToRemove(VertexId z, double radius);
   double DeltaBehind(const Element& t, const Point<3>& z) const;
 
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;

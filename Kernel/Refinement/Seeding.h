@@ -93,6 +93,10 @@ std::vector<SimplexId> SeedTriangulation(
   }
   std::sort(sample.begin(), sample.end());
   SimplexId near = 0;
+  while (!mesh.IsAlive(near))
+  {
+    ++near;
+  }
   for (const auto& [index, z] : sample)
   {
     if (context.Features.AnyWithin(z, context.Settings.Delta))

@@ -23,7 +23,7 @@ class Interruption(ProgramTestCase):
 
     def interrupt(self, number, after):
         before = self.contents()
-        with subprocess.Popen([PROGRAM, "--input", self.input, "--delta", "0.2", "--force", "--output", "mesh.vtu",
+        with subprocess.Popen([PROGRAM, "--input", self.input, "--delta", "0.05", "--force", "--output", "mesh.vtu",
                                "--plc", "surface.vtp", "--stats", "s.json"], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=listen) as process:
             time.sleep(after)

@@ -12,12 +12,18 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <latch>
 #include <memory>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <pthread.h>
+#include <signal.h>
+#endif
 
 using namespace voxplex;
 using namespace voxplex::checks;
@@ -526,73 +532,99 @@ TEST(TriangulationStorm, NothingIsLeftWhenAllRemove)
   }
 }
 
+#if defined(__unix__) || defined(__APPLE__)
+namespace
+{
+
+std::atomic<unsigned> Turns{ 0 };
+
+/** Keeps a thread wherever it is until the other has had its turn, or cannot have it. */
+void Interrupt(int)
+{
+  const unsigned turn = Turns;
+  for (int spin = 0; spin < 20000 && Turns == turn; ++spin)
+  {
+  }
+}
+
+/** Meets simplices and locks them, over and over. */
+void LockAllTheTime(
+  Triangulation<3>& t, WorkerId id, std::atomic<bool>& over, std::atomic<std::uint64_t>& died)
+{
+  Triangulation<3>::Worker worker(t, id);
+  SimplexId s = None;
+  std::uint32_t generation = 0;
+  for (unsigned turn = 0; !over; ++turn)
+  {
+    const VertexId corner = turn % 8;
+    if (s == None && t.TryLock(worker, corner))
+    {
+      s = t.GetVertex(corner).Incident;
+      generation = t.State(s).CurrentGeneration();
+    }
+    t.Unlock(worker);
+    if (s == None)
+    {
+      continue;
+    }
+    const LockOutcome outcome = t.Lock(worker, s, generation);
+    if (outcome == LockOutcome::Locked && t.State(s).CurrentGeneration() != generation)
+    {
+      ADD_FAILURE() << "locked a dead simplex";
+      over = true;
+    }
+    if (outcome == LockOutcome::Dead)
+    {
+      s = None;
+      ++died;
+    }
+    t.Unlock(worker);
+  }
+}
+
+} // namespace
+
 // The generation is read before the vertices are taken, and a simplex may die in between. The six
-// simplices of the box come and go in one thread, others lock them all the time and are interrupted
+// simplices of the box come and go in one thread; two others lock them and are interrupted by it
 // somewhere on the way.
 TEST(TriangulationStorm, ALockedSimplexIsTheOneThatWasMet)
 {
+  const auto previous = std::signal(SIGUSR1, Interrupt);
   Triangulation<3> t(UnitBox<3>(1.0));
   std::atomic<bool> over{ false };
   std::atomic<std::uint64_t> died{ 0 };
-  std::vector<std::jthread> running;
-  for (WorkerId id = 2; id < 6; ++id)
+  std::vector<std::jthread> others;
+  for (const WorkerId id : { WorkerId{ 2 }, WorkerId{ 3 } })
   {
-    running.emplace_back(
-      [&, id]
-      {
-        Triangulation<3>::Worker worker(t, id);
-        SimplexId s = None;
-        std::uint32_t generation = 0;
-        for (unsigned turn = 0; !over; ++turn)
-        {
-          const VertexId corner = turn % 8;
-          if (s == None && t.TryLock(worker, corner))
-          {
-            s = t.GetVertex(corner).Incident;
-            generation = t.State(s).CurrentGeneration();
-          }
-          t.Unlock(worker);
-          if (s == None)
-          {
-            continue;
-          }
-          const LockOutcome outcome = t.Lock(worker, s, generation);
-          if (outcome == LockOutcome::Locked)
-          {
-            ASSERT_EQ(t.State(s).CurrentGeneration(), generation) << "locked a dead simplex";
-          }
-          if (outcome == LockOutcome::Dead)
-          {
-            s = None;
-            ++died;
-          }
-          t.Unlock(worker);
-        }
-      });
+    others.emplace_back([&, id] { LockAllTheTime(t, id, over, died); });
   }
   Triangulation<3>::Worker worker(t, 1);
   std::mt19937 random(8);
   const std::vector<Point<3>> points = RandomPoints<3>(100, 1.0, random);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
-  for (std::size_t turn = 0; std::chrono::steady_clock::now() < end; ++turn)
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!over && died < 4000u / Fraction && std::chrono::steady_clock::now() < end)
   {
+    pthread_kill(others[Turns % 2].native_handle(), SIGUSR1);
     // The others give back what they own whenever they meet this one, which waits.
     for (VertexId corner = 0; corner < 8;)
     {
       corner += t.TryLock(worker, corner) ? 1 : 0;
     }
     // It owns everything, so it may search and needs no second try.
-    const Point<3>& p = points[turn % points.size()];
+    const Point<3>& p = points[Turns % points.size()];
     const SimplexId seed = t.FindConflict(worker, p, t.GetVertex(0).Incident);
     EXPECT_EQ(t.Insert(worker, p, VertexKind::Free, seed), InsertionOutcome::Inserted);
     EXPECT_EQ(t.Remove(worker, worker.NewVertex), RemovalOutcome::Removed);
     t.Unlock(worker);
+    ++Turns;
   }
   over = true;
-  running.clear();
+  others.clear();
+  std::signal(SIGUSR1, previous);
   EXPECT_GT(died, 0u) << "the test tests nothing";
   ExpectTriangulationOf<3>(t, {}, 1.0);
 }
+#endif
 
 // Threads that need the same chunk at the same time: one chunk wins, and nothing is written to the other.
 TEST(ChunkedArray, ThreadsGrowItTogether)

@@ -290,7 +290,7 @@ TEST(ParallelMeshing, CancelledAtAnyMoment)
     const std::string name = "cancelled at call " + std::to_string(most);
     SCOPED_TRACE(name);
     const Watchdog watchdog(name);
-    MeshingOptions<3> options = Options(Sanitized ? 0.3 : 0.17, 8);
+    MeshingOptions<3> options = Options(0.3, 8);
     options.Contention = static_cast<ContentionPolicy>(k % 4);
     options.Balance = static_cast<BalancePolicy>(k / 4 % 2);
     options.RemoveEagerly = k % 3 == 0;
@@ -318,6 +318,30 @@ TEST(ParallelMeshing, CancelledAtAnyMoment)
     EXPECT_TRUE(mesh.Simplices.empty());
     EXPECT_TRUE(mesh.Facets.empty());
   }
+}
+
+// Not only the result is thrown away: the work that is left is not done.
+TEST(ParallelMeshing, ACancelledRefinementIsNotFinished)
+{
+  const Watchdog watchdog("cancelled refinement");
+  const LabelImage<3> image = phantoms::NestedBalls(15.0);
+  const auto insertions = [&](double cancelAt, MeshingOutcome outcome)
+  {
+    ImageMesher<3> mesher(Options(Sanitized ? 0.5 : 0.3, 8));
+    mesher.Progress = [&](double fraction) { return fraction < cancelAt; };
+    SimplexMesh<3> mesh;
+    EXPECT_EQ(mesher.Run(image, mesh), outcome);
+    std::uint64_t sum = 0;
+    for (const std::uint64_t fired : mesher.Statistics().Rules.Fired)
+    {
+      sum += fired;
+    }
+    return sum;
+  };
+  const std::uint64_t all = insertions(2.0, MeshingOutcome::Done);
+  const std::uint64_t some = insertions(0.25, MeshingOutcome::Cancelled);
+  EXPECT_GT(some, 0u);
+  EXPECT_LT(some, all * 9 / 10);
 }
 
 TEST(ParallelMeshing, WhatTheProgressCallbackThrowsLeavesRun)

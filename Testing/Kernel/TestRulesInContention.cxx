@@ -169,11 +169,13 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
     while (!this->One.PendingRemovals.empty())
     {
       ++putOff;
-      const PendingRemoval<3> pending = this->One.PendingRemovals.back();
+      const PendingRemoval pending = this->One.PendingRemovals.back();
       EXPECT_EQ(verdict, Verdict::Changed);
       EXPECT_EQ(mesh.GetVertex(pending.Vertex).Kind, VertexKind::Free);
       EXPECT_TRUE(mesh.GetVertex(pending.Vertex).Alive);
-      EXPECT_LT(Distance(mesh.Position(pending.Vertex), pending.Feature), pending.Radius);
+      EXPECT_EQ(mesh.GetVertex(pending.Feature).Kind, VertexKind::Feature);
+      EXPECT_LT(
+        Distance(mesh.Position(pending.Vertex), mesh.Position(pending.Feature)), pending.Radius);
       const std::size_t before = this->One.PendingRemovals.size();
       EXPECT_EQ(this->Rules.RemovePending(), Verdict::Contended);
       EXPECT_EQ(this->One.Kernel.Winner, 2);
@@ -185,11 +187,19 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
       mesh.Unlock(this->One.Kernel);
       EXPECT_FALSE(mesh.GetVertex(pending.Vertex).Alive);
       ExpectSoundAndUnlocked(mesh);
+      // What the removal brought up beside the feature vertex goes, too.
+      const std::size_t after = this->One.PendingRemovals.size();
+      EXPECT_GE(after, before - 1);
+      for (std::size_t k = before - 1; k < after; ++k)
+      {
+        EXPECT_EQ(this->One.PendingRemovals[k].Feature, pending.Feature);
+        EXPECT_EQ(mesh.GetVertex(this->One.PendingRemovals[k].Vertex).Kind, VertexKind::Free);
+      }
       // Once more: the vertex is gone, so there is nothing to do.
       this->One.PendingRemovals.push_back(pending);
       EXPECT_EQ(this->Rules.RemovePending(), Verdict::Good);
       mesh.Unlock(this->One.Kernel);
-      EXPECT_EQ(this->One.PendingRemovals.size(), before - 1);
+      EXPECT_EQ(this->One.PendingRemovals.size(), after);
     }
     mesh.Unlock(this->Two.Kernel);
     if (mesh.State(e.Id).Generation == e.Generation)
