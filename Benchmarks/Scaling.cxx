@@ -90,6 +90,8 @@ private:
     what.Contention = this->Opts.Managers.front();
     what.Balance = this->Opts.Balancers.front();
     what.Pin = this->Opts.Pin;
+    what.Seeds = !this->Opts.NoSeeds;
+    what.Eager = this->Opts.Eager;
     return what;
   }
 
@@ -275,6 +277,8 @@ MeshingOptions<3> DefaultsOf(const ScalingOptions& options, unsigned threads)
   result.Contention = options.Managers.front();
   result.Balance = options.Balancers.front();
   result.PinThreads = options.Pin;
+  result.SeedsPerThread = options.NoSeeds ? 0 : result.SeedsPerThread;
+  result.RemoveEagerly = options.Eager;
   return result;
 }
 

@@ -39,6 +39,8 @@ options:
   --balance LIST     default: hws,rws; the first where one is enough
   --repeat K         rounds (default 3); medians are printed
   --pin              keeps each refinement thread on a core of its own
+  --no-seeds         starts several threads from the box alone, as the thesis does
+  --eager            takes elements out of the lists of poor elements when they die
   --json FILE        also writes all runs to FILE
 )";
 
@@ -161,7 +163,8 @@ ScalingOptions ParseScalingOptions(int argc, char** argv)
   const std::map<std::string, bool ScalingOptions::*> flags = { { "--strong",
                                                                   &ScalingOptions::Strong },
     { "--weak", &ScalingOptions::Weak }, { "--synchronise", &ScalingOptions::Synchronise },
-    { "--ceiling", &ScalingOptions::Ceiling }, { "--pin", &ScalingOptions::Pin } };
+    { "--ceiling", &ScalingOptions::Ceiling }, { "--pin", &ScalingOptions::Pin },
+    { "--no-seeds", &ScalingOptions::NoSeeds }, { "--eager", &ScalingOptions::Eager } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string argument = argv[i];

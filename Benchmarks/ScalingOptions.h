@@ -35,6 +35,8 @@ struct ScalingOptions
   bool Synchronise = false;
   bool Ceiling = false;
   bool Pin = false;
+  bool NoSeeds = false;
+  bool Eager = false;
 };
 
 /** @throws std::exception that says what is wrong with the arguments */

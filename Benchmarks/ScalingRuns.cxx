@@ -45,6 +45,8 @@ ScalingRecord RunOnce(LabelVolume&& image, const Configuration& what)
   options.Balance = what.Balance;
   options.Synchronise = what.Synchronise;
   options.PinThreads = what.Pin;
+  options.SeedsPerThread = what.Seeds ? options.SeedsPerThread : 0;
+  options.RemoveEagerly = what.Eager;
   const VoxplexRun result = RunVoxplex(std::move(image), options);
 
   ScalingRecord record;

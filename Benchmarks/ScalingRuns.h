@@ -26,6 +26,8 @@ struct Configuration
   BalancePolicy Balance = BalancePolicy::Hierarchical;
   bool Synchronise = false; ///< the code for several threads even if there is one
   bool Pin = false;
+  bool Seeds = true;   ///< interfaces are sampled before the start
+  bool Eager = false;  ///< eager removal from the lists of poor elements
   unsigned Copies = 1; ///< independent processes at once, each of so many threads
 
   bool operator==(const Configuration&) const = default;

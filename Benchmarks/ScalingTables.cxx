@@ -395,7 +395,8 @@ void ScalingTables::WriteJson(std::ostream& stream) const
     stream << separator << "\n    { \"delta\": " << what.Delta << ", \"threads\": " << what.Threads
            << ", \"contention\": \"" << ManagerOf(what) << "\", \"balance\": \"" << BalancerOf(what)
            << "\",\n      \"synchronise\": " << std::boolalpha << what.Synchronise
-           << ", \"pin\": " << what.Pin << ", \"copies\": " << what.Copies
+           << ", \"pin\": " << what.Pin << ", \"seeds\": " << what.Seeds
+           << ", \"eager\": " << what.Eager << ", \"copies\": " << what.Copies
            << ",\n      \"speed_up\": " << this->SpeedUp(series)
            << ", \"speed_up_total\": " << this->TotalSpeedUp(series) << ",\n      \"medians\": {";
     for (const Value& value : Values)
