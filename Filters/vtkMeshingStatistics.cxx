@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -174,6 +175,14 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
   json.End();
 }
 
+void AddIfCounted(JsonWriter& json, const char* key, const std::optional<std::uint64_t>& count)
+{
+  if (count)
+  {
+    json.Add(key, *count);
+  }
+}
+
 void AddThreads(JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& threads)
 {
   json.BeginList("thread_statistics");
@@ -189,6 +198,9 @@ void AddThreads(JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& 
     json.Add("rollback_seconds", thread.RollbackSeconds);
     json.Add<std::uint64_t>("received", thread.Received);
     json.Add("received_elements", thread.ReceivedElements);
+    AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
+    AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
+    AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
     json.End();
   }
   json.EndList();

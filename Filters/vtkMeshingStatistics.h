@@ -203,8 +203,9 @@ public:
    * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "predicates":
    * {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
    * "contention_seconds", "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA
-   * node, machine], "received_elements"}, ...]}`. "contention" and "balance" name the policies that
-   * were asked for. "labels" and "quality" are left out when they were not measured; what is not
+   * node, machine], "received_elements"}, ...]}`. Where the processor's counters can be read (a build
+   * with PAPI) the last also has "tlb_misses", "last_level_cache_misses" and "resource_stall_cycles".
+   * "contention" and "balance" name the policies that were asked for. "labels" and "quality" are left out when they were not measured; what is not
    * finite is null.
    */
   std::string ToJSON() const;

@@ -7,6 +7,7 @@
 #ifndef voxplex_MeshingStatistics_h
 #define voxplex_MeshingStatistics_h
 
+#include "Parallel/HardwareCounters.h"
 #include "Parallel/Policies.h"
 
 #include <array>
@@ -97,6 +98,7 @@ struct ThreadStatistics
   double RollbackSeconds = 0.0;    ///< on operations that were rolled back
   std::array<std::uint64_t, StealingLevels> Received{}; ///< gifts of work, by distance
   std::uint64_t ReceivedElements = 0;                   ///< poor elements in them
+  HardwareCounters::Counts Hardware{};                  ///< empty where there are no counters
 };
 
 struct MeshingStatistics

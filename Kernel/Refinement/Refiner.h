@@ -8,6 +8,7 @@
 #define voxplex_Refiner_h
 
 #include "Parallel/CycleClock.h"
+#include "Parallel/HardwareCounters.h"
 #include "Refinement/RefinementContext.h"
 #include "Refinement/RefinementTeam.h"
 #include "Refinement/Seeding.h"
@@ -58,8 +59,13 @@ public:
     if (this->Options.Threads <= 1 && !this->Options.Synchronise)
     {
       this->Workers.push_back(std::make_unique<RefinementWorker<D>>(this->Context));
+      this->Hardware.resize(1);
       this->PushAll();
-      return this->WorkAlone(goOn);
+      HardwareCounters counters;
+      counters.Start();
+      const bool done = this->WorkAlone(goOn);
+      this->Hardware[0] = counters.Stop();
+      return done;
     }
     const CycleClock clock;
     this->Team.Run(
@@ -68,7 +74,13 @@ public:
         this->MakeWorkers(threads);
         this->SecondsToSeed = clock.Seconds();
       },
-      [&](unsigned thread) { this->Work(thread, goOn); });
+      [&](unsigned thread)
+      {
+        HardwareCounters counters;
+        counters.Start();
+        this->Work(thread, goOn);
+        this->Hardware[thread] = counters.Stop();
+      });
     this->SecondsPerTick = clock.SecondsPerTick();
     return !this->Team.Stopped();
   }
@@ -112,6 +124,7 @@ public:
         statistics.Insertions += fired;
       }
       statistics.Removals = rules.Removed;
+      statistics.Hardware = this->Hardware[t];
       threads.push_back(statistics);
     }
     return threads;
@@ -166,6 +179,7 @@ private:
         std::make_unique<RefinementWorker<D>>(this->Context, static_cast<WorkerId>(t + 1)));
       this->Overheads.push_back(std::make_unique<Overhead>());
     }
+    this->Hardware.resize(threads);
     if (this->Options.RemoveEagerly)
     {
       this->RemoveEagerly();
@@ -396,6 +410,7 @@ private:
   EagerRemoval Eager;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
   std::vector<std::unique_ptr<Overhead>> Overheads;
+  std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end
   double SecondsToSeed = 0.0;
   double SecondsPerTick = 0.0;
 };

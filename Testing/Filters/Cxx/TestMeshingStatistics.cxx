@@ -22,6 +22,7 @@ void FillThreads(vtkMeshingStatistics* statistics)
   run.Threads.resize(2);
   run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51 };
   run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52 };
+  run.Threads[1].Hardware = { 61, {}, 63 };
   run.Contention = voxplex::ContentionPolicy::Random;
   run.Balance = voxplex::BalancePolicy::Random;
   run.SwitchedToLocal = true;
@@ -102,7 +103,8 @@ void TestJSON()
       R"("thread_statistics": [{"insertions": 1001, "removals": 11, "rollbacks": 21, "waits": 31, )"
       R"("contention_seconds": 0.5, "load_balance_seconds": 1.5, "rollback_seconds": 2.5, )"
       R"("received": [41, 42, 43], "received_elements": 51}, {"insertions": 1002, )",
-      R"("received": [44, 45, 46], "received_elements": 52}])" })
+      R"("received": [44, 45, 46], "received_elements": 52, )"
+      R"("tlb_misses": 61, "resource_stall_cycles": 63}])" })
   {
     CHECK(json.find(part) != std::string::npos, part, json);
   }
