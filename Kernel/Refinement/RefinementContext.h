@@ -11,6 +11,7 @@
 #include "Image/Domain.h"
 #include "Image/SizeFunction.h"
 #include "MeshingStatistics.h"
+#include "Parallel/CacheLine.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/PoorElementList.h"
 
@@ -114,7 +115,7 @@ struct EagerRemoval
 
 /** One thread's own; threads that run write to no common cache line. */
 template <int D>
-struct alignas(128) RefinementWorker
+struct alignas(CacheLineSize) RefinementWorker
 {
   explicit RefinementWorker(const RefinementContext<D>& context, WorkerId id = 0)
     : Kernel(context.Mesh, id)

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/RefinementTeam.h"
 
+#include <algorithm>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace voxplex

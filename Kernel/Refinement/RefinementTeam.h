@@ -57,7 +57,7 @@ public:
   void Run(const std::function<void(unsigned threads)>& prepare,
     const std::function<void(unsigned thread)>& task);
 
-  /** Ends the run soon: nobody waits any more and Stopped() is true. Any thread, any time. */
+  /** Ends the run soon: nobody waits any more and Stopped() is true. Any thread, while the task runs. */
   void Stop();
   bool Stopped() const { return this->StopFlag.load(std::memory_order_relaxed); }
 

@@ -7,6 +7,7 @@
 #ifndef voxplex_Refiner_h
 #define voxplex_Refiner_h
 
+#include "Parallel/CacheLine.h"
 #include "Parallel/CycleClock.h"
 #include "Parallel/HardwareCounters.h"
 #include "Refinement/RefinementContext.h"
@@ -147,7 +148,7 @@ private:
   static constexpr std::size_t MostKept = 128;
 
   /** Where a thread's time went that was not spent on refining. */
-  struct alignas(128) Overhead
+  struct alignas(CacheLineSize) Overhead
   {
     CycleClock::Ticks Contention = 0;
     CycleClock::Ticks LoadBalance = 0;

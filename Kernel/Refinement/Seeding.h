@@ -75,8 +75,8 @@ std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std:
  * near each other in space: consecutive pieces of it are good starts for threads.
  *
  * The thesis starts all threads from the few simplices of the box and loses its first seconds to
- * rollbacks and idling (section 3.4.3, figure 3.6); a few dozen points a thread cure that. They are
- * counted as insertions by R1.
+ * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
+ * of their own. The points are counted as insertions by R1.
  *
  * @param worker inserts; nobody else may operate meanwhile
  * @param nodes about how many points the sample has, 0 for none

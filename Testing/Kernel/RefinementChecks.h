@@ -5,16 +5,36 @@
 #define voxplex_RefinementChecks_h
 
 #include "BallDomain.h"
+#include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Refinement/RefinementContext.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace voxplex::checks
 {
+
+/** The mesh of the ball is sound, and its interface is a sphere. */
+inline SimplexMesh<3> ExtractSphere(const RefinementContext<3>& context, const BallDomain& ball)
+{
+  SimplexMesh<3> mesh;
+  ExtractMesh<3>(context.Mesh, ball, mesh);
+  const std::vector<std::string> complaints = Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  std::set<std::uint32_t> vertices;
+  for (const auto& f : mesh.Facets)
+  {
+    vertices.insert(f.begin(), f.end());
+  }
+  EXPECT_EQ(2 * vertices.size() - 4, mesh.Facets.size()) << "Euler characteristic of a sphere";
+  return mesh;
+}
 
 /** Every rule of the thesis' section 3.1, stated anew, on every tetrahedron. */
 inline void ExpectNoRuleApplies(const RefinementContext<3>& context, const BallDomain& ball)

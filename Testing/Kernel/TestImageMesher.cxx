@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole meshes of phantoms: invariants, accuracy, sizes, options, cancelling.
+#include "CallableSize.h"
 #include "Error.h"
 #include "Image/LabelField.h"
 #include "ImageMesher.h"
@@ -70,22 +71,6 @@ double MeshVolume(const SimplexMesh<3>& mesh)
   }
   return volume;
 }
-
-class CallableSize : public SizeFunction<3>
-{
-public:
-  explicit CallableSize(std::function<double(const Point<3>&, std::int64_t)> f)
-    : F(std::move(f))
-  {
-  }
-  double Evaluate(const Point<3>& p, std::int64_t label) const override
-  {
-    return this->F(p, label);
-  }
-
-private:
-  std::function<double(const Point<3>&, std::int64_t)> F;
-};
 
 std::shared_ptr<SizeFunction<3>> Size(std::function<double(const Point<3>&, std::int64_t)> f)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ImageMesher with several threads: as good a mesh as one thread makes, of every phantom; progress,
 // cancelling, errors.
+#include "CallableSize.h"
 #include "Error.h"
 #include "ImageMesher.h"
 #include "MeshChecks.h"
@@ -34,22 +35,6 @@ struct Custom : std::runtime_error
     : std::runtime_error("custom")
   {
   }
-};
-
-class CallableSize final : public SizeFunction<3>
-{
-public:
-  explicit CallableSize(std::function<double(const Point<3>&, std::int64_t)> f)
-    : F(std::move(f))
-  {
-  }
-  double Evaluate(const Point<3>& p, std::int64_t label) const override
-  {
-    return this->F(p, label);
-  }
-
-private:
-  std::function<double(const Point<3>&, std::int64_t)> F;
 };
 
 struct Case

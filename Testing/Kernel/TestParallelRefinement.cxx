@@ -200,20 +200,6 @@ void ExpectConsistentStatistics(
   EXPECT_EQ(rules.RemovalsFailed, 0u);
 }
 
-void ExpectSphere(const RefinementContext<3>& context, const BallDomain& ball)
-{
-  SimplexMesh<3> mesh;
-  ExtractMesh<3>(context.Mesh, ball, mesh);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  ASSERT_TRUE(complaints.empty()) << complaints.front();
-  std::set<std::uint32_t> vertices;
-  for (const auto& f : mesh.Facets)
-  {
-    vertices.insert(f.begin(), f.end());
-  }
-  EXPECT_EQ(2 * vertices.size() - 4, mesh.Facets.size()) << "Euler characteristic of a sphere";
-}
-
 using Policies = std::tuple<unsigned, ContentionPolicy, BalancePolicy>;
 
 std::string Name(const Policies& policies)
@@ -254,7 +240,7 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
       ExpectSoundAndUnlocked(context.Mesh);
       ExpectNoRuleApplies(context, smooth);
       ExpectConsistentStatistics(context, refiner, threads);
-      ExpectSphere(context, smooth);
+      checks::ExtractSphere(context, smooth);
       EXPECT_GT(refiner.GetSecondsToSeed(), 0.0);
       for (const ThreadStatistics& thread : refiner.GetThreadStatistics())
       {
@@ -339,7 +325,7 @@ TEST(ParallelRefinementOfOne, SynchronisedThread)
   ExpectSoundAndUnlocked(context.Mesh);
   ExpectNoRuleApplies(context, ball);
   ExpectConsistentStatistics(context, refiner, 1);
-  ExpectSphere(context, ball);
+  checks::ExtractSphere(context, ball);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Rollbacks, 0u);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Waits, 0u);
   EXPECT_FALSE(refiner.SwitchedToLocal());

@@ -134,6 +134,40 @@ TEST_F(RulesInContention, AContendedElementIsLeftAsItWas)
   EXPECT_GT(contended, 20);
 }
 
+// Removing the one makes others adjacent to the feature vertex, which then have to go, too.
+TEST_F(RulesInContention, APutOffRemovalBringsUpOthers)
+{
+  Triangulation<3>& mesh = this->Context.Mesh;
+  const auto insert = [&](const Point<3>& p, VertexKind kind)
+  {
+    const SimplexId seed = mesh.FindConflict(this->One.Kernel, p, mesh.GetVertex(0).Incident);
+    EXPECT_EQ(mesh.Insert(this->One.Kernel, p, kind, seed), InsertionOutcome::Inserted);
+    return this->One.Kernel.NewVertex;
+  };
+  // A feature vertex in a cage of free vertices, and more of them behind the first.
+  const VertexId z = insert({ 0.01, 0.02, 0.03 }, VertexKind::Feature);
+  const VertexId first = insert({ 0.3, 0.0, 0.0 }, VertexKind::Free);
+  for (const Point<3>& p : { Point<3>{ -0.3, 0.0, 0.0 }, Point<3>{ 0.0, 0.3, 0.0 },
+         Point<3>{ 0.0, -0.3, 0.0 }, Point<3>{ 0.0, 0.0, 0.3 }, Point<3>{ 0.0, 0.0, -0.3 } })
+  {
+    insert(p, VertexKind::Free);
+  }
+  const VertexId behind = insert({ 0.5, 0.01, 0.0 }, VertexKind::Free);
+  const VertexId far = insert({ 2.0, 0.0, 0.0 }, VertexKind::Free);
+  mesh.Unlock(this->One.Kernel);
+
+  this->One.PendingRemovals.push_back({ first, z, 1.0 });
+  while (!this->One.PendingRemovals.empty())
+  {
+    EXPECT_NE(this->Rules.RemovePending(), Verdict::Contended);
+    mesh.Unlock(this->One.Kernel);
+  }
+  EXPECT_FALSE(mesh.GetVertex(first).Alive);
+  EXPECT_FALSE(mesh.GetVertex(behind).Alive);
+  EXPECT_TRUE(mesh.GetVertex(far).Alive);
+  ExpectSoundAndUnlocked(mesh);
+}
+
 // A free vertex next to a new feature vertex, with one vertex of its star owned by somebody else.
 TEST_F(RulesInContention, AContendedRemovalIsPutOff)
 {
