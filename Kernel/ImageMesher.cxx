@@ -10,6 +10,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
+#include "Refinement/Rules4D.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +22,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <type_traits>
 
 namespace voxplex
 {
@@ -47,6 +49,35 @@ std::string Number(double x)
   return text;
 }
 
+void CheckSliverOptions(const SliverOptions& slivers, bool force)
+{
+  if (!(slivers.PickingRadius > 0.0 && slivers.PickingRadius < 1.0))
+  {
+    throw InputError("the radius of picking regions must be between 0 and 1; it is " +
+      Number(slivers.PickingRadius));
+  }
+  if (!(slivers.RadiusFactor > 0.0) || std::isinf(slivers.RadiusFactor))
+  {
+    throw InputError("the factor that tells small slivers must be positive; it is " +
+      Number(slivers.RadiusFactor));
+  }
+  if (slivers.Picks == 0)
+  {
+    throw InputError("there must be at least one pick in a picking region");
+  }
+  if (!(slivers.VolumeBound >= 0.0 && slivers.VolumeBound < 1.0))
+  {
+    throw InputError("the normalized volume of slivers must be at least 0 and below 1; it is " +
+      Number(slivers.VolumeBound));
+  }
+  if (slivers.VolumeBound > LargestSliverBound && !force)
+  {
+    throw InputError("a sliver bound of " + Number(slivers.VolumeBound) + " is above " +
+      Number(LargestSliverBound) +
+      ", where meshes can become very large; ask for less, or force it");
+  }
+}
+
 template <int D>
 void CheckOptions(const MeshingOptions<D>& options)
 {
@@ -70,6 +101,10 @@ void CheckOptions(const MeshingOptions<D>& options)
   {
     throw InputError(
       "the facet angle must be between 0 and 30 degrees; it is " + Number(options.FacetAngle));
+  }
+  if constexpr (D == 4)
+  {
+    CheckSliverOptions(options.Slivers, options.Force);
   }
   if (!FloatingPointIsStrict())
   {
@@ -123,6 +158,8 @@ public:
   }
 
 private:
+  using Rules = std::conditional_t<D == 3, Rules3D, Rules4D>;
+
   /** @throws Cancelled if stopped while preparing; false if stopped later */
   bool RunUnlessStopped(const LabelImage<D>& image, SimplexMesh<D>& mesh)
   {
@@ -152,7 +189,7 @@ private:
     Stopwatch refinement;
     RefinementContext<D> context(
       domain, this->Settings(), this->MakeBox(domain), estimate.InterfaceVertices);
-    Refiner<Rules3D> refiner(context, this->Team());
+    Refiner<Rules> refiner(context, this->Team());
     const double expected = static_cast<double>(estimate.Vertices);
     const bool done = refiner.Run(
       [&](std::uint64_t vertices)
@@ -186,6 +223,8 @@ private:
     settings.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
     settings.FacetAngle = this->Options.FacetAngle;
     settings.Size = this->Options.Size.get();
+    settings.Order = this->Options.Order;
+    settings.Slivers = this->Options.Slivers;
     return settings;
   }
 
@@ -194,22 +233,25 @@ private:
     TeamOptions team;
     team.Threads = std::min(NumberOfThreads(this->Options.Threads), MaximumNumberOfWorkers);
     team.Contention = this->Options.Contention;
+    team.SuccessesToWake = D == 3 ? 10 : 2; // an operation in 4D takes ten times as long
     team.Balance = this->Options.Balance;
     team.Pin = this->Options.PinThreads;
     team.Synchronise = this->Options.Synchronise;
     team.RemoveEagerly = this->Options.RemoveEagerly;
+    team.FineGrained = this->Options.FineGrained && team.Threads <= NumberOfThreads(0);
     team.SeedsPerThread = this->Options.SeedsPerThread;
     return team;
   }
 
-  /** At least 2 delta from every interface (thesis, section 2.2). */
+  /** At least 2 delta from every interface (thesis, sections 2.2 and 4.2), but at flat ends. */
   Box<D> MakeBox(const Domain<D>& domain) const
   {
     Box<D> box = domain.Bounds();
     for (std::size_t a = 0; a < D; ++a)
     {
-      box.Min[a] -= 2.0 * this->Stats.Delta;
-      box.Max[a] += 2.0 * this->Stats.Delta;
+      const bool time = D == 4 && a == 3;
+      box.Min[a] -= time && domain.IsFlatEnd(0) ? 0.0 : 2.0 * this->Stats.Delta;
+      box.Max[a] += time && domain.IsFlatEnd(1) ? 0.0 : 2.0 * this->Stats.Delta;
     }
     return box;
   }
@@ -301,6 +343,7 @@ bool ImageMesher<D>::RunReporting(Stages& stages, const LabelImage<D>& image, Si
 }
 
 template class ImageMesher<3>;
+template class ImageMesher<4>;
 template double DefaultDelta<3>(const GridGeometry<3>&);
 template double DefaultDelta<4>(const GridGeometry<4>&);
 

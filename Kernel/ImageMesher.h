@@ -12,6 +12,7 @@
 #include "Mesh/SimplexMesh.h"
 #include "MeshingStatistics.h"
 #include "Parallel/Policies.h"
+#include "Refinement/RuleOptions.h"
 
 #include <cstdint>
 #include <functional>
@@ -28,8 +29,12 @@ struct MeshingOptions
   double Delta = 0.0;
   /** Upper bound of circumradius / shortest edge; below 1.93 termination is not proved (needs Force). */
   double RadiusEdgeRatio = 2.0;
-  /** Lower bound of the angles of interface facets, degrees, 0 to 30. */
+  /** Lower bound of the angles of interface facets, degrees, 0 to 30; 3D only. */
   double FacetAngle = 30.0;
+  /** Which rules come first; 4D only. */
+  RuleOrder Order = RuleOrder::RadiusEdgeFirst;
+  /** How slivers are fought; 4D only. */
+  SliverOptions Slivers;
   /** Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. */
   double SmoothingSigma = 1.0;
   /** Upper bound of circumradii, or null. */
@@ -47,6 +52,9 @@ struct MeshingOptions
   /** Several threads: take simplices out of the lists of poor elements when they die (the thesis'
    * REMOVE_ON_THE_FLY), not when they come up. */
   bool RemoveEagerly = false;
+  /** Several threads, but no more than processors: those that wait help others with large insertions
+   * (thesis, 4.6.2). */
+  bool FineGrained = D == 4;
   /** Several threads: interface points a thread, about, that are inserted before the threads start, so
    * that all have work from the first moment; 0 for none, as in the thesis. */
   unsigned SeedsPerThread = 128;
@@ -109,6 +117,7 @@ private:
 };
 
 extern template class ImageMesher<3>;
+extern template class ImageMesher<4>;
 extern template double DefaultDelta<3>(const GridGeometry<3>&);
 extern template double DefaultDelta<4>(const GridGeometry<4>&);
 

@@ -19,14 +19,35 @@ namespace voxplex
 namespace
 {
 
-// Calibrated on the phantoms and atlases of Documentation/Benchmarks.md, D = 3.
-constexpr double VerticesPerArea = 0.65; ///< interface vertices per delta^2 of interface
-constexpr double ElementsPerInterfaceVertex = 4.7;
-constexpr double ElementsPerBall = 5.0;    ///< elements per size^3 of volume
-constexpr double VerticesPerElement = 0.3; ///< of the whole triangulation
-constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its copy
+/** Calibrated on the phantoms and atlases of Documentation/Benchmarks.md. */
+template <int D>
+struct Calibration;
 
-/** Faces of voxels between different labels, by axis; the crop is closed by background. */
+template <>
+struct Calibration<3>
+{
+  static constexpr double VerticesPerArea =
+    0.65; ///< interface vertices per delta^(D-1) of interface
+  static constexpr double ElementsPerInterfaceVertex = 4.7;
+  static constexpr double ElementsPerBall = 5.0;    ///< elements per size^D of volume
+  static constexpr double VerticesPerElement = 0.3; ///< of the whole triangulation
+  static constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its copy
+  /** What an interface of no preferred direction has of the area of its stairs. */
+  static constexpr double AreaPerStairs = 2.0 / 3.0;
+};
+
+template <>
+struct Calibration<4>
+{
+  static constexpr double VerticesPerArea = 0.57;
+  static constexpr double ElementsPerInterfaceVertex = 14.0;
+  static constexpr double ElementsPerBall = 25.0;
+  static constexpr double VerticesPerElement = 0.09;
+  static constexpr double BytesPerElement = 450.0;
+  static constexpr double AreaPerStairs = 0.589; // 3 pi / 16
+};
+
+/** Faces of voxels between different labels, by axis; the crop is closed by background, but for flat ends. */
 template <int D>
 std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
   const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
@@ -56,12 +77,13 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
           const std::size_t extent = static_cast<std::size_t>(n[a]);
           const std::size_t position = rest % extent;
           rest /= extent;
+          const bool time = D == 4 && a == 3;
           const LabelId* before = voxels - stride;
-          for (std::size_t i = 0; i < row; ++i)
+          for (std::size_t i = 0; i < row && !(time && position == 0 && image.IsCutInTime(0)); ++i)
           {
             count[a] += voxels[i] != (position == 0 ? LabelId(0) : before[i]);
           }
-          if (position + 1 == extent)
+          if (position + 1 == extent && !(time && image.IsCutInTime(1)))
           {
             count[a] += static_cast<std::uint64_t>(
               row - static_cast<std::size_t>(std::count(voxels, voxels + row, LabelId(0))));
@@ -173,20 +195,21 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
     area += static_cast<double>(faces[a]) * image.Grid().VoxelVolume() /
       image.Grid().Spacing(static_cast<int>(a));
   }
-  area *= 2.0 / 3.0; // what the stairs add to a surface of no preferred direction
-  const double interfaceVertices = VerticesPerArea * area / std::pow(delta, D - 1);
-  double elements = ElementsPerInterfaceVertex * interfaceVertices;
+  using Constants = Calibration<D>;
+  area *= Constants::AreaPerStairs;
+  const double interfaceVertices = Constants::VerticesPerArea * area / std::pow(delta, D - 1);
+  double elements = Constants::ElementsPerInterfaceVertex * interfaceVertices;
   MeshSizeEstimate estimate;
   if (size)
   {
     // Where sizes are small the interface is sampled by them, and its elements are among these.
-    elements += ElementsPerBall *
+    elements += Constants::ElementsPerBall *
       BallsInObject(image, *size, sizeFloor, estimate.SizesBelowFloor, threads, stop);
   }
   estimate.InterfaceVertices = Saturate(interfaceVertices);
   estimate.Elements = Saturate(elements);
-  estimate.Vertices = Saturate(elements * VerticesPerElement) + 64;
-  estimate.Bytes = Saturate(elements * BytesPerElement);
+  estimate.Vertices = Saturate(elements * Constants::VerticesPerElement) + 64;
+  estimate.Bytes = Saturate(elements * Constants::BytesPerElement);
   return estimate;
 }
 

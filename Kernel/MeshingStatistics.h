@@ -10,6 +10,7 @@
 #include "Parallel/HardwareCounters.h"
 #include "Parallel/Policies.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -21,15 +22,32 @@ namespace voxplex
 struct RuleStatistics
 {
   std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5
-  std::uint64_t Projected = 0;          ///< R2 circumcentres outside the box, moved onto it
-  std::uint64_t Removed = 0;            ///< free vertices removed by R6
-  std::uint64_t RefusedTooClose = 0;    ///< R3 points closer than the spacing floor to a vertex
+  std::uint64_t FiredBySize = 0;        ///< insertions because of the size function; 4D (3D: R5)
+  std::uint64_t Projected = 0;          ///< circumcentres moved onto the box
+  std::uint64_t Removed = 0;            ///< free vertices removed near new feature vertices
+  std::uint64_t RefusedTooClose = 0;    ///< points closer than the spacing floor to a vertex
   std::uint64_t RefusedNoConflict = 0;  ///< points that conflict with none of the candidates
   std::uint64_t RefusedDuplicate = 0;   ///< points equal to a vertex
   std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
   std::uint64_t ClosestSurfacePointCalls = 0;
-  std::uint64_t Evaluated = 0; ///< simplices whose rules were evaluated
-  std::uint64_t Created = 0;   ///< simplices created, those that died included
+  std::uint64_t Evaluated = 0;       ///< simplices whose rules were evaluated
+  std::uint64_t Created = 0;         ///< simplices created, those that died included
+  std::uint64_t CavitySimplices = 0; ///< simplices that insertions deleted
+  std::uint64_t LargestCavity = 0;   ///< most simplices that one insertion deleted
+  std::uint64_t SliversFound = 0;    ///< pentatopes below the bound of normalized volume, 4D
+  std::uint64_t PicksTried = 0;      ///< points of picking regions that were tried
+  std::uint64_t SliversKept = 0;     ///< slivers for which no point could be inserted
+
+  /** Of all rules. */
+  std::uint64_t Insertions() const
+  {
+    std::uint64_t sum = this->FiredBySize;
+    for (const std::uint64_t fired : this->Fired)
+    {
+      sum += fired;
+    }
+    return sum;
+  }
 
   RuleStatistics& operator+=(const RuleStatistics& other)
   {
@@ -37,6 +55,7 @@ struct RuleStatistics
     {
       this->Fired[r] += other.Fired[r];
     }
+    this->FiredBySize += other.FiredBySize;
     this->Projected += other.Projected;
     this->Removed += other.Removed;
     this->RefusedTooClose += other.RefusedTooClose;
@@ -46,6 +65,11 @@ struct RuleStatistics
     this->ClosestSurfacePointCalls += other.ClosestSurfacePointCalls;
     this->Evaluated += other.Evaluated;
     this->Created += other.Created;
+    this->CavitySimplices += other.CavitySimplices;
+    this->LargestCavity = std::max(this->LargestCavity, other.LargestCavity);
+    this->SliversFound += other.SliversFound;
+    this->PicksTried += other.PicksTried;
+    this->SliversKept += other.SliversKept;
     return *this;
   }
 };
@@ -98,7 +122,9 @@ struct ThreadStatistics
   double RollbackSeconds = 0.0;    ///< on operations that were rolled back
   std::array<std::uint64_t, StealingLevels> Received{}; ///< gifts of work, by distance
   std::uint64_t ReceivedElements = 0;                   ///< poor elements in them
-  HardwareCounters::Counts Hardware{};                  ///< empty where there are no counters
+  std::uint64_t HelpedLoops = 0;       ///< loops in its insertions of which others did a part
+  std::uint64_t HelpedIterations = 0;  ///< iterations that others did in these
+  HardwareCounters::Counts Hardware{}; ///< empty where there are no counters
 };
 
 struct MeshingStatistics

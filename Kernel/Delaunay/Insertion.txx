@@ -7,13 +7,15 @@
 
 #include "Delaunay/Triangulation.h"
 
+#include <new>
+
 namespace voxplex
 {
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-InsertionOutcome Triangulation<D>::Insert(
-  Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed, double clearance)
+InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, VertexKind kind,
+  SimplexId seed, double clearance, Judge* judge)
 {
   if (!this->InConflict(worker, seed, p))
   {
@@ -38,9 +40,20 @@ InsertionOutcome Triangulation<D>::Insert(
       this->RestoreMarks(worker);
       return InsertionOutcome::TooClose;
     }
+    if (judge && !judge->Accepts(worker))
+    {
+      this->RestoreMarks(worker);
+      return InsertionOutcome::Rejected;
+    }
     this->ReserveSimplices(worker, worker.Boundary.Size());
     this->ReserveVertex(worker);
-    worker.Ridges.Begin(worker.Boundary.Size() * static_cast<std::size_t>(D));
+    // Each facet has D ridges; two share each, but on the rim that a cavity has at the box.
+    const std::size_t ridges = worker.Boundary.Size() * static_cast<std::size_t>(D);
+    worker.Ridges.Begin(this->PlanesOfPoint(p) == 0 ? ridges / 2 : ridges);
+    if (worker.Link.Size() > RidgeTable<D>::MostVertices)
+    {
+      throw std::bad_alloc(); // tens of millions of simplices in one cavity
+    }
   }
   catch (...)
   {
@@ -80,6 +93,10 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
   for (VertexId v : this->Simplices[seed].V)
   {
     worker.Joined.Push(v);
+  }
+  if (worker.Help.Offered())
+  {
+    return this->ExpandWithHelp(worker, p, planes);
   }
   for (std::size_t k = 0; k < worker.Deleted.Size(); ++k)
   {
@@ -216,26 +233,18 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 
   const Point<D> p = this->Position(apex);
   const std::uint32_t count = static_cast<std::uint32_t>(worker.Boundary.Size());
+  if (count >= worker.Help.FewestBalls && worker.Help.Offered())
+  {
+    this->FillWithHelp(worker, apex);
+    return;
+  }
   for (std::uint32_t k = 0; k < count; ++k)
   {
     BoundaryFacet& facet = worker.Boundary[k];
     const SimplexId s = this->NewSimplex(worker);
     worker.Created[k] = s;
     Simplex& simplex = this->Simplices[s];
-    facet.V[facet.Apex] = apex;
-    this->SetVertices(simplex, facet.V);
-    for (unsigned m = 0; m < static_cast<unsigned>(D); ++m)
-    {
-      const unsigned i = m + (m >= facet.Apex ? 1 : 0);
-      Vertex& vertex = this->Vertices[facet.V[i]];
-      vertex.Incident = s;
-      facet.Local[i] = vertex.Local;
-    }
-    simplex.N[facet.Apex] = facet.Outer;
-    if (facet.Outer != None)
-    {
-      this->Simplices[facet.Outer].N[facet.OuterIndex] = s;
-    }
+    this->PlaceSimplex(s, simplex, facet, apex);
     this->SetBall(worker, simplex, facet, p);
   }
   this->Vertices[apex].Incident = worker.Created[0];
@@ -244,9 +253,31 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 }
 
 //------------------------------------------------------------------------------------------------
+// The new simplex on a facet of the boundary, with all but its ball and its new neighbours.
+template <int D>
+inline void Triangulation<D>::PlaceSimplex(
+  SimplexId s, Simplex& simplex, BoundaryFacet& facet, VertexId apex)
+{
+  facet.V[facet.Apex] = apex;
+  this->SetVertices(simplex, facet.V);
+  for (unsigned m = 0; m < static_cast<unsigned>(D); ++m)
+  {
+    const unsigned i = m + (m >= facet.Apex ? 1 : 0);
+    Vertex& vertex = this->Vertices[facet.V[i]];
+    vertex.Incident = s;
+    facet.Local[i] = vertex.Local;
+  }
+  simplex.N[facet.Apex] = facet.Outer;
+  if (facet.Outer != None)
+  {
+    this->Simplices[facet.Outer].N[facet.OuterIndex] = s;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 template <int D>
 inline void Triangulation<D>::SetBall(
-  Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex)
+  const Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex)
 {
   std::array<Point<D>, static_cast<std::size_t>(D)> edges;
   Point<D> norms2;

@@ -11,6 +11,7 @@
 
 #include "Delaunay/Triangulation.h"
 
+#include <new>
 #include <utility>
 
 namespace voxplex
@@ -31,7 +32,7 @@ RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
       this->RestoreMarks(worker);
       return RemovalOutcome::Contended;
     }
-    if (!this->FillStar(worker))
+    if (!this->FillStar(worker, this->PlanesOfPoint(this->Position(v))))
     {
       this->RestoreMarks(worker);
       return RemovalOutcome::Failed;
@@ -112,12 +113,17 @@ bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
 
 //------------------------------------------------------------------------------------------------
 // worker.Boundary serves as the list of facets: the first ones bound the star, each simplex of the
-// filling then adds those of its facets that had no partner.
+// filling then adds those of its facets that had no partner. What the facets on the box that had the
+// vertex covered is covered by facets of the filling on the same planes.
 template <int D>
-bool Triangulation<D>::FillStar(Worker& worker)
+bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
 {
   const std::size_t limit = 64 * (worker.Deleted.Size() + worker.Link.Size()) + 1024;
   worker.Filling.Clear();
+  if (worker.Link.Size() > FacetTable<D>::MostVertices)
+  {
+    throw std::bad_alloc();
+  }
   worker.Front.Begin(2 * worker.Boundary.Size());
   for (std::size_t k = 0; k < worker.Boundary.Size(); ++k)
   {
@@ -152,6 +158,11 @@ bool Triangulation<D>::FillStar(Worker& worker)
     {
       if (i == facet.Apex)
       {
+        continue;
+      }
+      if (planes != 0 && this->OnPlane(facet.V, i, planes))
+      {
+        filling.Neighbours[i] = { None, 0, false }; // on the box, as the facets of the vertex were
         continue;
       }
       // The same facet seen from the other side: an odd permutation, vertex i left open.

@@ -15,6 +15,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -31,12 +32,14 @@ class FaceTable
 {
 public:
   static constexpr std::uint32_t Nothing = 0xffffffffu;
+  /** Vertex numbers must be below this. */
+  static constexpr std::uint32_t MostVertices = 1u << 21;
   using Face = std::array<std::uint32_t, K>;
 
-  /** Forgets all and makes room for n distinct sets. */
+  /** Forgets all and makes room for n distinct sets: Match() allocates only if there are more. */
   void Begin(std::size_t n)
   {
-    const std::size_t wanted = std::bit_ceil(std::max<std::size_t>(64, 2 * n));
+    const std::size_t wanted = std::bit_ceil(std::max<std::size_t>(64, 2 * n + 1));
     if (wanted > this->Entries.size())
     {
       this->Entries.assign(wanted, Entry{});
@@ -60,14 +63,15 @@ public:
     {
       this->Enlarge();
     }
-    Entry& e = this->Find(MakeKey(face));
+    const Key key = MakeKey(face);
+    Entry& e = this->Find(key);
     if (e.Stamp == this->Stamp)
     {
       const std::uint32_t other = e.Payload;
       e.Payload = Nothing;
       return other;
     }
-    e = Entry{ MakeKey(face), this->Stamp, payload };
+    e = Entry{ key, this->Stamp, payload };
     ++this->Count;
     return Nothing;
   }
@@ -80,21 +84,31 @@ public:
   }
 
 private:
-  using Key = std::array<std::uint64_t, 2>;
+  /** Up to three numbers in a word, the smallest first. */
+  using Key = std::array<std::uint64_t, (K + 2) / 3>;
   struct Entry
   {
-    Key K2{};
+    Key Set{};
     std::uint32_t Stamp = 0;
     std::uint32_t Payload = Nothing;
   };
 
   static Key MakeKey(Face face)
   {
-    std::sort(face.begin(), face.end());
+    // Insertion sort by exchanges without branches: which number is larger cannot be predicted.
+    for (unsigned i = 1; i < K; ++i)
+    {
+      for (unsigned j = i; j > 0; --j)
+      {
+        const std::uint32_t low = std::min(face[j - 1], face[j]);
+        face[j] = std::max(face[j - 1], face[j]);
+        face[j - 1] = low;
+      }
+    }
     Key key{};
     for (unsigned i = 0; i < K; ++i)
     {
-      key[i / 2] = (key[i / 2] << 32) | face[i];
+      key[i / 3] |= std::uint64_t{ face[i] } << (21 * (i % 3));
     }
     return key;
   }
@@ -102,9 +116,13 @@ private:
   Entry& Find(const Key& key)
   {
     const std::size_t mask = this->Entries.size() - 1;
-    std::uint64_t h = key[0] * 0x9e3779b97f4a7c15ull + key[1] * 0xc2b2ae3d27d4eb4full;
+    std::uint64_t h = key[0] * 0x9e3779b97f4a7c15ull;
+    if constexpr (K > 3)
+    {
+      h += key[1] * 0xc2b2ae3d27d4eb4full;
+    }
     std::size_t i = (h ^ (h >> 32)) & mask;
-    while (this->Entries[i].Stamp == this->Stamp && this->Entries[i].K2 != key)
+    while (this->Entries[i].Stamp == this->Stamp && this->Entries[i].Set != key)
     {
       i = (i + 1) & mask;
     }
@@ -120,7 +138,7 @@ private:
     {
       if (e.Stamp == stamp)
       {
-        this->Find(e.K2) = e;
+        this->Find(e.Set) = e;
       }
     }
   }

@@ -12,6 +12,7 @@
 #include "Delaunay/Stores.h"
 #include "Geometry/Box.h"
 #include "Geometry/Predicates.h"
+#include "Parallel/HelpDesk.h"
 
 #include <atomic>
 #include <cstdint>
@@ -28,13 +29,14 @@ enum class InsertionOutcome
   NoConflict, ///< the point does not conflict with the simplex that was given
   Duplicate,  ///< the point is a vertex already
   TooClose,   ///< the point is nearer than asked for to a vertex that stays
+  Rejected,   ///< the judge did not accept what the insertion would make
   Contended   ///< another worker owns a vertex of the cavity
 };
 
 enum class RemovalOutcome
 {
   Removed,
-  OnBox,    ///< vertices on the box stay
+  OnBox,    ///< vertices of kind Box stay
   Failed,   ///< the star could not be re-triangulated; the triangulation is unchanged
   Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
 };
@@ -71,6 +73,12 @@ enum class LockOutcome
  * has one of these D vertices (D - 1 >= 1 of them). Two workers cannot both own D of D+1 vertices, so
  * the marks and the state of a simplex are written by one worker at a time. All this is ordered by the
  * lock words: taking one acquires what its last owner released.
+ *
+ * **Helpers** (thesis, section 4.6.2). A worker may be told of a help desk (Assistance). Threads that wait
+ * there then test simplices of a large cavity for conflict, and compute circumballs of the new ones. They
+ * read what the worker may read, write to places that it assigns, and have left before Insert() returns.
+ * Marks, locks and links are the worker's own business. Created, Deleted and the new ids are the same, in
+ * the same order, whoever helped.
  *
  * Complexity: linear in the simplices deleted and created for an insertion; for a removal linear in
  * (simplices created) x (vertices of the link).
@@ -109,7 +117,34 @@ public:
     std::uint64_t BallTests = 0;
     std::uint64_t BallFailures = 0;
 
+    /** Who helps with insertions; nobody as long as there is no desk. */
+    struct Assistance
+    {
+      HelpDesk* Desk = nullptr;
+      unsigned Number = 0; ///< of this worker's thread at the desk
+      /** The workers of the threads at the desk, by number: a helper counts and computes in its own. */
+      const std::vector<Worker*>* Team = nullptr;
+      /** Fewest simplices of a level of a cavity (equally far from the seed) to ask for help, at least 1. */
+      std::size_t FewestSimplices = 128;
+      /** Fewest new simplices for help with their circumballs. */
+      std::size_t FewestBalls = D == 3 ? 64 : 32;
+      /** Iterations that a helper takes at a time. */
+      std::size_t Grain = 16;
+
+      bool Offered() const { return this->Desk && this->Desk->SomeoneIdle(); }
+    };
+    Assistance Help;
+
     std::size_t NumberOfOwned() const { return this->Owned.Size(); }
+
+    /** For a judge: how many simplices the insertion under way would make. */
+    std::size_t NumberOfProspects() const { return this->Boundary.Size(); }
+    /** The vertices of the k-th of them; what stands at `apex` is to be the new vertex. */
+    const std::array<VertexId, N>& Prospect(std::size_t k, std::uint32_t& apex) const
+    {
+      apex = this->Boundary[k].Apex;
+      return this->Boundary[k].V;
+    }
 
     /** All tests of this worker; those that a cached ball decided included. */
     PredicateStatistics GetPredicateStatistics() const
@@ -132,6 +167,14 @@ public:
       std::uint32_t OuterIndex; ///< number of the facet in Outer
       bool OuterInFilling = false;
     };
+    /** A simplex that may be in conflict. */
+    struct Candidate
+    {
+      SimplexId Id;
+      SimplexId From;     ///< the simplex of the cavity that it was met from
+      std::uint32_t Back; ///< number of From among its neighbours
+      bool InConflict;
+    };
     /** A simplex that will fill the star, before it has an id. */
     struct FillingSimplex
     {
@@ -150,6 +193,7 @@ public:
     Stack<SimplexId> FreeSimplices;
     Stack<VertexId> FreeVertices;
     Stack<SimplexId> Touched; ///< simplices marked Outside
+    Stack<Candidate> Candidates;
     Stack<BoundaryFacet> Boundary;
     Stack<VertexId> Joined;      ///< vertices of the cavity, with repetitions
     Stack<VertexId> Link;        ///< vertices of Boundary; Link[v.Local] == v
@@ -159,6 +203,17 @@ public:
     EdgeTable Edges;
     FacetTable<D> Front;
     Stack<FillingSimplex> Filling;
+  };
+
+  /** Decides on an insertion by what it would make. */
+  class Judge
+  {
+  public:
+    /** Reads the worker's prospects; the worker owns all their vertices. */
+    virtual bool Accepts(const Worker& worker) = 0;
+
+  protected:
+    ~Judge() = default;
   };
 
   /** Triangulates the corners of the box. */
@@ -185,16 +240,18 @@ public:
    *   its vertices, unless it is alone
    * @param clearance if positive: refuse points nearer than this to a vertex, free ones excepted if
    *   the point is a feature point (they give way)
+   * @param judge if given: asked before anything is changed
    * On success worker.Created and worker.NewVertex tell what was made, and the worker owns all their
    * vertices.
    * @throws std::bad_alloc with the triangulation unchanged
    */
-  InsertionOutcome Insert(
-    Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed, double clearance = 0.0);
+  InsertionOutcome Insert(Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed,
+    double clearance = 0.0, Judge* judge = nullptr);
 
   /**
-   * Removes a living vertex that is not on the box; unless the worker is alone it owns the vertex. On
-   * success worker.Created tells what was made.
+   * Removes a living vertex that is not of kind Box; unless the worker is alone it owns the vertex. A
+   * vertex of another kind may lie on the box, but not in a corner. On success worker.Created tells
+   * what was made.
    * @throws std::bad_alloc with the triangulation unchanged
    */
   RemovalOutcome Remove(Worker& worker, VertexId v);
@@ -247,6 +304,7 @@ public:
 private:
   using BoundaryFacet = typename Worker::BoundaryFacet;
   using FillingSimplex = typename Worker::FillingSimplex;
+  using Candidate = typename Worker::Candidate;
 
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
   SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
@@ -270,19 +328,27 @@ private:
 
   // Insertion
   [[nodiscard]] bool CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed);
+  [[nodiscard]] bool ExpandWithHelp(Worker& worker, const Point<D>& p, unsigned planes);
+  [[nodiscard]] bool ExpandLevel(
+    Worker& worker, const Point<D>& p, unsigned planes, std::size_t first, std::size_t last);
+  void TestCandidates(Worker& worker, const Point<D>& p, std::size_t level);
+  void FillWithHelp(Worker& worker, VertexId apex);
+  [[gnu::always_inline]] inline void PlaceSimplex(
+    SimplexId s, Simplex& simplex, BoundaryFacet& facet, VertexId apex);
   void FillCavity(Worker& worker, VertexId apex);
   void NumberLink(Worker& worker, const Point<D>& apex);
-  void SetBall(Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex);
-  void LinkRidges(Worker& worker);
-  void LinkEdges(Worker& worker, bool closed) requires(D == 3);
+  inline void SetBall(
+    const Worker& worker, Simplex& simplex, const BoundaryFacet& facet, const Point<D>& apex);
+  inline void LinkRidges(Worker& worker);
+  inline void LinkEdges(Worker& worker, bool closed) requires(D == 3);
   bool IsClear(Worker& worker, const Point<D>& p, VertexKind kind, double clearance) const;
-  void Prefetch(SimplexId s, const Simplex& simplex, std::uint32_t newVertex) const;
+  inline void Prefetch(SimplexId s, const Simplex& simplex, std::uint32_t newVertex) const;
   unsigned PlanesOfPoint(const Point<D>& p) const;
   bool OnPlane(const std::array<VertexId, N>& v, unsigned except, unsigned planes) const;
 
   // Removal
   [[nodiscard]] bool CollectStar(Worker& worker, VertexId v);
-  bool FillStar(Worker& worker);
+  bool FillStar(Worker& worker, unsigned planes);
   VertexId BestApex(Worker& worker, const BoundaryFacet& facet);
   void CommitFilling(Worker& worker);
   typename FacetTable<D>::Face LocalFacet(const BoundaryFacet& facet) const;

@@ -36,7 +36,14 @@ public:
   /** Bounding box of everything that is not background; all interfaces lie inside or on it. */
   virtual Box<D> Bounds() const = 0;
 
-  /** Label of a point; 0 (background) outside of Bounds(). */
+  /**
+   * Whether the object ends flat on the lower (0) or upper (1) face of Bounds() along the last axis:
+   * the first and last frame of a space-time image. Beyond such a face all is as on the face: a point
+   * there has the label of its projection, and interface points are those of the projection.
+   */
+  virtual bool IsFlatEnd(unsigned) const { return false; }
+
+  /** Label of a point; 0 (background) outside of Bounds(), but for what lies beyond a flat end. */
   virtual LabelId Label(const Point<D>& p) const = 0;
 
   /** The image's value of a label id. */
@@ -70,6 +77,13 @@ public:
    */
   virtual bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const = 0;
+
+  /**
+   * An interface point on a flat end, near to p and about closest among those on that end.
+   * @param p a point on the flat end, within a few voxels of an interface
+   * @return false if none was found
+   */
+  virtual bool ClosestSurfacePointOnEnd(const Point<D>&, Point<D>&) const { return false; }
 };
 
 } // namespace voxplex

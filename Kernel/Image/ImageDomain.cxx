@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageDomain.h"
 
-#include "Parallel/ParallelFor.h"
+#include "Image/SurfaceVoxels.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace voxplex
@@ -46,97 +45,6 @@ double LargestComponent(const Point<D>& step)
     largest = std::max(largest, std::abs(component));
   }
   return largest;
-}
-
-/** Voxels of the lattice with a face neighbour of another label. */
-template <int D>
-BitMask<D> FindSites(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
-{
-  using Index = typename GridGeometry<D>::Index;
-  const Index& crop = image.CropDimensions();
-  Index lattice = crop;
-  for (std::int64_t& n : lattice)
-  {
-    n += 2;
-  }
-  BitMask<D> sites(lattice);
-  const auto n = static_cast<std::size_t>(crop[0]);
-  const std::vector<LabelId> background(n, LabelId{ 0 });
-
-  // The ids of a row of the crop, by its lattice index; background outside.
-  const auto rowAt = [&](const Index& index)
-  {
-    std::int64_t at = 0;
-    for (std::size_t a = D; a-- > 1;)
-    {
-      if (index[a] < 1 || index[a] > crop[a])
-      {
-        return background.data();
-      }
-      at = at * crop[a] + index[a] - 1;
-    }
-    return image.Ids().data() + at * crop[0];
-  };
-  ParallelFor(
-    0, sites.NumberOfRows(), 64, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<LabelId> differs(n);
-      std::vector<std::uint8_t> flags(sites.WordsPerRow() * 64, std::uint8_t{ 0 });
-      for (std::size_t row = begin; row < end; ++row)
-      {
-        Index index{};
-        std::size_t rest = row;
-        for (std::size_t a = 1; a < D; ++a)
-        {
-          index[a] = static_cast<std::int64_t>(rest % static_cast<std::size_t>(lattice[a]));
-          rest /= static_cast<std::size_t>(lattice[a]);
-        }
-        const LabelId* own = rowAt(index);
-        std::fill(differs.begin(), differs.end(), LabelId{ 0 });
-        for (std::size_t a = 1; a < D; ++a)
-        {
-          Index neighbour = index;
-          --neighbour[a];
-          const LabelId* low = rowAt(neighbour);
-          neighbour[a] += 2;
-          const LabelId* high = rowAt(neighbour);
-          for (std::size_t i = 0; i < n; ++i)
-          {
-            differs[i] = static_cast<LabelId>(differs[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
-          }
-        }
-        // Along x the crop's ends have a background voxel beside them, which is a site, too.
-        differs[0] = static_cast<LabelId>(differs[0] | own[0]);
-        differs[n - 1] = static_cast<LabelId>(differs[n - 1] | own[n - 1]);
-        for (std::size_t i = 0; i + 1 < n; ++i)
-        {
-          flags[i + 1] = (differs[i] | (own[i] ^ own[i + 1])) != 0;
-        }
-        flags[n] = differs[n - 1] != 0;
-        for (std::size_t i = 1; i < n; ++i)
-        {
-          flags[i + 1] = static_cast<std::uint8_t>(flags[i + 1] | (own[i] != own[i - 1]));
-        }
-        flags[0] = own[0] != 0;
-        flags[n + 1] = own[n - 1] != 0;
-        const std::span<std::uint64_t> words = sites.Row(row);
-        for (std::size_t w = 0; w < words.size(); ++w)
-        {
-          std::uint64_t word = 0;
-          for (std::size_t byte = 0; byte < 8; ++byte)
-          {
-            std::uint64_t eight = 0;
-            std::memcpy(&eight, flags.data() + w * 64 + byte * 8, 8);
-            // Gathers the lowest bits of eight bytes (little endian) in the top byte.
-            word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
-          }
-          words[w] = word;
-        }
-      }
-    },
-    stop);
-  return sites;
 }
 
 /** Cells of about ImageDomain::CoarseCell smallest spacings along each axis. */
@@ -214,7 +122,7 @@ ImageDomain<D>::ImageDomain(
   const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
   : Image(image)
   , Field(Timed(this->FieldSeconds, [&] { return LabelField<D>(image, sigma, threads, stop); }))
-  , Sites(Timed(this->FeatureSeconds, [&] { return FindSites(image, threads, stop); }))
+  , Sites(Timed(this->FeatureSeconds, [&] { return FindSurfaceVoxels(image, threads, stop); }))
   , Spacing(Spacings(image.Grid()))
   , Features(Timed(this->FeatureSeconds,
       [&]
@@ -272,11 +180,22 @@ ImageDomain<D>::ImageDomain(
       this->BoundingBox.Max[a] = std::max(this->BoundingBox.Max[a], p[a]);
     }
   }
+  if (image.IsCutInTime(0))
+  {
+    this->BoundingBox.Min[D - 1] = 0.0;
+  }
+  if (image.IsCutInTime(1))
+  {
+    this->BoundingBox.Max[D - 1] =
+      static_cast<double>(grid.Dimensions[D - 1] - 1) * grid.IndexToFrame[D - 1][D - 1];
+  }
 }
 
 template <int D>
-inline LabelId ImageDomain<D>::VoxelId(const Index& lattice) const
+inline LabelId ImageDomain<D>::VoxelId(const Index& index) const
 {
+  Index lattice = index;
+  ClampToCut(this->Image, lattice);
   const Index& crop = this->Image.CropDimensions();
   std::int64_t at = 0;
   for (std::size_t a = D; a-- > 0;)
@@ -316,8 +235,14 @@ inline DistanceInterval ImageDomain<D>::DistanceBoundsAt(const Point<D>& x) cons
   std::size_t cell = 0;
   for (std::size_t a = D; a-- > 0;)
   {
-    const auto last = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
-    const double inside = std::clamp(x[a], 0.0, last);
+    double first = 0.0;
+    auto last = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
+    if (D == 4 && a == 3)
+    {
+      first = std::max(first, this->Field.FlatEnds()[0]);
+      last = std::min(last, this->Field.FlatEnds()[1]);
+    }
+    const double inside = std::clamp(x[a], first, last);
     const double out = this->Spacing[a] * (x[a] - inside);
     outside2 += out * out;
     const std::uint32_t c = this->Features.CellOf(a, inside);
@@ -389,6 +314,7 @@ inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
   {
     return false;
   }
+  ClampToCut(this->Image, site);
   if (this->VoxelId(site) != label)
   {
     voxel = site;
@@ -401,6 +327,7 @@ inline bool ImageDomain<D>::NearVoxelOfOtherLabel(
     {
       Index candidate = site;
       candidate[a] += side;
+      ClampToCut(this->Image, candidate);
       if (this->VoxelId(candidate) == label)
       {
         continue;
@@ -524,10 +451,16 @@ inline bool ImageDomain<D>::MoveTowardsFoot(
   {
     return false;
   }
+  Point<D> moved;
   for (std::size_t a = 0; a < D; ++a)
   {
-    z[a] = p[a] + t * direction[a];
+    moved[a] = p[a] + t * direction[a];
   }
+  if (this->ClampToEnds(moved) != moved)
+  {
+    return false; // what the field has there belongs to the end
+  }
+  z = moved;
   return true;
 }
 
@@ -580,14 +513,14 @@ template <int D>
 bool ImageDomain<D>::NearSurfacePoint(
   const Point<D>& p, LabelId label, Point<D>& z, double& error) const
 {
-  const Point<D> x = this->Field.ToLattice(p);
+  const Point<D> x = this->Field.ToLattice(this->ClampToEnds(p));
   Point<D> n;
   double t;
   if (!this->FindOnRay(x, label, QuickTolerance, n, t))
   {
     return false;
   }
-  z = this->Field.ToFrame(Interpolate(n, x, t));
+  z = this->Found(Interpolate(n, x, t));
   // The margin rises by about 1 per voxel; half of that is allowed for.
   const Point<D> d = Subtract(x, n);
   const double voxels = LargestComponent<D>(d);
@@ -598,15 +531,16 @@ bool ImageDomain<D>::NearSurfacePoint(
 template <int D>
 bool ImageDomain<D>::ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const
 {
-  const Point<D> x = this->Field.ToLattice(p);
+  const Point<D> q = this->ClampToEnds(p);
+  const Point<D> x = this->Field.ToLattice(q);
   Point<D> n;
   double t;
   if (!this->FindOnRay(x, label, RootTolerance, n, t))
   {
     return false;
   }
-  z = this->Field.ToFrame(Interpolate(n, x, t));
-  for (int i = 0; i < FootSteps && this->MoveTowardsFoot(p, x, label, z); ++i)
+  z = this->Found(Interpolate(n, x, t));
+  for (int i = 0; i < FootSteps && this->MoveTowardsFoot(q, x, label, z); ++i)
   {
   }
   return true;
@@ -623,18 +557,25 @@ bool ImageDomain<D>::FirstCrossing(
   double end = 1.0;
   for (std::size_t k = 0; k < D; ++k)
   {
-    // Clip to the lattice: all is background outside.
-    const auto last = static_cast<double>(this->Field.LatticeDimensions()[k] - 1);
+    // Clip to the lattice: all is background outside, but for flat ends.
+    double first = 0.0;
+    auto last = static_cast<double>(this->Field.LatticeDimensions()[k] - 1);
+    if (D == 4 && k == 3)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      first = this->Image.IsCutInTime(0) ? -infinity : first;
+      last = this->Image.IsCutInTime(1) ? infinity : last;
+    }
     longest = std::max(longest, std::abs(d[k]));
     if (d[k] == 0.0)
     {
-      if (x[k] < 0.0 || x[k] > last)
+      if (x[k] < first || x[k] > last)
       {
         return false;
       }
       continue;
     }
-    const double t0 = -x[k] / d[k];
+    const double t0 = (first - x[k]) / d[k];
     const double t1 = (last - x[k]) / d[k];
     begin = std::max(begin, std::min(t0, t1));
     end = std::min(end, std::max(t0, t1));
@@ -662,11 +603,61 @@ bool ImageDomain<D>::FirstCrossing(
       this->ProbeAt(x, d, labelOfA, std::min(end, before.T + std::max(step, free)));
     if (!(probe.Margin > 0.0))
     {
-      z =
-        this->Field.ToFrame(pointAt(this->FindRoot(x, d, labelOfA, before, probe, RootTolerance)));
+      z = this->Found(pointAt(this->FindRoot(x, d, labelOfA, before, probe, RootTolerance)));
       return true;
     }
     before = probe;
+  }
+  return false;
+}
+
+template <int D>
+bool ImageDomain<D>::ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const
+{
+  const Point<D> x = this->Field.ToLattice(p);
+  const LabelId label = this->Field.LabelAt(x);
+  Point<D> gradient;
+  if (!this->Field.MarginGradientAt(x, label, gradient))
+  {
+    return false;
+  }
+  // The steepest way down in space, in lattice coordinates: the inverse metric times the gradient.
+  const auto& grid = this->Image.Grid();
+  Point<D> covector = gradient;
+  covector[D - 1] = 0.0;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    for (std::size_t r = 0; r < k; ++r)
+    {
+      covector[k] -= grid.IndexToFrame[r][k] * covector[r];
+    }
+    covector[k] /= -grid.IndexToFrame[k][k];
+  }
+  covector[D - 1] = 0.0;
+  const Point<D> d = grid.ToIndex(covector);
+  const double longest = LargestComponent<D>(d);
+  if (!(longest > 0.0))
+  {
+    return false;
+  }
+  constexpr int Steps = 6; // of half a voxel
+  Probe inside = this->ProbeAt(x, d, label, 0.0);
+  for (int i = 1; i <= Steps; ++i)
+  {
+    const Probe probe = this->ProbeAt(x, d, label, 0.5 * i / longest);
+    if (!(probe.Margin > 0.0))
+    {
+      const double t = this->FindRoot(x, d, label, inside, probe, RootTolerance);
+      for (std::size_t a = 0; a + 1 < D; ++a)
+      {
+        z[a] = x[a] + t * d[a];
+      }
+      z[D - 1] = x[D - 1];
+      z = this->Field.ToFrame(z);
+      z[D - 1] = p[D - 1];
+      return true;
+    }
+    inside = probe;
   }
   return false;
 }

@@ -12,6 +12,7 @@
 #include "Image/FeatureTransform.h"
 #include "Image/LabelField.h"
 
+#include <algorithm>
 #include <stop_token>
 
 namespace voxplex
@@ -56,8 +57,12 @@ public:
   /** The domain does not keep the image alive. */
   ImageDomain(LabelImage<D>&&, double, unsigned = 1, const std::stop_token& = {}) = delete;
 
-  /** The box of the crop and the layer of background around it; interfaces lie strictly inside. */
+  /**
+   * The box of the crop and the layer of background around it; interfaces lie strictly inside, but at
+   * flat ends, where the box ends with the image's first or last frame.
+   */
   Box<D> Bounds() const override { return this->BoundingBox; }
+  bool IsFlatEnd(unsigned end) const override { return this->Image.IsCutInTime(end); }
   LabelId Label(const Point<D>& p) const override { return this->Field.Label(p); }
   std::int64_t LabelValue(LabelId id) const override { return this->Image.Values()[id]; }
   DistanceInterval DistanceBounds(const Point<D>& p) const override
@@ -77,6 +82,9 @@ public:
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
+  /** Along the gradient of the label's margin in the frame of time, in steps of half a voxel. */
+  bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
+
   const LabelImage<D>& GetImage() const { return this->Image; }
   const LabelField<D>& GetLabelField() const { return this->Field; }
   /** Of the lattice of GetLabelField(). */
@@ -95,8 +103,20 @@ public:
   }
 
 private:
-  /** Dense id of a voxel at a lattice index; background outside of the crop. */
+  /** Dense id of a voxel at a lattice index; background outside of the crop, but for flat ends. */
   LabelId VoxelId(const Index& lattice) const;
+  /** The point nearest to p that is not beyond a flat end. */
+  Point<D> ClampToEnds(Point<D> p) const
+  {
+    if constexpr (D == 4)
+    {
+      p[3] = this->Image.IsCutInTime(0) ? std::max(p[3], this->BoundingBox.Min[3]) : p[3];
+      p[3] = this->Image.IsCutInTime(1) ? std::min(p[3], this->BoundingBox.Max[3]) : p[3];
+    }
+    return p;
+  }
+  /** The frame's coordinates of a point that a search has found, not beyond a flat end. */
+  Point<D> Found(const Point<D>& x) const { return this->ClampToEnds(this->Field.ToFrame(x)); }
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */
   double Length2(const Point<D>& step) const;

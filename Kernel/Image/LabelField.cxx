@@ -115,7 +115,12 @@ private:
       std::int64_t at = 0;
       for (std::size_t a = D; a-- > 1;)
       {
-        const std::int64_t i = first[a] - 1 + offset[a];
+        std::int64_t i = first[a] - 1 + offset[a];
+        if (D == 4 && a == 3)
+        {
+          i = this->Image.IsCutInTime(0) ? std::max<std::int64_t>(i, 0) : i;
+          i = this->Image.IsCutInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
+        }
         inside = inside && i >= 0 && i < crop[a];
         at = at * crop[a] + i;
       }
@@ -240,7 +245,7 @@ private:
   void SmoothLabel(LabelId label, Sample* plane)
   {
     const std::size_t slot = this->SlotOf[label];
-    this->Smoothing.Smooth(D, this->Words.data() + slot * this->Rows, this->Buffers, plane);
+    this->Smoothing.Smooth(this->Words.data() + slot * this->Rows, this->Buffers, plane);
   }
 
   /** All planes of the tile whose labels have been gathered. */
@@ -406,8 +411,16 @@ LabelField<D>::LabelField(
     numberOfTiles *= static_cast<std::size_t>(tiles[a]);
   }
   this->Directory.resize(numberOfTiles);
+  if (image.IsCutInTime(0))
+  {
+    this->Ends[0] = 1.0;
+  }
+  if (image.IsCutInTime(1))
+  {
+    this->Ends[1] = static_cast<double>(image.CropDimensions()[D - 1]);
+  }
 
-  const LabelSmoothing smoothing(sigma);
+  const LabelSmoothing smoothing(D, sigma);
   std::vector<std::unique_ptr<Builder>> builders;
   std::vector<Builder*> idle;
   std::mutex mutex;

@@ -39,6 +39,9 @@ namespace voxplex
  * less, which makes up for what remains of the shrinking and for the chords of the mesh.
  * Documentation/Algorithm.md has the measured accuracy.
  *
+ * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame it goes on
+ * unchanged beyond it, for the smoothing and for queries: the ends are flat.
+ *
  * **Storage.** The lattice (the crop of the label image and one layer of background around it) is
  * cut in tiles of TileCells cells along each axis. A tile stores its samples on all of its
  * (TileCells + 1)^D corners, so that a query reads one tile only:
@@ -113,6 +116,19 @@ public:
     return this->Grid.ToFrame(x);
   }
 
+  /**
+   * Lattice coordinates of the first and the last frame where the object is cut by them, else
+   * infinite: beyond a cut everything is as on it. Only in 4D; the last axis is time.
+   */
+  const std::array<double, 2>& FlatEnds() const { return this->Ends; }
+  /** The point of the lattice nearest to x that is not beyond a flat end. */
+  Point<D> ClampToEnds(Point<D> x) const
+  {
+    double& time = x[static_cast<std::size_t>(D) - 1];
+    time = time < this->Ends[0] ? this->Ends[0] : time > this->Ends[1] ? this->Ends[1] : time;
+    return x;
+  }
+
   /** Label of a point of the frame; background outside of the lattice. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
 
@@ -159,7 +175,7 @@ private:
     unsigned Offset; ///< of the cell's first corner in a plane
     std::array<float, static_cast<std::size_t>(D)> Fraction;
   };
-  Cell Locate(const Point<D>& x) const;
+  Cell Locate(Point<D> x) const;
   static float InterpolatePlane(const Sample* plane, const Cell& cell);
   static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
@@ -171,6 +187,8 @@ private:
   Point<D> PerSpacing{};
   Point<D> Shift{};
   Index Dimensions{};
+  std::array<double, 2> Ends{ -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() };
   std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
   std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
   std::vector<std::uintptr_t> Directory;
@@ -180,8 +198,12 @@ private:
 };
 
 template <int D>
-inline typename LabelField<D>::Cell LabelField<D>::Locate(const Point<D>& x) const
+inline typename LabelField<D>::Cell LabelField<D>::Locate(Point<D> x) const
 {
+  if constexpr (D == 4)
+  {
+    x = this->ClampToEnds(x);
+  }
   Cell cell;
   cell.Tile = nullptr;
   cell.Uniform = 0;

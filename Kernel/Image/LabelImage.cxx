@@ -438,6 +438,12 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     image.Extent[a] = max[a] - min[a] + 1;
     cropRows *= a > 0 ? static_cast<std::size_t>(image.Extent[a]) : 1;
   }
+  if constexpr (D == 4)
+  {
+    const auto& m = grid.IndexToFrame;
+    const bool upright = m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0;
+    image.CutInTime = { upright && min[3] == 0, upright && max[3] == grid.Dimensions[3] - 1 };
+  }
   const auto e0 = static_cast<std::size_t>(image.Extent[0]);
   image.Voxels.resize(e0 * cropRows);
   ParallelFor(

@@ -63,6 +63,12 @@ public:
   /** Dense ids of the bounding box, first axis fastest. */
   std::span<const LabelId> Ids() const { return this->Voxels; }
 
+  /**
+   * Whether the first (0) or last (1) frame of a space-time image has foreground, so that the object
+   * is cut there and ends flat; false in 3D, and if the time axis is not orthogonal to space.
+   */
+  bool IsCutInTime(unsigned end) const { return this->CutInTime[end]; }
+
   /** The image's label value of each dense id; Values()[0] = 0. */
   std::span<const std::int64_t> Values() const { return this->LabelValues; }
   /** Voxels of each dense id (that of background counts the bounding box only). */
@@ -76,6 +82,7 @@ private:
   UninitialisedVector<LabelId> Voxels;
   std::vector<std::int64_t> LabelValues;
   std::vector<std::int64_t> LabelCounts;
+  std::array<bool, 2> CutInTime{};
 };
 
 } // namespace voxplex

@@ -46,8 +46,20 @@ constexpr double KernelWidth = 1.2;
  *   -0.4   | 0.070                    | 3.3      | -1.05             | -3.6
  *   -0.8   | 0.076                    | 3.5      | -0.94             | -2.2
  *   -1.2   | 0.080                    | 3.8      | -0.75             | -1.1
+ *
+ * In 4D chords cost more. Hypervolume of a 4-ball (radius 12, delta 2), and of the smaller label of a beating
+ * ventricle (delta 4.15, time four times as long as given) with its worst volume in a frame, which moves
+ * where the interface bends in time:
+ *
+ *   moment | 4-ball   | ventricle | worst frame
+ *   -0.8   | -4.45 %  | -1.90 %   | -3.02 %
+ *   -1.2   | -3.86    | -1.72     | -2.69
+ *   -1.6   | -3.30    | -1.52     | -2.44
  */
-constexpr double KernelMoment = -0.8;
+constexpr double KernelMoment(int dimension)
+{
+  return dimension == 3 ? -0.8 : -1.6;
+}
 
 #if defined(__GNUC__)
 // Spelt out because GCC 12 does not vectorise these loops by itself (measured: 3 times slower).
@@ -97,7 +109,7 @@ inline Floats VOXPLEX_TO_FLOATS(const Shorts& shorts)
  * {KernelOne} for sigma 0. c is chosen such that the second moment is KernelMoment; about 1 would
  * make it 0.
  */
-std::vector<int> NonShrinkingKernel(double sigma)
+std::vector<int> NonShrinkingKernel(int dimension, double sigma)
 {
   const int radius = static_cast<int>(std::ceil(4.0 * sigma));
   std::vector<double> w(static_cast<std::size_t>(radius) + 1, 1.0);
@@ -118,7 +130,7 @@ std::vector<int> NonShrinkingKernel(double sigma)
       moment[0] += sides * static_cast<double>(t * t) * g[t];
       moment[1] += sides * static_cast<double>(t * t) * gg[t];
     }
-    const double c = (moment[0] / sum[0] - KernelMoment * sigma * sigma) /
+    const double c = (moment[0] / sum[0] - KernelMoment(dimension) * sigma * sigma) /
       (moment[1] / sum[1] - moment[0] / sum[0]);
     for (std::size_t t = 0; t < w.size(); ++t)
     {
@@ -284,9 +296,10 @@ void KeepOwn(const std::uint16_t* __restrict own, std::uint16_t label,
 
 } // namespace
 
-LabelSmoothing::LabelSmoothing(double sigma)
+LabelSmoothing::LabelSmoothing(int dimension, double sigma)
+  : Dimension(dimension)
 {
-  const std::vector<int> weights = NonShrinkingKernel(sigma);
+  const std::vector<int> weights = NonShrinkingKernel(dimension, sigma);
   for (const int w : weights)
   {
     this->Weights.push_back(static_cast<float>(w) / static_cast<float>(KernelOne));
@@ -294,12 +307,11 @@ LabelSmoothing::LabelSmoothing(double sigma)
   this->Tables = ByteTables(weights);
 }
 
-void LabelSmoothing::Smooth(
-  int dimension, const std::uint64_t* words, Buffers& buffers, std::int16_t* plane) const
+void LabelSmoothing::Smooth(const std::uint64_t* words, Buffers& buffers, std::int16_t* plane) const
 {
   const std::size_t width = 8 + 2 * this->Radius();
   std::size_t rows = 1;
-  for (int a = 1; a < dimension; ++a)
+  for (int a = 1; a < this->Dimension; ++a)
   {
     rows *= width;
   }
@@ -309,7 +321,7 @@ void LabelSmoothing::Smooth(
   float* to = buffers[1].data()->Values.data();
   PassAlongX(words, rows, (width + 7) / 8, this->Tables.data(), from);
   std::size_t inner = 8;
-  for (int a = 1; a < dimension; ++a)
+  for (int a = 1; a < this->Dimension; ++a)
   {
     rows /= width;
     PassAcross(from, rows, inner, this->Radius(), this->Weights.data(), to);

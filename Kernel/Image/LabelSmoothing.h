@@ -39,24 +39,26 @@ public:
   /** Memory for intermediate results: one for each thread, kept from call to call. */
   using Buffers = std::array<std::vector<EightFloats>, 2>;
 
-  /** @param sigma standard deviation in voxels, 0 (none) to 5 */
-  explicit LabelSmoothing(double sigma);
+  /**
+   * @param dimension D, 3 or 4
+   * @param sigma standard deviation in voxels, 0 (none) to 5
+   */
+  LabelSmoothing(int dimension, double sigma);
 
   /** Voxels on either side that a sample depends on, along each axis: 4 sigma, rounded up. */
   std::size_t Radius() const { return this->Weights.size() - 1; }
 
   /**
    * Smooths the indicator of one label.
-   * @param dimension D, at least 1
    * @param words the indicator on a box of w = 8 + 2 Radius() voxels along each axis: w^(D - 1)
    *   rows along x, the second axis fastest; bit i of a row's word is 1 where voxel i has the label
    *   (+1) and 0 where it has not (-1), and bits from w on are 0
    * @param plane receives the 8^D samples in the middle of the box, x fastest, clamped to -1 ... 1
    */
-  void Smooth(
-    int dimension, const std::uint64_t* words, Buffers& buffers, std::int16_t* plane) const;
+  void Smooth(const std::uint64_t* words, Buffers& buffers, std::int16_t* plane) const;
 
 private:
+  int Dimension;
   std::vector<float> Weights;       ///< of the distances 0 ... Radius()
   std::vector<std::int16_t> Tables; ///< of the pass along x
 };

@@ -20,20 +20,68 @@ namespace
 /** Elements measured at a time. Fixed, so that sums do not depend on the number of threads. */
 constexpr std::size_t Grain = 4096;
 
+/** Mean and standard deviation of numbers that come one by one or in groups. */
+class Moments
+{
+public:
+  void Add(double x) { this->Add(1.0, x, x, 0.0); }
+  void Add(const Moments& other)
+  {
+    this->Add(other.Count, other.Sum, other.Mean, other.SquaredDeviations);
+  }
+
+  double GetMean() const { return this->Sum / this->Count; }
+  /** NaN if some number was not finite. */
+  double GetDeviation() const { return std::sqrt(this->SquaredDeviations / this->Count); }
+
+private:
+  void Add(double count, double sum, double mean, double squaredDeviations)
+  {
+    if (count > 0.0)
+    {
+      const double all = this->Count + count;
+      const double difference = mean - this->Mean;
+      this->SquaredDeviations +=
+        squaredDeviations + difference * difference * (this->Count * count / all);
+      this->Mean += difference * (count / all);
+      this->Sum += sum;
+      this->Count = all;
+    }
+  }
+
+  double Count = 0.0;
+  double Sum = 0.0;
+  double Mean = 0.0;
+  double SquaredDeviations = 0.0;
+};
+
+/** The bin of a normalized volume, which rounding may put a little above 1. */
+std::size_t BinOf(double normalizedVolume)
+{
+  constexpr auto last = static_cast<double>(MeshQuality::NumberOfBins - 1);
+  return static_cast<std::size_t>(
+    std::clamp(normalizedVolume * static_cast<double>(MeshQuality::NumberOfBins), 0.0, last));
+}
+
 /** What a run of elements contributes. */
 struct ElementMeasures
 {
+  double ShortestEdge2 = std::numeric_limits<double>::infinity();
   double MaximumRadiusEdgeRatio = 0.0;
+  Moments RadiusEdgeRatios;
   std::uint64_t RadiusEdgeViolations = 0;
   double MinimumDihedralAngle = std::numeric_limits<double>::infinity();
   double MaximumDihedralAngle = 0.0;
   double MinimumNormalizedVolume = std::numeric_limits<double>::infinity();
-  double SumOfNormalizedVolumes = 0.0;
+  Moments NormalizedVolumes;
+  std::array<std::uint64_t, MeshQuality::NumberOfBins> Bins{};
   std::uint64_t InvertedSimplices = 0;
   std::map<std::int64_t, LabelMeasure> Labels;
 
   void Add(const ElementMeasures& other)
   {
+    this->ShortestEdge2 = std::min(this->ShortestEdge2, other.ShortestEdge2);
+    this->RadiusEdgeRatios.Add(other.RadiusEdgeRatios);
     this->MaximumRadiusEdgeRatio =
       std::max(this->MaximumRadiusEdgeRatio, other.MaximumRadiusEdgeRatio);
     this->RadiusEdgeViolations += other.RadiusEdgeViolations;
@@ -41,7 +89,11 @@ struct ElementMeasures
     this->MaximumDihedralAngle = std::max(this->MaximumDihedralAngle, other.MaximumDihedralAngle);
     this->MinimumNormalizedVolume =
       std::min(this->MinimumNormalizedVolume, other.MinimumNormalizedVolume);
-    this->SumOfNormalizedVolumes += other.SumOfNormalizedVolumes;
+    this->NormalizedVolumes.Add(other.NormalizedVolumes);
+    for (std::size_t i = 0; i < this->Bins.size(); ++i)
+    {
+      this->Bins[i] += other.Bins[i];
+    }
     this->InvertedSimplices += other.InvertedSimplices;
     for (const auto& [label, measure] : other.Labels)
     {
@@ -96,13 +148,16 @@ void MeasureElements(const SimplexMesh<D>& mesh, std::size_t first, std::size_t 
     measures.InvertedSimplices += predicates.Orientation(v.data()) <= 0;
 
     const double radius2 = Circumradius2<D>(v.data());
+    measures.ShortestEdge2 = std::min(measures.ShortestEdge2, ShortestEdge2<D>(v.data()));
     const double ratio = RadiusEdgeRatio<D>(v.data(), radius2);
+    measures.RadiusEdgeRatios.Add(ratio);
     measures.MaximumRadiusEdgeRatio = std::max(measures.MaximumRadiusEdgeRatio, ratio);
     measures.RadiusEdgeViolations += ratio >= radiusEdgeBound;
 
     const double normalized = NormalizedVolume<D>(v.data(), radius2);
     measures.MinimumNormalizedVolume = std::min(measures.MinimumNormalizedVolume, normalized);
-    measures.SumOfNormalizedVolumes += normalized;
+    measures.NormalizedVolumes.Add(normalized);
+    ++measures.Bins[BinOf(normalized)];
 
     if constexpr (D == 3)
     {
@@ -195,10 +250,15 @@ MeshQuality MeasureQuality(
     {
       sum.Add(chunk);
     }
+    quality.ShortestEdge = std::sqrt(sum.ShortestEdge2);
     quality.MaximumRadiusEdgeRatio = sum.MaximumRadiusEdgeRatio;
+    quality.MeanRadiusEdgeRatio = sum.RadiusEdgeRatios.GetMean();
+    quality.RadiusEdgeRatioDeviation = sum.RadiusEdgeRatios.GetDeviation();
     quality.RadiusEdgeViolations = sum.RadiusEdgeViolations;
     quality.MinimumNormalizedVolume = sum.MinimumNormalizedVolume;
-    quality.MeanNormalizedVolume = sum.SumOfNormalizedVolumes / static_cast<double>(elements);
+    quality.MeanNormalizedVolume = sum.NormalizedVolumes.GetMean();
+    quality.NormalizedVolumeDeviation = sum.NormalizedVolumes.GetDeviation();
+    quality.NormalizedVolumes = sum.Bins;
     quality.InvertedSimplices = sum.InvertedSimplices;
     if (D == 3)
     {

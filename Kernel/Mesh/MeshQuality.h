@@ -9,6 +9,8 @@
 
 #include "Mesh/SimplexMesh.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -29,9 +31,15 @@ struct LabelMeasure
 struct MeshQuality
 {
   static constexpr double NotApplicable = std::numeric_limits<double>::quiet_NaN();
+  /** Bins of NormalizedVolumes, each 1 / NumberOfBins wide. */
+  static constexpr std::size_t NumberOfBins = 20;
+
+  double ShortestEdge = NotApplicable; ///< of all elements
 
   double MaximumRadiusEdgeRatio = NotApplicable;
-  std::uint64_t RadiusEdgeViolations = 0; ///< elements at or above the bound
+  double MeanRadiusEdgeRatio = NotApplicable;      ///< infinite if some element is flat
+  double RadiusEdgeRatioDeviation = NotApplicable; ///< standard deviation; NaN if one is flat
+  std::uint64_t RadiusEdgeViolations = 0;          ///< elements at or above the bound
 
   double MinimumDihedralAngle = NotApplicable; ///< 3D only
   double MaximumDihedralAngle = NotApplicable; ///< 3D only
@@ -39,6 +47,10 @@ struct MeshQuality
   /** Volume over that of the regular simplex with the same circumradius; 1 is best, 0 is flat. */
   double MinimumNormalizedVolume = NotApplicable;
   double MeanNormalizedVolume = NotApplicable;
+  double NormalizedVolumeDeviation = NotApplicable; ///< standard deviation
+  /** Elements by normalized volume: bin i has those from i / 20 to below (i + 1) / 20, the last one
+   * also 1. */
+  std::array<std::uint64_t, NumberOfBins> NormalizedVolumes{};
 
   double MinimumFacetAngle = NotApplicable; ///< planar angle of the interface facets; 3D only
   std::uint64_t FacetAngleViolations = 0;   ///< facets with an angle below the bound; 3D only
@@ -55,8 +67,9 @@ struct MeshQuality
  * Measures a mesh.
  *
  * Ratios and angles are computed in double (radii of nearly flat elements exactly, see
- * SimplexQuality.h) and compared with the bounds as they are. The result does not depend on the
- * number of threads.
+ * SimplexQuality.h) and compared with the bounds as they are. Standard deviations are those of the
+ * elements themselves (the mean square over their number), merged from parts by the formulas of Chan,
+ * Golub and LeVeque (1979), which do not cancel. The result does not depend on the number of threads.
  *
  * @param radiusEdgeBound elements with a radius-edge ratio of this or more are counted
  * @param facetAngleBound interface facets with a planar angle below this many degrees are counted

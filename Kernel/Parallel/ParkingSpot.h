@@ -7,6 +7,8 @@
 #ifndef voxplex_ParkingSpot_h
 #define voxplex_ParkingSpot_h
 
+#include "Parallel/Pause.h"
+
 #include <atomic>
 #include <thread>
 
@@ -93,16 +95,6 @@ private:
 
   /** Acquire: pairs with the release in Wake(). */
   bool WasWoken() const { return this->State.load(std::memory_order_acquire) == Free; }
-
-  /** Tells the processor that this is a waiting loop. */
-  static void Pause()
-  {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-  }
 
   std::atomic<int> State{ Free }; ///< an int: what a futex compares
 };

@@ -8,6 +8,7 @@
 #define voxplex_BeggingLists_h
 
 #include "Parallel/CacheLine.h"
+#include "Parallel/HelpDesk.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/LoadBalancer.h"
@@ -45,6 +46,9 @@ namespace voxplex
  * once, before its giver wakes it. So the count reaches the number of threads only when nobody has
  * work or is about to get some; the thread that makes it do so ends all. That is the only case in
  * which all three lists would be full for a thread.
+ *
+ * **Help.** A thread that waits may help others at a desk. It still counts as waiting, and is woken as
+ * before: what it does there is a part of its owner's work, which is busy, and ends before the owner's.
  */
 class BeggingLists final : public LoadBalancer
 {
@@ -52,8 +56,9 @@ public:
   /**
    * @param groups who waits with whom
    * @param topology by which Beggar::Level is told; as many threads as groups
+   * @param desk where those who wait help, or null
    */
-  BeggingLists(const Topology& groups, const Topology& topology);
+  BeggingLists(const Topology& groups, const Topology& topology, HelpDesk* desk = nullptr);
 
   bool SomeoneBegs() const override
   {
@@ -88,6 +93,7 @@ private:
   void End();
   unsigned SharedLevel(unsigned a, unsigned b) const;
 
+  HelpDesk* const Desk;
   std::vector<Slot> Slots;
   std::vector<List> Lists;
   alignas(CacheLineSize) std::atomic<unsigned> Listed{ 0 }; ///< threads in all lists together

@@ -10,20 +10,21 @@
 namespace voxplex
 {
 
-std::unique_ptr<ContentionManager> MakeContentionManager(ContentionPolicy policy, unsigned threads)
+std::unique_ptr<ContentionManager> MakeContentionManager(
+  ContentionPolicy policy, unsigned threads, HelpDesk* desk, unsigned successesToWake)
 {
   switch (policy)
   {
     case ContentionPolicy::Aggressive:
-      return std::make_unique<AggressiveContentionManager>(threads);
+      return std::make_unique<AggressiveContentionManager>(threads, desk);
     case ContentionPolicy::Random:
-      return std::make_unique<RandomContentionManager>(threads);
+      return std::make_unique<RandomContentionManager>(threads, desk);
     case ContentionPolicy::Global:
-      return std::make_unique<GlobalContentionManager>(threads);
+      return std::make_unique<GlobalContentionManager>(threads, desk, successesToWake);
     case ContentionPolicy::Local:
       break;
   }
-  return std::make_unique<LocalContentionManager>(threads);
+  return std::make_unique<LocalContentionManager>(threads, desk, successesToWake);
 }
 
 } // namespace voxplex

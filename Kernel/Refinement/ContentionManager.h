@@ -15,6 +15,8 @@
 namespace voxplex
 {
 
+class HelpDesk;
+
 /**
  * @brief Told by every thread of its rollbacks and successes; may make it wait after a rollback.
  *
@@ -58,8 +60,14 @@ public:
   virtual bool SwitchedToLocal() const { return false; }
 };
 
-/** @param threads how many threads there are, at least 1 */
-std::unique_ptr<ContentionManager> MakeContentionManager(ContentionPolicy policy, unsigned threads);
+/**
+ * @param threads how many threads there are, at least 1
+ * @param desk where threads help while they wait in lists, or null; must outlive the manager
+ * @param successesToWake global and local: after how many successes in a row a thread wakes another
+ *   (s+ of the thesis)
+ */
+std::unique_ptr<ContentionManager> MakeContentionManager(ContentionPolicy policy, unsigned threads,
+  HelpDesk* desk = nullptr, unsigned successesToWake = 10);
 
 } // namespace voxplex
 

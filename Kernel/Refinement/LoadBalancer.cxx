@@ -11,8 +11,9 @@
 namespace voxplex
 {
 
-BeggingLists::BeggingLists(const Topology& groups, const Topology& topology)
-  : Slots(groups.Group.size())
+BeggingLists::BeggingLists(const Topology& groups, const Topology& topology, HelpDesk* desk)
+  : Desk(desk)
+  , Slots(groups.Group.size())
 {
   assert(groups.Group.size() == topology.Group.size());
   // A group is named by its number and the list of its parent: so groups nest whatever their
@@ -125,7 +126,7 @@ bool BeggingLists::Beg(unsigned thread)
     own.Spot.Prepare();
     this->Listed.fetch_add(1, std::memory_order_relaxed);
   }
-  own.Spot.Wait();
+  WaitAndHelp(own.Spot, this->Desk, thread);
   // Relaxed: who ends all wrote this before it woke us.
   return !this->Over.load(std::memory_order_relaxed);
 }
@@ -145,14 +146,15 @@ void BeggingLists::Stop()
   this->End();
 }
 
-std::unique_ptr<LoadBalancer> MakeLoadBalancer(BalancePolicy policy, const Topology& topology)
+std::unique_ptr<LoadBalancer> MakeLoadBalancer(
+  BalancePolicy policy, const Topology& topology, HelpDesk* desk)
 {
   if (policy == BalancePolicy::Hierarchical)
   {
-    return std::make_unique<BeggingLists>(topology, topology);
+    return std::make_unique<BeggingLists>(topology, topology, desk);
   }
   const auto threads = static_cast<unsigned>(topology.Group.size());
-  return std::make_unique<BeggingLists>(FlatTopology(threads), topology);
+  return std::make_unique<BeggingLists>(FlatTopology(threads), topology, desk);
 }
 
 } // namespace voxplex

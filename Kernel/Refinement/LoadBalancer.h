@@ -15,6 +15,8 @@
 namespace voxplex
 {
 
+class HelpDesk;
+
 /**
  * @brief The begging lists: threads without work wait in them until a busy thread gives them some.
  *
@@ -60,8 +62,12 @@ public:
   virtual void Stop() = 0;
 };
 
-/** @param topology has the number of threads */
-std::unique_ptr<LoadBalancer> MakeLoadBalancer(BalancePolicy policy, const Topology& topology);
+/**
+ * @param topology has the number of threads
+ * @param desk where threads help while they wait for work, or null; must outlive the balancer
+ */
+std::unique_ptr<LoadBalancer> MakeLoadBalancer(
+  BalancePolicy policy, const Topology& topology, HelpDesk* desk = nullptr);
 
 } // namespace voxplex
 

@@ -9,6 +9,7 @@
 
 #include "Delaunay/Stores.h"
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
@@ -20,11 +21,11 @@ namespace voxplex
  * @brief Simplices that may violate a rule, last in first out.
  *
  * The last simplices made are the first refined: most simplices die young, and their data are still in
- * the cache.
+ * the cache. Some are put last: they come up when nothing else is left.
  *
  * **Lazy removal** (the default). Entries of simplices that died meanwhile are recognised by their
  * generation and dropped when taken. Only the owner touches its list, but for a gift to it while it
- * waits for work.
+ * waits for work. What is put last is always removed lazily.
  *
  * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). Whoever deletes a simplex takes it
  * out of the list that it is in, its own or another's; the list then needs a lock, and a directory that
@@ -80,8 +81,22 @@ public:
     this->PushGuarded({ s, generation });
   }
 
+  /** To come up when nothing else is left. */
+  void PushLast(SimplexId s, std::uint32_t generation)
+  {
+    const Guard guard(*this);
+    this->Last.push_back({ s, generation });
+  }
+
   /** Nothing is left, or nothing but what eager removal has taken out. */
   bool Empty()
+  {
+    const Guard guard(*this);
+    this->DropRemoved();
+    return this->Entries.empty() && this->Last.empty();
+  }
+  /** Nothing is left but what was put last. */
+  bool OnlyLast()
   {
     const Guard guard(*this);
     this->DropRemoved();
@@ -91,7 +106,7 @@ public:
   std::size_t Size()
   {
     const Guard guard(*this);
-    return this->Entries.size();
+    return this->Entries.size() + this->Last.size();
   }
 
   /** The last entry; with eager removal its Id may be None. The list must not have been empty. */
@@ -99,12 +114,13 @@ public:
   {
     const Guard guard(*this);
     this->DropRemoved();
-    if (this->Entries.empty())
+    std::vector<Entry>& entries = this->Entries.empty() ? this->Last : this->Entries;
+    if (entries.empty())
     {
       return { None, 0 };
     }
-    const Entry e = this->Entries.back();
-    this->Entries.pop_back();
+    const Entry e = entries.back();
+    entries.pop_back();
     return e;
   }
 
@@ -121,30 +137,19 @@ public:
 
   /**
    * Drops the entries that `isAlive` does not hold for and, if at least `fewest` remain, moves the older
-   * half of them to another list. The oldest simplices are the largest and the farthest from where the
-   * owner is at work.
+   * half of them to another list; of those put last likewise. The oldest simplices are the largest and
+   * the farthest from where the owner is at work.
    * @return how many were moved
    */
   template <typename Predicate>
   std::size_t GiveOlderHalf(PoorElementList& receiver, std::size_t fewest, Predicate&& isAlive)
   {
     std::vector<Entry> gift;
+    std::vector<Entry> giftOfLast;
     {
       const Guard guard(*this);
-      std::size_t kept = 0;
-      for (const Entry& e : this->Entries)
-      {
-        if (e.Id != None && isAlive(e))
-        {
-          this->Entries[kept++] = e;
-        }
-      }
-      this->Entries.resize(kept);
-      const std::size_t moved = kept >= fewest ? kept / 2 : 0;
-      gift.assign(
-        this->Entries.begin(), this->Entries.begin() + static_cast<std::ptrdiff_t>(moved));
-      this->Entries.erase(
-        this->Entries.begin(), this->Entries.begin() + static_cast<std::ptrdiff_t>(moved));
+      gift = TakeOlderHalf(this->Entries, fewest, isAlive);
+      giftOfLast = TakeOlderHalf(this->Last, fewest, isAlive);
       this->NoteAll();
     }
     const Guard guard(receiver);
@@ -152,7 +157,8 @@ public:
     {
       receiver.PushGuarded(e);
     }
-    return gift.size();
+    receiver.Last.insert(receiver.Last.end(), giftOfLast.begin(), giftOfLast.end());
+    return gift.size() + giftOfLast.size();
   }
 
 private:
@@ -182,6 +188,20 @@ private:
     std::atomic_flag* Lock;
   };
 
+  template <typename Predicate>
+  static std::vector<Entry> TakeOlderHalf(
+    std::vector<Entry>& entries, std::size_t fewest, Predicate&& isAlive)
+  {
+    const auto dead = std::remove_if(entries.begin(), entries.end(),
+      [&isAlive](const Entry& e) { return e.Id == None || !isAlive(e); });
+    entries.erase(dead, entries.end());
+    const std::size_t moved = entries.size() >= fewest ? entries.size() / 2 : 0;
+    const auto end = entries.begin() + static_cast<std::ptrdiff_t>(moved);
+    std::vector<Entry> taken(entries.begin(), end);
+    entries.erase(entries.begin(), end);
+    return taken;
+  }
+
   void PushGuarded(const Entry& e)
   {
     this->Entries.push_back(e);
@@ -207,6 +227,7 @@ private:
   }
 
   std::vector<Entry> Entries;
+  std::vector<Entry> Last; ///< these come up when Entries is empty
   Directory* Where = nullptr;
   std::uint32_t Number = 0;
   std::atomic_flag Busy;

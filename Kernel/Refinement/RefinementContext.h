@@ -14,8 +14,10 @@
 #include "Parallel/CacheLine.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/PoorElementList.h"
+#include "Refinement/RuleOptions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -25,6 +27,9 @@ namespace voxplex
 /** Points closer than this fraction of delta to a vertex are never inserted. */
 inline constexpr double SpacingFloorFraction = 0.1;
 
+/** Feature points nearer to a flat end than this, in delta, are moved onto it. */
+inline constexpr double EndMargin = 0.8;
+
 /** Parameters of the rules, in the unit of length of the mesher's frame. */
 template <int D>
 struct RefinementSettings
@@ -33,6 +38,8 @@ struct RefinementSettings
   double RadiusEdgeRatio = 2.0; ///< rho-bar
   double FacetAngle = 30.0;     ///< degrees
   const SizeFunction<D>* Size = nullptr;
+  RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
+  SliverOptions Slivers;                        ///< 4D only
 };
 
 /** Shared by all threads. */
@@ -44,6 +51,7 @@ struct RefinementContext
     : Image(image)
     , Settings(settings)
     , SpacingFloor(SpacingFloorFraction * settings.Delta)
+    , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
     , Mesh(box)
     , Features(box.Min, settings.Delta, expectedFeatures)
   {
@@ -82,9 +90,32 @@ struct RefinementContext
     return delta;
   }
 
+  /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */
+  double NearestFlatEnd(double time) const
+  {
+    constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
+    const Box<D>& box = this->Mesh.GetBox();
+    if (this->IsFlatEnd[0] && (!this->IsFlatEnd[1] || time - box.Min[Time] <= box.Max[Time] - time))
+    {
+      return box.Min[Time];
+    }
+    return this->IsFlatEnd[1] ? box.Max[Time] : std::numeric_limits<double>::infinity();
+  }
+
+  /** Whether z is too near to a flat end to be a feature vertex, and its projection there. */
+  bool IsNearEnd(const Point<D>& z, double delta, Point<D>& onEnd) const
+  {
+    constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
+    onEnd = z;
+    onEnd[Time] = this->NearestFlatEnd(z[Time]);
+    const double distance = std::abs(z[Time] - onEnd[Time]);
+    return distance > 0.0 && distance < EndMargin * delta;
+  }
+
   const Domain<D>& Image;
   const RefinementSettings<D> Settings;
   const double SpacingFloor;
+  const std::array<bool, 2> IsFlatEnd; ///< Domain::IsFlatEnd; the box ends there
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
 };

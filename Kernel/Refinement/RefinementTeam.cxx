@@ -93,8 +93,13 @@ void RefinementTeam::Run(const std::function<void(unsigned threads)>& prepare,
   {
     const unsigned number = std::max(1u, static_cast<unsigned>(threads.size()) + first);
     this->Placement.Group.resize(number);
-    this->Manager = MakeContentionManager(this->Options.Contention, number);
-    this->Balancer = MakeLoadBalancer(this->Options.Balance, this->Placement);
+    if (this->Options.FineGrained)
+    {
+      this->Desk = std::make_unique<HelpDesk>(number);
+    }
+    this->Manager = MakeContentionManager(
+      this->Options.Contention, number, this->Desk.get(), this->Options.SuccessesToWake);
+    this->Balancer = MakeLoadBalancer(this->Options.Balance, this->Placement, this->Desk.get());
     prepare(number);
   }
   catch (...)

@@ -7,6 +7,7 @@
 #ifndef voxplex_RefinementTeam_h
 #define voxplex_RefinementTeam_h
 
+#include "Parallel/HelpDesk.h"
 #include "Parallel/Topology.h"
 #include "Refinement/ContentionManager.h"
 #include "Refinement/LoadBalancer.h"
@@ -25,12 +26,16 @@ struct TeamOptions
 {
   unsigned Threads = 1;
   ContentionPolicy Contention = ContentionPolicy::Local;
+  /** Global and local: after how many successes in a row a thread wakes one that waits. */
+  unsigned SuccessesToWake = 10;
   BalancePolicy Balance = BalancePolicy::Hierarchical;
   bool Pin = false;
   /** Run the code for several threads with one thread too: tells what its locks and clocks cost. */
   bool Synchronise = false;
   /** Take simplices out of the lists of poor elements when they die, not when they come up. */
   bool RemoveEagerly = false;
+  /** Let threads that wait help with the insertions of others (thesis, section 4.6.2). */
+  bool FineGrained = false;
   /** Lattice nodes a thread, about, from which interfaces are sampled before the start; 0 for none. */
   unsigned SeedsPerThread = 128;
 };
@@ -65,6 +70,8 @@ public:
   const Topology& Places() const { return this->Placement; }
   ContentionManager& Contention() { return *this->Manager; }
   LoadBalancer& Balance() { return *this->Balancer; }
+  /** Null unless FineGrained. */
+  HelpDesk* Help() const { return this->Desk.get(); }
 
 private:
   void RunGuarded(unsigned thread, const std::function<void(unsigned thread)>& task);
@@ -73,6 +80,7 @@ private:
   const TeamOptions Options;
   Topology Placement;
   std::atomic<bool> StopFlag{ false };
+  std::unique_ptr<HelpDesk> Desk; ///< before those who refer to it
   std::unique_ptr<ContentionManager> Manager;
   std::unique_ptr<LoadBalancer> Balancer;
   std::mutex ErrorMutex;

@@ -31,6 +31,7 @@ namespace voxplex
  * Refinement by several threads is speculative (section 3.2): a thread takes the vertices of what it is
  * about to change one by one; if one is another's, it gives up, gives back what it took, and asks the
  * contention manager what to do. A thread without work waits until the load balancer brings some.
+ * With TeamOptions::FineGrained threads that wait help those that insert points (HelpDesk).
  * One thread takes no locks and gives a mesh that is the same bit for bit in every run.
  */
 template <typename Rules>
@@ -119,11 +120,13 @@ public:
         statistics.LoadBalanceSeconds = this->Seconds(this->Overheads[t]->LoadBalance);
         statistics.RollbackSeconds = this->Seconds(this->Overheads[t]->Rollback);
       }
-      const RuleStatistics& rules = this->Workers[t]->Statistics;
-      for (const std::uint64_t fired : rules.Fired)
+      if (const HelpDesk* desk = this->Team.Help())
       {
-        statistics.Insertions += fired;
+        statistics.HelpedLoops = desk->GetCounts(static_cast<unsigned>(t)).Loops;
+        statistics.HelpedIterations = desk->GetCounts(static_cast<unsigned>(t)).Iterations;
       }
+      const RuleStatistics& rules = this->Workers[t]->Statistics;
+      statistics.Insertions = rules.Insertions();
       statistics.Removals = rules.Removed;
       statistics.Hardware = this->Hardware[t];
       threads.push_back(statistics);
@@ -143,9 +146,10 @@ private:
 
   /**
    * A thread gives its vertices back when it owns so many, not after every turn: elements that follow each
-   * other in its list mostly share vertices, and taking them is what locks cost.
+   * other in its list mostly share vertices, and taking them is what locks cost. In 4D, where operations are
+   * ten times as large, what is kept is in others' way, and taking it costs nothing by comparison.
    */
-  static constexpr std::size_t MostKept = 128;
+  static constexpr std::size_t MostKept = D == 3 ? 128 : 1;
 
   /** Where a thread's time went that was not spent on refining. */
   struct alignas(CacheLineSize) Overhead
@@ -185,6 +189,10 @@ private:
     {
       this->RemoveEagerly();
     }
+    if (this->Options.FineGrained)
+    {
+      this->HelpEachOther();
+    }
     const std::vector<SimplexId> simplices = SeedTriangulation(
       this->Context, *this->Workers[0], std::size_t{ this->Options.SeedsPerThread } * threads);
     for (std::size_t t = 0; t < threads; ++t)
@@ -204,6 +212,17 @@ private:
       worker.Eager = &this->Eager;
       worker.Number = t;
       worker.Poor.RemoveEagerly(this->Eager.Directory, t);
+    }
+  }
+
+  void HelpEachOther()
+  {
+    for (const auto& worker : this->Workers)
+    {
+      worker->Kernel.Help.Desk = this->Team.Help();
+      worker->Kernel.Help.Number = static_cast<unsigned>(this->Helpers.size());
+      worker->Kernel.Help.Team = &this->Helpers;
+      this->Helpers.push_back(&worker->Kernel);
     }
   }
 
@@ -410,6 +429,7 @@ private:
   RefinementTeam Team;
   EagerRemoval Eager;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
+  std::vector<typename Triangulation<D>::Worker*> Helpers; ///< of all threads, if fine-grained
   std::vector<std::unique_ptr<Overhead>> Overheads;
   std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end
   double SecondsToSeed = 0.0;

@@ -34,24 +34,16 @@
 #ifndef voxplex_Rules3D_h
 #define voxplex_Rules3D_h
 
-#include "Refinement/RefinementContext.h"
+#include "Refinement/RuleVocabulary.h"
 
 namespace voxplex
 {
 
-/**
- * @brief Screens new tetrahedra and refines poor ones. Holds no state of its own but references;
- * one instance per thread.
- */
-class Rules3D
+/** @brief Screens new tetrahedra and refines poor ones. */
+class Rules3D : public RuleVocabulary<3, Rules3D>
 {
 public:
-  static constexpr int Dimension = 3;
-
   Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker);
-
-  /** After every operation: pushes the new simplices that may be poor, by cheap bounds alone. */
-  void ScreenCreated();
 
   /**
    * Applies the first rule that t violates and that can be applied. The worker owns the vertices of t,
@@ -59,47 +51,16 @@ public:
    */
   Verdict Refine(SimplexId t);
 
-  /** Tries the last of the worker's pending removals again. */
-  Verdict RemovePending();
-
 private:
-  /** What the rules know of the tetrahedron under evaluation. */
-  struct Element
-  {
-    SimplexId Id;
-    Circumball<3> Ball;
-    double Radius;
-    LabelId Label; ///< of c(t)
-  };
+  friend RuleVocabulary;
+  /** R6 removes free vertices nearer than this times Delta(z). */
+  static constexpr double RemovalRadius = 2.0;
 
   bool MayBePoor(SimplexId t);
-  LabelId LabelOf(SimplexId t);
-  LabelId LabelOf(SimplexId t, const Point<3>& centre);
-  double ShortestEdge(SimplexId t) const;
-
-  bool IsSampled(const Element& t) const;
-  Verdict R1(const Element& t, const Point<3>& z, double delta);
-  Verdict R2(const Element& t, double delta);
   Verdict R3(const Element& t);
-  Verdict R4(const Element& t);
-  Verdict R5(const Element& t);
-  void R6(VertexId z, double delta);
-  void FindVerticesToRemove(VertexId z, double radius);
-  double DeltaBehind(const Element& t, const Point<3>& z) const;
-
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
-  bool OwnFeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
-  bool FeatureVertexNear(const Element& t, const Point<3>& z, double distance) const;
-  Verdict InsertCircumcentre(const Element& t, std::uint64_t& fired);
-  Verdict InsertFeature(const Point<3>& z, double delta, double clearance, SimplexId seed,
-    SimplexId otherSeed, std::uint64_t& fired);
-  Verdict CountOutcome(InsertionOutcome outcome, std::uint64_t& fired);
-  RemovalOutcome Remove(VertexId v);
 
-  RefinementContext<3>& Context;
-  RefinementWorker<3>& Worker;
   const double CosineOfFacetAngle;
-  std::vector<VertexId> ToRemove; ///< scratch of R6
 };
 
 } // namespace voxplex

@@ -20,7 +20,7 @@ namespace voxplex
 
 /**
  * Feature points closest to the nodes of a coarse lattice over the domain, no two nearer than delta: points
- * that R1 might insert as well, so nothing that the rules promise changes.
+ * that R1 might insert as well, so nothing that the rules promise changes. None near flat ends.
  *
  * @param number about how many nodes; fewer where these would be nearer than a few delta; 0 for none
  */
@@ -61,8 +61,10 @@ std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std:
       rest /= nodes[a];
     }
     Point<D> z;
+    Point<D> onEnd;
     if (context.Image.DistanceBounds(p).Lower < spacing &&
-      context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z))
+      context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z) &&
+      !context.IsNearEnd(z, context.Settings.Delta, onEnd))
     {
       sample.push_back(z);
     }

@@ -13,46 +13,51 @@ namespace voxplex::checks
 {
 
 /** A ball of label 5 in background: exact answers, no image. */
-class BallDomain : public Domain<3>
+template <int D>
+class BallDomainOf : public Domain<D>
 {
 public:
-  explicit BallDomain(double radius)
+  explicit BallDomainOf(double radius)
     : R(radius)
   {
   }
-  Box<3> Bounds() const override
+  Box<D> Bounds() const override
   {
-    return { { -this->R, -this->R, -this->R }, { this->R, this->R, this->R } };
+    Box<D> box;
+    box.Min.fill(-this->R);
+    box.Max.fill(this->R);
+    return box;
   }
-  LabelId Label(const Point<3>& p) const override { return Norm(p) < this->R ? 1 : 0; }
+  LabelId Label(const Point<D>& p) const override { return Norm(p) < this->R ? 1 : 0; }
   std::int64_t LabelValue(LabelId id) const override { return id == 1 ? 5 : 0; }
-  DistanceInterval DistanceBounds(const Point<3>& p) const override
+  DistanceInterval DistanceBounds(const Point<D>& p) const override
   {
     const double d = std::abs(Norm(p) - this->R);
     return { std::max(0.0, d - this->Slack), d + this->Slack };
   }
-  bool ClosestSurfacePoint(const Point<3>& p, LabelId, Point<3>& z) const override
+  bool ClosestSurfacePoint(const Point<D>& p, LabelId, Point<D>& z) const override
   {
     const double norm = Norm(p);
     if (norm == 0.0)
     {
-      z = { this->R, 0.0, 0.0 };
+      z.fill(0.0);
+      z[0] = this->R;
       return true;
     }
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < z.size(); ++i)
     {
       z[i] = p[i] * this->R / norm;
     }
     return true;
   }
-  bool NearSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
+  bool NearSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z, double& error) const override
   {
     error = 0.0;
     return this->ClosestSurfacePoint(p, label, z);
   }
-  bool FirstCrossing(const Point<3>& a, LabelId, const Point<3>& b, Point<3>& z) const override
+  bool FirstCrossing(const Point<D>& a, LabelId, const Point<D>& b, Point<D>& z) const override
   {
-    const Point<3> d = Subtract(b, a);
+    const Point<D> d = Subtract(b, a);
     const double qa = Dot(d, d);
     const double qb = Dot(a, d);
     const double qc = Dot(a, a) - this->R * this->R;
@@ -67,17 +72,20 @@ public:
     }
     return false;
   }
-  static double Norm(const Point<3>& p) { return std::sqrt(Dot(p, p)); }
+  static double Norm(const Point<D>& p) { return std::sqrt(Dot(p, p)); }
 
   double R;
   double Slack = 0.05;
 };
 
+using BallDomain = BallDomainOf<3>;
+
 /** The box in which the mesher would refine a ball. */
-inline Box<3> Around(const BallDomain& ball, double delta)
+template <int D>
+Box<D> Around(const BallDomainOf<D>& ball, double delta)
 {
-  Box<3> box = ball.Bounds();
-  for (std::size_t a = 0; a < 3; ++a)
+  Box<D> box = ball.Bounds();
+  for (std::size_t a = 0; a < box.Min.size(); ++a)
   {
     box.Min[a] -= 2.0 * delta;
     box.Max[a] += 2.0 * delta;

@@ -12,21 +12,24 @@
 namespace voxplex
 {
 
-class CallableSize final : public SizeFunction<3>
+template <int D>
+class CallableSizeOf final : public SizeFunction<D>
 {
 public:
-  explicit CallableSize(std::function<double(const Point<3>&, std::int64_t)> f)
+  explicit CallableSizeOf(std::function<double(const Point<D>&, std::int64_t)> f)
     : F(std::move(f))
   {
   }
-  double Evaluate(const Point<3>& p, std::int64_t label) const override
+  double Evaluate(const Point<D>& p, std::int64_t label) const override
   {
     return this->F(p, label);
   }
 
 private:
-  std::function<double(const Point<3>&, std::int64_t)> F;
+  std::function<double(const Point<D>&, std::int64_t)> F;
 };
+
+using CallableSize = CallableSizeOf<3>;
 
 } // namespace voxplex
 

@@ -7,11 +7,14 @@
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace voxplex::checks
@@ -22,16 +25,61 @@ inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-inline double Volume(const SimplexMesh<3>& mesh, std::size_t t)
+/** Rows and columns. */
+template <std::size_t N>
+double Determinant(std::array<std::array<double, N>, N> m)
 {
-  const auto& v = mesh.Simplices[t];
-  const Point<3>& o = mesh.Points[v[0]];
-  return Dot(Cross(Subtract(mesh.Points[v[1]], o), Subtract(mesh.Points[v[2]], o)),
-           Subtract(mesh.Points[v[3]], o)) /
-    6.0;
+  double determinant = 1.0;
+  for (std::size_t c = 0; c < N; ++c)
+  {
+    std::size_t pivot = c;
+    for (std::size_t r = c + 1; r < N; ++r)
+    {
+      pivot = std::abs(m[r][c]) > std::abs(m[pivot][c]) ? r : pivot;
+    }
+    if (m[pivot][c] == 0.0)
+    {
+      return 0.0;
+    }
+    if (pivot != c)
+    {
+      std::swap(m[c], m[pivot]);
+      determinant = -determinant;
+    }
+    determinant *= m[c][c];
+    for (std::size_t r = c + 1; r < N; ++r)
+    {
+      const double f = m[r][c] / m[c][c];
+      for (std::size_t k = c; k < N; ++k)
+      {
+        m[r][k] -= f * m[c][k];
+      }
+    }
+  }
+  return determinant;
 }
 
-inline std::map<std::int64_t, double> Volumes(const SimplexMesh<3>& mesh)
+/** The vectors from the first point of a simplex to the others. */
+template <int D>
+std::array<Point<D>, static_cast<std::size_t>(D)> Edges(const SimplexMesh<D>& mesh, std::size_t t)
+{
+  std::array<Point<D>, static_cast<std::size_t>(D)> edges;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    edges[i] = Subtract(mesh.Points[mesh.Simplices[t][i + 1]], mesh.Points[mesh.Simplices[t][0]]);
+  }
+  return edges;
+}
+
+/** Of D dimensions; negative for inverted simplices. */
+template <int D>
+double Volume(const SimplexMesh<D>& mesh, std::size_t t)
+{
+  return Determinant(Edges(mesh, t)) / (D == 3 ? 6.0 : 24.0);
+}
+
+template <int D>
+std::map<std::int64_t, double> Volumes(const SimplexMesh<D>& mesh)
 {
   std::map<std::int64_t, double> volumes;
   for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
@@ -41,36 +89,45 @@ inline std::map<std::int64_t, double> Volumes(const SimplexMesh<3>& mesh)
   return volumes;
 }
 
-inline double Circumradius(const SimplexMesh<3>& mesh, std::size_t t)
+/** By Cramer's rule: the centre is as far from the first point as from each other one. */
+template <int D>
+double Circumradius(const SimplexMesh<D>& mesh, std::size_t t)
 {
-  const auto& v = mesh.Simplices[t];
-  const Point<3>& o = mesh.Points[v[0]];
-  const Point<3> a = Subtract(mesh.Points[v[1]], o);
-  const Point<3> b = Subtract(mesh.Points[v[2]], o);
-  const Point<3> c = Subtract(mesh.Points[v[3]], o);
-  const Point<3> bc = Cross(b, c);
-  const Point<3> ca = Cross(c, a);
-  const Point<3> ab = Cross(a, b);
-  Point<3> n;
-  for (std::size_t k = 0; k < 3; ++k)
+  const auto edges = Edges(mesh, t);
+  const double determinant = Determinant(edges);
+  double radius2 = 0.0;
+  for (std::size_t c = 0; c < edges.size(); ++c)
   {
-    n[k] = Dot(a, a) * bc[k] + Dot(b, b) * ca[k] + Dot(c, c) * ab[k];
+    auto replaced = edges;
+    for (std::size_t r = 0; r < edges.size(); ++r)
+    {
+      replaced[r][c] = 0.5 * Dot(edges[r], edges[r]);
+    }
+    const double x = Determinant(replaced) / determinant;
+    radius2 += x * x;
   }
-  return std::sqrt(Dot(n, n)) / (2.0 * std::abs(Dot(a, bc)));
+  return std::sqrt(radius2);
 }
 
-inline double RadiusEdge(const SimplexMesh<3>& mesh, std::size_t t)
+template <int D>
+double ShortestEdge(const SimplexMesh<D>& mesh, std::size_t t)
 {
   double shortest = std::numeric_limits<double>::infinity();
-  for (unsigned i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i)
   {
-    for (unsigned j = 0; j < i; ++j)
+    for (std::size_t j = 0; j < i; ++j)
     {
       shortest = std::min(
         shortest, Distance(mesh.Points[mesh.Simplices[t][i]], mesh.Points[mesh.Simplices[t][j]]));
     }
   }
-  return Circumradius(mesh, t) / shortest;
+  return shortest;
+}
+
+template <int D>
+double RadiusEdge(const SimplexMesh<D>& mesh, std::size_t t)
+{
+  return Circumradius(mesh, t) / ShortestEdge(mesh, t);
 }
 
 /** Degrees. */
@@ -88,12 +145,66 @@ inline double SmallestAngle(const SimplexMesh<3>& mesh, const std::array<std::ui
   return smallest;
 }
 
+/** Whether a simplex has the first label of a facet, which is the one behind it. */
+template <int D>
+bool IsFirstLabel(const SimplexMesh<D>& mesh, std::size_t facet, std::size_t t)
+{
+  return mesh.Labels[t] == mesh.FacetLabels[facet][0];
+}
+
+/** Whether a tetrahedron lies on the side of a facet that its right-hand normal points away from. */
+inline bool IsBehind(const SimplexMesh<3>& mesh, std::size_t facet, std::size_t t)
+{
+  const auto& f = mesh.Facets[facet];
+  const Point<3>& origin = mesh.Points[f[0]];
+  const Point<3> normal =
+    Cross(Subtract(mesh.Points[f[1]], origin), Subtract(mesh.Points[f[2]], origin));
+  double side = 0.0; // the facet's own vertices add nothing
+  for (const std::uint32_t v : mesh.Simplices[t])
+  {
+    const bool own = std::find(f.begin(), f.end(), v) != f.end();
+    side += own ? 0.0 : Dot(normal, Subtract(mesh.Points[v], origin));
+  }
+  return side < 0.0;
+}
+
+/** A face of a facet: an edge in 3D, a triangle in 4D. */
+template <int D>
+using Ridge = std::array<std::uint32_t, static_cast<std::size_t>(D) - 1>;
+
+/** How many interface facets of each label, background included, have each ridge. */
+template <int D>
+std::map<std::int64_t, std::map<Ridge<D>, int>> RidgesOfBoundaries(const SimplexMesh<D>& mesh)
+{
+  std::map<std::int64_t, std::map<Ridge<D>, int>> ridges;
+  for (std::size_t k = 0; k < mesh.Facets.size(); ++k)
+  {
+    auto f = mesh.Facets[k];
+    std::sort(f.begin(), f.end());
+    for (std::size_t i = 0; i < f.size(); ++i)
+    {
+      Ridge<D> ridge;
+      for (std::size_t j = 0; j < ridge.size(); ++j)
+      {
+        ridge[j] = f[j < i ? j : j + 1];
+      }
+      for (const std::int64_t label : mesh.FacetLabels[k])
+      {
+        ++ridges[label][ridge];
+      }
+    }
+  }
+  return ridges;
+}
+
 /**
  * What is wrong with a mesh, empty if nothing: orientation, use of points, conformity, interfaces
- * against the simplices beside them, closedness of every label's boundary, winding of the facets.
+ * against the simplices beside them, closedness of every label's boundary, winding of the facets in 3D.
  */
-inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
+template <int D>
+std::vector<std::string> Complaints(const SimplexMesh<D>& mesh)
 {
+  constexpr std::size_t N = static_cast<std::size_t>(D);
   std::vector<std::string> complaints;
   const auto complain = [&](const std::string& text)
   {
@@ -102,7 +213,7 @@ inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
       complaints.push_back(text);
     }
   };
-  using Facet = std::array<std::uint32_t, 3>;
+  using Facet = std::array<std::uint32_t, N>;
   std::map<Facet, std::vector<std::size_t>> sides;
   std::vector<char> used(mesh.Points.size(), 0);
   if (mesh.Labels.size() != mesh.Simplices.size() || mesh.Facets.size() != mesh.FacetLabels.size())
@@ -114,17 +225,21 @@ inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
   {
     if (!(Volume(mesh, t) > 0.0))
     {
-      complain("inverted tetrahedron");
+      complain("inverted simplex");
     }
     if (mesh.Labels[t] == 0)
     {
-      complain("tetrahedron of background");
+      complain("simplex of background");
     }
     const auto& v = mesh.Simplices[t];
-    for (unsigned i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i <= N; ++i)
     {
       used[v[i]] = 1;
-      Facet f = { v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4] };
+      Facet f;
+      for (std::size_t k = 0; k < N; ++k)
+      {
+        f[k] = v[(i + 1 + k) % (N + 1)];
+      }
       std::sort(f.begin(), f.end());
       sides[f].push_back(t);
     }
@@ -133,7 +248,7 @@ inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
   {
     complain("unused points");
   }
-  if (std::set<Point<3>>(mesh.Points.begin(), mesh.Points.end()).size() != mesh.Points.size())
+  if (std::set<Point<D>>(mesh.Points.begin(), mesh.Points.end()).size() != mesh.Points.size())
   {
     complain("double points");
   }
@@ -143,7 +258,7 @@ inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
   {
     if (ts.size() > 2)
     {
-      complain("facet of more than two tetrahedra");
+      complain("facet of more than two simplices");
     }
     const std::int64_t a = mesh.Labels[ts[0]];
     const std::int64_t b = ts.size() == 2 ? mesh.Labels[ts[1]] : 0;
@@ -156,44 +271,29 @@ inline std::vector<std::string> Complaints(const SimplexMesh<3>& mesh)
   {
     complain("number of interface facets");
   }
-  std::map<std::int64_t, std::map<std::array<std::uint32_t, 2>, int>> edges;
   for (std::size_t k = 0; k < mesh.Facets.size(); ++k)
   {
     Facet f = mesh.Facets[k];
-    const Point<3> normal = Cross(Subtract(mesh.Points[f[1]], mesh.Points[f[0]]),
-      Subtract(mesh.Points[f[2]], mesh.Points[f[0]]));
     std::sort(f.begin(), f.end());
     const auto it = expected.find(f);
     if (it == expected.end() || it->second != mesh.FacetLabels[k])
     {
       complain("labels of an interface facet");
-      continue;
     }
-    for (const std::size_t t : sides[f])
+    else if constexpr (D == 3)
     {
-      for (const std::uint32_t v : mesh.Simplices[t])
+      for (const std::size_t t : sides[f])
       {
-        if (v != f[0] && v != f[1] && v != f[2])
+        if (IsFirstLabel(mesh, k, t) != IsBehind(mesh, k, t))
         {
-          const double side = Dot(normal, Subtract(mesh.Points[v], mesh.Points[f[0]]));
-          if ((mesh.Labels[t] == mesh.FacetLabels[k][0]) != (side < 0.0))
-          {
-            complain("winding of an interface facet");
-          }
+          complain("winding of an interface facet");
         }
       }
     }
-    for (const std::int64_t label : mesh.FacetLabels[k])
-    {
-      for (unsigned i = 0; i < 3; ++i)
-      {
-        ++edges[label][{ f[i == 0 ? 1u : 0u], f[i == 2 ? 1u : 2u] }];
-      }
-    }
   }
-  for (const auto& [label, counts] : edges)
+  for (const auto& [label, counts] : RidgesOfBoundaries(mesh))
   {
-    for (const auto& [edge, count] : counts)
+    for (const auto& [ridge, count] : counts)
     {
       if (count % 2 != 0)
       {

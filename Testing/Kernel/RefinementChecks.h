@@ -36,17 +36,20 @@ inline SimplexMesh<3> ExtractSphere(const RefinementContext<3>& context, const B
   return mesh;
 }
 
-/** Every rule of the thesis' section 3.1, stated anew, on every tetrahedron. */
-inline void ExpectNoRuleApplies(const RefinementContext<3>& context, const BallDomain& ball)
+/** Every rule of the thesis' section 3.1 (3D) or 4.2 (4D, but for slivers), stated anew, on every
+ * simplex. */
+template <int D>
+void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf<D>& ball)
 {
-  const Triangulation<3>& mesh = context.Mesh;
-  std::vector<Point<3>> features;
+  using Ball = BallDomainOf<D>;
+  const Triangulation<D>& mesh = context.Mesh;
+  std::vector<Point<D>> features;
   for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
   {
     if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind == VertexKind::Feature)
     {
       features.push_back(mesh.Position(v));
-      ASSERT_NEAR(BallDomain::Norm(mesh.Position(v)), ball.R, 1e-9) << "feature vertex off dOmega";
+      ASSERT_NEAR(Ball::Norm(mesh.Position(v)), ball.R, 1e-9) << "feature vertex off dOmega";
     }
   }
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -62,23 +65,23 @@ inline void ExpectNoRuleApplies(const RefinementContext<3>& context, const BallD
     {
       continue;
     }
-    const Circumball<3> c = mesh.GetCircumball(s);
+    const Circumball<D> c = mesh.GetCircumball(s);
     const double radius = std::sqrt(c.Radius2);
-    const double distance = std::abs(BallDomain::Norm(c.Center) - ball.R);
+    const double distance = std::abs(Ball::Norm(c.Center) - ball.R);
     const bool inside = ball.Label(c.Center) != 0;
     if (distance < radius * (1.0 - 1e-9))
     {
-      Point<3> z;
+      Point<D> z;
       ball.ClosestSurfacePoint(c.Center, 0, z);
       const double local = context.Delta(z, 1, 0);
       ASSERT_TRUE(std::any_of(features.begin(), features.end(),
-        [&](const Point<3>& f) { return Distance(f, z) < local; }))
+        [&](const Point<D>& f) { return Distance(f, z) < local; }))
         << "R1";
       ASSERT_LT(radius, 2.0 * local) << "R2";
     }
     const auto& v = mesh.GetSimplex(s).V;
     double shortest = 1e300;
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i < v.size(); ++i)
     {
       for (unsigned j = 0; j < i; ++j)
       {
@@ -87,22 +90,25 @@ inline void ExpectNoRuleApplies(const RefinementContext<3>& context, const BallD
       const SimplexId n = mesh.GetSimplex(s).N[i];
       if (n != None && inside && ball.Label(mesh.GetCircumball(n).Center) == 0)
       {
-        SimplexMesh<3> facet;
-        for (unsigned j = 0; j < 4; ++j)
+        SimplexMesh<D> facet;
+        for (unsigned j = 0; j < v.size(); ++j)
         {
           if (j != i)
           {
-            ASSERT_EQ(mesh.GetVertex(v[j]).Kind, VertexKind::Feature) << "R3";
+            ASSERT_EQ(mesh.GetVertex(v[j]).Kind, VertexKind::Feature) << "facets";
             facet.Points.push_back(mesh.Position(v[j]));
           }
         }
-        ASSERT_GE(SmallestAngle(facet, { 0, 1, 2 }), 30.0 - 1e-6) << "R3";
+        if constexpr (D == 3)
+        {
+          ASSERT_GE(SmallestAngle(facet, { 0, 1, 2 }), 30.0 - 1e-6) << "facet angles";
+        }
       }
     }
     if (inside)
     {
-      ASSERT_LT(radius / shortest, context.Settings.RadiusEdgeRatio) << "R4";
-      ASSERT_LT(radius, context.Size(c.Center, 1)) << "R5";
+      ASSERT_LT(radius / shortest, context.Settings.RadiusEdgeRatio) << "radius-edge ratio";
+      ASSERT_LT(radius, context.Size(c.Center, 1)) << "sizes";
     }
   }
 }

@@ -18,6 +18,8 @@
 #include <new>
 #include <random>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace
 {
@@ -27,11 +29,13 @@ constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::max();
 /** Allocations until the one that fails. */
 std::atomic<std::int64_t> Countdown{ Never };
 std::atomic<std::int64_t> Allocations{ 0 };
+/** This thread's allocations neither fail nor count down. */
+thread_local bool Spared = false;
 
 void* Allocate(std::size_t size, std::size_t alignment)
 {
   Allocations.fetch_add(1, std::memory_order_relaxed);
-  if (Countdown.load(std::memory_order_relaxed) != Never &&
+  if (!Spared && Countdown.load(std::memory_order_relaxed) != Never &&
     Countdown.fetch_sub(1, std::memory_order_relaxed) == 1)
   {
     return nullptr;
@@ -239,6 +243,56 @@ TEST(Allocation, AFailedOperationLeavesTheTriangulationAsItWas)
     }
     checks::ExpectSound(t);
   }
+  EXPECT_GT(failures, 100);
+}
+
+// The same when a thread waits to help: the cavity is then collected level by level.
+TEST(Allocation, AFailedInsertionWithHelpLeavesTheTriangulationAsItWas)
+{
+  const testing::Watchdog watchdog("failures with help");
+  Triangulation<4> t(checks::UnitBox<4>(1.0));
+  Triangulation<4>::Worker helper(t, 2);
+  HelpDesk desk(2, std::numeric_limits<unsigned>::max());
+  std::atomic<bool> over{ false };
+  const std::jthread helping(
+    [&]()
+    {
+      Spared = true;
+      desk.HelpUntil(1, [&over]() { return over.load(); });
+    });
+  EXPECT_TRUE(testing::Soon([&]() { return desk.SomeoneIdle(); }));
+  std::mt19937 random(1);
+  int failures = 0;
+  for (const Point<4>& p : checks::RandomPoints<4>(40, 1.0, random))
+  {
+    Triangulation<4>::Worker alone(t);
+    const SimplexId seed = t.FindConflict(alone, p, checks::AnyAlive(t));
+    const checks::SimplexSet<4> before = checks::Simplices(t);
+    bool inserted = false;
+    for (std::int64_t n = 1; !inserted; ++n)
+    {
+      Triangulation<4>::Worker worker(t, 1);
+      std::vector<Triangulation<4>::Worker*> team = { &worker, &helper };
+      worker.Help = { &desk, 0, &team, 1, 1, 1 };
+      Countdown = n;
+      try
+      {
+        const InsertionOutcome outcome = t.Insert(worker, p, VertexKind::Free, seed);
+        Countdown = Never;
+        EXPECT_EQ(outcome, InsertionOutcome::Inserted);
+        inserted = true;
+      }
+      catch (const std::bad_alloc&)
+      {
+        Countdown = Never;
+        ++failures;
+        EXPECT_TRUE(checks::Simplices(t) == before);
+      }
+      t.Unlock(worker);
+    }
+  }
+  over = true;
+  checks::ExpectSound(t);
   EXPECT_GT(failures, 100);
 }
 

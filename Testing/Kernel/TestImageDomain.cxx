@@ -107,6 +107,7 @@ std::vector<Point<D>> SampleInterfaces(
     {
       x += std::uniform_real_distribution<double>(-step, step)(random);
     }
+    b = domain.Bounds().Clamp(b); // beyond a flat end there are no interfaces
     const LabelId label = domain.Label(a);
     if (label == domain.Label(b))
     {
@@ -224,15 +225,17 @@ void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
     const LabelId label = domain.Label(p);
     Point<D> z;
     ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
-    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)));
+    // At the tip of something thin random points hardly ever meet it: there the margin tells, by the tolerance
+    // of root finding.
+    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)) ||
+      std::abs(domain.GetLabelField().Margin(z, label)) < 0.005);
     const double more = Distance(p, z) - NearestSample<D>(samples, p);
     // The quick estimate: next to an interface too, by the samples' own spacing.
     Point<D> quick;
     double error;
     ASSERT_TRUE(domain.NearSurfacePoint(p, label, quick, error));
     ASSERT_LE(error, 0.25 * diagonal);
-    off +=
-      (NearestSample<D>(samples, quick) - NearestSample<D>(samples, z)) / (diagonal * queries);
+    off += (NearestSample<D>(samples, quick) - NearestSample<D>(samples, z)) / (diagonal * queries);
     ASSERT_LT(more, 2.5 * diagonal); // a rare point; the mean below is what counts
     excess += std::max(0.0, more) / queries;
   }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace
@@ -188,9 +189,14 @@ TEST(SimplexQuality, PlanarAngles)
 TEST(MeshQuality, EmptyMesh)
 {
   const MeshQuality quality = MeasureQuality<3>(SimplexMesh<3>(), 2.0, 30.0, 1);
-  EXPECT_TRUE(std::isnan(quality.MaximumRadiusEdgeRatio));
-  EXPECT_TRUE(std::isnan(quality.MinimumDihedralAngle));
-  EXPECT_TRUE(std::isnan(quality.MinimumFacetAngle));
+  for (const double figure :
+    { quality.ShortestEdge, quality.MaximumRadiusEdgeRatio, quality.MeanRadiusEdgeRatio,
+      quality.RadiusEdgeRatioDeviation, quality.MeanNormalizedVolume,
+      quality.NormalizedVolumeDeviation, quality.MinimumDihedralAngle, quality.MinimumFacetAngle })
+  {
+    EXPECT_TRUE(std::isnan(figure));
+  }
+  EXPECT_EQ(std::count(quality.NormalizedVolumes.begin(), quality.NormalizedVolumes.end(), 0U), 20);
   EXPECT_EQ(quality.InvertedSimplices, 0U);
   EXPECT_TRUE(quality.Labels.empty());
 }
@@ -236,6 +242,97 @@ TEST(MeshQuality, CountsElements)
   EXPECT_EQ(quality.MaximumRadiusEdgeRatio, std::numeric_limits<double>::infinity());
   EXPECT_EQ(quality.MinimumNormalizedVolume, 0.0);
   EXPECT_EQ(quality.MaximumDihedralAngle, 180.0);
+}
+
+//------------------------------------------------------------------------------
+// Regular tetrahedra have normalized volume 1 and the smallest ratio; corners of a cube with edges
+// 1, 1 and h have the circumradius sqrt(2 + h^2) / 2.
+TEST(MeshQuality, MeansAndDeviations)
+{
+  SimplexMesh<3> mesh;
+  Append(mesh, RegularTetrahedron, 1);
+  MeshQuality quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_DOUBLE_EQ(quality.ShortestEdge, std::numbers::sqrt2);
+  EXPECT_NEAR(quality.MeanRadiusEdgeRatio, std::sqrt(6.0) / 4.0, 1e-14);
+  EXPECT_EQ(quality.RadiusEdgeRatioDeviation, 0.0);
+  EXPECT_EQ(quality.NormalizedVolumeDeviation, 0.0);
+  EXPECT_EQ(quality.NormalizedVolumes.back(), 1U); // 1, give or take rounding
+
+  const double heights[] = { 0.9, 0.5, 0.25 };
+  for (const double h : heights)
+  {
+    Append(mesh, { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, h } } }, 1);
+  }
+  std::vector<double> ratios = { std::sqrt(6.0) / 4.0 };
+  std::vector<double> volumes = { 1.0 };
+  for (const double h : heights)
+  {
+    const double radius = std::sqrt(2.0 + h * h) / 2.0;
+    ratios.push_back(radius / h);
+    volumes.push_back(h / 6.0 / (8.0 / (9.0 * std::numbers::sqrt3) * radius * radius * radius));
+  }
+  const auto mean = [](const std::vector<double>& x) { return (x[0] + x[1] + x[2] + x[3]) / 4.0; };
+  const auto deviation = [&mean](const std::vector<double>& x)
+  {
+    double sum = 0.0;
+    for (const double v : x)
+    {
+      sum += (v - mean(x)) * (v - mean(x)) / 4.0;
+    }
+    return std::sqrt(sum);
+  };
+  quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_DOUBLE_EQ(quality.ShortestEdge, 0.25);
+  EXPECT_NEAR(quality.MeanRadiusEdgeRatio, mean(ratios), 1e-14);
+  EXPECT_NEAR(quality.RadiusEdgeRatioDeviation, deviation(ratios), 1e-14);
+  EXPECT_NEAR(quality.MeanNormalizedVolume, mean(volumes), 1e-14);
+  EXPECT_NEAR(quality.NormalizedVolumeDeviation, deviation(volumes), 1e-14);
+
+  std::array<std::uint64_t, MeshQuality::NumberOfBins> bins{};
+  bins.back() = 1;
+  for (std::size_t i = 1; i < volumes.size(); ++i)
+  {
+    ++bins[static_cast<std::size_t>(std::floor(20.0 * volumes[i]))];
+  }
+  EXPECT_EQ(quality.NormalizedVolumes, bins);
+}
+
+// A flat element has no radius: the mean is infinite, and the deviation undefined.
+TEST(MeshQuality, FlatElements)
+{
+  SimplexMesh<3> mesh;
+  Append(mesh, RegularTetrahedron, 1);
+  Append(mesh, { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 } } }, 1);
+  Append(mesh, RegularTetrahedron, 1);
+  const MeshQuality quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_DOUBLE_EQ(quality.ShortestEdge, 1.0);
+  EXPECT_EQ(quality.MeanRadiusEdgeRatio, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(quality.RadiusEdgeRatioDeviation));
+  EXPECT_NEAR(quality.NormalizedVolumeDeviation, std::sqrt(2.0) / 3.0, 1e-14);
+  EXPECT_EQ(quality.NormalizedVolumes.front(), 1U);
+  EXPECT_EQ(quality.NormalizedVolumes.back(), 2U);
+}
+
+// Deviations that are small beside the mean survive, over more chunks than one.
+TEST(MeshQuality, DeviationsDoNotCancel)
+{
+  SimplexMesh<3> mesh;
+  const auto corner = [](double h) {
+    return Vertices<3>{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, h } } };
+  };
+  const double low = 0.5;
+  const double high = 0.5 + 1e-9;
+  for (int i = 0; i < 20000; ++i)
+  {
+    Append(mesh, corner(i < 10000 ? low : high), 1);
+  }
+  const auto ratio = [&corner](double h)
+  {
+    const Vertices<3> vertices = corner(h);
+    return RadiusEdgeRatio<3>(Pointers<3>(vertices).data());
+  };
+  const double expected = (ratio(low) - ratio(high)) / 2.0;
+  EXPECT_NEAR(MeasureQuality(mesh, 2.0, 30.0, 2).RadiusEdgeRatioDeviation / expected, 1.0, 1e-4);
 }
 
 //------------------------------------------------------------------------------
@@ -289,7 +386,15 @@ TEST(MeshQuality, DoesNotDependOnThreads)
   EXPECT_EQ(one.RadiusEdgeViolations, three.RadiusEdgeViolations);
   EXPECT_EQ(one.MinimumDihedralAngle, three.MinimumDihedralAngle);
   EXPECT_EQ(one.MaximumDihedralAngle, three.MaximumDihedralAngle);
+  EXPECT_EQ(one.ShortestEdge, three.ShortestEdge);
+  EXPECT_EQ(one.MeanRadiusEdgeRatio, three.MeanRadiusEdgeRatio);
+  EXPECT_EQ(one.RadiusEdgeRatioDeviation, three.RadiusEdgeRatioDeviation);
+  EXPECT_GT(one.RadiusEdgeRatioDeviation, 0.0);
   EXPECT_EQ(one.MeanNormalizedVolume, three.MeanNormalizedVolume);
+  EXPECT_EQ(one.NormalizedVolumeDeviation, three.NormalizedVolumeDeviation);
+  EXPECT_EQ(one.NormalizedVolumes, three.NormalizedVolumes);
+  EXPECT_EQ(
+    std::accumulate(one.NormalizedVolumes.begin(), one.NormalizedVolumes.end(), 0U), 20000U);
   EXPECT_EQ(one.InvertedSimplices, three.InvertedSimplices);
   EXPECT_EQ(one.MinimumFacetAngle, three.MinimumFacetAngle);
   EXPECT_EQ(one.FacetAngleViolations, three.FacetAngleViolations);
@@ -317,7 +422,12 @@ TEST(MeshQuality, Pentatopes)
   const MeshQuality quality = MeasureQuality(mesh, 2.0, 30.0, 1);
   EXPECT_EQ(quality.InvertedSimplices, 1U);
   EXPECT_NEAR(quality.MaximumRadiusEdgeRatio, std::sqrt(10.0) / 5.0, 1e-14);
+  EXPECT_NEAR(quality.MeanRadiusEdgeRatio, std::sqrt(10.0) / 5.0, 1e-14);
+  EXPECT_NEAR(quality.RadiusEdgeRatioDeviation, 0.0, 1e-14);
+  EXPECT_NEAR(quality.ShortestEdge, std::numbers::sqrt2, 1e-14);
   EXPECT_NEAR(quality.MinimumNormalizedVolume, 1.0, 1e-13);
+  EXPECT_NEAR(quality.MeanNormalizedVolume, 1.0, 1e-13);
+  EXPECT_EQ(quality.NormalizedVolumes.back(), 2U);
   EXPECT_TRUE(std::isnan(quality.MinimumDihedralAngle));
   EXPECT_TRUE(std::isnan(quality.MinimumFacetAngle));
   mesh.Simplices.resize(1);

@@ -7,8 +7,11 @@
 namespace voxplex
 {
 
-GlobalContentionManager::GlobalContentionManager(unsigned threads)
-  : Slots(threads)
+GlobalContentionManager::GlobalContentionManager(
+  unsigned threads, HelpDesk* desk, unsigned successesToWake)
+  : Threshold(successesToWake)
+  , Slots(threads)
+  , Desk(desk)
   , Active(threads)
 {
 }
@@ -29,7 +32,7 @@ bool GlobalContentionManager::RollbackOccurred(unsigned thread, [[maybe_unused]]
     this->Losers.Append(this->Slots, thread);
     this->SomeoneWaits.store(true, std::memory_order_relaxed);
   }
-  own.Spot.Wait();
+  WaitAndHelp(own.Spot, this->Desk, thread);
   return true;
 }
 

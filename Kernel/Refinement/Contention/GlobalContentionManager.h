@@ -8,6 +8,7 @@
 #define voxplex_GlobalContentionManager_h
 
 #include "Parallel/CacheLine.h"
+#include "Parallel/HelpDesk.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/ContentionManager.h"
@@ -36,13 +37,20 @@ namespace voxplex
  * one may lose once more, in the attempt that it had begun before; in the next it meets nobody, for
  * who waits or is idle holds no vertex. So there are at most n rollbacks, and then somebody
  * succeeds or runs out of work. The latter happens at most n times, as gifts follow successes.
+ *
+ * **Help.** None of this changes if those who wait help at a desk: see HelpDesk.
  */
 class GlobalContentionManager final : public ContentionManager
 {
 public:
-  static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis
+  static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
 
-  explicit GlobalContentionManager(unsigned threads);
+  /**
+   * @param desk where those who wait help, or null
+   * @param successesToWake after how many successes in a row a thread wakes another
+   */
+  explicit GlobalContentionManager(
+    unsigned threads, HelpDesk* desk = nullptr, unsigned successesToWake = SuccessesToWake);
 
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
 
@@ -50,7 +58,7 @@ public:
   void RollbackNotOccurred(unsigned thread) override
   {
     Slot& own = this->Slots[thread];
-    if (++own.Successes >= SuccessesToWake)
+    if (++own.Successes >= this->Threshold)
     {
       own.Successes = 0;
       // Relaxed: only a hint; who is overlooked now is seen ten successes later, or by
@@ -81,7 +89,9 @@ private:
   /** Under the mutex. */
   void WakeFirst();
 
+  const unsigned Threshold; ///< successes in a row
   std::vector<Slot> Slots;
+  HelpDesk* const Desk;
   alignas(CacheLineSize) std::atomic<bool> SomeoneWaits{ false }; ///< Losers is not empty
   alignas(CacheLineSize) std::mutex Mutex;                        ///< guards what follows
   WaitingList Losers;

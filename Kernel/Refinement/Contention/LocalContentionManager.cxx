@@ -8,8 +8,11 @@
 namespace voxplex
 {
 
-LocalContentionManager::LocalContentionManager(unsigned threads)
-  : Slots(threads)
+LocalContentionManager::LocalContentionManager(
+  unsigned threads, HelpDesk* desk, unsigned successesToWake)
+  : Threshold(successesToWake)
+  , Slots(threads)
+  , Desk(desk)
 {
 }
 
@@ -32,7 +35,7 @@ bool LocalContentionManager::RollbackOccurred(unsigned thread, unsigned winner)
     other.Losers.Append(this->Slots, thread);
     other.SomeoneWaits.store(true, std::memory_order_relaxed);
   }
-  own.Spot.Wait();
+  WaitAndHelp(own.Spot, this->Desk, thread);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #define voxplex_LocalContentionManager_h
 
 #include "Parallel/CacheLine.h"
+#include "Parallel/HelpDesk.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/ContentionManager.h"
@@ -47,15 +48,22 @@ namespace voxplex
  * out of work. The latter happens at most n times, as gifts follow successes. Hence some thread
  * succeeds again and again.
  *
+ * **Help.** None of this changes if those who wait help at a desk: see HelpDesk.
+ *
  * One thread may starve in theory, as in the thesis: while its winner never succeeds ten times in a
  * row. It goes on when the winner runs out of work.
  */
 class LocalContentionManager final : public ContentionManager
 {
 public:
-  static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis
+  static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
 
-  explicit LocalContentionManager(unsigned threads);
+  /**
+   * @param desk where those who wait help, or null
+   * @param successesToWake after how many successes in a row a thread wakes another
+   */
+  explicit LocalContentionManager(
+    unsigned threads, HelpDesk* desk = nullptr, unsigned successesToWake = SuccessesToWake);
 
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
 
@@ -63,7 +71,7 @@ public:
   void RollbackNotOccurred(unsigned thread) override
   {
     Slot& own = this->Slots[thread];
-    if (++own.Successes >= SuccessesToWake)
+    if (++own.Successes >= this->Threshold)
     {
       own.Successes = 0;
       // Relaxed: only a hint; who is overlooked now is seen ten successes later, or by
@@ -99,7 +107,9 @@ private:
 
   void WakeFirst(Slot& own);
 
+  const unsigned Threshold; ///< successes in a row
   std::vector<Slot> Slots;
+  HelpDesk* const Desk;
   std::atomic<bool> Stopped{ false };
 };
 

@@ -7,10 +7,11 @@
 namespace voxplex
 {
 
-NonBlockingContentionManager::NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit)
+NonBlockingContentionManager::NonBlockingContentionManager(
+  unsigned threads, unsigned rollbackLimit, HelpDesk* desk)
   : RollbackLimit(rollbackLimit)
   , Slots(threads)
-  , Local(threads)
+  , Local(threads, desk)
 {
 }
 

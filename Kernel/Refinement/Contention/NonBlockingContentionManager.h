@@ -45,8 +45,11 @@ public:
   bool SwitchedToLocal() const override { return this->Switched.load(std::memory_order_relaxed); }
 
 protected:
-  /** @param rollbackLimit more rollbacks in a row of one thread than this end the attempt */
-  NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit);
+  /**
+   * @param rollbackLimit more rollbacks in a row of one thread than this end the attempt
+   * @param desk where those who wait in the local manager help, or null
+   */
+  NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit, HelpDesk* desk);
 
   /**
    * What the thread does after its n-th rollback in a row.

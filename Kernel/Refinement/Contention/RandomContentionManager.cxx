@@ -7,8 +7,8 @@
 namespace voxplex
 {
 
-RandomContentionManager::RandomContentionManager(unsigned threads)
-  : NonBlockingContentionManager(threads, RollbacksBeforeSleep + SleepsToSwitch)
+RandomContentionManager::RandomContentionManager(unsigned threads, HelpDesk* desk)
+  : NonBlockingContentionManager(threads, RollbacksBeforeSleep + SleepsToSwitch, desk)
   , Slots(threads)
 {
   for (unsigned t = 0; t < threads; ++t)

@@ -22,7 +22,7 @@ namespace voxplex
  * @brief After more than RollbacksBeforeSleep rollbacks in a row a thread sleeps after each further
  * one, 1 to RollbacksBeforeSleep milliseconds, until the local manager takes over.
  *
- * The seeds depend on the threads' numbers only.
+ * Who sleeps does not help others. The seeds depend on the threads' numbers only.
  */
 class RandomContentionManager final : public NonBlockingContentionManager
 {
@@ -30,7 +30,7 @@ public:
   static constexpr unsigned RollbacksBeforeSleep = 5; ///< r+ of the thesis
   static constexpr unsigned SleepsToSwitch = 200;     ///< of one thread in a row, about 0.6 s
 
-  explicit RandomContentionManager(unsigned threads);
+  explicit RandomContentionManager(unsigned threads, HelpDesk* desk = nullptr);
 
   void Stop() override;
 

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/SurfaceVoxels.h"
+
+#include "Parallel/ParallelFor.h"
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+template <int D>
+BitMask<D> FindSurfaceVoxels(
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+{
+  using Index = typename GridGeometry<D>::Index;
+  const Index& crop = image.CropDimensions();
+  Index lattice = crop;
+  for (std::int64_t& n : lattice)
+  {
+    n += 2;
+  }
+  BitMask<D> sites(lattice);
+  const auto n = static_cast<std::size_t>(crop[0]);
+  const std::vector<LabelId> background(n, LabelId{ 0 });
+
+  // The ids of a row of the crop, by its lattice index; background outside.
+  const auto rowAt = [&](Index index)
+  {
+    ClampToCut(image, index);
+    std::int64_t at = 0;
+    for (std::size_t a = D; a-- > 1;)
+    {
+      if (index[a] < 1 || index[a] > crop[a])
+      {
+        return background.data();
+      }
+      at = at * crop[a] + index[a] - 1;
+    }
+    return image.Ids().data() + at * crop[0];
+  };
+  ParallelFor(
+    0, sites.NumberOfRows(), 64, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<LabelId> differs(n);
+      std::vector<std::uint8_t> flags(sites.WordsPerRow() * 64, std::uint8_t{ 0 });
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        Index index{};
+        std::size_t rest = row;
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          index[a] = static_cast<std::int64_t>(rest % static_cast<std::size_t>(lattice[a]));
+          rest /= static_cast<std::size_t>(lattice[a]);
+        }
+        const LabelId* own = rowAt(index);
+        std::fill(differs.begin(), differs.end(), LabelId{ 0 });
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          Index neighbour = index;
+          --neighbour[a];
+          const LabelId* low = rowAt(neighbour);
+          neighbour[a] += 2;
+          const LabelId* high = rowAt(neighbour);
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            differs[i] = static_cast<LabelId>(differs[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
+          }
+        }
+        // Along x the crop's ends have a background voxel beside them, which is a site, too.
+        differs[0] = static_cast<LabelId>(differs[0] | own[0]);
+        differs[n - 1] = static_cast<LabelId>(differs[n - 1] | own[n - 1]);
+        for (std::size_t i = 0; i + 1 < n; ++i)
+        {
+          flags[i + 1] = (differs[i] | (own[i] ^ own[i + 1])) != 0;
+        }
+        flags[n] = differs[n - 1] != 0;
+        for (std::size_t i = 1; i < n; ++i)
+        {
+          flags[i + 1] = static_cast<std::uint8_t>(flags[i + 1] | (own[i] != own[i - 1]));
+        }
+        flags[0] = own[0] != 0;
+        flags[n + 1] = own[n - 1] != 0;
+        const std::span<std::uint64_t> words = sites.Row(row);
+        for (std::size_t w = 0; w < words.size(); ++w)
+        {
+          std::uint64_t word = 0;
+          for (std::size_t byte = 0; byte < 8; ++byte)
+          {
+            std::uint64_t eight = 0;
+            std::memcpy(&eight, flags.data() + w * 64 + byte * 8, 8);
+            // Gathers the lowest bits of eight bytes (little endian) in the top byte.
+            word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
+          }
+          words[w] = word;
+        }
+      }
+    },
+    stop);
+  return sites;
+}
+
+template BitMask<3> FindSurfaceVoxels(const LabelImage<3>&, unsigned, const std::stop_token&);
+template BitMask<4> FindSurfaceVoxels(const LabelImage<4>&, unsigned, const std::stop_token&);
+
+} // namespace voxplex

@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/TimeSlice.h"
+
+#include "Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** The edge that a corner of the slice lies on, A < B; A = B for a point of the mesh at T. */
+struct Edge
+{
+  long long A;
+  long long B;
+};
+
+/** Makes the cells of one slice, their corners named by edges. */
+class Cutter
+{
+public:
+  Cutter(const SpaceTimeMesh& mesh, double time, double tolerance, bool fromAbove)
+    : Mesh(mesh)
+    , Time(time)
+    , Tolerance(tolerance)
+    , FromAbove(fromAbove)
+  {
+    this->Slice.Offsets.push_back(0);
+  }
+
+  void Cut(long long cell)
+  {
+    const auto c = static_cast<std::size_t>(cell);
+    const auto first = static_cast<std::size_t>(this->Mesh.Offsets[c]);
+    const auto last = static_cast<std::size_t>(this->Mesh.Offsets[c + 1]);
+    this->Source = cell;
+    if (last - first == 5)
+    {
+      this->CutPentatope(this->Classify<5>(this->Mesh.Connectivity.subspan(first, 5)));
+    }
+    else
+    {
+      this->CutTetrahedron(this->Classify<4>(this->Mesh.Connectivity.subspan(first, 4)));
+    }
+  }
+
+  /** Numbers the corners, and makes the points. */
+  TimeSlice Finish()
+  {
+    struct Place
+    {
+      Edge E;
+      std::size_t Corner;
+    };
+    std::vector<Place> places(this->Corners.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      places[i] = { this->Corners[i], i };
+    }
+    std::sort(places.begin(), places.end(),
+      [](const Place& p, const Place& q)
+      { return p.E.A != q.E.A ? p.E.A < q.E.A : p.E.B < q.E.B; });
+
+    this->Slice.Connectivity.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const Edge& edge = places[i].E;
+      if (i == 0 || edge.A != places[i - 1].E.A || edge.B != places[i - 1].E.B)
+      {
+        this->AddPoint(edge);
+      }
+      this->Slice.Connectivity[places[i].Corner] =
+        static_cast<long long>(this->Slice.Points.size()) - 1;
+    }
+    return std::move(this->Slice);
+  }
+
+private:
+  /** A point of a simplex. */
+  struct Corner
+  {
+    long long Id;
+    bool At; ///< it lies at T
+  };
+
+  /** The points of a simplex, those of the smaller side first. */
+  template <std::size_t N>
+  struct Sides
+  {
+    std::array<Corner, N> Points;
+    unsigned Fewer;  ///< how many are on the smaller side; 0: there is nothing to cut
+    bool FewerBelow; ///< it is the side below
+    bool Even;       ///< Points is an even permutation of the simplex's points
+
+    /** Makes the permutation even or odd; the larger side has two points at least. */
+    void Permute(bool even)
+    {
+      if (this->Even != even)
+      {
+        std::swap(this->Points[N - 1], this->Points[N - 2]);
+        this->Even = even;
+      }
+    }
+  };
+
+  double TimeOf(long long id) const { return this->Mesh.Times[static_cast<std::size_t>(id)]; }
+
+  template <std::size_t N>
+  Sides<N> Classify(std::span<const long long> ids) const
+  {
+    std::array<Corner, N> corners;
+    std::array<bool, N> below;
+    unsigned count = 0;
+    for (std::size_t i = 0; i < N; ++i)
+    {
+      const double t = this->TimeOf(ids[i]);
+      corners[i] = { ids[i], std::abs(t - this->Time) <= this->Tolerance };
+      below[i] = corners[i].At ? this->FromAbove : t < this->Time;
+      count += below[i] ? 1 : 0;
+    }
+    Sides<N> sides;
+    sides.FewerBelow = 2 * count <= N; // of two sides alike the one below
+    sides.Fewer = sides.FewerBelow ? count : static_cast<unsigned>(N) - count;
+    // Moving a point to the front of those of the other side that come before it.
+    unsigned moves = 0;
+    std::size_t fewer = 0;
+    std::size_t more = sides.Fewer;
+    for (std::size_t i = 0; i < N; ++i)
+    {
+      if (below[i] == sides.FewerBelow)
+      {
+        moves += static_cast<unsigned>(more - sides.Fewer);
+        sides.Points[fewer++] = corners[i];
+      }
+      else
+      {
+        sides.Points[more++] = corners[i];
+      }
+    }
+    sides.Even = moves % 2 == 0;
+    return sides;
+  }
+
+  /**
+   * Let p_0 be alone below. The rows of det(p_1 - p_0, ..., p_4 - p_0), shortened so that they end at T,
+   * are the corners of the slice with a last column of equal positive numbers; taking the first row off
+   * the others shows that the tetrahedron of the four corners has the opposite sign. Alone above, the
+   * numbers are negative and the signs agree. For the wedge, whose sign cannot change while two points
+   * are below, the example with T = 0 and p_0, ..., p_4 = (0 0 0 -1), (0 0 1 -1), (1 0 0 1), (0 1 0 1),
+   * (0 0 0 1), whose sign is positive, shows the same.
+   */
+  void CutPentatope(Sides<5> sides)
+  {
+    sides.Permute(!sides.FewerBelow);
+    const auto& p = sides.Points;
+    if (sides.Fewer == 1)
+    {
+      if (!p[0].At)
+      {
+        this->Add<4>(SliceCellType::Tetrahedron,
+          { On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]), On(p[0], p[4]) });
+      }
+    }
+    else if (sides.Fewer == 2)
+    {
+      this->AddWedge({ On(p[0], p[2]), On(p[0], p[3]), On(p[0], p[4]), On(p[1], p[2]),
+                       On(p[1], p[3]), On(p[1], p[4]) },
+        { p[0].At, p[1].At }, { p[2].At, p[3].At, p[4].At });
+    }
+  }
+
+  /**
+   * Adds what is left of a wedge.
+   *
+   * @param triangles whether the triangle 0, 1, 2 is a point, and 3, 4, 5
+   * @param edges whether the edge 0-3 is a point, 1-4, and 2-5; never together with triangles, since
+   *   points at T are all above or all below
+   */
+  void AddWedge(const std::array<Edge, 6>& w, const std::array<bool, 2>& triangles,
+    const std::array<bool, 3>& edges)
+  {
+    if (triangles[0] || triangles[1])
+    {
+      if (!triangles[1])
+      {
+        this->Add<4>(SliceCellType::Tetrahedron, { w[3], w[4], w[5], w[0] });
+      }
+      else if (!triangles[0])
+      {
+        this->Add<4>(SliceCellType::Tetrahedron, { w[0], w[2], w[1], w[3] });
+      }
+      return;
+    }
+    switch (std::count(edges.begin(), edges.end(), true))
+    {
+      case 0:
+        this->Add<6>(SliceCellType::Wedge, w);
+        break;
+      case 1:
+      {
+        // The apex, and the edges that stay: the wedge looks the same from each of its edges.
+        const auto a =
+          static_cast<std::size_t>(std::find(edges.begin(), edges.end(), true) - edges.begin());
+        const std::size_t b = (a + 1) % 3;
+        const std::size_t c = (a + 2) % 3;
+        this->Add<5>(SliceCellType::Pyramid, { w[b], w[c], w[c + 3], w[b + 3], w[a] });
+        break;
+      }
+      case 2:
+      {
+        const auto c =
+          static_cast<std::size_t>(std::find(edges.begin(), edges.end(), false) - edges.begin());
+        this->Add<4>(
+          SliceCellType::Tetrahedron, { w[(c + 1) % 3], w[c], w[(c + 2) % 3], w[c + 3] });
+        break;
+      }
+      default: // flat
+        break;
+    }
+  }
+
+  /** The faces of what is cut from a pentatope whose other points lie inside. */
+  void CutTetrahedron(Sides<4> sides)
+  {
+    const auto& p = sides.Points;
+    if (sides.Fewer == 1)
+    {
+      sides.Permute(sides.FewerBelow);
+      if (!p[0].At)
+      {
+        this->Add<3>(SliceCellType::Triangle, { On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]) });
+      }
+    }
+    else if (sides.Fewer == 2)
+    {
+      sides.Permute(true);
+      this->AddQuad({ On(p[0], p[3]), On(p[1], p[3]), On(p[1], p[2]), On(p[0], p[2]) });
+    }
+  }
+
+  /** Adds what is left of a quadrilateral of which edges may be points. */
+  void AddQuad(const std::array<Edge, 4>& quad)
+  {
+    std::array<Edge, 4> left;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Edge& next = quad[(i + 1) % 4];
+      if (quad[i].A != next.A || quad[i].B != next.B)
+      {
+        left[count++] = quad[i];
+      }
+    }
+    if (count == 4)
+    {
+      this->Add<4>(SliceCellType::Quad, left);
+    }
+    else if (count == 3)
+    {
+      this->Add<3>(SliceCellType::Triangle, { left[0], left[1], left[2] });
+    }
+  }
+
+  static Edge On(const Corner& p, const Corner& q)
+  {
+    if (p.At || q.At)
+    {
+      const long long id = p.At ? p.Id : q.Id;
+      return { id, id };
+    }
+    return { std::min(p.Id, q.Id), std::max(p.Id, q.Id) };
+  }
+
+  template <std::size_t N>
+  void Add(SliceCellType type, const std::array<Edge, N>& corners)
+  {
+    this->Corners.insert(this->Corners.end(), corners.begin(), corners.end());
+    this->Slice.Types.push_back(type);
+    this->Slice.Offsets.push_back(static_cast<long long>(this->Corners.size()));
+    this->Slice.Sources.push_back(this->Source);
+  }
+
+  void AddPoint(const Edge& edge)
+  {
+    const Point<3> a = this->Position(edge.A);
+    if (edge.A == edge.B)
+    {
+      this->Slice.Points.push_back(a);
+      this->Slice.Origins.push_back({ edge.A, edge.B, 0.0 });
+      return;
+    }
+    const double before = this->TimeOf(edge.A);
+    const double weight = (this->Time - before) / (this->TimeOf(edge.B) - before);
+    this->Slice.Points.push_back(Interpolate(a, this->Position(edge.B), weight));
+    this->Slice.Origins.push_back({ edge.A, edge.B, weight });
+  }
+
+  Point<3> Position(long long id) const
+  {
+    const auto i = 3 * static_cast<std::size_t>(id);
+    return { this->Mesh.Points[i], this->Mesh.Points[i + 1], this->Mesh.Points[i + 2] };
+  }
+
+  const SpaceTimeMesh& Mesh;
+  const double Time;
+  const double Tolerance;
+  const bool FromAbove; ///< points at T are below
+  long long Source = 0; ///< the cell that is being cut
+  TimeSlice Slice;
+  std::vector<Edge> Corners; ///< as Slice.Connectivity will be
+};
+
+void CheckTimes(const SpaceTimeMesh& mesh)
+{
+  if (mesh.Points.size() != 3 * mesh.Times.size())
+  {
+    throw InputError("There are " + std::to_string(mesh.Times.size()) + " times for " +
+      std::to_string(mesh.Points.size() / 3) + " points; each point needs one.");
+  }
+  const auto bad =
+    std::find_if(mesh.Times.begin(), mesh.Times.end(), [](double t) { return !std::isfinite(t); });
+  if (bad != mesh.Times.end())
+  {
+    throw InputError(
+      "The time of point " + std::to_string(bad - mesh.Times.begin()) + " is not a finite number.");
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TimeSlicer::TimeSlicer(const SpaceTimeMesh& mesh)
+  : Mesh(mesh)
+{
+  CheckTimes(mesh);
+  const std::size_t n = mesh.Offsets.empty() ? 0 : mesh.Offsets.size() - 1;
+  if (n == 0)
+  {
+    return;
+  }
+  this->Cells.resize(n);
+  this->First = std::numeric_limits<double>::infinity();
+  this->Last = -this->First;
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    this->Cells[c] = this->IntervalOf(static_cast<long long>(c));
+    this->First = std::min(this->First, this->Cells[c].Begin);
+    this->Last = std::max(this->Last, this->Cells[c].End);
+  }
+  constexpr double ofTimes = 4.0 * std::numeric_limits<double>::epsilon();
+  constexpr double ofDuration = 1e-12;
+  this->Tolerance = std::max(ofDuration * (this->Last - this->First),
+    ofTimes * std::max(std::abs(this->First), std::abs(this->Last)));
+  std::sort(this->Cells.begin(), this->Cells.end(),
+    [](const Interval& a, const Interval& b)
+    { return a.Begin != b.Begin ? a.Begin < b.Begin : a.Cell < b.Cell; });
+  this->LinkTree(0, n);
+}
+
+TimeSlicer::Interval TimeSlicer::IntervalOf(long long cell) const
+{
+  const auto c = static_cast<std::size_t>(cell);
+  const long long first = this->Mesh.Offsets[c];
+  const long long last = this->Mesh.Offsets[c + 1];
+  const auto points = static_cast<long long>(this->Mesh.Times.size());
+  if ((last - first != 4 && last - first != 5) || first < 0 ||
+    last > static_cast<long long>(this->Mesh.Connectivity.size()))
+  {
+    throw InputError("Cell " + std::to_string(cell) + " has " + std::to_string(last - first) +
+      " points; a pentatope has 5, a tetrahedron 4.");
+  }
+  double begin = std::numeric_limits<double>::infinity();
+  double end = -begin;
+  for (long long i = first; i < last; ++i)
+  {
+    const long long id = this->Mesh.Connectivity[static_cast<std::size_t>(i)];
+    if (id < 0 || id >= points)
+    {
+      throw InputError("Cell " + std::to_string(cell) + " has the point " + std::to_string(id) +
+        ", but there are only " + std::to_string(points) + " points.");
+    }
+    const double t = this->Mesh.Times[static_cast<std::size_t>(id)];
+    begin = std::min(begin, t);
+    end = std::max(end, t);
+  }
+  return { begin, end, end, cell };
+}
+
+/** Fills in Latest; returns that of the root. */
+double TimeSlicer::LinkTree(std::size_t first, std::size_t last)
+{
+  if (first == last)
+  {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const std::size_t middle = first + (last - first) / 2;
+  Interval& root = this->Cells[middle];
+  root.Latest =
+    std::max({ root.End, this->LinkTree(first, middle), this->LinkTree(middle + 1, last) });
+  return root.Latest;
+}
+
+/** Appends the cells whose times come within the tolerance of a time. */
+void TimeSlicer::FindCells(
+  std::size_t first, std::size_t last, double time, std::vector<long long>& found) const
+{
+  while (first < last)
+  {
+    const std::size_t middle = first + (last - first) / 2;
+    const Interval& root = this->Cells[middle];
+    if (root.Latest < time - this->Tolerance)
+    {
+      return;
+    }
+    this->FindCells(first, middle, time, found);
+    if (root.Begin > time + this->Tolerance)
+    {
+      return;
+    }
+    if (root.End >= time - this->Tolerance)
+    {
+      found.push_back(root.Cell);
+    }
+    first = middle + 1;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+TimeSlice TimeSlicer::Slice(double time) const
+{
+  std::vector<long long> cells;
+  this->FindCells(0, this->Cells.size(), time, cells);
+  std::sort(cells.begin(), cells.end());
+  Cutter cutter(this->Mesh, time, this->Tolerance, time <= this->First + this->Tolerance);
+  for (const long long cell : cells)
+  {
+    cutter.Cut(cell);
+  }
+  return cutter.Finish();
+}
+
+} // namespace voxplex

@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/Rules4D.h"
+
+#include "Geometry/SimplexQuality.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Numbers that depend on a seed and a place only, whichever thread asks (splitmix64). */
+class PseudoRandom
+{
+public:
+  PseudoRandom(std::uint64_t seed, const Point<4>& place)
+    : State(seed)
+  {
+    for (const double x : place)
+    {
+      this->State = this->Next() ^ std::bit_cast<std::uint64_t>(x);
+    }
+  }
+  Point<4> InBall(const Point<4>& centre, double radius)
+  {
+    for (;;)
+    {
+      Point<4> p;
+      for (double& x : p)
+      {
+        x = static_cast<double>(this->Next() >> 11) * 0x1p-52 - 1.0;
+      }
+      if (Dot(p, p) > 1.0)
+      {
+        continue;
+      }
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        p[a] = centre[a] + radius * p[a];
+      }
+      return p;
+    }
+  }
+
+private:
+  std::uint64_t Next()
+  {
+    std::uint64_t z = this->State += 0x9e3779b97f4a7c15ull;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t State;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+bool Rules4D::MayBePoor(SimplexId s)
+{
+  if (this->ScreenDistance(s))
+  {
+    return true;
+  }
+  const Circumball<4>& ball = this->Context.Mesh.GetSimplex(s).Ball;
+  const LabelId label = this->LabelOf(s, ball.Center);
+  if (label != 0)
+  {
+    const double radius = std::sqrt(ball.Radius2);
+    if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(s) ||
+      radius >= BoundSafety * this->Context.Size(ball.Center, label) ||
+      this->IsSliver(s, ball.Radius2))
+    {
+      return true;
+    }
+  }
+  return this->MayRestrictNeighbour(s, label);
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules4D::Refine(SimplexId id)
+{
+  ++this->Worker.Statistics.Evaluated;
+  const Element s = this->MakeElement(id);
+  Verdict verdict = Verdict::Good;
+  if (this->Context.Settings.Order == RuleOrder::RadiusEdgeFirst)
+  {
+    verdict = this->R3(s);
+  }
+  verdict = verdict == Verdict::Good ? this->SampleInterface(s) : verdict; // R1, R2
+  verdict = verdict == Verdict::Good ? this->R3(s) : verdict;
+  verdict = verdict == Verdict::Good ? this->R5(s) : verdict;
+  if (verdict == Verdict::Good && this->IsTooLarge(s))
+  {
+    verdict = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
+  }
+  if (verdict == Verdict::Good && s.Label != 0 && this->IsSliver(id, s.Ball.Radius2))
+  {
+    if (this->Worker.Poor.OnlyLast())
+    {
+      return this->R4(s);
+    }
+    this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
+  }
+  return verdict;
+}
+
+//------------------------------------------------------------------------------------------------
+bool Rules4D::IsSliver(SimplexId s, double radius2) const
+{
+  if (!this->Context.Settings.Slivers.Fight)
+  {
+    return false;
+  }
+  const auto& v = this->Context.Mesh.GetSimplex(s).V;
+  std::array<const Point<4>*, 5> points;
+  for (unsigned i = 0; i < 5; ++i)
+  {
+    points[i] = &this->Context.Mesh.Position(v[i]);
+  }
+  return !(
+    NormalizedVolume<4>(points.data(), radius2) >= this->Context.Settings.Slivers.VolumeBound);
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules4D::R3(const Element& s)
+{
+  return this->HasBadRatio(s) ? this->InsertCircumcentre(s, this->Worker.Statistics.Fired[2])
+                              : Verdict::Good;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Accepts the first point that makes no small sliver, and remembers the best. */
+class Rules4D::BestPick final : public Triangulation<4>::Judge
+{
+public:
+  /** @param radius of the ball around the first candidate */
+  BestPick(const RefinementContext<4>& context, double radius, const Point<4>& first)
+    : Candidate(first)
+    , Context(context)
+    , Bound(context.Settings.Slivers.VolumeBound)
+    , SmallRadius(context.Settings.Slivers.RadiusFactor * radius)
+  {
+  }
+
+  Point<4> Candidate;
+  Point<4> Best{};
+  double BestVolume = -1.0; ///< smallest normalized volume that the best point makes
+  bool AcceptAll = false;
+
+  bool Accepts(const Triangulation<4>::Worker& worker) override
+  {
+    if (this->AcceptAll)
+    {
+      return true;
+    }
+    double smallest = 1.0;
+    for (std::size_t k = 0; k < worker.NumberOfProspects() && smallest > this->BestVolume; ++k)
+    {
+      std::uint32_t apex;
+      const auto& v = worker.Prospect(k, apex);
+      std::array<const Point<4>*, 5> points;
+      for (unsigned i = 0; i < 5; ++i)
+      {
+        points[i] = i == apex ? &this->Candidate : &this->Context.Mesh.Position(v[i]);
+      }
+      Circumball<4> ball;
+      ComputeCircumball<4>(points.data(), ball);
+      const double volume = NormalizedVolume<4>(points.data(), ball.Radius2);
+      if (!(volume >= std::min(smallest, this->Bound)) &&
+        !(ball.Radius2 >= this->SmallRadius * this->SmallRadius) &&
+        this->Context.Image.Label(ball.Center) != 0)
+      {
+        smallest = volume >= 0.0 ? volume : 0.0;
+      }
+    }
+    if (smallest > this->BestVolume)
+    {
+      this->BestVolume = smallest;
+      this->Best = this->Candidate;
+    }
+    return smallest >= this->Bound;
+  }
+
+private:
+  const RefinementContext<4>& Context;
+  const double Bound;
+  const double SmallRadius;
+};
+
+//------------------------------------------------------------------------------------------------
+// The centre first, then random points of the picking region; if none is good, the best of them.
+template <typename Draw, typename Insert>
+Verdict Rules4D::InsertPick(BestPick& judge, Draw&& draw, Insert&& insert)
+{
+  const unsigned picks = this->Context.Settings.Slivers.Picks;
+  for (unsigned pick = 0; pick < picks; ++pick)
+  {
+    if (pick > 0 && !draw(judge.Candidate))
+    {
+      continue;
+    }
+    ++this->Worker.Statistics.PicksTried;
+    const Verdict verdict = insert(judge.Candidate);
+    if (verdict != Verdict::Good)
+    {
+      return verdict;
+    }
+  }
+  if (judge.BestVolume < 0.0)
+  {
+    return Verdict::Good;
+  }
+  judge.AcceptAll = true;
+  return insert(judge.Best);
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules4D::R4(const Element& s)
+{
+  RuleStatistics& statistics = this->Worker.Statistics;
+  const SliverOptions& options = this->Context.Settings.Slivers;
+  ++statistics.SliversFound;
+  const double clearance = SliverSpacing *
+    std::min(this->Context.Settings.Delta, this->Context.Size(s.Ball.Center, s.Label));
+  PseudoRandom random(options.Seed, s.Ball.Center);
+  BestPick judge(this->Context, s.Radius, s.Ball.Center);
+  const Verdict verdict = this->InsertPick(
+    judge,
+    [&](Point<4>& p)
+    {
+      p = random.InBall(s.Ball.Center, options.PickingRadius * s.Radius);
+      return true;
+    },
+    [&](Point<4>& p)
+    {
+      const Place place = this->PlaceOf(p, CentreMargin * s.Radius);
+      p = place.Position;
+      const Verdict inserted = this->CountOutcome(
+        this->Context.Mesh.Insert(this->Worker.Kernel, p, place.Kind, s.Id, clearance, &judge),
+        statistics.Fired[3]);
+      if (inserted == Verdict::Changed)
+      {
+        this->ScreenCreated();
+      }
+      return inserted;
+    });
+  statistics.SliversKept += verdict == Verdict::Good ? 1 : 0;
+  return verdict;
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules4D::R5(const Element& s)
+{
+  const Triangulation<4>& mesh = this->Context.Mesh;
+  const Triangulation<4>::Simplex& simplex = mesh.GetSimplex(s.Id);
+  const bool near = mesh.State(s.Id).NearSurface;
+  for (unsigned i = 0; i < 5; ++i)
+  {
+    const SimplexId n = simplex.N[i];
+    if (n == None || !(near || mesh.State(n).NearSurface))
+    {
+      continue;
+    }
+    const LabelId other = this->LabelOf(n);
+    if (other == s.Label || this->FacetIsGood(simplex.V, i))
+    {
+      continue;
+    }
+    Point<4> z;
+    if (!this->Context.Image.FirstCrossing(s.Ball.Center, s.Label, mesh.GetCircumball(n).Center, z))
+    {
+      continue;
+    }
+    const Verdict verdict = this->InsertFeatureAt(z, s, n, other);
+    if (verdict != Verdict::Good)
+    {
+      return verdict;
+    }
+  }
+  return Verdict::Good;
+}
+
+//------------------------------------------------------------------------------------------------
+// At the centre of the surface ball of a facet, or near it.
+Verdict Rules4D::InsertFeatureAt(
+  const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
+{
+  const double delta = this->Context.Delta(z, s.Label, labelOfOther);
+  std::uint64_t& fired = this->Worker.Statistics.Fired[4];
+  Point<4> snapped;
+  if (this->SnapToEnd(z, delta, snapped))
+  {
+    return this->InsertFeatureOnEnd(snapped, delta, s, other, fired);
+  }
+  if (this->Context.Features.AnyWithin(z, this->Context.SpacingFloor))
+  {
+    ++this->Worker.Statistics.RefusedTooClose;
+    return Verdict::Good;
+  }
+  return this->Context.Settings.Slivers.Fight
+    ? this->InsertFeaturePick(z, delta, s, other)
+    : this->InsertFeature(z, delta, this->Context.SpacingFloor, s.Id, other, fired);
+}
+
+//------------------------------------------------------------------------------------------------
+// The picking region of a restricted facet: what the interface has in common with a ball around the
+// centre z of its surface ball.
+Verdict Rules4D::InsertFeaturePick(
+  const Point<4>& z, double delta, const Element& s, SimplexId other)
+{
+  const SliverOptions& options = this->Context.Settings.Slivers;
+  const Triangulation<4>& mesh = this->Context.Mesh;
+  const auto& v = mesh.GetSimplex(s.Id).V;
+  const auto& w = mesh.GetSimplex(other).V;
+  const auto shared = std::find_if(
+    v.begin(), v.end(), [&w](VertexId x) { return std::find(w.begin(), w.end(), x) != w.end(); });
+  const double radius = Distance(z, mesh.Position(*shared));
+  PseudoRandom random(options.Seed, z);
+  BestPick judge(this->Context, radius, z);
+  return this->InsertPick(
+    judge,
+    [&](Point<4>& p)
+    {
+      Point<4> onEnd;
+      const Point<4> q = random.InBall(z, options.PickingRadius * radius);
+      ++this->Worker.Statistics.ClosestSurfacePointCalls;
+      return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p) &&
+        Distance(p, z) < options.PickingRadius * radius &&
+        !this->Context.IsNearEnd(p, delta, onEnd) &&
+        !this->Context.Features.AnyWithin(p, this->Context.SpacingFloor);
+    },
+    [&](const Point<4>& p)
+    {
+      return this->InsertFeature(p, delta, this->Context.SpacingFloor, s.Id, other,
+        this->Worker.Statistics.Fired[4], &judge);
+    });
+}
+
+//------------------------------------------------------------------------------------------------
+bool Rules4D::FacetIsGood(const std::array<VertexId, 5>& v, unsigned facet) const
+{
+  for (unsigned i = 0; i < 5; ++i)
+  {
+    if (i != facet && this->Context.Mesh.GetVertex(v[i]).Kind != VertexKind::Feature)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace voxplex

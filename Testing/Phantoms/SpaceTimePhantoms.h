@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Space-time label images of known shapes, for tests, benchmarks and examples.
+#ifndef voxplex_SpaceTimePhantoms_h
+#define voxplex_SpaceTimePhantoms_h
+
+#include "Image/GridGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace voxplex::phantoms
+{
+
+/** A grid, and what label each point of its frame has. */
+struct SpaceTimePhantom
+{
+  GridGeometry<4> Grid;
+  std::function<std::uint8_t(const Point<4>&)> Label;
+
+  /** Labels of all voxels: x varies fastest, then y, z, t. */
+  std::vector<std::uint8_t> Scalars() const
+  {
+    const auto& n = this->Grid.Dimensions;
+    std::vector<std::uint8_t> scalars;
+    scalars.reserve(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]));
+    for (std::int64_t l = 0; l < n[3]; ++l)
+    {
+      for (std::int64_t k = 0; k < n[2]; ++k)
+      {
+        for (std::int64_t j = 0; j < n[1]; ++j)
+        {
+          for (std::int64_t i = 0; i < n[0]; ++i)
+          {
+            scalars.push_back(this->Label(this->Grid.ToFrame({ static_cast<double>(i),
+              static_cast<double>(j), static_cast<double>(k), static_cast<double>(l) })));
+          }
+        }
+      }
+    }
+    return scalars;
+  }
+};
+
+/** The same phantom where a unit of time is as long as `scale` units of length. */
+inline SpaceTimePhantom WithTimeScale(SpaceTimePhantom phantom, double scale)
+{
+  phantom.Grid.IndexToFrame[3][3] *= scale;
+  phantom.Label = [label = std::move(phantom.Label), scale](const Point<4>& p) {
+    return label({ p[0], p[1], p[2], p[3] / scale });
+  };
+  return phantom;
+}
+
+/** A 4-ball of label 1 around the centre of a grid of unit spacing, away from its border. */
+inline SpaceTimePhantom FourBall(double radius)
+{
+  const std::int64_t n = static_cast<std::int64_t>(2 * radius) + 8;
+  const double c = 0.5 * static_cast<double>(n - 1);
+  return { GridGeometry<4>::Orthogonal({ n, n, n, n }, { 1.0, 1.0, 1.0, 1.0 }),
+    [=](const Point<4>& p) -> std::uint8_t {
+      return Distance(p, { c, c, c, c }) < radius;
+    } };
+}
+
+/**
+ * A left ventricle that beats once: label 1 is the blood, 2 the myocardium around it; both are cut
+ * by a plane at the base. Of the size of the thesis' patients: 100 x 100 x 44 x 15 voxels of
+ * 1.77 x 1.77 x 6 mm, one frame a unit of time.
+ *
+ * @param coarsening 2 halves the number of voxels along x, y and z, and so on
+ */
+inline SpaceTimePhantom BeatingVentricle(std::int64_t coarsening = 1)
+{
+  const double s = static_cast<double>(coarsening);
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 100 / coarsening, 100 / coarsening, 44 / coarsening, 15 },
+      { 1.77 * s, 1.77 * s, 6.0 * s, 1.0 });
+  constexpr double Duration = 14.0;
+  return { grid,
+    [](const Point<4>& p) -> std::uint8_t
+    {
+      // Contracts and relaxes; the muscle thickens meanwhile.
+      const double sine = std::sin(std::numbers::pi * p[3] / Duration);
+      const double squeeze = sine * sine;
+      const double inner = 30.0 - 9.0 * squeeze;
+      const double outer = 42.0 - 5.0 * squeeze;
+      const double apex = 84.0 - 8.0 * squeeze;
+      constexpr double Base = 153.0; // between two layers of voxels
+      const double x = p[0] - 87.0;
+      const double y = p[1] - 89.0;
+      const double z = p[2] - 128.0;
+      if (p[2] > Base)
+      {
+        return 0;
+      }
+      const double r2 = x * x + y * y;
+      const double endocardium = r2 / (inner * inner) + z * z / ((apex - 12.0) * (apex - 12.0));
+      const double epicardium = r2 / (outer * outer) + z * z / (apex * apex);
+      return endocardium < 1.0 ? 1 : epicardium < 1.0 ? 2 : 0;
+    } };
+}
+
+/** Two balls of labels 1 and 2 that come near, merge and part again: topology changes in time. */
+inline SpaceTimePhantom MergingBalls(std::int64_t frames = 17)
+{
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 48, 28, 28, frames }, { 1.0, 1.0, 1.0, 1.0 });
+  const double duration = static_cast<double>(frames - 1);
+  return { grid,
+    [=](const Point<4>& p) -> std::uint8_t
+    {
+      // Half the distance of the centres: 13, then 6, then 13 again; the radius is 8.
+      const double half = 9.5 + 3.5 * std::cos(2.0 * std::numbers::pi * p[3] / duration);
+      const double left = std::hypot(p[0] - (23.5 - half), p[1] - 13.5, p[2] - 13.5);
+      const double right = std::hypot(p[0] - (23.5 + half), p[1] - 13.5, p[2] - 13.5);
+      return std::min(left, right) >= 8.0 ? 0 : left < right ? 1 : 2;
+    } };
+}
+
+} // namespace voxplex::phantoms
+
+#endif
