@@ -17,19 +17,33 @@ endif ()
 
 vtk_module_add_module(VTK::Voxplex
   CLASSES
+    Filters/vtkImageToPentatopeMeshFilter
+    Filters/vtkImageToSimplexMeshFilter
     Filters/vtkImageToTetMeshFilter
     Filters/vtkMeshingStatistics
+    Filters/vtkPentatopeMeshTimeSlice
   PRIVATE_HEADERS
+    Filters/Private/ChosenArray.h
     Filters/Private/ElementSizes.h
+    Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
+    Filters/Private/OutputArrays.h
+    Filters/Private/PentatopeOutput.h
+    Filters/Private/SimplexMeshRun.h
     Filters/Private/SmpThreads.h
+    Filters/Private/SpaceTimeFrame.h
+    Filters/Private/vtkFrameGatheringPipeline.h
   SOURCES
+    Filters/Private/ChosenArray.cxx
     Filters/Private/ElementSizes.cxx
+    Filters/Private/FrameSeries.cxx
     Filters/Private/ImageFrame.cxx
     Filters/Private/MeshOutput.cxx
+    Filters/Private/PentatopeOutput.cxx
     Filters/Private/SmpThreads.cxx
+    Filters/Private/vtkFrameGatheringPipeline.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<TARGET_OBJECTS:VoxplexKernel>)
 

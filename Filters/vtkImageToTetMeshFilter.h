@@ -36,140 +36,37 @@
  *
  * The field data of port 0 is passed to both outputs.
  *
- * @par Element sizes
- * An element's circumradius stays below each bound that is given at its circumcentre: ElementSize,
- * the size of its label (SetLabelSize()), the size image (interpolated linearly; points outside
- * take the nearest value inside), SizeImplicitFunction and the C++ callable (SetSizeFunction()).
- * The smallest of them applies. Values that are NaN, zero or negative in the image or from a
- * function set no bound there. Very small sizes are raised to a floor, a fraction of Delta, so that
- * refinement always ends.
+ * @par Parameters
+ * Those of vtkImageToSimplexMeshFilter, where element sizes, errors, progress, abort, threads and
+ * pieces are explained, and FacetAngle. Two more things bound element sizes: SizeImplicitFunction,
+ * and the image at input port 1.
  *
- * @par Errors
- * Misuse is reported with vtkErrorMacro and leaves both outputs empty: no or unsuitable scalars
- * (several components: see vtkImageToPentatopeMeshFilter for time series), fractional, negative or
- * non-finite labels, no foreground, fewer than two voxels along an axis, thousands of labels (a
- * grey-value image), spacing that is not positive and finite, a singular direction matrix,
- * parameters out of range, a label in SetLabelSize() or AddLabel() that the image does not have, a
- * mesh that is estimated not to fit in memory, and one that comes out empty. The executive then
- * adds a message of its own and its Update() returns 0. GetErrorMessage() keeps the reason. Labels
- * of the image that the mesh lacks, because Delta is too coarse for them, are named with
- * vtkWarningMacro; so are sizes that were raised, and a ContentionManager that was replaced.
- *
- * @par Progress and abort
- * Progress is reported from the thread that called Update(), at least ten times a second and never
- * decreasing. Setting AbortExecute, from a progress observer or from another thread, stops within a
- * second and leaves both outputs empty; GetAborted() then returns true. VTK regards the empty
- * output as up to date: call Modified() to execute again.
- *
- * @par Threads
- * All stages use NumberOfThreads threads. Refinement is speculative: threads lock the vertices that
- * an operation touches, and one that finds a vertex locked gives its operation up (a rollback).
- * ContentionManager, LoadBalancer and PinThreads say how threads get along; the defaults are the
- * right choice but for experiments, and with one thread none of the three matters.
- * vtkMeshingStatistics tells how much time each thread lost, and to what.
- *
- * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. With more it differs from run to
- * run; the bounds on shapes and sizes hold all the same. Events are sent from the thread that called
- * Update() only. Distinct instances may execute at the same time. Nothing is kept between
- * executions apart from the statistics.
- *
- * @par Pieces
- * The image cannot be meshed in pieces: piece 0 receives the whole mesh, other pieces are empty.
- *
- * @sa vtkMeshingStatistics vtkSurfaceNets3D
+ * @sa vtkImageToSimplexMeshFilter vtkImageToPentatopeMeshFilter vtkMeshingStatistics
+ * vtkSurfaceNets3D
  */
 #ifndef vtkImageToTetMeshFilter_h
 #define vtkImageToTetMeshFilter_h
 
-#include "vtkUnstructuredGridAlgorithm.h"
+#include "vtkImageToSimplexMeshFilter.h"
 #include "vtkVoxplexModule.h" // For export macro
 
-#include <functional> // For std::function
-#include <memory>     // For std::unique_ptr
-#include <string>     // For std::string
+#include "vtkSmartPointer.h" // For vtkSmartPointer
 
 class vtkAlgorithmOutput;
-class vtkImageData;
 class vtkImplicitFunction;
-class vtkMeshingStatistics;
 class vtkPolyData;
-class vtkUnstructuredGrid;
 
-class VTKVOXPLEX_EXPORT vtkImageToTetMeshFilter : public vtkUnstructuredGridAlgorithm
+class VTKVOXPLEX_EXPORT vtkImageToTetMeshFilter : public vtkImageToSimplexMeshFilter
 {
 public:
   static vtkImageToTetMeshFilter* New();
-  vtkTypeMacro(vtkImageToTetMeshFilter, vtkUnstructuredGridAlgorithm);
+  vtkTypeMacro(vtkImageToTetMeshFilter, vtkImageToSimplexMeshFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * The sampling density of interfaces, in physical units: the edges of surface triangles are
-   * about one to two times as long. Smaller is finer: the number of elements grows about with the
-   * square of 1 / Delta. 0, the default, derives it from the spacing; GetStatistics()->GetDelta()
-   * tells which was used.
-   */
-  vtkSetMacro(Delta, double);
-  vtkGetMacro(Delta, double);
-  ///@}
-
-  ///@{
-  /**
-   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 it is not
-   * proved that refinement ends, and the value is refused unless Force is on.
-   */
-  vtkSetMacro(RadiusEdgeRatio, double);
-  vtkGetMacro(RadiusEdgeRatio, double);
-  ///@}
 
   ///@{
   /** Lower bound of the angles of interface triangles in degrees, 0 to 30. Default 30. */
   vtkSetMacro(FacetAngle, double);
   vtkGetMacro(FacetAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * Standard deviation, in voxels along each axis, of the smoothing that turns voxel stairs into
-   * smooth interfaces. It does not shrink objects, and every voxel centre keeps its label. Default
-   * 1; 0 switches it off.
-   */
-  vtkSetMacro(SmoothingSigma, double);
-  vtkGetMacro(SmoothingSigma, double);
-  ///@}
-
-  ///@{
-  /** Upper bound of circumradii everywhere, in physical units. 0, the default, sets none. */
-  vtkSetMacro(ElementSize, double);
-  vtkGetMacro(ElementSize, double);
-  ///@}
-
-  ///@{
-  /**
-   * Upper bound of the circumradii of one label's elements, in physical units, by the image's own
-   * label value. A label that does not occur in the image is an error when the filter executes.
-   * GetLabelSize() returns 0 for a label without a size. Sized labels are numbered in increasing
-   * order of their value; GetSizedLabel() returns 0 for an index out of range.
-   */
-  void SetLabelSize(vtkTypeInt64 label, double size);
-  double GetLabelSize(vtkTypeInt64 label) const;
-  void RemoveLabelSize(vtkTypeInt64 label);
-  void ClearLabelSizes();
-  int GetNumberOfLabelSizes() const;
-  vtkTypeInt64 GetSizedLabel(int index) const;
-  ///@}
-
-  ///@{
-  /**
-   * Restrict meshing to some labels; the others become background. By default (no label added) all
-   * labels are meshed. A label that does not occur in the image is an error when the filter
-   * executes.
-   */
-  void AddLabel(vtkTypeInt64 label);
-  void RemoveLabel(vtkTypeInt64 label);
-  void RemoveAllLabels();
-  int GetNumberOfSelectedLabels() const;
-  vtkTypeInt64 GetSelectedLabel(int index) const;
   ///@}
 
   ///@{
@@ -183,167 +80,9 @@ public:
   ///@}
 
   ///@{
-  /** The image of element sizes (input port 1); null removes it. */
-  void SetElementSizeConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
-  void SetElementSizeData(vtkImageData* image);
-  ///@}
-
-#ifndef __VTK_WRAP__
-  /** Upper bound of circumradii at a physical point inside the label with this value. */
-  using SizeFunctionType = std::function<double(const double x[3], vtkTypeInt64 label)>;
-  /**
-   * An upper bound of circumradii as a C++ callable; an empty one removes it. It is called from
-   * every meshing thread at once and must be safe for that. An exception that it throws ends the
-   * execution and is reported as an error.
-   */
-  void SetSizeFunction(SizeFunctionType function);
-#endif
-
-  ///@{
-  /**
-   * Threads to mesh with, in every stage. 0, the default, means what VTK's SMP setting says:
-   * vtkSMPTools::GetEstimatedNumberOfThreads() when the filter executes. More threads than cores
-   * are allowed, but slower.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  /** Values of ContentionManager. */
-  enum ContentionManagers
-  {
-    CONTENTION_AGGRESSIVE = 0,
-    CONTENTION_RANDOM = 1,
-    CONTENTION_GLOBAL = 2,
-    CONTENTION_LOCAL = 3
-  };
-
-  ///@{
-  /**
-   * What a refinement thread does after a rollback (thesis, section 3.3). Default local.
-   * - Aggressive: it tries again at once.
-   * - Random: after several rollbacks in a row it sleeps for a random time.
-   * - Global: it waits in one list for all, until a thread that makes progress wakes it.
-   * - Local: it waits in the list of the thread that held the vertex, until that one makes progress.
-   *
-   * Global and local cannot livelock. Aggressive and random can; when no thread makes progress any
-   * more the local manager takes over and the filter warns of it
-   * (vtkMeshingStatistics::GetSwitchedToLocal()). The values are those of ContentionManagers, others
-   * are clamped to them.
-   */
-  vtkSetClampMacro(ContentionManager, int, CONTENTION_AGGRESSIVE, CONTENTION_LOCAL);
-  vtkGetMacro(ContentionManager, int);
-  void SetContentionManagerToAggressive()
-  {
-    this->SetContentionManager(CONTENTION_AGGRESSIVE);
-  }
-  void SetContentionManagerToRandom()
-  {
-    this->SetContentionManager(CONTENTION_RANDOM);
-  }
-  void SetContentionManagerToGlobal()
-  {
-    this->SetContentionManager(CONTENTION_GLOBAL);
-  }
-  void SetContentionManagerToLocal()
-  {
-    this->SetContentionManager(CONTENTION_LOCAL);
-  }
-  /** "aggressive", "random", "global" or "local". */
-  const char* GetContentionManagerAsString() const;
-  ///@}
-
-  /** Values of LoadBalancer. */
-  enum LoadBalancers
-  {
-    RANDOM_WORK_STEALING = 0,
-    HIERARCHICAL_WORK_STEALING = 1
-  };
-
-  ///@{
-  /**
-   * From whom a refinement thread without work gets some (thesis, sections 3.2.4 and 3.4.1).
-   * Default hierarchical.
-   * - Random work stealing (RWS): from whichever thread looks first, wherever it runs.
-   * - Hierarchical work stealing (HWS): from one of its socket before one of its NUMA node before
-   *   the rest of the machine, so that less work travels far. On a machine with one socket there is
-   *   little difference.
-   *
-   * The values are those of LoadBalancers, others are clamped to them.
-   */
-  vtkSetClampMacro(LoadBalancer, int, RANDOM_WORK_STEALING, HIERARCHICAL_WORK_STEALING);
-  vtkGetMacro(LoadBalancer, int);
-  void SetLoadBalancerToRandomWorkStealing()
-  {
-    this->SetLoadBalancer(RANDOM_WORK_STEALING);
-  }
-  void SetLoadBalancerToHierarchicalWorkStealing()
-  {
-    this->SetLoadBalancer(HIERARCHICAL_WORK_STEALING);
-  }
-  /** "rws" or "hws". */
-  const char* GetLoadBalancerAsString() const;
-  ///@}
-
-  ///@{
-  /**
-   * Keep each refinement thread on a core of its own, where the system allows it. Default off. Leave
-   * it off where other programs, or other instances of this filter, share the cores. The thread that
-   * called Update() is never pinned.
-   */
-  vtkSetMacro(PinThreads, bool);
-  vtkGetMacro(PinThreads, bool);
-  vtkBooleanMacro(PinThreads, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Go on although the mesh is estimated not to fit in memory, or RadiusEdgeRatio is below the
-   * proved bound. Default off.
-   */
-  vtkSetMacro(Force, bool);
-  vtkGetMacro(Force, bool);
-  vtkBooleanMacro(Force, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Bytes that meshing may plan with; a mesh estimated to need more is refused unless Force is on.
-   * 0, the default, means the machine's physical memory.
-   */
-  vtkSetMacro(MemoryLimit, vtkTypeUInt64);
-  vtkGetMacro(MemoryLimit, vtkTypeUInt64);
-  ///@}
-
-  ///@{
-  /** Measure the quality and the labels of the mesh for GetStatistics(). Default off. */
-  vtkSetMacro(ComputeQuality, bool);
-  vtkGetMacro(ComputeQuality, bool);
-  vtkBooleanMacro(ComputeQuality, bool);
-  ///@}
-
-  /** What the last execution did. Owned by the filter; the same object over its whole life. */
-  vtkMeshingStatistics* GetStatistics() const;
-
-  /** Why the last execution failed; empty if it did not. */
-  const std::string& GetErrorMessage() const
-  {
-    return this->ErrorMessage;
-  }
-
-  /** Whether the last execution was stopped by AbortExecute. */
-  bool GetAborted() const
-  {
-    return this->Aborted;
-  }
-
-  ///@{
   /** The interfaces (output port 1). */
   vtkPolyData* GetInterfaces();
-  vtkAlgorithmOutput* GetInterfacesPort()
-  {
-    return this->GetOutputPort(1);
-  }
+  vtkAlgorithmOutput* GetInterfacesPort() { return this->GetOutputPort(1); }
   ///@}
 
   /** Counts the SizeImplicitFunction in. */
@@ -353,44 +92,20 @@ protected:
   vtkImageToTetMeshFilter();
   ~vtkImageToTetMeshFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation*, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation*, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
 
-  double Delta = 0.0;
-  double RadiusEdgeRatio = 2.0;
+#ifndef __VTK_WRAP__
+  void CheckParameters() const override;
+  void Mesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector) override;
+#endif
+
   double FacetAngle = 30.0;
-  double SmoothingSigma = 1.0;
-  double ElementSize = 0.0;
-  int NumberOfThreads = 0;
-  int ContentionManager = CONTENTION_LOCAL;
-  int LoadBalancer = HIERARCHICAL_WORK_STEALING;
-  bool PinThreads = false;
-  bool Force = false;
-  vtkTypeUInt64 MemoryLimit = 0;
-  bool ComputeQuality = false;
 
 private:
   vtkImageToTetMeshFilter(const vtkImageToTetMeshFilter&) = delete;
   void operator=(const vtkImageToTetMeshFilter&) = delete;
 
-  /** Throws voxplex::InputError for parameters out of range. */
-  void CheckParameters() const;
-  /** The execution itself. Throws voxplex::Error, std::bad_alloc, what the size function throws. */
-  void Mesh(
-    vtkInformationVector** inputVector, vtkUnstructuredGrid* tetrahedra, vtkPolyData* interfaces);
-  bool AbortRequested();
-  void WarnOfDeviations();
-
-  struct Internals;
-  std::unique_ptr<Internals> Private;
-  std::string ErrorMessage;
-  bool Aborted = false;
+  vtkSmartPointer<vtkImplicitFunction> SizeImplicitFunction;
 };
 
 #endif

@@ -143,12 +143,17 @@ void AddQuality(JsonWriter& json, const voxplex::MeshQuality& quality)
   }
   json.End();
   json.Begin("quality");
+  json.Add("shortest_edge", quality.ShortestEdge);
   json.Add("max_radius_edge", quality.MaximumRadiusEdgeRatio);
+  json.Add("mean_radius_edge", quality.MeanRadiusEdgeRatio);
+  json.Add("radius_edge_deviation", quality.RadiusEdgeRatioDeviation);
   json.Add("min_dihedral", quality.MinimumDihedralAngle);
   json.Add("max_dihedral", quality.MaximumDihedralAngle);
   json.Add("min_planar", quality.MinimumFacetAngle);
   json.Add("min_normalized_volume", quality.MinimumNormalizedVolume);
   json.Add("mean_normalized_volume", quality.MeanNormalizedVolume);
+  json.Add("normalized_volume_deviation", quality.NormalizedVolumeDeviation);
+  json.Add<std::uint64_t>("normalized_volume_histogram", quality.NormalizedVolumes);
   json.Add("inverted_elements", quality.InvertedSimplices);
   json.Add("radius_edge_violations", quality.RadiusEdgeViolations);
   json.Add("facet_angle_violations", quality.FacetAngleViolations);
@@ -164,6 +169,7 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
     json.Add(std::string("R").append(std::to_string(i + 1)), rules.Fired[i]);
   }
   json.Add("R6", rules.Removed);
+  json.Add("size", rules.FiredBySize);
   json.Add("projected", rules.Projected);
   json.Add("refused_too_close", rules.RefusedTooClose);
   json.Add("refused_no_conflict", rules.RefusedNoConflict);
@@ -172,6 +178,25 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
   json.Add("closest_surface_point_calls", rules.ClosestSurfacePointCalls);
   json.Add("evaluated", rules.Evaluated);
   json.Add("created", rules.Created);
+  json.End();
+}
+
+/** NaN without insertions. */
+double MeanCavitySize(const voxplex::RuleStatistics& rules)
+{
+  return static_cast<double>(rules.CavitySimplices) / static_cast<double>(rules.Insertions());
+}
+
+void AddCavities(JsonWriter& json, const voxplex::RuleStatistics& rules)
+{
+  json.Begin("cavities");
+  json.Add("mean", MeanCavitySize(rules));
+  json.Add("largest", rules.LargestCavity);
+  json.End();
+  json.Begin("slivers");
+  json.Add("found", rules.SliversFound);
+  json.Add("picks", rules.PicksTried);
+  json.Add("kept", rules.SliversKept);
   json.End();
 }
 
@@ -198,6 +223,8 @@ void AddThreads(JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& 
     json.Add("rollback_seconds", thread.RollbackSeconds);
     json.Add<std::uint64_t>("received", thread.Received);
     json.Add("received_elements", thread.ReceivedElements);
+    json.Add("helped_loops", thread.HelpedLoops);
+    json.Add("helped_iterations", thread.HelpedIterations);
     AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
     AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
     AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
@@ -234,6 +261,7 @@ vtkMeshingStatistics::Figures& vtkMeshingStatistics::Edit()
     return static_cast<type>(this->Values->figure);                                                \
   }
 
+VOXPLEX_FIGURE(int, Dimension, Dimension)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfElements, Elements)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfVertices, Vertices)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfInterfaceFacets, InterfaceFacets)
@@ -243,7 +271,10 @@ VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
 VOXPLEX_FIGURE(bool, HasQuality, HasQuality)
 VOXPLEX_FIGURE(int, NumberOfLabels, Quality.Labels.size())
+VOXPLEX_FIGURE(double, ShortestEdge, Quality.ShortestEdge)
 VOXPLEX_FIGURE(double, MaximumRadiusEdgeRatio, Quality.MaximumRadiusEdgeRatio)
+VOXPLEX_FIGURE(double, MeanRadiusEdgeRatio, Quality.MeanRadiusEdgeRatio)
+VOXPLEX_FIGURE(double, RadiusEdgeRatioDeviation, Quality.RadiusEdgeRatioDeviation)
 VOXPLEX_FIGURE(double, MinimumDihedralAngle, Quality.MinimumDihedralAngle)
 VOXPLEX_FIGURE(double, MaximumDihedralAngle, Quality.MaximumDihedralAngle)
 VOXPLEX_FIGURE(double, MinimumPlanarAngle, Quality.MinimumFacetAngle)
@@ -254,6 +285,13 @@ VOXPLEX_FIGURE(
 VOXPLEX_FIGURE(vtkTypeInt64, InvertedElements, Quality.InvertedSimplices)
 VOXPLEX_FIGURE(double, MinimumNormalizedVolume, Quality.MinimumNormalizedVolume)
 VOXPLEX_FIGURE(double, MeanNormalizedVolume, Quality.MeanNormalizedVolume)
+VOXPLEX_FIGURE(double, NormalizedVolumeDeviation, Quality.NormalizedVolumeDeviation)
+VOXPLEX_FIGURE(int, NumberOfNormalizedVolumeBins, Quality.NormalizedVolumes.size())
+VOXPLEX_FIGURE(vtkTypeInt64, LargestCavity, Run.Rules.LargestCavity)
+VOXPLEX_FIGURE(vtkTypeInt64, SliversFound, Run.Rules.SliversFound)
+VOXPLEX_FIGURE(vtkTypeInt64, PicksTried, Run.Rules.PicksTried)
+VOXPLEX_FIGURE(vtkTypeInt64, SliversKept, Run.Rules.SliversKept)
+VOXPLEX_FIGURE(vtkTypeInt64, FiredBySize, Run.Rules.FiredBySize)
 VOXPLEX_FIGURE(vtkTypeInt64, PointsProjected, Run.Rules.Projected)
 VOXPLEX_FIGURE(vtkTypeInt64, VerticesRemoved, Run.Rules.Removed)
 VOXPLEX_FIGURE(vtkTypeInt64, RefusedTooClose, Run.Rules.RefusedTooClose)
@@ -329,6 +367,19 @@ vtkTypeInt64 vtkMeshingStatistics::GetReceived(int level) const
   return sum;
 }
 
+vtkTypeInt64 vtkMeshingStatistics::GetNormalizedVolumeBin(int bin) const
+{
+  return bin >= 0 && bin < this->GetNumberOfNormalizedVolumeBins()
+    ? static_cast<vtkTypeInt64>(
+        this->Values->Quality.NormalizedVolumes[static_cast<std::size_t>(bin)])
+    : 0;
+}
+
+double vtkMeshingStatistics::GetMeanCavitySize() const
+{
+  return MeanCavitySize(this->Values->Run.Rules);
+}
+
 vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
 {
   return index >= 0 && index < this->GetNumberOfLostLabels()
@@ -370,6 +421,7 @@ std::string vtkMeshingStatistics::ToJSON() const
 {
   const Figures& v = *this->Values;
   JsonWriter json;
+  json.Add("dimension", static_cast<std::int64_t>(v.Dimension));
   json.Add("elements", v.Elements);
   json.Add("vertices", v.Vertices);
   json.Add("interface_facets", v.InterfaceFacets);
@@ -389,6 +441,7 @@ std::string vtkMeshingStatistics::ToJSON() const
     AddQuality(json, v.Quality);
   }
   AddRules(json, v.Run.Rules);
+  AddCavities(json, v.Run.Rules);
   json.Begin("predicates");
   json.Add("calls", v.Run.Predicates.Calls);
   json.Add("filter_failures", v.Run.Predicates.StaticFailures);
@@ -413,6 +466,7 @@ std::string vtkMeshingStatistics::ToJSON() const
 void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Dimension: " << this->GetDimension() << "\n";
   os << indent << "NumberOfElements: " << this->GetNumberOfElements() << "\n";
   os << indent << "NumberOfVertices: " << this->GetNumberOfVertices() << "\n";
   os << indent << "NumberOfInterfaceFacets: " << this->GetNumberOfInterfaceFacets() << "\n";

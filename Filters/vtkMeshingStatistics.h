@@ -4,8 +4,8 @@
  * @class   vtkMeshingStatistics
  * @brief   what a meshing filter did: counts, quality, rules, predicates, times
  *
- * A meshing filter owns one of these (vtkImageToTetMeshFilter::GetStatistics()) and fills it each
- * time it executes. After an error or an abort counts and times are zero. The figures come in
+ * A meshing filter owns one of these (vtkImageToSimplexMeshFilter::GetStatistics()) and fills it
+ * each time it executes. After an error or an abort counts and times are zero. The figures come in
  * groups:
  *
  * - **Counts**, **times** and **threads** are always filled.
@@ -14,10 +14,11 @@
  *   ratios NaN.
  *
  * Lengths and volumes are in the unit of the image's spacing, angles in degrees, times in seconds
- * of wall clock. ToJSON() gives everything as one JSON object, which Python reads with
+ * of wall clock. In 4D volumes are those of space-time, in units of length to the fourth: a unit of
+ * time counts as vtkImageToPentatopeMeshFilter::GetTimeScale() units of length. ToJSON() gives everything as one JSON object, which Python reads with
  * json.loads().
  *
- * @sa vtkImageToTetMeshFilter
+ * @sa vtkImageToTetMeshFilter vtkImageToPentatopeMeshFilter
  */
 #ifndef vtkMeshingStatistics_h
 #define vtkMeshingStatistics_h
@@ -35,8 +36,14 @@ public:
   vtkTypeMacro(vtkMeshingStatistics, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** 3 for a mesh of tetrahedra, 4 for one of pentatopes. */
+  int GetDimension() const;
+
   ///@{
-  /** Size of the mesh. */
+  /**
+   * Size of the mesh: elements are tetrahedra or pentatopes, interface facets the triangles or
+   * tetrahedra between them where labels differ (in 4D: the boundary tetrahedra).
+   */
   vtkTypeInt64 GetNumberOfElements() const;
   vtkTypeInt64 GetNumberOfVertices() const;
   vtkTypeInt64 GetNumberOfInterfaceFacets() const;
@@ -77,17 +84,22 @@ public:
    * Quality, for the whole mesh. The radius-edge ratio is circumradius / shortest edge of an
    * element; the planar angle is the smallest angle of an interface facet; the normalized volume is
    * that of an element over that of the regular one with the same circumradius (1 is best, 0 is
-   * flat). Inverted elements are those without a positive volume: there are none unless something
+   * flat). Deviations are standard deviations over all elements. Dihedral and planar angles are
+   * those of 3D; in 4D they are NaN. Inverted elements are those without a positive volume: there are none unless something
    * is wrong. Violations count the elements whose ratio is not below the filter's RadiusEdgeRatio,
    * and the interface facets with an angle below its FacetAngle; of the latter, those that touch a
    * junction of three or more labels are counted separately, too.
    */
+  double GetShortestEdge() const;
   double GetMaximumRadiusEdgeRatio() const;
+  double GetMeanRadiusEdgeRatio() const;
+  double GetRadiusEdgeRatioDeviation() const;
   double GetMinimumDihedralAngle() const;
   double GetMaximumDihedralAngle() const;
   double GetMinimumPlanarAngle() const;
   double GetMinimumNormalizedVolume() const;
   double GetMeanNormalizedVolume() const;
+  double GetNormalizedVolumeDeviation() const;
   vtkTypeInt64 GetInvertedElements() const;
   vtkTypeInt64 GetRadiusEdgeViolations() const;
   vtkTypeInt64 GetFacetAngleViolations() const;
@@ -96,10 +108,43 @@ public:
 
   ///@{
   /**
+   * Histogram of normalized volumes: bin i, from 0 to GetNumberOfNormalizedVolumeBins() - 1 = 19,
+   * counts the elements from i / 20 to below (i + 1) / 20, the last one also those with 1. Outside
+   * of that range of i the result is 0.
+   */
+  int GetNumberOfNormalizedVolumeBins() const;
+  vtkTypeInt64 GetNormalizedVolumeBin(int bin) const;
+  ///@}
+
+  ///@{
+  /**
+   * Cavity sizes: how many simplices an insertion deleted, on average (NaN without insertions) and at
+   * most.
+   */
+  double GetMeanCavitySize() const;
+  vtkTypeInt64 GetLargestCavity() const;
+  ///@}
+
+  ///@{
+  /**
+   * The fight against slivers (vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers that
+   * were found, points that were tried in picking regions, slivers that stayed because no point that
+   * was tried was good.
+   */
+  vtkTypeInt64 GetSliversFound() const;
+  vtkTypeInt64 GetPicksTried() const;
+  vtkTypeInt64 GetSliversKept() const;
+  ///@}
+
+  ///@{
+  /**
    * How often each rule changed the mesh, and why changes were refused. GetRuleFired(i) counts the
-   * insertions by rule R_i, i = 1 ... 5; vertices removed by R6 are GetVerticesRemoved().
+   * insertions by rule R_i, i = 1 ... 5; vertices removed by R6 are GetVerticesRemoved(). Insertions
+   * because of element sizes are those of R5 in 3D; in 4D they are counted apart, by
+   * GetFiredBySize().
    */
   vtkTypeInt64 GetRuleFired(int rule) const;
+  vtkTypeInt64 GetFiredBySize() const;
   vtkTypeInt64 GetPointsProjected() const;
   vtkTypeInt64 GetVerticesRemoved() const;
   vtkTypeInt64 GetRefusedTooClose() const;
@@ -198,12 +243,13 @@ public:
 
   /**
    * Everything as one JSON object:
-   * `{"elements", "vertices", "interface_facets", "delta", "threads", "contention", "balance",
+   * `{"dimension", "elements", "vertices", "interface_facets", "delta", "threads", "contention", "balance",
    * "switched_to_local", "seeding_seconds", "sizes_raised_to", "lost_labels": [...],
-   * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "predicates":
-   * {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
+   * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "cavities":
+   * {"mean", "largest"}, "slivers": {"found", "picks", "kept"}, "predicates": {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
    * "contention_seconds", "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA
-   * node, machine], "received_elements"}, ...]}`. Where the processor's counters can be read (a build
+   * node, machine], "received_elements", "helped_loops",
+   * "helped_iterations"}, ...]}`. Where the processor's counters can be read (a build
    * with PAPI) the last also has "tlb_misses", "last_level_cache_misses" and "resource_stall_cycles".
    * "contention" and "balance" name the policies that were asked for. "labels" and "quality" are left out when they were not measured; what is not
    * finite is null.

@@ -9,3 +9,9 @@ add_test(NAME Examples.Python.mesh_segmentation
 set_tests_properties(Examples.Python.mesh_segmentation PROPERTIES
   ENVIRONMENT "${VOXPLEX_PYTHON_TEST_ENVIRONMENT}"
   TIMEOUT 600 LABELS Examples PASS_REGULAR_EXPRESSION "label 3: [1-9][0-9]+ tetrahedra")
+add_test(NAME Examples.Python.mesh_moving_anatomy
+  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Python/mesh_moving_anatomy.py"
+    --output "${CMAKE_CURRENT_BINARY_DIR}/moving-anatomy")
+set_tests_properties(Examples.Python.mesh_moving_anatomy PROPERTIES
+  ENVIRONMENT "${VOXPLEX_PYTHON_TEST_ENVIRONMENT}"
+  TIMEOUT 600 LABELS Examples PASS_REGULAR_EXPRESSION "t = 0.80 s: chamber 1[0-9][0-9][0-9] mm")

@@ -68,13 +68,15 @@ double SizeImage::At(const Point<3>& x) const
   return weights > 0.0 ? sum / weights : NoBound;
 }
 
-bool ElementSizes::Any() const
+template <int D>
+bool ElementSizes<D>::Any() const
 {
   return this->Uniform > 0.0 || !this->PerLabel.empty() || this->Image || this->Implicit ||
     this->Function;
 }
 
-double ElementSizes::Evaluate(const Point<3>& p, std::int64_t label) const
+template <int D>
+double ElementSizes<D>::Evaluate(const Point<D>& p, std::int64_t label) const
 {
   double size = AsBound(this->Uniform);
   if (!this->PerLabel.empty())
@@ -89,10 +91,10 @@ double ElementSizes::Evaluate(const Point<3>& p, std::int64_t label) const
   {
     return size;
   }
-  const Point<3> x = this->Frame.ToWorld(p);
+  const Point<D> x = this->Frame.ToWorld(p);
   if (this->Image)
   {
-    size = std::min(size, this->Image->At(x));
+    size = std::min(size, this->Image->At({ x[0], x[1], x[2] }));
   }
   if (this->Implicit)
   {
@@ -106,7 +108,8 @@ double ElementSizes::Evaluate(const Point<3>& p, std::int64_t label) const
   return size;
 }
 
-double ElementSizes::Call(const Point<3>& x, std::int64_t label) const
+template <int D>
+double ElementSizes<D>::Call(const Point<D>& x, std::int64_t label) const
 {
   if (this->Failed())
   {
@@ -128,7 +131,8 @@ double ElementSizes::Call(const Point<3>& x, std::int64_t label) const
   }
 }
 
-void ElementSizes::Rethrow() const
+template <int D>
+void ElementSizes<D>::Rethrow() const
 {
   const std::lock_guard<std::mutex> lock(this->FailureMutex);
   if (this->Failure)
@@ -136,5 +140,8 @@ void ElementSizes::Rethrow() const
     std::rethrow_exception(this->Failure);
   }
 }
+
+template class ElementSizes<3>;
+template class ElementSizes<4>;
 
 } // namespace voxplex

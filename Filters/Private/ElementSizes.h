@@ -9,6 +9,7 @@
 
 #include "Image/SizeFunction.h"
 #include "Private/ImageFrame.h"
+#include "Private/SpaceTimeFrame.h"
 
 #include "vtkSmartPointer.h"
 
@@ -20,6 +21,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 
 class vtkDataArray;
 class vtkImplicitFunction;
@@ -48,29 +50,37 @@ private:
   vtkSmartPointer<vtkDataArray> Sizes;
 };
 
+/** How the images lie that a D-dimensional mesh is made from. */
+template <int D>
+using FrameOf = std::conditional_t<D == 3, ImageFrame, SpaceTimeFrame>;
+
 /**
  * @brief The smallest of all sizes that are given.
+ *
+ * In 4D the image of sizes and the implicit function are those of space and apply at all times.
  *
  * Set the members before meshing; Evaluate() is then safe to call from any thread. Implicit
  * functions are called by one thread at a time, because VTK's are not thread safe in general (they
  * evaluate their transform into members).
  */
-class ElementSizes : public SizeFunction<3>
+template <int D>
+class ElementSizes : public SizeFunction<D>
 {
 public:
-  using Callable = std::function<double(const double x[3], long long label)>;
+  /** x: D physical coordinates, in 4D the last is the time. */
+  using Callable = std::function<double(const double* x, long long label)>;
 
   double Uniform = 0.0; ///< 0: none
   std::map<std::int64_t, double> PerLabel;
   std::optional<SizeImage> Image;
   vtkSmartPointer<vtkImplicitFunction> Implicit;
   Callable Function;
-  ImageFrame Frame; ///< of the label image
+  FrameOf<D> Frame; ///< of the label image
 
   /** Whether anything is given at all. */
   bool Any() const;
 
-  double Evaluate(const Point<3>& p, std::int64_t label) const override;
+  double Evaluate(const Point<D>& p, std::int64_t label) const override;
 
   /** Whether Function has thrown; sizes are then of no use and meshing should stop. */
   bool Failed() const { return this->HasFailed.load(std::memory_order_acquire); }
@@ -78,13 +88,16 @@ public:
   void Rethrow() const;
 
 private:
-  double Call(const Point<3>& x, std::int64_t label) const;
+  double Call(const Point<D>& x, std::int64_t label) const;
 
   mutable std::mutex ImplicitMutex;
   mutable std::mutex FailureMutex;
   mutable std::exception_ptr Failure;
   mutable std::atomic<bool> HasFailed{ false };
 };
+
+extern template class ElementSizes<3>;
+extern template class ElementSizes<4>;
 
 } // namespace voxplex
 

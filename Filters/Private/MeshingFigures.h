@@ -17,6 +17,7 @@
 
 struct vtkMeshingStatistics::Figures
 {
+  int Dimension = 3;
   std::int64_t Elements = 0;
   std::int64_t Vertices = 0;
   std::int64_t InterfaceFacets = 0;

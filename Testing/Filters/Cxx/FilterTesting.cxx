@@ -8,6 +8,7 @@
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
+#include "vtkMeshingStatistics.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -120,6 +121,62 @@ void ErrorCollector::Watch(vtkAlgorithm* algorithm)
     algorithm->AddObserver(event, this);
     algorithm->GetExecutive()->AddObserver(event, this);
   }
+}
+
+void ExpectError(const char* name, vtkImageToSimplexMeshFilter* filter,
+  const std::vector<std::string>& words, const std::function<void()>& repair)
+{
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  const int updated = filter->GetExecutive()->Update();
+  CHECK(updated == 0, name);
+  if (CHECK(errors->FromFilter.size() == 1, name, errors->FromFilter.size()))
+  {
+    const std::string& text = errors->FromFilter.front();
+    for (const std::string& word : words)
+    {
+      CHECK(text.find(word) != std::string::npos, name, word, text);
+    }
+    CHECK(text.find(filter->GetErrorMessage()) != std::string::npos, name);
+  }
+  CHECK(!filter->GetErrorMessage().empty(), name);
+  CHECK(!filter->GetAborted(), name);
+  CHECK(Empty(filter), name);
+  CHECK(filter->GetStatistics()->GetNumberOfElements() == 0, name);
+  filter->RemoveObserver(errors);
+  filter->GetExecutive()->RemoveObserver(errors);
+  if (repair)
+  {
+    repair();
+    filter->Update();
+    CHECK(filter->GetErrorMessage().empty(), name, filter->GetErrorMessage());
+    CHECK(filter->GetOutput()->GetNumberOfCells() > 0, name);
+  }
+}
+
+namespace
+{
+
+class ProgressCommand : public vtkCommand
+{
+public:
+  static ProgressCommand* New() { return new ProgressCommand; }
+  std::function<void(vtkAlgorithm*, double)> Function;
+  void Execute(vtkObject* caller, unsigned long, void* data) override
+  {
+    this->Function(static_cast<vtkAlgorithm*>(caller), *static_cast<double*>(data));
+  }
+};
+
+} // namespace
+
+vtkSmartPointer<vtkCommand> Observe(
+  vtkAlgorithm* filter, std::function<void(vtkAlgorithm*, double)> function)
+{
+  auto command = vtkSmartPointer<ProgressCommand>::Take(ProgressCommand::New());
+  command->Function = std::move(function);
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+  return command;
 }
 
 //----------------------------------------------------------------------------------------------------
@@ -436,12 +493,17 @@ bool SameMesh(vtkPolyData* a, vtkPolyData* b)
     SameArray(a->GetCellData()->GetArray("Labels"), b->GetCellData()->GetArray("Labels"));
 }
 
-bool Empty(vtkImageToTetMeshFilter* filter)
+bool Empty(vtkImageToSimplexMeshFilter* filter)
 {
-  return filter->GetOutput()->GetNumberOfCells() == 0 &&
-    filter->GetOutput()->GetNumberOfPoints() == 0 &&
-    filter->GetInterfaces()->GetNumberOfCells() == 0 &&
-    filter->GetInterfaces()->GetNumberOfPoints() == 0;
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    const auto output = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(port));
+    if (output->GetNumberOfCells() != 0 || output->GetNumberOfPoints() != 0)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace testing

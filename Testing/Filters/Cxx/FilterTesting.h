@@ -90,6 +90,17 @@ private:
   vtkAlgorithm* Filter = nullptr;
 };
 
+/**
+ * The filter must fail with one message of its own that has all of these words in it. Then, with
+ * `repair` undoing the damage, it must work.
+ */
+void ExpectError(const char* name, vtkImageToSimplexMeshFilter* filter,
+  const std::vector<std::string>& words, const std::function<void()>& repair = nullptr);
+
+/** Calls a function with the fraction on each progress event. */
+vtkSmartPointer<vtkCommand> Observe(
+  vtkAlgorithm* filter, std::function<void(vtkAlgorithm*, double)> function);
+
 double Volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
 
 struct Circumball
@@ -126,7 +137,7 @@ bool SameMesh(vtkUnstructuredGrid* a, vtkUnstructuredGrid* b);
 bool SameMesh(vtkPolyData* a, vtkPolyData* b);
 
 /** Whether both outputs are empty. */
-bool Empty(vtkImageToTetMeshFilter* filter);
+bool Empty(vtkImageToSimplexMeshFilter* filter);
 
 } // namespace testing
 

@@ -8,6 +8,7 @@
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 
+#include <cmath>
 #include <sstream>
 
 using namespace testing;
@@ -20,8 +21,8 @@ void FillThreads(vtkMeshingStatistics* statistics)
 {
   auto& run = statistics->Edit().Run;
   run.Threads.resize(2);
-  run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51 };
-  run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52 };
+  run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51, 71, 81 };
+  run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52, 72, 82 };
   run.Threads[1].Hardware = { 61, {}, 63 };
   run.Contention = voxplex::ContentionPolicy::Random;
   run.Balance = voxplex::BalancePolicy::Random;
@@ -63,6 +64,84 @@ void TestThreads()
   }
 }
 
+/** Quality, cavities and slivers of a 4D run, by getter and in the JSON. */
+void TestQuality()
+{
+  vtkNew<vtkMeshingStatistics> s;
+  CHECK(s->GetDimension() == 3);
+  CHECK(std::isnan(s->GetShortestEdge()) && std::isnan(s->GetMeanCavitySize()));
+  CHECK(s->ToJSON().find(R"("cavities": {"mean": null, "largest": 0})") != std::string::npos);
+
+  auto& figures = s->Edit();
+  figures.Dimension = 4;
+  figures.HasQuality = true;
+  auto& quality = figures.Quality;
+  quality.ShortestEdge = 0.5;
+  quality.MeanRadiusEdgeRatio = 1.25;
+  quality.RadiusEdgeRatioDeviation = 0.125;
+  quality.MeanNormalizedVolume = 0.375;
+  quality.NormalizedVolumeDeviation = 0.0625;
+  for (std::size_t i = 0; i < quality.NormalizedVolumes.size(); ++i)
+  {
+    quality.NormalizedVolumes[i] = 100 + i;
+  }
+  auto& rules = figures.Run.Rules;
+  rules.Fired = { 1, 2, 3, 4, 5 };
+  rules.FiredBySize = 1;
+  rules.CavitySimplices = 40;
+  rules.LargestCavity = 9;
+  rules.SliversFound = 71;
+  rules.PicksTried = 72;
+  rules.SliversKept = 73;
+
+  CHECK(s->GetDimension() == 4);
+  CHECK(s->GetShortestEdge() == 0.5);
+  CHECK(s->GetMeanRadiusEdgeRatio() == 1.25 && s->GetRadiusEdgeRatioDeviation() == 0.125);
+  CHECK(s->GetMeanNormalizedVolume() == 0.375 && s->GetNormalizedVolumeDeviation() == 0.0625);
+  CHECK(s->GetNumberOfNormalizedVolumeBins() == 20);
+  for (int i = 0; i < 20; ++i)
+  {
+    CHECK(s->GetNormalizedVolumeBin(i) == 100 + i, i);
+  }
+  CHECK(s->GetNormalizedVolumeBin(-1) == 0 && s->GetNormalizedVolumeBin(20) == 0);
+  CHECK(s->GetFiredBySize() == 1);
+  CHECK(s->GetMeanCavitySize() == 2.5 && s->GetLargestCavity() == 9);
+  CHECK(s->GetSliversFound() == 71 && s->GetPicksTried() == 72 && s->GetSliversKept() == 73);
+
+  const std::string json = s->ToJSON();
+  for (const char* part : { R"({"dimension": 4, "elements": )", R"("shortest_edge": 0.5, )",
+         R"("mean_radius_edge": 1.25, "radius_edge_deviation": 0.125, )",
+         R"("mean_normalized_volume": 0.375, "normalized_volume_deviation": 0.0625, )"
+         R"("normalized_volume_histogram": [100, 101, )",
+         R"("R5": 5, "R6": 0, "size": 1, )",
+         R"("cavities": {"mean": 2.5, "largest": 9}, )"
+         R"("slivers": {"found": 71, "picks": 72, "kept": 73})" })
+  {
+    CHECK(json.find(part) != std::string::npos, part, json);
+  }
+  std::ostringstream text;
+  s->Print(text);
+  CHECK(text.str().find("Dimension: 4") != std::string::npos);
+}
+
+/** Sums over threads add up; the largest cavity is the largest of all. */
+void TestSumOfRules()
+{
+  voxplex::RuleStatistics a;
+  a.CavitySimplices = 1;
+  a.LargestCavity = 20;
+  a.SliversFound = 3;
+  a.PicksTried = 4;
+  a.SliversKept = 5;
+  voxplex::RuleStatistics b = a;
+  b.LargestCavity = 10;
+  a += b;
+  CHECK(a.CavitySimplices == 2 && a.LargestCavity == 20);
+  CHECK(a.SliversFound == 6 && a.PicksTried == 8 && a.SliversKept == 10);
+  b += a;
+  CHECK(b.LargestCavity == 20);
+}
+
 /** An index out of range is 0, not a crash; so is everything after Initialize(). */
 void TestRange()
 {
@@ -102,8 +181,10 @@ void TestJSON()
       R"("seeding_seconds": 0.125)",
       R"("thread_statistics": [{"insertions": 1001, "removals": 11, "rollbacks": 21, "waits": 31, )"
       R"("contention_seconds": 0.5, "load_balance_seconds": 1.5, "rollback_seconds": 2.5, )"
-      R"("received": [41, 42, 43], "received_elements": 51}, {"insertions": 1002, )",
+      R"("received": [41, 42, 43], "received_elements": 51, )"
+      R"("helped_loops": 71, "helped_iterations": 81}, {"insertions": 1002, )",
       R"("received": [44, 45, 46], "received_elements": 52, )"
+      R"("helped_loops": 72, "helped_iterations": 82, )"
       R"("tlb_misses": 61, "resource_stall_cycles": 63}])" })
   {
     CHECK(json.find(part) != std::string::npos, part, json);
@@ -115,6 +196,8 @@ void TestJSON()
 int TestMeshingStatistics(int, char*[])
 {
   TestThreads();
+  TestQuality();
+  TestSumOfRules();
   TestRange();
   TestJSON();
   return Result();

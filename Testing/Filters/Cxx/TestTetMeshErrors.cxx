@@ -5,15 +5,12 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkDoubleArray.h"
-#include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
-#include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -22,41 +19,6 @@ using namespace testing;
 
 namespace
 {
-
-/**
- * The filter must fail with one message of its own that has all of these words in it. Then, with
- * `repair` undoing the damage, it must work.
- */
-void ExpectError(const char* name, vtkImageToTetMeshFilter* filter,
-  const std::vector<std::string>& words, const std::function<void()>& repair = nullptr)
-{
-  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
-  errors->Watch(filter);
-  const int updated = filter->GetExecutive()->Update();
-  CHECK(updated == 0, name);
-  if (CHECK(errors->FromFilter.size() == 1, name, errors->FromFilter.size()))
-  {
-    const std::string& text = errors->FromFilter.front();
-    for (const std::string& word : words)
-    {
-      CHECK(text.find(word) != std::string::npos, name, word, text);
-    }
-    CHECK(text.find(filter->GetErrorMessage()) != std::string::npos, name);
-  }
-  CHECK(!filter->GetErrorMessage().empty(), name);
-  CHECK(!filter->GetAborted(), name);
-  CHECK(Empty(filter), name);
-  CHECK(filter->GetStatistics()->GetNumberOfElements() == 0, name);
-  filter->RemoveObserver(errors);
-  filter->GetExecutive()->RemoveObserver(errors);
-  if (repair)
-  {
-    repair();
-    filter->Update();
-    CHECK(filter->GetErrorMessage().empty(), name, filter->GetErrorMessage());
-    CHECK(filter->GetOutput()->GetNumberOfCells() > 0, name);
-  }
-}
 
 /** An image that is bad in itself. */
 void ExpectImageError(const char* name, vtkImageData* image, const std::vector<std::string>& words)

@@ -9,7 +9,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <chrono>
-#include <functional>
 #include <thread>
 
 using namespace testing;
@@ -22,27 +21,6 @@ using Clock = std::chrono::steady_clock;
 double SecondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/** Calls a function on each progress event. */
-class ProgressCommand : public vtkCommand
-{
-public:
-  static ProgressCommand* New() { return new ProgressCommand; }
-  std::function<void(vtkAlgorithm*, double)> Function;
-  void Execute(vtkObject* caller, unsigned long, void* data) override
-  {
-    this->Function(static_cast<vtkAlgorithm*>(caller), *static_cast<double*>(data));
-  }
-};
-
-vtkSmartPointer<ProgressCommand> Observe(
-  vtkAlgorithm* filter, std::function<void(vtkAlgorithm*, double)> function)
-{
-  auto command = vtkSmartPointer<ProgressCommand>::Take(ProgressCommand::New());
-  command->Function = std::move(function);
-  filter->AddObserver(vtkCommand::ProgressEvent, command);
-  return command;
 }
 
 /** Takes seconds, so that there is something to stop. */

@@ -1,0 +1,345 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/FrameSeries.h"
+
+#include "Error.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Voxels that a thread takes at a time. */
+constexpr std::size_t Grain = 1 << 16;
+
+/** How far times may be from equal spacing, in steps. */
+constexpr double SpacingTolerance = 1e-3;
+/** How far frames may be from lying on each other, in voxels. */
+constexpr double GridTolerance = 1e-3;
+
+std::string Number(double x)
+{
+  std::ostringstream text;
+  text.precision(10);
+  text << x;
+  return text.str();
+}
+
+/** What it takes to hold a value: the index of FrameSeries' alternative, or that it is no label. */
+enum class Width : unsigned
+{
+  Bits8,
+  Bits16,
+  Bits64,
+  NoLabel
+};
+
+template <typename T>
+Width WidthOf(T value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // 2^63 is exact in both types; NaN fails the first comparison.
+    if (!(value >= T(0) && value < static_cast<T>(9223372036854775808.0)) ||
+      std::floor(value) != value)
+    {
+      return Width::NoLabel;
+    }
+  }
+  else
+  {
+    if (std::cmp_less(+value, 0) ||
+      std::cmp_greater(+value, std::numeric_limits<std::int64_t>::max()))
+    {
+      return Width::NoLabel;
+    }
+  }
+  const auto label = static_cast<std::int64_t>(value);
+  return label <= std::numeric_limits<std::uint8_t>::max() ? Width::Bits8
+    : label <= std::numeric_limits<std::uint16_t>::max()   ? Width::Bits16
+                                                           : Width::Bits64;
+}
+
+/** The largest width of the values at 0, stride, 2 stride, ... */
+template <typename T>
+Width LargestWidth(const T* values, std::size_t count, std::size_t stride, unsigned threads)
+{
+  std::atomic<unsigned> largest{ 0 };
+  ParallelFor(0, count, Grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      unsigned mine = 0;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        mine = std::max(mine, static_cast<unsigned>(WidthOf(values[i * stride])));
+      }
+      // Relaxed: the loop's end comes before it is read.
+      unsigned seen = largest.load(std::memory_order_relaxed);
+      while (mine > seen && !largest.compare_exchange_weak(seen, mine, std::memory_order_relaxed))
+      {
+      }
+    });
+  return static_cast<Width>(largest.load());
+}
+
+/** The kernel's message about a frame with a value that is no label. */
+template <typename T>
+[[noreturn]] void ThrowBadValue(
+  const T* values, std::size_t stride, const GridGeometry<3>& grid, const std::string& name)
+{
+  const auto& n = grid.Dimensions;
+  std::vector<T> frame(static_cast<std::size_t>(n[0] * n[1] * n[2]));
+  for (std::size_t i = 0; i < frame.size(); ++i)
+  {
+    frame[i] = values[i * stride];
+  }
+  try
+  {
+    LabelImage<3>::FromScalars<T>(frame, grid);
+  }
+  catch (const InputError& error)
+  {
+    throw InputError("In " + name + ": " + error.what());
+  }
+  throw InputError("In " + name + ": a value is not a label.");
+}
+
+std::string Format(const std::array<std::int64_t, 3>& n)
+{
+  return std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]);
+}
+
+std::string Format(const Point<3>& p)
+{
+  return "(" + Number(p[0]) + ", " + Number(p[1]) + ", " + Number(p[2]) + ")";
+}
+
+Point<3> SpacingOf(const ImageFrame& frame)
+{
+  return { frame.Grid.Spacing(0), frame.Grid.Spacing(1), frame.Grid.Spacing(2) };
+}
+
+/** World position of the voxel at the other end of the image along an axis. */
+Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
+{
+  Point<3> index{};
+  index[axis] = static_cast<double>(frame.Grid.Dimensions[axis] - 1);
+  return frame.ToWorld(frame.Grid.ToFrame(index));
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
+void CheckTimes(std::span<const double> times)
+{
+  if (times.size() < 2)
+  {
+    throw InputError("A space-time mesh needs two frames or more; for one image, use "
+                     "vtkImageToTetMeshFilter.");
+  }
+  for (std::size_t i = 0; i < times.size(); ++i)
+  {
+    if (!std::isfinite(times[i]))
+    {
+      throw InputError("The time of frame " + std::to_string(i) + " is " + Number(times[i]) +
+        "; it must be finite.");
+    }
+    if (i > 0 && !(times[i] > times[i - 1]))
+    {
+      throw InputError("The times of frames must increase, but frame " + std::to_string(i - 1) +
+        " has time " + Number(times[i - 1]) + " and frame " + std::to_string(i) + " has time " +
+        Number(times[i]) + ".");
+    }
+  }
+  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  if (!std::isfinite(step))
+  {
+    throw InputError("The times of frames are too far apart.");
+  }
+  for (std::size_t i = 1; i < times.size(); ++i)
+  {
+    if (!(std::abs(times[i] - times[i - 1] - step) <= SpacingTolerance * step))
+    {
+      throw InputError("Frames must be equally spaced in time, " + Number(step) +
+        " apart on average, but frames " + std::to_string(i - 1) + " and " + std::to_string(i) +
+        " are " + Number(times[i] - times[i - 1]) + " apart (times " + Number(times[i - 1]) +
+        " and " + Number(times[i]) + "); resample the series.");
+    }
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+void FrameSeries::Start(std::vector<double> times)
+{
+  this->Clear();
+  this->Times = std::move(times);
+}
+
+void FrameSeries::Clear()
+{
+  *this = FrameSeries();
+}
+
+std::string FrameSeries::NameOf(std::size_t frame) const
+{
+  return "frame " + std::to_string(frame) + " (time " + Number(this->Times[frame]) + ")";
+}
+
+void FrameSeries::CheckSameGrid(const ChosenArray& frame) const
+{
+  const std::string both = this->NameOf(0) + " and " + this->NameOf(this->Added);
+  const ImageFrame& a = this->FirstFrame;
+  const ImageFrame& b = frame.Frame;
+  if (a.Grid.Dimensions != b.Grid.Dimensions)
+  {
+    throw InputError("All frames must have the same dimensions, but those of " + both + " are " +
+      Format(a.Grid.Dimensions) + " and " + Format(b.Grid.Dimensions) + ".");
+  }
+  const Point<3> spacing = SpacingOf(a);
+  const Point<3> other = SpacingOf(b);
+  const double tolerance = GridTolerance * std::min({ spacing[0], spacing[1], spacing[2] });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double last = static_cast<double>(a.Grid.Dimensions[axis] - 1);
+    if (std::abs(spacing[axis] - other[axis]) * last > tolerance)
+    {
+      throw InputError("All frames must have the same spacing, but that of " + both + " is " +
+        Format(spacing) + " and " + Format(other) + ".");
+    }
+  }
+  if (Distance(a.Origin, b.Origin) > tolerance)
+  {
+    throw InputError("All frames must have the same origin, but the first voxels of " + both +
+      " lie at " + Format(a.Origin) + " and " + Format(b.Origin) + ".");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (Distance(EndOf(a, axis), EndOf(b, axis)) > 4.0 * tolerance)
+    {
+      throw InputError("All frames must have the same direction matrix, but those of " + both +
+        " differ in axis " + std::to_string(axis) + ".");
+    }
+  }
+  const char* name = frame.Array->GetName();
+  if (this->ArrayName != (name ? name : ""))
+  {
+    throw InputError("All frames must have the labels in an array of the same name, but those of " +
+      both + " are '" + this->ArrayName + "' and '" + (name ? name : "") + "'.");
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+template <typename U>
+void FrameSeries::WidenTo(unsigned threads)
+{
+  const auto& n = this->FirstFrame.Grid.Dimensions;
+  const std::size_t voxels = static_cast<std::size_t>(n[0] * n[1] * n[2]);
+  UninitialisedVector<U> wide(voxels * this->Times.size());
+  std::visit(
+    [&](const auto& narrow)
+    {
+      ParallelFor(0, voxels * this->Added, Grain, threads,
+        [&](std::size_t first, std::size_t last)
+        {
+          std::transform(narrow.data() + first, narrow.data() + last, wide.data() + first,
+            [](auto label) { return static_cast<U>(label); });
+        });
+    },
+    this->Labels);
+  this->Labels = std::move(wide);
+}
+
+template <typename T>
+void FrameSeries::Copy(const T* values, int components, int component, unsigned threads)
+{
+  values += component;
+  const auto stride = static_cast<std::size_t>(components);
+  const auto& n = this->FirstFrame.Grid.Dimensions;
+  const std::size_t voxels = static_cast<std::size_t>(n[0] * n[1] * n[2]);
+  const Width width = LargestWidth(values, voxels, stride, threads);
+  if (width == Width::NoLabel)
+  {
+    ThrowBadValue(values, stride, this->FirstFrame.Grid, this->NameOf(this->Added));
+  }
+  if (this->Added == 0 || static_cast<std::size_t>(width) > this->Labels.index())
+  {
+    switch (width)
+    {
+      case Width::Bits8:
+        this->WidenTo<std::uint8_t>(threads);
+        break;
+      case Width::Bits16:
+        this->WidenTo<std::uint16_t>(threads);
+        break;
+      default:
+        this->WidenTo<std::int64_t>(threads);
+    }
+  }
+  std::visit(
+    [&](auto& labels)
+    {
+      using Label = typename std::remove_reference_t<decltype(labels)>::value_type;
+      Label* const out = labels.data() + voxels * this->Added;
+      ParallelFor(0, voxels, Grain, threads,
+        [&](std::size_t first, std::size_t last)
+        {
+          for (std::size_t i = first; i < last; ++i)
+          {
+            out[i] = static_cast<Label>(values[i * stride]);
+          }
+        });
+    },
+    this->Labels);
+}
+
+void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
+{
+  if (this->Added == 0)
+  {
+    this->FirstFrame = frame.Frame;
+    this->ArrayName = frame.Array->GetName() ? frame.Array->GetName() : "";
+  }
+  this->CheckSameGrid(frame);
+  const vtkSmartPointer<vtkDataArray> array = Contiguous(frame.Array);
+  const int components = array->GetNumberOfComponents();
+  switch (array->GetDataType())
+  {
+    vtkTemplateMacro(this->Copy(
+      static_cast<const VTK_TT*>(array->GetVoidPointer(0)), components, component, threads));
+    default:
+      throw InputError("Scalars of type " + std::string(array->GetDataTypeAsString()) +
+        " cannot be read as labels.");
+  }
+  ++this->Added;
+}
+
+//----------------------------------------------------------------------------------------------------
+SpaceTimeFrame FrameSeries::MakeFrame(double timeScale) const
+{
+  return MakeSpaceTimeFrame(this->FirstFrame, static_cast<std::int64_t>(this->Times.size()),
+    this->Times.front(), this->Times.back(), timeScale);
+}
+
+LabelImage<4> FrameSeries::MakeLabelImage(
+  const GridGeometry<4>& grid, std::span<const std::int64_t> keep, unsigned threads) const
+{
+  return std::visit(
+    [&](const auto& labels)
+    {
+      using Label = typename std::remove_cvref_t<decltype(labels)>::value_type;
+      return LabelImage<4>::FromScalars<Label>(labels, grid, keep, threads);
+    },
+    this->Labels);
+}
+
+} // namespace voxplex

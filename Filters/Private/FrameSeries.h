@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FrameSeries.h
+ * @brief Gathers the images of a time series as one array of labels.
+ *
+ * An image of the series is called a frame here. The kernel wants the voxels of all frames in one
+ * array: x fastest, then y, z, time. Labels are kept in 8, 16 or 64 bits each, as few as those seen
+ * so far need, whatever the type of the images' scalars.
+ */
+#ifndef voxplex_FrameSeries_h
+#define voxplex_FrameSeries_h
+
+#include "Image/LabelImage.h"
+#include "Parallel/UninitialisedVector.h"
+#include "Private/ChosenArray.h"
+#include "Private/SpaceTimeFrame.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * Throws InputError, which names the times, unless there are two or more that are finite, increase,
+ * and are equally spaced to a thousandth of a step.
+ */
+void CheckTimes(std::span<const double> times);
+
+class FrameSeries
+{
+public:
+  /** Starts anew. The times are those of CheckTimes(). */
+  void Start(std::vector<double> times);
+  /** Forgets everything and releases the memory. */
+  void Clear();
+
+  std::size_t NumberOfFrames() const { return this->Times.size(); }
+  /** Frames added so far: the next one's number. */
+  std::size_t NumberOfFramesAdded() const { return this->Added; }
+  bool IsComplete() const { return this->Added == this->Times.size(); }
+  /** "frame 2 (time 0.5)"; frames are counted from 0. */
+  std::string NameOf(std::size_t frame) const;
+  double TimeOf(std::size_t frame) const { return this->Times[frame]; }
+
+  /**
+   * Copies the labels of the next frame: one component of an array.
+   * @param threads 0 means all cores
+   * @throws InputError, which names the frames, if the grid or the array's name is not the first
+   * frame's, or if there is a value that cannot be a label; std::bad_alloc
+   */
+  void Add(const ChosenArray& frame, int component, unsigned threads);
+
+  /** Where the complete series lies. */
+  SpaceTimeFrame MakeFrame(double timeScale) const;
+
+  /**
+   * The labels of the complete series.
+   * @throws what LabelImage::FromScalars() throws
+   */
+  LabelImage<4> MakeLabelImage(
+    const GridGeometry<4>& grid, std::span<const std::int64_t> keep, unsigned threads) const;
+
+private:
+  template <typename T>
+  void Copy(const T* values, int components, int component, unsigned threads);
+  /** Makes room for labels of type U. */
+  template <typename U>
+  void WidenTo(unsigned threads);
+  void CheckSameGrid(const ChosenArray& frame) const;
+
+  std::vector<double> Times;
+  std::size_t Added = 0;
+  ImageFrame FirstFrame;
+  std::string ArrayName;
+  /** Of all frames; those not yet added are uninitialised. Alternatives in order of width. */
+  std::variant<UninitialisedVector<std::uint8_t>, UninitialisedVector<std::uint16_t>,
+    UninitialisedVector<std::int64_t>>
+    Labels;
+};
+
+} // namespace voxplex
+
+#endif

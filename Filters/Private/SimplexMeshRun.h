@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file SimplexMeshRun.h
+ * @brief What the meshing filters share of an execution, whatever the dimension.
+ */
+#ifndef voxplex_SimplexMeshRun_h
+#define voxplex_SimplexMeshRun_h
+
+#include "Error.h"
+#include "ImageMesher.h"
+#include "Mesh/MeshQuality.h"
+#include "Private/ChosenArray.h"
+#include "Private/ElementSizes.h"
+#include "Private/MeshingFigures.h"
+
+#include "vtkImageData.h"
+#include "vtkImageToSimplexMeshFilter.h"
+#include "vtkInformationVector.h"
+#include "vtkMeshingStatistics.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Wall-clock time since it was made. */
+class StopWatch
+{
+public:
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+/** Throws InputError unless low <= value <= high; `must` says what it must be. */
+void CheckRange(double value, double low, double high, const char* name, const char* must);
+
+/** At most 20 labels, separated by commas. */
+std::string ListLabels(std::span<const std::int64_t> labels);
+
+/** Throws InputError if a label has a size but is not among those of the image. */
+void CheckSizedLabels(
+  const std::map<std::int64_t, double>& sizes, bool selected, std::span<const std::int64_t> labels);
+
+/** Those of `labels`, which is sorted, that no element has. */
+std::vector<std::int64_t> FindLostLabels(
+  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements);
+
+} // namespace voxplex
+
+struct vtkImageToSimplexMeshFilter::Internals
+{
+  std::map<std::int64_t, double> LabelSizes;
+  std::set<std::int64_t> Labels;
+  SizeFunctionType SizeFunction;
+  vtkNew<vtkMeshingStatistics> Statistics;
+};
+
+/**
+ * One execution: make it, adjust Options and Sizes, read the labels, Mesh(), write the outputs.
+ */
+template <int D>
+class vtkImageToSimplexMeshFilter::Run
+{
+public:
+  /**
+   * Options and sizes as the filter's common parameters and its input port 1 say.
+   * @param frame how the images lie
+   * @throws voxplex::InputError if the image of element sizes is unsuitable
+   */
+  Run(vtkImageToSimplexMeshFilter* filter, vtkInformationVector** inputVector,
+    const voxplex::FrameOf<D>& frame)
+    : Sizes(std::make_shared<voxplex::ElementSizes<D>>())
+    , Filter(filter)
+  {
+    this->Sizes->Frame = frame;
+    this->Sizes->Uniform = filter->ElementSize;
+    this->Sizes->PerLabel = filter->Private->LabelSizes;
+    this->Sizes->Function = filter->Private->SizeFunction;
+    if (vtkImageData* image = vtkImageData::GetData(inputVector[1]))
+    {
+      int association = 0;
+      vtkAbstractArray* values =
+        filter->GetInputAbstractArrayToProcess(1, inputVector, association);
+      const voxplex::ChosenArray chosen =
+        voxplex::ChooseScalars(image, values, association, "image of element sizes", "");
+      this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
+    }
+    this->Options.Delta = filter->Delta;
+    this->Options.RadiusEdgeRatio = filter->RadiusEdgeRatio;
+    this->Options.SmoothingSigma = filter->SmoothingSigma;
+    this->Options.Threads = filter->GetThreads();
+    this->Options.Contention = static_cast<voxplex::ContentionPolicy>(filter->ContentionManager);
+    this->Options.Balance = static_cast<voxplex::BalancePolicy>(filter->LoadBalancer);
+    this->Options.PinThreads = filter->PinThreads;
+    this->Options.Force = filter->Force;
+    this->Options.MemoryLimit = filter->MemoryLimit;
+  }
+
+  voxplex::MeshingOptions<D> Options;
+  std::shared_ptr<voxplex::ElementSizes<D>> Sizes;
+  /** Progress when the kernel starts. */
+  double ProgressBefore = 0.0;
+
+  /** The labels to mesh; none means all. */
+  std::vector<std::int64_t> SelectedLabels() const
+  {
+    const std::set<std::int64_t>& labels = this->Filter->Private->Labels;
+    return { labels.begin(), labels.end() };
+  }
+
+  /**
+   * Calls the kernel and fills the statistics, its quality included if the filter asks for it. The
+   * time since the run was made is counted as reading the labels.
+   * @return false if stopped; the mesh is then empty
+   * @throws voxplex::Error, std::bad_alloc, what the size function throws
+   */
+  bool Mesh(const voxplex::LabelImage<D>& labels, voxplex::SimplexMesh<D>& mesh)
+  {
+    vtkImageToSimplexMeshFilter* const filter = this->Filter;
+    const auto values = labels.Values().subspan(1); // without background
+    voxplex::CheckSizedLabels(
+      filter->Private->LabelSizes, !filter->Private->Labels.empty(), values);
+    if (this->Sizes->Any())
+    {
+      this->Options.Size = this->Sizes;
+    }
+    const double readingTime = this->Watch.Seconds();
+
+    voxplex::ImageMesher<D> mesher(this->Options);
+    mesher.Progress = [this](double fraction)
+    {
+      this->Filter->UpdateProgress(
+        this->ProgressBefore + (KernelProgress - this->ProgressBefore) * fraction);
+      return !this->Sizes->Failed() && !this->Filter->StopRequested();
+    };
+    const voxplex::MeshingOutcome outcome = mesher.Run(labels, mesh);
+    this->Sizes->Rethrow();
+    if (outcome == voxplex::MeshingOutcome::Cancelled || filter->StopRequested())
+    {
+      filter->Aborted = true;
+      return false;
+    }
+
+    vtkMeshingStatistics::Figures& figures = this->Figures();
+    figures.Dimension = D;
+    figures.Run = mesher.Statistics();
+    figures.Threads = static_cast<int>(this->Options.Threads);
+    figures.Elements = std::ssize(mesh.Simplices);
+    figures.Vertices = std::ssize(mesh.Points);
+    figures.InterfaceFacets = std::ssize(mesh.Facets);
+    figures.LostLabels = voxplex::FindLostLabels(values, mesh.Labels);
+    if (mesh.Simplices.empty())
+    {
+      throw voxplex::InputError(
+        "The mesh is empty, because every label is too small for a Delta of " +
+        std::to_string(figures.Run.Delta) + "; use a smaller one.");
+    }
+    if (filter->ComputeQuality)
+    {
+      figures.Quality = voxplex::MeasureQuality(
+        mesh, this->Options.RadiusEdgeRatio, this->Options.FacetAngle, this->Options.Threads);
+      figures.HasQuality = true;
+    }
+    figures.Run.Times.LabelField += readingTime;
+    return true;
+  }
+
+  vtkMeshingStatistics::Figures& Figures() { return this->Filter->Private->Statistics->Edit(); }
+
+private:
+  /** The fraction of the progress at the kernel's end; the rest is the copy into VTK data. */
+  static constexpr double KernelProgress = 0.97;
+
+  vtkImageToSimplexMeshFilter* Filter;
+  voxplex::StopWatch Watch;
+};
+
+#endif

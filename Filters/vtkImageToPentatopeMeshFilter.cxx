@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkImageToPentatopeMeshFilter.h"
+
+#include "Private/FrameSeries.h"
+#include "Private/PentatopeOutput.h"
+#include "Private/SimplexMeshRun.h"
+#include "Private/vtkFrameGatheringPipeline.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPentatopeMeshTimeSlice.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+vtkStandardNewMacro(vtkImageToPentatopeMeshFilter);
+
+struct vtkImageToPentatopeMeshFilter::Frames
+{
+  voxplex::FrameSeries Series;
+  double Seconds = 0.0; ///< taken by copying them
+};
+
+namespace
+{
+
+using voxplex::InputError;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/** The fraction of the progress that belongs to gathering time steps. */
+constexpr double GatheringProgress = 0.1;
+
+/** The name of the field data array in which VTK's files have the time of their data. */
+constexpr char TimeValue[] = "TimeValue";
+
+// The class's constants are the kernel's: casts lead from one to the other.
+static_assert(vtkImageToPentatopeMeshFilter::SURFACE_FIRST ==
+  static_cast<int>(voxplex::RuleOrder::SurfaceFirst));
+
+std::vector<double> TimeStepsOf(vtkInformation* info)
+{
+  const double* const times = info->Get(Pipeline::TIME_STEPS());
+  return times ? std::vector<double>(times, times + info->Length(Pipeline::TIME_STEPS()))
+               : std::vector<double>();
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
+vtkImageToPentatopeMeshFilter::vtkImageToPentatopeMeshFilter()
+  : Gathered(std::make_unique<Frames>())
+{
+}
+
+vtkImageToPentatopeMeshFilter::~vtkImageToPentatopeMeshFilter() = default;
+
+const char* vtkImageToPentatopeMeshFilter::GetRuleOrderAsString() const
+{
+  return this->RuleOrder == RADIUS_EDGE_FIRST ? "radius-edge-first" : "surface-first";
+}
+
+vtkUnstructuredGrid* vtkImageToPentatopeMeshFilter::GetBoundary()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkExecutive* vtkImageToPentatopeMeshFilter::CreateDefaultExecutive()
+{
+  return vtkFrameGatheringPipeline::New();
+}
+
+int vtkImageToPentatopeMeshFilter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+//----------------------------------------------------------------------------------------------------
+int vtkImageToPentatopeMeshFilter::FindNumberOfComponents(vtkInformationVector** inputVector)
+{
+  vtkInformation* const info = inputVector[0]->GetInformationObject(0);
+  if (vtkInformation* active = vtkDataObject::GetActiveFieldInformation(
+        info, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS))
+  {
+    vtkInformation* const chosen = this->GetInputArrayInformation(0);
+    const bool isChosen = chosen->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) &&
+      chosen->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) == vtkDataSetAttributes::SCALARS;
+    if (isChosen && active->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()))
+    {
+      const int components = active->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
+      if (components > 1)
+      {
+        return components;
+      }
+    }
+  }
+  // Of data that is there already, as that of SetInputData().
+  vtkImageData* const image = vtkImageData::GetData(inputVector[0]);
+  int association = 0;
+  vtkAbstractArray* const array =
+    image ? this->GetInputAbstractArrayToProcess(0, inputVector, association) : nullptr;
+  return array ? array->GetNumberOfComponents() : 0;
+}
+
+int vtkImageToPentatopeMeshFilter::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->Superclass::RequestInformation(request, inputVector, outputVector);
+  const std::vector<double> times = TimeStepsOf(inputVector[0]->GetInformationObject(0));
+  std::array<double, 2> range = { 0.0, 0.0 };
+  if (times.size() > 1)
+  {
+    range = { times.front(), times.back() };
+  }
+  else if (const int frames = this->FindNumberOfComponents(inputVector); frames > 1)
+  {
+    range = { this->TimeOrigin, this->TimeOrigin + (frames - 1) * this->TimeSpacing };
+  }
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* const info = outputVector->GetInformationObject(port);
+    info->Remove(Pipeline::TIME_STEPS());
+    if (range[0] < range[1])
+    {
+      info->Set(Pipeline::TIME_RANGE(), range.data(), 2);
+      info->Set(vtkPentatopeMeshTimeSlice::MESH_TIME_RANGE(), range.data(), 2);
+    }
+    else
+    {
+      info->Remove(Pipeline::TIME_RANGE());
+      info->Remove(vtkPentatopeMeshTimeSlice::MESH_TIME_RANGE());
+    }
+  }
+  return 1;
+}
+
+int vtkImageToPentatopeMeshFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* info = inputVector[port]->GetInformationObject(0))
+    {
+      info->Remove(Pipeline::UPDATE_TIME_STEP());
+    }
+  }
+  vtkInformation* const info = inputVector[0]->GetInformationObject(0);
+  const std::vector<double> times = TimeStepsOf(info);
+  if (!times.empty())
+  {
+    const std::size_t next =
+      std::min(this->Gathered->Series.NumberOfFramesAdded(), times.size() - 1);
+    info->Set(Pipeline::UPDATE_TIME_STEP(), times[next]);
+  }
+  return 1;
+}
+
+//----------------------------------------------------------------------------------------------------
+int vtkImageToPentatopeMeshFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int result = this->Superclass::RequestData(request, inputVector, outputVector);
+  if (!request->Get(Pipeline::CONTINUE_EXECUTING()))
+  {
+    *this->Gathered = Frames();
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkDataObject::GetData(outputVector, port)->GetFieldData()->RemoveArray(TimeValue);
+    }
+  }
+  return result;
+}
+
+bool vtkImageToPentatopeMeshFilter::Gather(
+  vtkInformation* request, vtkInformationVector** inputVector)
+{
+  const voxplex::StopWatch copying;
+  voxplex::FrameSeries& series = this->Gathered->Series;
+  const std::vector<double> times = TimeStepsOf(inputVector[0]->GetInformationObject(0));
+  if (times.size() < 2)
+  {
+    this->GatherComponents(inputVector, !times.empty());
+    this->Gathered->Seconds += copying.Seconds();
+    return true;
+  }
+
+  if (!request->Get(Pipeline::CONTINUE_EXECUTING()) && series.NumberOfFramesAdded() > 0)
+  {
+    // An execution before this one ended upstream, and this one's first frame is not the series'.
+    series.Clear();
+    return false;
+  }
+  if (series.NumberOfFramesAdded() == 0)
+  {
+    voxplex::CheckTimes(times);
+    series.Start(times);
+  }
+  int association = 0;
+  vtkAbstractArray* const scalars =
+    this->GetInputAbstractArrayToProcess(0, inputVector, association);
+  series.Add(voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]), scalars, association,
+               "image of " + series.NameOf(series.NumberOfFramesAdded()),
+               " The frames are the time steps of the input."),
+    0, this->GetThreads());
+  this->Gathered->Seconds += copying.Seconds();
+  this->UpdateProgress(GatheringProgress *
+    (static_cast<double>(series.NumberOfFramesAdded()) /
+      static_cast<double>(series.NumberOfFrames())));
+  return series.IsComplete() || this->StopRequested();
+}
+
+void vtkImageToPentatopeMeshFilter::GatherComponents(
+  vtkInformationVector** inputVector, bool hasTimeStep)
+{
+  int association = 0;
+  vtkAbstractArray* const scalars =
+    this->GetInputAbstractArrayToProcess(0, inputVector, association);
+  const voxplex::ChosenArray input =
+    voxplex::Choose(vtkImageData::GetData(inputVector[0]), scalars, association, "image");
+  const int frames = input.Array->GetNumberOfComponents();
+  if (frames < 2)
+  {
+    throw InputError(std::string("A space-time mesh needs two frames or more, but the input has ") +
+      (hasTimeStep ? "one time step only" : "no time steps") +
+      " and its array has one component; for one image, use vtkImageToTetMeshFilter.");
+  }
+  std::vector<double> times;
+  for (int k = 0; k < frames; ++k)
+  {
+    times.push_back(this->TimeOrigin + k * this->TimeSpacing);
+  }
+  voxplex::CheckTimes(times);
+  this->Gathered->Series.Start(times);
+  for (int k = 0; k < frames && !this->StopRequested(); ++k)
+  {
+    this->Gathered->Series.Add(input, k, this->GetThreads());
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToPentatopeMeshFilter::CheckParameters() const
+{
+  using voxplex::CheckRange;
+  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr double smallest = std::numeric_limits<double>::denorm_min();
+  this->Superclass::CheckParameters();
+  CheckRange(this->TimeScale, smallest, largest, "TimeScale", "positive and finite");
+  CheckRange(this->TimeOrigin, -largest, largest, "TimeOrigin", "finite");
+  CheckRange(this->TimeSpacing, smallest, largest, "TimeSpacing", "positive and finite");
+  CheckRange(this->PickingRadius, smallest, std::nextafter(1.0, 0.0), "PickingRadius",
+    "above 0 and below 1");
+  CheckRange(
+    this->NumberOfPicks, 1, std::numeric_limits<int>::max(), "NumberOfPicks", "at least 1");
+  CheckRange(this->SliverBound, 0.0,
+    this->Force ? std::nextafter(1.0, 0.0) : voxplex::LargestSliverBound, "SliverBound",
+    this->Force
+      ? "at least 0 and below 1"
+      : "at least 0 and at most 0.03, because above it meshes can become very large; Force "
+        "goes up to 1");
+  CheckRange(this->SliverRadiusFactor, 1.0, largest, "SliverRadiusFactor", "at least 1 and finite");
+}
+
+void vtkImageToPentatopeMeshFilter::Mesh(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  voxplex::FrameSeries& series = this->Gathered->Series;
+  const voxplex::SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
+  Run<4> run(this, inputVector, frame);
+  run.Options.Order = static_cast<voxplex::RuleOrder>(this->RuleOrder);
+  run.Options.Slivers.Fight = this->PickingRegions;
+  run.Options.Slivers.PickingRadius = this->PickingRadius;
+  run.Options.Slivers.RadiusFactor = this->SliverRadiusFactor;
+  run.Options.Slivers.VolumeBound = this->SliverBound;
+  run.Options.Slivers.Picks = static_cast<unsigned>(this->NumberOfPicks);
+  run.Options.Slivers.Seed = static_cast<std::uint64_t>(this->RandomSeed);
+  run.Options.FineGrained = this->FineGrained;
+  run.ProgressBefore = GatheringProgress;
+
+  const voxplex::LabelImage<4> labels =
+    series.MakeLabelImage(frame.Grid, run.SelectedLabels(), run.Options.Threads);
+  series.Clear();
+  voxplex::SimplexMesh<4> mesh;
+  if (!run.Mesh(labels, mesh))
+  {
+    return;
+  }
+  const voxplex::StopWatch writing;
+  voxplex::MoveToOutput(std::move(mesh), frame, vtkUnstructuredGrid::GetData(outputVector, 0),
+    vtkUnstructuredGrid::GetData(outputVector, 1), run.Options.Threads);
+  run.Figures().Run.Times.LabelField += this->Gathered->Seconds;
+  run.Figures().Run.Times.Extraction += writing.Seconds();
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "TimeScale: " << this->TimeScale << "\n";
+  os << indent << "TimeOrigin: " << this->TimeOrigin << "\n";
+  os << indent << "TimeSpacing: " << this->TimeSpacing << "\n";
+  os << indent << "RuleOrder: " << this->GetRuleOrderAsString() << "\n";
+  os << indent << "PickingRegions: " << (this->PickingRegions ? "On" : "Off") << "\n";
+  os << indent << "PickingRadius: " << this->PickingRadius << "\n";
+  os << indent << "NumberOfPicks: " << this->NumberOfPicks << "\n";
+  os << indent << "SliverBound: " << this->SliverBound << "\n";
+  os << indent << "SliverRadiusFactor: " << this->SliverRadiusFactor << "\n";
+  os << indent << "RandomSeed: " << this->RandomSeed << "\n";
+  os << indent << "FineGrained: " << (this->FineGrained ? "On" : "Off") << "\n";
+}

@@ -1,0 +1,475 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkImageToSimplexMeshFilter.h"
+
+#include "Private/SimplexMeshRun.h"
+#include "Private/SmpThreads.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVersion.h"
+
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <sstream>
+
+namespace
+{
+
+using voxplex::InputError;
+
+/** voxplex::ProvedRadiusEdgeRatio, rounded down to what one types. */
+constexpr double ProvedRadiusEdgeRatio = 1.93;
+
+// The class's constants are the kernel's: casts lead from one to the other.
+using Filter = vtkImageToSimplexMeshFilter;
+static_assert(Filter::CONTENTION_RANDOM == static_cast<int>(voxplex::ContentionPolicy::Random) &&
+  Filter::CONTENTION_GLOBAL == static_cast<int>(voxplex::ContentionPolicy::Global) &&
+  Filter::CONTENTION_LOCAL == static_cast<int>(voxplex::ContentionPolicy::Local));
+static_assert(
+  Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
+
+/** A size that was given as a number. */
+void CheckSize(double size, const std::string& what)
+{
+  if (!(size > 0.0) || !std::isfinite(size))
+  {
+    std::ostringstream text;
+    text << what << " is " << size << "; it must be positive and finite.";
+    throw InputError(text.str());
+  }
+}
+
+/** Whether the piece that is asked for is one that stays empty. */
+bool IsEmptyPiece(vtkInformation* output)
+{
+  return output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) &&
+    output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0;
+}
+
+} // namespace
+
+namespace voxplex
+{
+
+void CheckRange(double value, double low, double high, const char* name, const char* must)
+{
+  if (!(value >= low && value <= high))
+  {
+    std::ostringstream text;
+    text << name << " is " << value << "; it must be " << must << ".";
+    throw InputError(text.str());
+  }
+}
+
+std::string ListLabels(std::span<const std::int64_t> labels)
+{
+  constexpr std::size_t shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, labels.size()); ++i)
+  {
+    text.append(i ? ", " : "").append(std::to_string(labels[i]));
+  }
+  if (labels.size() > shown)
+  {
+    text.append(", ... (").append(std::to_string(labels.size())).append(" in all)");
+  }
+  return text;
+}
+
+std::vector<std::int64_t> FindLostLabels(
+  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements)
+{
+  std::vector<char> found(labels.size(), 0);
+  std::int64_t last = 0;
+  for (const std::int64_t label : elements)
+  {
+    if (label != last) // neighbours in the list mostly have the same label
+    {
+      last = label;
+      found[static_cast<std::size_t>(
+        std::lower_bound(labels.begin(), labels.end(), label) - labels.begin())] = 1;
+    }
+  }
+  std::vector<std::int64_t> lost;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (!found[i])
+    {
+      lost.push_back(labels[i]);
+    }
+  }
+  return lost;
+}
+
+void CheckSizedLabels(
+  const std::map<std::int64_t, double>& sizes, bool selected, std::span<const std::int64_t> labels)
+{
+  for (const auto& [label, size] : sizes)
+  {
+    if (std::binary_search(labels.begin(), labels.end(), label))
+    {
+      continue;
+    }
+    const std::string where = selected ? "is not among the labels to mesh; these are "
+                                       : "does not occur in the image; its labels are ";
+    throw InputError("SetLabelSize() gives a size to label " + std::to_string(label) + ", which " +
+      where + ListLabels(labels) + ".");
+  }
+}
+
+} // namespace voxplex
+
+//----------------------------------------------------------------------------------------------------
+vtkImageToSimplexMeshFilter::vtkImageToSimplexMeshFilter()
+  : Private(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+  for (int port = 0; port < 2; ++port)
+  {
+    this->SetInputArrayToProcess(port, port, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS,
+      vtkDataSetAttributes::SCALARS);
+  }
+}
+
+vtkImageToSimplexMeshFilter::~vtkImageToSimplexMeshFilter() = default;
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::SetLabelSize(vtkTypeInt64 label, double size)
+{
+  const auto found = this->Private->LabelSizes.find(label);
+  if (found == this->Private->LabelSizes.end() || found->second != size)
+  {
+    this->Private->LabelSizes[label] = size;
+    this->Modified();
+  }
+}
+
+double vtkImageToSimplexMeshFilter::GetLabelSize(vtkTypeInt64 label) const
+{
+  const auto found = this->Private->LabelSizes.find(label);
+  return found == this->Private->LabelSizes.end() ? 0.0 : found->second;
+}
+
+void vtkImageToSimplexMeshFilter::RemoveLabelSize(vtkTypeInt64 label)
+{
+  if (this->Private->LabelSizes.erase(label) > 0)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::ClearLabelSizes()
+{
+  if (!this->Private->LabelSizes.empty())
+  {
+    this->Private->LabelSizes.clear();
+    this->Modified();
+  }
+}
+
+int vtkImageToSimplexMeshFilter::GetNumberOfLabelSizes() const
+{
+  return static_cast<int>(this->Private->LabelSizes.size());
+}
+
+vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSizedLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfLabelSizes()
+    ? std::next(this->Private->LabelSizes.begin(), index)->first
+    : 0;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::AddLabel(vtkTypeInt64 label)
+{
+  if (this->Private->Labels.insert(label).second)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::RemoveLabel(vtkTypeInt64 label)
+{
+  if (this->Private->Labels.erase(label) > 0)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::RemoveAllLabels()
+{
+  if (!this->Private->Labels.empty())
+  {
+    this->Private->Labels.clear();
+    this->Modified();
+  }
+}
+
+int vtkImageToSimplexMeshFilter::GetNumberOfSelectedLabels() const
+{
+  return static_cast<int>(this->Private->Labels.size());
+}
+
+vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSelectedLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfSelectedLabels()
+    ? *std::next(this->Private->Labels.begin(), index)
+    : 0;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::SetElementSizeData(vtkImageData* image)
+{
+  this->SetInputData(1, image);
+}
+
+void vtkImageToSimplexMeshFilter::SetSizeFunction(SizeFunctionType function)
+{
+  this->Private->SizeFunction = std::move(function);
+  this->Modified();
+}
+
+const char* vtkImageToSimplexMeshFilter::GetContentionManagerAsString() const
+{
+  return voxplex::ContentionPolicyNames[static_cast<std::size_t>(this->ContentionManager)].data();
+}
+
+const char* vtkImageToSimplexMeshFilter::GetLoadBalancerAsString() const
+{
+  return voxplex::BalancePolicyNames[static_cast<std::size_t>(this->LoadBalancer)].data();
+}
+
+vtkMeshingStatistics* vtkImageToSimplexMeshFilter::GetStatistics() const
+{
+  return this->Private->Statistics;
+}
+
+//----------------------------------------------------------------------------------------------------
+int vtkImageToSimplexMeshFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkImageToSimplexMeshFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  }
+  return 1;
+}
+
+int vtkImageToSimplexMeshFilter::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info == nullptr)
+    {
+      continue;
+    }
+    if (info->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return 1;
+}
+
+//----------------------------------------------------------------------------------------------------
+int vtkImageToSimplexMeshFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  this->ErrorMessage.clear();
+  this->Aborted = false;
+  this->Private->Statistics->Initialize();
+  const auto clearOutputs = [this, outputVector]
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkDataObject::GetData(outputVector, port)->Initialize();
+    }
+  };
+  clearOutputs();
+  // The executive takes all outputs for the piece that the asking port wants.
+  const int asking = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  if (IsEmptyPiece(outputVector->GetInformationObject(asking)))
+  {
+    return 1;
+  }
+
+  try
+  {
+    this->CheckParameters();
+    if (!this->Gather(request, inputVector))
+    {
+      this->ErrorMessage = "The input failed before it had delivered all time steps."; // if it does
+      request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+      return 1;
+    }
+    if (!this->Aborted)
+    {
+      this->Mesh(inputVector, outputVector);
+    }
+  }
+  catch (const voxplex::Error& error)
+  {
+    this->ErrorMessage = error.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->ErrorMessage = "There is not enough memory for this mesh; increase Delta, or mesh fewer "
+                         "labels.";
+  }
+  catch (const std::exception& error)
+  {
+    this->ErrorMessage = std::string("Meshing failed: ") + error.what();
+  }
+  catch (...)
+  {
+    this->ErrorMessage = "Meshing failed: the size function threw something that is not a "
+                         "std::exception.";
+  }
+  request->Remove(Pipeline::CONTINUE_EXECUTING());
+  this->Aborted = this->Aborted && this->ErrorMessage.empty();
+  if (this->ErrorMessage.empty() && !this->Aborted)
+  {
+    vtkFieldData* fields = vtkDataObject::GetData(inputVector[0])->GetFieldData();
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
+    }
+    this->WarnOfDeviations();
+    return 1;
+  }
+  clearOutputs();
+  this->Private->Statistics->Initialize();
+  if (this->Aborted)
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< this->ErrorMessage);
+  return 0;
+}
+
+bool vtkImageToSimplexMeshFilter::Gather(vtkInformation*, vtkInformationVector**)
+{
+  return true;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::WarnOfDeviations()
+{
+  const vtkMeshingStatistics::Figures& figures = this->Private->Statistics->Edit();
+  if (figures.Run.SizesRaisedTo > 0.0)
+  {
+    vtkWarningMacro(<< "Some element sizes are below a tenth of Delta and were raised to "
+                    << figures.Run.SizesRaisedTo << "; use a smaller Delta for smaller elements.");
+  }
+  if (!figures.LostLabels.empty())
+  {
+    vtkWarningMacro(
+      << "The mesh lacks these labels of the image, which are too small for a Delta of "
+      << figures.Run.Delta << ": " << voxplex::ListLabels(figures.LostLabels) << ".");
+  }
+  if (figures.Run.SwitchedToLocal)
+  {
+    vtkWarningMacro(<< "The threads made no progress with the contention manager '"
+                    << this->GetContentionManagerAsString()
+                    << "', which cannot exclude a livelock, and the local one took over; use "
+                       "SetContentionManagerToLocal().");
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::CheckParameters() const
+{
+  using voxplex::CheckRange;
+  constexpr double largest = std::numeric_limits<double>::max();
+  CheckRange(
+    this->Delta, 0.0, largest, "Delta", "positive and finite, or 0 to derive it from the spacing");
+  CheckRange(
+    this->SmoothingSigma, 0.0, largest, "SmoothingSigma", "positive and finite, or 0 for none");
+  CheckRange(this->ElementSize, 0.0, largest, "ElementSize", "positive and finite, or 0 for none");
+  CheckRange(this->RadiusEdgeRatio, this->Force ? 1.0 : ProvedRadiusEdgeRatio, largest,
+    "RadiusEdgeRatio",
+    this->Force ? "at least 1"
+                : "at least 1.93, because below it is not proved that refinement ends; Force goes "
+                  "down to 1");
+  for (const auto& [label, size] : this->Private->LabelSizes)
+  {
+    CheckSize(size, "The size of label " + std::to_string(label));
+  }
+}
+
+unsigned vtkImageToSimplexMeshFilter::GetThreads() const
+{
+  return static_cast<unsigned>(
+    this->NumberOfThreads > 0 ? this->NumberOfThreads : voxplex::SmpThreads());
+}
+
+bool vtkImageToSimplexMeshFilter::StopRequested()
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  const bool stop = this->CheckAbort();
+#else
+  const bool stop = this->GetAbortExecute() != 0;
+#endif
+  this->Aborted = this->Aborted || stop;
+  return stop;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Delta: " << this->Delta << "\n";
+  os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
+  os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
+  os << indent << "ElementSize: " << this->ElementSize << "\n";
+  os << indent << "LabelSizes:";
+  for (const auto& [label, size] : this->Private->LabelSizes)
+  {
+    os << " " << label << "=" << size;
+  }
+  os << (this->Private->LabelSizes.empty() ? " (none)\n" : "\n");
+  os << indent << "SelectedLabels:";
+  for (const std::int64_t label : this->Private->Labels)
+  {
+    os << " " << label;
+  }
+  os << (this->Private->Labels.empty() ? " (all)\n" : "\n");
+  os << indent << "SizeFunction: " << (this->Private->SizeFunction ? "set" : "(none)") << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "ContentionManager: " << this->GetContentionManagerAsString() << "\n";
+  os << indent << "LoadBalancer: " << this->GetLoadBalancerAsString() << "\n";
+  os << indent << "PinThreads: " << (this->PinThreads ? "On" : "Off") << "\n";
+  os << indent << "Force: " << (this->Force ? "On" : "Off") << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "ComputeQuality: " << (this->ComputeQuality ? "On" : "Off") << "\n";
+  os << indent << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage)
+     << "\n";
+  os << indent << "Aborted: " << (this->Aborted ? "Yes" : "No") << "\n";
+  os << indent << "Statistics:\n";
+  this->Private->Statistics->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,387 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The space-time filter in a pipeline: which time steps it asks for, what times it announces, when it
+// executes, progress, abort, threads, statistics, PrintSelf.
+#include "PentatopeTesting.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
+#include "vtkMeshingStatistics.h"
+#include "vtkNew.h"
+#include "vtkPentatopeMeshTimeSlice.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+#include "vtkTrivialProducer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <sstream>
+
+using namespace testing;
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const Event Centre = { 5.5, 5.5, 5.5, 5.5 };
+
+vtkSmartPointer<TemporalSource> MakeSource(const std::vector<double>& times = EqualTimes(12))
+{
+  const double step = times[1] - times[0];
+  return MakeSeries(SmallPlacement(), times,
+    [=](const Vector& x, double t) { return TwoLabelBall(Centre, 4.2)(x, (t - times[0]) / step); });
+}
+
+/** Counts how often an algorithm starts to execute. */
+void Count(vtkAlgorithm* algorithm, int& executions)
+{
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetClientData(&executions);
+  counter->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+  algorithm->AddObserver(vtkCommand::StartEvent, counter);
+}
+
+/** Each step once, in order; a request for a time executes nothing. */
+void TestTimeRequests()
+{
+  const auto source = MakeSource();
+  const auto filter = MakePentatopeFilter(source);
+  int executions = 0;
+  Count(filter, executions);
+  filter->Update();
+  CheckPentatopeMesh(filter);
+  CHECK(source->Asked == source->Times, source->Asked.size());
+  CHECK(executions == 1, executions);
+
+  for (const double time : { 3.0, 7.5, 11.0, 0.0, -4.0 })
+  {
+    filter->UpdateTimeStep(time);
+    filter->GetOutputInformation(1)->Set(Pipeline::UPDATE_TIME_STEP(), time);
+    filter->Update(1);
+    CHECK(executions == 1 && source->Asked == source->Times, time, executions);
+  }
+  CheckPentatopeMesh(filter);
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* data = filter->GetOutputDataObject(port)->GetInformation();
+    CHECK(!data->Has(vtkDataObject::DATA_TIME_STEP()), port);
+  }
+
+  // Asked for a time from the start, too.
+  source->Asked.clear();
+  source->Modified();
+  filter->UpdateTimeStep(4.0);
+  CHECK(source->Asked == source->Times, source->Asked.size());
+  CHECK(executions == 2, executions);
+  CheckPentatopeMesh(filter);
+}
+
+void CheckRange(vtkImageToPentatopeMeshFilter* filter, double first, double last)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* info = filter->GetOutputInformation(port);
+    CHECK(!info->Has(Pipeline::TIME_STEPS()), port);
+    for (auto* key : { Pipeline::TIME_RANGE(), vtkPentatopeMeshTimeSlice::MESH_TIME_RANGE() })
+    {
+      const double* range = info->Get(key);
+      if (CHECK(range != nullptr, port))
+      {
+        CHECK(range[0] == first && range[1] == last, range[0], range[1]);
+      }
+    }
+  }
+}
+
+/** The range is announced before execution. */
+void TestTimeRange()
+{
+  const auto series = MakePentatopeFilter(MakeSource(EqualTimes(12, 0.25)));
+  series->UpdateInformation();
+  CheckRange(series, 0.0, 2.75);
+
+  const auto image = MakeComponents(SmallPlacement(), EqualTimes(12), TwoLabelBall(Centre, 4.2));
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(image);
+  const auto components = MakePentatopeFilter(producer);
+  components->SetTimeOrigin(10.0);
+  components->SetTimeSpacing(0.5);
+  components->UpdateInformation();
+  CheckRange(components, 10.0, 15.5);
+  components->SetTimeOrigin(20.0);
+  components->UpdateInformation();
+  CheckRange(components, 20.0, 25.5);
+  image->DeepCopy(MakeBall());
+  components->UpdateInformation(); // one component: nothing to announce
+  CHECK(!components->GetOutputInformation(0)->Has(Pipeline::TIME_RANGE()));
+}
+
+void TestExecutions()
+{
+  const auto filter = MakePentatopeFilter();
+  int executions = 0;
+  Count(filter, executions);
+  filter->Update();
+  filter->Update();
+  CHECK(executions == 1, executions);
+  const auto expectExecution = [&](const char* name, const std::function<void()>& change)
+  {
+    executions = 0;
+    change();
+    filter->Update();
+    filter->Update();
+    CHECK(executions == 1, name, executions);
+    CHECK(filter->GetErrorMessage().empty(), name, filter->GetErrorMessage());
+  };
+  expectExecution("TimeScale", [&] { filter->SetTimeScale(1.25); });
+  expectExecution("TimeOrigin", [&] { filter->SetTimeOrigin(1.0); });
+  expectExecution("TimeSpacing", [&] { filter->SetTimeSpacing(2.0); });
+  expectExecution("RuleOrder", [&] { filter->SetRuleOrderToSurfaceFirst(); });
+  expectExecution("PickingRegions", [&] { filter->PickingRegionsOn(); });
+  expectExecution("PickingRadius", [&] { filter->SetPickingRadius(0.4); });
+  expectExecution("NumberOfPicks", [&] { filter->SetNumberOfPicks(5); });
+  expectExecution("SliverBound", [&] { filter->SetSliverBound(0.02); });
+  expectExecution("SliverRadiusFactor", [&] { filter->SetSliverRadiusFactor(3.0); });
+  expectExecution("RandomSeed", [&] { filter->SetRandomSeed(17); });
+  expectExecution("FineGrained", [&] { filter->FineGrainedOff(); });
+  expectExecution("Delta", [&] { filter->SetDelta(2.5); });
+  expectExecution("SizeFunction",
+    [&] { filter->SetSizeFunction([](const double*, vtkTypeInt64) { return 5.0; }); });
+}
+
+/** Piece 0 is everything, other pieces are empty. */
+void TestPieces()
+{
+  const auto filter = MakePentatopeFilter();
+  filter->UpdatePiece(0, 2, 0);
+  CheckPentatopeMesh(filter);
+  filter->UpdatePiece(1, 2, 0);
+  CHECK(Empty(filter));
+  CHECK(filter->GetErrorMessage().empty());
+  filter->UpdatePiece(0, 1, 0);
+  CheckPentatopeMesh(filter);
+}
+
+void TestReproducible()
+{
+  const auto make = []
+  {
+    const auto filter = MakePentatopeFilter();
+    filter->PickingRegionsOn();
+    filter->SetRandomSeed(5);
+    filter->Update();
+    CheckPentatopeMesh(filter);
+    return filter;
+  };
+  CHECK(SamePentatopeMesh(make(), make()));
+}
+
+//----------------------------------------------------------------------------------------------------
+void TestProgress()
+{
+  const auto filter = MakePentatopeFilter();
+  std::vector<double> fractions;
+  const auto observer =
+    Observe(filter, [&](vtkAlgorithm*, double fraction) { fractions.push_back(fraction); });
+  filter->Update();
+  CHECK(fractions.size() >= 14, fractions.size()); // one for each frame at least
+  for (std::size_t i = 0; i < fractions.size(); ++i)
+  {
+    CHECK(fractions[i] >= 0.0 && fractions[i] <= 1.0, fractions[i]);
+    CHECK(i == 0 || fractions[i] >= fractions[i - 1], i, fractions[i]);
+  }
+  CHECK(!fractions.empty() && fractions.back() == 1.0);
+}
+
+/** While frames are gathered, and while meshing; with time steps and with components. */
+void TestAbort(bool components, double at, std::size_t mostAsked)
+{
+  const auto source = MakeSource();
+  const auto image = MakeComponents(SmallPlacement(), EqualTimes(12), TwoLabelBall(Centre, 4.2));
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(image);
+  const auto filter =
+    MakePentatopeFilter(components ? static_cast<vtkAlgorithm*>(producer) : source);
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  const auto observer = Observe(filter,
+    [at](vtkAlgorithm* algorithm, double fraction)
+    {
+      if (fraction >= at)
+      {
+        algorithm->SetAbortExecute(1);
+      }
+    });
+  filter->Update();
+  CHECK(filter->GetAborted(), at);
+  CHECK(filter->GetErrorMessage().empty(), filter->GetErrorMessage());
+  CHECK(Empty(filter));
+  CHECK(filter->GetStatistics()->GetNumberOfElements() == 0);
+  CHECK(errors->FromFilter.empty() && errors->FromOthers.empty());
+  CHECK(source->Asked.size() <= mostAsked, source->Asked.size(), mostAsked);
+
+  // Nothing is left over.
+  filter->RemoveObserver(observer);
+  filter->Modified();
+  source->Asked.clear();
+  source->Modified();
+  filter->Update();
+  CHECK(!filter->GetAborted());
+  CHECK(components || source->Asked == source->Times, source->Asked.size());
+  const auto fresh = MakePentatopeFilter();
+  fresh->Update();
+  CHECK(SamePentatopeMesh(filter, fresh));
+}
+
+//----------------------------------------------------------------------------------------------------
+void TestThreads()
+{
+  const auto one = MakePentatopeFilter();
+  one->SetDelta(1.4);
+  one->Update();
+  const double expected = ReadPentatopes(one->GetOutput()).HypervolumeOf();
+  for (const int threads : { 2, 4 })
+  {
+    for (const bool picking : { false, true })
+    {
+      const auto filter = MakePentatopeFilter();
+      filter->SetDelta(1.4);
+      filter->SetNumberOfThreads(threads);
+      filter->SetPickingRegions(picking);
+      filter->SetFineGrained(threads == 4);
+      filter->ComputeQualityOn();
+      filter->Update();
+      CheckPentatopeMesh(filter);
+      const double found = ReadPentatopes(filter->GetOutput()).HypervolumeOf();
+      CHECK(std::abs(found / expected - 1.0) < 0.05, threads, picking, found, expected);
+      vtkMeshingStatistics* statistics = filter->GetStatistics();
+      CHECK(statistics->GetNumberOfThreads() == threads);
+      CHECK(statistics->GetNumberOfRefinementThreads() == threads);
+      CHECK(statistics->GetInvertedElements() == 0 && statistics->GetRadiusEdgeViolations() == 0);
+    }
+  }
+}
+
+void TestStatistics()
+{
+  const auto filter = MakePentatopeFilter();
+  filter->ComputeQualityOn();
+  filter->Update();
+  vtkMeshingStatistics* s = filter->GetStatistics();
+  CHECK(s->GetDimension() == 4);
+  CHECK(s->GetNumberOfElements() == filter->GetOutput()->GetNumberOfCells());
+  CHECK(s->GetNumberOfVertices() == filter->GetOutput()->GetNumberOfPoints());
+  CHECK(s->GetNumberOfInterfaceFacets() == filter->GetBoundary()->GetNumberOfCells());
+  const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
+  if (CHECK(s->GetNumberOfLabels() == 2))
+  {
+    CHECK(s->GetLabel(0) == 3 && s->GetLabel(1) == 7);
+    CHECK(std::abs(s->GetLabelVolume(0) / mesh.HypervolumeOf(3) - 1.0) < 1e-9);
+  }
+  double shortest = VTK_DOUBLE_MAX;
+  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
+  {
+    const auto p = mesh.Corners(c);
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        double square = 0.0;
+        for (std::size_t k = 0; k < 4; ++k)
+        {
+          square += (p[i][k] - p[j][k]) * (p[i][k] - p[j][k]);
+        }
+        shortest = std::min(shortest, std::sqrt(square));
+      }
+    }
+  }
+  CHECK(std::abs(s->GetShortestEdge() / shortest - 1.0) < 1e-9, shortest);
+  CHECK(s->GetMaximumRadiusEdgeRatio() <= 2.0);
+  CHECK(s->GetMeanRadiusEdgeRatio() > 0.63 && s->GetMeanRadiusEdgeRatio() < 2.0);
+  CHECK(s->GetRadiusEdgeRatioDeviation() > 0.0 && s->GetNormalizedVolumeDeviation() > 0.0);
+  vtkTypeInt64 sum = 0;
+  for (int i = 0; i < s->GetNumberOfNormalizedVolumeBins(); ++i)
+  {
+    sum += s->GetNormalizedVolumeBin(i);
+  }
+  CHECK(sum == s->GetNumberOfElements(), sum);
+  CHECK(std::isnan(s->GetMinimumDihedralAngle()));
+  CHECK(s->ToJSON().find("\"dimension\": 4") != std::string::npos);
+
+  // Figures are those of the space in which a unit of time counts as TimeScale units of length.
+  const auto scaled = MakePentatopeFilter(MakeSource(EqualTimes(12, 0.5)));
+  scaled->SetTimeScale(2.0);
+  scaled->ComputeQualityOn();
+  scaled->Update();
+  CHECK(scaled->GetStatistics()->GetLabelVolume(0) == s->GetLabelVolume(0));
+  CHECK(scaled->GetStatistics()->GetShortestEdge() == s->GetShortestEdge());
+}
+
+/** Field data of the input goes to both outputs, without the time of a frame. */
+void TestFieldData()
+{
+  const auto source = MakeSource();
+  source->MakeFrame = [make = source->MakeFrame](int frame)
+  {
+    const auto image = make(frame);
+    vtkNew<vtkStringArray> space;
+    space->SetName("SPACE");
+    space->InsertNextValue("LPS");
+    image->GetFieldData()->AddArray(space);
+    vtkNew<vtkDoubleArray> time;
+    time->SetName("TimeValue");
+    time->InsertNextValue(frame);
+    image->GetFieldData()->AddArray(time);
+    return image;
+  };
+  const auto filter = MakePentatopeFilter(source);
+  filter->Update();
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkFieldData* fields = filter->GetOutputDataObject(port)->GetFieldData();
+    CHECK(fields->GetAbstractArray("SPACE") != nullptr, port);
+    CHECK(fields->GetAbstractArray("TimeValue") == nullptr, port);
+  }
+}
+
+void TestPrintSelf()
+{
+  vtkNew<vtkImageToPentatopeMeshFilter> filter;
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* line :
+    { "TimeScale: 1\n", "TimeOrigin: 0\n", "TimeSpacing: 1\n", "RuleOrder: radius-edge-first\n",
+      "PickingRegions: On\n", "PickingRadius: 0.5\n", "NumberOfPicks: 10\n", "SliverBound: 0.01\n",
+      "SliverRadiusFactor: 4\n", "RandomSeed: 0\n", "FineGrained: On\n", "Delta: 0\n" })
+  {
+    CHECK(text.str().find(line) != std::string::npos, line);
+  }
+}
+
+} // namespace
+
+int TestPentatopeMeshPipeline(int, char*[])
+{
+  TestTimeRequests();
+  TestTimeRange();
+  TestExecutions();
+  TestPieces();
+  TestReproducible();
+  TestProgress();
+  TestAbort(false, 0.0, 1);
+  TestAbort(false, 0.04, 6);
+  TestAbort(false, 0.1, 12);
+  TestAbort(true, 0.0, 0);
+  TestAbort(true, 0.11, 0);
+  TestThreads();
+  TestStatistics();
+  TestFieldData();
+  TestPrintSelf();
+  return Result();
+}
