@@ -3,6 +3,8 @@
 #include "CommandLine.h"
 
 #include "Errors.h"
+#include "OptionValues.h"
+#include "SliceFiles.h"
 #include "Version.h"
 #include "Writers/Formats.h"
 
@@ -10,11 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -30,6 +30,9 @@ constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;
 /** The ratio of the regular tetrahedron, sqrt(6) / 4: no element has a smaller one. */
 constexpr double RegularRadiusEdgeRatio = 0.6123724356957945;
 
+/** Above this meshes of space and time can become very large. */
+constexpr double LargestSliverBound = 0.03;
+
 /** Collects arguments that are neither a flag nor the value of one. */
 constexpr const char* Stray = "stray-arguments";
 
@@ -43,166 +46,12 @@ constexpr const char* Examples = R"(Examples:
   Two labels only, label 3 finer than the rest, for Gmsh:
     voxplex --input knee.nrrd --labels 3,7 --delta 2 --size 4 --label-size 3=1 --output knee.msh
 
+  A beating heart as one mesh of space and time, and what it looks like at 30 times, for ParaView:
+    voxplex --input beating.nrrd --delta 5 --output heart.vtu --slices heart_ --slice-count 30
+
   A DICOM series, in the RAS coordinates of 3D Slicer's scene, with a progress bar:
     voxplex --input dicom-folder --space ras --progress --output ct.vtu
 )";
-
-std::string Quoted(std::string_view text)
-{
-  std::string quoted("'");
-  quoted.append(text).push_back('\'');
-  return quoted;
-}
-
-/** The whole text as a number, or nothing. */
-template <typename T>
-std::optional<T> ToNumber(std::string_view text)
-{
-  if (!text.empty() && text.front() == '+')
-  {
-    text.remove_prefix(1);
-  }
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-  {
-    return std::nullopt;
-  }
-  return value;
-}
-
-double ParseFinite(const std::string& option, std::string_view text)
-{
-  const std::optional<double> value = ToNumber<double>(text);
-  if (!value)
-  {
-    throw UsageError("--" + option + ": " + Quoted(text) + " is not a number");
-  }
-  if (!std::isfinite(*value))
-  {
-    throw UsageError("--" + option + ": must be a finite number, not " + std::string(text));
-  }
-  return *value;
-}
-
-double ParsePositive(const std::string& option, std::string_view text, const std::string& hint = "")
-{
-  const double value = ParseFinite(option, text);
-  if (value <= 0)
-  {
-    throw UsageError("--" + option + ": must be greater than 0, not " + std::string(text) + hint);
-  }
-  return value;
-}
-
-double ParseRange(const std::string& option, std::string_view text, double low, double high)
-{
-  const double value = ParseFinite(option, text);
-  if (value < low || value > high)
-  {
-    std::ostringstream message;
-    message << "--" << option << ": must lie between " << low << " and " << high << ", not "
-            << text;
-    throw UsageError(message.str());
-  }
-  return value;
-}
-
-std::int64_t ParseLabel(const std::string& option, std::string_view text)
-{
-  const std::optional<std::int64_t> label = ToNumber<std::int64_t>(text);
-  if (!label || *label <= 0)
-  {
-    throw UsageError("--" + option + ": " + Quoted(text) +
-      " is not a label; labels are whole numbers from 1 on (0 is the background)");
-  }
-  return *label;
-}
-
-std::vector<std::int64_t> ParseLabels(const std::string& option, std::string_view text)
-{
-  std::vector<std::int64_t> labels;
-  while (true)
-  {
-    const std::size_t comma = text.find(',');
-    labels.push_back(ParseLabel(option, text.substr(0, comma)));
-    if (comma == std::string_view::npos)
-    {
-      break;
-    }
-    text.remove_prefix(comma + 1);
-  }
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  return labels;
-}
-
-/** "3=1.5": the size of label 3. */
-void ParseLabelSize(
-  const std::string& option, std::string_view text, std::map<std::int64_t, double>& sizes)
-{
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos)
-  {
-    throw UsageError(
-      "--" + option + ": " + Quoted(text) + " is not of the form LABEL=SIZE, such as 3=1.5");
-  }
-  const std::int64_t label = ParseLabel(option, text.substr(0, equals));
-  const double size = ParsePositive(option, text.substr(equals + 1));
-  if (!sizes.emplace(label, size).second)
-  {
-    throw UsageError("--" + option + ": label " + std::to_string(label) + " is given twice");
-  }
-}
-
-/** "8G": bytes, with K, M, G and T for powers of 1024. */
-std::uint64_t ParseBytes(const std::string& option, const std::string& text)
-{
-  constexpr std::string_view units = "KMGT";
-  std::string_view digits = text;
-  double scale = 1.0;
-  if (!digits.empty())
-  {
-    const auto unit = units.find(static_cast<char>(std::toupper(digits.back())));
-    if (unit != std::string_view::npos)
-    {
-      scale = std::pow(1024.0, static_cast<double>(unit) + 1.0);
-      digits.remove_suffix(1);
-    }
-  }
-  const std::optional<double> value = ToNumber<double>(digits);
-  if (!value || !(*value * scale >= 1.0) || *value * scale > 1e18)
-  {
-    throw UsageError(
-      "--" + option + ": " + Quoted(text) + " is not an amount of memory such as 8G or 500M");
-  }
-  return static_cast<std::uint64_t>(*value * scale);
-}
-
-/** One of several words, whatever the case. */
-std::string ParseWord(
-  const std::string& option, const std::string& text, std::span<const std::string_view> words)
-{
-  std::string word = text;
-  std::transform(word.begin(), word.end(), word.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(words.begin(), words.end(), word) != words.end())
-  {
-    return word;
-  }
-  std::string choice;
-  for (std::size_t i = 0; i < words.size(); ++i)
-  {
-    choice.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
-  }
-  throw UsageError("--" + option + ": must be " + choice + ", not " + Quoted(text));
-}
-
-Space ParseSpace(const std::string& option, const std::string& text)
-{
-  constexpr std::array<std::string_view, 2> spaces{ "lps", "ras" };
-  return ParseWord(option, text, spaces) == spaces[0] ? Space::LPS : Space::RAS;
-}
 
 /** Levenshtein distance, for "did you mean". */
 std::size_t EditDistance(std::string_view a, std::string_view b)
@@ -245,12 +94,13 @@ struct OptionGroups
   po::options_description Files{ "Files" };
   po::options_description Mesh{ "Density and quality of the mesh" };
   po::options_description Selection{ "Labels and coordinates" };
+  po::options_description SpaceTime{ "Space-time images (four dimensions, the last is time)" };
   po::options_description Run{ "Running" };
 
   po::options_description All() const
   {
     po::options_description all;
-    all.add(this->Files).add(this->Mesh).add(this->Selection).add(this->Run);
+    all.add(this->Files).add(this->Mesh).add(this->Selection).add(this->SpaceTime).add(this->Run);
     return all;
   }
 };
@@ -261,14 +111,17 @@ OptionGroups DeclareOptions()
   OptionGroups groups;
   groups.Files.add_options() //
     ("input", text("FILE"),
-      "the label image: any file that ITK reads (NRRD, NIfTI, MetaImage, ...) or a folder that "
-      "holds a DICOM series; 0 is background")                                 //
-    ("series", text("UID"), "which DICOM series, if the folder holds several") //
+      "the label image, of three or four dimensions: any file that ITK reads (NRRD, NIfTI, "
+      "MetaImage, ...) or a folder that holds a DICOM series; 0 is background") //
+    ("series", text("UID"), "which DICOM series, if the folder holds several")  //
     ("output", text("FILE"),
-      ("the tetrahedra; the extension chooses the format: " + ListExtensions(Content::Mesh))
+      ("the tetrahedra; the extension chooses the format: " + ListExtensions(Content::Mesh, 3) +
+        "; of a space-time image the pentatopes: " + ListExtensions(Content::Mesh, 4))
         .c_str()) //
     ("plc", text("FILE"),
-      ("the triangles between labels: " + ListExtensions(Content::Interfaces)).c_str()) //
+      ("the triangles between labels: " + ListExtensions(Content::Interfaces, 3) +
+        "; of a space-time image the tetrahedra: " + ListExtensions(Content::Interfaces, 4))
+        .c_str()) //
     ("stats", text("FILE"), "figures about the mesh and the run: .json");
   groups.Mesh.add_options() //
     ("delta", text("LENGTH"),
@@ -283,13 +136,34 @@ OptionGroups DeclareOptions()
     ("radius-edge", text("RATIO"),
       "upper bound of circumradius over shortest edge (default 2; below 1.932 only with --force)") //
     ("facet-angle", text("DEGREES"),
-      "lower bound of the angles of triangles on the interfaces (default 30, at most 30)") //
+      "lower bound of the angles of triangles on the interfaces (default 30, at most 30); not of "
+      "space-time images") //
     ("smoothing", text("VOXELS"),
       "standard deviation of the smoothing of voxel stairs; 0 switches it off (default 1)");
   groups.Selection.add_options() //
     ("labels", text("LIST"),
       "mesh these labels only, such as 1,2,5; the others become background") //
     ("space", text("lps|ras"), "coordinates of the mesh (default lps, ITK's physical space)");
+  groups.SpaceTime.add_options() //
+    ("time-scale", text("LENGTH"),
+      "the length that one unit of time counts as much as (default 1: the image's own time step "
+      "beside its spacing)") //
+    ("slices", text("PREFIX"),
+      "write the mesh as it is at several times: PREFIX0.vtu, PREFIX1.vtu, ... and a .pvd file "
+      "that ParaView plays") //
+    ("slice-count", text("NUMBER"),
+      "so many slices, equally spaced from the first to the last time, both included (default: one "
+      "for each frame of the image)") //
+    ("rule-order", text("radius-edge|surface"),
+      "which rules come first: those that bound the radius-edge ratio (default), or those that "
+      "sample the interfaces")                                                              //
+    ("no-picking", "do not fight slivers with picking regions: faster, with flat elements") //
+    ("picks", text("NUMBER"), "random points to try in a picking region (default 10)")      //
+    ("sliver-bound", text("RATIO"),
+      "normalized volume below which an element is a sliver (default 0.01; above 0.03 only with "
+      "--force)")                                                     //
+    ("seed", text("NUMBER"), "seed of the random points (default 0)") //
+    ("no-fine-grained", "do not let waiting threads help others to expand cavities");
   groups.Run.add_options() //
     ("threads", text("NUMBER"),
       "threads to use in every stage, refinement included (default 0: all cores); with 1 the mesh "
@@ -303,10 +177,12 @@ OptionGroups DeclareOptions()
       "nearest (hws, default)")                                                              //
     ("pin", "keep each thread on a core of its own; not while other programs use the cores") //
     ("memory-limit", text("BYTES"),
-      "refuse meshes estimated to need more, such as 8G (default: the machine's memory)")     //
-    ("force", "go on although the mesh is estimated not to fit, or --radius-edge is too low") //
-    ("progress", "show a progress bar, if standard error is a terminal")                      //
-    ("help", "print this text")                                                               //
+      "refuse meshes estimated to need more, such as 8G (default: the machine's memory)") //
+    ("force",
+      "go on although the mesh is estimated not to fit, or --radius-edge is too low, "
+      "or --sliver-bound too high")                                      //
+    ("progress", "show a progress bar, if standard error is a terminal") //
+    ("help", "print this text")                                          //
     ("version", "print the version");
   return groups;
 }
@@ -314,15 +190,17 @@ OptionGroups DeclareOptions()
 std::string HelpText(const OptionGroups& groups)
 {
   std::ostringstream text;
-  text << "Usage: voxplex --input FILE [--delta LENGTH] [--output FILE] [--plc FILE] [options]\n\n"
-          "Turns a segmented 3D image into a conforming mesh of tetrahedra for finite elements.\n"
-          "Lengths are in the unit of the image, usually millimetres.\n"
-       << groups.All() << '\n'
-       << Examples
-       << "\n"
-          "Exit status: 0 done; 1 the image cannot be meshed or a file not be read or written;\n"
-          "2 wrong command line; 130 interrupted with Ctrl-C. Output files appear whole or not at "
-          "all.\n";
+  text
+    << "Usage: voxplex --input FILE [--delta LENGTH] [--output FILE] [--plc FILE] [options]\n\n"
+       "Turns a segmented 3D image into a conforming mesh of tetrahedra for finite elements, and\n"
+       "one of space and time (4D) into a mesh of pentatopes.\n"
+       "Lengths are in the unit of the image, usually millimetres.\n"
+    << groups.All() << '\n'
+    << Examples
+    << "\n"
+       "Exit status: 0 done; 1 the image cannot be meshed or a file not be read or written;\n"
+       "2 wrong command line; 130 interrupted with Ctrl-C. Output files appear whole or not at "
+       "all.\n";
   return text.str();
 }
 
@@ -374,11 +252,53 @@ po::variables_map ParseOptions(
   return values;
 }
 
+/** The text of an option, or null. */
+const std::string* Given(const po::variables_map& values, const char* name)
+{
+  return values.count(name) ? &values[name].as<std::string>() : nullptr;
+}
+
+SpaceTimeParameters ToSpaceTimeParameters(const po::variables_map& values)
+{
+  SpaceTimeParameters p;
+  if (const auto* text = Given(values, "time-scale"))
+  {
+    p.TimeScale = ParsePositive("time-scale", *text);
+  }
+  if (const auto* text = Given(values, "slices"))
+  {
+    p.Slices = *text;
+    CheckSlicePrefix(*text);
+  }
+  if (const auto* text = Given(values, "slice-count"))
+  {
+    p.SliceCount = ParseWhole("slice-count", *text, 2, 10000);
+  }
+  if (const auto* text = Given(values, "rule-order"))
+  {
+    p.RuleOrder = ParseWord("rule-order", *text, RuleOrders);
+  }
+  p.NoPicking = values.count("no-picking") > 0;
+  if (const auto* text = Given(values, "picks"))
+  {
+    p.Picks = ParseWhole("picks", *text, 1, 1000000);
+  }
+  if (const auto* text = Given(values, "sliver-bound"))
+  {
+    p.SliverBound = ParseRange("sliver-bound", *text, 0, 0.999);
+  }
+  if (const auto* text = Given(values, "seed"))
+  {
+    p.Seed = ParseWhole("seed", *text, 0, std::numeric_limits<int>::max());
+  }
+  p.NoFineGrained = values.count("no-fine-grained") > 0;
+  return p;
+}
+
 Parameters ToParameters(const po::variables_map& values)
 {
   Parameters p;
-  const auto given = [&values](const char* name) -> const std::string*
-  { return values.count(name) ? &values[name].as<std::string>() : nullptr; };
+  const auto given = [&values](const char* name) { return Given(values, name); };
   const auto file = [&given](const char* name, std::string& target)
   {
     if (const std::string* text = given(name))
@@ -434,13 +354,7 @@ Parameters ToParameters(const po::variables_map& values)
   }
   if (const auto* text = given("threads"))
   {
-    const std::optional<int> threads = ToNumber<int>(*text);
-    if (!threads || *threads < 0 || *threads > 4096)
-    {
-      throw UsageError(
-        "--threads: must be a whole number from 0 (all cores) to 4096, not " + *text);
-    }
-    p.Threads = *threads;
+    p.Threads = ParseWhole("threads", *text, 0, 4096);
   }
   if (const auto* text = given("contention"))
   {
@@ -457,12 +371,38 @@ Parameters ToParameters(const po::variables_map& values)
   }
   p.Force = values.count("force") > 0;
   p.Progress = values.count("progress") > 0;
+  p.SpaceTime = ToSpaceTimeParameters(values);
   return p;
+}
+
+void CheckSpaceTime(const SpaceTimeParameters& p, bool force)
+{
+  if (p.SliverBound && *p.SliverBound > LargestSliverBound && !force)
+  {
+    throw UsageError("--sliver-bound: above 0.03 meshes can become very large; give --force to try "
+                     "all the same");
+  }
+  if (p.SliceCount && p.Slices.empty())
+  {
+    throw UsageError("--slice-count: of which slices? Give the beginning of their names with "
+                     "--slices");
+  }
+  if (p.NoPicking)
+  {
+    const char* useless = p.Picks ? "--picks" : p.SliverBound ? "--sliver-bound" : nullptr;
+    if (useless)
+    {
+      throw UsageError(std::string(useless) +
+        " is about picking regions, and --no-picking switches "
+        "them off: leave one of the two out");
+    }
+  }
 }
 
 /** What no single option can tell. */
 void CheckTogether(const Parameters& p)
 {
+  CheckSpaceTime(p.SpaceTime, p.Force);
   if (p.Input.empty())
   {
     throw UsageError("--input is missing: which image shall be meshed?");
@@ -501,7 +441,56 @@ void CheckTogether(const Parameters& p)
   }
 }
 
+/** The names of the options that were given and are for several time frames only. */
+std::vector<std::string> SpaceTimeOptions(const SpaceTimeParameters& p)
+{
+  const std::array<std::pair<const char*, bool>, 9> options{ {
+    { "--time-scale", p.TimeScale.has_value() },
+    { "--slices", !p.Slices.empty() },
+    { "--slice-count", p.SliceCount.has_value() },
+    { "--rule-order", !p.RuleOrder.empty() },
+    { "--no-picking", p.NoPicking },
+    { "--picks", p.Picks.has_value() },
+    { "--sliver-bound", p.SliverBound.has_value() },
+    { "--seed", p.Seed.has_value() },
+    { "--no-fine-grained", p.NoFineGrained },
+  } };
+  std::vector<std::string> given;
+  for (const auto& [name, isGiven] : options)
+  {
+    if (isGiven)
+    {
+      given.emplace_back(name);
+    }
+  }
+  return given;
+}
+
 } // namespace
+
+void CheckDimension(const Parameters& p, int dimension)
+{
+  const std::vector<std::string> spaceTimeOptions = SpaceTimeOptions(p.SpaceTime);
+  if (dimension == 3 && !spaceTimeOptions.empty())
+  {
+    throw UsageError(spaceTimeOptions.front() +
+      ": only for space-time images, which have four dimensions and at least two time frames; " +
+      Quoted(p.Input) + " is a 3D image");
+  }
+  if (dimension == 4 && p.FacetAngle)
+  {
+    throw UsageError("--facet-angle: only for 3D images, and " + Quoted(p.Input) +
+      " is a space-time image; leave it out");
+  }
+  if (!p.Output.empty())
+  {
+    RequireFormat("output", p.Output, Content::Mesh, dimension);
+  }
+  if (!p.Interfaces.empty())
+  {
+    RequireFormat("plc", p.Interfaces, Content::Interfaces, dimension);
+  }
+}
 
 CommandLine ParseCommandLine(int argc, const char* const* argv)
 {

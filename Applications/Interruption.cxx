@@ -4,10 +4,8 @@
 
 #include "Errors.h"
 
-#include <array>
 #include <atomic>
 #include <csignal>
-#include <cstring>
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -15,33 +13,38 @@
 
 namespace voxplex::cli
 {
+
+/**
+ * Read by the signal handler, which may come at any time: entries of a list that only grows, and
+ * that lives to the very end.
+ */
+class Interruption::TemporaryFile
+{
+public:
+  const std::string Path;
+  std::atomic<bool> Exists = true;
+  TemporaryFile* Next = nullptr;
+};
+
 namespace
 {
 
-constexpr std::size_t MaximumPathLength = 4096;
-
-/** Read by the signal handler: plain memory and lock-free atomics only. */
-struct TemporaryFile
-{
-  std::atomic<bool> Used = false;
-  std::array<char, MaximumPathLength> Path{};
-};
-
-std::array<TemporaryFile, 16> Temporaries;
+std::atomic<Interruption::TemporaryFile*> Temporaries = nullptr;
 std::atomic<int> SignalNumber = 0;
 /** A duplicate of standard error: the original may be redirected while a library reads. */
 std::atomic<int> MessageDescriptor = STDERR_FILENO;
 std::atomic<bool> Cancellable = false;
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+  std::atomic<void*>::is_always_lock_free);
 
 /** Only calls that POSIX allows in a signal handler. */
 void RemoveTemporaries()
 {
-  for (TemporaryFile& file : Temporaries)
+  for (const Interruption::TemporaryFile* file = Temporaries; file; file = file->Next)
   {
-    if (file.Used)
+    if (file->Exists)
     {
-      unlink(file.Path.data());
+      unlink(file->Path.c_str());
     }
   }
 }
@@ -137,32 +140,17 @@ void Interruption::Exit()
   RemoveTemporariesAndExit();
 }
 
-void Interruption::AddTemporary(const std::string& path)
+Interruption::TemporaryFile* Interruption::AddTemporary(const std::string& path)
 {
-  if (path.size() < MaximumPathLength)
-  {
-    for (TemporaryFile& file : Temporaries)
-    {
-      if (!file.Used)
-      {
-        std::memcpy(file.Path.data(), path.c_str(), path.size() + 1);
-        file.Used = true;
-        return;
-      }
-    }
-  }
-  throw RunError("cannot write beside '" + path + "': the path is too long");
+  auto* file = new TemporaryFile{ path };
+  file->Next = Temporaries;
+  Temporaries = file;
+  return file;
 }
 
-void Interruption::RemoveTemporary(const std::string& path)
+void Interruption::ForgetTemporary(TemporaryFile* file)
 {
-  for (TemporaryFile& file : Temporaries)
-  {
-    if (file.Used && path == file.Path.data())
-    {
-      file.Used = false;
-    }
-  }
+  file->Exists = false;
 }
 
 Interruption::CancellableStep::CancellableStep()

@@ -31,10 +31,11 @@ public:
   /** Tell the user, remove the temporary files and end the program. */
   [[noreturn]] static void Exit();
 
-  /** Temporary files to remove on the way out; at most 16 at a time, with paths below 4096 bytes.
-   */
-  static void AddTemporary(const std::string& path);
-  static void RemoveTemporary(const std::string& path);
+  /** A file to remove on the way out. */
+  class TemporaryFile;
+  /** @return to be given to ForgetTemporary() when the file is no longer to be removed */
+  static TemporaryFile* AddTemporary(const std::string& path);
+  static void ForgetTemporary(TemporaryFile* file);
 
   /** While one lives, a signal sets the flag instead of ending the program. */
   class CancellableStep

@@ -3,10 +3,12 @@
 #include "Meshing.h"
 
 #include "Errors.h"
+#include "FrameSource.h"
 #include "VTKImage.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
+#include <vtkImageToPentatopeMeshFilter.h>
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkNew.h>
 
@@ -26,14 +28,17 @@ int IndexOf(std::string_view word, std::span<const std::string_view> words)
 {
   return static_cast<int>(std::find(words.begin(), words.end(), word) - words.begin());
 }
-static_assert(ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_AGGRESSIVE] == "aggressive" &&
-  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_RANDOM] == "random" &&
-  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_GLOBAL] == "global" &&
-  ContentionManagers[vtkImageToTetMeshFilter::CONTENTION_LOCAL] == "local");
-static_assert(LoadBalancers[vtkImageToTetMeshFilter::RANDOM_WORK_STEALING] == "rws" &&
-  LoadBalancers[vtkImageToTetMeshFilter::HIERARCHICAL_WORK_STEALING] == "hws");
+using Filter = vtkImageToSimplexMeshFilter;
+static_assert(ContentionManagers[Filter::CONTENTION_AGGRESSIVE] == "aggressive" &&
+  ContentionManagers[Filter::CONTENTION_RANDOM] == "random" &&
+  ContentionManagers[Filter::CONTENTION_GLOBAL] == "global" &&
+  ContentionManagers[Filter::CONTENTION_LOCAL] == "local");
+static_assert(LoadBalancers[Filter::RANDOM_WORK_STEALING] == "rws" &&
+  LoadBalancers[Filter::HIERARCHICAL_WORK_STEALING] == "hws");
+static_assert(RuleOrders[vtkImageToPentatopeMeshFilter::RADIUS_EDGE_FIRST] == "radius-edge" &&
+  RuleOrders[vtkImageToPentatopeMeshFilter::SURFACE_FIRST] == "surface");
 
-void Configure(vtkImageToTetMeshFilter* filter, const Parameters& p)
+void Configure(Filter* filter, const Parameters& p)
 {
   if (p.Delta)
   {
@@ -42,10 +47,6 @@ void Configure(vtkImageToTetMeshFilter* filter, const Parameters& p)
   if (p.RadiusEdgeRatio)
   {
     filter->SetRadiusEdgeRatio(*p.RadiusEdgeRatio);
-  }
-  if (p.FacetAngle)
-  {
-    filter->SetFacetAngle(*p.FacetAngle);
   }
   if (p.SmoothingSigma)
   {
@@ -78,6 +79,51 @@ void Configure(vtkImageToTetMeshFilter* filter, const Parameters& p)
   filter->ComputeQualityOn();
 }
 
+vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p, const ScalarImage& labels)
+{
+  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  if (p.FacetAngle)
+  {
+    filter->SetFacetAngle(*p.FacetAngle);
+  }
+  const auto image = ToVTKImage(labels, p.OutputSpace);
+  AddSpaceArray(image, p.OutputSpace);
+  filter->SetInputData(image);
+  return filter;
+}
+
+vtkSmartPointer<Filter> MakePentatopeMesher(const Parameters& p, const ScalarImage& frames)
+{
+  const SpaceTimeParameters& spaceTime = p.SpaceTime;
+  const auto filter = vtkSmartPointer<vtkImageToPentatopeMeshFilter>::New();
+  if (spaceTime.TimeScale)
+  {
+    filter->SetTimeScale(*spaceTime.TimeScale);
+  }
+  if (!spaceTime.RuleOrder.empty())
+  {
+    filter->SetRuleOrder(IndexOf(spaceTime.RuleOrder, RuleOrders));
+  }
+  filter->SetPickingRegions(!spaceTime.NoPicking);
+  if (spaceTime.Picks)
+  {
+    filter->SetNumberOfPicks(*spaceTime.Picks);
+  }
+  if (spaceTime.SliverBound)
+  {
+    filter->SetSliverBound(*spaceTime.SliverBound);
+  }
+  if (spaceTime.Seed)
+  {
+    filter->SetRandomSeed(*spaceTime.Seed);
+  }
+  filter->SetFineGrained(!spaceTime.NoFineGrained);
+  vtkNew<FrameSource> source;
+  source->SetFrames(frames, p.OutputSpace);
+  filter->SetInputConnection(source->GetOutputPort());
+  return filter;
+}
+
 /** The filter's errors speak of its methods; the user has flags. */
 std::string InTermsOfFlags(std::string message)
 {
@@ -102,7 +148,7 @@ std::string InTermsOfFlags(std::string message)
 
 void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 {
-  auto* filter = static_cast<vtkImageToTetMeshFilter*>(caller);
+  auto* filter = static_cast<Filter*>(caller);
   const auto& progress = *static_cast<const ProgressFunction*>(clientData);
   const char* step = filter->GetProgressText();
   if (!progress(filter->GetProgress(), step ? step : ""))
@@ -113,15 +159,12 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 
 } // namespace
 
-vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
+vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   const Parameters& parameters, const MeshingInput& input, const ProgressFunction& progress)
 {
-  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  const auto filter = input.Labels.Dimension() == 3 ? MakeTetMesher(parameters, input.Labels)
+                                                    : MakePentatopeMesher(parameters, input.Labels);
   Configure(filter, parameters);
-
-  const auto image = ToVTKImage(input.Labels, parameters.OutputSpace);
-  AddSpaceArray(image, parameters.OutputSpace);
-  filter->SetInputData(image);
   if (input.Sizes)
   {
     filter->SetElementSizeData(ToVTKImage(*input.Sizes, parameters.OutputSpace));

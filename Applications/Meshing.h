@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Meshing.h
- * @brief Runs vtkImageToTetMeshFilter on what was read.
+ * @brief Runs the meshing filter for an image's dimension on what was read.
  */
 #ifndef voxplex_cli_Meshing_h
 #define voxplex_cli_Meshing_h
@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-class vtkImageToTetMeshFilter;
+class vtkImageToSimplexMeshFilter;
 
 namespace voxplex::cli
 {
@@ -31,13 +31,14 @@ struct MeshingInput
 using ProgressFunction = std::function<bool(double fraction, const std::string& step)>;
 
 /**
- * Meshes an image in the space that the parameters ask for. Both outputs of the returned filter
- * carry the field-data array SPACE; its statistics include quality.
+ * Meshes an image in the space that the parameters ask for: with vtkImageToTetMeshFilter, or with
+ * vtkImageToPentatopeMeshFilter if it has several frames. Both outputs of the returned filter carry
+ * the field-data array SPACE; its statistics include quality.
  *
  * @return null if cancelled
  * @throws RunError with the filter's reason
  */
-vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
+vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   const Parameters& parameters, const MeshingInput& input, const ProgressFunction& progress);
 
 } // namespace voxplex::cli

@@ -3,12 +3,11 @@
 #include "OutputFiles.h"
 
 #include "Errors.h"
-#include "Interruption.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <stdexcept>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -53,10 +52,10 @@ void ProbeFolder(const std::string& path, const std::string& temporary)
 
 OutputFiles::~OutputFiles()
 {
-  for (const File& file : this->Files)
+  for (const auto& [path, temporary] : this->Files)
   {
-    unlink(file.Temporary.c_str());
-    Interruption::RemoveTemporary(file.Temporary);
+    unlink(temporary.Path.c_str());
+    Interruption::ForgetTemporary(temporary.Record);
   }
 }
 
@@ -78,54 +77,49 @@ void OutputFiles::Add(const std::string& path)
   {
     Refuse(path, "it exists and is not a regular file");
   }
-  for (const File& file : this->Files)
+  if (!this->Targets.insert(Canonical(target).string()).second)
   {
-    if (Canonical(file.Path) == Canonical(target))
-    {
-      Refuse(path, "two outputs have this name");
-    }
+    Refuse(path, "two outputs have this name");
   }
   const std::string name = ".voxplex-" + std::to_string(getpid()) + "-" +
     std::to_string(this->Files.size()) + target.extension().string();
   const std::string temporary = (folder / name).string();
   ProbeFolder(path, temporary);
-  Interruption::AddTemporary(temporary);
-  this->Files.push_back({ path, temporary });
+  this->Files[path] = { temporary, Interruption::AddTemporary(temporary) };
 }
 
 void OutputFiles::ForbidOverwriting(const std::string& inputPath) const
 {
-  for (const File& file : this->Files)
+  for (const auto& [path, temporary] : this->Files)
   {
     std::error_code ignored;
-    if (fs::equivalent(file.Path, inputPath, ignored))
+    if (fs::equivalent(path, inputPath, ignored))
     {
-      Refuse(file.Path, "it is the input");
+      Refuse(path, "it is the input");
     }
   }
 }
 
 const std::string& OutputFiles::TemporaryPath(const std::string& path) const
 {
-  const auto file = std::find_if(
-    this->Files.begin(), this->Files.end(), [&path](const File& f) { return f.Path == path; });
+  const auto file = this->Files.find(path);
   if (file == this->Files.end())
   {
     throw std::logic_error("OutputFiles: '" + path + "' was not announced");
   }
-  return file->Temporary;
+  return file->second.Path;
 }
 
 void OutputFiles::Commit()
 {
   const Interruption::Deferral deferral;
-  for (const File& file : this->Files)
+  for (const auto& [path, temporary] : this->Files)
   {
-    if (std::rename(file.Temporary.c_str(), file.Path.c_str()) != 0)
+    if (std::rename(temporary.Path.c_str(), path.c_str()) != 0)
     {
-      Refuse(file.Path, std::strerror(errno));
+      Refuse(path, std::strerror(errno));
     }
-    Interruption::RemoveTemporary(file.Temporary);
+    Interruption::ForgetTemporary(temporary.Record);
   }
   this->Files.clear();
 }

@@ -11,8 +11,11 @@
 #ifndef voxplex_cli_OutputFiles_h
 #define voxplex_cli_OutputFiles_h
 
+#include "Interruption.h"
+
+#include <map>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace voxplex::cli
 {
@@ -43,12 +46,13 @@ public:
   void Commit();
 
 private:
-  struct File
+  struct Temporary
   {
     std::string Path;
-    std::string Temporary;
+    Interruption::TemporaryFile* Record;
   };
-  std::vector<File> Files;
+  std::map<std::string, Temporary> Files; ///< by the path that was given
+  std::set<std::string> Targets;          ///< the same files, absolute and without links
 };
 
 } // namespace voxplex::cli

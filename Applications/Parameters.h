@@ -35,6 +35,23 @@ inline constexpr std::array<std::string_view, 4> ContentionManagers{ "aggressive
   "global", "local" };
 inline constexpr std::array<std::string_view, 2> LoadBalancers{ "rws", "hws" };
 
+/** What --rule-order takes. */
+inline constexpr std::array<std::string_view, 2> RuleOrders{ "radius-edge", "surface" };
+
+/** What is for images with several time frames only. */
+struct SpaceTimeParameters
+{
+  std::optional<double> TimeScale; ///< length per unit of time
+  std::string Slices;              ///< the beginning of the names of slices
+  std::optional<int> SliceCount;
+  std::string RuleOrder; ///< one of RuleOrders
+  bool NoPicking = false;
+  std::optional<int> Picks;
+  std::optional<double> SliverBound;
+  std::optional<int> Seed;
+  bool NoFineGrained = false;
+};
+
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
@@ -61,6 +78,8 @@ struct Parameters
   bool Force = false;
   std::uint64_t MemoryLimit = 0; ///< bytes; 0: the machine's memory
   bool Progress = false;
+
+  SpaceTimeParameters SpaceTime;
 };
 
 } // namespace voxplex::cli

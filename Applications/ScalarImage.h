@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalarImage.h
- * @brief A 3D image as read from a file: what passes between ITK's side of the program and VTK's.
+ * @brief A 3D or 4D image as read from a file: what passes between ITK's side of the program and
+ * VTK's.
  */
 #ifndef voxplex_cli_ScalarImage_h
 #define voxplex_cli_ScalarImage_h
@@ -28,8 +29,10 @@ enum class ScalarType
   Float64
 };
 
-/** One scalar a voxel, first axis fastest. Voxel (i, j, k) lies at Origin + Direction * (Spacing *
- * ijk). */
+/**
+ * One scalar a voxel and frame, first axis fastest, time slowest. Voxel (i, j, k) lies at Origin +
+ * Direction * (Spacing * ijk); frame n at TimeOrigin + n * TimeSpacing.
+ */
 struct ScalarImage
 {
   ScalarType Type = ScalarType::UInt8;
@@ -38,7 +41,14 @@ struct ScalarImage
   std::array<double, 3> Spacing{};
   std::array<double, 9> Direction{}; ///< row-major; column j is the direction of axis j, LPS
 
+  int Frames = 1; ///< 1: a 3D image
+  double TimeOrigin = 0.0;
+  double TimeSpacing = 1.0; ///< positive
+
   std::shared_ptr<void> Scalars; ///< keeps the reader's own buffer alive
+  int Dimension() const { return this->Frames > 1 ? 4 : 3; }
+  double TimeOf(int frame) const { return this->TimeOrigin + frame * this->TimeSpacing; }
+  /** Of one frame. */
   std::size_t NumberOfVoxels() const
   {
     return static_cast<std::size_t>(this->Dimensions[0]) *

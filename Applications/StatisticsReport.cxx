@@ -37,6 +37,15 @@ ordered_json OrNull(const std::string& text)
   return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
 
+ordered_json DescribeSpaceTime(const SpaceTimeParameters& p)
+{
+  return { { "time_scale", OrNull(p.TimeScale) }, { "slices", OrNull(p.Slices) },
+    { "slice_count", OrNull(p.SliceCount) }, { "rule_order", OrNull(p.RuleOrder) },
+    { "no_picking", p.NoPicking }, { "picks", OrNull(p.Picks) },
+    { "sliver_bound", OrNull(p.SliverBound) }, { "seed", OrNull(p.Seed) },
+    { "no_fine_grained", p.NoFineGrained } };
+}
+
 /** Null for what was left to its default. */
 ordered_json DescribeParameters(const Parameters& p)
 {
@@ -45,14 +54,16 @@ ordered_json DescribeParameters(const Parameters& p)
   {
     labelSizes[std::to_string(label)] = size;
   }
-  return { { "input", p.Input }, { "series", OrNull(p.Series) }, { "output", OrNull(p.Output) },
-    { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) }, { "size", OrNull(p.Size) },
-    { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
+  ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Series) },
+    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) },
+    { "size", OrNull(p.Size) }, { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
     { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", p.Labels },
     { "space", ToString(p.OutputSpace) }, { "threads", p.Threads },
     { "contention", OrNull(p.Contention) }, { "balance", OrNull(p.Balance) },
     { "pin", p.PinThreads }, { "force", p.Force }, { "memory_limit", p.MemoryLimit } };
+  parameters.update(DescribeSpaceTime(p.SpaceTime));
+  return parameters;
 }
 
 ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes& times)
@@ -88,9 +99,35 @@ std::string Rounded(const ordered_json& number, int decimals)
 
 std::string Significant(const ordered_json& number)
 {
+  if (!number.is_number())
+  {
+    return "-";
+  }
   std::ostringstream text;
   text << std::setprecision(4) << number.get<double>();
   return text.str();
+}
+
+std::string SummarizeTetrahedra(const ordered_json& quality)
+{
+  return "Radius-edge ratio at most " + Rounded(quality["max_radius_edge"], 4) +
+    ", dihedral angles from " + Rounded(quality["min_dihedral"], 1) + " to " +
+    Rounded(quality["max_dihedral"], 1) + " degrees, interface angles from " +
+    Rounded(quality["min_planar"], 1) + " degrees";
+}
+
+/** The figures of the thesis' tables 4.2 and 4.3. */
+std::string SummarizePentatopes(const ordered_json& report)
+{
+  const ordered_json& quality = report["quality"];
+  const ordered_json& cavities = report["cavities"];
+  return "Shortest edge " + Significant(quality["shortest_edge"]) + "; radius-edge ratio at most " +
+    Rounded(quality["max_radius_edge"], 4) + ", " + Rounded(quality["mean_radius_edge"], 2) +
+    " +- " + Rounded(quality["radius_edge_deviation"], 2) + "; normalized volume at least " +
+    Rounded(quality["min_normalized_volume"], 4) + ", " +
+    Rounded(quality["mean_normalized_volume"], 2) + " +- " +
+    Rounded(quality["normalized_volume_deviation"], 2) + "; cavities of " +
+    Rounded(cavities["mean"], 0) + " pentatopes, at most " + Grouped(cavities["largest"]);
 }
 
 } // namespace
@@ -154,17 +191,16 @@ std::vector<std::string> Warnings(const ordered_json& report)
 
 std::string Summarize(const ordered_json& report)
 {
-  const ordered_json& quality = report["quality"];
   const ordered_json& time = report["time"];
+  const bool isSpaceTime = report["dimension"].get<int>() == 4;
   std::ostringstream text;
-  text << Grouped(report["elements"]) << " tetrahedra in " << report["labels"].size()
-       << (report["labels"].size() == 1 ? " label, " : " labels, ") << Grouped(report["vertices"])
-       << " vertices, " << Grouped(report["interface_facets"]) << " interface triangles with delta "
-       << Significant(report["delta"]) << ". Radius-edge ratio at most "
-       << Rounded(quality["max_radius_edge"], 4) << ", dihedral angles from "
-       << Rounded(quality["min_dihedral"], 1) << " to " << Rounded(quality["max_dihedral"], 1)
-       << " degrees, interface angles from " << Rounded(quality["min_planar"], 1)
-       << " degrees. Read in " << Rounded(time["read"], 2) << " s, meshed in "
+  text << Grouped(report["elements"]) << (isSpaceTime ? " pentatopes in " : " tetrahedra in ")
+       << report["labels"].size() << (report["labels"].size() == 1 ? " label, " : " labels, ")
+       << Grouped(report["vertices"]) << " vertices, " << Grouped(report["interface_facets"])
+       << (isSpaceTime ? " boundary tetrahedra" : " interface triangles") << " with delta "
+       << Significant(report["delta"]) << ". "
+       << (isSpaceTime ? SummarizePentatopes(report) : SummarizeTetrahedra(report["quality"]))
+       << ". Read in " << Rounded(time["read"], 2) << " s, meshed in "
        << Rounded(time["total_without_io"], 2) << " s, written in " << Rounded(time["write"], 2)
        << " s, with at most "
        << Grouped(report["peak_memory_bytes"].get<std::int64_t>() / (1 << 20))

@@ -10,6 +10,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 
+#include <cstddef>
 #include <stdexcept>
 
 namespace voxplex::cli
@@ -46,12 +47,16 @@ int VTKType(ScalarType type)
 }
 
 /** An array over the image's own buffer, which it keeps alive for as long as it lives itself. */
-vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image)
+vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
 {
   const auto array =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTKType(image.Type)));
   array->SetName("Labels");
-  array->SetVoidArray(image.Scalars.get(), static_cast<vtkIdType>(image.NumberOfVoxels()), 1);
+  const std::size_t frameSize =
+    image.NumberOfVoxels() * static_cast<std::size_t>(array->GetDataTypeSize());
+  array->SetVoidArray(
+    static_cast<std::byte*>(image.Scalars.get()) + static_cast<std::size_t>(frame) * frameSize,
+    static_cast<vtkIdType>(image.NumberOfVoxels()), 1);
 
   // The observer dies with the array; its client data is a share of the buffer.
   vtkNew<vtkCallbackCommand> owner;
@@ -64,7 +69,7 @@ vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image)
 
 } // namespace
 
-vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space)
+vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame)
 {
   const auto result = vtkSmartPointer<vtkImageData>::New();
   result->SetDimensions(image.Dimensions.data());
@@ -84,7 +89,7 @@ vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space)
   }
   result->SetOrigin(origin.data());
   result->SetDirectionMatrix(direction.data());
-  result->GetPointData()->SetScalars(ShareScalars(image));
+  result->GetPointData()->SetScalars(ShareScalars(image, frame));
   return result;
 }
 

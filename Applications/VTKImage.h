@@ -19,10 +19,10 @@ namespace voxplex::cli
 {
 
 /**
- * The returned image refers to the voxels of the argument and keeps them alive. For Space::RAS, the
- * first two physical coordinates change sign.
+ * One frame as an image that refers to the voxels of the argument and keeps them alive. For
+ * Space::RAS, the first two physical coordinates change sign.
  */
-vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space);
+vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame = 0);
 
 /** Adds the field-data string array SPACE, which 3D Slicer reads. */
 void AddSpaceArray(vtkDataObject* data, Space space);

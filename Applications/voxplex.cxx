@@ -9,10 +9,11 @@
 #include "OutputFiles.h"
 #include "ProgressBar.h"
 #include "ReadImage.h"
+#include "SliceFiles.h"
 #include "StatisticsReport.h"
 #include "Writers/Formats.h"
 
-#include <vtkImageToTetMeshFilter.h>
+#include <vtkImageToSimplexMeshFilter.h>
 #include <vtkLogger.h>
 #include <vtkMeshingStatistics.h>
 #include <vtkNew.h>
@@ -23,6 +24,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 namespace voxplex::cli
 {
@@ -59,7 +61,17 @@ private:
   Clock::time_point Start = Clock::now();
 };
 
-/** Announces all outputs, so that what cannot be written is known before any work. */
+/** So that nothing that is read is overwritten. */
+void ProtectInputs(const OutputFiles& files, const Parameters& p)
+{
+  files.ForbidOverwriting(p.Input);
+  if (!p.SizeImage.empty())
+  {
+    files.ForbidOverwriting(p.SizeImage);
+  }
+}
+
+/** Announces all outputs but slices, so that what cannot be written is known before any work. */
 void Announce(OutputFiles& files, const Parameters& p)
 {
   for (const std::string& path : { p.Output, p.Interfaces, p.Statistics })
@@ -69,11 +81,25 @@ void Announce(OutputFiles& files, const Parameters& p)
       files.Add(path);
     }
   }
-  files.ForbidOverwriting(p.Input);
-  if (!p.SizeImage.empty())
+  ProtectInputs(files, p);
+}
+
+/** Slices are known only when the image has been read. */
+std::optional<SliceFiles> AnnounceSlices(
+  OutputFiles& files, const Parameters& p, const ScalarImage& image)
+{
+  if (p.SpaceTime.Slices.empty())
   {
-    files.ForbidOverwriting(p.SizeImage);
+    return std::nullopt;
   }
+  SliceFiles slices(p.SpaceTime.Slices, image, p.SpaceTime.SliceCount);
+  files.Add(slices.Collection);
+  for (const std::string& path : slices.Slices)
+  {
+    files.Add(path);
+  }
+  ProtectInputs(files, p);
+  return slices;
 }
 
 void Warn(const std::vector<std::string>& warnings)
@@ -91,14 +117,21 @@ MeshingInput Read(const Parameters& p)
   if (!p.SizeImage.empty())
   {
     input.Sizes = ReadImage(p.SizeImage, "", warnings);
+    if (input.Sizes->Dimension() != 3)
+    {
+      throw RunError("--size-image: '" + p.SizeImage +
+        "' has several time frames; an image of sizes has three dimensions, and holds at all "
+        "times");
+    }
   }
   Warn(warnings);
   return input;
 }
 
-vtkSmartPointer<vtkImageToTetMeshFilter> MeshOrExit(const Parameters& p, const MeshingInput& input)
+vtkSmartPointer<vtkImageToSimplexMeshFilter> MeshOrExit(
+  const Parameters& p, const MeshingInput& input)
 {
-  vtkSmartPointer<vtkImageToTetMeshFilter> filter;
+  vtkSmartPointer<vtkImageToSimplexMeshFilter> filter;
   {
     const Interruption::CancellableStep step;
     ProgressBar bar(p.Progress);
@@ -116,21 +149,46 @@ vtkSmartPointer<vtkImageToTetMeshFilter> MeshOrExit(const Parameters& p, const M
   return filter;
 }
 
-/** Writes one of the two results if its name was given. */
-void Write(const MeshData& mesh, const std::string& path, Content content, const OutputFiles& files)
+/** Has a file written in the place that it will be moved from. */
+template <typename TWrite>
+void Write(const std::string& path, const OutputFiles& files, TWrite&& write)
 {
-  if (path.empty())
-  {
-    return;
-  }
   try
   {
-    FindWriter(path, content)(mesh, files.TemporaryPath(path));
+    write(files.TemporaryPath(path));
   }
   catch (const RunError& error)
   {
     throw RunError("cannot write '" + path + "': " + error.what());
   }
+}
+
+/** Writes both results if their names were given. */
+template <typename TMesh>
+void WriteMesh(const TMesh& mesh, const Parameters& p, const OutputFiles& files)
+{
+  const auto write = [&](const std::string& path, Content content)
+  {
+    if (!path.empty())
+    {
+      Write(path, files,
+        [&](const std::string& temporary) { WriteFile(mesh, content, path, temporary); });
+    }
+  };
+  write(p.Output, Content::Mesh);
+  write(p.Interfaces, Content::Interfaces);
+}
+
+void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const OutputFiles& files)
+{
+  Slicer slicer(mesh);
+  for (std::size_t i = 0; i < slices.Slices.size(); ++i)
+  {
+    Write(slices.Slices[i], files,
+      [&](const std::string& temporary) { slicer.Write(slices.Times[i], temporary); });
+  }
+  Write(slices.Collection, files,
+    [&](const std::string& temporary) { WriteCollection(slices, temporary); });
 }
 
 void Run(const Parameters& p)
@@ -143,12 +201,28 @@ void Run(const Parameters& p)
   const MeshingInput input = Read(p);
   times.Read = reading.Seconds();
 
+  CheckDimension(p, input.Labels.Dimension());
+  const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input.Labels);
+
   const auto filter = MeshOrExit(p, input);
 
-  const MeshData mesh{ filter->GetOutput(), filter->GetInterfaces(), ToString(p.OutputSpace) };
   const Stopwatch writing;
-  Write(mesh, p.Output, Content::Mesh, files);
-  Write(mesh, p.Interfaces, Content::Interfaces, files);
+  const std::string space = ToString(p.OutputSpace);
+  vtkDataObject* interfaces = filter->GetOutputDataObject(1);
+  if (input.Labels.Dimension() == 3)
+  {
+    WriteMesh(
+      MeshData{ filter->GetOutput(), vtkPolyData::SafeDownCast(interfaces), space }, p, files);
+  }
+  else
+  {
+    auto* boundary = vtkUnstructuredGrid::SafeDownCast(interfaces);
+    WriteMesh(SpaceTimeMeshData{ filter->GetOutput(), boundary, space }, p, files);
+  }
+  if (slices)
+  {
+    WriteSlices(filter->GetOutput(), *slices, files);
+  }
   times.Write = writing.Seconds();
 
   const auto report = MakeReport(filter->GetStatistics(), p, times);

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileChecks.h"
 
+#include "TextHeader.h"
+
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 namespace voxplex::cli
@@ -43,7 +42,9 @@ public:
     return this->Get<std::int16_t>(40 + 2 * static_cast<std::size_t>(i));
   }
   int BitsPerVoxel() const { return this->Get<std::int16_t>(72); }
+  bool HasFrames() const { return this->Dimension(0) > 3 && this->Dimension(4) > 1; }
   float Step(int i) const { return this->Get<float>(76 + 4 * static_cast<std::size_t>(i)); }
+  float FirstTime() const { return this->Get<float>(136); }
   float VoxelOffset() const { return this->Get<float>(108); }
 
   /** Bytes of the whole uncompressed file. */
@@ -99,57 +100,78 @@ std::uint64_t CountBytes(gzFile file, std::uint64_t enough)
   return count;
 }
 
-// --- Text headers
-// -----------------------------------------------------------------------------------
-
-std::string LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-/** "ElementSpacing = 1 1 1" and "spacings: 1 1 1": the value if the key is this one. */
-bool SplitField(const std::string& line, std::string_view key, std::string& value)
-{
-  const std::size_t separator = line.find_first_of("=:");
-  if (separator == std::string::npos)
-  {
-    return false;
-  }
-  std::string name = LowerCase(line.substr(0, separator));
-  name.erase(name.find_last_not_of(" \t") + 1);
-  value = line.substr(separator + 1);
-  value.erase(0, value.find_first_not_of(" \t=")); // NRRD has "key:=value", too
-  value.erase(value.find_last_not_of(" \t\r") + 1);
-  return name == key;
-}
-
-std::vector<double> Numbers(std::string text)
-{
-  std::replace_if(
-    text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  std::istringstream words(text);
-  std::vector<double> numbers;
-  for (std::string word; words >> word;)
-  {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error == std::errc() && end == word.data() + word.size())
-    {
-      numbers.push_back(number);
-    }
-  }
-  return numbers;
-}
-
 std::string SpacingFault(const std::string& value)
 {
   return "the voxel spacing in its header is '" + value +
     "'; it must be a positive length along each axis: correct the header";
 }
 
+std::string TimeStepFault(const std::string& value)
+{
+  return "the time from frame to frame in its header is '" + value +
+    "'; it must be a positive number: correct the header";
+}
+
+bool IsPositive(double number)
+{
+  return number > 0 && std::isfinite(number);
+}
+
+constexpr std::size_t TimeAxis = 3;
+
+std::string FindFaultOfMetaImage(const std::string& spacing)
+{
+  const std::vector<double> numbers = ParseNumbers(spacing);
+  const auto fault = std::find_if_not(numbers.begin(), numbers.end(), IsPositive);
+  if (fault == numbers.end())
+  {
+    return "";
+  }
+  return fault == numbers.begin() + TimeAxis ? TimeStepFault(spacing) : SpacingFault(spacing);
+}
+
+/** NaN means 'unknown', which is fine for an axis that is not one of space. */
+std::string FindFaultOfNRRD(const TextHeader& header)
+{
+  const std::vector<NRRDAxis> axes = ParseNRRDAxes(header);
+  const bool hasList =
+    std::any_of(axes.begin(), axes.end(), [](const NRRDAxis& axis) { return axis.IsList(); });
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    const NRRDAxis& axis = axes[a];
+    const bool isTime = axis.IsList() || (a == TimeAxis && !hasList);
+    if (std::any_of(axis.Direction.begin(), axis.Direction.end(),
+          [](double number) { return !std::isfinite(number); }))
+    {
+      return SpacingFault(*header.Find("space directions"));
+    }
+    const bool mayBeUnknown = isTime || !axis.Direction.empty();
+    if (axis.HasSpacing && !IsPositive(axis.Spacing) && !(std::isnan(axis.Spacing) && mayBeUnknown))
+    {
+      const std::string& spacings = *header.Find("spacings");
+      return isTime ? TimeStepFault(spacings) : SpacingFault(spacings);
+    }
+  }
+  return "";
+}
+
 } // namespace
+
+std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
+{
+  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(path.c_str(), "rb"));
+  std::array<char, NIfTIHeader::Size> bytes{};
+  if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
+  {
+    return std::nullopt;
+  }
+  const NIfTIHeader header(bytes);
+  if (!header.IsValid() || !header.HasFrames())
+  {
+    return std::nullopt;
+  }
+  return NIfTITimes{ header.FirstTime(), header.Step(4) };
+}
 
 std::string FindFaultOfNIfTI(const std::string& path)
 {
@@ -164,9 +186,21 @@ std::string FindFaultOfNIfTI(const std::string& path)
   {
     return "";
   }
+  if (header.HasFrames() && !std::isfinite(header.FirstTime()))
+  {
+    return "the time of the first frame in its header (toffset) is not a finite number: correct "
+           "the "
+           "header";
+  }
+  if (header.HasFrames() && !IsPositive(header.Step(4)) && header.Step(4) != 0)
+  {
+    std::ostringstream value;
+    value << header.Step(4);
+    return TimeStepFault(value.str());
+  }
   for (int i = 1; i <= std::min(3, header.Dimension(0)); ++i)
   {
-    if (!(header.Step(i) > 0) || !std::isfinite(header.Step(i)))
+    if (!IsPositive(header.Step(i)))
     {
       std::ostringstream value;
       value << header.Step(1) << ' ' << header.Step(2) << ' ' << header.Step(3);
@@ -190,33 +224,9 @@ std::string FindFaultOfNIfTI(const std::string& path)
 
 std::string FindFaultOfTextHeader(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::string value;
-  std::size_t length = 0;
-  // An empty line ends the header of NRRD, the name of the data file that of MetaImage.
-  for (std::string line; length < 65536 && std::getline(file, line) && !line.empty();
-       length += line.size())
-  {
-    if (SplitField(line, "elementdatafile", value))
-    {
-      break;
-    }
-    const bool isVectors = SplitField(line, "space directions", value);
-    if (isVectors || SplitField(line, "spacings", value) ||
-      SplitField(line, "elementspacing", value))
-    {
-      const std::vector<double> numbers = Numbers(value);
-      const bool isFault = std::any_of(numbers.begin(), numbers.end(),
-        [isVectors](double number)
-        { return !std::isfinite(number) || (!isVectors && number <= 0); });
-      // Axes that are not of space (components, time) may be NaN, which is 'unknown' in NRRD.
-      if (isFault && (isVectors || numbers.size() <= 3))
-      {
-        return SpacingFault(value);
-      }
-    }
-  }
-  return "";
+  const TextHeader header(path);
+  const std::string* spacing = header.Find("elementspacing");
+  return spacing ? FindFaultOfMetaImage(*spacing) : FindFaultOfNRRD(header);
 }
 
 } // namespace voxplex::cli

@@ -5,11 +5,13 @@
  * @brief What ITK 5.2 reads without complaint although it should not.
  *
  * - A spacing of 0, NaN or infinity in a NIfTI or NRRD header is replaced by 1.
+ * - So is a time step. 0 in NIfTI and NaN in NRRD stand for 'unknown' there, and pass.
  * - Of a truncated NIfTI file the missing voxels are read as 0.
  */
 #ifndef voxplex_cli_FileChecks_h
 #define voxplex_cli_FileChecks_h
 
+#include <optional>
 #include <string>
 
 namespace voxplex::cli
@@ -21,6 +23,16 @@ namespace voxplex::cli
  * @return what is wrong, or an empty string
  */
 std::string FindFaultOfNIfTI(const std::string& path);
+
+/** When the frames of a NIfTI-1 file are. */
+struct NIfTITimes
+{
+  double First; ///< toffset, which ITK does not read
+  double Step;  ///< pixdim[4]; 0 means 'unknown', of which ITK makes 1
+};
+
+/** Nothing if it is another file, or has one frame. */
+std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path);
 
 /** Checks the spacings in the text header of an NRRD or MetaImage file. Returns as above. */
 std::string FindFaultOfTextHeader(const std::string& path);

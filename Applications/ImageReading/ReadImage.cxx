@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "FileChecks.h"
 #include "LibraryMessages.h"
+#include "ReadFrames.h"
 
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
@@ -14,6 +15,7 @@
 #include <itkImageSeriesReader.h>
 #include <itkMetaDataObject.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -165,47 +167,95 @@ ScalarImage ReadPixelsOfAnyType(
   }
 }
 
-/** What the header says must be a 3D image of one component before pixels are read. */
-void CheckHeader(const std::string& path, const itk::ImageIOBase& io)
+/** "6 x 5 x 4" */
+std::string DescribeSize(const itk::ImageIOBase& io)
 {
-  unsigned dimensions = io.GetNumberOfDimensions();
-  while (dimensions > 3 && io.GetDimensions(dimensions - 1) == 1)
+  std::ostringstream size;
+  for (unsigned i = 0; i < io.GetNumberOfDimensions(); ++i)
   {
-    --dimensions;
+    size << (i ? " x " : "") << io.GetDimensions(i);
   }
-  if (dimensions > 3)
+  return size.str();
+}
+
+void CheckAxis(const std::string& path, const itk::ImageIOBase& io, unsigned axis)
+{
+  const double spacing = io.GetSpacing(axis);
+  if (!(spacing > 0) || !std::isfinite(spacing))
   {
     std::ostringstream reason;
-    reason << "it has " << dimensions << " dimensions (";
-    for (unsigned i = 0; i < dimensions; ++i)
-    {
-      reason << (i ? " x " : "") << io.GetDimensions(i);
-    }
-    reason << "), and voxplex meshes 3D images only so far; extract one time frame first";
+    reason << (axis < 3 ? "the voxel spacing along axis " : "the time step along axis ") << axis
+           << " is " << spacing << " in its header; it must be a positive "
+           << (axis < 3 ? "length" : "number") << ": correct the header";
     Refuse(path, reason.str());
   }
-  if (io.GetNumberOfComponents() != 1)
+  if (!std::isfinite(io.GetOrigin(axis)))
+  {
+    Refuse(path,
+      "the origin along axis " + std::to_string(axis) +
+        " is not a finite number in its header: correct the header");
+  }
+  if (io.GetDimensions(axis) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  {
+    Refuse(path, "it has more than 2147483647 voxels along axis " + std::to_string(axis));
+  }
+}
+
+/**
+ * What the header says must be a 3D or 4D image of one component, or a 3D image with one component
+ * for each time frame, before pixels are read.
+ */
+void CheckHeader(const std::string& path, const itk::ImageIOBase& io)
+{
+  const unsigned axes = CountAxes(io);
+  if (axes > 4)
+  {
+    Refuse(path,
+      "it has " + std::to_string(axes) + " dimensions (" + DescribeSize(io) +
+        "); voxplex meshes images of three, and of four with time as the last: extract one of "
+        "those "
+        "first");
+  }
+  if (io.GetNumberOfComponents() != 1 && !ComponentsAreFrames(path, io))
   {
     Refuse(path,
       "it has " + std::to_string(io.GetNumberOfComponents()) +
-        " components a voxel (colours, vectors, time frames or overlapping segments); a label "
-        "image has one: export it as a label map first");
+        " components a voxel (colours, vectors or overlapping segments); a label image has one: "
+        "export it as a label map first, or, if they are time frames, as an image of four "
+        "dimensions");
   }
-  for (unsigned i = 0; i < dimensions; ++i)
+  for (unsigned axis = 0; axis < std::min(axes, io.GetNumberOfDimensions()); ++axis)
   {
-    const double spacing = io.GetSpacing(i);
-    if (!(spacing > 0) || !std::isfinite(spacing))
-    {
-      std::ostringstream reason;
-      reason << "the voxel spacing along axis " << i << " is " << spacing
-             << " in its header; it must be a positive length: correct the header";
-      Refuse(path, reason.str());
-    }
-    if (io.GetDimensions(i) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    {
-      Refuse(path, "it has more than 2147483647 voxels along axis " + std::to_string(i));
-    }
+    CheckAxis(path, io, axis);
   }
+}
+
+/** One frame or several. */
+ScalarImage ReadChecked(const std::string& path, const FileNames& files, itk::ImageIOBase* io,
+  std::vector<std::string>& warnings)
+{
+  if (files.size() == 1 && (CountAxes(*io) == 4 || io->GetNumberOfComponents() > 1))
+  {
+    return ReadFrames(path, *io, warnings);
+  }
+  return ReadPixelsOfAnyType(path, files, io);
+}
+
+/** ITK's words for what is more particular than a damaged file, in ours; or an empty string. */
+std::string ExplainHeader(const std::string& message)
+{
+  if (message.find("determinant is 0") != std::string::npos)
+  {
+    return "its axes are not independent, the direction matrix is singular: correct the header";
+  }
+  if (message.find("#independent axes") != std::string::npos)
+  {
+    return "its header gives space directions to fewer axes than have the kind 'domain', 'space' "
+           "or "
+           "'time': give the axis of time the kind 'list', or a space of four dimensions such as "
+           "left-posterior-superior-time";
+  }
+  return "";
 }
 
 /** What ITK would not notice. */
@@ -228,8 +278,8 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
 }
 
 /** @throws RunError naming the path, whatever ITK throws */
-ScalarImage ReadWith(
-  const std::string& path, const FileNames& files, itk::ImageIOBase* io, LibraryMessages& messages)
+ScalarImage ReadWith(const std::string& path, const FileNames& files, itk::ImageIOBase* io,
+  LibraryMessages& messages, std::vector<std::string>& warnings)
 {
   try
   {
@@ -237,7 +287,7 @@ ScalarImage ReadWith(
     CheckFile(files.front(), *io);
     io->ReadImageInformation();
     CheckHeader(path, *io);
-    ScalarImage image = ReadPixelsOfAnyType(path, files, io);
+    ScalarImage image = ReadChecked(path, files, io, warnings);
     if (const std::string damage = messages.DamageReport(); !damage.empty())
     {
       Refuse(path, "the file is truncated or damaged (" + damage + ")");
@@ -259,10 +309,9 @@ ScalarImage ReadWith(
   catch (const itk::ExceptionObject& error)
   {
     const std::string summary = messages.Summarize(error.GetDescription());
-    if (summary.find("determinant is 0") != std::string::npos)
+    if (const std::string explanation = ExplainHeader(summary); !explanation.empty())
     {
-      Refuse(
-        path, "its axes are not independent, the direction matrix is singular: correct the header");
+      Refuse(path, explanation);
     }
     Refuse(path, "the file is truncated or damaged (" + summary + ")");
   }
@@ -289,7 +338,8 @@ void CheckReadable(const std::string& path)
   }
 }
 
-ScalarImage ReadFile(const std::string& path, LibraryMessages& messages)
+ScalarImage ReadFile(
+  const std::string& path, LibraryMessages& messages, std::vector<std::string>& warnings)
 {
   const auto io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
   if (!io)
@@ -298,7 +348,7 @@ ScalarImage ReadFile(const std::string& path, LibraryMessages& messages)
       "it is not an image in a format that ITK reads (NRRD, NIfTI, MetaImage, DICOM, ...), or its "
       "header is damaged");
   }
-  return ReadWith(path, { path }, io, messages);
+  return ReadWith(path, { path }, io, messages, warnings);
 }
 
 std::string ListSeries(itk::GDCMSeriesFileNames* names, const FileNames& series)
@@ -346,15 +396,15 @@ std::string ChooseSeries(const std::string& path, itk::GDCMSeriesFileNames* name
   return matching.front();
 }
 
-ScalarImage ReadFolder(
-  const std::string& path, const std::string& wanted, LibraryMessages& messages)
+ScalarImage ReadFolder(const std::string& path, const std::string& wanted,
+  LibraryMessages& messages, std::vector<std::string>& warnings)
 {
   const auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(true);
   names->SetDirectory(path);
   const std::string uid = ChooseSeries(path, names, names->GetSeriesUIDs(), wanted);
   const FileNames files = names->GetFileNames(uid);
-  return ReadWith(path, files, itk::GDCMImageIO::New(), messages);
+  return ReadWith(path, files, itk::GDCMImageIO::New(), messages, warnings);
 }
 
 } // namespace
@@ -370,7 +420,8 @@ ScalarImage ReadImage(
   {
     Refuse(path, "--series needs a folder with DICOM files, and this is a file");
   }
-  ScalarImage image = isFolder ? ReadFolder(path, series, messages) : ReadFile(path, messages);
+  ScalarImage image =
+    isFolder ? ReadFolder(path, series, messages, warnings) : ReadFile(path, messages, warnings);
   for (const std::string& warning : messages.Warnings())
   {
     warnings.push_back(path + ": " + warning);

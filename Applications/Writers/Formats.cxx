@@ -17,24 +17,34 @@ namespace voxplex::cli
 namespace
 {
 
+/** A format of 3D meshes, 4D meshes or both; what has no writer here is written elsewhere. */
 struct Format
 {
   Content Kind;
   const char* Extension;
-  WriteFunction Write;
+  void (*Write3D)(const MeshData& mesh, const std::string& path);
+  void (*Write4D)(const SpaceTimeMeshData& mesh, const std::string& path);
+
+  bool Has(std::optional<int> dimension) const
+  {
+    return this->Kind == Content::Statistics || !dimension ||
+      (*dimension == 3 ? this->Write3D != nullptr : this->Write4D != nullptr);
+  }
 };
 
 constexpr std::array Formats{
-  Format{ Content::Mesh, ".vtu", WriteVTU },
-  Format{ Content::Mesh, ".vtk", WriteLegacyVTKMesh },
-  Format{ Content::Mesh, ".mesh", WriteMEDIT },
-  Format{ Content::Mesh, ".msh", WriteGmsh },
-  Format{ Content::Mesh, ".inp", WriteAbaqus },
-  Format{ Content::Interfaces, ".vtp", WriteVTP },
-  Format{ Content::Interfaces, ".stl", WriteSTL },
-  Format{ Content::Interfaces, ".ply", WritePLY },
-  Format{ Content::Interfaces, ".vtk", WriteLegacyVTKInterfaces },
-  Format{ Content::Statistics, ".json", nullptr },
+  Format{ Content::Mesh, ".vtu", WriteVTU, WriteSpaceTimeVTU },
+  Format{ Content::Mesh, ".vtk", WriteLegacyVTKMesh, nullptr },
+  Format{ Content::Mesh, ".mesh", WriteMEDIT, WriteGMF },
+  Format{ Content::Mesh, ".mfem", nullptr, WriteMFEM },
+  Format{ Content::Mesh, ".msh", WriteGmsh, nullptr },
+  Format{ Content::Mesh, ".inp", WriteAbaqus, nullptr },
+  Format{ Content::Interfaces, ".vtp", WriteVTP, nullptr },
+  Format{ Content::Interfaces, ".vtu", nullptr, WriteSpaceTimeBoundaryVTU },
+  Format{ Content::Interfaces, ".stl", WriteSTL, nullptr },
+  Format{ Content::Interfaces, ".ply", WritePLY, nullptr },
+  Format{ Content::Interfaces, ".vtk", WriteLegacyVTKInterfaces, nullptr },
+  Format{ Content::Statistics, ".json", nullptr, nullptr },
 };
 
 const char* OptionFor(Content content)
@@ -65,14 +75,44 @@ const Format* Find(const std::string& extension, Content content)
   return format == Formats.end() ? nullptr : &*format;
 }
 
+const char* NameOf(Content content, int dimension)
+{
+  if (content == Content::Mesh)
+  {
+    return dimension == 3 ? "tetrahedra" : "pentatopes";
+  }
+  return dimension == 3 ? "triangles between labels" : "tetrahedra between labels";
+}
+
+/** Which extensions to use, of one dimension or of both. */
+std::string Advice(Content content, std::optional<int> dimension)
+{
+  if (dimension || content == Content::Statistics)
+  {
+    return "; use " + ListExtensions(content, dimension.value_or(3));
+  }
+  return "; use " + ListExtensions(content, 3) + " (of a space-time image " +
+    ListExtensions(content, 4) + ")";
+}
+
+const Format& Require(const std::string& name, Content content)
+{
+  const Format* format = Find(ExtensionOf(name), content);
+  if (!format)
+  {
+    throw std::logic_error("no writer for '" + name + "'");
+  }
+  return *format;
+}
+
 } // namespace
 
-std::string ListExtensions(Content content)
+std::string ListExtensions(Content content, int dimension)
 {
   std::vector<std::string> extensions;
   for (const Format& format : Formats)
   {
-    if (format.Kind == content)
+    if (format.Kind == content && format.Has(dimension))
     {
       extensions.emplace_back(format.Extension);
     }
@@ -85,20 +125,33 @@ std::string ListExtensions(Content content)
   return phrase;
 }
 
-void RequireFormat(const std::string& option, const std::string& path, Content content)
+void RequireFormat(
+  const std::string& option, const std::string& path, Content content, std::optional<int> dimension)
 {
   const std::string extension = ExtensionOf(path);
-  if (Find(extension, content))
+  const Format* format = Find(extension, content);
+  if (format && format->Has(dimension))
   {
     return;
   }
   std::string message = "--" + option + ": ";
-  message += extension.empty() ? "'" + path + "' has no extension"
-                               : "the format '" + extension + "' is not known here";
-  message += "; use " + ListExtensions(content);
+  if (format)
+  {
+    const bool isSpaceTime = *dimension == 4;
+    message += "'" + extension + "' does not hold the " + NameOf(content, *dimension) +
+      (isSpaceTime ? " of a space-time image, and the input is one"
+                   : " of a 3D image, and the input is one");
+  }
+  else
+  {
+    message += extension.empty() ? "'" + path + "' has no extension"
+                                 : "the format '" + extension + "' is not known here";
+  }
+  message += Advice(content, dimension);
   for (const Content other : { Content::Mesh, Content::Interfaces, Content::Statistics })
   {
-    if (Find(extension, other))
+    const Format* theirs = Find(extension, other);
+    if (!format && theirs)
     {
       message += " (" + extension + " goes with " + OptionFor(other) + ")";
     }
@@ -106,14 +159,16 @@ void RequireFormat(const std::string& option, const std::string& path, Content c
   throw UsageError(message);
 }
 
-WriteFunction FindWriter(const std::string& path, Content content)
+void WriteFile(
+  const MeshData& mesh, Content content, const std::string& name, const std::string& path)
 {
-  const Format* format = Find(ExtensionOf(path), content);
-  if (!format || !format->Write)
-  {
-    throw std::logic_error("no writer for '" + path + "'");
-  }
-  return format->Write;
+  Require(name, content).Write3D(mesh, path);
+}
+
+void WriteFile(
+  const SpaceTimeMeshData& mesh, Content content, const std::string& name, const std::string& path)
+{
+  Require(name, content).Write4D(mesh, path);
 }
 
 } // namespace voxplex::cli

@@ -9,6 +9,7 @@
 #ifndef voxplex_cli_Formats_h
 #define voxplex_cli_Formats_h
 
+#include <optional>
 #include <string>
 
 class vtkPolyData;
@@ -20,8 +21,8 @@ namespace voxplex::cli
 /** What a file holds. */
 enum class Content
 {
-  Mesh,       ///< tetrahedra with labels (--output)
-  Interfaces, ///< triangles between labels (--plc)
+  Mesh,       ///< tetrahedra, or pentatopes, with labels (--output)
+  Interfaces, ///< triangles, or tetrahedra, between labels (--plc)
   Statistics  ///< --stats
 };
 
@@ -33,22 +34,40 @@ struct MeshData
   std::string Space; ///< "LPS" or "RAS"
 };
 
-/** Writes a whole file. @throws RunError */
-using WriteFunction = void (*)(const MeshData& mesh, const std::string& path);
+/** Both outputs of vtkImageToPentatopeMeshFilter; neither is null. */
+struct SpaceTimeMeshData
+{
+  vtkUnstructuredGrid* Pentatopes;
+  vtkUnstructuredGrid* Boundary;
+  std::string Space; ///< "LPS" or "RAS"
+};
 
-/** The extensions that content can be written to, as a phrase: ".vtu, .vtk or .mesh". */
-std::string ListExtensions(Content content);
+/** The extensions that content of a 3D or 4D mesh can be written to: ".vtu, .vtk or .mesh". */
+std::string ListExtensions(Content content, int dimension);
 
 /**
  * Checks the extension of a file name; the case of letters does not matter.
  *
  * @param option the command line option that the name was given with
- * @throws UsageError: the extension is not known, or is that of another content
+ * @param dimension of the mesh, 3 or 4; missing as long as it is not known
+ * @throws UsageError: the extension is not known, or is that of another content or dimension
  */
-void RequireFormat(const std::string& option, const std::string& path, Content content);
+void RequireFormat(const std::string& option, const std::string& path, Content content,
+  std::optional<int> dimension = std::nullopt);
 
-/** The writer of a mesh or its interfaces; the name must have passed RequireFormat(). */
-WriteFunction FindWriter(const std::string& path, Content content);
+///@{
+/**
+ * Writes a mesh or its interfaces.
+ *
+ * @param name chooses the format; it must have passed RequireFormat()
+ * @param path where to write
+ * @throws RunError
+ */
+void WriteFile(
+  const MeshData& mesh, Content content, const std::string& name, const std::string& path);
+void WriteFile(
+  const SpaceTimeMeshData& mesh, Content content, const std::string& name, const std::string& path);
+///@}
 
 } // namespace voxplex::cli
 

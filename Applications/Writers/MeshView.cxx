@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshView.h"
 
-#include "Errors.h"
 #include "Formats.h"
 
 #include <vtkCellArray.h>
@@ -13,39 +12,10 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <limits>
-#include <stdexcept>
+#include <set>
 
 namespace voxplex::cli
 {
-namespace
-{
-
-vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name)
-{
-  vtkDataArray* array = attributes->GetArray(name);
-  if (!array)
-  {
-    throw std::logic_error(std::string("the mesh has no array '") + name + "'");
-  }
-  return array;
-}
-
-/** vtkVariant keeps all 64 bits of a label, GetTuple() only 53. */
-std::int64_t Label(vtkDataArray* labels, vtkIdType cell, int component = 0)
-{
-  const vtkIdType index = cell * labels->GetNumberOfComponents() + component;
-  const auto label = static_cast<std::int64_t>(labels->GetVariantValue(index).ToTypeInt64());
-  if (label > std::numeric_limits<std::int32_t>::max())
-  {
-    throw RunError("label " + std::to_string(label) +
-      " does not fit into this format, which has 32 bits for it; write a .vtu file");
-  }
-  return label;
-}
-
-} // namespace
-
 MeshView::MeshView(const MeshData& mesh)
   : Points(mesh.Tetrahedra->GetPoints())
 {
@@ -59,7 +29,7 @@ MeshView::MeshView(const MeshData& mesh)
   {
     mesh.Tetrahedra->GetCellPoints(cell, size, ids);
     this->Tetrahedra.push_back({ ids[0], ids[1], ids[2], ids[3] });
-    this->LabelOfTetrahedron.push_back(Label(labels, cell));
+    this->LabelOfTetrahedron.push_back(LabelAt(labels, cell));
     this->TetrahedraOfLabel[this->LabelOfTetrahedron.back()].push_back(cell);
   }
 
@@ -74,16 +44,18 @@ MeshView::MeshView(const MeshData& mesh)
   {
     triangles->GetCellAtId(cell, size, ids);
     this->Triangles.push_back({ vertex(ids[0]), vertex(ids[1]), vertex(ids[2]) });
-    this->PairOfTriangle.emplace_back(Label(pairs, cell, 0), Label(pairs, cell, 1));
+    this->PairOfTriangle.emplace_back(LabelAt(pairs, cell, 0), LabelAt(pairs, cell, 1));
     this->TrianglesOfPair[this->PairOfTriangle.back()].push_back(cell);
   }
 
-  std::int64_t next =
-    this->TetrahedraOfLabel.empty() ? 1 : this->TetrahedraOfLabel.rbegin()->first + 1;
+  const std::int64_t largest =
+    this->TetrahedraOfLabel.empty() ? 0 : this->TetrahedraOfLabel.rbegin()->first;
+  std::set<LabelPair> labelPairs;
   for (const auto& [pair, cells] : this->TrianglesOfPair)
   {
-    this->PairNumber[pair] = pair.second == 0 ? pair.first : next++;
+    labelPairs.insert(pair);
   }
+  this->PairNumber = NumberPairs(labelPairs, largest);
 }
 
 vtkIdType MeshView::NumberOfPoints() const

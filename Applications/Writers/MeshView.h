@@ -10,10 +10,9 @@
 #ifndef voxplex_cli_MeshView_h
 #define voxplex_cli_MeshView_h
 
+#include "LabelPairs.h"
+
 #include <array>
-#include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include <vtkType.h>
@@ -28,7 +27,7 @@ struct MeshData;
 class MeshView
 {
 public:
-  using LabelPair = std::pair<std::int64_t, std::int64_t>; ///< larger label first, 0 for background
+  using LabelPair = cli::LabelPair;
   using CellIds = std::vector<vtkIdType>;
 
   /** Keeps pointers into mesh. @throws RunError if a label does not fit into 31 bits */
@@ -44,11 +43,7 @@ public:
   std::map<std::int64_t, CellIds> TetrahedraOfLabel;
   std::map<LabelPair, CellIds> TrianglesOfPair;
 
-  /**
-   * A number for each pair of labels: that of the label where the other side is background; pairs
-   * of two labels are numbered from the largest label + 1 on.
-   */
-  std::map<LabelPair, std::int64_t> PairNumber;
+  std::map<LabelPair, std::int64_t> PairNumber; ///< see NumberPairs()
 
 private:
   vtkPoints* Points;

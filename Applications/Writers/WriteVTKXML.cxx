@@ -30,14 +30,29 @@ void Write(vtkDataSet* data, const std::string& path)
 
 } // namespace
 
+void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path)
+{
+  Write<vtkXMLUnstructuredGridWriter>(grid, path);
+}
+
 void WriteVTU(const MeshData& mesh, const std::string& path)
 {
-  Write<vtkXMLUnstructuredGridWriter>(mesh.Tetrahedra, path);
+  WriteGrid(mesh.Tetrahedra, path);
 }
 
 void WriteVTP(const MeshData& mesh, const std::string& path)
 {
   Write<vtkXMLPolyDataWriter>(mesh.Interfaces, path);
+}
+
+void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
+{
+  WriteGrid(mesh.Pentatopes, path);
+}
+
+void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)
+{
+  WriteGrid(mesh.Boundary, path);
 }
 
 } // namespace voxplex::cli

@@ -5,8 +5,8 @@
  * @brief One function a format; each is in a source file of its own name.
  *
  * All of them write the file whole or throw RunError. Vertices and elements are numbered in the
- * order of the mesh's points and cells, from 0 in VTK's formats and from 1 in the others, so that
- * the files of one run agree. Coordinates are written so that reading gives the same double again,
+ * order of the mesh's points and cells, from 0 in VTK's formats and MFEM's and from 1 in the
+ * others, so that the files of one run agree. Coordinates are written so that reading gives the same double again,
  * except for .stl and .ply, which hold single precision.
  */
 #ifndef voxplex_cli_Writers_h
@@ -26,6 +26,14 @@ void WritePLY(const MeshData& mesh, const std::string& path);
 void WriteMEDIT(const MeshData& mesh, const std::string& path);
 void WriteGmsh(const MeshData& mesh, const std::string& path);
 void WriteAbaqus(const MeshData& mesh, const std::string& path);
+
+void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path);
+void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path);
+void WriteMFEM(const SpaceTimeMeshData& mesh, const std::string& path);
+void WriteGMF(const SpaceTimeMeshData& mesh, const std::string& path);
+
+/** Any grid as a .vtu file. */
+void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path);
 
 } // namespace voxplex::cli
 

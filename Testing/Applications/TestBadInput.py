@@ -208,10 +208,6 @@ class Files(ProgramTestCase):
         self.refuse("3 components", images.write_nrrd(
             self.folder / "i.nrrd", np.stack([ball] * 3, axis=-1), components=True))
 
-    def test_four_dimensions(self):
-        ball = images.ball(12, 4.0)
-        self.refuse("4 dimensions.*12 x 12 x 12 x 2", images.write_nifti(self.folder / "i.nii", np.stack([ball] * 2)))
-
     def test_series_of_a_file(self):
         self.refuse("--series needs a folder", images.write_nrrd(self.folder / "i.nrrd", images.ball()),
                     "--series", "1.2")

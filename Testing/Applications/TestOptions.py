@@ -220,7 +220,7 @@ class Threads(ProgramTestCase):
         for entry in entries:
             self.assertEqual(set(entry), {
                 "insertions", "removals", "rollbacks", "waits", "contention_seconds", "load_balance_seconds",
-                "rollback_seconds", "received", "received_elements"})
+                "rollback_seconds", "received", "received_elements", "helped_loops", "helped_iterations"})
             self.assertEqual(len(entry["received"]), 3)
             for count in [*entry["received"], *(entry[name] for name in (
                     "insertions", "removals", "rollbacks", "waits", "received_elements"))]:
@@ -256,6 +256,7 @@ class Threads(ProgramTestCase):
         self.check_mesh(one, one)
         entry = one["thread_statistics"][0]
         self.assertEqual((entry["rollbacks"], entry["waits"], entry["received_elements"]), (0, 0, 0))
+        self.assertEqual((entry["helped_loops"], entry["helped_iterations"]), (0, 0))
         for threads in (2, 4, 16):
             with self.subTest(threads):
                 report = self.report("--threads", threads)
@@ -318,8 +319,11 @@ class Talk(ProgramTestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
-                     "--facet-angle", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help"):
+                     "--facet-angle", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help",
+                     "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
+                     "--sliver-bound", "--seed", "--no-fine-grained"):
             self.assertIn(flag, done.stdout)
+        self.assertIn("\nSpace-time images", done.stdout)
         self.assertIn("Examples:", done.stdout)
         for line in done.stdout.split("\n"):
             self.assertLessEqual(len(line), 100, line)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Phantoms and image files, written by hand so that the tests do not read what ITK wrote.
 
-Arrays are indexed [k, j, i] (z, y, x). A geometry is an origin, a spacing and a 3 x 3 matrix whose
-columns are the directions of the axes, all in LPS.
+Arrays are indexed [k, j, i] (z, y, x), those with several time frames [n, k, j, i]. A geometry is an
+origin, a spacing and a 3 x 3 matrix whose columns are the directions of the axes, all in LPS, and the
+time of the first frame and from frame to frame.
 """
 import gzip
 import struct
@@ -17,6 +18,11 @@ class Geometry:
     origin: tuple = (0.0, 0.0, 0.0)
     spacing: tuple = (1.0, 1.0, 1.0)
     direction: np.ndarray = field(default_factory=lambda: np.eye(3))
+    first_time: float = 0.0
+    time_step: float = 1.0
+
+    def times(self, frames):
+        return self.first_time + self.time_step * np.arange(frames)
 
     def physical(self, index):
         """Physical points of continuous indices (i, j, k)."""
@@ -42,14 +48,29 @@ def two_labels(size=24, radius=9.0, lower=3, upper=7, dtype=np.uint8):
     return image
 
 
+def moving_balls(frames=5, size=20, radius=5.0, labels=(2, 6), dtype=np.uint8):
+    """Two balls that do not touch: the first grows, the second wanders along x and shrinks."""
+    z, y, x = np.mgrid[:size, :size, :size]
+    array = np.zeros((frames, size, size, size), dtype=dtype)
+    for n in range(frames):
+        progress = n / (frames - 1)
+        for label, center, r in ((labels[0], (0.32, 0.3, 0.3), 0.8 * radius + 0.2 * radius * progress),
+                                 (labels[1], (0.6 + 0.08 * progress, 0.7, 0.65), radius - 0.15 * radius * progress)):
+            c = [share * (size - 1) for share in center]
+            array[n][(x - c[0]) ** 2 + (y - c[1]) ** 2 + (z - c[2]) ** 2 <= r * r] = label
+    return array
+
+
 _NRRD_TYPES = {
     "u1": "uint8", "i1": "int8", "u2": "uint16", "i2": "int16", "u4": "uint32", "i4": "int32",
     "u8": "uint64", "i8": "int64", "f4": "float", "f8": "double",
 }
 
 
-def write_nrrd(path, array, geometry=None, components=False, header_lines=None):
-    """header_lines replaces or adds fields; components: the last axis of array is one of them."""
+def write_nrrd(path, array, geometry=None, components=False, header_lines=None, key_values=None):
+    """header_lines replaces or adds fields; components: the last axis of array is one of them.
+
+    A fourth axis is a list."""
     geometry = geometry or Geometry()
     spatial = array.ndim - (1 if components else 0)
     steps = np.asarray(geometry.direction) @ np.diag(geometry.spacing)
@@ -76,13 +97,40 @@ def write_nrrd(path, array, geometry=None, components=False, header_lines=None):
     if fields["encoding"] == "gzip":
         data = gzip.compress(data, 1)
     head = "NRRD0005\n" + "".join("%s: %s\n" % item for item in fields.items())
+    head += "".join("%s:=%s\n" % item for item in (key_values or {}).items())
     with open(path, "wb") as file:
         file.write(head.encode() + b"\n" + data)
     return str(path)
 
 
+def write_space_time_nrrd(path, array, geometry=None, header_lines=None):
+    """Four axes in a space of four dimensions."""
+    geometry = geometry or Geometry()
+    steps = np.asarray(geometry.direction) @ np.diag(geometry.spacing)
+    vectors = ["(%r,%r,%r,0)" % tuple(float(c) for c in steps[:, a]) for a in range(3)]
+    return write_nrrd(path, array, geometry, header_lines={
+        "space": "left-posterior-superior-time",
+        "space directions": " ".join(vectors + ["(0,0,0,%r)" % geometry.time_step]),
+        "space origin": "(%r,%r,%r,%r)" % (*(float(c) for c in geometry.origin), geometry.first_time),
+        "kinds": "space space space time",
+        **(header_lines or {})})
+
+
+def write_sequence(path, array, geometry=None, header_lines=None, key_values=None):
+    """As 3D Slicer writes a sequence of volumes: a list of frames as the fastest axis."""
+    geometry = geometry or Geometry()
+    times = " ".join(repr(float(t)) for t in geometry.times(len(array)))
+    keys = {"axis 0 index type": "numeric", "axis 0 index values": times} if key_values is None else key_values
+    return write_nrrd(path, np.moveaxis(array, 0, -1), geometry, components=True, key_values=keys, header_lines={
+        "kinds": "list domain domain domain", "labels": '"time" "" "" ""', **(header_lines or {})})
+
+
 def write_metaimage(path, array, geometry=None, header_lines=None):
     geometry = geometry or Geometry()
+    direction, origin, spacing = np.asarray(geometry.direction), list(geometry.origin), list(geometry.spacing)
+    if array.ndim == 4:
+        direction = np.block([[direction, np.zeros((3, 1))], [np.zeros((1, 3)), np.ones((1, 1))]])
+        origin, spacing = origin + [geometry.first_time], spacing + [geometry.time_step]
     types = {"u1": "MET_UCHAR", "i2": "MET_SHORT", "u2": "MET_USHORT", "f4": "MET_FLOAT"}
     # TransformMatrix lists the directions of the axes one after the other.
     fields = {
@@ -90,9 +138,9 @@ def write_metaimage(path, array, geometry=None, header_lines=None):
         "NDims": str(array.ndim),
         "BinaryData": "True",
         "BinaryDataByteOrderMSB": "False",
-        "TransformMatrix": " ".join(repr(float(c)) for c in np.asarray(geometry.direction).T.ravel()),
-        "Offset": " ".join(repr(float(c)) for c in geometry.origin),
-        "ElementSpacing": " ".join(repr(float(c)) for c in geometry.spacing),
+        "TransformMatrix": " ".join(repr(float(c)) for c in direction.T.ravel()),
+        "Offset": " ".join(repr(float(c)) for c in origin),
+        "ElementSpacing": " ".join(repr(float(c)) for c in spacing),
         "DimSize": " ".join(str(n) for n in array.shape[::-1]),
         "ElementType": types[array.dtype.str[1:]],
         "ElementDataFile": "LOCAL",
@@ -105,7 +153,7 @@ def write_metaimage(path, array, geometry=None, header_lines=None):
 
 
 def write_nifti(path, array, geometry=None, pixdim=None):
-    """Compressed if the path ends in .gz. The sform and the qform hold the geometry in RAS."""
+    """Compressed if the path ends in .gz. The sform and the qform hold the geometry in RAS; milliseconds."""
     geometry = geometry or Geometry()
     codes = {"u1": (2, 8), "i2": (4, 16), "i4": (8, 32), "f4": (16, 32), "f8": (64, 64), "u2": (512, 16)}
     code, bits = codes[array.dtype.str[1:]]
@@ -117,7 +165,7 @@ def write_nifti(path, array, geometry=None, pixdim=None):
     proper = rotation @ np.diag([1.0, 1.0, qfac])
     b, c, d = _quaternion(proper)
     dims = [array.ndim] + list(array.shape[::-1]) + [1] * (7 - array.ndim)
-    steps = [qfac] + list(pixdim or geometry.spacing) + [1.0] * 4
+    steps = [qfac] + list(pixdim or [*geometry.spacing, geometry.time_step]) + [1.0] * 4
     header = bytearray(348)
     struct.pack_into("<i", header, 0, 348)
     struct.pack_into("<8h", header, 40, *dims)
@@ -125,7 +173,8 @@ def write_nifti(path, array, geometry=None, pixdim=None):
     struct.pack_into("<8f", header, 76, *steps[:8])
     struct.pack_into("<f", header, 108, 352.0)
     struct.pack_into("<f", header, 112, 1.0)
-    struct.pack_into("<B", header, 123, 2)
+    struct.pack_into("<B", header, 123, 2 + 16)
+    struct.pack_into("<f", header, 136, geometry.first_time)
     struct.pack_into("<2h", header, 252, 1, 1)
     struct.pack_into("<6f", header, 256, b, c, d, *origin)
     for row in range(3):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads every format that the program writes. VTK's by VTK's readers, the others by hand."""
 from dataclasses import dataclass, field
+from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -48,6 +49,58 @@ class Triangles:
         return float(np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6.0)
 
 
+@dataclass
+class Pentatopes:
+    points: np.ndarray  # x, y, z, t
+    cells: np.ndarray
+    labels: np.ndarray
+    space: str = ""
+    tetrahedra: np.ndarray = None
+    references: np.ndarray = None  # of the tetrahedra
+    names: dict = field(default_factory=dict)
+
+    def volumes(self):
+        corners = self.points[self.cells]
+        return np.linalg.det(corners[:, 1:] - corners[:, :1]) / 24.0
+
+    def volume_of_label(self):
+        volumes = self.volumes()
+        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
+
+
+@dataclass
+class Boundary:
+    points: np.ndarray  # x, y, z, t
+    cells: np.ndarray
+    labels: np.ndarray  # two columns
+    point_ids: np.ndarray
+    space: str = ""
+
+
+@dataclass
+class Slice:
+    """Tetrahedra, wedges and pyramids, as a list of the ids of each cell."""
+    points: np.ndarray
+    cells: list
+    labels: np.ndarray
+    time: float
+    space: str = ""
+
+    def volumes(self):
+        parts = {4: ((0, 1, 2, 3),), 5: ((0, 1, 2, 4), (0, 2, 3, 4)),
+                 6: ((0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3))}
+        volumes = []
+        for cell in self.cells:
+            corners = self.points[cell]
+            volumes.append(sum(abs(np.linalg.det(corners[list(part[1:])] - corners[part[0]])) / 6.0
+                               for part in parts[len(cell)]))
+        return np.array(volumes)
+
+    def volume_of_label(self):
+        volumes = self.volumes()
+        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
+
+
 def _space(data):
     array = data.GetFieldData().GetAbstractArray("SPACE")
     return array.GetValue(0) if array else ""
@@ -78,6 +131,125 @@ def read_tetrahedra(path):
     raise ValueError(path)
 
 
+def read_pentatopes(path):
+    path = str(path)
+    if path.endswith(".vtu"):
+        return _pentatopes_from_grid(_read(vtkXMLUnstructuredGridReader(), path))
+    if path.endswith(".mfem"):
+        return _read_mfem(path)
+    if path.endswith(".mesh"):
+        return _read_gmf(path)
+    raise ValueError(path)
+
+
+def _points_of_space_time(grid):
+    times = vtk_to_numpy(grid.GetPointData().GetArray("Time"))
+    if times.dtype != np.float64 or times.ndim != 1:
+        raise AssertionError("times")
+    return np.column_stack([_points(grid), times])
+
+
+def _require_type(grid, kind):
+    types = vtk_to_numpy(grid.GetCellTypesArray()) if grid.GetNumberOfCells() else np.array([kind])
+    if not (types == kind).all():
+        raise AssertionError("cells that are not of type %d" % kind)
+
+
+def _pentatopes_from_grid(grid):
+    _require_type(grid, 2)
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 5)
+    return Pentatopes(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Label")),
+                      _space(grid))
+
+
+def read_boundary(path):
+    grid = _read(vtkXMLUnstructuredGridReader(), path)
+    _require_type(grid, 10)
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return Boundary(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Labels")),
+                    vtk_to_numpy(grid.GetPointData().GetArray("PointIds")), _space(grid))
+
+
+def read_slice(path):
+    grid = _read(vtkXMLUnstructuredGridReader(), path)
+    cells = []
+    for i in range(grid.GetNumberOfCells()):
+        ids = grid.GetCell(i).GetPointIds()
+        if (grid.GetCellType(i), ids.GetNumberOfIds()) not in ((10, 4), (13, 6), (14, 5)):
+            raise AssertionError("cell %d" % i)
+        cells.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
+    labels = grid.GetCellData().GetArray("Label")
+    points = _points(grid) if grid.GetNumberOfPoints() else np.zeros((0, 3))
+    return Slice(points, cells, vtk_to_numpy(labels) if labels else np.zeros(0, dtype=int),
+                 grid.GetFieldData().GetArray("TimeValue").GetValue(0), _space(grid))
+
+
+def read_collection(path):
+    """(time, file) of each entry."""
+    root = ElementTree.parse(str(path)).getroot()
+    if (root.tag, root.get("type")) != ("VTKFile", "Collection"):
+        raise AssertionError("head of the collection")
+    return [(float(entry.get("timestep")), entry.get("file")) for entry in root.find("Collection")]
+
+
+def _pairs_of_comments(lines):
+    """Number: pair of labels, from the comments at the head."""
+    names = {}
+    for line in lines:
+        if line.startswith("#   "):
+            number, pair = line[1:].split(":")
+            names[int(number)] = tuple(int(label) for label in pair.split())
+    return names
+
+
+def _read_sections(words, at, sections):
+    """Each a name, a count and as many rows; the result has all of them, and where they end."""
+    tables = {}
+    for name, width in sections:
+        if words[at] != name:
+            raise AssertionError("section %s" % name)
+        count = int(words[at + 1])
+        at += 2
+        tables[name] = np.array(words[at:at + count * width], dtype=float).reshape(count, width)
+        at += count * width
+    return tables, at
+
+
+def _read_gmf(path):
+    with open(path) as file:
+        lines = file.read().split("\n")
+    words = " ".join(line for line in lines if not line.startswith("#")).split()
+    if words[:4] != ["MeshVersionFormatted", "2", "Dimension", "4"] or words[-1] != "End":
+        raise AssertionError("head or end of the file")
+    tables, at = _read_sections(words, 4, (("Vertices", 5), ("Tetrahedra", 5), ("Pentatopes", 6)))
+    if at != len(words) - 1 or tables["Vertices"][:, 4].any():
+        raise AssertionError("references of vertices, or something before End")
+    tetrahedra, pentatopes = tables["Tetrahedra"].astype(int), tables["Pentatopes"].astype(int)
+    space = next(line.split("SPACE=")[1][:3] for line in lines if "SPACE=" in line)
+    return Pentatopes(tables["Vertices"][:, :4], pentatopes[:, :5] - 1, pentatopes[:, 5], space,
+                      tetrahedra[:, :4] - 1, tetrahedra[:, 4], _pairs_of_comments(lines))
+
+
+def _read_mfem(path):
+    with open(path) as file:
+        lines = file.read().split("\n")
+    if lines[0] != "MFEM mesh v1.0":
+        raise AssertionError("head of the file")
+    words = " ".join(line for line in lines[1:] if not line.startswith("#")).split()
+    if words[:2] != ["dimension", "4"]:
+        raise AssertionError("dimension")
+    tables, at = _read_sections(words, 2, (("elements", 7), ("boundary", 6)))
+    elements, boundary = tables["elements"].astype(int), tables["boundary"].astype(int)
+    if (elements[:, 1] != 8).any() or (boundary[:, 1] != 4).any():
+        raise AssertionError("geometries")
+    if words[at] != "vertices" or words[at + 2] != "4":
+        raise AssertionError("vertices")
+    vertices = np.array(words[at + 3:], dtype=float).reshape(int(words[at + 1]), 4)
+    space = next(line.split("SPACE=")[1][:3] for line in lines if "SPACE=" in line)
+    return Pentatopes(vertices, elements[:, 2:], elements[:, 0], space, boundary[:, 2:], boundary[:, 0],
+                      _pairs_of_comments(lines))
+
+
 def _from_grid(grid):
     types = vtk_to_numpy(grid.GetCellTypesArray())
     if not (types == 10).all():
@@ -91,23 +263,11 @@ def _read_medit(path):
     with open(path) as file:
         lines = file.read().split("\n")
     space = next(line.split("SPACE=")[1] for line in lines if "SPACE=" in line)
-    names = {}
-    for line in lines:
-        if line.startswith("#   "):
-            number, pair = line[1:].split(":")
-            names[int(number)] = tuple(int(label) for label in pair.split())
+    names = _pairs_of_comments(lines)
     words = " ".join(line for line in lines if not line.startswith("#")).split()
     if words[:4] != ["MeshVersionFormatted", "2", "Dimension", "3"] or words[-1] != "End":
         raise AssertionError("head or end of the file")
-    sections = {}
-    at = 4
-    for name, width in (("Vertices", 4), ("Triangles", 4), ("Tetrahedra", 5)):
-        if words[at] != name:
-            raise AssertionError("section %s" % name)
-        count = int(words[at + 1])
-        at += 2
-        sections[name] = np.array(words[at:at + count * width], dtype=float).reshape(count, width)
-        at += count * width
+    sections, at = _read_sections(words, 4, (("Vertices", 4), ("Triangles", 4), ("Tetrahedra", 5)))
     if at != len(words) - 1:
         raise AssertionError("something between the last section and End")
     tetrahedra = sections["Tetrahedra"].astype(int)

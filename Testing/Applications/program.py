@@ -27,13 +27,16 @@ class ProgramTestCase(unittest.TestCase):
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True, stdin=subprocess.DEVNULL,
                               capture_output=True, timeout=timeout, **options)
 
-    def mesh(self, *arguments, **options):
-        """A call that must succeed quietly: one paragraph on standard output, nothing on the other."""
+    def mesh(self, *arguments, warning=None, **options):
+        """A call that must succeed quietly: one paragraph on standard output, nothing on the other but a warning."""
         done = self.call(*arguments, **options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
+        if warning:
+            self.assertRegex(done.stderr, "^voxplex: warning: [^\n]*" + warning + "[^\n]*\n$")
+        else:
+            self.assertEqual(done.stderr, "")
         self.assertEqual(len(done.stdout.strip().split("\n")), 1, done.stdout)
-        self.assertRegex(done.stdout, "tetrahedra")
+        self.assertRegex(done.stdout, "tetrahedra|pentatopes")
         self.assertEqual(self.hidden_files(), [])
         return done
 

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OptionValues.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace voxplex::cli
+{
+namespace
+{
+
+/** The whole text as a number, or nothing. */
+template <typename T>
+std::optional<T> ToNumber(std::string_view text)
+{
+  if (!text.empty() && text.front() == '+')
+  {
+    text.remove_prefix(1);
+  }
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+  {
+    return std::nullopt;
+  }
+  return value;
+}
+
+double ParseFinite(const std::string& option, std::string_view text)
+{
+  const std::optional<double> value = ToNumber<double>(text);
+  if (!value)
+  {
+    throw UsageError("--" + option + ": " + Quoted(text) + " is not a number");
+  }
+  if (!std::isfinite(*value))
+  {
+    throw UsageError("--" + option + ": must be a finite number, not " + std::string(text));
+  }
+  return *value;
+}
+
+std::int64_t ParseLabel(const std::string& option, std::string_view text)
+{
+  const std::optional<std::int64_t> label = ToNumber<std::int64_t>(text);
+  if (!label || *label <= 0)
+  {
+    throw UsageError("--" + option + ": " + Quoted(text) +
+      " is not a label; labels are whole numbers from 1 on (0 is the background)");
+  }
+  return *label;
+}
+
+} // namespace
+
+std::string Quoted(std::string_view text)
+{
+  std::string quoted("'");
+  quoted.append(text).push_back('\'');
+  return quoted;
+}
+
+double ParsePositive(const std::string& option, std::string_view text, const std::string& hint)
+{
+  const double value = ParseFinite(option, text);
+  if (value <= 0)
+  {
+    throw UsageError("--" + option + ": must be greater than 0, not " + std::string(text) + hint);
+  }
+  return value;
+}
+
+double ParseRange(const std::string& option, std::string_view text, double low, double high)
+{
+  const double value = ParseFinite(option, text);
+  if (value < low || value > high)
+  {
+    std::ostringstream message;
+    message << "--" << option << ": must lie between " << low << " and " << high << ", not "
+            << text;
+    throw UsageError(message.str());
+  }
+  return value;
+}
+
+std::vector<std::int64_t> ParseLabels(const std::string& option, std::string_view text)
+{
+  std::vector<std::int64_t> labels;
+  while (true)
+  {
+    const std::size_t comma = text.find(',');
+    labels.push_back(ParseLabel(option, text.substr(0, comma)));
+    if (comma == std::string_view::npos)
+    {
+      break;
+    }
+    text.remove_prefix(comma + 1);
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
+void ParseLabelSize(
+  const std::string& option, std::string_view text, std::map<std::int64_t, double>& sizes)
+{
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos)
+  {
+    throw UsageError(
+      "--" + option + ": " + Quoted(text) + " is not of the form LABEL=SIZE, such as 3=1.5");
+  }
+  const std::int64_t label = ParseLabel(option, text.substr(0, equals));
+  const double size = ParsePositive(option, text.substr(equals + 1));
+  if (!sizes.emplace(label, size).second)
+  {
+    throw UsageError("--" + option + ": label " + std::to_string(label) + " is given twice");
+  }
+}
+
+std::uint64_t ParseBytes(const std::string& option, const std::string& text)
+{
+  constexpr std::string_view units = "KMGT";
+  std::string_view digits = text;
+  double scale = 1.0;
+  if (!digits.empty())
+  {
+    const auto unit = units.find(static_cast<char>(std::toupper(digits.back())));
+    if (unit != std::string_view::npos)
+    {
+      scale = std::pow(1024.0, static_cast<double>(unit) + 1.0);
+      digits.remove_suffix(1);
+    }
+  }
+  const std::optional<double> value = ToNumber<double>(digits);
+  if (!value || !(*value * scale >= 1.0) || *value * scale > 1e18)
+  {
+    throw UsageError(
+      "--" + option + ": " + Quoted(text) + " is not an amount of memory such as 8G or 500M");
+  }
+  return static_cast<std::uint64_t>(*value * scale);
+}
+
+std::string ParseWord(
+  const std::string& option, const std::string& text, std::span<const std::string_view> words)
+{
+  std::string word = text;
+  std::transform(word.begin(), word.end(), word.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::find(words.begin(), words.end(), word) != words.end())
+  {
+    return word;
+  }
+  std::string choice;
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    choice.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
+  }
+  throw UsageError("--" + option + ": must be " + choice + ", not " + Quoted(text));
+}
+
+int ParseWhole(const std::string& option, const std::string& text, int low, int high)
+{
+  const std::optional<int> value = ToNumber<int>(text);
+  if (!value || *value < low || *value > high)
+  {
+    throw UsageError("--" + option + ": must be a whole number from " + std::to_string(low) +
+      " to " + std::to_string(high) + ", not " + Quoted(text));
+  }
+  return *value;
+}
+
+Space ParseSpace(const std::string& option, const std::string& text)
+{
+  constexpr std::array<std::string_view, 2> spaces{ "lps", "ras" };
+  return ParseWord(option, text, spaces) == spaces[0] ? Space::LPS : Space::RAS;
+}
+
+} // namespace voxplex::cli

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file OptionValues.h
+ * @brief From the text of an option to its value.
+ *
+ * Each function takes the name of the option, without dashes, for the message, and throws UsageError
+ * if the text is not what is wanted.
+ */
+#ifndef voxplex_cli_OptionValues_h
+#define voxplex_cli_OptionValues_h
+
+#include "Parameters.h"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxplex::cli
+{
+
+std::string Quoted(std::string_view text);
+
+/** A finite number above 0. The hint ends the message about numbers that are not. */
+double ParsePositive(
+  const std::string& option, std::string_view text, const std::string& hint = "");
+
+/** A finite number from low to high. */
+double ParseRange(const std::string& option, std::string_view text, double low, double high);
+
+/** A whole number from low to high. */
+int ParseWhole(const std::string& option, const std::string& text, int low, int high);
+
+/** "1,2,5": labels, sorted, each once. */
+std::vector<std::int64_t> ParseLabels(const std::string& option, std::string_view text);
+
+/** "3=1.5": adds the size of label 3. */
+void ParseLabelSize(
+  const std::string& option, std::string_view text, std::map<std::int64_t, double>& sizes);
+
+/** "8G": bytes, with K, M, G and T for powers of 1024. */
+std::uint64_t ParseBytes(const std::string& option, const std::string& text);
+
+/** One of several words, whatever the case. */
+std::string ParseWord(
+  const std::string& option, const std::string& text, std::span<const std::string_view> words);
+
+Space ParseSpace(const std::string& option, const std::string& text);
+
+} // namespace voxplex::cli
+
+#endif

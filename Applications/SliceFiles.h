@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file SliceFiles.h
+ * @brief What --slices writes: the mesh at several times, and a collection that ParaView plays.
+ */
+#ifndef voxplex_cli_SliceFiles_h
+#define voxplex_cli_SliceFiles_h
+
+#include "ScalarImage.h"
+
+#include <vtkSmartPointer.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkPentatopeMeshTimeSlice;
+class vtkUnstructuredGrid;
+
+namespace voxplex::cli
+{
+
+/** The names of the files, with the folder that the user gave. */
+struct SliceFiles
+{
+  std::string Collection; ///< heart.pvd, of the prefix heart_
+  std::vector<std::string> Slices;
+  std::vector<double> Times; ///< of the slices, increasing
+
+  /**
+   * PREFIX0.vtu, PREFIX1.vtu, ... and PREFIX.pvd, the latter without an underscore, hyphen or dot at
+   * the end of the prefix.
+   *
+   * @param count how many, equally spaced from the first to the last frame, both included; if
+   * missing, one at the time of each frame
+   */
+  SliceFiles(const std::string& prefix, const ScalarImage& frames, std::optional<int> count);
+};
+
+/** @throws UsageError: an empty name, or what is rather that of a file */
+void CheckSlicePrefix(const std::string& prefix);
+
+/** Takes one slice after the other out of a pentatope mesh. */
+class Slicer
+{
+public:
+  explicit Slicer(vtkUnstructuredGrid* mesh);
+  ~Slicer();
+
+  /**
+   * Writes the slice at a time: a .vtu file of tetrahedra, wedges and pyramids with the cell array
+   * Label, and the time as field data TimeValue.
+   *
+   * @throws RunError
+   */
+  void Write(double time, const std::string& path);
+
+private:
+  vtkSmartPointer<vtkPentatopeMeshTimeSlice> Filter;
+};
+
+/** Writes the collection; it names the slices relative to its own place. @throws RunError */
+void WriteCollection(const SliceFiles& files, const std::string& path);
+
+} // namespace voxplex::cli
+
+#endif

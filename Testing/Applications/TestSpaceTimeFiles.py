@@ -1,0 +1,364 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is written of images of space and time: meshes, boundaries, slices, statistics; and the flags for it."""
+import os
+import resource
+
+import numpy as np
+
+import images
+import meshfiles
+from program import ProgramTestCase, main
+
+
+class SpaceTimeTestCase(ProgramTestCase):
+    GEOMETRY = images.Geometry((5, -7, 11), (1.0, 1.0, 1.2), first_time=3.0, time_step=2.0)
+
+    def setUp(self):
+        super().setUp()
+        self.array = images.moving_balls()
+        self.input = images.write_space_time_nrrd(self.folder / "heart.nrrd", self.array, self.GEOMETRY)
+        self.arguments = ["--input", self.input, "--delta", 2, "--no-picking", "--threads", 1]
+
+    def run_with(self, *arguments, **options):
+        return self.mesh(*self.arguments, *arguments, **options)
+
+    def refuse(self, status, pattern, *arguments, **options):
+        return self.assert_refused(status, pattern, *self.arguments, *arguments, **options)
+
+
+def touching_labels():
+    """A ball of two labels, in three equal frames."""
+    return np.stack([images.two_labels(16, 6.0)] * 3)
+
+
+class Formats(SpaceTimeTestCase):
+    def setUp(self):
+        super().setUp()
+        images.write_space_time_nrrd(self.input, touching_labels(), self.GEOMETRY)
+        self.arguments += ["--size", 2]  # which makes points that are not on the boundary
+        self.run_with("--output", "reference.vtu", "--plc", "boundary.vtu")
+        self.reference = meshfiles.read_pentatopes(self.folder / "reference.vtu")
+        self.boundary = meshfiles.read_boundary(self.folder / "boundary.vtu")
+
+    def test_grid(self):
+        mesh = self.reference
+        self.assertGreater(len(mesh.cells), 300)
+        self.assertEqual(set(mesh.labels), {3, 7})
+        self.assertEqual(mesh.space, "LPS")
+        self.assertGreater(mesh.volumes().min(), 0.0)
+        np.testing.assert_array_equal(np.unique(mesh.cells), np.arange(len(mesh.points)))
+
+    def test_boundary(self):
+        """The facets of pentatopes that have another label, or none, on their other side."""
+        self.assertEqual(self.boundary.space, "LPS")
+        self.assertLess(len(self.boundary.points), len(self.reference.points))
+        self.assertEqual({tuple(pair) for pair in self.boundary.labels}, {(3, 0), (7, 0), (7, 3)})
+        np.testing.assert_array_equal(self.boundary.points, self.reference.points[self.boundary.point_ids])
+        sides = {}
+        for cell, label in zip(self.reference.cells, self.reference.labels):
+            for i in range(5):
+                sides.setdefault(tuple(sorted(np.delete(cell, i))), []).append(int(label))
+        expected = {}
+        for facet, labels in sides.items():
+            pair = tuple(sorted(labels + [0] * (2 - len(labels)), reverse=True))
+            if pair[0] != pair[1]:
+                expected[facet] = pair
+        found = {tuple(sorted(self.boundary.point_ids[cell])): tuple(pair)
+                 for cell, pair in zip(self.boundary.cells, self.boundary.labels)}
+        self.assertEqual(found, expected)
+        self.assertEqual(len(found), len(self.boundary.cells))
+
+    def check_format(self, name):
+        self.run_with("--output", name)
+        mesh = meshfiles.read_pentatopes(self.folder / name)
+        # Coordinates are written such that the same doubles are read.
+        np.testing.assert_array_equal(mesh.points, self.reference.points)
+        np.testing.assert_array_equal(mesh.cells, self.reference.cells)
+        np.testing.assert_array_equal(mesh.labels, self.reference.labels)
+        self.assertGreater(mesh.volumes().min(), 0.0)
+        self.assertEqual(mesh.space, "LPS")
+        self.assertEqual(mesh.names, {3: (3, 0), 7: (7, 0), 8: (7, 3)})
+        np.testing.assert_array_equal(mesh.tetrahedra, self.boundary.point_ids[self.boundary.cells])
+        np.testing.assert_array_equal([mesh.names[number] for number in mesh.references], self.boundary.labels)
+
+    def test_mfem(self):
+        self.check_format("mesh.mfem")
+
+    def test_gmf(self):
+        self.check_format("mesh.mesh")
+
+    def test_upper_case_extension(self):
+        self.run_with("--output", "MESH.MFEM", "--plc", "BOUNDARY.VTU")
+        self.assertTrue((self.folder / "MESH.MFEM").exists() and (self.folder / "BOUNDARY.VTU").exists())
+
+    def test_words_of_libmeshb(self):
+        """It looks for these words even in comments, and takes what follows for a number."""
+        self.run_with("--output", "mesh.mesh")
+        words = (self.folder / "mesh.mesh").read_text().split()
+        for word in ("MeshVersionFormatted", "Dimension", "Vertices", "Tetrahedra", "Pentatopes", "End"):
+            self.assertEqual(words.count(word), 1, word)
+
+    def test_labels_beyond_32_bits(self):
+        array = touching_labels().astype(np.int64)
+        array[array == 7] = 2**40
+        images.write_space_time_nrrd(self.input, array, self.GEOMETRY)
+        self.run_with("--output", "large.vtu")
+        self.assertEqual(set(meshfiles.read_pentatopes(self.folder / "large.vtu").labels), {3, 2**40})
+        for name in ("mesh.mfem", "mesh.mesh"):
+            self.refuse(1, "cannot write '%s': label 1099511627776 .*32 bits.*vtu" % name, "--output", name)
+
+    def test_3d_images_write_what_they_did(self):
+        images.write_nrrd(self.input, touching_labels()[0])
+        self.mesh("--input", self.input, "--delta", 3, "--output", "mesh.mesh", "--plc", "mesh.vtp")
+        self.assertIn("\nDimension 3\n", (self.folder / "mesh.mesh").read_text())
+
+
+class Slices(SpaceTimeTestCase):
+    def slices(self, name="heart.pvd"):
+        entries = meshfiles.read_collection(self.folder / name)
+        return [(time, meshfiles.read_slice((self.folder / name).parent / file)) for time, file in entries]
+
+    def check_volumes(self, time, piece, tolerance):
+        """Against the frame at that time."""
+        self.assertEqual(piece.time, time)
+        frame = self.array[round((time - 3.0) / 2.0)]
+        volumes = piece.volume_of_label()
+        self.assertEqual(set(volumes), {2, 6})
+        for label, volume in volumes.items():
+            expected = (frame == label).sum() * self.GEOMETRY.voxel_volume()
+            self.assertAlmostEqual(volume / expected, 1.0, delta=tolerance)
+
+    def test_one_for_each_frame(self):
+        self.mesh("--input", self.input, "--delta", 1.2, "--no-picking", "--smoothing", 0, "--slices", "heart_",
+                  "--output", "heart.vtu")
+        entries = meshfiles.read_collection(self.folder / "heart.pvd")
+        self.assertEqual(entries, [(3.0 + 2.0 * n, "heart_%d.vtu" % n) for n in range(5)])
+        slices = self.slices()
+        for time, piece in slices:
+            self.check_volumes(time, piece, 0.12)
+            self.assertEqual(piece.space, "LPS")
+        # The first ball grows, the second shrinks.
+        for label, sign in ((2, 1), (6, -1)):
+            volumes = [sign * piece.volume_of_label()[label] for _, piece in slices]
+            self.assertGreater(volumes[-1], volumes[0])
+        mesh = meshfiles.read_pentatopes(self.folder / "heart.vtu")
+        # The mean of the slices, by the trapezoidal rule, is near the hypervolume.
+        integral = sum(piece.volumes().sum() * (1.0 if 0 < n < 4 else 0.5) * 2.0 for n, (_, piece) in enumerate(slices))
+        self.assertAlmostEqual(integral / mesh.volumes().sum(), 1.0, delta=0.05)
+
+    def test_between_frames(self):
+        self.run_with("--slices", "s", "--slice-count", 4, "--output", "mesh.vtu")
+        slices = self.slices("s.pvd")
+        np.testing.assert_allclose([time for time, _ in slices], [3.0, 3.0 + 8 / 3, 3.0 + 16 / 3, 11.0], rtol=1e-15)
+        self.assertEqual(slices[-1][0], 11.0)
+        mesh = meshfiles.read_pentatopes(self.folder / "mesh.vtu")
+        for time, piece in slices:
+            self.check_exact_cut(mesh, time, piece)
+
+    def check_exact_cut(self, mesh, time, piece):
+        """Each point of the slice lies on an edge of the mesh."""
+        edges = np.unique(np.sort(np.concatenate(
+            [mesh.cells[:, [i, j]] for i in range(5) for j in range(i)]), axis=1), axis=0)
+        a, b = mesh.points[edges[:, 0]], mesh.points[edges[:, 1]]
+        crossing = (np.minimum(a[:, 3], b[:, 3]) <= time) & (np.maximum(a[:, 3], b[:, 3]) >= time) & \
+            (a[:, 3] != b[:, 3])
+        a, b = a[crossing], b[crossing]
+        cuts = a + (b - a) * ((time - a[:, 3]) / (b[:, 3] - a[:, 3]))[:, None]
+        self.assertGreater(len(piece.points), 10)
+        for point in piece.points:
+            self.assertLess(np.abs(cuts[:, :3] - point).max(axis=1).min(), 1e-9)
+
+    def test_names(self):
+        (self.folder / "out").mkdir()
+        for prefix, collection, first in (
+            ("heart_", "heart.pvd", "heart_0.vtu"),
+            ("heart", "heart.pvd", "heart0.vtu"),
+            ("heart-", "heart.pvd", "heart-0.vtu"),
+            ("__", "__.pvd", "__0.vtu"),
+            ("out/a & <b>.", "out/a & <b>.pvd", "out/a & <b>.0.vtu"),
+            (str(self.folder / "out" / "absolute_"), "out/absolute.pvd", "out/absolute_0.vtu"),
+        ):
+            with self.subTest(prefix):
+                before = set(self.contents())
+                self.run_with("--slices", prefix, "--slice-count", 2)
+                new = {str(path) for path in set(self.contents()) - before}
+                self.assertEqual(new, {collection, first, first.replace("0.vtu", "1.vtu")})
+                # The names are relative to the collection, which can be moved with the slices.
+                entries = meshfiles.read_collection(self.folder / collection)
+                self.assertEqual([file for _, file in entries],
+                                 [os.path.basename(first), os.path.basename(first).replace("0.vtu", "1.vtu")])
+                for path in new:
+                    (self.folder / path).unlink()
+
+    def test_times_when_there_is_nothing(self):
+        """A slice without any label is an empty mesh, not an error."""
+        array = np.zeros((5, 12, 12, 12), dtype=np.uint8)
+        array[:2] = images.ball(12, 4.0)
+        images.write_space_time_nrrd(self.input, array)
+        self.run_with("--slices", "s_")
+        counts = [len(piece.cells) for _, piece in self.slices("s.pvd")]
+        self.assertGreater(counts[0], 0)
+        self.assertEqual(counts[3:], [0, 0])
+
+    def test_all_or_none(self):
+        """A limit on the size of files stands in for a full disk."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+
+        (self.folder / "heart_1.vtu").write_text("old")
+        self.refuse(1, "cannot write 'heart_0.vtu': ", "--slices", "heart_", preexec_fn=limit)
+
+    def test_many(self):
+        """More files than a list of a fixed size would hold."""
+        self.run_with("--slices", "s_", "--slice-count", 100)
+        self.assertEqual(len(self.slices("s.pvd")), 100)
+
+    def test_outputs_that_clash(self):
+        self.refuse(1, "cannot write 'heart_2.vtu': two outputs have this name", "--slices", "heart_",
+                    "--output", "heart_2.vtu")
+        self.refuse(1, "two outputs have this name", "--slices", "./heart_", "--plc", "heart_2.vtu")
+
+    def test_folder_that_is_missing(self):
+        self.refuse(1, "cannot write 'none/heart.pvd': there is no folder 'none'", "--slices", "none/heart_")
+
+    def test_input_is_not_overwritten(self):
+        os.link(self.input, self.folder / "heart_3.vtu")
+        self.refuse(1, "cannot write 'heart_3.vtu': it is the input", "--slices", "heart_")
+
+    def test_prefixes(self):
+        for prefix, pattern in (("", "--slices: the name is empty"), ("out/", "--slices: 'out/' names no file"),
+                                ("heart.vtu", "--slices: 'heart.vtu' is the whole name of a file.*heart_"),
+                                ("heart.pvd", "--slices: 'heart.pvd' is the whole name")):
+            with self.subTest(prefix):
+                self.refuse(2, pattern, "--slices", prefix)
+
+
+class Flags(SpaceTimeTestCase):
+    SPACE_TIME = (("--time-scale", 2), ("--slices", "s_"), ("--slices", "s_", "--slice-count", 3),
+                  ("--rule-order", "surface"), ("--no-picking",), ("--picks", 5), ("--sliver-bound", 0.02),
+                  ("--seed", 1), ("--no-fine-grained",))
+
+    def test_of_space_time_on_a_3d_image(self):
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
+        for arguments in self.SPACE_TIME:
+            with self.subTest(arguments):
+                self.assert_refused(2, arguments[0] + ": only for space-time images.*ball.nrrd' is a 3D image",
+                                    "--input", path, *arguments)
+
+    def test_of_3d_on_a_space_time_image(self):
+        self.refuse(2, "--facet-angle: only for 3D images.*heart.nrrd' is a space-time image", "--facet-angle", 20)
+        for name in ("m.vtk", "m.msh", "m.inp"):
+            self.refuse(2, "--output: '.%s' does not hold the pentatopes of a space-time image.*use .vtu, .mesh or .mfem"
+                        % name[2:], "--output", name)
+        for name in ("i.vtp", "i.stl", "i.ply", "i.vtk"):
+            self.refuse(2, "--plc: '.%s' does not hold the tetrahedra between labels of a space-time.*use .vtu"
+                        % name[2:], "--plc", name)
+
+    def test_formats_of_space_time_on_a_3d_image(self):
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
+        self.assert_refused(2, "--output: '.mfem' does not hold the tetrahedra of a 3D image.*use .vtu, .vtk, .mesh, "
+                            ".msh or .inp", "--input", path, "--output", "m.mfem")
+        self.assert_refused(2, "--plc: '.vtu' does not hold the triangles between labels of a 3D image.*use .vtp",
+                            "--input", path, "--plc", "m.vtu")
+
+    def test_values(self):
+        for arguments, pattern in (
+            (("--time-scale", 0), "--time-scale: must be greater than 0"),
+            (("--time-scale", "nan"), "--time-scale: must be a finite number"),
+            (("--slices", "s_", "--slice-count", 1), "--slice-count: must be a whole number from 2 to 10000, not '1'"),
+            (("--slices", "s_", "--slice-count", "2.5"), "--slice-count: must be a whole number"),
+            (("--slice-count", 3), "--slice-count: of which slices.*--slices"),
+            (("--rule-order", "quality"), "--rule-order: must be radius-edge or surface, not 'quality'"),
+            (("--picks", 0), "--picks: must be a whole number from 1"),
+            (("--sliver-bound", -0.1), "--sliver-bound: must lie between 0 and 0.999"),
+            (("--sliver-bound", 1, "--force"), "--sliver-bound: must lie between 0 and 0.999"),
+            (("--sliver-bound", 0.04), "--sliver-bound: above 0.03.*--force"),
+            (("--seed", -1), "--seed: must be a whole number from 0"),
+            (("--seed", "x"), "--seed: must be a whole number from 0"),
+            (("--no-picking", "--picks", 5), "--picks is about picking regions.*--no-picking"),
+            (("--no-picking", "--sliver-bound", 0.02), "--sliver-bound is about picking regions.*--no-picking"),
+        ):
+            with self.subTest(arguments):
+                self.assert_refused(2, pattern, "--input", self.input, *arguments)
+
+    def test_every_flag(self):
+        report = self.statistics("--input", self.input, "--delta", 4, "--time-scale", 1.5, "--rule-order", "surface",
+                                 "--picks", 4, "--sliver-bound", 0.02, "--seed", 7, "--no-fine-grained", "--slices", "s_",
+                                 "--slice-count", 2)
+        parameters = report["parameters"]
+        self.assertEqual([parameters[key] for key in ("time_scale", "rule_order", "picks", "sliver_bound", "seed",
+                                                      "no_fine_grained", "no_picking", "slices", "slice_count")],
+                         [1.5, "surface", 4, 0.02, 7, True, False, "s_", 2])
+
+    def test_forced_sliver_bound(self):
+        self.mesh("--input", self.input, "--delta", 5, "--sliver-bound", 0.04, "--force")
+
+    def test_rule_order_changes_the_mesh(self):
+        orders = {}
+        for order in ("radius-edge", "surface"):
+            self.run_with("--rule-order", order, "--radius-edge", 1.5, "--force", "--output", "m.mfem")
+            orders[order] = (self.folder / "m.mfem").read_bytes()
+        self.run_with("--radius-edge", 1.5, "--force", "--output", "m.mfem")
+        self.assertTrue((self.folder / "m.mfem").read_bytes() == orders["radius-edge"])
+        self.assertTrue(orders["radius-edge"] != orders["surface"])
+
+    def test_picking_regions(self):
+        """They are on by default; the same seed gives the same mesh, another one another."""
+        meshes = {}
+        for name, arguments in (("default", ()), ("seed 0", ("--seed", 0)), ("seed 1", ("--seed", 1)),
+                                ("off", ("--no-picking",))):
+            self.mesh("--input", self.input, "--delta", 2, "--threads", 1, "--output", "m.mfem", *arguments)
+            meshes[name] = (self.folder / "m.mfem").read_bytes()
+        self.assertTrue(meshes["default"] == meshes["seed 0"])
+        self.assertEqual(len(set(meshes.values())), 3)
+
+
+class Statistics(SpaceTimeTestCase):
+    def test_figures(self):
+        report = self.statistics(*self.arguments, "--output", "m.vtu", "--plc", "b.vtu")
+        mesh = meshfiles.read_pentatopes(self.folder / "m.vtu")
+        boundary = meshfiles.read_boundary(self.folder / "b.vtu")
+        self.assertEqual(report["dimension"], 4)
+        self.assertEqual(report["elements"], len(mesh.cells))
+        self.assertEqual(report["vertices"], len(mesh.points))
+        self.assertEqual(report["interface_facets"], len(boundary.cells))
+        for label, volume in mesh.volume_of_label().items():
+            figures = report["labels"][str(label)]
+            self.assertEqual(figures["elements"], int((mesh.labels == label).sum()))
+            self.assertAlmostEqual(figures["volume"], volume, delta=1e-6 * volume)
+        self.check_quality(report["quality"], mesh)
+        self.assertGreater(report["cavities"]["mean"], 5)
+        self.assertGreater(report["cavities"]["largest"], report["cavities"]["mean"])
+
+    def check_quality(self, quality, mesh):
+        corners = mesh.points[mesh.cells]
+        lengths = np.stack([np.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i in range(5) for j in range(i)])
+        # The centre of the circumball: 2 (p_i - p_0) . c = |p_i|^2 - |p_0|^2.
+        rows = 2 * (corners[:, 1:] - corners[:, :1])
+        squares = (corners**2).sum(axis=2)
+        centers = np.linalg.solve(rows, (squares[:, 1:] - squares[:, :1])[:, :, None])[:, :, 0]
+        radii = np.linalg.norm(corners[:, 0] - centers, axis=1)
+        ratios = radii / lengths.min(axis=0)
+        shapes = mesh.volumes() / (25 * np.sqrt(5) / 384 * radii**4)
+        for key, expected in (("shortest_edge", lengths.min()), ("max_radius_edge", ratios.max()),
+                              ("mean_radius_edge", ratios.mean()), ("radius_edge_deviation", ratios.std()),
+                              ("min_normalized_volume", shapes.min()), ("mean_normalized_volume", shapes.mean()),
+                              ("normalized_volume_deviation", shapes.std())):
+            self.assertAlmostEqual(quality[key], expected, delta=1e-3 * expected + 1e-6, msg=key)
+        histogram = quality["normalized_volume_histogram"]
+        self.assertEqual(sum(histogram), len(mesh.cells))
+        np.testing.assert_allclose(histogram, np.histogram(shapes, len(histogram), (0, 1))[0], atol=2)
+        self.assertEqual(quality["inverted_elements"], 0)
+
+    def test_summary(self):
+        done = self.run_with("--stats", "s.json")
+        self.assertRegex(done.stdout, r"^[\d,]+ pentatopes in 2 labels, [\d,]+ vertices, [\d,]+ boundary tetrahedra with "
+                         r"delta 2\. Shortest edge [\d.]+; radius-edge ratio at most [\d.]+, [\d.]+ \+- [\d.]+; "
+                         r"normalized volume at least [\d.]+, [\d.]+ \+- [\d.]+; cavities of \d+ pentatopes, at most "
+                         r"[\d,]+\. Read in")
+
+
+if __name__ == "__main__":
+    main()
