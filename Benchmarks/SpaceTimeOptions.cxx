@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SpaceTimeOptions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace voxplex::benchmarks
+{
+
+const char* const SpaceTimeUsage = R"(usage: voxplexSpaceTime [options]
+
+Meshes a space-time phantom into pentatopes and prints tables in Markdown: sizes, quality and rates of one
+thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a process of its own; all take turns.
+
+  --phantom NAME     beating-ventricle (default), four-ball (radius 12) or merging-balls
+  --coarsening N     N times fewer voxels of the ventricle along x, y and z (default 1)
+  --time-scale S     length of a unit of time (default 1)
+  --delta D          sampling density, in the unit of the spacing (default: derived from the spacing)
+  --picking WHAT     picking regions against slivers: off (default), on or both
+  --rule-order WHAT  radius-edge (default), surface or both
+  --no-fine-grained  waiting threads do not help to expand cavities
+  --threads LIST     also run with so many threads each, e.g. 2,4 (default: 1 only)
+  --repeat K         rounds (default 3); medians are printed
+  --frames           also compare volumes with the image, frame by frame
+)";
+
+namespace
+{
+
+/** A positive number, all of the text. */
+double ParseNumber(const std::string& text)
+{
+  std::istringstream stream(text);
+  double number = 0.0;
+  if (!(stream >> number) || !stream.eof() || !(number > 0.0) || std::isinf(number))
+  {
+    throw std::invalid_argument("a positive number is needed, not " + text);
+  }
+  return number;
+}
+
+unsigned ParseCount(const std::string& text)
+{
+  const double number = ParseNumber(text);
+  if (number != std::floor(number) || number > 65535.0)
+  {
+    throw std::invalid_argument("a whole number up to 65535 is needed, not " + text);
+  }
+  return static_cast<unsigned>(number);
+}
+
+template <typename Value>
+Value Choose(const std::string& text, const std::map<std::string, Value>& choices)
+{
+  const auto found = choices.find(text);
+  if (found == choices.end())
+  {
+    throw std::invalid_argument("no such choice: " + text);
+  }
+  return found->second;
+}
+
+std::vector<unsigned> ParseThreads(const std::string& list)
+{
+  std::vector<unsigned> threads = { 1 };
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');)
+  {
+    threads.push_back(ParseCount(item));
+  }
+  std::sort(threads.begin(), threads.end());
+  threads.erase(std::unique(threads.begin(), threads.end()), threads.end());
+  return threads;
+}
+
+} // namespace
+
+SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
+{
+  SpaceTimeOptions options;
+  options.Threads = { 1 };
+  using Text = const std::string&;
+  const std::map<std::string, std::function<void(Text)>> withValue = {
+    { "--phantom", [&](Text value) { options.Phantom = value; } },
+    { "--coarsening", [&](Text value) { options.Coarsening = ParseCount(value); } },
+    { "--time-scale", [&](Text value) { options.TimeScale = ParseNumber(value); } },
+    { "--delta", [&](Text value) { options.Delta = ParseNumber(value); } },
+    { "--picking",
+      [&](Text value)
+      {
+        options.Picking = Choose<std::vector<bool>>(
+          value, { { "off", { false } }, { "on", { true } }, { "both", { false, true } } });
+      } },
+    { "--rule-order",
+      [&](Text value)
+      {
+        options.Orders = Choose<std::vector<RuleOrder>>(value,
+          { { "radius-edge", { RuleOrder::RadiusEdgeFirst } },
+            { "surface", { RuleOrder::SurfaceFirst } },
+            { "both", { RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst } } });
+      } },
+    { "--threads", [&](Text value) { options.Threads = ParseThreads(value); } },
+    { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
+  };
+  const std::map<std::string, bool SpaceTimeOptions::*> flags = {
+    { "--no-fine-grained", &SpaceTimeOptions::NoFineGrained },
+    { "--frames", &SpaceTimeOptions::Frames }
+  };
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
+    {
+      option->second(argv[++i]);
+    }
+    else if (const auto flag = flags.find(argument); flag != flags.end())
+    {
+      options.*(flag->second) = true;
+    }
+    else
+    {
+      throw std::invalid_argument("unknown or incomplete argument " + argument);
+    }
+  }
+  if (options.Coarsening > 11)
+  {
+    throw std::invalid_argument("a coarsening of at most 11 is needed");
+  }
+  return options;
+}
+
+} // namespace voxplex::benchmarks

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file SpaceTimeOptions.h
+ * @brief The command line of voxplexSpaceTime.
+ */
+#ifndef voxplex_SpaceTimeOptions_h
+#define voxplex_SpaceTimeOptions_h
+
+#include "Refinement/RuleOptions.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace voxplex::benchmarks
+{
+
+extern const char* const SpaceTimeUsage;
+
+struct SpaceTimeOptions
+{
+  std::string Phantom = "beating-ventricle";
+  std::int64_t Coarsening = 1; ///< of the ventricle
+  double TimeScale = 1.0;
+  double Delta = 0.0;            ///< 0: derived from the spacing
+  std::vector<unsigned> Threads; ///< increasing, 1 among them
+  int Repeat = 3;
+  std::vector<bool> Picking = { false };
+  std::vector<RuleOrder> Orders = { RuleOrder::RadiusEdgeFirst };
+  bool NoFineGrained = false;
+  bool Frames = false;
+};
+
+/** @throws std::exception that says what is wrong with the arguments */
+SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv);
+
+} // namespace voxplex::benchmarks
+
+#endif
