@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScalingOptions.h"
 
+#include "OptionNumbers.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -56,28 +57,6 @@ std::vector<std::string> Split(const std::string& list)
     items.push_back(item);
   }
   return items;
-}
-
-/** A positive number, all of the text. */
-double ParseNumber(const std::string& text)
-{
-  std::istringstream stream(text);
-  double number = 0.0;
-  if (!(stream >> number) || !stream.eof() || !(number > 0.0))
-  {
-    throw std::invalid_argument("a positive number is needed, not " + text);
-  }
-  return number;
-}
-
-unsigned ParseCount(const std::string& text)
-{
-  const double number = ParseNumber(text);
-  if (number != std::floor(number) || number > 65535.0)
-  {
-    throw std::invalid_argument("a whole number up to 65535 is needed, not " + text);
-  }
-  return static_cast<unsigned>(number);
 }
 
 template <typename Policy, std::size_t N>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SpaceTimeOptions.h"
 
+#include "OptionNumbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -31,28 +33,6 @@ thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a proces
 
 namespace
 {
-
-/** A positive number, all of the text. */
-double ParseNumber(const std::string& text)
-{
-  std::istringstream stream(text);
-  double number = 0.0;
-  if (!(stream >> number) || !stream.eof() || !(number > 0.0) || std::isinf(number))
-  {
-    throw std::invalid_argument("a positive number is needed, not " + text);
-  }
-  return number;
-}
-
-unsigned ParseCount(const std::string& text)
-{
-  const double number = ParseNumber(text);
-  if (number != std::floor(number) || number > 65535.0)
-  {
-    throw std::invalid_argument("a whole number up to 65535 is needed, not " + text);
-  }
-  return static_cast<unsigned>(number);
-}
 
 template <typename Value>
 Value Choose(const std::string& text, const std::map<std::string, Value>& choices)

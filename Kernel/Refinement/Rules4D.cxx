@@ -88,13 +88,12 @@ Verdict Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   const Element s = this->MakeElement(id);
-  Verdict verdict = Verdict::Good;
-  if (this->Context.Settings.Order == RuleOrder::RadiusEdgeFirst)
+  const bool ratioFirst = this->Context.Settings.Order == RuleOrder::RadiusEdgeFirst;
+  Verdict verdict = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
+  if (verdict == Verdict::Good)
   {
-    verdict = this->R3(s);
+    verdict = ratioFirst ? this->SampleInterface(s) : this->R3(s);
   }
-  verdict = verdict == Verdict::Good ? this->SampleInterface(s) : verdict; // R1, R2
-  verdict = verdict == Verdict::Good ? this->R3(s) : verdict;
   verdict = verdict == Verdict::Good ? this->R5(s) : verdict;
   if (verdict == Verdict::Good && this->IsTooLarge(s))
   {
