@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageMesher.h"
 
+#include "ComponentGuard.h"
 #include "Error.h"
 #include "Geometry/Predicates.h"
 #include "Image/ImageDomain.h"
@@ -20,6 +21,7 @@
 #include <cstdio>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <type_traits>
@@ -78,6 +80,26 @@ void CheckSliverOptions(const SliverOptions& slivers, bool force)
   }
 }
 
+void CheckTetSliverOptions(const TetSliverOptions& slivers, bool force)
+{
+  if (!(slivers.Angle >= 0.0 && slivers.Angle < 60.0))
+  {
+    throw InputError(
+      "the dihedral angle of slivers must be at least 0 and below 60 degrees; it is " +
+      Number(slivers.Angle));
+  }
+  if (slivers.Angle > LargestSliverAngle && !force)
+  {
+    throw InputError("a dihedral angle of " + Number(slivers.Angle) + " degrees is above " +
+      Number(LargestSliverAngle) +
+      ", where meshes can become very large; ask for less, or force it");
+  }
+  if (!(slivers.PickingRadius > 0.0 && slivers.PickingRadius < 1.0) || slivers.Picks == 0)
+  {
+    throw InputError("slivers need at least one pick, and a picking radius between 0 and 1");
+  }
+}
+
 template <int D>
 void CheckOptions(const MeshingOptions<D>& options)
 {
@@ -106,6 +128,10 @@ void CheckOptions(const MeshingOptions<D>& options)
   {
     CheckSliverOptions(options.Slivers, options.Force);
   }
+  else
+  {
+    CheckTetSliverOptions(options.TetSlivers, options.Force);
+  }
   if (!FloatingPointIsStrict())
   {
     throw Error("this build of Voxplex fuses or extends floating-point operations, which makes its "
@@ -121,9 +147,9 @@ constexpr double RefinementShare = 0.95; ///< end of refinement
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-double DefaultDelta(const GridGeometry<D>& grid)
+double DefaultDelta(double voxelVolume)
 {
-  return 2.0 * std::pow(grid.VoxelVolume(), 1.0 / D);
+  return 2.0 * std::pow(voxelVolume, 1.0 / D);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -186,11 +212,56 @@ private:
       CheckMemory(estimate, this->Options.MemoryLimit);
     }
 
+    std::optional<ComponentGuard<D>> guard = this->GuardComponents(image, domain, stop);
+    RefinementContext<D> context(domain, this->Settings(guard ? &guard->GetLocalDelta() : nullptr),
+      this->MakeBox(domain), estimate.InterfaceVertices);
+    const std::uint64_t expected = estimate.Vertices;
+    if (!this->Refine(context, guard, expected, stop))
+    {
+      return false;
+    }
+    for (;;)
+    {
+      this->Fraction = RefinementShare;
+      Stopwatch extraction;
+      ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
+      this->Stats.Times.Extraction += extraction.Seconds();
+      if (!guard || !this->SampleLostComponents(*guard, image, mesh))
+      {
+        return !stop.stop_requested();
+      }
+      ++this->Stats.ComponentRounds;
+      context.FollowLocalDelta();
+      if (!this->Refine(context, guard, expected, stop))
+      {
+        return false;
+      }
+    }
+  }
+
+  std::optional<ComponentGuard<D>> GuardComponents(
+    const LabelImage<D>& image, const Domain<D>& domain, const std::stop_token& stop)
+  {
+    std::optional<ComponentGuard<D>> guard;
+    if (D == 3 && this->Options.SmallestComponent > 0)
+    {
+      Stopwatch components;
+      guard.emplace(image, domain, this->Stats.Delta, this->Options.SmallestComponent,
+        this->Options.Threads, stop);
+      this->Stats.Components = guard->GetComponents().All().size();
+      this->Stats.Times.Components = components.Seconds();
+    }
+    return guard;
+  }
+
+  /** False if stopped. */
+  bool Refine(RefinementContext<D>& context, const std::optional<ComponentGuard<D>>& guard,
+    std::uint64_t expectedVertices, const std::stop_token& stop)
+  {
     Stopwatch refinement;
-    RefinementContext<D> context(
-      domain, this->Settings(), this->MakeBox(domain), estimate.InterfaceVertices);
-    Refiner<Rules> refiner(context, this->Team());
-    const double expected = static_cast<double>(estimate.Vertices);
+    Refiner<Rules> refiner(
+      context, this->Team(), guard ? guard->GetSeeds() : std::vector<FeatureSeed<D>>());
+    const auto expected = static_cast<double>(expectedVertices);
     const bool done = refiner.Run(
       [&](std::uint64_t vertices)
       {
@@ -198,33 +269,60 @@ private:
         this->Fraction = PreparationShare + (RefinementShare - PreparationShare) * part;
         return !stop.stop_requested();
       });
-    this->Stats.Times.Refinement = refinement.Seconds();
-    this->Stats.Rules = refiner.GetRuleStatistics();
-    this->Stats.Predicates = refiner.GetPredicateStatistics();
-    this->Stats.Threads = refiner.GetThreadStatistics();
-    this->Stats.SeedingSeconds = refiner.GetSecondsToSeed();
-    this->Stats.SwitchedToLocal = refiner.SwitchedToLocal();
-    if (!done)
-    {
-      return false;
-    }
-    this->Fraction = RefinementShare;
-
-    Stopwatch extraction;
-    ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
-    this->Stats.Times.Extraction = extraction.Seconds();
-    return !stop.stop_requested();
+    this->Stats.Times.Refinement += refinement.Seconds();
+    this->Stats.Rules += refiner.GetRuleStatistics();
+    this->Stats.Predicates += refiner.GetPredicateStatistics();
+    this->AddThreads(refiner.GetThreadStatistics());
+    this->Stats.SeedingSeconds += refiner.GetSecondsToSeed();
+    this->Stats.SwitchedToLocal |= refiner.SwitchedToLocal();
+    return done;
   }
 
-  RefinementSettings<D> Settings() const
+  void AddThreads(const std::vector<ThreadStatistics>& threads)
+  {
+    this->Stats.Threads.resize(std::max(this->Stats.Threads.size(), threads.size()));
+    for (std::size_t t = 0; t < threads.size(); ++t)
+    {
+      this->Stats.Threads[t] += threads[t];
+    }
+  }
+
+  /** Whether refinement is to go on because a component has no element; tells of those it gives up. */
+  bool SampleLostComponents(
+    ComponentGuard<D>& guard, const LabelImage<D>& image, const SimplexMesh<D>& mesh)
+  {
+    Stopwatch components;
+    const std::vector<std::uint32_t> lost = guard.FindLost(mesh);
+    const bool goOn = guard.SampleFiner(lost);
+    if (!goOn)
+    {
+      for (const std::uint32_t c : lost)
+      {
+        const Component<D>& component = guard.GetComponents().All()[c];
+        ComponentReport entry{ image.Values()[component.Label], component.Voxels, {} };
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          entry.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
+        }
+        this->Stats.LostComponents.push_back(std::move(entry));
+      }
+    }
+    this->Stats.ComponentSeeds = guard.GetSeeds().size();
+    this->Stats.Times.Components += components.Seconds();
+    return goOn;
+  }
+
+  RefinementSettings<D> Settings(const LocalDelta<D>* local) const
   {
     RefinementSettings<D> settings;
+    settings.Local = local;
     settings.Delta = this->Stats.Delta;
     settings.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
     settings.FacetAngle = this->Options.FacetAngle;
     settings.Size = this->Options.Size.get();
     settings.Order = this->Options.Order;
     settings.Slivers = this->Options.Slivers;
+    settings.TetSlivers = this->Options.TetSlivers;
     return settings;
   }
 
@@ -268,7 +366,7 @@ MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& m
   this->Stats = MeshingStatistics();
   CheckOptions(this->Options);
   this->Stats.Delta =
-    this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid());
+    this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid().VoxelVolume());
   this->Stats.SmoothingSigma = this->Options.SmoothingSigma;
   this->Stats.Contention = this->Options.Contention;
   this->Stats.Balance = this->Options.Balance;
@@ -344,7 +442,7 @@ bool ImageMesher<D>::RunReporting(Stages& stages, const LabelImage<D>& image, Si
 
 template class ImageMesher<3>;
 template class ImageMesher<4>;
-template double DefaultDelta<3>(const GridGeometry<3>&);
-template double DefaultDelta<4>(const GridGeometry<4>&);
+template double DefaultDelta<3>(double);
+template double DefaultDelta<4>(double);
 
 } // namespace voxplex

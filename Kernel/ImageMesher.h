@@ -35,6 +35,13 @@ struct MeshingOptions
   RuleOrder Order = RuleOrder::RadiusEdgeFirst;
   /** How slivers are fought; 4D only. */
   SliverOptions Slivers;
+  /** How slivers are fought; 3D only. */
+  TetSliverOptions TetSlivers;
+  /**
+   * Connected components (through faces) of at least so many voxels get elements whatever delta; 0: as it
+   * comes. Those that got none all the same are in MeshingStatistics::LostComponents. 3D only.
+   */
+  std::int64_t SmallestComponent = 8;
   /** Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. */
   double SmoothingSigma = 1.0;
   /** Upper bound of circumradii, or null. */
@@ -74,9 +81,9 @@ enum class MeshingOutcome
 /** The smallest radius-edge ratio for which termination is proved: sqrt(sqrt(3) + 2) (thesis, 2.3). */
 inline constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;
 
-/** Delta used when none is given: see Documentation/Algorithm.md. */
+/** Delta used when none is given, by the (hyper)volume of a voxel: see Documentation/Algorithm.md. */
 template <int D>
-double DefaultDelta(const GridGeometry<D>& grid);
+double DefaultDelta(double voxelVolume);
 
 /**
  * @brief Meshes one label image.
@@ -118,8 +125,8 @@ private:
 
 extern template class ImageMesher<3>;
 extern template class ImageMesher<4>;
-extern template double DefaultDelta<3>(const GridGeometry<3>&);
-extern template double DefaultDelta<4>(const GridGeometry<4>&);
+extern template double DefaultDelta<3>(double);
+extern template double DefaultDelta<4>(double);
 
 } // namespace voxplex
 

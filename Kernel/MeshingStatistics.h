@@ -7,6 +7,7 @@
 #ifndef voxplex_MeshingStatistics_h
 #define voxplex_MeshingStatistics_h
 
+#include "Image/DropComponents.h"
 #include "Parallel/HardwareCounters.h"
 #include "Parallel/Policies.h"
 
@@ -23,6 +24,8 @@ struct RuleStatistics
 {
   std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5
   std::uint64_t FiredBySize = 0;        ///< insertions because of the size function; 4D (3D: R5)
+  std::uint64_t SliversSplit = 0;       ///< free points inserted by R7; 3D (4D: R4)
+  std::uint64_t SliversSampled = 0;     ///< feature points inserted by R7; 3D
   std::uint64_t Projected = 0;          ///< circumcentres moved onto the box
   std::uint64_t Removed = 0;            ///< free vertices removed near new feature vertices
   std::uint64_t RefusedTooClose = 0;    ///< points closer than the spacing floor to a vertex
@@ -41,7 +44,7 @@ struct RuleStatistics
   /** Of all rules. */
   std::uint64_t Insertions() const
   {
-    std::uint64_t sum = this->FiredBySize;
+    std::uint64_t sum = this->FiredBySize + this->SliversSplit + this->SliversSampled;
     for (const std::uint64_t fired : this->Fired)
     {
       sum += fired;
@@ -56,6 +59,8 @@ struct RuleStatistics
       this->Fired[r] += other.Fired[r];
     }
     this->FiredBySize += other.FiredBySize;
+    this->SliversSplit += other.SliversSplit;
+    this->SliversSampled += other.SliversSampled;
     this->Projected += other.Projected;
     this->Removed += other.Removed;
     this->RefusedTooClose += other.RefusedTooClose;
@@ -97,11 +102,13 @@ struct StageTimes
 {
   double LabelField = 0.0;        ///< label map, crop, smoothing
   double DistanceTransform = 0.0; ///< surface voxels and feature transform
+  double Components = 0.0;        ///< connected components, before and after refinement
   double Refinement = 0.0;
   double Extraction = 0.0;
   double Total() const
   {
-    return this->LabelField + this->DistanceTransform + this->Refinement + this->Extraction;
+    return this->LabelField + this->DistanceTransform + this->Components + this->Refinement +
+      this->Extraction;
   }
 };
 
@@ -125,6 +132,26 @@ struct ThreadStatistics
   std::uint64_t HelpedLoops = 0;       ///< loops in its insertions of which others did a part
   std::uint64_t HelpedIterations = 0;  ///< iterations that others did in these
   HardwareCounters::Counts Hardware{}; ///< empty where there are no counters
+
+  ThreadStatistics& operator+=(const ThreadStatistics& other)
+  {
+    this->Insertions += other.Insertions;
+    this->Removals += other.Removals;
+    this->Rollbacks += other.Rollbacks;
+    this->Waits += other.Waits;
+    this->ContentionSeconds += other.ContentionSeconds;
+    this->LoadBalanceSeconds += other.LoadBalanceSeconds;
+    this->RollbackSeconds += other.RollbackSeconds;
+    for (unsigned level = 0; level < StealingLevels; ++level)
+    {
+      this->Received[level] += other.Received[level];
+    }
+    this->ReceivedElements += other.ReceivedElements;
+    this->HelpedLoops += other.HelpedLoops;
+    this->HelpedIterations += other.HelpedIterations;
+    this->Hardware += other.Hardware;
+    return *this;
+  }
 };
 
 struct MeshingStatistics
@@ -142,6 +169,10 @@ struct MeshingStatistics
   double Delta = 0.0; ///< the delta that was used, in the image's unit of length
   double SmoothingSigma = 0.0; ///< voxels
   std::uint64_t EstimatedElements = 0;
+  std::uint64_t Components = 0; ///< connected components of all labels; 0 if none were looked for
+  std::uint64_t ComponentSeeds = 0; ///< feature points inserted for small or thin ones, at most
+  unsigned ComponentRounds = 0;     ///< times that refinement went on because one was lost
+  std::vector<ComponentReport> LostComponents; ///< connected components that have no element
   double SizesRaisedTo = 0.0;        ///< the floor of sizes, if some were below it; else 0
   std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
   std::uint64_t DistanceBytes = 0;   ///< feature transform

@@ -112,6 +112,32 @@ inline double NormalizedVolume(const Point<D>* const* v)
 }
 
 /**
+ * The smallest sine of the dihedral angles of a tetrahedron: 0.943 for the regular one, 0 if flat. Small
+ * where an angle is small, and where one is near 180 degrees.
+ */
+inline double SmallestDihedralSine(const Point<3>* const* v)
+{
+  const Point<3> e01 = Subtract(*v[1], *v[0]);
+  const Point<3> e02 = Subtract(*v[2], *v[0]);
+  const Point<3> e03 = Subtract(*v[3], *v[0]);
+  const Point<3> e12 = Subtract(*v[2], *v[1]);
+  const Point<3> e13 = Subtract(*v[3], *v[1]);
+  const Point<3> e23 = Subtract(*v[3], *v[2]);
+  const Point<3> n1 = Cross(e03, e02);
+  const double determinant = Dot(e01, n1);
+  const auto norm2 = [](const Point<3>& n) { return Dot(n, n); };
+  const double a0 = norm2(Cross(e12, e13));
+  const double a1 = norm2(n1);
+  const double a2 = norm2(Cross(e01, e03));
+  const double a3 = norm2(Cross(e02, e01));
+  // Squares of the sines over that of the determinant.
+  const double smallest =
+    std::min({ norm2(e01) / (a2 * a3), norm2(e02) / (a1 * a3), norm2(e03) / (a1 * a2),
+      norm2(e12) / (a0 * a3), norm2(e13) / (a0 * a2), norm2(e23) / (a0 * a1) });
+  return std::abs(determinant) * std::sqrt(smallest);
+}
+
+/**
  * The dihedral angles of a tetrahedron at its edges 01, 02, 03, 12, 13, 23.
  *
  * With N_k the outward normals of the facets opposite to vertex k, of length twice the area, the

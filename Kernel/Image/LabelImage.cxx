@@ -243,26 +243,54 @@ template <int D>
     "choose the array that holds the segmentation.");
 }
 
+std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/** Throws unless each label that was selected is one of those that occur, in increasing order. */
+void CheckSelected(const std::vector<std::int64_t>& selected,
+  const std::vector<std::int64_t>& occurring, const std::string& was, const std::string& purpose)
+{
+  for (const std::int64_t value : selected)
+  {
+    if (value == 0)
+    {
+      throw InputError("Label 0 was " + was +
+        ", but 0 is background, which is never meshed; remove it from the labels " + purpose + ".");
+    }
+    if (!std::binary_search(occurring.begin(), occurring.end(), value))
+    {
+      const std::vector<std::int64_t> shown(
+        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
+      throw InputError("Label " + std::to_string(value) + " was " + was +
+        ", but does not occur in the image; its labels are " + Format(shown) +
+        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels " + purpose + ".");
+    }
+  }
+}
+
 } // namespace
 
 template <int D>
 template <typename T>
 LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
-  std::span<const std::int64_t> keep, unsigned threads, const std::stop_token& stop)
+  const LabelSelection& selection, unsigned threads, const std::stop_token& stop)
 {
   using CensusType = Census<T, D>;
   CheckGrid(grid, scalars.size());
   const auto n0 = static_cast<std::size_t>(grid.Dimensions[0]);
   const std::size_t rows = scalars.size() / n0;
 
-  std::vector<std::int64_t> kept(keep.begin(), keep.end());
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  const auto isKept = [&kept](T value)
+  const std::vector<std::int64_t> kept = SortedOnce(selection.Only);
+  const std::vector<std::int64_t> excluded = SortedOnce(selection.But);
+  const auto isKept = [&](T value)
   {
-    return value != T(0) &&
-      (kept.empty() ||
-        std::binary_search(kept.begin(), kept.end(), static_cast<std::int64_t>(value)));
+    const auto label = static_cast<std::int64_t>(value);
+    return value != T(0) && (kept.empty() || std::binary_search(kept.begin(), kept.end(), label)) &&
+      !std::binary_search(excluded.begin(), excluded.end(), label);
   };
 
   // First reading: which values occur how often, and the bounding box of those that are kept. Rows
@@ -407,25 +435,14 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     image.LabelValues.push_back(static_cast<std::int64_t>(value));
     image.LabelCounts.push_back(count);
   }
-  for (const std::int64_t value : kept)
-  {
-    if (value == 0)
-    {
-      throw InputError(
-        "Label 0 was asked for, but 0 is background, which is never meshed; remove it "
-        "from the labels to keep.");
-    }
-    if (!std::binary_search(occurring.begin(), occurring.end(), value))
-    {
-      std::vector<std::int64_t> shown(
-        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
-      throw InputError("Label " + std::to_string(value) +
-        " was asked for, but does not occur in the image; its labels are " + Format(shown) +
-        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels to keep.");
-    }
-  }
+  CheckSelected(kept, occurring, "asked for", "to keep");
+  CheckSelected(excluded, occurring, "excluded", "to exclude");
   if (image.LabelValues.size() == 1)
   {
+    if (!occurring.empty())
+    {
+      throw InputError("All labels of the image are excluded; correct the labels to exclude.");
+    }
     throw InputError("The image has no foreground: all " + std::to_string(scalars.size()) +
       " voxels are 0. Choose the array that holds the segmentation.");
   }
@@ -481,14 +498,31 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   return image;
 }
 
+template <int D>
+void LabelImage<D>::Relabel(const Index& first, std::int64_t length, LabelId label)
+{
+  std::int64_t at = 0;
+  for (std::size_t a = D; a-- > 0;)
+  {
+    at = at * this->Extent[a] + first[a];
+  }
+  for (std::int64_t i = 0; i < length; ++i)
+  {
+    LabelId& id = this->Voxels[static_cast<std::size_t>(at + i)];
+    --this->LabelCounts[id];
+    ++this->LabelCounts[label];
+    id = label;
+  }
+}
+
 template class LabelImage<3>;
 template class LabelImage<4>;
 
 #define VOXPLEX_INSTANTIATE(T)                                                                     \
   template LabelImage<3> LabelImage<3>::FromScalars<T>(std::span<const T>, const GridGeometry<3>&, \
-    std::span<const std::int64_t>, unsigned, const std::stop_token&);                              \
+    const LabelSelection&, unsigned, const std::stop_token&);                                      \
   template LabelImage<4> LabelImage<4>::FromScalars<T>(std::span<const T>, const GridGeometry<4>&, \
-    std::span<const std::int64_t>, unsigned, const std::stop_token&)
+    const LabelSelection&, unsigned, const std::stop_token&)
 VOXPLEX_INSTANTIATE(char);
 VOXPLEX_INSTANTIATE(signed char);
 VOXPLEX_INSTANTIATE(unsigned char);

@@ -25,10 +25,17 @@ using LabelId = std::uint16_t;
 /** More distinct labels than this and the image is taken for a grey-value image. */
 inline constexpr int MaximumNumberOfLabels = 2000;
 
+/** Which labels of an image to mesh; the others become background. By default all. */
+struct LabelSelection
+{
+  std::vector<std::int64_t> Only; ///< these, in any order; none means all
+  std::vector<std::int64_t> But;  ///< but not these, in any order
+};
+
 /**
  * @brief Dense labels of the bounding box of the foreground; everything outside is background.
  *
- * Immutable after construction, so safe to read from any thread.
+ * Safe to read from any thread while nobody calls Relabel().
  */
 template <int D>
 class LabelImage
@@ -41,17 +48,17 @@ public:
    *
    * @param scalars one value per voxel; 0 is background. Any arithmetic type; values must be whole,
    *   finite and not negative.
-   * @param keep label values to mesh, the others become background; empty keeps all
+   * @param selection which labels to mesh
    * @param threads threads used for the conversion; 0 means all cores
    * @throws Cancelled if a stop was requested before the end
    * @throws InputError: fewer than two voxels along an axis, spacing not positive and finite,
    *   fractional, negative or non-finite values (says which value and at which index), no foreground,
-   *   more than MaximumNumberOfLabels labels (a grey-value image?), a kept label that does not occur
+   *   more than MaximumNumberOfLabels labels (a grey-value image?), a selected or excluded label
+   *   that does not occur, no label left
    */
   template <typename T>
   static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
-    std::span<const std::int64_t> keep = {}, unsigned threads = 1,
-    const std::stop_token& stop = {});
+    const LabelSelection& selection = {}, unsigned threads = 1, const std::stop_token& stop = {});
 
   /** The whole grid, as given. */
   const GridGeometry<D>& Grid() const { return this->WholeGrid; }
@@ -60,6 +67,13 @@ public:
   const Index& CropOrigin() const { return this->Origin; }
   /** Voxels of the bounding box along each axis. */
   const Index& CropDimensions() const { return this->Extent; }
+  /**
+   * Gives a run of voxels along the first axis another label. Counts() follow; Values() stay, if with a
+   * count of 0, and so does the bounding box.
+   * @param first an index of the bounding box
+   */
+  void Relabel(const Index& first, std::int64_t length, LabelId label);
+
   /** Dense ids of the bounding box, first axis fastest. */
   std::span<const LabelId> Ids() const { return this->Voxels; }
 

@@ -31,6 +31,19 @@ public:
     std::optional<std::uint64_t> TlbMisses;            ///< translation lookaside buffers, data
     std::optional<std::uint64_t> LastLevelCacheMisses; ///< of the third level
     std::optional<std::uint64_t> ResourceStallCycles;  ///< cycles stalled on any resource
+
+    Counts& operator+=(const Counts& other)
+    {
+      for (const auto count :
+        { &Counts::TlbMisses, &Counts::LastLevelCacheMisses, &Counts::ResourceStallCycles })
+      {
+        if (other.*count)
+        {
+          this->*count = (this->*count).value_or(0) + *(other.*count);
+        }
+      }
+      return *this;
+    }
   };
 
   HardwareCounters() = default;

@@ -9,10 +9,12 @@
 
 #include "Delaunay/Triangulation.h"
 #include "Image/Domain.h"
+#include "Image/LocalDelta.h"
 #include "Image/SizeFunction.h"
 #include "MeshingStatistics.h"
 #include "Parallel/CacheLine.h"
 #include "Refinement/FeatureGrid.h"
+#include "Refinement/FeatureSeed.h"
 #include "Refinement/PoorElementList.h"
 #include "Refinement/RuleOptions.h"
 
@@ -24,7 +26,7 @@
 namespace voxplex
 {
 
-/** Points closer than this fraction of delta to a vertex are never inserted. */
+/** Points closer than this fraction of the smallest delta to a vertex are never inserted. */
 inline constexpr double SpacingFloorFraction = 0.1;
 
 /** Feature points nearer to a flat end than this, in delta, are moved onto it. */
@@ -34,12 +36,14 @@ inline constexpr double EndMargin = 0.8;
 template <int D>
 struct RefinementSettings
 {
-  double Delta = 1.0;           ///< sampling density, the same everywhere
-  double RadiusEdgeRatio = 2.0; ///< rho-bar
-  double FacetAngle = 30.0;     ///< degrees
+  double Delta = 1.0;                   ///< sampling density
+  const LocalDelta<D>* Local = nullptr; ///< upper bound of delta; may be null
+  double RadiusEdgeRatio = 2.0;         ///< rho-bar
+  double FacetAngle = 30.0;             ///< degrees
   const SizeFunction<D>* Size = nullptr;
   RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
   SliverOptions Slivers;                        ///< 4D only
+  TetSliverOptions TetSlivers;                  ///< 3D only
 };
 
 /** Shared by all threads. */
@@ -50,11 +54,23 @@ struct RefinementContext
     const Box<D>& box, std::uint64_t expectedFeatures)
     : Image(image)
     , Settings(settings)
-    , SpacingFloor(SpacingFloorFraction * settings.Delta)
+    , SizeFloor(SpacingFloorFraction * settings.Delta)
+    , SpacingFloor(SizeFloor)
     , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
     , Mesh(box)
     , Features(box.Min, settings.Delta, expectedFeatures)
   {
+    this->FollowLocalDelta();
+  }
+
+  /** To be called when bounds were added to Settings.Local; not while anybody refines. */
+  void FollowLocalDelta()
+  {
+    if (this->Settings.Local)
+    {
+      this->SpacingFloor =
+        SpacingFloorFraction * std::min(this->Settings.Delta, this->Settings.Local->Smallest());
+    }
   }
 
   /** sf(p), cleaned of what is no bound and raised to the floor. */
@@ -69,17 +85,22 @@ struct RefinementContext
     {
       return std::numeric_limits<double>::infinity();
     }
-    return size < this->SpacingFloor ? this->SpacingFloor : size;
+    return size < this->SizeFloor ? this->SizeFloor : size;
   }
 
   /**
-   * Delta_dOmega(z) of the thesis for a feature point between two labels: delta, or the size that is
-   * asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
+   * Delta_dOmega(z) of the thesis for a feature point between two labels: delta, or the local bound or the
+   * size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
    * meshed would make R3 insert the missing points one by one, and R6 remove what R5 asks for.
    */
   double Delta(const Point<D>& z, LabelId a, LabelId b) const
   {
     double delta = this->Settings.Delta;
+    if (this->Settings.Local)
+    {
+      const auto bound = this->Settings.Local->At(z);
+      delta = bound.Label == a || bound.Label == b ? std::min<double>(delta, bound.Delta) : delta;
+    }
     if (this->Settings.Size)
     {
       for (const LabelId label : { a, b })
@@ -88,6 +109,12 @@ struct RefinementContext
       }
     }
     return delta;
+  }
+
+  /** Whether Delta() is below delta for any labels at z, but for sizes. */
+  bool MayBeLocal(const Point<D>& z) const
+  {
+    return this->Settings.Local && this->Settings.Local->At(z).Delta < this->Settings.Delta;
   }
 
   /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */
@@ -114,7 +141,8 @@ struct RefinementContext
 
   const Domain<D>& Image;
   const RefinementSettings<D> Settings;
-  const double SpacingFloor;
+  const double SizeFloor;              ///< smaller sizes are raised to it
+  double SpacingFloor;                 ///< points closer to a vertex than this are never inserted
   const std::array<bool, 2> IsFlatEnd; ///< Domain::IsFlatEnd; the box ends there
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;

@@ -44,9 +44,12 @@ public:
    * several at once; false stops refinement. */
   using Monitor = std::function<bool(std::uint64_t vertices)>;
 
-  explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {})
+  /** @param seeds feature points to insert before the rules are asked */
+  explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {},
+    std::vector<FeatureSeed<D>> seeds = {})
     : Context(context)
     , Options(options)
+    , Seeds(std::move(seeds))
     , Team(options)
   {
   }
@@ -165,6 +168,10 @@ private:
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
     std::vector<SimplexId> simplices;
+    if (!this->Seeds.empty())
+    {
+      SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0);
+    }
     for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
     {
       if (mesh.IsAlive(s))
@@ -193,8 +200,8 @@ private:
     {
       this->HelpEachOther();
     }
-    const std::vector<SimplexId> simplices = SeedTriangulation(
-      this->Context, *this->Workers[0], std::size_t{ this->Options.SeedsPerThread } * threads);
+    const std::vector<SimplexId> simplices = SeedTriangulation<Rules>(this->Context,
+      *this->Workers[0], this->Seeds, std::size_t{ this->Options.SeedsPerThread } * threads);
     for (std::size_t t = 0; t < threads; ++t)
     {
       this->Screen(*this->Workers[t], simplices.data() + simplices.size() * t / threads,
@@ -426,6 +433,7 @@ private:
 
   RefinementContext<D>& Context;
   const TeamOptions Options;
+  const std::vector<FeatureSeed<D>> Seeds;
   RefinementTeam Team;
   EagerRemoval Eager;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;

@@ -60,6 +60,28 @@ public:
   }
 
   /**
+   * Inserts a feature point unless it would crowd others or is near a flat end, with R6.
+   * @param near a living simplex, for the search; receives one near the point if that is inserted
+   */
+  void InsertSeed(const FeatureSeed<D>& seed, SimplexId& near)
+  {
+    Point<D> onEnd;
+    if (this->Context.Features.AnyWithin(seed.Position, seed.Delta) ||
+      this->Context.IsNearEnd(seed.Position, seed.Delta, onEnd))
+    {
+      return;
+    }
+    const SimplexId conflict =
+      this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
+    if (conflict != None)
+    {
+      this->InsertFeature(
+        seed.Position, seed.Delta, 0.0, conflict, None, this->Worker.Statistics.Fired[0]);
+      near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
+    }
+  }
+
+  /**
    * Tries the last of the worker's pending removals again. The vertex may be another one by now; then it
    * goes if it, too, is a free one so near. What its removal brings up goes after it.
    */
@@ -262,7 +284,7 @@ protected:
   /** Delta(z) for z = cfp(c(t)): the label on this side is known, that beyond is just behind z. */
   double DeltaBehind(const Element& t, const Point<D>& z) const
   {
-    if (!this->Context.Settings.Size)
+    if (!this->Context.Settings.Size && !this->Context.MayBeLocal(z))
     {
       return this->Context.Settings.Delta;
     }
@@ -445,6 +467,22 @@ private:
     }
   }
 
+  /** By R6; a vertex that serves interfaces with a smaller delta may be so much nearer. */
+  bool IsTooNear(const Point<D>& vertex, const Point<D>& feature, double radius) const
+  {
+    const double distance2 = Distance2(vertex, feature);
+    if (distance2 >= radius * radius)
+    {
+      return false;
+    }
+    if (const LocalDelta<D>* local = this->Context.Settings.Local)
+    {
+      const double own = Rules::RemovalRadius * local->GradedAt(vertex);
+      return distance2 < own * own;
+    }
+    return true;
+  }
+
   /** Adds the free vertices of worker.Created that are nearer than the radius to z to ToRemove. */
   void FindVerticesToRemove(VertexId z, double radius)
   {
@@ -455,8 +493,7 @@ private:
       for (const VertexId v : mesh.GetSimplex(t).V)
       {
         const Vertex& vertex = mesh.GetVertex(v);
-        if (vertex.Kind == VertexKind::Free &&
-          Distance2(vertex.Position, centre) < radius * radius &&
+        if (vertex.Kind == VertexKind::Free && this->IsTooNear(vertex.Position, centre, radius) &&
           std::find(this->ToRemove.begin(), this->ToRemove.end(), v) == this->ToRemove.end())
         {
           this->ToRemove.push_back(v);

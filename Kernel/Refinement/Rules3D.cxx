@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/Rules3D.h"
 
+#include "Geometry/SimplexQuality.h"
+#include "Refinement/PickingRegion.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +16,7 @@ Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
   : RuleVocabulary(context, worker)
   , CosineOfFacetAngle(
       std::cos(context.Settings.FacetAngle * std::numbers::pi / 180.0) * BoundSafety)
+  , SineOfSliverAngle(std::sin(context.Settings.TetSlivers.Angle * std::numbers::pi / 180.0))
 {
 }
 
@@ -31,7 +35,7 @@ bool Rules3D::MayBePoor(SimplexId t)
   {
     const double radius = std::sqrt(ball.Radius2);
     if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t) ||
-      radius >= BoundSafety * this->Context.Size(ball.Center, label))
+      radius >= BoundSafety * this->Context.Size(ball.Center, label) || this->IsSliver(t))
     {
       return true;
     }
@@ -54,7 +58,224 @@ Verdict Rules3D::Refine(SimplexId id)
   {
     verdict = this->InsertCircumcentre(t, this->Worker.Statistics.Fired[4]);
   }
+  if (verdict == Verdict::Good && t.Label != 0 && this->IsSliver(id))
+  {
+    if (this->Worker.Poor.OnlyLast())
+    {
+      return this->R7(t);
+    }
+    this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
+  }
   return verdict;
+}
+
+//------------------------------------------------------------------------------------------------
+bool Rules3D::IsSliver(SimplexId t) const
+{
+  if (this->SineOfSliverAngle <= 0.0)
+  {
+    return false;
+  }
+  const auto& v = this->Context.Mesh.GetSimplex(t).V;
+  std::array<const Point<3>*, 4> points;
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    points[i] = &this->Context.Mesh.Position(v[i]);
+  }
+  return !(SmallestDihedralSine(points.data()) >= this->SineOfSliverAngle);
+}
+
+//------------------------------------------------------------------------------------------------
+/** Accepts the first point whose star has no sliver, and remembers the best of the others. */
+class Rules3D::BetterStar final : public Triangulation<3>::Judge
+{
+public:
+  /**
+   * @param bound of the smallest sine of the dihedral angles
+   * @param only every simplex of the star is to have this label; 0: any
+   * @param tolerance radius-edge ratios may be so many times the bound: R4 sees to them
+   */
+  BetterStar(const RefinementContext<3>& context, const Point<3>& first, double bound, LabelId only,
+    double tolerance)
+    : Candidate(first)
+    , Context(context)
+    , Bound(bound)
+    , LargestRatio(BoundSafety * tolerance * context.Settings.RadiusEdgeRatio)
+    , Only(only)
+  {
+  }
+
+  Point<3> Candidate;
+  Point<3> Best{};
+  bool HasBest = false;
+  bool AcceptAll = false;
+
+  bool Accepts(const Triangulation<3>::Worker& worker) override
+  {
+    if (this->AcceptAll)
+    {
+      return true;
+    }
+    double smallest = 1.0;
+    for (std::size_t k = 0; k < worker.NumberOfProspects(); ++k)
+    {
+      std::uint32_t apex;
+      const auto& v = worker.Prospect(k, apex);
+      std::array<const Point<3>*, 4> points;
+      for (unsigned i = 0; i < 4; ++i)
+      {
+        points[i] = i == apex ? &this->Candidate : &this->Context.Mesh.Position(v[i]);
+      }
+      const double sine = SmallestDihedralSine(points.data());
+      Circumball<3> ball;
+      if (!ComputeCircumball<3>(points.data(), ball))
+      {
+        return false;
+      }
+      const bool isBad = !(sine > this->BestSine) ||
+        ball.Radius2 >= this->LargestRatio * this->LargestRatio * ShortestEdge2<3>(points.data());
+      // Outside the object shapes do not matter, nor does what is good enough need a label.
+      if (this->Only != 0 || isBad)
+      {
+        const LabelId label = this->Context.Image.Label(ball.Center);
+        if ((this->Only != 0 && label != this->Only) || (label != 0 && isBad))
+        {
+          return false;
+        }
+        if (label == 0)
+        {
+          continue;
+        }
+      }
+      smallest = std::min(smallest, sine);
+    }
+    this->BestSine = smallest;
+    this->Best = this->Candidate;
+    this->HasBest = true;
+    return smallest >= this->Bound;
+  }
+
+private:
+  const RefinementContext<3>& Context;
+  const double Bound;
+  const double LargestRatio;
+  const LabelId Only;
+  double BestSine = 0.0; ///< smallest in the star of the best point
+};
+
+//------------------------------------------------------------------------------------------------
+// First without anything for R4 to do; where that fails, what R4 makes of it is usually better.
+Verdict Rules3D::R7(const Element& t)
+{
+  ++this->Worker.Statistics.SliversFound;
+  Verdict verdict = Verdict::Good;
+  for (const double tolerance : { 1.0, 1.5 })
+  {
+    verdict = verdict == Verdict::Good ? this->SplitSliver(t, tolerance) : verdict;
+    verdict = verdict == Verdict::Good ? this->SampleAtSliver(t, tolerance) : verdict;
+  }
+  this->Worker.Statistics.SliversKept += verdict == Verdict::Good ? 1 : 0;
+  return verdict;
+}
+
+//------------------------------------------------------------------------------------------------
+// A star with one label only has not taken a facet from an interface, nor given it one with a free vertex:
+// the thesis' rejection of points that eliminate legal facets.
+Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
+{
+  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
+  const double clearance = SliverSpacing *
+    std::min(this->Context.Settings.Delta, this->Context.Size(t.Ball.Center, t.Label));
+  PseudoRandom<3> random(options.Seed, t.Ball.Center);
+  BetterStar judge(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
+  return InsertPick(
+    this->Worker.Statistics, options.Picks, judge,
+    [&](Point<3>& p)
+    {
+      p = random.InBall(t.Ball.Center, options.PickingRadius * t.Radius);
+      return true;
+    },
+    [&](const Point<3>& p)
+    {
+      const Verdict inserted = this->CountOutcome(this->Context.Mesh.Insert(this->Worker.Kernel, p,
+                                                    VertexKind::Free, t.Id, clearance, &judge),
+        this->Worker.Statistics.SliversSplit);
+      if (inserted == Verdict::Changed)
+      {
+        this->ScreenCreated();
+      }
+      return inserted;
+    });
+}
+
+//------------------------------------------------------------------------------------------------
+// Near an interface: a point of it instead, in the picking region of a restricted facet nearby.
+Verdict Rules3D::SampleAtSliver(const Element& t, double tolerance)
+{
+  Triangulation<3>& mesh = this->Context.Mesh;
+  const Triangulation<3>::Simplex simplex = mesh.GetSimplex(t.Id);
+  Verdict verdict = this->SampleFacetsOf(t.Id, t, tolerance);
+  for (unsigned i = 0; i < 4 && verdict == Verdict::Good; ++i)
+  {
+    const SimplexId n = simplex.N[i];
+    if (n == None || this->LabelOf(n) != t.Label)
+    {
+      continue;
+    }
+    for (const VertexId v : mesh.GetSimplex(n).V) // so that its neighbours may be looked at
+    {
+      if (!mesh.TryLock(this->Worker.Kernel, v))
+      {
+        return Verdict::Contended;
+      }
+    }
+    verdict = this->SampleFacetsOf(n, t, tolerance);
+  }
+  return verdict;
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
+{
+  const Triangulation<3>& mesh = this->Context.Mesh;
+  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
+  const Triangulation<3>::Simplex simplex = mesh.GetSimplex(s);
+  const Point<3> centre = mesh.GetCircumball(s).Center;
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    const SimplexId n = simplex.N[i];
+    Point<3> z;
+    if (n == None || this->LabelOf(n) == t.Label ||
+      !this->Context.Image.FirstCrossing(centre, t.Label, mesh.GetCircumball(n).Center, z))
+    {
+      continue;
+    }
+    const double delta = this->Context.Delta(z, t.Label, this->LabelOf(n));
+    const double clearance = SliverSpacing * delta;
+    const double radius = Distance(z, mesh.Position(simplex.V[(i + 1) % 4]));
+    PseudoRandom<3> random(options.Seed, z);
+    BetterStar judge(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
+    const Verdict verdict = InsertPick(
+      this->Worker.Statistics, options.Picks, judge,
+      [&](Point<3>& p)
+      {
+        const Point<3> q = random.InBall(z, options.PickingRadius * radius);
+        ++this->Worker.Statistics.ClosestSurfacePointCalls;
+        return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p);
+      },
+      [&](const Point<3>& p)
+      {
+        return this->Context.Features.AnyWithin(p, clearance)
+          ? Verdict::Good
+          : this->InsertFeature(
+              p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &judge);
+      });
+    if (verdict != Verdict::Good)
+    {
+      return verdict;
+    }
+  }
+  return Verdict::Good;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -3,63 +3,13 @@
 #include "Refinement/Rules4D.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Refinement/PickingRegion.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace voxplex
 {
-
-namespace
-{
-
-/** Numbers that depend on a seed and a place only, whichever thread asks (splitmix64). */
-class PseudoRandom
-{
-public:
-  PseudoRandom(std::uint64_t seed, const Point<4>& place)
-    : State(seed)
-  {
-    for (const double x : place)
-    {
-      this->State = this->Next() ^ std::bit_cast<std::uint64_t>(x);
-    }
-  }
-  Point<4> InBall(const Point<4>& centre, double radius)
-  {
-    for (;;)
-    {
-      Point<4> p;
-      for (double& x : p)
-      {
-        x = static_cast<double>(this->Next() >> 11) * 0x1p-52 - 1.0;
-      }
-      if (Dot(p, p) > 1.0)
-      {
-        continue;
-      }
-      for (std::size_t a = 0; a < 4; ++a)
-      {
-        p[a] = centre[a] + radius * p[a];
-      }
-      return p;
-    }
-  }
-
-private:
-  std::uint64_t Next()
-  {
-    std::uint64_t z = this->State += 0x9e3779b97f4a7c15ull;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
-
-  std::uint64_t State;
-};
-
-} // namespace
 
 //------------------------------------------------------------------------------------------------
 bool Rules4D::MayBePoor(SimplexId s)
@@ -151,6 +101,7 @@ public:
   Point<4> Candidate;
   Point<4> Best{};
   double BestVolume = -1.0; ///< smallest normalized volume that the best point makes
+  bool HasBest = false;
   bool AcceptAll = false;
 
   bool Accepts(const Triangulation<4>::Worker& worker) override
@@ -183,6 +134,7 @@ public:
     {
       this->BestVolume = smallest;
       this->Best = this->Candidate;
+      this->HasBest = true;
     }
     return smallest >= this->Bound;
   }
@@ -194,33 +146,6 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-// The centre first, then random points of the picking region; if none is good, the best of them.
-template <typename Draw, typename Insert>
-Verdict Rules4D::InsertPick(BestPick& judge, Draw&& draw, Insert&& insert)
-{
-  const unsigned picks = this->Context.Settings.Slivers.Picks;
-  for (unsigned pick = 0; pick < picks; ++pick)
-  {
-    if (pick > 0 && !draw(judge.Candidate))
-    {
-      continue;
-    }
-    ++this->Worker.Statistics.PicksTried;
-    const Verdict verdict = insert(judge.Candidate);
-    if (verdict != Verdict::Good)
-    {
-      return verdict;
-    }
-  }
-  if (judge.BestVolume < 0.0)
-  {
-    return Verdict::Good;
-  }
-  judge.AcceptAll = true;
-  return insert(judge.Best);
-}
-
-//------------------------------------------------------------------------------------------------
 Verdict Rules4D::R4(const Element& s)
 {
   RuleStatistics& statistics = this->Worker.Statistics;
@@ -228,10 +153,10 @@ Verdict Rules4D::R4(const Element& s)
   ++statistics.SliversFound;
   const double clearance = SliverSpacing *
     std::min(this->Context.Settings.Delta, this->Context.Size(s.Ball.Center, s.Label));
-  PseudoRandom random(options.Seed, s.Ball.Center);
+  PseudoRandom<4> random(options.Seed, s.Ball.Center);
   BestPick judge(this->Context, s.Radius, s.Ball.Center);
-  const Verdict verdict = this->InsertPick(
-    judge,
+  const Verdict verdict = InsertPick(
+    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, judge,
     [&](Point<4>& p)
     {
       p = random.InBall(s.Ball.Center, options.PickingRadius * s.Radius);
@@ -321,10 +246,10 @@ Verdict Rules4D::InsertFeaturePick(
   const auto shared = std::find_if(
     v.begin(), v.end(), [&w](VertexId x) { return std::find(w.begin(), w.end(), x) != w.end(); });
   const double radius = Distance(z, mesh.Position(*shared));
-  PseudoRandom random(options.Seed, z);
+  PseudoRandom<4> random(options.Seed, z);
   BestPick judge(this->Context, radius, z);
-  return this->InsertPick(
-    judge,
+  return InsertPick(
+    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, judge,
     [&](Point<4>& p)
     {
       Point<4> onEnd;

@@ -76,8 +76,6 @@ private:
   Verdict InsertFeatureAt(
     const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther);
   Verdict InsertFeaturePick(const Point<4>& z, double delta, const Element& s, SimplexId other);
-  template <typename Draw, typename Insert>
-  Verdict InsertPick(BestPick& judge, Draw&& draw, Insert&& insert);
   bool FacetIsGood(const std::array<VertexId, 5>& v, unsigned facet) const;
 };
 

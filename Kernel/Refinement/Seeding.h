@@ -25,7 +25,8 @@ namespace voxplex
  * @param number about how many nodes; fewer where these would be nearer than a few delta; 0 for none
  */
 template <int D>
-std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std::size_t number)
+std::vector<FeatureSeed<D>> SampleInterfaces(
+  const RefinementContext<D>& context, std::size_t number)
 {
   if (number == 0)
   {
@@ -48,7 +49,7 @@ std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std:
       std::max<std::size_t>(1, static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) / spacing));
     count *= nodes[a];
   }
-  std::vector<Point<D>> sample;
+  std::vector<FeatureSeed<D>> sample;
   for (std::size_t k = 0; k < count; ++k)
   {
     Point<D> p;
@@ -66,55 +67,62 @@ std::vector<Point<D>> SampleInterfaces(const RefinementContext<D>& context, std:
       context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z) &&
       !context.IsNearEnd(z, context.Settings.Delta, onEnd))
     {
-      sample.push_back(z);
+      sample.push_back({ z, context.Settings.Delta });
     }
   }
   return sample;
 }
 
+/** The living simplex with the smallest id. */
+template <int D>
+SimplexId FirstLiving(const Triangulation<D>& mesh)
+{
+  SimplexId s = 0;
+  while (!mesh.IsAlive(s))
+  {
+    ++s;
+  }
+  return s;
+}
+
 /**
- * Inserts a sample of the interfaces and lists all living simplices so that neighbours in the list are
+ * Inserts a sample of the interfaces and the seeds that are asked for, and lists all living simplices so that neighbours in the list are
  * near each other in space: consecutive pieces of it are good starts for threads.
  *
  * The thesis starts all threads from the few simplices of the box and loses its first seconds to
  * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
  * of their own. The points are counted as insertions by R1.
  *
- * @param worker inserts; nobody else may operate meanwhile
+ * @param Rules as in Refiner
+ * @param worker inserts; nobody else may operate meanwhile. Its list of poor elements is empty afterwards.
+ * @param seeds to be inserted besides
  * @param nodes about how many points the sample has, 0 for none
  */
-template <int D>
-std::vector<SimplexId> SeedTriangulation(
-  RefinementContext<D>& context, RefinementWorker<D>& worker, std::size_t nodes)
+template <typename Rules, int D = Rules::Dimension>
+std::vector<SimplexId> SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
+  const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
 {
   Triangulation<D>& mesh = context.Mesh;
-  std::vector<std::pair<std::uint64_t, Point<D>>> sample;
-  for (const Point<D>& z : SampleInterfaces(context, nodes))
+  std::vector<FeatureSeed<D>> sample = SampleInterfaces(context, nodes);
+  sample.insert(sample.end(), seeds.begin(), seeds.end());
+  std::vector<std::pair<std::uint64_t, std::size_t>> along;
+  for (std::size_t i = 0; i < sample.size(); ++i)
   {
-    sample.push_back({ HilbertIndex<D>(z, mesh.GetBox()), z });
+    along.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(sample[i].Position), mesh.GetBox()), i });
   }
-  std::sort(sample.begin(), sample.end());
-  SimplexId near = 0;
-  while (!mesh.IsAlive(near))
+  std::sort(along.begin(), along.end());
+  SimplexId near = FirstLiving(mesh);
+  Rules rules(context, worker);
+  for (const auto& [index, i] : along)
   {
-    ++near;
-  }
-  for (const auto& [index, z] : sample)
-  {
-    if (context.Features.AnyWithin(z, context.Settings.Delta))
-    {
-      continue;
-    }
-    const SimplexId seed = mesh.FindConflict(worker.Kernel, z, near);
-    if (seed != None &&
-      mesh.Insert(worker.Kernel, z, VertexKind::Feature, seed) == InsertionOutcome::Inserted)
-    {
-      context.Features.Add(z);
-      ++worker.Statistics.Fired[0];
-      near = worker.Kernel.Created[0];
-    }
+    rules.InsertSeed(sample[i], near);
+    near = mesh.IsAlive(near) ? near : FirstLiving(mesh);
   }
   mesh.Unlock(worker.Kernel);
+  while (!worker.Poor.Empty()) // everything is screened again, in the order of the list
+  {
+    worker.Poor.Pop();
+  }
 
   std::vector<std::pair<std::uint64_t, SimplexId>> order;
   for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)

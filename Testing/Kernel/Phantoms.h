@@ -16,8 +16,7 @@ namespace voxplex::phantoms
 
 /** A label image whose voxels have the label that a function gives their centre. */
 inline LabelImage<3> Make(const GridGeometry<3>& grid,
-  const std::function<std::int16_t(const Point<3>&)>& label,
-  std::span<const std::int64_t> keep = {})
+  const std::function<std::int16_t(const Point<3>&)>& label, const LabelSelection& selection = {})
 {
   const auto& n = grid.Dimensions;
   std::vector<std::int16_t> scalars;
@@ -32,7 +31,7 @@ inline LabelImage<3> Make(const GridGeometry<3>& grid,
       }
     }
   }
-  return LabelImage<3>::FromScalars<std::int16_t>(scalars, grid, keep);
+  return LabelImage<3>::FromScalars<std::int16_t>(scalars, grid, selection);
 }
 
 inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)

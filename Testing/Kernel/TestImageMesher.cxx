@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "Image/LabelField.h"
 #include "ImageMesher.h"
+#include "Mesh/MeshQuality.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
 
@@ -189,6 +190,33 @@ TEST(ImageMesher, TouchingLabelsShareTheirInterface)
   EXPECT_NEAR(area, 16.0 * 16.0, 0.08 * 16.0 * 16.0);
 }
 
+TEST(ImageMesher, SliversAreSplit)
+{
+  const std::array<LabelImage<3>, 3> images{ phantoms::NestedBalls(18.0),
+    phantoms::TouchingLabels(16), phantoms::Torus(16.0, 6.0) };
+  for (const LabelImage<3>& image : images)
+  {
+    MeshingOptions<3> options;
+    options.Delta = 1.0;
+    options.TetSlivers.Angle = 0.0;
+    const SimplexMesh<3> with = Mesh(image, options);
+    options.TetSlivers.Angle = 9.0;
+    for (const unsigned threads : { 1u, 4u })
+    {
+      options.Threads = threads;
+      const SimplexMesh<3> without = Mesh(image, options);
+      ExpectGood(without, &image == &images[1] ? 0.0 : 30.0);
+      const MeshQuality before = MeasureQuality<3>(with, 2.0, 30.0, 1);
+      const MeshQuality after = MeasureQuality<3>(without, 2.0, 30.0, 1);
+      EXPECT_LT(before.MinimumDihedralAngle, 3.0) << "no test";
+      EXPECT_GT(after.MinimumDihedralAngle, 4.6);
+      EXPECT_LT(after.MaximumDihedralAngle, 171.0);
+      EXPECT_LT(without.Simplices.size(), 1.3 * static_cast<double>(with.Simplices.size()));
+      EXPECT_NEAR(MeshVolume(without), MeshVolume(with), 0.01 * MeshVolume(with));
+    }
+  }
+}
+
 TEST(ImageMesher, SheetOneVoxelThickSurvives)
 {
   const LabelImage<3> image = phantoms::Sheet(20);
@@ -336,7 +364,8 @@ TEST(ImageMesher, DefaultDeltaFollowsTheSpacing)
   mesher.Run(phantoms::Ball(3.0, 0.5), mesh);
   EXPECT_DOUBLE_EQ(mesher.Statistics().Delta, 1.0);
   EXPECT_DOUBLE_EQ(
-    DefaultDelta<3>(GridGeometry<3>::Orthogonal({ 2, 2, 2 }, { 0.5, 1.0, 2.0 })), 2.0);
+    DefaultDelta<3>(GridGeometry<3>::Orthogonal({ 2, 2, 2 }, { 0.5, 1.0, 2.0 }).VoxelVolume()),
+    2.0);
 }
 
 TEST(ImageMesher, BadOptionsSaySo)

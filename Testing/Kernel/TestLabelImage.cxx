@@ -26,9 +26,9 @@ GridGeometry<3> Grid(std::int64_t x, std::int64_t y, std::int64_t z)
 
 template <typename T, int D = 3>
 LabelImage<D> Read(const std::vector<T>& scalars, const GridGeometry<D>& grid,
-  const std::vector<std::int64_t>& keep = {}, unsigned threads = 1)
+  const LabelSelection& selection = {}, unsigned threads = 1)
 {
-  return LabelImage<D>::template FromScalars<T>(scalars, grid, keep, threads);
+  return LabelImage<D>::template FromScalars<T>(scalars, grid, selection, threads);
 }
 
 /** Expects an InputError whose text contains all of these. */
@@ -152,17 +152,37 @@ TEST(LabelImage, KeepsTheLargestValues)
 
 TEST(LabelImage, KeptLabels)
 {
-  const LabelImage<3> image = Read<short>(Small<short>(3), Grid(4, 3, 2), { 7, 7 });
+  const LabelImage<3> image = Read<short>(Small<short>(3), Grid(4, 3, 2), { { 7, 7 }, {} });
   EXPECT_EQ(image.NumberOfLabels(), 1);
   EXPECT_EQ(image.Values()[1], 7);
   EXPECT_EQ(image.CropOrigin(), (LabelImage<3>::Index{ 1, 1, 0 }));
   EXPECT_EQ(image.Ids().size(), 1u);
   ExpectInputError(
     [] {
-      Read<short>(Small<short>(3), Grid(4, 3, 2), { 7, 8 });
+      Read<short>(Small<short>(3), Grid(4, 3, 2), { { 7, 8 }, {} });
     },
     { "Label 8 ", "does not occur", "3, 7" });
-  ExpectInputError([] { Read<short>(Small<short>(3), Grid(4, 3, 2), { 0 }); }, { "Label 0 " });
+  ExpectInputError(
+    [] {
+      Read<short>(Small<short>(3), Grid(4, 3, 2), { { 0 }, {} });
+    },
+    { "Label 0 " });
+}
+
+TEST(LabelImage, ExcludedLabels)
+{
+  const LabelImage<3> image = Read<short>(Small<short>(3), Grid(4, 3, 2), { {}, { 3, 3 } });
+  EXPECT_EQ(image.NumberOfLabels(), 1);
+  EXPECT_EQ(image.Values()[1], 7);
+  EXPECT_EQ(image.CropOrigin(), (LabelImage<3>::Index{ 1, 1, 0 }));
+  EXPECT_EQ(Read<short>(Small<short>(3), Grid(4, 3, 2), { { 3, 7 }, { 7 } }).Values()[1], 3);
+  const auto expectError = [](
+                             const LabelSelection& selection, const std::vector<std::string>& parts)
+  { ExpectInputError([&] { Read<short>(Small<short>(3), Grid(4, 3, 2), selection); }, parts); };
+  expectError({ {}, { 8 } }, { "Label 8 ", "excluded", "does not occur", "3, 7", "to exclude" });
+  expectError({ {}, { 0 } }, { "Label 0 ", "excluded", "background" });
+  expectError({ {}, { 3, 7 } }, { "All labels", "excluded" });
+  expectError({ { 3 }, { 3 } }, { "All labels", "excluded" });
 }
 
 TEST(LabelImage, RejectsBadGrids)

@@ -135,7 +135,8 @@ TEST(ParallelMeshing, AnyNumberOfThreadsMakesAsGoodAMesh)
       {
         fired += f;
       }
-      EXPECT_EQ(insertions, fired);
+      EXPECT_EQ(
+        insertions, fired + statistics.Rules.SliversSplit + statistics.Rules.SliversSampled);
       if (threads == 1)
       {
         expected = volumes;
@@ -152,7 +153,7 @@ TEST(ParallelMeshing, AnyNumberOfThreadsMakesAsGoodAMesh)
         EXPECT_NEAR(volumes.at(label), volume, c.VolumeTolerance * volume) << "label " << label;
       }
       EXPECT_NEAR(static_cast<double>(mesh.Simplices.size()), static_cast<double>(simplices),
-        0.15 * static_cast<double>(simplices));
+        100.0 + 0.15 * static_cast<double>(simplices)); // small meshes vary with every sliver
     }
   }
 }

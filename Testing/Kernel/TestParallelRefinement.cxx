@@ -185,15 +185,16 @@ void ExpectConsistentStatistics(
       EXPECT_LT(seconds, 600.0);
     }
   }
-  EXPECT_EQ(
-    insertions, std::accumulate(rules.Fired.begin(), rules.Fired.end(), std::uint64_t{ 0 }));
+  EXPECT_EQ(insertions,
+    std::accumulate(rules.Fired.begin(), rules.Fired.end(), std::uint64_t{ 0 }) +
+      rules.SliversSplit + rules.SliversSampled);
   EXPECT_EQ(removals, rules.Removed);
-  // R1 and R3 insert feature points, the other rules free ones, or some on the box.
+  // R1 and R3 insert feature points, R7 either kind, the other rules free ones, or some on the box.
   const std::uint64_t features = CountVertices(context.Mesh, { VertexKind::Feature });
   EXPECT_EQ(features, context.Features.Size());
-  EXPECT_EQ(features, rules.Fired[0] + rules.Fired[2]);
+  EXPECT_EQ(features, rules.Fired[0] + rules.Fired[2] + rules.SliversSampled);
   EXPECT_EQ(CountVertices(context.Mesh, { VertexKind::Free, VertexKind::Box }),
-    8 + rules.Fired[1] + rules.Fired[3] + rules.Fired[4] - rules.Removed);
+    8 + rules.Fired[1] + rules.Fired[3] + rules.Fired[4] + rules.SliversSplit - rules.Removed);
   EXPECT_EQ(CountVertices(context.Mesh, { VertexKind::Box }), 8 + rules.Projected);
   EXPECT_GE(rules.Created, CountSimplices(context.Mesh) - 6);
   EXPECT_GE(rules.Evaluated, insertions);

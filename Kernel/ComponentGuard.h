@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ComponentGuard.h
+ * @brief Sees to it that no connected component of the image is missing from the mesh.
+ */
+#ifndef voxplex_ComponentGuard_h
+#define voxplex_ComponentGuard_h
+
+#include "Image/Components.h"
+#include "Image/Domain.h"
+#include "Image/LocalDelta.h"
+#include "Mesh/SimplexMesh.h"
+#include "Refinement/FeatureSeed.h"
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Chooses where to sample more finely so that every component gets elements, and tells which got
+ * none.
+ *
+ * An interface that is sampled with delta cannot show what is much thinner than delta: a Delaunay mesh of
+ * too few points joins what lies on both sides. The mean thickness of a component is taken from the ratio
+ * of its volume to its surface, which is a third of it for a ball or cube and half of it for a sheet or a
+ * rod. Where that is small beside delta, its surroundings get a smaller delta (LocalDelta), and points on
+ * all of its faces are inserted before refinement (FeatureSeed), since R1 looks only at the interface
+ * closest to a circumcentre and may never see a small component. If a component has no element all the
+ * same, FindLost() says so, and SampleFiner() halves its delta.
+ *
+ * Beyond the thesis, which samples uniformly or by the local feature size and gives no guarantee for
+ * objects that are small beside delta.
+ */
+template <int D>
+class ComponentGuard
+{
+public:
+  /**
+   * @param image, domain must live as long as this
+   * @param delta the sampling density elsewhere
+   * @param fewestVoxels smaller components are not looked after
+   * @param threads 0 means all cores; results do not depend on it
+   * @throws Cancelled if a stop was requested before the end
+   */
+  ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain, double delta,
+    std::int64_t fewestVoxels, unsigned threads, const std::stop_token& stop);
+
+  /** Where to sample more finely; SampleFiner() changes it. */
+  const LocalDelta<D>& GetLocalDelta() const { return this->Local; }
+
+  /** What has been decided to insert so far, in the order of components. */
+  const std::vector<FeatureSeed<D>>& GetSeeds() const { return this->Seeds; }
+
+  /** Components with no element of their label within a voxel of them, in increasing order. */
+  std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
+
+  /**
+   * Halves delta near these components, and adds their seeds.
+   * @return false if none of them can be sampled more finely
+   */
+  bool SampleFiner(const std::vector<std::uint32_t>& lost);
+
+  const Components<D>& GetComponents() const { return this->All; }
+
+private:
+  using Index = typename GridGeometry<D>::Index;
+
+  void Sample(std::uint32_t component, double delta);
+  Point<D> CentreOf(const Index& voxel) const;
+
+  const LabelImage<D>& Image;
+  const Domain<D>& Surfaces;
+  Components<D> All;
+  std::vector<double> Delta; ///< by component
+  double FinestDelta;        ///< no component is sampled more finely
+  std::int64_t FewestVoxels;
+  unsigned Threads;
+  std::stop_token Stop;
+  LocalDelta<D> Local;
+  std::vector<FeatureSeed<D>> Seeds;
+};
+
+extern template class ComponentGuard<3>;
+extern template class ComponentGuard<4>;
+
+} // namespace voxplex
+
+#endif

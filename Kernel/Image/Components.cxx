@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/Components.h"
+
+#include "Error.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Areas of a voxel's faces across each axis. */
+template <int D>
+Point<D> FaceAreas(const GridGeometry<D>& grid)
+{
+  // The rows of the inverse of IndexToFrame have the length of 1 / height.
+  Point<D> areas{};
+  Point<D> squares{};
+  for (std::size_t column = 0; column < D; ++column)
+  {
+    Point<D> unit{};
+    unit[column] = 1.0;
+    const Point<D> x = grid.ToIndex(unit);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      squares[a] += x[a] * x[a];
+    }
+  }
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    areas[a] = grid.VoxelVolume() * std::sqrt(squares[a]);
+  }
+  return areas;
+}
+
+/** Disjoint sets of runs; the root of a set is its smallest member. */
+class DisjointSets
+{
+public:
+  explicit DisjointSets(std::size_t size)
+    : Parent(size)
+  {
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      this->Parent[i] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  std::uint32_t Find(std::uint32_t i)
+  {
+    while (this->Parent[i] != i)
+    {
+      this->Parent[i] = this->Parent[this->Parent[i]];
+      i = this->Parent[i];
+    }
+    return i;
+  }
+
+  void Join(std::uint32_t i, std::uint32_t j)
+  {
+    i = this->Find(i);
+    j = this->Find(j);
+    this->Parent[std::max(i, j)] = std::min(i, j);
+  }
+
+private:
+  std::vector<std::uint32_t> Parent;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::size_t Components<D>::RowOf(const Index& voxel) const
+{
+  std::size_t row = 0;
+  for (std::size_t a = D; a-- > 1;)
+  {
+    row = row * static_cast<std::size_t>(this->Dimensions[a]) + static_cast<std::size_t>(voxel[a]);
+  }
+  return row;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+auto Components<D>::RunIndex(std::size_t run) const -> Index
+{
+  const auto after = std::upper_bound(
+    this->FirstOfRow.begin(), this->FirstOfRow.end(), static_cast<std::uint32_t>(run));
+  std::int64_t row = after - this->FirstOfRow.begin() - 1;
+  Index index{};
+  index[0] = this->Runs[run].Start;
+  for (std::size_t a = 1; a < D; ++a)
+  {
+    index[a] = row % this->Dimensions[a];
+    row /= this->Dimensions[a];
+  }
+  return index;
+}
+
+//------------------------------------------------------------------------------------------------
+// Every row has a run that starts at 0, so the next run ends this one or belongs to the next row.
+template <int D>
+std::uint32_t Components<D>::RunEnd(std::size_t run) const
+{
+  const std::uint32_t next = run + 1 < this->Runs.size() ? this->Runs[run + 1].Start : 0;
+  return next != 0 ? next : static_cast<std::uint32_t>(this->Dimensions[0]);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::uint32_t Components<D>::At(const Index& voxel) const
+{
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    if (voxel[a] < 0 || voxel[a] >= this->Dimensions[a])
+    {
+      return None;
+    }
+  }
+  const std::size_t row = this->RowOf(voxel);
+  const auto begin = this->Runs.begin() + this->FirstOfRow[row];
+  const auto end = this->Runs.begin() + this->FirstOfRow[row + 1];
+  const auto after = std::upper_bound(begin, end, static_cast<std::uint32_t>(voxel[0]),
+    [](std::uint32_t x, const Run& run) { return x < run.Start; });
+  return (after - 1)->Component;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Components<D>::Components(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+  : Dimensions(image.CropDimensions())
+{
+  const LabelId* ids = image.Ids().data();
+  const auto length = static_cast<std::size_t>(this->Dimensions[0]);
+  std::size_t rows = 1;
+  for (std::size_t a = 1; a < D; ++a)
+  {
+    rows *= static_cast<std::size_t>(this->Dimensions[a]);
+  }
+  constexpr std::size_t RowsAtOnce = 256;
+
+  this->FirstOfRow.resize(rows + 1, 0);
+  ParallelFor(
+    0, rows, RowsAtOnce, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        const LabelId* v = ids + row * length;
+        std::uint32_t changes = 0;
+        for (std::size_t i = 1; i < length; ++i)
+        {
+          changes += v[i] != v[i - 1] ? 1 : 0;
+        }
+        this->FirstOfRow[row + 1] = changes + 1;
+      }
+    },
+    stop);
+  std::uint64_t total = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    total += this->FirstOfRow[row + 1];
+    if (total >= None)
+    {
+      throw InputError("the image has too many runs of one label to tell its components apart");
+    }
+    this->FirstOfRow[row + 1] = static_cast<std::uint32_t>(total);
+  }
+  this->Runs.resize(total);
+  std::vector<LabelId> labels(total);
+  ParallelFor(
+    0, rows, RowsAtOnce, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        const LabelId* v = ids + row * length;
+        std::uint32_t run = this->FirstOfRow[row];
+        for (std::size_t i = 0; i < length; ++i)
+        {
+          if (i == 0 || v[i] != v[i - 1])
+          {
+            this->Runs[run] = { static_cast<std::uint32_t>(i), None };
+            labels[run++] = v[i];
+          }
+        }
+      }
+    },
+    stop);
+
+  // Runs of neighbouring rows that overlap and have one label belong together. Slabs of rows are joined
+  // in themselves first, each by one thread: no set reaches beyond its slab then.
+  DisjointSets sets(total);
+  const Point<D> areas = FaceAreas(image.Grid());
+  std::vector<double> surface(total); // by run
+  const auto joinRows = [&](std::size_t row, std::size_t stride, double area)
+  {
+    std::uint32_t a = this->FirstOfRow[row - stride];
+    std::uint32_t b = this->FirstOfRow[row];
+    const std::uint32_t endOfA = this->FirstOfRow[row - stride + 1];
+    const std::uint32_t endOfB = this->FirstOfRow[row + 1];
+    while (a < endOfA && b < endOfB)
+    {
+      const std::uint32_t stopA = this->RunEnd(a);
+      const std::uint32_t stopB = this->RunEnd(b);
+      if (labels[a] == labels[b] && labels[a] != 0)
+      {
+        const std::uint32_t from = std::max(this->Runs[a].Start, this->Runs[b].Start);
+        surface[b] -= 2.0 * area * static_cast<double>(std::min(stopA, stopB) - from);
+        sets.Join(a, b);
+      }
+      a += stopA <= stopB ? 1 : 0;
+      b += stopB <= stopA ? 1 : 0;
+    }
+  };
+  const auto joinAxes = [&](std::size_t row, std::size_t firstRowOfSlab, bool within)
+  {
+    std::size_t stride = 1;
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Dimensions[a]);
+      if (row / stride % n != 0 && (row - stride >= firstRowOfSlab) == within)
+      {
+        joinRows(row, stride, areas[a]);
+      }
+      stride *= n;
+    }
+  };
+  const std::size_t slab =
+    std::max<std::size_t>(RowsAtOnce, (rows - 1) / std::max(1u, 4 * NumberOfThreads(threads)) + 1);
+  ParallelFor(
+    0, rows, slab, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        double faces = 2.0 * areas[0]; // at both ends of a run
+        for (std::uint32_t r = this->FirstOfRow[row]; r < this->FirstOfRow[row + 1]; ++r)
+        {
+          const double voxels = this->RunEnd(r) - this->Runs[r].Start;
+          surface[r] = faces;
+          for (std::size_t a = 1; a < D; ++a)
+          {
+            surface[r] += 2.0 * areas[a] * voxels;
+          }
+        }
+        joinAxes(row, begin, true);
+      }
+    },
+    stop);
+  for (std::size_t begin = 0; begin < rows; begin += slab)
+  {
+    for (std::size_t row = begin; row < std::min(rows, begin + slab); ++row)
+    {
+      joinAxes(row, begin, false);
+    }
+  }
+
+  this->NextRun.assign(total, NoRun);
+  std::vector<std::uint32_t> lastRun;
+  for (std::uint32_t r = 0; r < total; ++r)
+  {
+    if (labels[r] == 0)
+    {
+      continue;
+    }
+    const std::uint32_t root = sets.Find(r);
+    if (root == r)
+    {
+      this->Runs[r].Component = static_cast<std::uint32_t>(this->List.size());
+      this->List.push_back({ labels[r], 0, 0.0, {} });
+      this->FirstRun.push_back(r);
+      lastRun.push_back(r);
+    }
+    else
+    {
+      this->Runs[r].Component = this->Runs[root].Component;
+      this->NextRun[lastRun[this->Runs[r].Component]] = r;
+      lastRun[this->Runs[r].Component] = r;
+    }
+    Component<D>& component = this->List[this->Runs[r].Component];
+    component.Voxels += this->RunEnd(r) - this->Runs[r].Start;
+    component.Surface += surface[r];
+  }
+  for (std::size_t c = 0; c < this->List.size(); ++c)
+  {
+    this->List[c].First = this->RunIndex(this->FirstRun[c]);
+  }
+}
+
+template class Components<3>;
+template class Components<4>;
+
+} // namespace voxplex

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LocalDelta.h
+ * @brief Where interfaces are to be sampled more finely than elsewhere.
+ */
+#ifndef voxplex_LocalDelta_h
+#define voxplex_LocalDelta_h
+
+#include "Image/LabelImage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief An upper bound of the sampling density of one label's interfaces in each cell of a few voxels;
+ * infinite at first.
+ *
+ * A query is one look-up. The memory is taken when the first bound is set: 1/8 byte a voxel in 3D. Where
+ * two labels have a bound in one cell the smaller one counts.
+ * Queries may run in any number of threads; SetBound() must not run beside anything else.
+ */
+template <int D>
+class LocalDelta
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** Edge of a cell in voxels. */
+  static constexpr std::int64_t Cell = 4;
+
+  explicit LocalDelta(const LabelImage<D>& image)
+    : Grid(image.Grid())
+    , Origin(image.CropOrigin())
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      this->Cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
+    }
+  }
+
+  /** A bound, and the label whose interfaces it is for. */
+  struct Bound
+  {
+    float Delta = std::numeric_limits<float>::infinity();
+    LabelId Label = 0;
+  };
+
+  /** Lowers the bound in all cells within a voxel of the run of voxels (an index of the crop). */
+  void SetBound(const Index& first, std::int64_t length, LabelId label, double delta)
+  {
+    if (this->Values.empty())
+    {
+      std::size_t count = 1;
+      for (const std::int64_t n : this->Cells)
+      {
+        count *= static_cast<std::size_t>(n);
+      }
+      this->Values.assign(count, Bound());
+    }
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const std::int64_t last = first[a] + (a == 0 ? length - 1 : 0);
+      low[a] = std::max<std::int64_t>(first[a] - 1, 0) / Cell;
+      high[a] = std::min((last + 1) / Cell, this->Cells[a] - 1);
+    }
+    for (Index cell = low; cell[D - 1] <= high[D - 1];)
+    {
+      Bound& bound = this->Values[this->Offset(cell)];
+      if (delta < bound.Delta)
+      {
+        bound = { static_cast<float>(delta), label };
+      }
+      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
+      {
+        cell[a] = low[a];
+      }
+    }
+    this->SmallestBound = std::min(this->SmallestBound, delta);
+  }
+
+  /** The bound at a point of the frame; that of the nearest cell outside of the crop. */
+  Bound At(const Point<D>& p) const
+  {
+    return this->Values.empty() ? Bound() : this->Values[this->CellOf(p)];
+  }
+
+  /**
+   * The least that any bound asks for at a point when bounds grow with the distance from where they were
+   * set, by `Slope` times the distance along the axes; as of the last Grade().
+   */
+  double GradedAt(const Point<D>& p) const
+  {
+    return this->Graded.empty() ? std::numeric_limits<double>::infinity()
+                                : this->Graded[this->CellOf(p)];
+  }
+
+  /** How much bounds grow over a unit of length. */
+  static constexpr double Slope = 0.25;
+
+  /** Prepares GradedAt(). Linear in the number of cells. */
+  void Grade()
+  {
+    this->Graded.resize(this->Values.size());
+    for (std::size_t c = 0; c < this->Values.size(); ++c)
+    {
+      this->Graded[c] = this->Values[c].Delta;
+    }
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < D && !this->Graded.empty(); ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Cells[a]);
+      const auto step = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
+      const auto spread = [&](std::size_t from, std::size_t to)
+      { this->Graded[to] = std::min(this->Graded[to], this->Graded[from] + step); };
+      for (std::size_t c = 0; c < this->Graded.size(); ++c)
+      {
+        if (c / stride % n != 0)
+        {
+          spread(c - stride, c);
+        }
+      }
+      for (std::size_t c = this->Graded.size(); c-- > 0;)
+      {
+        if (c / stride % n != n - 1)
+        {
+          spread(c + stride, c);
+        }
+      }
+      stride *= n;
+    }
+  }
+
+  /** The smallest bound that was set; infinite if none was. */
+  double Smallest() const { return this->SmallestBound; }
+
+private:
+  /** The nearest cell. */
+  std::size_t CellOf(const Point<D>& p) const
+  {
+    const Point<D> index = this->Grid.ToIndex(p);
+    Index cell;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double x = (index[a] - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
+      cell[a] =
+        static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
+    }
+    return this->Offset(cell);
+  }
+
+  std::size_t Offset(const Index& cell) const
+  {
+    std::size_t offset = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      offset =
+        offset * static_cast<std::size_t>(this->Cells[a]) + static_cast<std::size_t>(cell[a]);
+    }
+    return offset;
+  }
+
+  GridGeometry<D> Grid;
+  Index Origin;
+  Index Cells{};
+  std::vector<Bound> Values; ///< empty: no bound
+  std::vector<float> Graded; ///< the same, see GradedAt()
+  double SmallestBound = std::numeric_limits<double>::infinity();
+};
+
+} // namespace voxplex
+
+#endif
