@@ -25,6 +25,7 @@ vtk_module_add_module(VTK::Voxplex
   PRIVATE_HEADERS
     Filters/Private/ChosenArray.h
     Filters/Private/ElementSizes.h
+    Filters/Private/FrameGathering.h
     Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
     Filters/Private/MeshOutput.h

@@ -245,6 +245,16 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
 }
 
 //----------------------------------------------------------------------------------------------------
+double vtkImageToPentatopeMeshFilter::FindDefaultDelta(vtkInformationVector** inputVector)
+{
+  vtkInformation* const info = inputVector[0]->GetInformationObject(0);
+  const std::vector<double> times = TimeStepsOf(info);
+  const double step = times.size() < 2
+    ? this->TimeSpacing
+    : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  return voxplex::DefaultDelta<4>(voxplex::FindVoxelVolume(info) * step * this->TimeScale);
+}
+
 void vtkImageToPentatopeMeshFilter::CheckParameters() const
 {
   using voxplex::CheckRange;

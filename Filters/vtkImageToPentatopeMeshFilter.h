@@ -224,6 +224,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
 #ifndef __VTK_WRAP__
+  double FindDefaultDelta(vtkInformationVector** inputVector) override;
   void CheckParameters() const override;
   bool Gather(vtkInformation* request, vtkInformationVector** inputVector) override;
   void Mesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector) override;

@@ -83,6 +83,17 @@ std::string ListLabels(std::span<const std::int64_t> labels)
   return text;
 }
 
+std::string Describe(const ComponentReport& component)
+{
+  std::string text = std::to_string(component.Voxels) + " voxels of label " +
+    std::to_string(component.Label) + " at (";
+  for (std::size_t a = 0; a < component.Voxel.size(); ++a)
+  {
+    text += (a == 0 ? "" : ", ") + std::to_string(component.Voxel[a]);
+  }
+  return text + ")";
+}
+
 std::vector<std::int64_t> FindLostLabels(
   std::span<const std::int64_t> labels, std::span<const std::int64_t> elements)
 {
@@ -226,6 +237,85 @@ vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSelectedLabel(int index) const
 }
 
 //----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::ExcludeLabel(vtkTypeInt64 label)
+{
+  if (this->Private->ExcludedLabels.insert(label).second)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::RemoveExcludedLabel(vtkTypeInt64 label)
+{
+  if (this->Private->ExcludedLabels.erase(label) > 0)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::RemoveAllExcludedLabels()
+{
+  if (!this->Private->ExcludedLabels.empty())
+  {
+    this->Private->ExcludedLabels.clear();
+    this->Modified();
+  }
+}
+
+int vtkImageToSimplexMeshFilter::GetNumberOfExcludedLabels() const
+{
+  return static_cast<int>(this->Private->ExcludedLabels.size());
+}
+
+vtkTypeInt64 vtkImageToSimplexMeshFilter::GetExcludedLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfExcludedLabels()
+    ? *std::next(this->Private->ExcludedLabels.begin(), index)
+    : 0;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::SetLabelRow(vtkTypeInt64 label, double size, bool meshed)
+{
+  if (meshed)
+  {
+    this->RemoveExcludedLabel(label);
+  }
+  else
+  {
+    this->ExcludeLabel(label);
+  }
+  if (meshed && size != 0.0)
+  {
+    this->SetLabelSize(label, size);
+  }
+  else
+  {
+    this->RemoveLabelSize(label);
+  }
+}
+
+void vtkImageToSimplexMeshFilter::ClearLabelRows()
+{
+  this->ClearLabelSizes();
+  this->RemoveAllExcludedLabels();
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::SetInputArrayToProcess(
+  int index, int port, int connection, int association, const char* name)
+{
+  if (name && *name)
+  {
+    this->Superclass::SetInputArrayToProcess(index, port, connection, association, name);
+  }
+  else
+  {
+    this->Superclass::SetInputArrayToProcess(index, port, connection,
+      vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  }
+}
+
 void vtkImageToSimplexMeshFilter::SetElementSizeData(vtkImageData* image)
 {
   this->SetInputData(1, image);
@@ -264,8 +354,9 @@ int vtkImageToSimplexMeshFilter::FillInputPortInformation(int port, vtkInformati
 }
 
 int vtkImageToSimplexMeshFilter::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->DefaultDelta = this->FindDefaultDelta(inputVector);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
@@ -302,6 +393,13 @@ int vtkImageToSimplexMeshFilter::RequestData(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   this->ErrorMessage.clear();
   this->Aborted = false;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
+  if (!request->Get(Pipeline::CONTINUE_EXECUTING()))
+  {
+    // What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to it.
+    this->AbortExecute = 0;
+  }
+#endif
   this->Private->Statistics->Initialize();
   const auto clearOutputs = [this, outputVector]
   {
@@ -392,6 +490,15 @@ void vtkImageToSimplexMeshFilter::WarnOfDeviations()
       << "The mesh lacks these labels of the image, which are too small for a Delta of "
       << figures.Run.Delta << ": " << voxplex::ListLabels(figures.LostLabels) << ".");
   }
+  if (!figures.Run.LostComponents.empty())
+  {
+    std::string text;
+    for (const voxplex::ComponentReport& component : figures.Run.LostComponents)
+    {
+      text += (text.empty() ? "" : ", ") + voxplex::Describe(component);
+    }
+    vtkWarningMacro(<< "The mesh lacks these connected components of the image: " << text << ".");
+  }
   if (figures.Run.SwitchedToLocal)
   {
     vtkWarningMacro(<< "The threads made no progress with the contention manager '"
@@ -459,6 +566,13 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << label;
   }
   os << (this->Private->Labels.empty() ? " (all)\n" : "\n");
+  os << indent << "ExcludedLabels:";
+  for (const std::int64_t label : this->Private->ExcludedLabels)
+  {
+    os << " " << label;
+  }
+  os << (this->Private->ExcludedLabels.empty() ? " (none)\n" : "\n");
+  os << indent << "DefaultDelta: " << this->DefaultDelta << "\n";
   os << indent << "SizeFunction: " << (this->Private->SizeFunction ? "set" : "(none)") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ContentionManager: " << this->GetContentionManagerAsString() << "\n";

@@ -21,8 +21,8 @@
  * Misuse is reported with vtkErrorMacro and leaves both outputs empty: no or unsuitable scalars,
  * fractional, negative or non-finite labels, no foreground, fewer than two voxels along an axis,
  * thousands of labels (a grey-value image), spacing that is not positive and finite, a singular
- * direction matrix, parameters out of range, a label in SetLabelSize() or AddLabel() that the image
- * does not have, a mesh that is estimated not to fit in memory, one that comes out empty, and what
+ * direction matrix, parameters out of range, a label in SetLabelSize(), AddLabel() or
+ * ExcludeLabel() that the image does not have, a mesh that is estimated not to fit in memory, one that comes out empty, and what
  * the subclass adds. The executive then adds a message of its own and its Update() returns 0.
  * GetErrorMessage() keeps the reason. Labels of the image that the mesh lacks, because Delta is too
  * coarse for them, are named with vtkWarningMacro; so are sizes that were raised, and a
@@ -76,7 +76,7 @@ public:
    * The sampling density of interfaces, in physical units: the edges of surface triangles are
    * about one to two times as long. Smaller is finer: the number of elements grows about with the
    * square of 1 / Delta. 0, the default, derives it from the spacing; GetStatistics()->GetDelta()
-   * tells which was used.
+   * tells which was used. GetDefaultDelta() tells it before.
    */
   vtkSetMacro(Delta, double);
   vtkGetMacro(Delta, double);
@@ -136,6 +136,49 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Leave labels out: they become background. Together with AddLabel(), the labels that were added
+   * apart from those that were excluded are meshed. A label that does not occur in the image is an
+   * error when the filter executes; so is it if no label remains. GetExcludedLabel() returns 0 for an index
+   * out of range.
+   */
+  void ExcludeLabel(vtkTypeInt64 label);
+  void RemoveExcludedLabel(vtkTypeInt64 label);
+  void RemoveAllExcludedLabels();
+  int GetNumberOfExcludedLabels() const;
+  vtkTypeInt64 GetExcludedLabel(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * One row of a table of labels, as user interfaces have it: whether the label is meshed, and if so,
+   * the upper bound of its elements' circumradii (0 sets none). The same as SetLabelSize() or
+   * RemoveLabelSize(), and ExcludeLabel() or RemoveExcludedLabel(). ClearLabelRows() removes all sizes
+   * and excludes no label any more. Labels without a row are meshed.
+   */
+  void SetLabelRow(vtkTypeInt64 label, double size, bool meshed);
+  void ClearLabelRows();
+  ///@}
+
+  ///@{
+  /**
+   * As in vtkAlgorithm, but for an empty name, which means the default: the active point scalars, else the active cell
+   * scalars. So ParaView says it when the arrays of its input are not known yet.
+   */
+  using vtkUnstructuredGridAlgorithm::SetInputArrayToProcess;
+  void SetInputArrayToProcess(
+    int index, int port, int connection, int association, const char* name) override;
+  ///@}
+
+  /**
+   * The array of the image of element sizes: SetInputArrayToProcess(1, 1, 0, association, name).
+   */
+  void SetElementSizeArray(int association, const char* name)
+  {
+    this->SetInputArrayToProcess(1, 1, 0, association, name);
+  }
+
+  ///@{
   /** The image of element sizes (input port 1); null removes it. */
   void SetElementSizeConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetElementSizeData(vtkImageData* image);
@@ -164,6 +207,13 @@ public:
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
+
+  /**
+   * The Delta that 0 means for the present input: twice the edge of a cube (in 4D, of a hypercube) that
+   * is as large as a voxel. Known once the filter or UpdateInformation() has executed, if the input says its
+   * spacing by then; otherwise 0.
+   */
+  vtkGetMacro(DefaultDelta, double);
 
   /** Values of ContentionManager. */
   enum ContentionManagers
@@ -320,6 +370,12 @@ protected:
   virtual void Mesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector) = 0;
   ///@}
 
+  /**
+   * The default Delta for images as the pipeline describes them. It is called by RequestInformation();
+   * 0 if it is not known.
+   */
+  virtual double FindDefaultDelta(vtkInformationVector** inputVector) = 0;
+
   /** Whether a stop was asked for; GetAborted() then stays true. */
   bool StopRequested();
 
@@ -334,6 +390,7 @@ protected:
 #endif
 
   double Delta = 0.0;
+  double DefaultDelta = 0.0;
   double RadiusEdgeRatio = 2.0;
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;

@@ -38,7 +38,7 @@
  *
  * @par Parameters
  * Those of vtkImageToSimplexMeshFilter, where element sizes, errors, progress, abort, threads and
- * pieces are explained, and FacetAngle. Two more things bound element sizes: SizeImplicitFunction,
+ * pieces are explained, FacetAngle, SliverAngle, SmallestComponent and MinimumComponentVolume. Two more things bound element sizes: SizeImplicitFunction,
  * and the image at input port 1.
  *
  * @sa vtkImageToSimplexMeshFilter vtkImageToPentatopeMeshFilter vtkMeshingStatistics
@@ -71,6 +71,40 @@ public:
 
   ///@{
   /**
+   * Tetrahedra with a dihedral angle below this, or above 180 degrees less this, are slivers: they are
+   * split, or the interface near them is sampled more densely (thesis, section 2.6.2). Where no point
+   * helps, which is rare, a sliver stays (vtkMeshingStatistics::GetSliversKept()). Degrees, 0 to 60;
+   * default 9, which makes about a tenth more elements; 0 leaves slivers alone. Above 15 meshes can become
+   * very large, and the value is refused unless Force is on.
+   */
+  vtkSetMacro(SliverAngle, double);
+  vtkGetMacro(SliverAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Every connected component (through voxel faces) of a label that has at least so many voxels gets
+   * tetrahedra, however small or thin it is beside Delta: its interfaces are sampled as finely as that
+   * takes. Default 8; 1 keeps single voxels, too; 0 leaves small components to chance. What has no
+   * tetrahedron all the same is named with vtkWarningMacro and in the statistics
+   * (vtkMeshingStatistics::GetNumberOfLostComponents()).
+   */
+  vtkSetClampMacro(SmallestComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(SmallestComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Connected components with less volume than this are left out: they become what most of their
+   * faces touch. In the unit of the spacing to the third power; default 0, nothing is left out. The
+   * statistics list them (vtkMeshingStatistics::GetNumberOfDroppedComponents()).
+   */
+  vtkSetMacro(MinimumComponentVolume, double);
+  vtkGetMacro(MinimumComponentVolume, double);
+  ///@}
+
+  ///@{
+  /**
    * The value of this function at a physical point is an upper bound of circumradii there. Calls
    * are serialised, because implicit functions in general are not thread safe: with many threads an
    * image of sizes, or SetSizeFunction(), is faster.
@@ -95,11 +129,15 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
 #ifndef __VTK_WRAP__
+  double FindDefaultDelta(vtkInformationVector** inputVector) override;
   void CheckParameters() const override;
   void Mesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector) override;
 #endif
 
   double FacetAngle = 30.0;
+  double SliverAngle = 9.0;
+  int SmallestComponent = 8;
+  double MinimumComponentVolume = 0.0;
 
 private:
   vtkImageToTetMeshFilter(const vtkImageToTetMeshFilter&) = delete;

@@ -161,6 +161,21 @@ void AddQuality(JsonWriter& json, const voxplex::MeshQuality& quality)
   json.End();
 }
 
+void AddComponents(JsonWriter& json, const std::string& name,
+  const std::vector<voxplex::ComponentReport>& components)
+{
+  json.BeginList(name);
+  for (const voxplex::ComponentReport& component : components)
+  {
+    json.BeginItem();
+    json.Add("label", component.Label);
+    json.Add("voxels", component.Voxels);
+    json.Add<std::int64_t>("voxel", component.Voxel);
+    json.End();
+  }
+  json.EndList();
+}
+
 void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
 {
   json.Begin("rules");
@@ -169,6 +184,8 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
     json.Add(std::string("R").append(std::to_string(i + 1)), rules.Fired[i]);
   }
   json.Add("R6", rules.Removed);
+  json.Add("R7_split", rules.SliversSplit);
+  json.Add("R7_sampled", rules.SliversSampled);
   json.Add("size", rules.FiredBySize);
   json.Add("projected", rules.Projected);
   json.Add("refused_too_close", rules.RefusedTooClose);
@@ -179,6 +196,21 @@ void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
   json.Add("evaluated", rules.Evaluated);
   json.Add("created", rules.Created);
   json.End();
+}
+
+/** An empty report for an index out of range. */
+voxplex::ComponentReport ReportAt(const std::vector<voxplex::ComponentReport>& reports, int index)
+{
+  return index >= 0 && index < std::ssize(reports) ? reports[static_cast<std::size_t>(index)]
+                                                   : voxplex::ComponentReport{};
+}
+
+void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
+{
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    voxel[a] = a < report.Voxel.size() ? report.Voxel[a] : 0;
+  }
 }
 
 /** NaN without insertions. */
@@ -269,6 +301,9 @@ VOXPLEX_FIGURE(double, Delta, Run.Delta)
 VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
 VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components)
+VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.LostComponents.size())
+VOXPLEX_FIGURE(int, NumberOfDroppedComponents, DroppedComponents.size())
 VOXPLEX_FIGURE(bool, HasQuality, HasQuality)
 VOXPLEX_FIGURE(int, NumberOfLabels, Quality.Labels.size())
 VOXPLEX_FIGURE(double, ShortestEdge, Quality.ShortestEdge)
@@ -292,6 +327,8 @@ VOXPLEX_FIGURE(vtkTypeInt64, SliversFound, Run.Rules.SliversFound)
 VOXPLEX_FIGURE(vtkTypeInt64, PicksTried, Run.Rules.PicksTried)
 VOXPLEX_FIGURE(vtkTypeInt64, SliversKept, Run.Rules.SliversKept)
 VOXPLEX_FIGURE(vtkTypeInt64, FiredBySize, Run.Rules.FiredBySize)
+VOXPLEX_FIGURE(vtkTypeInt64, SliversSplit, Run.Rules.SliversSplit)
+VOXPLEX_FIGURE(vtkTypeInt64, SliversSampled, Run.Rules.SliversSampled)
 VOXPLEX_FIGURE(vtkTypeInt64, PointsProjected, Run.Rules.Projected)
 VOXPLEX_FIGURE(vtkTypeInt64, VerticesRemoved, Run.Rules.Removed)
 VOXPLEX_FIGURE(vtkTypeInt64, RefusedTooClose, Run.Rules.RefusedTooClose)
@@ -307,6 +344,7 @@ VOXPLEX_FIGURE(vtkTypeInt64, PredicateExactCalls, Run.Predicates.ExactCalls)
 VOXPLEX_FIGURE(vtkTypeInt64, PredicatePerturbedCalls, Run.Predicates.Perturbed)
 VOXPLEX_FIGURE(double, LabelFieldTime, Run.Times.LabelField)
 VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
+VOXPLEX_FIGURE(double, ComponentsTime, Run.Times.Components)
 VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
 VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
 VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
@@ -409,6 +447,36 @@ double vtkMeshingStatistics::GetLabelVolume(int index) const
     : 0.0;
 }
 
+vtkTypeInt64 vtkMeshingStatistics::GetLostComponentLabel(int index) const
+{
+  return ReportAt(this->Values->Run.LostComponents, index).Label;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetLostComponentVoxels(int index) const
+{
+  return ReportAt(this->Values->Run.LostComponents, index).Voxels;
+}
+
+void vtkMeshingStatistics::GetLostComponentVoxel(int index, vtkTypeInt64 voxel[3]) const
+{
+  CopyVoxel(ReportAt(this->Values->Run.LostComponents, index), voxel);
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetDroppedComponentLabel(int index) const
+{
+  return ReportAt(this->Values->DroppedComponents, index).Label;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetDroppedComponentVoxels(int index) const
+{
+  return ReportAt(this->Values->DroppedComponents, index).Voxels;
+}
+
+void vtkMeshingStatistics::GetDroppedComponentVoxel(int index, vtkTypeInt64 voxel[3]) const
+{
+  CopyVoxel(ReportAt(this->Values->DroppedComponents, index), voxel);
+}
+
 vtkTypeInt64 vtkMeshingStatistics::GetRuleFired(int rule) const
 {
   const auto& fired = this->Values->Run.Rules.Fired;
@@ -436,6 +504,9 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("estimated_elements", v.Run.EstimatedElements);
   json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
   json.Add<std::int64_t>("lost_labels", v.LostLabels);
+  json.Add("components", v.Run.Components);
+  AddComponents(json, "lost_components", v.Run.LostComponents);
+  AddComponents(json, "dropped_components", v.DroppedComponents);
   if (v.HasQuality)
   {
     AddQuality(json, v.Quality);
@@ -451,6 +522,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Begin("time");
   json.Add("label_field", v.Run.Times.LabelField);
   json.Add("distance_transform", v.Run.Times.DistanceTransform);
+  json.Add("components", v.Run.Times.Components);
   json.Add("refinement", v.Run.Times.Refinement);
   json.Add("extraction", v.Run.Times.Extraction);
   json.Add("total", v.Run.Times.Total());

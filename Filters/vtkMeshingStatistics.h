@@ -65,6 +65,26 @@ public:
   vtkTypeInt64 GetLostLabel(int index) const;
   ///@}
 
+  ///@{
+  /**
+   * Connected components (through voxel faces) of all labels; 0 if none were looked for
+   * (vtkImageToTetMeshFilter::SetSmallestComponent()). Lost ones have no element although they were
+   * looked after; dropped ones were left out on request
+   * (vtkImageToTetMeshFilter::SetMinimumComponentVolume()). Of each: the label, the number of voxels,
+   * and the index of one voxel in the image, from 0 to the dimensions less 1, in an array of three. An
+   * index out of range gives 0.
+   */
+  vtkTypeInt64 GetNumberOfComponents() const;
+  int GetNumberOfLostComponents() const;
+  vtkTypeInt64 GetLostComponentLabel(int index) const;
+  vtkTypeInt64 GetLostComponentVoxels(int index) const;
+  void GetLostComponentVoxel(int index, vtkTypeInt64 voxel[3]) const;
+  int GetNumberOfDroppedComponents() const;
+  vtkTypeInt64 GetDroppedComponentLabel(int index) const;
+  vtkTypeInt64 GetDroppedComponentVoxels(int index) const;
+  void GetDroppedComponentVoxel(int index, vtkTypeInt64 voxel[3]) const;
+  ///@}
+
   /** Whether the labels and the quality below were measured. */
   bool GetHasQuality() const;
 
@@ -127,7 +147,8 @@ public:
 
   ///@{
   /**
-   * The fight against slivers (vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers that
+   * The fight against slivers (vtkImageToTetMeshFilter::SetSliverAngle(),
+   * vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers that
    * were found, points that were tried in picking regions, slivers that stayed because no point that
    * was tried was good.
    */
@@ -141,10 +162,13 @@ public:
    * How often each rule changed the mesh, and why changes were refused. GetRuleFired(i) counts the
    * insertions by rule R_i, i = 1 ... 5; vertices removed by R6 are GetVerticesRemoved(). Insertions
    * because of element sizes are those of R5 in 3D; in 4D they are counted apart, by
-   * GetFiredBySize().
+   * GetFiredBySize(). R7 of 3D inserts free points (GetSliversSplit()) or some of an interface
+   * (GetSliversSampled()).
    */
   vtkTypeInt64 GetRuleFired(int rule) const;
   vtkTypeInt64 GetFiredBySize() const;
+  vtkTypeInt64 GetSliversSplit() const;
+  vtkTypeInt64 GetSliversSampled() const;
   vtkTypeInt64 GetPointsProjected() const;
   vtkTypeInt64 GetVerticesRemoved() const;
   vtkTypeInt64 GetRefusedTooClose() const;
@@ -170,11 +194,12 @@ public:
   ///@{
   /**
    * Wall-clock seconds of each stage: reading the labels and smoothing them, the distance
-   * transform, refinement, extraction of the mesh into VTK data. The total is the sum of the four;
+   * transform, connected components, refinement, extraction of the mesh into VTK data. The total is the sum of the five;
    * measuring the quality is not part of it.
    */
   double GetLabelFieldTime() const;
   double GetDistanceTransformTime() const;
+  double GetComponentsTime() const;
   double GetRefinementTime() const;
   double GetExtractionTime() const;
   double GetTotalTime() const;

@@ -327,6 +327,10 @@ int vtkPentatopeMeshTimeSlice::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->ErrorMessage.clear();
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
+  // What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to it.
+  this->AbortExecute = 0;
+#endif
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputVector);
   output->Initialize();
   try

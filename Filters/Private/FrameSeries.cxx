@@ -331,13 +331,13 @@ SpaceTimeFrame FrameSeries::MakeFrame(double timeScale) const
 }
 
 LabelImage<4> FrameSeries::MakeLabelImage(
-  const GridGeometry<4>& grid, std::span<const std::int64_t> keep, unsigned threads) const
+  const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const
 {
   return std::visit(
     [&](const auto& labels)
     {
       using Label = typename std::remove_cvref_t<decltype(labels)>::value_type;
-      return LabelImage<4>::FromScalars<Label>(labels, grid, keep, threads);
+      return LabelImage<4>::FromScalars<Label>(labels, grid, selection, threads);
     },
     this->Labels);
 }

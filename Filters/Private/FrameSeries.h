@@ -64,7 +64,7 @@ public:
    * @throws what LabelImage::FromScalars() throws
    */
   LabelImage<4> MakeLabelImage(
-    const GridGeometry<4>& grid, std::span<const std::int64_t> keep, unsigned threads) const;
+    const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const;
 
 private:
   template <typename T>

@@ -4,7 +4,9 @@
 
 #include "Error.h"
 
+#include "vtkDataObject.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 
 #include <algorithm>
@@ -156,6 +158,21 @@ ImageFrame MakeImageFrame(vtkImageData* image, bool cells, const std::string& wh
     }
   }
   return frame;
+}
+
+double FindVoxelVolume(vtkInformation* input)
+{
+  if (input == nullptr || !input->Has(vtkDataObject::SPACING()))
+  {
+    return 0.0;
+  }
+  const double* const spacing = input->Get(vtkDataObject::SPACING());
+  double volume = spacing[0] * spacing[1] * spacing[2];
+  if (input->Has(vtkDataObject::DIRECTION()))
+  {
+    volume *= std::abs(vtkMatrix3x3::Determinant(input->Get(vtkDataObject::DIRECTION())));
+  }
+  return volume > 0.0 && std::isfinite(volume) ? volume : 0.0;
 }
 
 } // namespace voxplex

@@ -21,6 +21,7 @@
 #include <string>
 
 class vtkImageData;
+class vtkInformation;
 
 namespace voxplex
 {
@@ -69,6 +70,12 @@ struct ImageFrame
  * voxel.
  */
 ImageFrame MakeImageFrame(vtkImageData* image, bool cells, const std::string& what);
+
+/**
+ * The volume of a voxel of an input, as the pipeline announces it; 0 if it does not, or if it is not
+ * positive and finite.
+ */
+double FindVoxelVolume(vtkInformation* input);
 
 } // namespace voxplex
 

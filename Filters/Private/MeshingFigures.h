@@ -22,8 +22,9 @@ struct vtkMeshingStatistics::Figures
   std::int64_t Vertices = 0;
   std::int64_t InterfaceFacets = 0;
   int Threads = 0;
-  std::vector<std::int64_t> LostLabels; ///< in the image, not in the mesh
-  voxplex::MeshingStatistics Run;       ///< its Times include what the filter itself does
+  std::vector<std::int64_t> LostLabels;                    ///< in the image, not in the mesh
+  std::vector<voxplex::ComponentReport> DroppedComponents; ///< left out on request
+  voxplex::MeshingStatistics Run; ///< its Times include what the filter itself does
 
   bool HasQuality = false;      ///< whether Quality was measured
   voxplex::MeshQuality Quality; ///< its Labels, too

@@ -58,6 +58,9 @@ std::string ListLabels(std::span<const std::int64_t> labels);
 void CheckSizedLabels(
   const std::map<std::int64_t, double>& sizes, bool selected, std::span<const std::int64_t> labels);
 
+/** "9 voxels of label 3 at (10, 20, 30)". */
+std::string Describe(const ComponentReport& component);
+
 /** Those of `labels`, which is sorted, that no element has. */
 std::vector<std::int64_t> FindLostLabels(
   std::span<const std::int64_t> labels, std::span<const std::int64_t> elements);
@@ -68,6 +71,7 @@ struct vtkImageToSimplexMeshFilter::Internals
 {
   std::map<std::int64_t, double> LabelSizes;
   std::set<std::int64_t> Labels;
+  std::set<std::int64_t> ExcludedLabels;
   SizeFunctionType SizeFunction;
   vtkNew<vtkMeshingStatistics> Statistics;
 };
@@ -118,11 +122,11 @@ public:
   /** Progress when the kernel starts. */
   double ProgressBefore = 0.0;
 
-  /** The labels to mesh; none means all. */
-  std::vector<std::int64_t> SelectedLabels() const
+  voxplex::LabelSelection SelectedLabels() const
   {
-    const std::set<std::int64_t>& labels = this->Filter->Private->Labels;
-    return { labels.begin(), labels.end() };
+    const Internals& filter = *this->Filter->Private;
+    return { { filter.Labels.begin(), filter.Labels.end() },
+      { filter.ExcludedLabels.begin(), filter.ExcludedLabels.end() } };
   }
 
   /**
@@ -135,8 +139,8 @@ public:
   {
     vtkImageToSimplexMeshFilter* const filter = this->Filter;
     const auto values = labels.Values().subspan(1); // without background
-    voxplex::CheckSizedLabels(
-      filter->Private->LabelSizes, !filter->Private->Labels.empty(), values);
+    voxplex::CheckSizedLabels(filter->Private->LabelSizes,
+      !filter->Private->Labels.empty() || !filter->Private->ExcludedLabels.empty(), values);
     if (this->Sizes->Any())
     {
       this->Options.Size = this->Sizes;
@@ -166,6 +170,13 @@ public:
     figures.Vertices = std::ssize(mesh.Points);
     figures.InterfaceFacets = std::ssize(mesh.Facets);
     figures.LostLabels = voxplex::FindLostLabels(values, mesh.Labels);
+    std::erase_if(figures.LostLabels, // what was left out on request is not lost
+      [&](std::int64_t value)
+      {
+        const auto all = labels.Values();
+        const auto id = std::lower_bound(all.begin() + 1, all.end(), value) - all.begin();
+        return labels.Counts()[static_cast<std::size_t>(id)] == 0;
+      });
     if (mesh.Simplices.empty())
     {
       throw voxplex::InputError(

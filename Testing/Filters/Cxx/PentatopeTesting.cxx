@@ -47,6 +47,7 @@ int TemporalSource::RequestInformation(
   if (const auto frame = this->MakeFrame(0))
   {
     info->Set(Pipeline::WHOLE_EXTENT(), frame->GetExtent(), 6);
+    info->Set(vtkDataObject::SPACING(), frame->GetSpacing(), 3);
   }
   if (!this->Times.empty())
   {

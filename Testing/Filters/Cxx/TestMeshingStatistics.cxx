@@ -113,7 +113,7 @@ void TestQuality()
          R"("mean_radius_edge": 1.25, "radius_edge_deviation": 0.125, )",
          R"("mean_normalized_volume": 0.375, "normalized_volume_deviation": 0.0625, )"
          R"("normalized_volume_histogram": [100, 101, )",
-         R"("R5": 5, "R6": 0, "size": 1, )",
+         R"("R5": 5, "R6": 0, "R7_split": 0, "R7_sampled": 0, "size": 1, )",
          R"("cavities": {"mean": 2.5, "largest": 9}, )"
          R"("slivers": {"found": 71, "picks": 72, "kept": 73})" })
   {

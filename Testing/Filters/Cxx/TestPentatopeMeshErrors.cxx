@@ -257,6 +257,10 @@ void TestParameters()
   ExpectError("unknown label", filter, { "label 9", "3, 7" }, [&] { filter->ClearLabelSizes(); });
   filter->AddLabel(77);
   ExpectError("unknown selection", filter, { "77" }, [&] { filter->RemoveLabel(77); });
+  filter->ExcludeLabel(3);
+  filter->ExcludeLabel(7);
+  ExpectError("nothing left", filter, { "All labels", "excluded" },
+    [&] { filter->RemoveAllExcludedLabels(); });
   filter->SetDelta(1e-3);
   ExpectError("memory", filter, { "memory" }, [&] { filter->SetDelta(0.0); });
   filter->SetRuleOrder(5);

@@ -82,6 +82,27 @@ void TestTimeRequests()
   CheckPentatopeMesh(filter);
 }
 
+/** Of time steps, and of components: the edge of a hypercube as large as a voxel, twice. */
+void TestDefaultDelta()
+{
+  const auto filter = MakePentatopeFilter(MakeSource({ 2.0, 2.5, 3.0, 3.5 }));
+  filter->SetTimeScale(32.0); // unit spacing: a voxel's hypervolume is 16
+  filter->UpdateInformation();
+  CHECK(std::abs(filter->GetDefaultDelta() - 4.0) < 1e-12, filter->GetDefaultDelta());
+  CHECK(filter->GetStatistics()->GetDelta() == 0.0);
+  filter->Update();
+  CHECK(std::abs(filter->GetStatistics()->GetDelta() - 4.0) < 1e-12);
+
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 4);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  vtkNew<vtkImageToPentatopeMeshFilter> components;
+  components->SetInputData(image);
+  components->SetTimeSpacing(81.0);
+  components->UpdateInformation();
+  CHECK(std::abs(components->GetDefaultDelta() - 6.0) < 1e-12, components->GetDefaultDelta());
+}
+
 void CheckRange(vtkImageToPentatopeMeshFilter* filter, double first, double last)
 {
   for (int port = 0; port < 2; ++port)
@@ -369,6 +390,7 @@ void TestPrintSelf()
 int TestPentatopeMeshPipeline(int, char*[])
 {
   TestTimeRequests();
+  TestDefaultDelta();
   TestTimeRange();
   TestExecutions();
   TestPieces();

@@ -155,6 +155,16 @@ void TestParameters()
   ExpectError("label not selected", filter, { "label 2", "1" }, [&] { filter->ClearLabelSizes(); });
   filter->AddLabel(77);
   ExpectError("unknown selection", filter, { "77", "1, 2" }, [&] { filter->RemoveLabel(77); });
+  filter->RemoveAllLabels();
+  filter->ExcludeLabel(78);
+  ExpectError(
+    "unknown exclusion", filter, { "78", "1, 2" }, [&] { filter->RemoveExcludedLabel(78); });
+  filter->ExcludeLabel(1);
+  filter->SetLabelSize(1, 1.0);
+  ExpectError("excluded label", filter, { "label 1", "2" }, [&] { filter->ClearLabelSizes(); });
+  filter->ExcludeLabel(2);
+  ExpectError(
+    "nothing left", filter, { "All labels", "excluded" }, [&] { filter->RemoveExcludedLabel(2); });
 }
 
 void TestMemory()

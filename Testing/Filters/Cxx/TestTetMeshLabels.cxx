@@ -97,6 +97,54 @@ void TestSubset()
   CHECK(LabelsOf(filter) == std::set<long long>({ 1, 2 }));
 }
 
+void TestExcluded()
+{
+  const auto filter = MakeFilter(MakeTwoLabels());
+  filter->ExcludeLabel(2);
+  filter->ExcludeLabel(2);
+  CHECK(filter->GetNumberOfExcludedLabels() == 1 && filter->GetExcludedLabel(0) == 2);
+  CHECK(filter->GetExcludedLabel(1) == 0 && filter->GetExcludedLabel(-1) == 0);
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1 }));
+  CHECK(InterfacePairs(filter) == Pairs({ { 1, 0 } }));
+
+  filter->RemoveExcludedLabel(2);
+  filter->ExcludeLabel(1);
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 2 }));
+  filter->RemoveAllExcludedLabels();
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1, 2 }));
+}
+
+/** Rows of a table are sizes and exclusions in other words. */
+void TestRows()
+{
+  const auto filter = MakeFilter(MakeTwoLabels());
+  filter->SetLabelRow(1, 1.5, true);
+  filter->SetLabelRow(2, 2.5, false); // the size of what is not meshed does not count
+  CHECK(filter->GetLabelSize(1) == 1.5 && filter->GetNumberOfLabelSizes() == 1);
+  CHECK(filter->GetNumberOfExcludedLabels() == 1 && filter->GetExcludedLabel(0) == 2);
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1 }));
+  const vtkIdType fine = filter->GetOutput()->GetNumberOfCells();
+
+  filter->SetLabelRow(1, 0.0, true);
+  CHECK(filter->GetNumberOfLabelSizes() == 0);
+  filter->Update();
+  CHECK(filter->GetOutput()->GetNumberOfCells() < fine);
+  filter->SetLabelRow(2, 0.0, true);
+  filter->Update();
+  CHECK(LabelsOf(filter) == std::set<long long>({ 1, 2 }));
+
+  filter->SetLabelRow(1, 1.0, true);
+  filter->SetLabelRow(2, 1.0, false);
+  filter->ClearLabelRows();
+  CHECK(filter->GetNumberOfLabelSizes() == 0 && filter->GetNumberOfExcludedLabels() == 0);
+}
+
 /** Labels that the mesh lacks are named: in the statistics, and in one warning. */
 void TestLostLabels()
 {
@@ -136,6 +184,8 @@ int TestTetMeshLabels(int, char*[])
   TestNested();
   TestFullImage();
   TestSubset();
+  TestExcluded();
+  TestRows();
   TestLostLabels();
   return Result();
 }

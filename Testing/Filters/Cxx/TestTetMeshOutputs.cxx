@@ -80,7 +80,8 @@ void TestStatistics()
   CHECK(statistics->GetRefinementTime() > 0.0);
   CHECK(std::abs(statistics->GetTotalTime() -
           (statistics->GetLabelFieldTime() + statistics->GetDistanceTransformTime() +
-            statistics->GetRefinementTime() + statistics->GetExtractionTime())) < 1e-9);
+            statistics->GetComponentsTime() + statistics->GetRefinementTime() +
+            statistics->GetExtractionTime())) < 1e-9);
   CHECK(!statistics->GetHasQuality() && statistics->GetNumberOfLabels() == 0);
   CHECK(statistics->ToJSON().find("\"quality\"") == std::string::npos);
 

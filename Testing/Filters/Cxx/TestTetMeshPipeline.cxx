@@ -6,12 +6,14 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCallbackCommand.h"
 #include "vtkImageData.h"
+#include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSphere.h"
 #include "vtkTrivialProducer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cmath>
 #include <sstream>
 
 using namespace testing;
@@ -37,6 +39,31 @@ void TestReproducible()
   a->Modified();
   a->Update();
   CHECK(SameMesh(a->GetOutput(), before));
+}
+
+/** The default is known before the filter executes, and it is what 0 means. */
+void TestDefaultDelta()
+{
+  Placement skewed;
+  skewed.Spacing = { 0.5, 2.0, 1.0 };
+  skewed.Direction = { 1, 0.5, 0, 0, 0.5, 0, 0, 0, -1 }; // of determinant -0.5
+  const auto image = MakeImage(skewed, [](const Vector&) { return 1.0; });
+  const auto filter = MakeFilter(image);
+  CHECK(filter->GetDefaultDelta() == 0.0);
+  filter->UpdateInformation();
+  const double expected = 2.0 * std::cbrt(0.5);
+  CHECK(std::abs(filter->GetDefaultDelta() - expected) < 1e-12, filter->GetDefaultDelta());
+  CHECK(filter->GetStatistics()->GetDelta() == 0.0);
+  filter->Update();
+  CHECK(std::abs(filter->GetStatistics()->GetDelta() - expected) < 1e-12);
+
+  image->SetSpacing(1.0, 1.0, 1.0);
+  image->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+  filter->UpdateInformation();
+  CHECK(filter->GetDefaultDelta() == 2.0, filter->GetDefaultDelta());
+  image->SetSpacing(0.0, 1.0, 1.0); // an error when it executes
+  filter->UpdateInformation();
+  CHECK(filter->GetDefaultDelta() == 0.0);
 }
 
 void TestExecutions()
@@ -76,6 +103,10 @@ void TestExecutions()
   expectExecution("LabelSize", [&] { filter->SetLabelSize(1, 4.0); });
   expectExecution("LabelSize again", [&] { filter->SetLabelSize(1, 4.5); });
   expectExecution("RemoveLabelSize", [&] { filter->RemoveLabelSize(1); });
+  expectExecution("ExcludeLabel", [&] { filter->ExcludeLabel(2); });
+  expectExecution("RemoveExcludedLabel", [&] { filter->RemoveExcludedLabel(2); });
+  expectExecution("SetLabelRow", [&] { filter->SetLabelRow(1, 4.0, true); });
+  expectExecution("ClearLabelRows", [&] { filter->ClearLabelRows(); });
   expectExecution("AddLabel", [&] { filter->AddLabel(1); });
   expectExecution("RemoveAllLabels", [&] { filter->RemoveAllLabels(); });
   expectExecution("SizeImplicitFunction", [&] { filter->SetSizeImplicitFunction(sphere); });
@@ -181,6 +212,7 @@ void TestPrintSelf()
 int TestTetMeshPipeline(int, char*[])
 {
   TestReproducible();
+  TestDefaultDelta();
   TestExecutions();
   TestPieces();
   TestConnections();

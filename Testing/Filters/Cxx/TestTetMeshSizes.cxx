@@ -159,6 +159,12 @@ void TestNamedImage()
   filter->SetElementSizeData(sizes);
   filter->SetInputArrayToProcess(1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Fine");
   CheckSizes(filter, "named", [](const Vector&, long long) { return 1.8 + 1e-9; });
+
+  filter->SetElementSizeArray(vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
+  filter->Update();
+  CHECK(filter->GetOutput()->GetNumberOfCells() == CountWithout());
+  filter->SetElementSizeArray(vtkDataObject::FIELD_ASSOCIATION_POINTS, "Fine");
+  CheckSizes(filter, "named in short", [](const Vector&, long long) { return 1.8 + 1e-9; });
 }
 
 void TestImplicitFunction()

@@ -106,7 +106,7 @@ void CheckThreads(vtkMeshingStatistics* statistics, int threads)
       CHECK(seconds >= 0.0 && seconds <= 1.05 * statistics->GetRefinementTime() + 0.01, t, seconds);
     }
   }
-  vtkTypeInt64 fired = 0;
+  vtkTypeInt64 fired = statistics->GetSliversSplit() + statistics->GetSliversSampled();
   for (int rule = 1; rule <= 5; ++rule)
   {
     fired += statistics->GetRuleFired(rule);

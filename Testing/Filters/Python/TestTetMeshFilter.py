@@ -181,6 +181,73 @@ class Sizes(unittest.TestCase):
         self.assertGreater(self.mesher.GetOutput().GetNumberOfCells(), first)
 
 
+class Components(unittest.TestCase):
+    """A block of label 1 with specks: 2 x 2 x 2 voxels of label 2, and one voxel of label 5."""
+
+    @classmethod
+    def setUpClass(cls):
+        def label(i, j, k):
+            if not all(2 <= x < N - 2 for x in (i, j, k)):
+                return 0
+            if all(10 <= x < 12 for x in (i, j, k)):
+                return 2
+            return 5 if (i, j, k) == (6, 7, 8) else 1
+        cls.image = make_image(label)
+
+    def mesh(self, **properties):
+        mesher = make_filter(self.image)
+        mesher.SetDelta(6)
+        mesher.ComputeQualityOn()
+        for name, value in properties.items():
+            getattr(mesher, "Set" + name)(value)
+            self.assertEqual(getattr(mesher, "Get" + name)(), value)
+        errors = ErrorCollector(mesher)
+        mesher.Update()
+        labels = mesher.GetOutput().GetCellData().GetArray("Label")
+        found = {int(labels.GetTuple1(i)) for i in range(labels.GetNumberOfTuples())} if labels else set()
+        return mesher, found, errors
+
+    def test_small_ones_are_kept(self):
+        self.assertEqual(self.mesh()[1] - {5}, {1, 2})
+        mesher, found, _ = self.mesh(SmallestComponent=1)
+        self.assertEqual(found, {1, 2, 5})
+        self.assertEqual(mesher.GetStatistics().GetNumberOfComponents(), 3)
+        self.assertEqual(mesher.GetStatistics().GetNumberOfLostComponents(), 0)
+        mesher, found, _ = self.mesh(SmallestComponent=0)
+        self.assertNotIn(2, found)
+        self.assertEqual(mesher.GetStatistics().GetNumberOfComponents(), 0)
+
+    def test_dropped_on_request(self):
+        mesher, found, errors = self.mesh(MinimumComponentVolume=8.5)
+        self.assertEqual(found, {1})
+        self.assertEqual(errors.messages, [])
+        statistics = mesher.GetStatistics()
+        self.assertEqual(statistics.GetNumberOfLostLabels(), 0)
+        dropped = json.loads(statistics.ToJSON())["dropped_components"]
+        self.assertEqual(dropped, [{"label": 5, "voxels": 1, "voxel": [6, 7, 8]},
+                                   {"label": 2, "voxels": 8, "voxel": [10, 10, 10]}])
+        self.assertEqual(statistics.GetNumberOfDroppedComponents(), 2)
+        for i, component in enumerate(dropped):
+            voxel = [0, 0, 0]
+            statistics.GetDroppedComponentVoxel(i, voxel)
+            self.assertEqual(voxel, component["voxel"])
+            self.assertEqual(statistics.GetDroppedComponentLabel(i), component["label"])
+            self.assertEqual(statistics.GetDroppedComponentVoxels(i), component["voxels"])
+        self.assertEqual(statistics.GetDroppedComponentVoxels(2), 0)
+        self.assertEqual(statistics.GetLostComponentLabel(0), 0)
+        mesher, _, _ = self.mesh(MinimumComponentVolume=1e6)
+        self.assertIn("every component", mesher.GetErrorMessage())
+
+    def test_slivers(self):
+        sharp = self.mesh(SliverAngle=0.0, Delta=1.0)[0].GetStatistics()
+        blunt = self.mesh(SliverAngle=9.0, Delta=1.0)[0].GetStatistics()
+        self.assertEqual(sharp.GetSliversFound(), 0)
+        self.assertGreater(blunt.GetSliversSplit() + blunt.GetSliversSampled(), 0)
+        self.assertLess(sharp.GetMinimumDihedralAngle(), 4)
+        self.assertGreater(blunt.GetMinimumDihedralAngle(), 4.6)
+        self.assertIn("Force", self.mesh(SliverAngle=16.0)[0].GetErrorMessage())
+
+
 class Threads(unittest.TestCase):
     MANAGERS = {"aggressive": "Aggressive", "random": "Random", "global": "Global", "local": "Local"}
     BALANCERS = {"rws": "RandomWorkStealing", "hws": "HierarchicalWorkStealing"}
