@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandLine.h"
 
+#include "EditDistance.h"
 #include "Errors.h"
+#include "LabelSelection.h"
 #include "OptionValues.h"
+#include "OutputFormats.h"
 #include "SliceFiles.h"
 #include "Version.h"
-#include "Writers/Formats.h"
 
 #include <boost/program_options.hpp>
 
@@ -14,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <string_view>
 
@@ -25,6 +26,8 @@ namespace voxplex::cli
 namespace
 {
 
+/** Above this meshes can become very large. */
+constexpr double LargestSliverAngle = 15.0;
 /** Below this it is not proved that refinement ends: sqrt(sqrt(3) + 2). */
 constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;
 /** The ratio of the regular tetrahedron, sqrt(6) / 4: no element has a smaller one. */
@@ -43,6 +46,10 @@ constexpr const char* Examples = R"(Examples:
   The interfaces between labels as a surface, and figures about the mesh:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --plc knee.vtp --stats knee.json
 
+  An atlas whose labels have names, in a table beside it or in one that is given:
+    voxplex --input aal.nii.gz --labels Hippocampus_L,Hippocampus_R --delta 1 --output h.vtu
+    voxplex --input aparc+aseg.nii.gz --label-table FreeSurferColorLUT.txt --output brain.vtu
+
   Two labels only, label 3 finer than the rest, for Gmsh:
     voxplex --input knee.nrrd --labels 3,7 --delta 2 --size 4 --label-size 3=1 --output knee.msh
 
@@ -52,24 +59,6 @@ constexpr const char* Examples = R"(Examples:
   A DICOM series, in the RAS coordinates of 3D Slicer's scene, with a progress bar:
     voxplex --input dicom-folder --space ras --progress --output ct.vtu
 )";
-
-/** Levenshtein distance, for "did you mean". */
-std::size_t EditDistance(std::string_view a, std::string_view b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{ 0 });
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const std::size_t substitution = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({ row[j] + 1, row[j - 1] + 1, substitution });
-    }
-  }
-  return row.back();
-}
 
 std::string SuggestOption(const po::options_description& options, std::string_view unknown)
 {
@@ -115,12 +104,13 @@ OptionGroups DeclareOptions()
       "MetaImage, ...) or a folder that holds a DICOM series; 0 is background") //
     ("series", text("UID"), "which DICOM series, if the folder holds several")  //
     ("output", text("FILE"),
-      ("the tetrahedra; the extension chooses the format: " + ListExtensions(Content::Mesh, 3) +
-        "; of a space-time image the pentatopes: " + ListExtensions(Content::Mesh, 4))
+      ("the tetrahedra; the extension chooses the format: " +
+        ListExtensions(OutputOption::Output, 3) +
+        "; of a space-time image the pentatopes: " + ListExtensions(OutputOption::Output, 4))
         .c_str()) //
     ("plc", text("FILE"),
-      ("the triangles between labels: " + ListExtensions(Content::Interfaces, 3) +
-        "; of a space-time image the tetrahedra: " + ListExtensions(Content::Interfaces, 4))
+      ("the triangles between labels: " + ListExtensions(OutputOption::Interfaces, 3) +
+        "; of a space-time image the tetrahedra: " + ListExtensions(OutputOption::Interfaces, 4))
         .c_str()) //
     ("stats", text("FILE"), "figures about the mesh and the run: .json");
   groups.Mesh.add_options() //
@@ -130,7 +120,7 @@ OptionGroups DeclareOptions()
       "spacing)")                                                                    //
     ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere") //
     ("label-size", po::value<std::vector<std::string>>()->composing()->value_name("LABEL=LENGTH"),
-      "the same in one label; may be repeated") //
+      "the same in one label, given by number or name; may be repeated") //
     ("size-image", text("FILE"),
       "the same from an image whose values are lengths, 0 where there is no bound") //
     ("radius-edge", text("RATIO"),
@@ -138,11 +128,27 @@ OptionGroups DeclareOptions()
     ("facet-angle", text("DEGREES"),
       "lower bound of the angles of triangles on the interfaces (default 30, at most 30); not of "
       "space-time images") //
+    ("sliver-angle", text("DEGREES"),
+      "dihedral angle below which, or above 180 less which, a tetrahedron is a sliver and split "
+      "(default 9; 0: leave slivers; above 15 only with --force)") //
+    ("smallest-component", text("VOXELS"),
+      "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
+      "0: "
+      "as it comes)") //
+    ("min-component-volume", text("VOLUME"),
+      "leave out connected components that are smaller, such as specks: they become what is around "
+      "them") //
     ("smoothing", text("VOXELS"),
       "standard deviation of the smoothing of voxel stairs; 0 switches it off (default 1)");
   groups.Selection.add_options() //
-    ("labels", text("LIST"),
-      "mesh these labels only, such as 1,2,5; the others become background") //
+    ("labels", po::value<std::vector<std::string>>()->composing()->value_name("LIST"),
+      "mesh these labels only, such as 1,2,5 or Tibia,Femur; the others become background; may be "
+      "repeated") //
+    ("label-table", text("FILE"),
+      "text file with the names of the labels, and perhaps colours: that of FreeSurfer, ITK-SNAP "
+      "or "
+      "3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20' (default: the names that the "
+      "image has, or those in FILE.nii.txt beside FILE.nii.gz)") //
     ("space", text("lps|ras"), "coordinates of the mesh (default lps, ITK's physical space)");
   groups.SpaceTime.add_options() //
     ("time-scale", text("LENGTH"),
@@ -180,7 +186,7 @@ OptionGroups DeclareOptions()
       "refuse meshes estimated to need more, such as 8G (default: the machine's memory)") //
     ("force",
       "go on although the mesh is estimated not to fit, or --radius-edge is too low, "
-      "or --sliver-bound too high")                                      //
+      "or --sliver-angle or --sliver-bound too high")                    //
     ("progress", "show a progress bar, if standard error is a terminal") //
     ("help", "print this text")                                          //
     ("version", "print the version");
@@ -317,6 +323,7 @@ Parameters ToParameters(const po::variables_map& values)
   file("plc", p.Interfaces);
   file("stats", p.Statistics);
   file("size-image", p.SizeImage);
+  file("label-table", p.LabelTable);
   if (const auto* text = given("delta"))
   {
     p.Delta = ParsePositive("delta", *text, "; leave --delta out to derive it from the spacing");
@@ -329,7 +336,7 @@ Parameters ToParameters(const po::variables_map& values)
   {
     for (const std::string& text : values["label-size"].as<std::vector<std::string>>())
     {
-      ParseLabelSize("label-size", text, p.LabelSizes);
+      p.LabelSizeTexts.push_back(ParseLabelSize("label-size", text));
     }
   }
   if (const auto* text = given("radius-edge"))
@@ -340,13 +347,33 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.FacetAngle = ParseRange("facet-angle", *text, 0, 30);
   }
+  if (const auto* text = given("sliver-angle"))
+  {
+    p.SliverAngle = ParseRange("sliver-angle", *text, 0, 59);
+  }
+  if (const auto* text = given("smallest-component"))
+  {
+    p.SmallestComponent =
+      ParseWhole("smallest-component", *text, 0, std::numeric_limits<int>::max());
+  }
+  if (const auto* text = given("min-component-volume"))
+  {
+    p.MinimumComponentVolume = ParsePositive("min-component-volume", *text);
+  }
   if (const auto* text = given("smoothing"))
   {
     p.SmoothingSigma = ParseRange("smoothing", *text, 0, 10);
   }
-  if (const auto* text = given("labels"))
+  if (values.count("labels"))
   {
-    p.Labels = ParseLabels("labels", *text);
+    p.LabelTexts = values["labels"].as<std::vector<std::string>>();
+    for (const std::string& text : p.LabelTexts)
+    {
+      for (const std::string& label : SplitAtCommas(text))
+      {
+        ParseLabelNumber("labels", label);
+      }
+    }
   }
   if (const auto* text = given("space"))
   {
@@ -409,15 +436,15 @@ void CheckTogether(const Parameters& p)
   }
   if (!p.Output.empty())
   {
-    RequireFormat("output", p.Output, Content::Mesh);
+    RequireFormat(OutputOption::Output, p.Output);
   }
   if (!p.Interfaces.empty())
   {
-    RequireFormat("plc", p.Interfaces, Content::Interfaces);
+    RequireFormat(OutputOption::Interfaces, p.Interfaces);
   }
   if (!p.Statistics.empty())
   {
-    RequireFormat("stats", p.Statistics, Content::Statistics);
+    RequireFormat(OutputOption::Statistics, p.Statistics);
   }
   if (p.RadiusEdgeRatio)
   {
@@ -431,13 +458,15 @@ void CheckTogether(const Parameters& p)
                        "give --force to try all the same");
     }
   }
-  for (const auto& [label, size] : p.LabelSizes)
+  if (p.SliverAngle && *p.SliverAngle > LargestSliverAngle && !p.Force)
   {
-    if (!p.Labels.empty() && !std::binary_search(p.Labels.begin(), p.Labels.end(), label))
-    {
-      throw UsageError(
-        "--label-size: label " + std::to_string(label) + " is not among those of --labels");
-    }
+    throw UsageError(
+      "--sliver-angle: above 15 degrees meshes can become very large; give --force to "
+      "try all the same");
+  }
+  if (!HasNames(p))
+  {
+    SelectLabels(p, io::LabelTable());
   }
 }
 
@@ -477,18 +506,27 @@ void CheckDimension(const Parameters& p, int dimension)
       ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image");
   }
-  if (dimension == 4 && p.FacetAngle)
+  const std::array<std::pair<const char*, bool>, 4> tetOptions{ {
+    { "--facet-angle", p.FacetAngle.has_value() },
+    { "--sliver-angle", p.SliverAngle.has_value() },
+    { "--smallest-component", p.SmallestComponent.has_value() },
+    { "--min-component-volume", p.MinimumComponentVolume.has_value() },
+  } };
+  for (const auto& [name, isGiven] : tetOptions)
   {
-    throw UsageError("--facet-angle: only for 3D images, and " + Quoted(p.Input) +
-      " is a space-time image; leave it out");
+    if (dimension == 4 && isGiven)
+    {
+      throw UsageError(std::string(name) + ": only for 3D images, and " + Quoted(p.Input) +
+        " is a space-time image; leave it out");
+    }
   }
   if (!p.Output.empty())
   {
-    RequireFormat("output", p.Output, Content::Mesh, dimension);
+    RequireFormat(OutputOption::Output, p.Output, dimension);
   }
   if (!p.Interfaces.empty())
   {
-    RequireFormat("plc", p.Interfaces, Content::Interfaces, dimension);
+    RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
   }
 }
 

@@ -166,13 +166,12 @@ Interruption::CancellableStep::~CancellableStep()
 Interruption::Deferral::Deferral()
 {
   const sigset_t set = EndingSignals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  pthread_sigmask(SIG_BLOCK, &set, &this->Previous);
 }
 
 Interruption::Deferral::~Deferral()
 {
-  const sigset_t set = EndingSignals();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  pthread_sigmask(SIG_SETMASK, &this->Previous, nullptr);
 }
 
 } // namespace voxplex::cli

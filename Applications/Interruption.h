@@ -12,6 +12,7 @@
 #ifndef voxplex_cli_Interruption_h
 #define voxplex_cli_Interruption_h
 
+#include <csignal>
 #include <string>
 
 namespace voxplex::cli
@@ -55,6 +56,9 @@ public:
     ~Deferral();
     Deferral(const Deferral&) = delete;
     Deferral& operator=(const Deferral&) = delete;
+
+  private:
+    sigset_t Previous; ///< what the thread had blocked before
   };
 };
 

@@ -3,17 +3,17 @@
 #include "Meshing.h"
 
 #include "Errors.h"
-#include "FrameSource.h"
-#include "VTKImage.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
 #include <vtkImageToPentatopeMeshFilter.h>
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkNew.h>
+#include <vtkSegmentationReader.h>
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -38,7 +38,7 @@ static_assert(LoadBalancers[Filter::RANDOM_WORK_STEALING] == "rws" &&
 static_assert(RuleOrders[vtkImageToPentatopeMeshFilter::RADIUS_EDGE_FIRST] == "radius-edge" &&
   RuleOrders[vtkImageToPentatopeMeshFilter::SURFACE_FIRST] == "surface");
 
-void Configure(Filter* filter, const Parameters& p)
+void Configure(Filter* filter, const Parameters& p, const LabelSelection& selection)
 {
   if (p.Delta)
   {
@@ -56,11 +56,11 @@ void Configure(Filter* filter, const Parameters& p)
   {
     filter->SetElementSize(*p.Size);
   }
-  for (const auto& [label, size] : p.LabelSizes)
+  for (const auto& [label, size] : selection.Sizes)
   {
     filter->SetLabelSize(label, size);
   }
-  for (const std::int64_t label : p.Labels)
+  for (const std::int64_t label : selection.Labels)
   {
     filter->AddLabel(label);
   }
@@ -79,20 +79,29 @@ void Configure(Filter* filter, const Parameters& p)
   filter->ComputeQualityOn();
 }
 
-vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p, const ScalarImage& labels)
+vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
 {
   const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
   if (p.FacetAngle)
   {
     filter->SetFacetAngle(*p.FacetAngle);
   }
-  const auto image = ToVTKImage(labels, p.OutputSpace);
-  AddSpaceArray(image, p.OutputSpace);
-  filter->SetInputData(image);
+  if (p.SliverAngle)
+  {
+    filter->SetSliverAngle(*p.SliverAngle);
+  }
+  if (p.SmallestComponent)
+  {
+    filter->SetSmallestComponent(*p.SmallestComponent);
+  }
+  if (p.MinimumComponentVolume)
+  {
+    filter->SetMinimumComponentVolume(*p.MinimumComponentVolume);
+  }
   return filter;
 }
 
-vtkSmartPointer<Filter> MakePentatopeMesher(const Parameters& p, const ScalarImage& frames)
+vtkSmartPointer<Filter> MakePentatopeMesher(const Parameters& p)
 {
   const SpaceTimeParameters& spaceTime = p.SpaceTime;
   const auto filter = vtkSmartPointer<vtkImageToPentatopeMeshFilter>::New();
@@ -118,32 +127,7 @@ vtkSmartPointer<Filter> MakePentatopeMesher(const Parameters& p, const ScalarIma
     filter->SetRandomSeed(*spaceTime.Seed);
   }
   filter->SetFineGrained(!spaceTime.NoFineGrained);
-  vtkNew<FrameSource> source;
-  source->SetFrames(frames, p.OutputSpace);
-  filter->SetInputConnection(source->GetOutputPort());
   return filter;
-}
-
-/** The filter's errors speak of its methods; the user has flags. */
-std::string InTermsOfFlags(std::string message)
-{
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> terms{ {
-    { "SetLabelSize()", "--label-size" },
-    { "AddLabel()", "--labels" },
-    { "or force it", "or go on with --force" },
-    { "Correct the labels to keep", "Correct --labels" },
-    { ", or choose the array that holds the segmentation", "" },
-    { " Choose the array that holds the segmentation.", "" },
-  } };
-  for (const auto& [theirs, ours] : terms)
-  {
-    const std::size_t at = message.find(theirs);
-    if (at != std::string::npos)
-    {
-      message.replace(at, theirs.size(), ours);
-    }
-  }
-  return message;
 }
 
 void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
@@ -159,15 +143,45 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 
 } // namespace
 
+int MeshingInput::Dimension() const
+{
+  return this->Labels->GetNumberOfFrames() > 1 ? 4 : 3;
+}
+
+std::string InTermsOfFlags(std::string message)
+{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> terms{ {
+    { "SetLabelSize()", "--label-size" },
+    { "AddLabel()", "--labels" },
+    { "SetSeriesUID()", "--series" },
+    { "SetTimeScale()", "--time-scale" },
+    { "or force it", "or go on with --force" },
+    { "Correct the labels to keep", "Correct --labels" },
+    { ", or choose the array that holds the segmentation", "" },
+    { " Choose the array that holds the segmentation.", "" },
+  } };
+  for (const auto& [theirs, ours] : terms)
+  {
+    const std::size_t at = message.find(theirs);
+    if (at != std::string::npos)
+    {
+      message.replace(at, theirs.size(), ours);
+    }
+  }
+  static const std::regex series("SetSeriesUID\\(\"([^\"]*)\"\\)");
+  return std::regex_replace(message, series, "--series $1");
+}
+
 vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   const Parameters& parameters, const MeshingInput& input, const ProgressFunction& progress)
 {
-  const auto filter = input.Labels.Dimension() == 3 ? MakeTetMesher(parameters, input.Labels)
-                                                    : MakePentatopeMesher(parameters, input.Labels);
-  Configure(filter, parameters);
+  const auto filter =
+    input.Dimension() == 3 ? MakeTetMesher(parameters) : MakePentatopeMesher(parameters);
+  filter->SetInputConnection(input.Labels->GetOutputPort());
+  Configure(filter, parameters, input.Selection);
   if (input.Sizes)
   {
-    filter->SetElementSizeData(ToVTKImage(*input.Sizes, parameters.OutputSpace));
+    filter->SetElementSizeData(input.Sizes->GetOutput());
   }
 
   vtkNew<vtkCallbackCommand> observer;

@@ -7,25 +7,35 @@
 #ifndef voxplex_cli_Meshing_h
 #define voxplex_cli_Meshing_h
 
+#include "LabelSelection.h"
 #include "Parameters.h"
-#include "ScalarImage.h"
 
 #include <vtkSmartPointer.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 
 class vtkImageToSimplexMeshFilter;
+class vtkSegmentationReader;
 
 namespace voxplex::cli
 {
 
+/** Readers that have read their files. */
 struct MeshingInput
 {
-  ScalarImage Labels;
-  std::optional<ScalarImage> Sizes;
+  vtkSmartPointer<vtkSegmentationReader> Labels;
+  vtkSmartPointer<vtkSegmentationReader> Sizes; ///< null if there is no image of sizes
+  LabelSelection Selection;
+
+  int Dimension() const; ///< 4 if there are several frames, else 3
 };
+
+/**
+ * Brings a message of the readers or filters, which speak of their methods, to the terms of the user, who
+ * has flags.
+ */
+std::string InTermsOfFlags(std::string message);
 
 /** Called now and then with the fraction done and the name of the step; returning false cancels. */
 using ProgressFunction = std::function<bool(double fraction, const std::string& step)>;

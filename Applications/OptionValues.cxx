@@ -9,7 +9,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 namespace voxplex::cli
@@ -48,17 +47,6 @@ double ParseFinite(const std::string& option, std::string_view text)
   return *value;
 }
 
-std::int64_t ParseLabel(const std::string& option, std::string_view text)
-{
-  const std::optional<std::int64_t> label = ToNumber<std::int64_t>(text);
-  if (!label || *label <= 0)
-  {
-    throw UsageError("--" + option + ": " + Quoted(text) +
-      " is not a label; labels are whole numbers from 1 on (0 is the background)");
-  }
-  return *label;
-}
-
 } // namespace
 
 std::string Quoted(std::string_view text)
@@ -91,39 +79,41 @@ double ParseRange(const std::string& option, std::string_view text, double low, 
   return value;
 }
 
-std::vector<std::int64_t> ParseLabels(const std::string& option, std::string_view text)
+std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::string_view text)
 {
-  std::vector<std::int64_t> labels;
-  while (true)
+  const std::optional<std::int64_t> label = ToNumber<std::int64_t>(text);
+  const bool isNumber = label || text.empty() || ToNumber<double>(text);
+  if (isNumber && (!label || *label <= 0))
   {
-    const std::size_t comma = text.find(',');
-    labels.push_back(ParseLabel(option, text.substr(0, comma)));
-    if (comma == std::string_view::npos)
-    {
-      break;
-    }
-    text.remove_prefix(comma + 1);
+    throw UsageError("--" + option + ": " + Quoted(text) +
+      " is not a label; labels are whole numbers from 1 on (0 is the background), or names");
   }
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  return labels;
+  return label;
 }
 
-void ParseLabelSize(
-  const std::string& option, std::string_view text, std::map<std::int64_t, double>& sizes)
+std::vector<std::string> SplitAtCommas(std::string_view text)
 {
-  const std::size_t equals = text.find('=');
+  std::vector<std::string> parts;
+  for (std::size_t comma = 0; comma != std::string_view::npos;)
+  {
+    comma = text.find(',');
+    parts.emplace_back(text.substr(0, comma));
+    text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
+  }
+  return parts;
+}
+
+LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
+{
+  const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos)
   {
-    throw UsageError(
-      "--" + option + ": " + Quoted(text) + " is not of the form LABEL=SIZE, such as 3=1.5");
+    throw UsageError("--" + option + ": " + Quoted(text) +
+      " is not of the form LABEL=SIZE, such as 3=1.5 or Tibia=1.5");
   }
-  const std::int64_t label = ParseLabel(option, text.substr(0, equals));
-  const double size = ParsePositive(option, text.substr(equals + 1));
-  if (!sizes.emplace(label, size).second)
-  {
-    throw UsageError("--" + option + ": label " + std::to_string(label) + " is given twice");
-  }
+  const std::string_view label = text.substr(0, equals);
+  ParseLabelNumber(option, label);
+  return { std::string(label), ParsePositive(option, text.substr(equals + 1)) };
 }
 
 std::uint64_t ParseBytes(const std::string& option, const std::string& text)
@@ -178,10 +168,10 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
   return *value;
 }
 
-Space ParseSpace(const std::string& option, const std::string& text)
+io::Space ParseSpace(const std::string& option, const std::string& text)
 {
   constexpr std::array<std::string_view, 2> spaces{ "lps", "ras" };
-  return ParseWord(option, text, spaces) == spaces[0] ? Space::LPS : Space::RAS;
+  return ParseWord(option, text, spaces) == spaces[0] ? io::Space::LPS : io::Space::RAS;
 }
 
 } // namespace voxplex::cli

@@ -13,7 +13,7 @@
 #include "Parameters.h"
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,12 +34,14 @@ double ParseRange(const std::string& option, std::string_view text, double low, 
 /** A whole number from low to high. */
 int ParseWhole(const std::string& option, const std::string& text, int low, int high);
 
-/** "1,2,5": labels, sorted, each once. */
-std::vector<std::int64_t> ParseLabels(const std::string& option, std::string_view text);
+/** A label by its number; nothing if the text is no number, and thus a name. */
+std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::string_view text);
 
-/** "3=1.5": adds the size of label 3. */
-void ParseLabelSize(
-  const std::string& option, std::string_view text, std::map<std::int64_t, double>& sizes);
+/** "1,Tibia,5": the texts between the commas. */
+std::vector<std::string> SplitAtCommas(std::string_view text);
+
+/** "3=1.5" or "Tibia=1.5"; the last = counts. */
+LabelSizeText ParseLabelSize(const std::string& option, std::string_view text);
 
 /** "8G": bytes, with K, M, G and T for powers of 1024. */
 std::uint64_t ParseBytes(const std::string& option, const std::string& text);
@@ -48,7 +50,7 @@ std::uint64_t ParseBytes(const std::string& option, const std::string& text);
 std::string ParseWord(
   const std::string& option, const std::string& text, std::span<const std::string_view> words);
 
-Space ParseSpace(const std::string& option, const std::string& text);
+io::Space ParseSpace(const std::string& option, const std::string& text);
 
 } // namespace voxplex::cli
 

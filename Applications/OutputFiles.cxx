@@ -3,6 +3,7 @@
 #include "OutputFiles.h"
 
 #include "Errors.h"
+#include "FileError.h"
 
 #include <cerrno>
 #include <cstring>
@@ -108,6 +109,21 @@ const std::string& OutputFiles::TemporaryPath(const std::string& path) const
     throw std::logic_error("OutputFiles: '" + path + "' was not announced");
   }
   return file->second.Path;
+}
+
+void OutputFiles::WriteText(
+  const std::string& path, const std::function<void(io::TextFile& file)>& write) const
+{
+  try
+  {
+    io::TextFile file(this->TemporaryPath(path));
+    write(file);
+    file.Close();
+  }
+  catch (const io::FileError& error)
+  {
+    Refuse(path, error.what());
+  }
 }
 
 void OutputFiles::Commit()

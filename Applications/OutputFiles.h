@@ -12,7 +12,9 @@
 #define voxplex_cli_OutputFiles_h
 
 #include "Interruption.h"
+#include "MeshWriting/TextFile.h"
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -41,6 +43,10 @@ public:
 
   /** Where to write the content of an announced file; same extension as path. */
   const std::string& TemporaryPath(const std::string& path) const;
+
+  /** Writes a text file that was announced. @throws RunError */
+  void WriteText(
+    const std::string& path, const std::function<void(io::TextFile& file)>& write) const;
 
   /** Moves all files to their places. @throws RunError */
   void Commit();

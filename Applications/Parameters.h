@@ -7,9 +7,10 @@
 #ifndef voxplex_cli_Parameters_h
 #define voxplex_cli_Parameters_h
 
+#include "Space.h"
+
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,18 +18,6 @@
 
 namespace voxplex::cli
 {
-
-/** The patient coordinate system of the mesh: LPS is that of DICOM and ITK, RAS that of NIfTI. */
-enum class Space
-{
-  LPS,
-  RAS
-};
-
-inline const char* ToString(Space space)
-{
-  return space == Space::LPS ? "LPS" : "RAS";
-}
 
 /** What --contention and --balance take. */
 inline constexpr std::array<std::string_view, 4> ContentionManagers{ "aggressive", "random",
@@ -52,6 +41,13 @@ struct SpaceTimeParameters
   bool NoFineGrained = false;
 };
 
+/** A label, by number or name, and the size of its elements. */
+struct LabelSizeText
+{
+  std::string Label;
+  double Size;
+};
+
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
@@ -61,15 +57,19 @@ struct Parameters
   std::string Interfaces;
   std::string Statistics;
   std::string SizeImage;
+  std::string LabelTable;
 
   std::optional<double> Delta;
   std::optional<double> RadiusEdgeRatio;
   std::optional<double> FacetAngle;
+  std::optional<double> SliverAngle;
+  std::optional<int> SmallestComponent;
+  std::optional<double> MinimumComponentVolume;
   std::optional<double> SmoothingSigma;
   std::optional<double> Size;
-  std::map<std::int64_t, double> LabelSizes;
-  std::vector<std::int64_t> Labels;
-  Space OutputSpace = Space::LPS;
+  std::vector<LabelSizeText> LabelSizeTexts;
+  std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
+  io::Space OutputSpace = io::Space::LPS;
 
   int Threads = 0;        ///< 0: all cores
   std::string Contention; ///< one of ContentionManagers

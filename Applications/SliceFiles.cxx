@@ -3,13 +3,15 @@
 #include "SliceFiles.h"
 
 #include "Errors.h"
-#include "Writers/TextFile.h"
-#include "Writers/Writers.h"
+#include "MeshFile.h"
+#include "MeshWriting/XMLText.h"
+#include "OutputFiles.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPentatopeMeshTimeSlice.h>
+#include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <filesystem>
@@ -33,19 +35,15 @@ std::string CollectionName(const std::string& prefix)
   return (path.parent_path() / (stem + ".pvd")).string();
 }
 
-std::vector<double> SliceTimes(const ScalarImage& frames, std::optional<int> count)
+std::vector<double> SliceTimes(const std::vector<double>& frameTimes, std::optional<int> count)
 {
-  std::vector<double> times;
   if (!count)
   {
-    for (int frame = 0; frame < frames.Frames; ++frame)
-    {
-      times.push_back(frames.TimeOf(frame));
-    }
-    return times;
+    return frameTimes;
   }
-  const double first = frames.TimeOf(0);
-  const double last = frames.TimeOf(frames.Frames - 1);
+  std::vector<double> times;
+  const double first = frameTimes.front();
+  const double last = frameTimes.back();
   for (int i = 0; i < *count - 1; ++i)
   {
     times.push_back(first + (last - first) * i / (*count - 1));
@@ -54,35 +52,12 @@ std::vector<double> SliceTimes(const ScalarImage& frames, std::optional<int> cou
   return times;
 }
 
-std::string EscapeForXML(const std::string& text)
-{
-  std::string escaped;
-  for (const char character : text)
-  {
-    switch (character)
-    {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += character;
-    }
-  }
-  return escaped;
-}
-
 } // namespace
 
 SliceFiles::SliceFiles(
-  const std::string& prefix, const ScalarImage& frames, std::optional<int> count)
+  const std::string& prefix, const std::vector<double>& frameTimes, std::optional<int> count)
   : Collection(CollectionName(prefix))
-  , Times(SliceTimes(frames, count))
+  , Times(SliceTimes(frameTimes, count))
 {
   for (std::size_t i = 0; i < this->Times.size(); ++i)
   {
@@ -118,7 +93,7 @@ Slicer::Slicer(vtkUnstructuredGrid* mesh)
 
 Slicer::~Slicer() = default;
 
-void Slicer::Write(double time, const std::string& path)
+void Slicer::Write(double time, const std::string& path, const OutputFiles& files)
 {
   this->Filter->UpdateTimeStep(time);
   if (!this->Filter->GetErrorMessage().empty())
@@ -132,22 +107,24 @@ void Slicer::Write(double time, const std::string& path)
   timeValue->SetName("TimeValue");
   timeValue->InsertNextValue(time);
   slice->GetFieldData()->AddArray(timeValue);
-  WriteGrid(slice, path);
+  WriteMeshFile(slice, nullptr, vtkSimplexMeshWriter::CONTENT_MESH, path, files);
 }
 
-void WriteCollection(const SliceFiles& files, const std::string& path)
+void WriteCollection(const SliceFiles& slices, const OutputFiles& files)
 {
-  TextFile file(path);
-  file << "<?xml version=\"1.0\"?>\n"
-          "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-          "  <Collection>\n";
-  for (std::size_t i = 0; i < files.Slices.size(); ++i)
-  {
-    file << "    <DataSet timestep=\"" << files.Times[i] << "\" group=\"\" part=\"0\" file=\""
-         << EscapeForXML(fs::path(files.Slices[i]).filename().string()) << "\"/>\n";
-  }
-  file << "  </Collection>\n</VTKFile>\n";
-  file.Close();
+  files.WriteText(slices.Collection,
+    [&slices](io::TextFile& file)
+    {
+      file << "<?xml version=\"1.0\"?>\n"
+              "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+              "  <Collection>\n";
+      for (std::size_t i = 0; i < slices.Slices.size(); ++i)
+      {
+        file << "    <DataSet timestep=\"" << slices.Times[i] << "\" group=\"\" part=\"0\" file=\""
+             << io::EscapeForXML(fs::path(slices.Slices[i]).filename().string()) << "\"/>\n";
+      }
+      file << "  </Collection>\n</VTKFile>\n";
+    });
 }
 
 } // namespace voxplex::cli

@@ -7,8 +7,6 @@
 #ifndef voxplex_cli_SliceFiles_h
 #define voxplex_cli_SliceFiles_h
 
-#include "ScalarImage.h"
-
 #include <vtkSmartPointer.h>
 
 #include <optional>
@@ -21,6 +19,8 @@ class vtkUnstructuredGrid;
 namespace voxplex::cli
 {
 
+class OutputFiles;
+
 /** The names of the files, with the folder that the user gave. */
 struct SliceFiles
 {
@@ -32,10 +32,12 @@ struct SliceFiles
    * PREFIX0.vtu, PREFIX1.vtu, ... and PREFIX.pvd, the latter without an underscore, hyphen or dot at
    * the end of the prefix.
    *
+   * @param frameTimes of the image, increasing
    * @param count how many, equally spaced from the first to the last frame, both included; if
    * missing, one at the time of each frame
    */
-  SliceFiles(const std::string& prefix, const ScalarImage& frames, std::optional<int> count);
+  SliceFiles(
+    const std::string& prefix, const std::vector<double>& frameTimes, std::optional<int> count);
 };
 
 /** @throws UsageError: an empty name, or what is rather that of a file */
@@ -54,14 +56,14 @@ public:
    *
    * @throws RunError
    */
-  void Write(double time, const std::string& path);
+  void Write(double time, const std::string& path, const OutputFiles& files);
 
 private:
   vtkSmartPointer<vtkPentatopeMeshTimeSlice> Filter;
 };
 
 /** Writes the collection; it names the slices relative to its own place. @throws RunError */
-void WriteCollection(const SliceFiles& files, const std::string& path);
+void WriteCollection(const SliceFiles& slices, const OutputFiles& files);
 
 } // namespace voxplex::cli
 

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StatisticsReport.h"
 
+#include "OutputFiles.h"
 #include "Version.h"
-#include "Writers/TextFile.h"
 
 #include <vtkMeshingStatistics.h>
 
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include <sys/resource.h>
@@ -47,10 +48,10 @@ ordered_json DescribeSpaceTime(const SpaceTimeParameters& p)
 }
 
 /** Null for what was left to its default. */
-ordered_json DescribeParameters(const Parameters& p)
+ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selection)
 {
   ordered_json labelSizes = ordered_json::object();
-  for (const auto& [label, size] : p.LabelSizes)
+  for (const auto& [label, size] : selection.Sizes)
   {
     labelSizes[std::to_string(label)] = size;
   }
@@ -58,10 +59,14 @@ ordered_json DescribeParameters(const Parameters& p)
     { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) },
     { "size", OrNull(p.Size) }, { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
     { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
-    { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", p.Labels },
-    { "space", ToString(p.OutputSpace) }, { "threads", p.Threads },
-    { "contention", OrNull(p.Contention) }, { "balance", OrNull(p.Balance) },
-    { "pin", p.PinThreads }, { "force", p.Force }, { "memory_limit", p.MemoryLimit } };
+    { "sliver_angle", OrNull(p.SliverAngle) },
+    { "smallest_component", OrNull(p.SmallestComponent) },
+    { "min_component_volume", OrNull(p.MinimumComponentVolume) },
+    { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
+    { "label_table", OrNull(p.LabelTable) }, { "space", ToString(p.OutputSpace) },
+    { "threads", p.Threads }, { "contention", OrNull(p.Contention) },
+    { "balance", OrNull(p.Balance) }, { "pin", p.PinThreads }, { "force", p.Force },
+    { "memory_limit", p.MemoryLimit } };
   parameters.update(DescribeSpaceTime(p.SpaceTime));
   return parameters;
 }
@@ -69,9 +74,27 @@ ordered_json DescribeParameters(const Parameters& p)
 ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes& times)
 {
   return { { "read", times.Read }, { "label_field", s.GetLabelFieldTime() },
-    { "distance_transform", s.GetDistanceTransformTime() }, { "refinement", s.GetRefinementTime() },
-    { "extraction", s.GetExtractionTime() }, { "write", times.Write },
-    { "total_without_io", s.GetTotalTime() } };
+    { "distance_transform", s.GetDistanceTransformTime() }, { "components", s.GetComponentsTime() },
+    { "refinement", s.GetRefinementTime() }, { "extraction", s.GetExtractionTime() },
+    { "write", times.Write }, { "total_without_io", s.GetTotalTime() } };
+}
+
+/** Adds the names to the object that has figures for each label. */
+void NameLabels(ordered_json& report, const LabelReport& labels)
+{
+  for (auto& [label, figures] : report["labels"].items())
+  {
+    ordered_json named = { { "name", OrNull(labels.Names.NameOf(std::stoll(label))) } };
+    named.update(figures);
+    figures = named;
+  }
+  ordered_json lost = ordered_json::array();
+  for (const ordered_json& label : report["lost_labels"])
+  {
+    lost.push_back(OrNull(labels.Names.NameOf(label.get<std::int64_t>())));
+  }
+  report["lost_label_names"] = lost;
+  report["label_names_from"] = OrNull(labels.Source);
 }
 
 /** 436120 as "436,120". */
@@ -130,14 +153,36 @@ std::string SummarizePentatopes(const ordered_json& report)
     Rounded(cavities["mean"], 0) + " pentatopes, at most " + Grouped(cavities["largest"]);
 }
 
+/** What --min-component-volume left out. */
+std::string SummarizeDropped(const ordered_json& components)
+{
+  if (components.empty())
+  {
+    return "";
+  }
+  std::map<std::int64_t, std::int64_t> voxels;
+  for (const ordered_json& component : components)
+  {
+    voxels[component["label"].get<std::int64_t>()] += component["voxels"].get<std::int64_t>();
+  }
+  std::string text;
+  for (const auto& [label, count] : voxels)
+  {
+    text += (text.empty() ? "" : ", ") + Grouped(count) + " of label " + std::to_string(label);
+  }
+  return "Left out: " + Grouped(static_cast<std::int64_t>(components.size())) +
+    (components.size() == 1 ? " component" : " components") + " (voxels: " + text + "). ";
+}
+
 } // namespace
 
-ordered_json MakeReport(
-  vtkMeshingStatistics* statistics, const Parameters& parameters, const InputOutputTimes& times)
+ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
+  const LabelReport& labels, const InputOutputTimes& times)
 {
   ordered_json report = { { "program", "voxplex" }, { "version", Version },
-    { "parameters", DescribeParameters(parameters) } };
+    { "parameters", DescribeParameters(parameters, labels.Selection) } };
   report.update(ordered_json::parse(statistics->ToJSON()));
+  NameLabels(report, labels);
   report["space"] = ToString(parameters.OutputSpace);
   report["time"] = DescribeTimes(*statistics, times);
   const double seconds = statistics->GetTotalTime();
@@ -148,11 +193,11 @@ ordered_json MakeReport(
   return report;
 }
 
-void WriteReport(const ordered_json& report, const std::string& path)
+void WriteReport(const ordered_json& report, const std::string& path, const OutputFiles& files)
 {
-  TextFile file(path);
-  file << report.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
-  file.Close();
+  files.WriteText(path,
+    [&report](io::TextFile& file)
+    { file << report.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n'; });
 }
 
 std::vector<std::string> Warnings(const ordered_json& report)
@@ -162,13 +207,20 @@ std::vector<std::string> Warnings(const ordered_json& report)
   if (!lost.empty())
   {
     std::string labels;
-    for (const ordered_json& label : lost)
+    for (std::size_t i = 0; i < lost.size(); ++i)
     {
-      labels += (labels.empty() ? "" : ", ") + label.dump();
+      const ordered_json& name = report["lost_label_names"][i];
+      labels += (labels.empty() ? "" : ", ") + lost[i].dump() +
+        (name.is_null() ? "" : " (" + name.get<std::string>() + ")");
     }
     warnings.push_back("too small for this delta and not in the mesh: label" +
       std::string(lost.size() == 1 ? " " : "s ") + labels + "; use a smaller --delta to keep " +
       (lost.size() == 1 ? "it" : "them"));
+  }
+  for (const ordered_json& component : report["lost_components"])
+  {
+    warnings.push_back("not in the mesh: the connected component of " + component["voxels"].dump() +
+      " voxels of label " + component["label"].dump() + " at voxel " + component["voxel"].dump());
   }
   if (report["sizes_raised_to"].get<double>() > 0.0)
   {
@@ -198,7 +250,7 @@ std::string Summarize(const ordered_json& report)
        << report["labels"].size() << (report["labels"].size() == 1 ? " label, " : " labels, ")
        << Grouped(report["vertices"]) << " vertices, " << Grouped(report["interface_facets"])
        << (isSpaceTime ? " boundary tetrahedra" : " interface triangles") << " with delta "
-       << Significant(report["delta"]) << ". "
+       << Significant(report["delta"]) << ". " << SummarizeDropped(report["dropped_components"])
        << (isSpaceTime ? SummarizePentatopes(report) : SummarizeTetrahedra(report["quality"]))
        << ". Read in " << Rounded(time["read"], 2) << " s, meshed in "
        << Rounded(time["total_without_io"], 2) << " s, written in " << Rounded(time["write"], 2)

@@ -7,6 +7,8 @@
 #ifndef voxplex_cli_StatisticsReport_h
 #define voxplex_cli_StatisticsReport_h
 
+#include "LabelSelection.h"
+#include "LabelTable.h"
 #include "Parameters.h"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +21,16 @@ class vtkMeshingStatistics;
 namespace voxplex::cli
 {
 
+class OutputFiles;
+
+/** What is known of the labels. */
+struct LabelReport
+{
+  LabelSelection Selection;
+  io::LabelTable Names;
+  std::string Source; ///< the file that the names are from; may be empty
+};
+
 /** Wall-clock seconds of what happens outside of the filter. */
 struct InputOutputTimes
 {
@@ -30,11 +42,12 @@ struct InputOutputTimes
  * The statistics as Documentation/FileFormats.md lists them: those of the filter, with times,
  * rates and memory of the whole program and the parameters of the command.
  */
-nlohmann::ordered_json MakeReport(
-  vtkMeshingStatistics* statistics, const Parameters& parameters, const InputOutputTimes& times);
+nlohmann::ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
+  const LabelReport& labels, const InputOutputTimes& times);
 
 /** @throws RunError */
-void WriteReport(const nlohmann::ordered_json& report, const std::string& path);
+void WriteReport(
+  const nlohmann::ordered_json& report, const std::string& path, const OutputFiles& files);
 
 /** How the mesh or the run deviates from what was asked for, from a report: one line each. */
 std::vector<std::string> Warnings(const nlohmann::ordered_json& report);

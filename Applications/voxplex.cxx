@@ -5,21 +5,23 @@
 #include "CommandLine.h"
 #include "Errors.h"
 #include "Interruption.h"
+#include "MeshFile.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
 #include "ProgressBar.h"
-#include "ReadImage.h"
 #include "SliceFiles.h"
 #include "StatisticsReport.h"
-#include "Writers/Formats.h"
 
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkImageToSimplexMeshFilter.h>
 #include <vtkLogger.h>
 #include <vtkMeshingStatistics.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPolyData.h>
+#include <vtkSegmentationReader.h>
+#include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <chrono>
@@ -65,9 +67,12 @@ private:
 void ProtectInputs(const OutputFiles& files, const Parameters& p)
 {
   files.ForbidOverwriting(p.Input);
-  if (!p.SizeImage.empty())
+  for (const std::string& path : { p.SizeImage, p.LabelTable })
   {
-    files.ForbidOverwriting(p.SizeImage);
+    if (!path.empty())
+    {
+      files.ForbidOverwriting(path);
+    }
   }
 }
 
@@ -81,18 +86,28 @@ void Announce(OutputFiles& files, const Parameters& p)
       files.Add(path);
     }
   }
+  const std::string companion = vtkSimplexMeshWriter::CompanionOf(p.Output);
+  if (!companion.empty())
+  {
+    files.Add(companion);
+  }
   ProtectInputs(files, p);
 }
 
 /** Slices are known only when the image has been read. */
 std::optional<SliceFiles> AnnounceSlices(
-  OutputFiles& files, const Parameters& p, const ScalarImage& image)
+  OutputFiles& files, const Parameters& p, vtkSegmentationReader* reader)
 {
   if (p.SpaceTime.Slices.empty())
   {
     return std::nullopt;
   }
-  SliceFiles slices(p.SpaceTime.Slices, image, p.SpaceTime.SliceCount);
+  std::vector<double> times;
+  for (int frame = 0; frame < reader->GetNumberOfFrames(); ++frame)
+  {
+    times.push_back(reader->GetTimeOfFrame(frame));
+  }
+  SliceFiles slices(p.SpaceTime.Slices, times, p.SpaceTime.SliceCount);
   files.Add(slices.Collection);
   for (const std::string& path : slices.Slices)
   {
@@ -110,21 +125,43 @@ void Warn(const std::vector<std::string>& warnings)
   }
 }
 
+vtkSmartPointer<vtkSegmentationReader> ReadImage(const std::string& path, const std::string& series,
+  const std::string& labelTable, io::Space space)
+{
+  const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
+  reader->SetFileName(path.c_str());
+  reader->SetSeriesUID(series.c_str());
+  reader->SetLabelTableFileName(labelTable.c_str());
+  reader->SetSpace(
+    space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS : vtkSegmentationReader::SPACE_RAS);
+  reader->Update();
+  if (!reader->GetErrorMessage().empty())
+  {
+    throw RunError(InTermsOfFlags(reader->GetErrorMessage()));
+  }
+  std::vector<std::string> warnings;
+  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
+  {
+    warnings.push_back(InTermsOfFlags(reader->GetWarning(i)));
+  }
+  Warn(warnings);
+  return reader;
+}
+
 MeshingInput Read(const Parameters& p)
 {
-  std::vector<std::string> warnings;
-  MeshingInput input{ ReadImage(p.Input, p.Series, warnings), std::nullopt };
+  MeshingInput input;
+  input.Labels = ReadImage(p.Input, p.Series, p.LabelTable, p.OutputSpace);
   if (!p.SizeImage.empty())
   {
-    input.Sizes = ReadImage(p.SizeImage, "", warnings);
-    if (input.Sizes->Dimension() != 3)
+    input.Sizes = ReadImage(p.SizeImage, "", "", p.OutputSpace);
+    if (input.Sizes->GetNumberOfFrames() > 1)
     {
       throw RunError("--size-image: '" + p.SizeImage +
         "' has several time frames; an image of sizes has three dimensions, and holds at all "
         "times");
     }
   }
-  Warn(warnings);
   return input;
 }
 
@@ -149,34 +186,18 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> MeshOrExit(
   return filter;
 }
 
-/** Has a file written in the place that it will be moved from. */
-template <typename TWrite>
-void Write(const std::string& path, const OutputFiles& files, TWrite&& write)
-{
-  try
-  {
-    write(files.TemporaryPath(path));
-  }
-  catch (const RunError& error)
-  {
-    throw RunError("cannot write '" + path + "': " + error.what());
-  }
-}
-
 /** Writes both results if their names were given. */
-template <typename TMesh>
-void WriteMesh(const TMesh& mesh, const Parameters& p, const OutputFiles& files)
+void WriteMesh(vtkImageToSimplexMeshFilter* filter, const Parameters& p, const OutputFiles& files)
 {
-  const auto write = [&](const std::string& path, Content content)
+  const auto write = [&](const std::string& path, int content)
   {
     if (!path.empty())
     {
-      Write(path, files,
-        [&](const std::string& temporary) { WriteFile(mesh, content, path, temporary); });
+      WriteMeshFile(filter->GetOutput(), filter->GetOutputDataObject(1), content, path, files);
     }
   };
-  write(p.Output, Content::Mesh);
-  write(p.Interfaces, Content::Interfaces);
+  write(p.Output, vtkSimplexMeshWriter::CONTENT_MESH);
+  write(p.Interfaces, vtkSimplexMeshWriter::CONTENT_INTERFACES);
 }
 
 void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const OutputFiles& files)
@@ -184,11 +205,9 @@ void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const Outp
   Slicer slicer(mesh);
   for (std::size_t i = 0; i < slices.Slices.size(); ++i)
   {
-    Write(slices.Slices[i], files,
-      [&](const std::string& temporary) { slicer.Write(slices.Times[i], temporary); });
+    slicer.Write(slices.Times[i], slices.Slices[i], files);
   }
-  Write(slices.Collection, files,
-    [&](const std::string& temporary) { WriteCollection(slices, temporary); });
+  WriteCollection(slices, files);
 }
 
 void Run(const Parameters& p)
@@ -198,37 +217,30 @@ void Run(const Parameters& p)
 
   InputOutputTimes times;
   const Stopwatch reading;
-  const MeshingInput input = Read(p);
+  MeshingInput input = Read(p);
   times.Read = reading.Seconds();
 
-  CheckDimension(p, input.Labels.Dimension());
+  const io::LabelTable names = io::GetLabelTable(input.Labels->GetOutput()->GetFieldData());
+  input.Selection = SelectLabels(p, names);
+
+  CheckDimension(p, input.Dimension());
   const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input.Labels);
 
   const auto filter = MeshOrExit(p, input);
 
   const Stopwatch writing;
-  const std::string space = ToString(p.OutputSpace);
-  vtkDataObject* interfaces = filter->GetOutputDataObject(1);
-  if (input.Labels.Dimension() == 3)
-  {
-    WriteMesh(
-      MeshData{ filter->GetOutput(), vtkPolyData::SafeDownCast(interfaces), space }, p, files);
-  }
-  else
-  {
-    auto* boundary = vtkUnstructuredGrid::SafeDownCast(interfaces);
-    WriteMesh(SpaceTimeMeshData{ filter->GetOutput(), boundary, space }, p, files);
-  }
+  WriteMesh(filter, p, files);
   if (slices)
   {
     WriteSlices(filter->GetOutput(), *slices, files);
   }
   times.Write = writing.Seconds();
 
-  const auto report = MakeReport(filter->GetStatistics(), p, times);
+  const auto report = MakeReport(filter->GetStatistics(), p,
+    LabelReport{ input.Selection, names, input.Labels->GetLabelTableSource() }, times);
   if (!p.Statistics.empty())
   {
-    WriteReport(report, files.TemporaryPath(p.Statistics));
+    WriteReport(report, p.Statistics, files);
   }
   files.Commit();
   Warn(Warnings(report));

@@ -66,6 +66,10 @@ class CommandLine(ProgramTestCase):
             (("--radius-edge", "1.5"), "--radius-edge: .*--force"),
             (("--facet-angle", "31"), "--facet-angle: must lie between 0 and 30"),
             (("--facet-angle", "-1"), "--facet-angle: must lie between 0 and 30"),
+            (("--sliver-angle", "60"), "--sliver-angle: must lie between 0 and 59"),
+            (("--sliver-angle", "16"), "--sliver-angle: .*--force"),
+            (("--smallest-component", "-1"), "--smallest-component: must be a whole number"),
+            (("--min-component-volume", "0"), "--min-component-volume: must be"),
             (("--smoothing", "-1"), "--smoothing: must lie between"),
             (("--threads", "-2"), "--threads: must be a whole number"),
             (("--threads", "1.5"), "--threads: must be a whole number"),
@@ -82,11 +86,13 @@ class CommandLine(ProgramTestCase):
     def test_labels(self):
         for arguments, pattern in (
             (("--labels", "1,,2"), "--labels: '' is not a label"),
-            (("--labels", "1,two"), "--labels: 'two' is not a label"),
+            (("--labels", "1,-2"), "--labels: '-2' is not a label"),
             (("--labels", "0"), "--labels: '0' is not a label"),
             (("--label-size", "3"), "--label-size: '3' is not of the form"),
             (("--label-size", "3=0"), "--label-size: must be greater than 0"),
-            (("--label-size", "x=1"), "--label-size: 'x' is not a label"),
+            (("--label-size", "1.5=1"), "--label-size: '1.5' is not a label"),
+            (("--label-size", "=1"), "--label-size: '' is not a label"),
+            (("--labels", "Tibia,1.5"), "--labels: '1.5' is not a label"),
             (("--label-size", "3=1", "--label-size", "3=2"), "--label-size: label 3 is given twice"),
             (("--labels", "1", "--label-size", "3=1"), "label 3 is not among those of --labels"),
             (("--space", "xyz"), "--space: must be lps or ras"),
@@ -141,7 +147,7 @@ class Outputs(ProgramTestCase):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 
-        for name in ("m.vtu", "m.vtk", "m.mesh", "m.msh", "m.inp"):
+        for name in ("m.vtu", "m.vtk", "m.mesh", "m.mfem", "m.msh", "m.inp", "m.feb", "m.xdmf"):
             with self.subTest(name):
                 (self.folder / name).write_text("old")
                 self.assert_refused(1, "cannot write '%s': " % name, "--input", self.input, "--delta", 1.5,
@@ -172,7 +178,7 @@ class Files(ProgramTestCase):
                             ("noise.tif", b"II*\0"), ("noise.dcm", b"\0" * 128 + b"DICM")):
             with self.subTest(name):
                 (self.folder / name).write_bytes(magic + rng.bytes(1000))
-                self.assert_refused(1, "ITK reads|damaged", "--input", name, "--output", "mesh.vtu")
+                self.assert_refused(1, "ITK reads|damaged|picture", "--input", name, "--output", "mesh.vtu")
 
     def test_truncated(self):
         array = np.random.default_rng(3).integers(0, 3, (20, 20, 20)).astype(np.uint16)

@@ -135,7 +135,7 @@ class Statistics(ProgramTestCase):
 
         self.check_quality(report["quality"], mesh, surface)
         time = report["time"]
-        stages = ("label_field", "distance_transform", "refinement", "extraction")
+        stages = ("label_field", "distance_transform", "components", "refinement", "extraction")
         for name in ("read", "write", "total_without_io") + stages:
             self.assertIsInstance(time[name], float)
             self.assertGreaterEqual(time[name], 0.0)
@@ -232,7 +232,8 @@ class Threads(ProgramTestCase):
             self.assertGreaterEqual(min(lost), 0.0)
             self.assertLessEqual(sum(lost), 1.05 * refinement + 0.01)  # another clock
         rules = report["rules"]
-        self.assertEqual(sum(entry["insertions"] for entry in entries), sum(rules["R%d" % i] for i in range(1, 6)))
+        self.assertEqual(sum(entry["insertions"] for entry in entries),
+                         sum(rules[rule] for rule in ("R1", "R2", "R3", "R4", "R5", "R7_split", "R7_sampled")))
         self.assertEqual(sum(entry["removals"] for entry in entries), rules["R6"])
 
     def check_mesh(self, report, like):
@@ -319,7 +320,7 @@ class Talk(ProgramTestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
-                     "--facet-angle", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help",
+                     "--facet-angle", "--sliver-angle", "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help",
                      "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
                      "--sliver-bound", "--seed", "--no-fine-grained"):
             self.assertIn(flag, done.stdout)

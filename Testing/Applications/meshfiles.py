@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads every format that the program writes. VTK's by VTK's readers, the others by hand."""
+import re
 from dataclasses import dataclass, field
 from xml.etree import ElementTree
 
@@ -20,8 +21,11 @@ class Tetrahedra:
     space: str = ""
     triangles: np.ndarray = None
     references: np.ndarray = None  # of the triangles
-    names: dict = field(default_factory=dict)
+    names: dict = field(default_factory=dict)  # of pairs of labels
+    label_names: dict = field(default_factory=dict)
     node_sets: dict = field(default_factory=dict)
+    surfaces: dict = field(default_factory=dict)  # of faces, as vertices whose normal points out of the tetrahedron
+    surface_labels: dict = field(default_factory=dict)  # of these tetrahedra
 
     def volumes(self):
         a, b, c, d = (self.points[self.cells[:, i]] for i in range(4))
@@ -128,6 +132,8 @@ def read_tetrahedra(path):
         return _read_gmsh(path)
     if path.endswith(".inp"):
         return _read_abaqus(path)
+    if path.endswith(".mfem"):
+        return _read_mfem(path)
     raise ValueError(path)
 
 
@@ -136,7 +142,7 @@ def read_pentatopes(path):
     if path.endswith(".vtu"):
         return _pentatopes_from_grid(_read(vtkXMLUnstructuredGridReader(), path))
     if path.endswith(".mfem"):
-        return _read_mfem(path)
+        return _read_space_time_mfem(path)
     if path.endswith(".mesh"):
         return _read_gmf(path)
     raise ValueError(path)
@@ -192,14 +198,22 @@ def read_collection(path):
     return [(float(entry.get("timestep")), entry.get("file")) for entry in root.find("Collection")]
 
 
-def _pairs_of_comments(lines):
+def _pairs_of_comments(lines, start="#"):
     """Number: pair of labels, from the comments at the head."""
-    names = {}
+    pattern = re.compile(re.escape(start) + r"   (\d+): (\d+) (\d+)( .*)?$")
+    found = (pattern.match(line) for line in lines)
+    return {int(match[1]): (int(match[2]), int(match[3])) for match in found if match}
+
+
+def _names_of_comments(lines, start="#"):
+    """Label: name, and pair of labels: name, from the comments at the head."""
+    labels, pairs = {}, {}
     for line in lines:
-        if line.startswith("#   "):
-            number, pair = line[1:].split(":")
-            names[int(number)] = tuple(int(label) for label in pair.split())
-    return names
+        if match := re.match(re.escape(start) + r"   \d+: (\d+) (\d+) (.*)$", line):
+            pairs[int(match[1]), int(match[2])] = match[3]
+        elif match := re.match(re.escape(start) + r"   (\d+): (.*)$", line):
+            labels[int(match[1])] = match[2]
+    return labels, pairs
 
 
 def _read_sections(words, at, sections):
@@ -230,7 +244,7 @@ def _read_gmf(path):
                       tetrahedra[:, :4] - 1, tetrahedra[:, 4], _pairs_of_comments(lines))
 
 
-def _read_mfem(path):
+def _read_space_time_mfem(path):
     with open(path) as file:
         lines = file.read().split("\n")
     if lines[0] != "MFEM mesh v1.0":
@@ -250,6 +264,47 @@ def _read_mfem(path):
                       _pairs_of_comments(lines))
 
 
+def _read_attribute_sets(words, at, name):
+    """The only attribute of each set: its name; where the section ends."""
+    if words[at] != name:
+        raise AssertionError(words[at])
+    count, at = int(words[at + 1]), at + 2
+    sets = {}
+    for _ in range(count):
+        quoted, size, attribute = words[at:at + 3]
+        if size != "1" or not re.fullmatch('".*"', quoted):
+            raise AssertionError(quoted)
+        sets[int(attribute)] = quoted[1:-1]
+        at += 3
+    return sets, at
+
+
+def _read_mfem(path):
+    """Version 1.3, as mfem::Mesh::ReadMFEMMesh() reads it."""
+    with open(path) as file:
+        lines = file.read().split("\n")
+    if lines[0] != "MFEM mesh v1.3":
+        raise AssertionError("head of the file")
+    text = "\n".join(line for line in lines[1:] if not line.startswith("#"))
+    words = re.findall(r'"[^"\n]*"|\S+', text)
+    if words[:2] != ["dimension", "3"] or words[-1] != "mfem_mesh_end":
+        raise AssertionError("dimension or end")
+    tables, at = _read_sections(words, 2, (("elements", 6),))
+    labels, at = _read_attribute_sets(words, at, "attribute_sets")
+    boundaries, at = _read_sections(words, at, (("boundary", 5),))
+    pairs, at = _read_attribute_sets(words, at, "bdr_attribute_sets")
+    elements, boundary = tables["elements"].astype(int), boundaries["boundary"].astype(int)
+    if (elements[:, 1] != 4).any() or (boundary[:, 1] != 2).any():
+        raise AssertionError("geometries")
+    if words[at] != "vertices" or words[at + 2] != "3":
+        raise AssertionError("vertices")
+    vertices = np.array(words[at + 3:-1], dtype=float).reshape(int(words[at + 1]), 3)
+    space = next(line.split("SPACE=")[1][:3] for line in lines if "SPACE=" in line)
+    numbers = _pairs_of_comments(lines)
+    return Tetrahedra(vertices, elements[:, 2:], elements[:, 0], space, boundary[:, 2:], boundary[:, 0],
+                      {numbers[number]: name for number, name in pairs.items()}, labels)
+
+
 def _from_grid(grid):
     types = vtk_to_numpy(grid.GetCellTypesArray())
     if not (types == 10).all():
@@ -263,7 +318,7 @@ def _read_medit(path):
     with open(path) as file:
         lines = file.read().split("\n")
     space = next(line.split("SPACE=")[1] for line in lines if "SPACE=" in line)
-    names = _pairs_of_comments(lines)
+    label_names, names = _names_of_comments(lines)
     words = " ".join(line for line in lines if not line.startswith("#")).split()
     if words[:4] != ["MeshVersionFormatted", "2", "Dimension", "3"] or words[-1] != "End":
         raise AssertionError("head or end of the file")
@@ -273,7 +328,7 @@ def _read_medit(path):
     tetrahedra = sections["Tetrahedra"].astype(int)
     triangles = sections["Triangles"].astype(int)
     return Tetrahedra(sections["Vertices"][:, :3], tetrahedra[:, :4] - 1, tetrahedra[:, 4], space,
-                      triangles[:, :3] - 1, triangles[:, 3], names)
+                      triangles[:, :3] - 1, triangles[:, 3], names, label_names)
 
 
 def _read_gmsh(path):
@@ -294,8 +349,8 @@ def _read_gmsh(path):
         raise AssertionError(sections["MeshFormat"])
     names = {}
     for line in sections["PhysicalNames"][1:]:
-        dimension, tag, name = line.split()
-        names[(int(dimension), int(tag))] = name.strip('"')
+        dimension, tag, name = line.split(" ", 2)
+        names[(int(dimension), int(tag))] = re.fullmatch('"([^"]*)"', name)[1]
     physical = _gmsh_entities(sections["Entities"])
 
     nodes = sections["Nodes"]
@@ -331,7 +386,10 @@ def _read_gmsh(path):
         rows = [found[dimension][tag] for tag in sorted(found[dimension])]
         columns[dimension] = (np.array([row[0] for row in rows]) - 1, np.array([row[1] for row in rows]))
     space = text.split("SPACE=")[1].split("\n")[0]
-    return Tetrahedra(points, *columns[3], space, *columns[2], names)
+    pairs = _pairs_of_comments(lines, "")
+    return Tetrahedra(points, *columns[3], space, *columns[2],
+                      {pairs[tag]: name for (dimension, tag), name in names.items() if dimension == 2},
+                      {tag: name for (dimension, tag), name in names.items() if dimension == 3})
 
 
 def _gmsh_entities(lines):
@@ -357,34 +415,50 @@ def _gmsh_entities(lines):
     return physical
 
 
+# Nodes of the faces of C3D4, in the order in which their normals point outwards.
+_C3D4_FACES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (2, 0, 3)}
+
+
 def _read_abaqus(path):
-    nodes, elements, labels, sets = {}, {}, {}, {}
-    keyword, space = "", ""
     with open(path) as file:
-        for line in file:
-            line = line.strip()
-            if line.startswith("*"):
-                keyword = line
-                continue
-            words = [word.strip() for word in line.split(",")]
-            if keyword == "*HEADING":
-                space = line.split("SPACE=")[1]
-            elif keyword == "*NODE":
-                nodes[int(words[0])] = [float(word) for word in words[1:]]
-            elif keyword.startswith("*ELEMENT, TYPE=C3D4, ELSET=LABEL_"):
-                elements[int(words[0])] = [int(word) for word in words[1:]]
-                labels[int(words[0])] = int(keyword.rsplit("_", 1)[1])
-            elif keyword.startswith("*NSET, NSET="):
-                if len(words) > 16:
-                    raise AssertionError("more than 16 numbers on a line")
-                sets.setdefault(keyword[12:], []).extend(int(word) for word in words)
-            else:
-                raise AssertionError(keyword)
+        lines = file.read().split("\n")
+    names_of_labels, names_of_pairs = _names_of_comments(lines, "**")
+    # The set's name, without the name of the label behind it.
+    label_of_set = {name.split(" ")[0]: label for label, name in names_of_labels.items()}
+    nodes, elements, labels, sets, faces = {}, {}, {}, {}, {}
+    keyword, space = "", ""
+    for line in lines:
+        if line.startswith("**") or not line:
+            continue
+        if line.startswith("*"):
+            keyword = line
+            continue
+        words = [word.strip() for word in line.split(",")]
+        if keyword == "*HEADING":
+            space = line.split("SPACE=")[1]
+        elif keyword == "*NODE":
+            nodes[int(words[0])] = [float(word) for word in words[1:]]
+        elif keyword.startswith("*ELEMENT, TYPE=C3D4, ELSET="):
+            elements[int(words[0])] = [int(word) for word in words[1:]]
+            labels[int(words[0])] = label_of_set[keyword[27:]]
+        elif keyword.startswith("*NSET, NSET="):
+            if len(words) > 16:
+                raise AssertionError("more than 16 numbers on a line")
+            sets.setdefault(keyword[12:], []).extend(int(word) for word in words)
+        elif keyword.startswith("*SURFACE, TYPE=ELEMENT, NAME="):
+            faces.setdefault(keyword[29:], []).append((int(words[0]), words[1]))
+        else:
+            raise AssertionError(keyword)
     if sorted(nodes) != list(range(1, len(nodes) + 1)) or sorted(elements) != list(range(1, len(elements) + 1)):
         raise AssertionError("numbering")
+    surfaces = {name: np.array([[elements[e][k] - 1 for k in _C3D4_FACES[side]] for e, side in members])
+                for name, members in faces.items()}
     order = sorted(elements)
     return Tetrahedra(np.array([nodes[n] for n in sorted(nodes)]), np.array([elements[e] for e in order]) - 1,
-                      np.array([labels[e] for e in order]), space, node_sets=sets)
+                      np.array([labels[e] for e in order]), space, names=names_of_pairs,
+                      label_names={label: name for name, label in label_of_set.items()}, node_sets=sets,
+                      surfaces=surfaces,
+                      surface_labels={name: {labels[e] for e, side in members} for name, members in faces.items()})
 
 
 def read_triangles(path):

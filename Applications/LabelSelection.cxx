@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelSelection.h"
+
+#include "EditDistance.h"
+#include "Errors.h"
+#include "OptionValues.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace voxplex::cli
+{
+namespace
+{
+
+std::string LowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/** The labels with a name for which the predicate holds. */
+template <typename TPredicate>
+std::vector<std::int64_t> LabelsWhere(const io::LabelTable& table, TPredicate&& holds)
+{
+  std::vector<std::int64_t> labels;
+  for (const auto& [label, entry] : table.Entries)
+  {
+    if (holds(entry.Name))
+    {
+      labels.push_back(label);
+    }
+  }
+  return labels;
+}
+
+/** The labels with a name; those whose name differs in the case of letters only if there are no others. */
+std::vector<std::int64_t> LabelsCalled(const std::string& name, const io::LabelTable& table)
+{
+  std::vector<std::int64_t> labels =
+    LabelsWhere(table, [&name](const std::string& other) { return other == name; });
+  if (labels.empty())
+  {
+    const std::string lower = LowerCase(name);
+    labels =
+      LabelsWhere(table, [&lower](const std::string& other) { return LowerCase(other) == lower; });
+  }
+  return labels;
+}
+
+/** "; did you mean 'Tibia' (3) or 'Fibula' (4)?", the nearest first, or a hint where to find names. */
+std::string Suggest(const std::string& name, const io::LabelTable& table)
+{
+  constexpr std::size_t most = 5;
+  const std::string lower = LowerCase(name);
+  std::multimap<std::size_t, std::string> near;
+  for (const auto& [label, entry] : table.Entries)
+  {
+    const std::string other = LowerCase(entry.Name);
+    const bool isPart = other.find(lower) != std::string::npos;
+    const std::size_t distance = isPart ? 1 : EditDistance(lower, other);
+    if (distance <= std::max<std::size_t>(2, lower.size() / 3))
+    {
+      near.emplace(distance, Quoted(entry.Name) + " (" + std::to_string(label) + ")");
+    }
+  }
+  std::string text;
+  std::size_t count = 0;
+  const std::size_t shown = std::min(near.size(), most);
+  for (const auto& [distance, match] : near)
+  {
+    if (count++ == shown)
+    {
+      break;
+    }
+    text += (count == 1 ? "" : count == shown ? " or " : ", ") + match;
+  }
+  return text.empty() ? "" : "; did you mean " + text + "?";
+}
+
+/** @throws UsageError */
+std::int64_t ToLabel(
+  const std::string& option, const std::string& text, const io::LabelTable& table)
+{
+  if (const auto number = ParseLabelNumber(option, text))
+  {
+    return *number;
+  }
+  const std::vector<std::int64_t> labels = LabelsCalled(text, table);
+  if (labels.size() == 1)
+  {
+    return labels.front();
+  }
+  const std::string begin = "--" + option + ": ";
+  if (table.Entries.empty())
+  {
+    throw UsageError(begin + Quoted(text) +
+      " is not a number, and the labels of the image have no names; give numbers, or names with "
+      "--label-table");
+  }
+  if (labels.empty())
+  {
+    throw UsageError(
+      begin + "no label of the image is called " + Quoted(text) + Suggest(text, table));
+  }
+  std::string list;
+  for (const std::int64_t label : labels)
+  {
+    list += (list.empty() ? "" : ", ") + std::to_string(label);
+  }
+  throw UsageError(
+    begin + "several labels are called " + Quoted(text) + ": " + list + "; give numbers");
+}
+
+} // namespace
+
+bool HasNames(const Parameters& p)
+{
+  const auto isName = [](const std::string& text)
+  { return !ParseLabelNumber("labels", text).has_value(); };
+  const auto hasName = [&isName](const std::string& text)
+  {
+    const std::vector<std::string> labels = SplitAtCommas(text);
+    return std::any_of(labels.begin(), labels.end(), isName);
+  };
+  return std::any_of(p.LabelTexts.begin(), p.LabelTexts.end(), hasName) ||
+    std::any_of(p.LabelSizeTexts.begin(), p.LabelSizeTexts.end(),
+      [&isName](const LabelSizeText& size) { return isName(size.Label); });
+}
+
+LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
+{
+  LabelSelection selection;
+  std::vector<std::int64_t>& labels = selection.Labels;
+  for (const std::string& text : p.LabelTexts)
+  {
+    const bool isOneName = LabelsCalled(text, table).size() == 1;
+    for (const std::string& label : isOneName ? std::vector{ text } : SplitAtCommas(text))
+    {
+      labels.push_back(ToLabel("labels", label, table));
+    }
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+
+  for (const LabelSizeText& size : p.LabelSizeTexts)
+  {
+    const std::int64_t label = ToLabel("label-size", size.Label, table);
+    if (!selection.Sizes.emplace(label, size.Size).second)
+    {
+      throw UsageError("--label-size: label " + std::to_string(label) + " is given twice");
+    }
+    if (!labels.empty() && !std::binary_search(labels.begin(), labels.end(), label))
+    {
+      throw UsageError(
+        "--label-size: label " + std::to_string(label) + " is not among those of --labels");
+    }
+  }
+  return selection;
+}
+
+} // namespace voxplex::cli

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FileError.h
+ * @brief What reading and writing files throws.
+ */
+#ifndef voxplex_io_FileError_h
+#define voxplex_io_FileError_h
+
+#include <stdexcept>
+
+namespace voxplex::io
+{
+
+/** A file cannot be read or written; the message has one line, for the user. */
+class FileError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FileChecks.h"
+
+#include "TextHeader.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+namespace voxplex::io
+{
+namespace
+{
+
+// --- NIfTI
+// ------------------------------------------------------------------------------------------
+
+/** The fields of the 348-byte header that matter here, in the byte order of this machine. */
+class NIfTIHeader
+{
+public:
+  static constexpr std::size_t Size = 348;
+
+  explicit NIfTIHeader(const std::array<char, Size>& bytes)
+    : Bytes(bytes)
+    , Swapped(this->Get<std::int32_t>(0) != static_cast<std::int32_t>(Size))
+  {
+  }
+
+  bool IsValid() const { return this->Get<std::int32_t>(0) == static_cast<std::int32_t>(Size); }
+  bool HoldsVoxels() const { return std::memcmp(&this->Bytes[344], "n+1", 4) == 0; }
+  int Dimension(int i) const
+  {
+    return this->Get<std::int16_t>(40 + 2 * static_cast<std::size_t>(i));
+  }
+  int BitsPerVoxel() const { return this->Get<std::int16_t>(72); }
+  bool HasFrames() const { return this->Dimension(0) > 3 && this->Dimension(4) > 1; }
+  float Step(int i) const { return this->Get<float>(76 + 4 * static_cast<std::size_t>(i)); }
+  float FirstTime() const { return this->Get<float>(136); }
+  float VoxelOffset() const { return this->Get<float>(108); }
+
+  /** Bytes of the whole uncompressed file. */
+  std::uint64_t FileSize() const
+  {
+    std::uint64_t voxels = 1;
+    for (int i = 1; i <= this->Dimension(0); ++i)
+    {
+      voxels *= static_cast<std::uint64_t>(std::max(1, this->Dimension(i)));
+    }
+    return static_cast<std::uint64_t>(this->VoxelOffset()) +
+      voxels * static_cast<std::uint64_t>(this->BitsPerVoxel()) / 8;
+  }
+
+private:
+  template <typename T>
+  T Get(std::size_t offset) const
+  {
+    std::array<char, sizeof(T)> bytes;
+    std::copy_n(this->Bytes.begin() + offset, sizeof(T), bytes.begin());
+    if (this->Swapped)
+    {
+      std::reverse(bytes.begin(), bytes.end());
+    }
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof(T));
+    return value;
+  }
+
+  const std::array<char, Size>& Bytes;
+  bool Swapped = false;
+};
+
+struct GzCloser
+{
+  void operator()(gzFile_s* file) const { gzclose(file); }
+};
+
+/** Bytes up to the end of the file, at most enough; less if the compressed stream is damaged. */
+std::uint64_t CountBytes(gzFile file, std::uint64_t enough)
+{
+  std::vector<char> buffer(1 << 18);
+  std::uint64_t count = 0;
+  while (count < enough)
+  {
+    const int got = gzread(file, buffer.data(), static_cast<unsigned>(buffer.size()));
+    if (got <= 0)
+    {
+      break;
+    }
+    count += static_cast<std::uint64_t>(got);
+  }
+  return count;
+}
+
+std::string SpacingFault(const std::string& value)
+{
+  return "the voxel spacing in its header is '" + value +
+    "'; it must be a positive length along each axis: correct the header";
+}
+
+std::string TimeStepFault(const std::string& value)
+{
+  return "the time from frame to frame in its header is '" + value +
+    "'; it must be a positive number: correct the header";
+}
+
+bool IsPositive(double number)
+{
+  return number > 0 && std::isfinite(number);
+}
+
+constexpr std::size_t TimeAxis = 3;
+
+std::string FindFaultOfMetaImage(const std::string& spacing)
+{
+  const std::vector<double> numbers = ParseNumbers(spacing);
+  const auto fault = std::find_if_not(numbers.begin(), numbers.end(), IsPositive);
+  if (fault == numbers.end())
+  {
+    return "";
+  }
+  return fault == numbers.begin() + TimeAxis ? TimeStepFault(spacing) : SpacingFault(spacing);
+}
+
+/** NaN means 'unknown', which is fine for an axis that is not one of space. */
+std::string FindFaultOfNRRD(const TextHeader& header)
+{
+  const std::vector<NRRDAxis> axes = ParseNRRDAxes(header);
+  const bool hasList =
+    std::any_of(axes.begin(), axes.end(), [](const NRRDAxis& axis) { return axis.IsList(); });
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    const NRRDAxis& axis = axes[a];
+    const bool isTime = axis.IsList() || (a == TimeAxis && !hasList);
+    if (std::any_of(axis.Direction.begin(), axis.Direction.end(),
+          [](double number) { return !std::isfinite(number); }))
+    {
+      return SpacingFault(*header.Find("space directions"));
+    }
+    const bool mayBeUnknown = isTime || !axis.Direction.empty();
+    if (axis.HasSpacing && !IsPositive(axis.Spacing) && !(std::isnan(axis.Spacing) && mayBeUnknown))
+    {
+      const std::string& spacings = *header.Find("spacings");
+      return isTime ? TimeStepFault(spacings) : SpacingFault(spacings);
+    }
+  }
+  return "";
+}
+
+} // namespace
+
+std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
+{
+  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(path.c_str(), "rb"));
+  std::array<char, NIfTIHeader::Size> bytes{};
+  if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
+  {
+    return std::nullopt;
+  }
+  const NIfTIHeader header(bytes);
+  if (!header.IsValid() || !header.HasFrames())
+  {
+    return std::nullopt;
+  }
+  return NIfTITimes{ header.FirstTime(), header.Step(4) };
+}
+
+std::string FindFaultOfNIfTI(const std::string& path)
+{
+  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(path.c_str(), "rb"));
+  std::array<char, NIfTIHeader::Size> bytes{};
+  if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
+  {
+    return "";
+  }
+  const NIfTIHeader header(bytes);
+  if (!header.IsValid())
+  {
+    return "";
+  }
+  if (header.Dimension(0) < 1 || header.Dimension(0) > 7)
+  {
+    return "it is damaged: its header gives " + std::to_string(header.Dimension(0)) +
+      " dimensions, and the format has 1 to 7";
+  }
+  if (header.HasFrames() && !std::isfinite(header.FirstTime()))
+  {
+    return "the time of the first frame in its header (toffset) is not a finite number: correct the "
+           "header";
+  }
+  if (header.HasFrames() && !IsPositive(header.Step(4)) && header.Step(4) != 0)
+  {
+    std::ostringstream value;
+    value << header.Step(4);
+    return TimeStepFault(value.str());
+  }
+  for (int i = 1; i <= std::min(3, header.Dimension(0)); ++i)
+  {
+    if (!IsPositive(header.Step(i)))
+    {
+      std::ostringstream value;
+      value << header.Step(1) << ' ' << header.Step(2) << ' ' << header.Step(3);
+      return SpacingFault(value.str());
+    }
+  }
+  if (!header.HoldsVoxels())
+  {
+    return "";
+  }
+  const std::uint64_t expected = header.FileSize();
+  const std::uint64_t found = NIfTIHeader::Size +
+    CountBytes(file.get(), expected - std::min(expected, NIfTIHeader::Size + 0ul));
+  if (found < expected)
+  {
+    return "the file is truncated or damaged (" + std::to_string(found) + " of " +
+      std::to_string(expected) + " bytes)";
+  }
+  return "";
+}
+
+std::string FindFaultOfTextHeader(const std::string& path)
+{
+  const TextHeader header(path);
+  const std::string* spacing = header.Find("elementspacing");
+  return spacing ? FindFaultOfMetaImage(*spacing) : FindFaultOfNRRD(header);
+}
+
+} // namespace voxplex::io

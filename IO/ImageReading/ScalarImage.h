@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ScalarImage.h
+ * @brief A 3D or 4D image as read from a file: what passes between ITK's side of the program and
+ * VTK's.
+ */
+#ifndef voxplex_io_ScalarImage_h
+#define voxplex_io_ScalarImage_h
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+namespace voxplex::io
+{
+
+enum class ScalarType
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float32,
+  Float64
+};
+
+/**
+ * One scalar a voxel and frame, first axis fastest, time slowest. Voxel (i, j, k) lies at Origin +
+ * Direction * (Spacing * ijk); frame n at TimeOrigin + n * TimeSpacing.
+ */
+struct ScalarImage
+{
+  ScalarType Type = ScalarType::UInt8;
+  std::array<int, 3> Dimensions{};
+  std::array<double, 3> Origin{};
+  std::array<double, 3> Spacing{};
+  std::array<double, 9> Direction{}; ///< row-major; column j is the direction of axis j, LPS
+
+  int Frames = 1; ///< 1: a 3D image
+  double TimeOrigin = 0.0;
+  double TimeSpacing = 1.0; ///< positive
+
+  std::shared_ptr<void> Scalars; ///< keeps the reader's own buffer alive
+  int Dimension() const { return this->Frames > 1 ? 4 : 3; }
+  double TimeOf(int frame) const { return this->TimeOrigin + frame * this->TimeSpacing; }
+  /** Of one frame. */
+  std::size_t NumberOfVoxels() const
+  {
+    return static_cast<std::size_t>(this->Dimensions[0]) *
+      static_cast<std::size_t>(this->Dimensions[1]) * static_cast<std::size_t>(this->Dimensions[2]);
+  }
+};
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Segments.h"
+
+#include "TextHeader.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace voxplex::io
+{
+namespace
+{
+
+/** NRRD writes a backslash and a line end as two characters. */
+std::string Unescaped(const std::string& text)
+{
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isEscape = text[i] == '\\' && i + 1 < text.size();
+    if (isEscape && text[i + 1] == 'n')
+    {
+      result += ' ';
+      ++i;
+    }
+    else
+    {
+      i += isEscape && text[i + 1] == '\\';
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+/** The fields of one segment. */
+class Segment
+{
+public:
+  Segment(const TextHeader& header, int number)
+    : Header(header)
+    , Number(number)
+  {
+  }
+
+  bool Exists() const { return this->Find("id") != nullptr; }
+
+  std::string Name() const
+  {
+    const std::string* name = this->Find("name");
+    return Unescaped(name && !name->empty() ? *name : *this->Find("id"));
+  }
+
+  std::int64_t Label() const { return this->Integer("labelvalue", 1); }
+  std::int64_t Layer() const { return this->Integer("layer", this->Number); }
+
+  std::optional<std::array<double, 3>> Color() const
+  {
+    const std::string* color = this->Find("color");
+    color = color ? color : this->Find("defaultcolor");
+    const std::vector<double> parts = color ? ParseNumbers(*color) : std::vector<double>();
+    const bool isColor = parts.size() == 3 &&
+      std::all_of(parts.begin(), parts.end(), [](double part) { return part >= 0 && part <= 1; });
+    return isColor ? std::optional(std::array<double, 3>{ parts[0], parts[1], parts[2] })
+                   : std::nullopt;
+  }
+
+private:
+  const std::string* Find(const char* key) const
+  {
+    return this->Header.Find("segment" + std::to_string(this->Number) + "_" + key);
+  }
+
+  /** 0 if it is not a whole number. */
+  std::int64_t Integer(const char* key, std::int64_t missing) const
+  {
+    const std::string* text = this->Find(key);
+    if (!text)
+    {
+      return missing;
+    }
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+    return error == std::errc() && end == text->data() + text->size() ? value : 0;
+  }
+
+  const TextHeader& Header;
+  int Number;
+};
+
+std::vector<Segment> ListSegments(const TextHeader& header)
+{
+  std::vector<Segment> segments;
+  for (int number = 0; Segment(header, number).Exists(); ++number)
+  {
+    segments.emplace_back(header, number);
+  }
+  return segments;
+}
+
+} // namespace
+
+LabelTable ReadSegments(const std::string& path, std::vector<std::string>& warnings)
+{
+  const TextHeader header(path);
+  LabelTable table;
+  for (const Segment& segment : ListSegments(header))
+  {
+    if (segment.Label() <= 0)
+    {
+      warnings.push_back(path + ": the segment '" + segment.Name() +
+        "' has a value that is not a label, and its name is not used");
+    }
+    else if (!IsUTF8(segment.Name()))
+    {
+      warnings.push_back(path + ": the name of label " + std::to_string(segment.Label()) +
+        " is not in UTF-8, and is not used");
+    }
+    else
+    {
+      table.Entries.emplace(segment.Label(), LabelTable::Entry{ segment.Name(), segment.Color() });
+    }
+  }
+  return table;
+}
+
+std::string DescribeLayers(const std::string& path)
+{
+  const TextHeader header(path);
+  std::map<std::int64_t, std::string> layers;
+  for (const Segment& segment : ListSegments(header))
+  {
+    std::string& names = layers[segment.Layer()];
+    names += (names.empty() ? "" : ", ") + segment.Name();
+  }
+  std::string text;
+  for (const auto& [layer, names] : layers)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(layer + 1) + " (" + names + ")";
+  }
+  return text;
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelTable.h"
+
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkLongLongArray.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr const char* ValuesName = "LabelValues";
+constexpr const char* NamesName = "LabelNames";
+constexpr const char* ColorsName = "LabelColors";
+
+template <typename TArray>
+vtkSmartPointer<vtkDataArray> MakeValues(const LabelTable& table)
+{
+  const auto values = vtkSmartPointer<TArray>::New();
+  for (const auto& [label, entry] : table.Entries)
+  {
+    values->InsertNextValue(static_cast<typename TArray::ValueType>(label));
+  }
+  return values;
+}
+
+bool IsColored(const std::pair<const std::int64_t, LabelTable::Entry>& row)
+{
+  return row.second.Color.has_value();
+}
+
+} // namespace
+
+bool IsUTF8(std::string_view text)
+{
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const unsigned char lead = byte(i);
+    const std::size_t length = lead < 0x80 ? 1
+      : lead >= 0xC2 && lead < 0xE0        ? 2
+      : lead >= 0xE0 && lead < 0xF0        ? 3
+      : lead >= 0xF0 && lead < 0xF5        ? 4
+                                           : 0;
+    if (length == 0 || i + length > text.size())
+    {
+      return false;
+    }
+    for (std::size_t j = 1; j < length; ++j)
+    {
+      if ((byte(i + j) & 0xC0) != 0x80)
+      {
+        return false;
+      }
+    }
+    const unsigned char second = length > 1 ? byte(i + 1) : 0;
+    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+      (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+    {
+      return false;
+    }
+    i += length;
+  }
+  return true;
+}
+
+const std::string& LabelTable::NameOf(std::int64_t label) const
+{
+  static const std::string none;
+  const auto row = this->Entries.find(label);
+  return row == this->Entries.end() ? none : row->second.Name;
+}
+
+LabelTable GetLabelTable(vtkFieldData* fields)
+{
+  vtkDataArray* values = fields->GetArray(ValuesName);
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray(NamesName));
+  vtkDataArray* colors = fields->GetArray(ColorsName);
+  LabelTable table;
+  if (!values || !names || names->GetNumberOfValues() != values->GetNumberOfValues())
+  {
+    return table;
+  }
+  const bool hasColors = colors && colors->GetNumberOfComponents() == 3 &&
+    colors->GetNumberOfTuples() == values->GetNumberOfValues();
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    // vtkVariant keeps all 64 bits of a label.
+    const auto label = static_cast<std::int64_t>(values->GetVariantValue(i).ToTypeInt64());
+    if (label <= 0 || names->GetValue(i).empty())
+    {
+      continue;
+    }
+    LabelTable::Entry& entry = table.Entries[label];
+    entry.Name = names->GetValue(i);
+    if (hasColors)
+    {
+      std::array<double, 3> color;
+      colors->GetTuple(i, color.data());
+      if (!std::isnan(color[0] + color[1] + color[2]))
+      {
+        entry.Color = color;
+      }
+    }
+  }
+  return table;
+}
+
+void SetLabelTable(vtkFieldData* fields, const LabelTable& table)
+{
+  for (const char* name : { ValuesName, NamesName, ColorsName })
+  {
+    fields->RemoveArray(name);
+  }
+  if (table.Entries.empty())
+  {
+    return;
+  }
+  const bool isWide = table.Entries.rbegin()->first > std::numeric_limits<int>::max();
+  const auto values = isWide ? MakeValues<vtkLongLongArray>(table) : MakeValues<vtkIntArray>(table);
+  values->SetName(ValuesName);
+  vtkNew<vtkStringArray> names;
+  names->SetName(NamesName);
+  vtkNew<vtkDoubleArray> colors;
+  colors->SetName(ColorsName);
+  colors->SetNumberOfComponents(3);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [label, entry] : table.Entries)
+  {
+    names->InsertNextValue(entry.Name);
+    colors->InsertNextTuple(entry.Color.value_or(std::array<double, 3>{ nan, nan, nan }).data());
+  }
+  fields->AddArray(values);
+  fields->AddArray(names);
+  if (std::any_of(table.Entries.begin(), table.Entries.end(), IsColored))
+  {
+    fields->AddArray(colors);
+  }
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshInput.h"
+
+#include "FileError.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <array>
+
+namespace voxplex::io
+{
+namespace
+{
+
+/** Formats that take any cells and any arrays as they are. */
+bool TakesAnything(const std::string& name)
+{
+  const std::string extension = ExtensionOf(name);
+  constexpr std::array anything{ ".vtu", ".vtp", ".vtk", ".stl" };
+  return std::find(anything.begin(), anything.end(), extension) != anything.end();
+}
+
+std::string SpaceOf(vtkDataObject* data)
+{
+  auto* space =
+    data ? vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE")) : nullptr;
+  return space && space->GetNumberOfValues() == 1 ? std::string(space->GetValue(0)) : "";
+}
+
+/** Arrays without values, as the filters name them. */
+void AddInterfaceArrays(vtkDataSet* interfaces)
+{
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Labels");
+  labels->SetNumberOfComponents(2);
+  interfaces->GetCellData()->AddArray(labels);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("PointIds");
+  interfaces->GetPointData()->AddArray(ids);
+}
+
+void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
+{
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  mesh->GetCellData()->AddArray(labels);
+  if (isSpaceTime)
+  {
+    vtkNew<vtkDoubleArray> times;
+    times->SetName("Time");
+    mesh->GetPointData()->AddArray(times);
+  }
+}
+
+void RequireArray(
+  vtkDataSetAttributes* attributes, const char* name, int components, const std::string& what)
+{
+  vtkDataArray* array = attributes->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != components)
+  {
+    throw FileError(what + " no array '" + name + "' of " + std::to_string(components) +
+      (components == 1 ? " component" : " components") +
+      "; give the outputs of the meshing filter, or write a .vtu file");
+  }
+}
+
+void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
+{
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size)
+    {
+      throw FileError(what + ", and cell " + std::to_string(cell) + " is none; write a .vtu file");
+    }
+  }
+}
+
+void RequireTriangles(vtkPolyData* surface)
+{
+  vtkCellArray* polygons = surface->GetPolys();
+  const bool isOther = surface->GetNumberOfCells() != polygons->GetNumberOfCells();
+  if (isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3))
+  {
+    throw FileError("the interfaces must be triangles in this format; write a .vtp file");
+  }
+}
+
+/** Ids of the mesh's points. */
+void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
+{
+  RequireArray(interfaces->GetPointData(), "PointIds", 1, "the interfaces have");
+  vtkDataArray* ids = interfaces->GetPointData()->GetArray("PointIds");
+  if (ids->GetNumberOfTuples() == 0)
+  {
+    return;
+  }
+  std::array<double, 2> range;
+  ids->GetRange(range.data());
+  if (range[0] < 0 || range[1] >= static_cast<double>(numberOfPoints))
+  {
+    throw FileError("the interfaces are not those of this mesh: their PointIds are not its points");
+  }
+}
+
+} // namespace
+
+MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces)
+  : Dimension(3)
+  , Space(SpaceOf(mesh))
+  , Mesh(vtkUnstructuredGrid::SafeDownCast(mesh))
+  , Triangles(vtkPolyData::SafeDownCast(interfaces))
+  , Tetrahedra(vtkUnstructuredGrid::SafeDownCast(interfaces))
+{
+  const bool hasCells = this->Mesh && this->Mesh->GetNumberOfCells() > 0;
+  const bool isSpaceTime = hasCells && this->Mesh->GetCellType(0) == VTK_POLY_VERTEX;
+  if (hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr))
+  {
+    throw FileError(
+      "the interfaces are not those of this mesh: one is of three dimensions, and the "
+      "other of four");
+  }
+  this->Dimension = isSpaceTime || this->Tetrahedra ? 4 : 3;
+  if (this->Space.empty())
+  {
+    this->Space = SpaceOf(interfaces);
+  }
+  if (this->Space.empty())
+  {
+    this->Space = "unknown";
+  }
+  if (!this->Mesh)
+  {
+    this->Mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    this->Mesh->SetPoints(vtkNew<vtkPoints>());
+    AddMeshArrays(this->Mesh, this->Dimension == 4);
+  }
+  if (this->Dimension == 3 && !this->Triangles)
+  {
+    this->Triangles = vtkSmartPointer<vtkPolyData>::New();
+    AddInterfaceArrays(this->Triangles);
+  }
+  if (this->Dimension == 4 && !this->Tetrahedra)
+  {
+    this->Tetrahedra = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    AddInterfaceArrays(this->Tetrahedra);
+  }
+}
+
+void MeshInput::Check(Content content, const std::string& name) const
+{
+  if (TakesAnything(name))
+  {
+    return;
+  }
+  if (content == Content::Mesh)
+  {
+    RequireArray(this->Mesh->GetCellData(), "Label", 1, "the mesh has");
+    if (this->Dimension == 3)
+    {
+      RequireCells(this->Mesh, VTK_TETRA, 4, "the cells must be tetrahedra in this format");
+    }
+    else
+    {
+      RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells must be pentatopes in this format");
+      RequireArray(this->Mesh->GetPointData(), "Time", 1, "the mesh has");
+    }
+    vtkDataSet* interfaces = this->Triangles;
+    if (this->Dimension == 4)
+    {
+      interfaces = this->Tetrahedra;
+    }
+    RequirePointIds(interfaces, this->Mesh->GetNumberOfPoints());
+  }
+  if (this->Dimension == 3)
+  {
+    RequireTriangles(this->Triangles);
+    RequireArray(this->Triangles->GetCellData(), "Labels", 2, "the interfaces have");
+  }
+  else
+  {
+    RequireCells(
+      this->Tetrahedra, VTK_TETRA, 4, "the interfaces must be tetrahedra in this format");
+    RequireArray(this->Tetrahedra->GetCellData(), "Labels", 2, "the interfaces have");
+  }
+}
+
+void MeshInput::Write(Content content, const std::string& name, const std::string& path,
+  const std::string& companionPath) const
+{
+  if (this->Dimension == 3)
+  {
+    WriteFile(
+      MeshData{ this->Mesh, this->Triangles, this->Space }, content, name, path, companionPath);
+  }
+  else
+  {
+    WriteFile(SpaceTimeMeshData{ this->Mesh, this->Tetrahedra, this->Space }, content, name, path);
+  }
+}
+
+} // namespace voxplex::io

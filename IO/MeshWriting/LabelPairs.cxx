@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelPairs.h"
+
+#include "FileError.h"
+
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace voxplex::io
+{
+
+vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name)
+{
+  vtkDataArray* array = attributes->GetArray(name);
+  if (!array)
+  {
+    throw std::logic_error(std::string("the mesh has no array '") + name + "'");
+  }
+  return array;
+}
+
+/** vtkVariant keeps all 64 bits of a label, GetTuple() only 53. */
+std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component)
+{
+  const vtkIdType index = cell * labels->GetNumberOfComponents() + component;
+  const auto label = static_cast<std::int64_t>(labels->GetVariantValue(index).ToTypeInt64());
+  if (label > std::numeric_limits<std::int32_t>::max())
+  {
+    throw FileError("label " + std::to_string(label) +
+      " does not fit into this format, which has 32 bits for it; write a .vtu file");
+  }
+  return label;
+}
+
+std::map<LabelPair, std::int64_t> NumberPairs(
+  const std::set<LabelPair>& pairs, std::int64_t largestLabel)
+{
+  std::map<LabelPair, std::int64_t> numbers;
+  std::int64_t next = largestLabel + 1;
+  for (const LabelPair& pair : pairs)
+  {
+    numbers[pair] = pair.second == 0 ? pair.first : next++;
+  }
+  return numbers;
+}
+
+} // namespace voxplex::io

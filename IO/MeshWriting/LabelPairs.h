@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LabelPairs.h
+ * @brief The labels of a mesh's arrays, and numbers for the pairs that interfaces have.
+ */
+#ifndef voxplex_io_LabelPairs_h
+#define voxplex_io_LabelPairs_h
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <vtkType.h>
+
+class vtkDataArray;
+class vtkDataSetAttributes;
+
+namespace voxplex::io
+{
+
+using LabelPair = std::pair<std::int64_t, std::int64_t>; ///< larger label first, 0 for background
+
+/** An array that the filters promise; a program error if it is missing. */
+vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name);
+
+/** @throws FileError if the label does not fit into 31 bits */
+std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component = 0);
+
+/**
+ * A number for each pair of labels: that of the label where the other side is background; pairs of
+ * two labels are numbered in increasing order from the largest label + 1 on.
+ */
+std::map<LabelPair, std::int64_t> NumberPairs(
+  const std::set<LabelPair>& pairs, std::int64_t largestLabel);
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The .mfem file. Of 3D meshes 'MFEM mesh v1.3', which names sets of attributes; of 4D meshes
+// 'MFEM mesh v1.0' with dimension 4, as MFEM's branch 4d_dev reads it. The attribute of an element is
+// its label, that of a boundary element the number of its pair of labels; comments tell which.
+
+#include "MeshView.h"
+#include "SetNames.h"
+#include "SpaceTimeMeshView.h"
+#include "TextFile.h"
+#include "Writers.h"
+
+namespace voxplex::io
+{
+namespace
+{
+
+/** mfem::Geometry::Type. */
+constexpr int Triangle = 2;
+constexpr int Tetrahedron = 4;
+constexpr int Pentatope = 8;
+
+/** "attribute geometry vertices". */
+template <std::size_t N>
+void WriteElement(
+  TextFile& file, std::int64_t attribute, int geometry, const std::array<vtkIdType, N>& vertices)
+{
+  file << attribute << ' ' << geometry;
+  for (const vtkIdType vertex : vertices)
+  {
+    file << ' ' << vertex;
+  }
+  file << '\n';
+}
+
+template <typename TView>
+void WriteVertices(TextFile& file, const TView& view)
+{
+  constexpr std::size_t dimension = std::tuple_size_v<decltype(view.Point(0))>;
+  file << "\nvertices\n" << view.NumberOfPoints() << '\n' << dimension << '\n';
+  for (vtkIdType i = 0; i < view.NumberOfPoints(); ++i)
+  {
+    const auto x = view.Point(i);
+    for (std::size_t k = 0; k < dimension; ++k)
+    {
+      file << x[k] << (k + 1 < dimension ? ' ' : '\n');
+    }
+  }
+}
+
+/** A set of one attribute for each label or pair. */
+void WriteAttributeSet(TextFile& file, const std::string& name, std::int64_t attribute)
+{
+  file << '"' << name << "\" 1 " << attribute << '\n';
+}
+
+void WriteElements(TextFile& file, const MeshView& view, const SetNames& names)
+{
+  file << "\ndimension\n3\n\nelements\n" << view.Tetrahedra.size() << '\n';
+  for (std::size_t i = 0; i < view.Tetrahedra.size(); ++i)
+  {
+    WriteElement(file, view.LabelOfTetrahedron[i], Tetrahedron, view.Tetrahedra[i]);
+  }
+  file << "\nattribute_sets\n" << view.TetrahedraOfLabel.size() << '\n';
+  for (const auto& [label, cells] : view.TetrahedraOfLabel)
+  {
+    WriteAttributeSet(file, names.OfLabel(label), label);
+  }
+}
+
+void WriteBoundary(TextFile& file, const MeshView& view, const SetNames& names)
+{
+  file << "\nboundary\n" << view.Triangles.size() << '\n';
+  for (std::size_t i = 0; i < view.Triangles.size(); ++i)
+  {
+    WriteElement(file, view.PairNumber.at(view.PairOfTriangle[i]), Triangle, view.Triangles[i]);
+  }
+  file << "\nbdr_attribute_sets\n" << view.PairNumber.size() << '\n';
+  for (const auto& [pair, number] : view.PairNumber)
+  {
+    WriteAttributeSet(file, names.OfPair(pair), number);
+  }
+}
+
+} // namespace
+
+void WriteMFEM(const MeshData& mesh, const std::string& path)
+{
+  const MeshView view(mesh);
+  const SetNames names(view, QuotedNames);
+  TextFile file(path);
+  file << "MFEM mesh v1.3\n\n# Written by Voxplex. SPACE=" << mesh.Space << '\n'
+       << "# Attributes of elements are labels:\n";
+  WriteLabelNames(file, view, names, "#");
+  file << "# Attributes of the boundary, labels on both sides:\n";
+  WritePairNames(file, view, names, "#");
+  WriteElements(file, view, names);
+  WriteBoundary(file, view, names);
+  WriteVertices(file, view);
+  file << "\nmfem_mesh_end\n";
+  file.Close();
+}
+
+void WriteSpaceTimeMFEM(const SpaceTimeMeshData& mesh, const std::string& path)
+{
+  const SpaceTimeMeshView view(mesh);
+  TextFile file(path);
+  file << "MFEM mesh v1.0\n\n"
+       << "# Written by Voxplex. SPACE=" << mesh.Space << "; the fourth coordinate is the time.\n"
+       << "# Attributes of elements are labels; those of the boundary, labels on both sides:\n";
+  view.WritePairs(file);
+
+  file << "\ndimension\n4\n\nelements\n" << view.NumberOfPentatopes() << '\n';
+  for (vtkIdType cell = 0; cell < view.NumberOfPentatopes(); ++cell)
+  {
+    WriteElement(file, view.LabelOf(cell), Pentatope, view.Pentatope(cell));
+  }
+  file << "\nboundary\n" << view.NumberOfTetrahedra() << '\n';
+  for (vtkIdType cell = 0; cell < view.NumberOfTetrahedra(); ++cell)
+  {
+    WriteElement(file, view.NumberOf(cell), Tetrahedron, view.Tetrahedron(cell));
+  }
+  WriteVertices(file, view);
+  file.Close();
+}
+
+} // namespace voxplex::io

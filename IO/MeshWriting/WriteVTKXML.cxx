@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The .vtu and .vtp files: appended raw data, compressed with zlib, 64-bit block headers.
+
+#include "VTKWriting.h"
+#include "Writers.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+namespace voxplex::io
+{
+namespace
+{
+
+template <typename TWriter>
+void Write(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<TWriter> writer;
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToZLib();
+  writer->SetHeaderTypeToUInt64();
+  RunWriter(writer.Get(), path);
+}
+
+} // namespace
+
+void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path)
+{
+  Write<vtkXMLUnstructuredGridWriter>(grid, path);
+}
+
+void WriteVTU(const MeshData& mesh, const std::string& path)
+{
+  WriteGrid(mesh.Tetrahedra, path);
+}
+
+void WriteVTP(const MeshData& mesh, const std::string& path)
+{
+  Write<vtkXMLPolyDataWriter>(mesh.Interfaces, path);
+}
+
+void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
+{
+  WriteGrid(mesh.Pentatopes, path);
+}
+
+void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)
+{
+  WriteGrid(mesh.Boundary, path);
+}
+
+} // namespace voxplex::io

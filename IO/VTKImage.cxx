@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VTKImage.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+
+#include <cstddef>
+#include <stdexcept>
+
+namespace voxplex::io
+{
+namespace
+{
+
+int VTKType(ScalarType type)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return VTK_TYPE_INT8;
+    case ScalarType::UInt8:
+      return VTK_TYPE_UINT8;
+    case ScalarType::Int16:
+      return VTK_TYPE_INT16;
+    case ScalarType::UInt16:
+      return VTK_TYPE_UINT16;
+    case ScalarType::Int32:
+      return VTK_TYPE_INT32;
+    case ScalarType::UInt32:
+      return VTK_TYPE_UINT32;
+    case ScalarType::Int64:
+      return VTK_TYPE_INT64;
+    case ScalarType::UInt64:
+      return VTK_TYPE_UINT64;
+    case ScalarType::Float32:
+      return VTK_TYPE_FLOAT32;
+    case ScalarType::Float64:
+      return VTK_TYPE_FLOAT64;
+  }
+  throw std::logic_error("unknown scalar type");
+}
+
+/** An array over the image's own buffer, which it keeps alive for as long as it lives itself. */
+vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
+{
+  const auto array =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTKType(image.Type)));
+  array->SetName("Labels");
+  const std::size_t frameSize =
+    image.NumberOfVoxels() * static_cast<std::size_t>(array->GetDataTypeSize());
+  array->SetVoidArray(
+    static_cast<std::byte*>(image.Scalars.get()) + static_cast<std::size_t>(frame) * frameSize,
+    static_cast<vtkIdType>(image.NumberOfVoxels()), 1);
+
+  // The observer dies with the array; its client data is a share of the buffer.
+  vtkNew<vtkCallbackCommand> owner;
+  owner->SetClientData(new std::shared_ptr<void>(image.Scalars));
+  owner->SetClientDataDeleteCallback(
+    [](void* share) { delete static_cast<std::shared_ptr<void>*>(share); });
+  array->AddObserver(vtkCommand::UserEvent, owner);
+  return array;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame)
+{
+  const auto result = vtkSmartPointer<vtkImageData>::New();
+  result->SetDimensions(image.Dimensions.data());
+  result->SetSpacing(image.Spacing.data());
+  std::array<double, 3> origin = image.Origin;
+  std::array<double, 9> direction = image.Direction;
+  if (space == Space::RAS)
+  {
+    for (std::size_t row = 0; row < 2; ++row)
+    {
+      origin[row] = -origin[row];
+      for (std::size_t column = 0; column < 3; ++column)
+      {
+        direction[3 * row + column] = -direction[3 * row + column];
+      }
+    }
+  }
+  result->SetOrigin(origin.data());
+  result->SetDirectionMatrix(direction.data());
+  result->GetPointData()->SetScalars(ShareScalars(image, frame));
+  return result;
+}
+
+void AddSpaceArray(vtkDataObject* data, Space space)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName("SPACE");
+  array->InsertNextValue(ToString(space));
+  data->GetFieldData()->AddArray(array);
+}
+
+} // namespace voxplex::io

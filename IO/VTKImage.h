@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VTKImage.h
+ * @brief From the image that ITK read to vtkImageData, without copying voxels.
+ */
+#ifndef voxplex_io_VTKImage_h
+#define voxplex_io_VTKImage_h
+
+#include "ImageReading/ScalarImage.h"
+#include "Space.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkDataObject;
+class vtkImageData;
+
+namespace voxplex::io
+{
+
+/**
+ * One frame as an image that refers to the voxels of the argument and keeps them alive. For
+ * Space::RAS, the first two physical coordinates change sign.
+ */
+vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame = 0);
+
+/** Adds the field-data string array SPACE, which 3D Slicer reads. */
+void AddSpaceArray(vtkDataObject* data, Space space);
+
+} // namespace voxplex::io
+
+#endif

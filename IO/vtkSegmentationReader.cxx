@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSegmentationReader.h"
+
+#include "FileError.h"
+#include "ImageLabels.h"
+#include "ImageReading/ReadImage.h"
+#include "ImageReading/Segments.h"
+#include "LabelTable.h"
+#include "LabelTableFile.h"
+#include "VTKImage.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+using voxplex::io::ScalarImage;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+int NearestFrame(const ScalarImage& image, double time)
+{
+  const double steps = (time - image.TimeOrigin) / image.TimeSpacing;
+  return static_cast<int>(std::clamp(std::round(steps), 0.0, image.Frames - 1.0));
+}
+
+} // namespace
+
+struct vtkSegmentationReader::Internals
+{
+  ScalarImage Image; ///< without voxels as long as nothing was read
+  voxplex::io::LabelTable Labels;
+  std::string LabelSource;
+  std::vector<std::string> Warnings;
+  vtkTimeStamp ReadTime;
+};
+
+vtkStandardNewMacro(vtkSegmentationReader);
+
+vtkSegmentationReader::vtkSegmentationReader()
+  : FileName(nullptr)
+  , SeriesUID(nullptr)
+  , LabelTableFileName(nullptr)
+  , Space(SPACE_LPS)
+  , Private(new Internals)
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkSegmentationReader::~vtkSegmentationReader()
+{
+  this->SetFileName(nullptr);
+  this->SetSeriesUID(nullptr);
+  this->SetLabelTableFileName(nullptr);
+}
+
+void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
+     << indent << "SeriesUID: " << (this->SeriesUID ? this->SeriesUID : "(none)") << "\n"
+     << indent
+     << "LabelTableFileName: " << (this->LabelTableFileName ? this->LabelTableFileName : "(none)")
+     << "\n"
+     << indent << "Space: " << (this->Space == SPACE_LPS ? "LPS" : "RAS") << "\n"
+     << indent << "Frames: " << this->GetNumberOfFrames() << "\n"
+     << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+}
+
+int vtkSegmentationReader::GetNumberOfFrames() const
+{
+  return this->Private->Image.Scalars ? this->Private->Image.Frames : 0;
+}
+
+double vtkSegmentationReader::GetTimeOfFrame(int frame) const
+{
+  return this->Private->Image.TimeOf(frame);
+}
+
+const std::string& vtkSegmentationReader::GetLabelTableSource() const
+{
+  return this->Private->LabelSource;
+}
+
+int vtkSegmentationReader::GetNumberOfWarnings() const
+{
+  return static_cast<int>(this->Private->Warnings.size());
+}
+
+const std::string& vtkSegmentationReader::GetWarning(int i) const
+{
+  static const std::string none;
+  return i >= 0 && i < this->GetNumberOfWarnings()
+    ? this->Private->Warnings[static_cast<std::size_t>(i)]
+    : none;
+}
+
+/** Unless what was read last is still right. */
+bool vtkSegmentationReader::Read()
+{
+  Internals& data = *this->Private;
+  if (data.Image.Scalars && data.ReadTime > this->GetMTime())
+  {
+    return true;
+  }
+  data = Internals();
+  this->ErrorMessage.clear();
+  try
+  {
+    if (!this->FileName || !*this->FileName)
+    {
+      throw voxplex::io::FileError("no file name is set");
+    }
+    data.Image =
+      voxplex::io::ReadImage(this->FileName, this->SeriesUID ? this->SeriesUID : "", data.Warnings);
+    this->ReadLabels();
+  }
+  catch (const std::exception& error)
+  {
+    data = Internals();
+    this->ErrorMessage = error.what();
+    vtkErrorMacro(<< this->ErrorMessage);
+    return false;
+  }
+  data.ReadTime.Modified();
+  for (const std::string& warning : data.Warnings)
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return true;
+}
+
+/** From the table that is set, the header, or a table beside the image, in this order. */
+void vtkSegmentationReader::ReadLabels()
+{
+  Internals& data = *this->Private;
+  if (this->LabelTableFileName && *this->LabelTableFileName)
+  {
+    data.LabelSource = this->LabelTableFileName;
+    data.Labels = voxplex::io::ReadLabelTableFile(data.LabelSource);
+  }
+  else if (data.Labels = voxplex::io::ReadSegments(this->FileName, data.Warnings);
+           !data.Labels.Entries.empty())
+  {
+    data.LabelSource = this->FileName;
+  }
+  else if (const auto beside = voxplex::io::FindLabelTableFile(this->FileName))
+  {
+    try
+    {
+      data.Labels = voxplex::io::ReadLabelTableFile(*beside);
+      data.LabelSource = *beside;
+    }
+    catch (const voxplex::io::FileError& error)
+    {
+      data.Warnings.push_back(std::string("labels have no names: ") + error.what());
+    }
+  }
+  voxplex::io::KeepLabelsOf(data.Image, data.Labels);
+  if (data.Labels.Entries.empty() && !data.LabelSource.empty())
+  {
+    data.Warnings.push_back(
+      "labels have no names: no label that '" + data.LabelSource + "' lists is in the image");
+    data.LabelSource.clear();
+  }
+}
+
+int vtkSegmentationReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  information->Remove(Pipeline::TIME_STEPS());
+  information->Remove(Pipeline::TIME_RANGE());
+  if (!this->Read())
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(information))
+    {
+      output->Initialize();
+    }
+    return 0;
+  }
+  const ScalarImage& image = this->Private->Image;
+  const auto space = static_cast<voxplex::io::Space>(this->Space);
+  const auto frame = voxplex::io::ToVTKImage(image, space);
+  information->Set(Pipeline::WHOLE_EXTENT(), frame->GetExtent(), 6);
+  information->Set(vtkDataObject::ORIGIN(), frame->GetOrigin(), 3);
+  information->Set(vtkDataObject::SPACING(), frame->GetSpacing(), 3);
+  information->Set(vtkDataObject::DIRECTION(), frame->GetDirectionMatrix()->GetData(), 9);
+  vtkDataObject::SetPointDataActiveScalarInfo(information, frame->GetScalarType(), 1);
+  if (image.Frames > 1)
+  {
+    std::vector<double> times;
+    for (int i = 0; i < image.Frames; ++i)
+    {
+      times.push_back(image.TimeOf(i));
+    }
+    const std::array<double, 2> range{ times.front(), times.back() };
+    information->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    information->Set(Pipeline::TIME_RANGE(), range.data(), 2);
+  }
+  return 1;
+}
+
+int vtkSegmentationReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  vtkImageData* output = vtkImageData::GetData(information);
+  const ScalarImage& image = this->Private->Image;
+  const bool hasTime = information->Has(Pipeline::UPDATE_TIME_STEP());
+  const int frame =
+    hasTime ? NearestFrame(image, information->Get(Pipeline::UPDATE_TIME_STEP())) : 0;
+  const auto space = static_cast<voxplex::io::Space>(this->Space);
+  output->ShallowCopy(voxplex::io::ToVTKImage(image, space, frame));
+  if (image.Frames > 1)
+  {
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), image.TimeOf(frame));
+  }
+  voxplex::io::AddSpaceArray(output, space);
+  voxplex::io::SetLabelTable(output->GetFieldData(), this->Private->Labels);
+  return 1;
+}

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSegmentationReader
+ * @brief   reads a segmentation with its place in space, its times and the names of its labels
+ *
+ * Reads one file of any format that ITK knows (NRRD, NIfTI, MetaImage, DICOM, ...), or a folder with a
+ * DICOM series, in three or four dimensions, the fourth being time.
+ *
+ * @par Output
+ * vtkImageData with origin, spacing and direction matrix as in the file, in the coordinates that Space
+ * asks for. The point scalars are called `Labels`; they have one component and the type of the file. The
+ * voxels are not copied: the output shares the memory that the file was read into.
+ *
+ * Field data:
+ * - `SPACE`: vtkStringArray with one value, "LPS" or "RAS", which 3D Slicer reads;
+ * - `LabelValues`, `LabelNames`, `LabelColors`: names and colours of the labels, where they are known:
+ *   vtkIntArray (vtkLongLongArray if a value does not fit), vtkStringArray, and vtkDoubleArray with three
+ *   components in [0, 1], NaN for a label without a colour, left out if none has one. The background 0
+ *   is not listed, nor are labels without names, and names of labels that no voxel has.
+ *
+ * The meshing filters pass field data on to the mesh.
+ *
+ * @par Time
+ * An image of several frames announces `TIME_STEPS` and `TIME_RANGE`. The output is the frame that
+ * is nearest to `UPDATE_TIME_STEP`, the first one if no time is asked for. Frames are equally spaced.
+ *
+ * @par Errors
+ * What cannot be read is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage()
+ * keeps the reason: no such file, unknown format, truncated or damaged data, several components that are
+ * not frames, more than four dimensions, a spacing that is not positive, a singular direction matrix,
+ * frames that are not equally spaced, several DICOM series and no SeriesUID. What was odd but could be read
+ * is reported with vtkWarningMacro, and kept for GetWarning().
+ *
+ * @par When it reads
+ * The whole file is read when the pipeline first asks for information, so that damage is known before
+ * anything is computed, and kept until the reader is modified. Call Modified() to read a file again that
+ * has changed.
+ *
+ * @par Thread safety
+ * Distinct instances may execute at the same time; they read one after the other. ITK and the libraries
+ * below it write to standard error; while a file is read, what the process writes there is collected and
+ * not shown.
+ */
+#ifndef vtkSegmentationReader_h
+#define vtkSegmentationReader_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkVoxplexIOModule.h" // For export macro
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class VTKVOXPLEXIO_EXPORT vtkSegmentationReader : public vtkImageAlgorithm
+{
+public:
+  static vtkSegmentationReader* New();
+  vtkTypeMacro(vtkSegmentationReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Coordinates of the output. LPS are those of DICOM and ITK, RAS those of NIfTI and 3D Slicer's scene. */
+  enum
+  {
+    SPACE_LPS = 0,
+    SPACE_RAS = 1
+  };
+
+  ///@{
+  /** A file, or a folder with a DICOM series. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /** Which DICOM series to read, if the folder holds several: its UID or the beginning of it. */
+  vtkSetStringMacro(SeriesUID);
+  vtkGetStringMacro(SeriesUID);
+  ///@}
+
+  ///@{
+  /**
+   * A text table with names and colours of the labels: that of an atlas, or of FreeSurfer, ITK-SNAP or
+   * 3D Slicer, or `value name` or `value,name,red,green,blue` in each line. Documentation/FileFormats.md
+   * describes them. Default none: names are then those that the image has itself (3D Slicer's .seg.nrrd),
+   * or, if it has none, those of a table of the same name beside it: x.nii.txt beside x.nii.gz. If that is no
+   * table, there is a warning and it is not used; a table that is set here must be one.
+   */
+  vtkSetFilePathMacro(LabelTableFileName);
+  vtkGetFilePathMacro(LabelTableFileName);
+  ///@}
+
+  ///@{
+  /** SPACE_LPS (default) or SPACE_RAS. */
+  vtkSetClampMacro(Space, int, SPACE_LPS, SPACE_RAS);
+  vtkGetMacro(Space, int);
+  ///@}
+
+  ///@{
+  /**
+   * What was read, valid after UpdateInformation() or Update(): the number of frames, 1 for a 3D image
+   * and 0 if nothing could be read, and the time of each.
+   */
+  int GetNumberOfFrames() const;
+  double GetTimeOfFrame(int frame) const;
+  ///@}
+
+  /** The file that the names of labels are from, which may be the image; empty if there are none. */
+  const std::string& GetLabelTableSource() const;
+
+  /** Why the last execution failed; empty if it did not. */
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
+  ///@{
+  /** What was odd but could be read, one line each. */
+  int GetNumberOfWarnings() const;
+  const std::string& GetWarning(int i) const;
+  ///@}
+
+protected:
+  vtkSegmentationReader();
+  ~vtkSegmentationReader() override;
+
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  char* FileName;
+  char* SeriesUID;
+  char* LabelTableFileName;
+  int Space;
+
+private:
+  vtkSegmentationReader(const vtkSegmentationReader&) = delete;
+  void operator=(const vtkSegmentationReader&) = delete;
+
+  bool Read();
+  void ReadLabels();
+
+  std::string ErrorMessage;
+
+  struct Internals;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif

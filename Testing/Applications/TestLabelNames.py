@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Labels by name: on the command line, in the mesh, and in the statistics."""
+import json
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+import images
+import meshfiles
+from program import ProgramTestCase, main
+
+AAL = Path("/usr/share/mricron/templates/aal.nii.gz")
+
+
+def names_of(path):
+    """{label: name} of the field data of a .vtu or .vtp file."""
+    reader = vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    fields = reader.GetOutput().GetFieldData()
+    values, names = fields.GetArray("LabelValues"), fields.GetAbstractArray("LabelNames")
+    return {values.GetValue(i): names.GetValue(i) for i in range(values.GetNumberOfValues())} if values else {}
+
+
+class NamesTestCase(ProgramTestCase):
+    TABLE = "3 Left hippocampus\n7 Tibia, left\n"
+
+    def setUp(self):
+        super().setUp()
+        self.image = images.write_nrrd(self.folder / "i.nrrd", images.two_labels(16, 6.0))
+        (self.folder / "names.txt").write_text(self.TABLE)
+
+    def labels(self, *arguments):
+        self.mesh("--input", self.image, "--delta", 3, "--output", "m.vtu", *arguments)
+        return set(meshfiles.read_tetrahedra(self.folder / "m.vtu").labels)
+
+
+class Selection(NamesTestCase):
+    def test_labels(self):
+        table = ("--label-table", "names.txt")
+        for arguments, expected in (
+            (("--labels", "Left hippocampus"), {3}),
+            (("--labels", "left HIPPOCAMPUS"), {3}),
+            (("--labels", "Tibia, left"), {7}),
+            (("--labels", "Tibia, left", "--labels", "Left hippocampus"), {3, 7}),
+            (("--labels", "Left hippocampus,7"), {3, 7}),
+            (("--labels", "7"), {7}),
+            ((), {3, 7}),
+        ):
+            with self.subTest(arguments):
+                self.assertEqual(self.labels(*table, *arguments), expected)
+
+    def test_sizes(self):
+        """The same as with numbers, bit for bit."""
+        for name, number in (("Tibia, left=1.2", "7=1.2"), ("left hippocampus=1.5", "3=1.5")):
+            files = []
+            for text in (name, number):
+                self.mesh("--input", self.image, "--delta", 2, "--threads", 1, "--label-table", "names.txt",
+                          "--label-size", text, "--output", "m.mesh")
+                files.append((self.folder / "m.mesh").read_bytes())
+            self.assertEqual(*files)
+        coarse = self.mesh("--input", self.image, "--delta", 2, "--threads", 1, "--output", "m.mesh")
+        self.assertNotEqual((self.folder / "m.mesh").read_bytes(), files[0])
+        self.assertIn("tetrahedra", coarse.stdout)
+
+    def test_a_name_with_equals_sign(self):
+        (self.folder / "names.txt").write_text("3 T1=low\n")
+        self.assertEqual(self.labels("--label-table", "names.txt", "--label-size", "T1=low=2"), {3, 7})
+
+    def test_table_beside_the_image(self):
+        (self.folder / "i.nrrd.txt").write_text(self.TABLE)
+        self.assertEqual(self.labels("--labels", "Left hippocampus"), {3})
+
+    def test_segments(self):
+        self.image = images.write_nrrd(self.folder / "s.seg.nrrd", images.two_labels(16, 6.0), key_values={
+            "Segment0_ID": "s0", "Segment0_Name": "Femur", "Segment0_LabelValue": "7", "Segment0_Layer": "0"})
+        self.assertEqual(self.labels("--labels", "Femur"), {7})
+        self.assertEqual(names_of(self.folder / "m.vtu"), {7: "Femur"})
+
+    @unittest.skipUnless(AAL.exists(), "package mricron-data")
+    def test_atlas(self):
+        report = self.statistics("--input", AAL, "--labels", "Hippocampus_L,Hippocampus_R", "--delta", 4)
+        self.assertEqual({label: figures["name"] for label, figures in report["labels"].items()},
+                         {"37": "Hippocampus_L", "38": "Hippocampus_R"})
+        self.assertEqual(report["label_names_from"], str(AAL)[:-3] + ".txt")
+
+
+class Refusal(NamesTestCase):
+    def refuse(self, pattern, *arguments, status=2):
+        self.assert_refused(status, pattern, "--input", self.image, "--output", "m.vtu", *arguments)
+
+    def test_unknown(self):
+        table = ("--label-table", "names.txt")
+        self.refuse(r"--labels: no label of the image is called 'Left hipocampus'; did you mean "
+                    r"'Left hippocampus' \(3\)\?", *table, "--labels", "Left hipocampus")
+        self.refuse(r"--labels: .* 'left'; did you mean '.*' \((3|7)\) or '.*' \((3|7)\)\?", *table, "--labels", "left")
+        self.refuse("--label-size: no label of the image is called 'Femur'\n", *table, "--label-size", "Femur=2")
+
+    def test_no_names(self):
+        self.refuse("--labels: 'Femur' is not a number, and the labels of the image have no names",
+                    "--labels", "Femur")
+
+    def test_ambiguous(self):
+        (self.folder / "names.txt").write_text("3 Bone\n7 Bone\n")
+        table = ("--label-table", "names.txt")
+        self.refuse("several labels are called 'Bone': 3, 7; give numbers", *table, "--labels", "Bone")
+        (self.folder / "names.txt").write_text("3 Bone\n7 bone\n")
+        self.refuse("several labels are called 'BONE': 3, 7", *table, "--labels", "BONE")
+        self.assertEqual(self.labels(*table, "--labels", "bone"), {7})
+
+    def test_together(self):
+        table = ("--label-table", "names.txt")
+        self.refuse("--label-size: label 3 is given twice", *table, "--label-size", "Left hippocampus=2",
+                    "--label-size", "3=2")
+        self.refuse("label 7 is not among those of --labels", *table, "--labels", "Left hippocampus",
+                    "--label-size", "Tibia, left=2")
+
+    def test_table(self):
+        (self.folder / "names.txt").write_text("3 Bone\nx\n")
+        self.refuse("cannot read the label table 'names.txt': line 2: 'x' is not a label", "--label-table", "names.txt",
+                    status=1)
+        self.refuse("cannot read the label table 'none': there is no such file", "--label-table", "none", status=1)
+        (self.folder / "m.vtu").write_text("3 Bone\n")
+        self.refuse("cannot write 'm.vtu': it is the input", "--label-table", "m.vtu", status=1)
+        self.refuse("--label-table: the name is empty", "--label-table", "")
+
+
+class Output(NamesTestCase):
+    EXPECTED = {3: "Left hippocampus", 7: "Tibia, left"}
+
+    def test_meshes(self):
+        self.mesh("--input", self.image, "--label-table", "names.txt", "--delta", 3, "--output", "m.vtu", "--plc", "i.vtp")
+        for name in ("m.vtu", "i.vtp"):
+            self.assertEqual(names_of(self.folder / name), self.EXPECTED)
+
+    def test_space_time(self):
+        path = images.write_nrrd(self.folder / "t.nrrd", np.stack([images.two_labels(16, 6.0)] * 3))
+        self.mesh("--input", path, "--label-table", "names.txt", "--delta", 4, "--labels", "Left hippocampus",
+                  "--output", "m.vtu", "--plc", "b.vtu", "--slices", "s_")
+        for name in ("m.vtu", "b.vtu", "s_0.vtu", "s_2.vtu"):
+            self.assertEqual(names_of(self.folder / name), self.EXPECTED)
+
+    def test_statistics(self):
+        array = images.two_labels(16, 6.0)
+        array[1, 1, 1] = 9
+        path = images.write_nrrd(self.folder / "lost.nrrd", array)
+        (self.folder / "names.txt").write_text(self.TABLE + "9 Speck\n")
+        self.mesh("--input", path, "--label-table", "names.txt", "--delta", 3, "--stats", "s.json",
+                  warning=r"not in the mesh: label 9 \(Speck\); use a smaller")
+        report = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual({label: list(figures)[0] for label, figures in report["labels"].items()},
+                         {"3": "name", "7": "name"})
+        self.assertEqual({int(label): figures["name"] for label, figures in report["labels"].items()}, self.EXPECTED)
+        self.assertEqual((report["lost_labels"], report["lost_label_names"]), ([9], ["Speck"]))
+        self.assertEqual((report["label_names_from"], report["parameters"]["label_table"]), ("names.txt",) * 2)
+
+        report = self.statistics("--input", self.image, "--delta", 3)
+        self.assertEqual({figures["name"] for figures in report["labels"].values()}, {None})
+        self.assertEqual((report["label_names_from"], report["parameters"]["label_table"]), (None, None))
+
+    def test_no_label_of_the_table(self):
+        (self.folder / "names.txt").write_text("1 a\n")
+        self.mesh("--input", self.image, "--label-table", "names.txt", "--delta", 3, "--output", "m.vtu",
+                  warning="no label that 'names.txt' lists is in the image")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {})
+
+
+if __name__ == "__main__":
+    main()

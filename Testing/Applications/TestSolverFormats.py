@@ -1,0 +1,172 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The formats of solvers as meshio, h5py and an XML parser read them, against .vtu and .vtp."""
+import json
+import resource
+from xml.etree import ElementTree
+
+import h5py
+import meshio
+import numpy as np
+
+from labelledmesh import LabelledMeshTestCase
+from program import main
+
+
+class ReadByMeshio(LabelledMeshTestCase):
+    def test_medit(self):
+        mesh = meshio.read(self.write("mesh.mesh"))
+        np.testing.assert_array_equal(mesh.points, self.points)
+        np.testing.assert_array_equal(mesh.get_cells_type("tetra"), self.cells)
+        np.testing.assert_array_equal(mesh.get_cell_data("medit:ref", "tetra"), self.labels)
+        np.testing.assert_array_equal(mesh.get_cells_type("triangle"), self.triangles)
+        numbers = self.pair_numbers()
+        np.testing.assert_array_equal(mesh.get_cell_data("medit:ref", "triangle"),
+                                      [numbers[tuple(pair)] for pair in self.pairs])
+
+    def test_gmsh(self):
+        mesh = meshio.read(self.write("mesh.msh"))
+        # The reader numbers points by blocks of nodes.
+        order = np.lexsort(mesh.points.T)
+        np.testing.assert_array_equal(mesh.points[order], self.points[np.lexsort(self.points.T)])
+        self.assertEqual({name: tuple(value) for name, value in mesh.field_data.items()},
+                         {**{name: (label, 3) for label, name in self.label_names.items()},
+                          **{self.name_of_pair(pair): (number, 2) for pair, number in self.pair_numbers().items()}})
+        expected = {**self.cells_by_name(), **self.triangles_by_name()}
+        for block, groups in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+            dimension = 3 if block.type == "tetra" else 2
+            name, = (name for name, value in mesh.field_data.items() if tuple(value) == (groups[0], dimension))
+            self.assertEqual(set(groups), {groups[0]})
+            np.testing.assert_array_equal(mesh.points[block.data], self.points[expected.pop(name)])
+        self.assertEqual(expected, {})
+
+    def test_abaqus(self):
+        """meshio knows no surfaces of element faces."""
+        mesh = meshio.read(self.write("mesh.inp"))
+        np.testing.assert_array_equal(mesh.points, self.points)
+        sets = {name: np.concatenate([block.data[members] for block, members in zip(mesh.cells, blocks)
+                                      if len(members)]) for name, blocks in mesh.cell_sets.items()}
+        self.assert_same_cells(sets, self.cells_by_name())
+        self.assert_same_cells(mesh.point_sets, {name: np.unique(cells)
+                                                 for name, cells in self.triangles_by_name().items()})
+
+    def test_xdmf(self):
+        """meshio reads files of one grid: each is cut out into a file of its own."""
+        grids = {}
+        for name, kind in (("mesh", "tetra"), ("facets", "triangle")):
+            tree = ElementTree.parse(self.write("mesh.xdmf"))
+            domain = tree.getroot().find("Domain")
+            for child in list(domain):
+                if child.get("Name") != name:
+                    domain.remove(child)
+            tree.write(self.folder / "one.xdmf")
+            grids[kind] = meshio.read(self.folder / "one.xdmf")
+            np.testing.assert_array_equal(grids[kind].points, self.points)
+            self.assertEqual([block.type for block in grids[kind].cells], [kind])
+        np.testing.assert_array_equal(grids["tetra"].cells[0].data, self.cells)
+        np.testing.assert_array_equal(grids["tetra"].cell_data["Label"][0], self.labels)
+        np.testing.assert_array_equal(grids["triangle"].cells[0].data, self.triangles)
+        np.testing.assert_array_equal(grids["triangle"].cell_data["Labels"][0], self.pairs)
+        numbers = self.pair_numbers()
+        np.testing.assert_array_equal(grids["triangle"].cell_data["Number"][0],
+                                      [numbers[tuple(pair)] for pair in self.pairs])
+
+
+class XDMF(LabelledMeshTestCase):
+    def test_names_and_types(self):
+        root = ElementTree.parse(self.write("mesh.xdmf")).getroot()
+        self.assertEqual((root.tag, root.get("Version")), ("Xdmf", "3.0"))
+        information = {entry.get("Name"): entry.get("Value") for entry in root.iter("Information")}
+        self.assertEqual(information["SPACE"], "LPS")
+        self.assertEqual(json.loads(information["CellTags"]),
+                         {name: label for label, name in self.label_names.items()})
+        self.assertEqual(json.loads(information["FacetTags"]),
+                         {self.name_of_pair(pair): number for pair, number in self.pair_numbers().items()})
+        # As FEniCS writes its own files.
+        with h5py.File(self.folder / "mesh.h5") as file:
+            types = {}
+            file.visititems(lambda name, item: types.update({name: item.dtype.str})
+                            if isinstance(item, h5py.Dataset) else None)
+        self.assertEqual(types, {"mesh/geometry": "<f8", "mesh/topology": "<i8", "mesh/labels": "<i4",
+                                 "facets/topology": "<i8", "facets/numbers": "<i4", "facets/labels": "<i4"})
+        for item in root.iter("DataItem"):
+            file, dataset = item.text.split(":")
+            self.assertEqual(file, "mesh.h5")
+            with h5py.File(self.folder / file) as heavy:
+                self.assertEqual(item.get("Dimensions").split(), [str(n) for n in heavy[dataset].shape])
+
+    def test_file_names(self):
+        (self.folder / "a folder").mkdir()
+        self.write("a folder/R&D <1>.v2.xdmf")
+        text = (self.folder / "a folder" / "R&D <1>.v2.xdmf").read_text()
+        self.assertEqual({item.text.split(":")[0] for item in ElementTree.fromstring(text).iter("DataItem")},
+                         {"R&D <1>.v2.h5"})
+        self.assertTrue((self.folder / "a folder" / "R&D <1>.v2.h5").exists())
+
+    def refuse(self, pattern, *arguments, **options):
+        self.assert_refused(1, pattern, "--input", self.input, "--delta", self.delta, *arguments, **options)
+
+    def test_two_files_or_none(self):
+        (self.folder / "mesh.h5").write_text("old numbers")
+        (self.folder / "mesh.xdmf").write_text("old")
+        for size in (1000, 8000, 34000):
+            with self.subTest(size):
+                self.refuse("cannot write 'mesh.xdmf': ", "--output", "mesh.xdmf",
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+
+    def test_refused_names(self):
+        self.refuse("cannot write 'a:b.xdmf': .*':'", "--output", "a:b.xdmf")
+        (self.folder / "folder.h5").mkdir()
+        self.refuse("cannot write 'folder.h5': it is a folder", "--output", "folder.xdmf")
+
+
+class FEBio(LabelledMeshTestCase):
+    """What FEBio 4 wants of its input, after the source of its reader and of FEBio Studio's."""
+
+    def setUp(self):
+        super().setUp()
+        self.root = ElementTree.parse(self.write("mesh.feb")).getroot()
+
+    def vertices(self, elements):
+        return np.array([[int(vertex) for vertex in element.text.split(",")] for element in elements]) - 1
+
+    def test_sections(self):
+        self.assertEqual((self.root.tag, self.root.get("version")), ("febio_spec", "4.0"))
+        # Materials come before the domains that have them.
+        self.assertEqual([section.tag for section in self.root], ["Module", "Material", "Mesh", "MeshDomains"])
+        self.assertEqual(self.root.find("Module").get("type"), "solid")
+        self.assertTrue((self.folder / "mesh.feb").read_text().startswith("<?xml"))
+
+    def test_mesh(self):
+        mesh = self.root.find("Mesh")
+        self.assertEqual([section.tag for section in mesh], ["Nodes"] + ["Elements"] * 2 + ["Surface"] * 3)
+        nodes = mesh.find("Nodes")
+        self.assertEqual([node.get("id") for node in nodes], [str(i + 1) for i in range(len(self.points))])
+        np.testing.assert_array_equal([[float(x) for x in node.text.split(",")] for node in nodes], self.points)
+        parts = {part.get("name"): part for part in mesh.iter("Elements")}
+        self.assertEqual({part.get("type") for part in parts.values()}, {"tet4"})
+        self.assert_same_cells({name: self.vertices(part.iter("elem")) for name, part in parts.items()},
+                               self.cells_by_name())
+        ids = {name: [int(element.get("id")) for element in part] for name, part in parts.items()}
+        self.assert_same_cells(ids, {name: np.flatnonzero(self.labels == label) + 1
+                                     for label, name in self.label_names.items()})
+        surfaces = {surface.get("name"): surface for surface in mesh.iter("Surface")}
+        self.assert_same_cells({name: self.vertices(surface.iter("tri3")) for name, surface in surfaces.items()},
+                               self.triangles_by_name())
+        for surface in surfaces.values():
+            self.assertEqual([face.get("id") for face in surface], [str(i + 1) for i in range(len(surface))])
+
+    def test_domains_have_materials(self):
+        materials = {material.get("name"): material for material in self.root.find("Material")}
+        self.assertEqual([material.get("id") for material in materials.values()], ["1", "2"])
+        self.assertEqual({domain.get("name"): domain.get("mat") for domain in self.root.find("MeshDomains")},
+                         {name: name for name in self.label_names.values()})
+        self.assertEqual(set(materials), set(self.label_names.values()))
+        for material in materials.values():
+            self.assertEqual(material.get("type"), "neo-Hookean")
+            self.assertEqual({parameter.tag for parameter in material}, {"density", "E", "v"})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkSegmentationReader: place in space, frames, errors, and when it reads."""
+import gc
+import os
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+import images
+import voxplex
+from iotesting import FolderTestCase, warnings_of
+
+OBLIQUE = images.Geometry((10.0, -20.0, 30.0), (0.5, 1.25, 2.0),
+                          np.array([[0.8, 0.6, 0.0], [-0.6, 0.8, 0.0], [0.0, 0.0, -1.0]]), 3.0, 0.5)
+
+
+def voxels(image):
+    """Indexed [k, j, i]."""
+    labels = image.GetPointData().GetArray("Labels")
+    return vtk_to_numpy(labels).reshape(image.GetDimensions()[::-1])
+
+
+def position(image, index):
+    point = [0.0] * 3
+    image.TransformContinuousIndexToPhysicalPoint([float(i) for i in index], point)
+    return point
+
+
+def space(image):
+    return image.GetFieldData().GetAbstractArray("SPACE").GetValue(0)
+
+
+class Reading(FolderTestCase):
+    def test_geometry(self):
+        array = images.two_labels(10, 4.0)
+        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
+                            (images.write_nifti, "i.nii.gz")):
+            for choice, flip in ((0, (1, 1, 1)), (1, (-1, -1, 1))):
+                with self.subTest(name=name, choice=choice):
+                    path = write(self.folder / name, array, OBLIQUE)
+                    image = self.read(path, Space=choice)
+                    self.assertEqual(space(image), ("LPS", "RAS")[choice])
+                    np.testing.assert_array_equal(voxels(image), array)
+                    self.assertIs(image.GetPointData().GetScalars(), image.GetPointData().GetArray("Labels"))
+                    for index in ((0, 0, 0), (9, 1, 4)):
+                        np.testing.assert_allclose(position(image, index), OBLIQUE.physical(index) * flip, atol=1e-5)
+
+    def test_types(self):
+        for dtype in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
+            with self.subTest(dtype):
+                array = images.two_labels(8, 3.0).astype(dtype)
+                image = self.read(images.write_nrrd(self.folder / "i.nrrd", array))
+                self.assertEqual(voxels(image).dtype, array.dtype)
+                np.testing.assert_array_equal(voxels(image), array)
+
+    def test_information_before_data(self):
+        reader = voxplex.vtkSegmentationReader()
+        reader.SetFileName(Path(images.write_nrrd(self.folder / "i.nrrd", images.ball(9, 3.0), OBLIQUE)))
+        reader.UpdateInformation()
+        information = reader.GetOutputInformation(0)
+        self.assertEqual(information.Get(Pipeline.WHOLE_EXTENT()), (0, 8) * 3)
+        np.testing.assert_allclose(information.Get(reader.GetOutputDataObject(0).SPACING()), OBLIQUE.spacing)
+        np.testing.assert_allclose(information.Get(reader.GetOutputDataObject(0).DIRECTION()),
+                                   OBLIQUE.direction.ravel(), atol=1e-12)
+        self.assertFalse(information.Has(Pipeline.TIME_STEPS()))
+        self.assertEqual(reader.GetNumberOfFrames(), 1)
+
+    def test_voxels_outlive_the_reader(self):
+        array = images.two_labels(40, 15.0)
+        reader = self.reader(images.write_nrrd(self.folder / "i.nrrd", array))
+        labels = reader.GetOutput().GetPointData().GetArray("Labels")
+        del reader
+        gc.collect()
+        np.testing.assert_array_equal(vtk_to_numpy(labels).reshape(array.shape), array)
+
+    def test_series(self):
+        folder = self.folder / "series"
+        folder.mkdir()
+        uids = "1.2.826.0.1.3680043.2.1125.1.1", "1.2.826.0.1.3680043.2.1125.1.2"
+        for uid, label in zip(uids, (4, 9)):
+            images.write_dicom_series(folder, images.ball(12, 4.0, label=label, dtype=np.uint16), series=uid)
+        self.assertEqual(voxels(self.read(folder, SeriesUID=uids[1])).max(), 9)
+        self.refused('2 DICOM series; choose one with\n  SetSeriesUID\\("%s' % uids[0].replace(".", r"\."), folder)
+        self.refused("no DICOM series '7'", folder, SeriesUID="7")
+
+
+class Frames(FolderTestCase):
+    def setUp(self):
+        super().setUp()
+        self.array = images.moving_balls(5, 12, 3.0)
+        self.path = images.write_sequence(self.folder / "i.nrrd", self.array, OBLIQUE)
+
+    def test_times(self):
+        reader = self.reader(self.path)
+        information = reader.GetOutputInformation(0)
+        self.assertEqual(information.Get(Pipeline.TIME_STEPS()), (3.0, 3.5, 4.0, 4.5, 5.0))
+        self.assertEqual(information.Get(Pipeline.TIME_RANGE()), (3.0, 5.0))
+        self.assertEqual([reader.GetTimeOfFrame(n) for n in range(reader.GetNumberOfFrames())], [3.0, 3.5, 4.0, 4.5, 5.0])
+
+    def test_frame_that_is_asked_for(self):
+        reader = self.reader(self.path)
+        np.testing.assert_array_equal(voxels(reader.GetOutput()), self.array[0])
+        for time, frame in ((3.5, 1), (4.2, 2), (4.3, 3), (99.0, 4), (-99.0, 0)):
+            with self.subTest(time):
+                reader.UpdateTimeStep(time)
+                image = reader.GetOutput()
+                np.testing.assert_array_equal(voxels(image), self.array[frame])
+                self.assertEqual(image.GetInformation().Get(image.DATA_TIME_STEP()), 3.0 + 0.5 * frame)
+                self.assertEqual(space(image), "LPS")
+
+    def test_times_are_forgotten(self):
+        reader = self.reader(self.path)
+        reader.SetFileName(images.write_nrrd(self.folder / "j.nrrd", self.array[0]))
+        reader.Update()
+        self.assertFalse(reader.GetOutputInformation(0).Has(Pipeline.TIME_STEPS()))
+        self.assertEqual(reader.GetNumberOfFrames(), 1)
+
+
+class Errors(FolderTestCase):
+    def test_files(self):
+        (self.folder / "empty.nrrd").touch()
+        (self.folder / "text.nrrd").write_text("hello")
+        self.refused("^cannot read '.*none': there is no such file or folder$", self.folder / "none")
+        self.refused("the file is empty", self.folder / "empty.nrrd")
+        self.refused("not an image in a format that ITK reads", self.folder / "text.nrrd")
+        self.refused("the folder holds no DICOM images", self.folder)
+        self.refused("^no file name is set$", None)
+        self.refused("^no file name is set$", "")
+
+    def test_damage(self):
+        rng = np.random.default_rng(17)
+        array = rng.integers(0, 3, (12, 12, 12)).astype(np.uint16)
+        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
+                            (images.write_nifti, "i.nii"), (images.write_nifti, "i.nii.gz")):
+            whole = Path(write(self.folder / name, array)).read_bytes()
+            for part in (0.3, 0.9):
+                with self.subTest(name=name, part=part):
+                    (self.folder / name).write_bytes(whole[:int(len(whole) * part)])
+                    self.refused("truncated|damaged", self.folder / name)
+
+    def test_noise(self):
+        """Whatever is in a header, there is an image or an error, and the process lives on."""
+        rng = np.random.default_rng(11)
+        array = images.ball(8, 3.0)
+        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
+                            (images.write_nifti, "i.nii")):
+            whole = Path(write(self.folder / name, array)).read_bytes()
+            for _ in range(40):
+                damaged = bytearray(whole)
+                for at in rng.integers(0, min(340, len(whole)), 3):
+                    damaged[at] = rng.integers(32, 127)
+                (self.folder / name).write_bytes(damaged)
+                reader = self.reader(self.folder / name)
+                empty = reader.GetOutput().GetNumberOfPoints() == 0
+                self.assertEqual(empty, reader.GetErrorMessage() != "", damaged)
+
+    def test_pictures(self):
+        """Refused before libpng, which ends the process when a file is damaged, has seen it."""
+        magic = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
+        (self.folder / "i.png").write_bytes(magic + np.random.default_rng(5).bytes(1000))
+        self.refused("it is a picture of one slice", self.folder / "i.png")
+
+    def test_components(self):
+        self.refused("3 components", images.write_nrrd(
+            self.folder / "i.nrrd", np.stack([images.ball(8, 3.0)] * 3, axis=-1), components=True))
+
+    def test_recovery(self):
+        """An error leaves nothing of the image before, and the next image nothing of the error."""
+        good = images.write_nrrd(self.folder / "good.nrrd", images.ball(8, 3.0))
+        reader = self.reader(good)
+        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 512)
+        reader.SetFileName(self.folder / "none")
+        reader.Update()
+        self.assertRegex(reader.GetErrorMessage(), "no such file")
+        self.assertEqual((reader.GetOutput().GetNumberOfPoints(), reader.GetNumberOfFrames()), (0, 0))
+        reader.SetFileName(good)
+        reader.Update()
+        self.assertEqual((reader.GetErrorMessage(), reader.GetOutput().GetNumberOfPoints()), ("", 512))
+
+    def test_warnings(self):
+        array = images.moving_balls(3, 8, 2.0)
+        reader = self.reader(images.write_nifti(self.folder / "i.nii", array, pixdim=(1, 1, 1, 0)))
+        self.assertEqual(len(warnings_of(reader)), 1)
+        self.assertRegex(reader.GetWarning(0), "i.nii: .*0 for the time from frame to frame")
+        self.assertEqual((reader.GetWarning(1), reader.GetWarning(-1)), ("", ""))
+
+    def test_nothing_is_printed(self):
+        """What the libraries below say is collected; what the process says afterwards is not."""
+        text = self.folder / "stderr"
+        kept = os.dup(2)
+        descriptor = os.open(text, os.O_WRONLY | os.O_CREAT)
+        os.dup2(descriptor, 2)
+        try:
+            path = Path(images.write_metaimage(self.folder / "i.mha", images.ball(8, 3.0)))
+            path.write_bytes(path.read_bytes()[:-100])
+            self.refused("not read completely", path)
+            os.write(2, b"after\n")
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            os.close(descriptor)
+        self.assertEqual(text.read_text(), "after\n")
+
+
+class Execution(FolderTestCase):
+    def test_reads_again_when_modified(self):
+        path = images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0, label=1))
+        reader = self.reader(path)
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0, label=2))
+        reader.Update()
+        self.assertEqual(voxels(reader.GetOutput()).max(), 1)
+        reader.Modified()
+        reader.Update()
+        self.assertEqual(voxels(reader.GetOutput()).max(), 2)
+
+    def test_print(self):
+        text = str(self.reader(images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0))))
+        for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "Space: LPS", "Frames: 1"):
+            self.assertRegex(text, line)
+
+
+if __name__ == "__main__":
+    unittest.main()

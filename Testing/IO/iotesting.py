@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the IO module share."""
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from vtkmodules.vtkCommonCore import vtkObject
+
+import voxplex
+
+
+class FolderTestCase(unittest.TestCase):
+    """Each test runs with an empty folder of its own. Errors are looked at through GetErrorMessage()."""
+
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="voxplex-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        vtkObject.GlobalWarningDisplayOff()
+
+    def reader(self, path, **properties):
+        """A reader that has executed."""
+        reader = voxplex.vtkSegmentationReader()
+        reader.SetFileName(path)
+        for name, value in properties.items():
+            getattr(reader, "Set" + name)(value)
+        reader.Update()
+        return reader
+
+    def read(self, path, **properties):
+        """The image, which must be readable without a warning."""
+        reader = self.reader(path, **properties)
+        self.assertEqual(reader.GetErrorMessage(), "")
+        self.assertEqual(warnings_of(reader), [])
+        return reader.GetOutput()
+
+    def refused(self, pattern, path, **properties):
+        reader = self.reader(path, **properties)
+        self.assertRegex(reader.GetErrorMessage(), pattern)
+        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+        self.assertEqual(reader.GetNumberOfFrames(), 0)
+        self.assertEqual(reader.GetLabelTableSource(), "")
+
+
+def warnings_of(reader):
+    return [reader.GetWarning(i) for i in range(reader.GetNumberOfWarnings())]
+
+
+def table_of(data):
+    """{label: (name, colour or None)} of the field data, of which all arrays are checked."""
+    fields = data.GetFieldData()
+    values = fields.GetArray("LabelValues")
+    names = fields.GetAbstractArray("LabelNames")
+    colors = fields.GetArray("LabelColors")
+    if values is None:
+        assert names is None and colors is None
+        return {}
+    count = values.GetNumberOfValues()
+    assert values.GetClassName() in ("vtkIntArray", "vtkLongLongArray"), values.GetClassName()
+    assert names.GetClassName() == "vtkStringArray" and names.GetNumberOfValues() == count
+    labels = [values.GetValue(i) for i in range(count)]
+    assert labels == sorted(set(labels)) and labels[0] > 0, labels
+    if colors:
+        assert colors.GetClassName() == "vtkDoubleArray"
+        assert (colors.GetNumberOfComponents(), colors.GetNumberOfTuples()) == (3, count)
+    table = {}
+    for i, label in enumerate(labels):
+        color = colors.GetTuple3(i) if colors else None
+        if color and math.isnan(color[0]):
+            assert all(math.isnan(part) for part in color)
+            color = None
+        table[label] = (names.GetValue(i), color and tuple(round(255 * part, 6) for part in color))
+    return table
