@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Progress, cancelling, Ctrl-C and other threads of Python."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import unittest
+
+import voxplex
+from phantoms import ball
+
+# Meshing these takes many seconds, so that what stops it comes in time on any machine.
+LARGE = dict(image=ball(64, (30.0, 12.0)), delta=0.3)
+
+
+def interrupt():
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+class Progress(unittest.TestCase):
+    def test_fractions(self):
+        fractions = []
+        threads = set()
+
+        def progress(fraction):
+            fractions.append(fraction)
+            threads.add(threading.current_thread())
+
+        voxplex.mesh(ball(32, (14.0,)), 0.8, progress=progress)
+        self.assertGreater(len(fractions), 2)
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual(fractions[-1], 1.0)
+        self.assertEqual(threads, {threading.current_thread()})
+
+    def test_cancel(self):
+        calls = []
+
+        def progress(fraction):
+            calls.append(fraction)
+            return False
+
+        with self.assertRaises(voxplex.MeshingCancelled):
+            voxplex.mesh(**LARGE, progress=progress)
+        self.assertEqual(len(calls), 1)
+
+    def test_only_false_cancels(self):
+        for value in (None, True, 0, ""):
+            self.assertGreater(voxplex.mesh(ball(), 2.0, progress=lambda _: value).GetNumberOfCells(), 0)
+
+    def test_exception(self):
+        def progress(_fraction):
+            raise ZeroDivisionError("mine")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "mine"):
+            voxplex.mesh(**LARGE, progress=progress)
+
+
+class Interruption(unittest.TestCase):
+    def test_ctrl_c(self):
+        before = signal.getsignal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            voxplex.mesh(**LARGE, progress=lambda _: interrupt())
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        self.assertGreater(voxplex.mesh(ball(), 2.0).GetNumberOfCells(), 0)
+
+    def test_without_callback(self):
+        timer = threading.Timer(0.5, interrupt)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            voxplex.mesh(**LARGE)
+        timer.join()
+
+    def test_handler_of_the_program(self):
+        calls = []
+        before = signal.signal(signal.SIGINT, lambda number, frame: calls.append(number))
+        try:
+            with self.assertRaises(voxplex.MeshingCancelled):
+                voxplex.mesh(**LARGE, progress=lambda _: interrupt())
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertEqual(set(calls), {signal.SIGINT})
+
+    def test_ignored(self):
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        try:
+            mesh = voxplex.mesh(ball(), 2.0, progress=lambda _: interrupt())
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertGreater(mesh.GetNumberOfCells(), 0)
+
+    def test_process(self):
+        """Ctrl-C ends a script as it ends any other: by the signal, with a traceback and no word of VTK's."""
+        script = textwrap.dedent("""
+            import sys, voxplex
+            from phantoms import ball
+            seen = []
+            def progress(fraction):
+                if not seen:
+                    seen.append(fraction)
+                    print("started", flush=True)
+            voxplex.mesh(ball(64, (30.0, 12.0)), 0.3, progress=progress)
+            """)
+        environment = dict(os.environ)
+        here = os.path.dirname(os.path.abspath(__file__))
+        environment["PYTHONPATH"] = os.pathsep.join([here, environment.get("PYTHONPATH", "")])
+        with subprocess.Popen([sys.executable, "-c", script], env=environment, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            self.assertEqual(process.stdout.readline(), "started\n")
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertIn("KeyboardInterrupt", errors)
+        self.assertNotIn("Caught a Ctrl-C", errors)
+
+
+class PythonThreads(unittest.TestCase):
+    def test_others_run_meanwhile(self):
+        """VTK keeps the interpreter's lock; another thread must get it all the same, and often."""
+        wakings = []
+        stop = threading.Event()
+
+        def other():
+            while not stop.is_set():
+                wakings.append(0)
+                stop.wait(0.001)
+
+        thread = threading.Thread(target=other)
+        during = []
+
+        def progress(_fraction):
+            during.append(len(wakings))
+            return None if len(during) < 12 else False
+
+        thread.start()
+        try:
+            with self.assertRaises(voxplex.MeshingCancelled):
+                voxplex.mesh(**LARGE, progress=progress)
+        finally:
+            stop.set()
+            thread.join()
+        # It wants the lock every millisecond. Without a pause it would get it once for each report.
+        self.assertGreater(during[-1] - during[0], 2 * (len(during) - 1), during)
+
+    def test_mesh_in_another_thread(self):
+        results = []
+        thread = threading.Thread(target=lambda: results.append(voxplex.mesh(ball(), 1.0)))
+        thread.start()
+        results.append(voxplex.mesh(ball(), 1.0))
+        thread.join()
+        self.assertTrue(all(mesh.GetNumberOfCells() > 0 for mesh in results))
+        self.assertEqual(len(results), 2)
+
+    def test_cancelled_in_another_thread(self):
+        failures = []
+
+        def run():
+            try:
+                voxplex.mesh(**LARGE, progress=lambda _: False)
+            except voxplex.MeshingCancelled as failure:
+                failures.append(failure)
+
+        thread = threading.Thread(target=run)
+        thread.start()
+        thread.join()
+        self.assertEqual(len(failures), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

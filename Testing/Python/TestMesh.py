@@ -1,0 +1,303 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""voxplex.mesh(): what it takes, what it returns, what it refuses."""
+
+import os
+import tempfile
+import unittest
+import warnings
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkSMPTools
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+
+import voxplex
+from phantoms import ball, beating, brick
+
+
+def volumes(mesh):
+    corners = voxplex.points(mesh)[voxplex.tets(mesh)]
+    a, b, c = (corners[:, i] - corners[:, 0] for i in (1, 2, 3))
+    return numpy.einsum("ij,ij->i", numpy.cross(a, b), c) / 6.0
+
+
+def hypervolumes(mesh):
+    coordinates = numpy.column_stack([voxplex.points(mesh), voxplex.times(mesh)])
+    corners = coordinates[voxplex.pentatopes(mesh)]
+    return numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / 24.0
+
+
+def same(first, second):
+    """Whether two meshes are the same bit for bit."""
+    return (numpy.array_equal(voxplex.points(first), voxplex.points(second))
+            and numpy.array_equal(voxplex.tets(first), voxplex.tets(second))
+            and numpy.array_equal(voxplex.labels(first), voxplex.labels(second)))
+
+
+class Inputs(unittest.TestCase):
+    def test_array(self):
+        mesh = voxplex.mesh(brick(), 1.5)
+        self.assertIsInstance(mesh, vtkUnstructuredGrid)
+        self.assertEqual({mesh.GetCellType(cell) for cell in range(mesh.GetNumberOfCells())}, {VTK_TETRA})
+        self.assertEqual(set(voxplex.labels(mesh)), {5, 9})
+        self.assertGreater(volumes(mesh).min(), 0.0)
+
+    def test_axes_of_an_array(self):
+        """The last index is x: label 9 lies at larger x, and the brick is longest there."""
+        mesh = voxplex.mesh(brick(), 1.0)
+        points = voxplex.points(mesh)
+        size = points.max(axis=0) - points.min(axis=0)
+        numpy.testing.assert_allclose(size, (12, 8, 6), atol=0.5)
+        numpy.testing.assert_allclose(points.min(axis=0), (3.5, 3.5, 2.5), atol=0.4)
+        centres = points[voxplex.tets(mesh)].mean(axis=1)
+        labels = voxplex.labels(mesh)
+        self.assertGreater(centres[labels == 9, 0].min(), 9.0)
+        self.assertLess(centres[labels == 5, 0].max(), 10.0)
+
+    def test_geometry_of_an_array(self):
+        spacing, origin = (0.5, 2.0, 3.0), (100.0, -20.0, 7.0)
+        direction = ((0, -1, 0), (1, 0, 0), (0, 0, 1))  # i runs along +y, j along -x
+        mesh = voxplex.mesh(brick(), 1.0, spacing=spacing, origin=origin, direction=direction)
+        points = voxplex.points(mesh)
+        index = numpy.linalg.solve(numpy.array(direction) * spacing, (points - origin).T).T
+        numpy.testing.assert_allclose(index.min(axis=0), (3.5, 3.5, 2.5), atol=0.5)
+        numpy.testing.assert_allclose(index.max(axis=0), (15.5, 11.5, 8.5), atol=0.5)
+        self.assertGreater(volumes(mesh).min(), 0.0)
+        numpy.testing.assert_allclose(volumes(mesh).sum(), 12 * 8 * 6 * 3.0, rtol=0.1)
+
+    def test_kinds_of_arrays(self):
+        labels = ball(radii=(8, 5))
+        reference = voxplex.mesh(labels, 2.0, threads=1)
+        read_only = labels.copy()
+        read_only.flags.writeable = False
+        for name, array in {
+                "int64": labels.astype(numpy.int64), "float32": labels.astype(numpy.float32),
+                "big-endian": labels.astype(">i2"), "Fortran order": numpy.asfortranarray(labels),
+                "stride": numpy.repeat(labels, 2, axis=2)[:, :, ::2], "read only": read_only}.items():
+            with self.subTest(name):
+                self.assertTrue(same(reference, voxplex.mesh(array, 2.0, threads=1)))
+        one = voxplex.mesh(labels > 0, 2.0, threads=1)
+        self.assertEqual(set(voxplex.labels(one)), {1})
+
+    def test_image_and_pipeline(self):
+        image = voxplex.image_from_array(brick(), spacing=(1, 1, 2))
+        reference = voxplex.mesh(brick(), 1.5, spacing=(1, 1, 2), threads=1)
+        self.assertTrue(same(reference, voxplex.mesh(image, 1.5, threads=1)))
+        producer = vtkTrivialProducer()
+        producer.SetOutput(image)
+        producer.SetWholeExtent(image.GetExtent())
+        self.assertTrue(same(reference, voxplex.mesh(producer, 1.5, threads=1)))
+
+    def test_result_outlives_its_input(self):
+        labels = brick()
+        mesh = voxplex.mesh(labels, 1.5)
+        before = voxplex.points(mesh).copy()
+        labels[:] = 0
+        del labels
+        numpy.testing.assert_array_equal(voxplex.points(mesh), before)
+
+    def test_names_reach_the_mesh(self):
+        image = voxplex.image_from_array(brick(), space="LPS")
+        voxplex.set_label_names(image, {5: "liver", 9: "spleen"})
+        mesh, interfaces, _ = voxplex.mesh(image, 1.5, full_output=True)
+        self.assertEqual(voxplex.label_names(mesh), {5: "liver", 9: "spleen"})
+        self.assertEqual(voxplex.label_names(interfaces), {5: "liver", 9: "spleen"})
+        self.assertEqual(mesh.GetFieldData().GetAbstractArray("SPACE").GetValue(0), "LPS")
+        self.assertEqual(voxplex.label_names(voxplex.mesh(brick(), 1.5)), {})
+
+
+class Parameters(unittest.TestCase):
+    def setUp(self):
+        self.image = voxplex.image_from_array(brick())
+        voxplex.set_label_names(self.image, {5: "liver", 9: "spleen"})
+        self.reference = voxplex.mesh(self.image, 2.0, threads=1)
+
+    def count(self, label, mesh):
+        return numpy.count_nonzero(voxplex.labels(mesh) == label)
+
+    def assert_finer(self, **options):
+        mesh = voxplex.mesh(self.image, 2.0, threads=1, **options)
+        self.assertGreater(mesh.GetNumberOfCells(), 1.5 * self.reference.GetNumberOfCells())
+        return mesh
+
+    def test_sizes(self):
+        self.assert_finer(size=0.8)
+        by_value = self.assert_finer(label_sizes={9: 0.7})
+        self.assertGreater(self.count(9, by_value), 2 * self.count(5, by_value))
+        self.assertTrue(same(by_value, self.assert_finer(label_sizes={"spleen": 0.7})))
+        sizes = numpy.zeros((12, 16, 20))
+        sizes[:, :, 10:] = 0.7
+        by_array = self.assert_finer(size_image=sizes)
+        self.assertGreater(self.count(9, by_array), 1.5 * self.count(5, by_array))
+
+    def test_array_of_sizes_lies_where_the_image_lies(self):
+        placed = dict(spacing=(1, 1, 1), origin=(500, 0, 0), threads=1)
+        sizes = numpy.full((12, 16, 20), 3.0)
+        sizes[:, :, 10:] = 0.7
+        mesh = voxplex.mesh(brick(), 2.0, size_image=sizes, **placed)
+        self.assertGreater(self.count(9, mesh), 1.5 * self.count(5, mesh))
+
+    def test_delta(self):
+        self.assertGreater(voxplex.mesh(self.image, 1.0).GetNumberOfCells(),
+                           2 * self.reference.GetNumberOfCells())
+        self.assertTrue(same(self.reference, voxplex.mesh(self.image, delta=2.0, threads=1)))
+
+    def test_labels(self):
+        for labels in ([9], {"spleen"}):
+            self.assertEqual(set(voxplex.labels(voxplex.mesh(self.image, 2.0, labels=labels))), {9})
+
+    def test_options_reach_the_filter(self):
+        _, _, statistics = voxplex.mesh(self.image, 2.0, threads=2, full_output=True)
+        self.assertEqual((statistics["delta"], statistics["threads"]), (2.0, 2))
+        for options in (dict(smoothing=0), dict(facet_angle=0)):
+            self.assertFalse(same(self.reference, voxplex.mesh(self.image, 2.0, threads=1, **options)), options)
+        with self.assertRaisesRegex(voxplex.MeshingError, "1.93"):
+            voxplex.mesh(self.image, 2.0, radius_edge=1.9)
+        self.assertGreater(voxplex.mesh(self.image, 2.0, radius_edge=1.9, force=True).GetNumberOfCells(), 0)
+
+    def test_memory_limit(self):
+        with self.assertRaisesRegex(voxplex.MeshingError, "or pass force=True"):
+            voxplex.mesh(self.image, 0.5, memory_limit=1000)
+
+    def test_full_output(self):
+        result = voxplex.mesh(self.image, 2.0, full_output=True)
+        mesh, interfaces, statistics = result
+        self.assertIs(mesh, result.mesh)
+        self.assertIsInstance(interfaces, vtkPolyData)
+        self.assertEqual(statistics["elements"], mesh.GetNumberOfCells())
+        self.assertEqual(statistics["interface_facets"], interfaces.GetNumberOfCells())
+        self.assertEqual(set(statistics["labels"]), {"5", "9"})
+
+
+class SpaceTime(unittest.TestCase):
+    def check(self, mesh, first, last):
+        times = voxplex.times(mesh)
+        self.assertEqual((times.min(), times.max()), (first, last))
+        self.assertGreater(hypervolumes(mesh).min(), 0.0)
+        self.assertEqual(set(voxplex.labels(mesh)), {1})
+
+    def test_array(self):
+        mesh = voxplex.mesh(beating(), 2.0)
+        self.check(mesh, 0.0, 3.0)
+
+    def test_times_and_scale(self):
+        times = (1.0, 1.5, 2.0, 2.5)
+        mesh, boundary, statistics = voxplex.mesh(beating(), 2.0, times=times, time_scale=4.0, pick_slivers=False,
+                                                  seed=3, spacing=(1, 1, 1), full_output=True)
+        self.check(mesh, 1.0, 2.5)
+        self.assertEqual(statistics["dimension"], 4)
+        self.assertIsInstance(boundary, vtkUnstructuredGrid)
+        self.assertEqual(voxplex.labels(boundary).shape, (boundary.GetNumberOfCells(), 2))
+        self.assertEqual(voxplex.tets(boundary).shape, (boundary.GetNumberOfCells(), 4))
+
+    def test_frames_carry_their_times(self):
+        frames = voxplex.images_from_array(beating(), times=(0.0, 2.0, 4.0, 6.0))
+        self.check(voxplex.mesh(frames, 2.0), 0.0, 6.0)
+        self.check(voxplex.mesh(frames, 2.0, times=(1, 2, 3, 4)), 1.0, 4.0)
+
+    def test_frames_are_in_order(self):
+        """The ball grows: a slice at the end is larger than one at the start."""
+        mesh = voxplex.mesh(beating(), 1.5)
+        slicer = voxplex.vtkPentatopeMeshTimeSlice()
+        slicer.SetInputData(mesh)
+        extents = []
+        for time in (0.0, 3.0):
+            slicer.UpdateTimeStep(time)
+            bounds = slicer.GetOutput().GetBounds()
+            extents.append(bounds[1] - bounds[0])
+        self.assertLess(extents[0] + 1.5, extents[1])
+
+    def test_components(self):
+        frames = beating()
+        image = voxplex.image_from_array(frames[0])
+        array = numpy.moveaxis(frames, 0, -1).reshape(-1, len(frames)).copy()
+        image.GetPointData().SetScalars(numpy_to_vtk(array))
+        self.check(voxplex.mesh(image, 2.0), 0.0, 3.0)
+        self.check(voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 11.0), time_scale=0.5), 5.0, 11.0)
+        with self.assertRaisesRegex(ValueError, "equal steps"):
+            voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 10.0))
+        self.assertEqual(voxplex.array_from_image(image).shape, (12, 12, 12, 4))
+
+
+class Refusals(unittest.TestCase):
+    def test_messages_of_the_filter(self):
+        for words, options in {
+                "Delta is -1": dict(delta=-1), "label_sizes gives a size to label 3": dict(label_sizes={3: 1.0}),
+                "[Ll]abels? .*4": dict(labels=[4]), "size of label 5": dict(label_sizes={5: -2.0})}.items():
+            with self.subTest(words), self.assertRaisesRegex(voxplex.MeshingError, words):
+                voxplex.mesh(brick(), **options)
+        with self.assertRaisesRegex(voxplex.MeshingError, "are 0"):
+            voxplex.mesh(numpy.zeros((5, 5, 5), dtype=numpy.uint8))
+        with self.assertRaisesRegex(voxplex.MeshingError, "whole"):
+            voxplex.mesh(brick() + 0.5)
+
+    def test_nothing_is_printed(self):
+        with tempfile.TemporaryFile() as file:
+            saved = os.dup(2)
+            os.dup2(file.fileno(), 2)
+            try:
+                with self.assertRaises(voxplex.MeshingError):
+                    voxplex.mesh(brick(), delta=-1)
+                with warnings.catch_warnings(record=True):
+                    warnings.simplefilter("always")
+                    voxplex.mesh(brick(), 2.0, size=0.01)
+            finally:
+                os.dup2(saved, 2)
+                os.close(saved)
+            file.seek(0)
+            self.assertEqual(file.read(), b"")
+
+    def test_arguments(self):
+        image = voxplex.image_from_array(brick())
+        cases = [
+            (TypeError, "not int", lambda: voxplex.mesh(3)),
+            (TypeError, "not list", lambda: voxplex.mesh([])),
+            (TypeError, "detla", lambda: voxplex.mesh(image, detla=1)),
+            (TypeError, "", lambda: voxplex.mesh(image, "fine")),
+            (ValueError, "2 dimensions", lambda: voxplex.mesh(brick()[0])),
+            (ValueError, "complex", lambda: voxplex.mesh(brick().astype(complex))),
+            (ValueError, "spacing, origin: only for arrays", lambda: voxplex.mesh(image, spacing=(1, 1, 1), origin=(0, 0, 0))),
+            (ValueError, "spacing has 2 numbers", lambda: voxplex.mesh(brick(), spacing=(1, 1))),
+            (ValueError, "direction has 4 numbers", lambda: voxplex.mesh(brick(), direction=numpy.eye(2))),
+            (ValueError, "time_scale, seed: only for images with", lambda: voxplex.mesh(image, time_scale=2.0, seed=0)),
+            (ValueError, "facet_angle: only for images without", lambda: voxplex.mesh(beating(), facet_angle=20)),
+            (ValueError, "4 frames, and 2 times", lambda: voxplex.mesh(beating(), times=(0, 1))),
+            (ValueError, "labels is empty", lambda: voxplex.mesh(image, labels=[])),
+            (ValueError, "'heart'.*no label names", lambda: voxplex.mesh(image, labels=["heart"])),
+            (ValueError, "two frames or more", lambda: voxplex.mesh([image])),
+            (ValueError, "shape", lambda: voxplex.mesh(image, size_image=numpy.ones((3, 3, 3)))),
+        ]
+        for kind, words, call in cases:
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                call()
+
+    def test_names(self):
+        image = voxplex.image_from_array(brick())
+        voxplex.set_label_names(image, {5: "lung", 9: "lung"})
+        with self.assertRaisesRegex(ValueError, r"several labels are called 'lung': \[5, 9\]"):
+            voxplex.mesh(image, labels=["lung"])
+        with self.assertRaisesRegex(ValueError, "no label is called 'heart' .*'lung'"):
+            voxplex.mesh(image, label_sizes={"heart": 1.0})
+        with self.assertRaisesRegex(ValueError, "from 1 on"):
+            voxplex.set_label_names(image, {0: "air"})
+
+    def test_warning(self):
+        with self.assertWarnsRegex(voxplex.MeshingWarning, "^Some element sizes are below") as caught:
+            voxplex.mesh(brick(), 2.0, label_sizes={5: 0.01})
+        self.assertEqual(caught.filename, __file__)
+
+
+class Threads(unittest.TestCase):
+    def test_default_is_the_setting_of_vtk(self):
+        before = vtkSMPTools.GetEstimatedNumberOfThreads()
+        self.addCleanup(vtkSMPTools.Initialize, before)
+        vtkSMPTools.Initialize(1)
+        _, _, statistics = voxplex.mesh(brick(), 2.0, full_output=True)
+        self.assertEqual(statistics["threads"], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
