@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPVLabelInformation.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkClientServerStream.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkMultiProcessStream.h"
+#include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
+
+#include <cmath>
+#include <vector>
+
+vtkStandardNewMacro(vtkPVLabelInformation);
+
+void vtkPVLabelInformation::CopyFromObject(vtkObject* object)
+{
+  this->Labels.clear();
+  vtkDataObject* data = nullptr;
+  if (auto* const port = vtkAlgorithmOutput::SafeDownCast(object))
+  {
+    data = port->GetProducer()->GetOutputDataObject(port->GetIndex());
+  }
+  else if (auto* const algorithm = vtkAlgorithm::SafeDownCast(object))
+  {
+    if (this->PortNumber < algorithm->GetNumberOfOutputPorts())
+    {
+      data = algorithm->GetOutputDataObject(this->PortNumber);
+    }
+  }
+  if (data)
+  {
+    this->ReadCells(data);
+    this->ReadTable(data->GetFieldData());
+  }
+}
+
+void vtkPVLabelInformation::ReadCells(vtkDataObject* data)
+{
+  vtkFieldData* const cells = data->GetAttributesAsFieldData(vtkDataObject::CELL);
+  vtkDataArray* const labels = cells ? cells->GetArray("Label") : nullptr;
+  if (labels == nullptr || labels->GetNumberOfComponents() != 1)
+  {
+    return;
+  }
+  double last = 0.0; // neighbours in the list mostly have the same label
+  for (vtkIdType cell = 0; cell < labels->GetNumberOfTuples(); ++cell)
+  {
+    const double label = labels->GetTuple1(cell);
+    if (label != last && label > 0.0)
+    {
+      this->Labels[static_cast<vtkTypeInt64>(label)];
+    }
+    last = label;
+  }
+}
+
+void vtkPVLabelInformation::ReadTable(vtkFieldData* fields)
+{
+  vtkDataArray* const values = fields ? fields->GetArray("LabelValues") : nullptr;
+  auto* const names =
+    fields ? vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames")) : nullptr;
+  if (values == nullptr || values->GetNumberOfComponents() != 1)
+  {
+    return;
+  }
+  const vtkIdType count = values->GetNumberOfTuples();
+  vtkDataArray* const colors = fields->GetArray("LabelColors");
+  const bool hasNames = names && names->GetNumberOfValues() == count;
+  const bool hasColors =
+    colors && colors->GetNumberOfComponents() == 3 && colors->GetNumberOfTuples() == count;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    LabelEntry& label = this->Labels[static_cast<vtkTypeInt64>(values->GetTuple1(i))];
+    if (hasNames)
+    {
+      label.Name = names->GetValue(i);
+    }
+    if (hasColors)
+    {
+      colors->GetTuple(i, label.Color.data());
+      label.HasColor = std::isfinite(label.Color[0] + label.Color[1] + label.Color[2]);
+      label.Color = label.HasColor ? label.Color : std::array<double, 3>{};
+    }
+  }
+  this->Labels.erase(0);
+}
+
+void vtkPVLabelInformation::AddInformation(vtkPVInformation* other)
+{
+  if (auto* const labels = vtkPVLabelInformation::SafeDownCast(other))
+  {
+    for (const auto& [value, label] : labels->Labels)
+    {
+      LabelEntry& own = this->Labels[value];
+      own = own == LabelEntry() ? label : own;
+    }
+  }
+}
+
+void vtkPVLabelInformation::CopyToStream(vtkClientServerStream* stream)
+{
+  stream->Reset();
+  *stream << vtkClientServerStream::Reply << static_cast<int>(this->Labels.size());
+  for (const auto& [value, label] : this->Labels)
+  {
+    *stream << value << label.Name.c_str() << static_cast<int>(label.HasColor) << label.Color[0]
+            << label.Color[1] << label.Color[2];
+  }
+  *stream << vtkClientServerStream::End;
+}
+
+void vtkPVLabelInformation::CopyFromStream(const vtkClientServerStream* stream)
+{
+  this->Labels.clear();
+  int count = 0;
+  int argument = 0;
+  stream->GetArgument(0, argument++, &count);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkTypeInt64 value = 0;
+    LabelEntry label;
+    int hasColor = 0;
+    stream->GetArgument(0, argument++, &value);
+    stream->GetArgument(0, argument++, &label.Name);
+    stream->GetArgument(0, argument++, &hasColor);
+    for (double& component : label.Color)
+    {
+      stream->GetArgument(0, argument++, &component);
+    }
+    label.HasColor = hasColor != 0;
+    this->Labels.emplace(value, label);
+  }
+}
+
+void vtkPVLabelInformation::CopyParametersToStream(vtkMultiProcessStream& stream)
+{
+  stream << this->PortNumber;
+}
+
+void vtkPVLabelInformation::CopyParametersFromStream(vtkMultiProcessStream& stream)
+{
+  stream >> this->PortNumber;
+}
+
+void vtkPVLabelInformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PortNumber: " << this->PortNumber << "\n";
+  os << indent << "Labels: " << this->Labels.size() << "\n";
+  for (const auto& [value, label] : this->Labels)
+  {
+    os << indent.GetNextIndent() << value << ": " << label.Name << "\n";
+  }
+}

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPVLabelInformation
+ * @brief   names and colours of the labels of a data set, gathered from the server
+ *
+ * The data set says them in its field data: `LabelValues` (integers), `LabelNames` (strings),
+ * `LabelColors` (3 components from 0 to 1, optional; a NaN row means none), all of the same length. What
+ * is wrongly formed is ignored. Besides, the values that occur in the cell array `Label` are gathered, so that labels without a
+ * name can be listed, too.
+ *
+ * The object to gather from is an algorithm, of which the output is that of PortNumber. Field data does not travel in
+ * vtkPVDataInformation, which knows the arrays' names only.
+ */
+#ifndef vtkPVLabelInformation_h
+#define vtkPVLabelInformation_h
+
+#include "vtkPVInformation.h"
+#include "vtkVoxplexServerManagerModule.h" // For export macro
+
+#include <array>  // For std::array
+#include <map>    // For std::map
+#include <string> // For std::string
+
+class vtkDataObject;
+class vtkFieldData;
+
+class VTKVOXPLEXSERVERMANAGER_EXPORT vtkPVLabelInformation : public vtkPVInformation
+{
+public:
+  static vtkPVLabelInformation* New();
+  vtkTypeMacro(vtkPVLabelInformation, vtkPVInformation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The output to look at. Default 0. */
+  vtkSetMacro(PortNumber, int);
+  vtkGetMacro(PortNumber, int);
+  ///@}
+
+  void CopyFromObject(vtkObject* object) override;
+  void AddInformation(vtkPVInformation* other) override;
+  void CopyToStream(vtkClientServerStream* stream) override;
+  void CopyFromStream(const vtkClientServerStream* stream) override;
+  void CopyParametersToStream(vtkMultiProcessStream& stream) override;
+  void CopyParametersFromStream(vtkMultiProcessStream& stream) override;
+
+#ifndef __VTK_WRAP__
+  struct LabelEntry
+  {
+    std::string Name; ///< empty if it has none
+    bool HasColor = false;
+    std::array<double, 3> Color{};
+
+    bool operator==(const LabelEntry& other) const
+    {
+      return this->Name == other.Name && this->HasColor == other.HasColor &&
+        this->Color == other.Color;
+    }
+  };
+  using LabelMap = std::map<vtkTypeInt64, LabelEntry>;
+
+  /** By the label's value; background is not among them. */
+  const LabelMap& GetLabels() const
+  {
+    return this->Labels;
+  }
+#endif
+
+protected:
+  vtkPVLabelInformation() = default;
+  ~vtkPVLabelInformation() override = default;
+
+private:
+  vtkPVLabelInformation(const vtkPVLabelInformation&) = delete;
+  void operator=(const vtkPVLabelInformation&) = delete;
+
+  void ReadTable(vtkFieldData* fields);
+  void ReadCells(vtkDataObject* data);
+
+  int PortNumber = 0;
+#ifndef __VTK_WRAP__
+  LabelMap Labels;
+#endif
+};
+
+#endif

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names and colours of labels become annotations and categorical colours of ParaView's colour maps."""
+from voxplex_testing import *
+
+from paraview.simple import GetColorTransferFunction, SaveData, Sphere, XMLImageDataReader, XMLUnstructuredGridReader
+
+def check_maps(what):
+    label = GetColorTransferFunction("Label")
+    check_equal(pairs(label.Annotations), {"3": NAME, "7": "7"}, what)
+    check_equal(bool(label.InterpretValuesAsCategories), True, what)
+    check_equal([round(c, 6) for c in label.IndexedColors[:3]], list(COLOR), what)
+    check_equal(len(label.IndexedColors), 6, what)
+    check(list(label.IndexedColors[3:]) != list(COLOR), what, "label 7 has its own colour")
+    sides = GetColorTransferFunction("Labels")
+    check_equal(pairs(sides.Annotations), {"0": "background", "3": NAME, "7": "7"}, what)
+    check_equal((sides.VectorMode, sides.VectorComponent), ("Component", 0), what)
+
+
+def reset_maps():
+    for name in ("Label", "Labels"):
+        colors = GetColorTransferFunction(name)
+        colors.InterpretValuesAsCategories = 0
+        colors.Annotations = []
+        colors.IndexedColors = []
+
+
+def main():
+    load_plugin(namespace=globals())
+    import voxplex_paraview
+
+    reader = XMLImageDataReader(FileName=[write_named_image()])
+    reader.UpdatePipeline()
+    mesher = MeshSegmentationTetrahedralize(Input=reader)
+    voxplex_paraview.apply_label_colors(mesher)
+    check_maps("of the mesh")
+    screenshot(mesher, "label-colors.png", ("CELLS", "Label"))
+    pixels = check_picture(output_path("label-colors.png"))
+    # Orange (0.8, 0.4, 0.2) in some light: red twice as strong as green, green as blue.
+    orange = [p for p in pixels.tolist() if p[0] > 90 and abs(p[0] - 2 * p[1]) < 25 and abs(p[1] - 2 * p[2]) < 25]
+    check(len(orange) > 500, "pixels in the colour of label 3", len(orange))
+
+    reset_maps()
+    voxplex_paraview.apply_label_colors(mesher[1])
+    check_equal(pairs(GetColorTransferFunction("Labels").Annotations)["3"], NAME, "of the interfaces")
+    check_equal(set(pairs(GetColorTransferFunction("Label").Annotations)), {"3"}, "which have no array Label")
+
+    # From a file, without any filter of ours.
+    reset_maps()
+    path = output_path("named.vtu")
+    SaveData(path, proxy=mesher)
+    voxplex_paraview.apply_label_colors(XMLUnstructuredGridReader(FileName=[path]))
+    check_maps("of a file")
+
+    # The atlas with its table of names, through the reader.
+    reader = SegmentationReaderVoxplex(FileName=ATLAS, LabelTableFile=ATLAS.replace(".gz", ".txt"))
+    check_equal(reader.SMProxy.GetProperty("LabelTableFileName").GetElement(0), ATLAS.replace(".gz", ".txt"))
+    atlas = MeshSegmentationTetrahedralize(Input=reader, Delta=5.0)
+    voxplex_paraview.apply_label_colors(atlas)
+    names = pairs(GetColorTransferFunction("Label").Annotations)
+    check_equal((len(names), names.get("1"), names.get("116")), (116, "Precentral_L", "Vermis_10"), "the atlas")
+    reset_maps()
+    voxplex_paraview.apply_label_colors(mesher)
+
+    # Nothing to apply: nothing changes.
+    voxplex_paraview.apply_label_colors(Sphere())
+    check_maps("after a source without labels")
+
+
+run(main)

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin in pvbatch: meshes the AAL atlas through the proxies, and small images with each option."""
+from voxplex_testing import *
+
+from paraview.simple import MeshQuality, XMLImageDataReader
+
+FILTERS = ("VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice")
+
+
+def test_documentation():
+    """The Help page and the tooltips are made from it: of each filter and of each property and port."""
+    manager = servermanager.ActiveConnection.Session.GetSessionProxyManager()
+    for group, name in [("filters", name) for name in FILTERS] + [("sources", "VoxplexSegmentationReader")]:
+        proxy = manager.GetPrototypeProxy(group, name)
+        check(proxy is not None, "no proxy", name)
+        text = proxy.GetDocumentation().GetDescription()
+        check(text and len(text) > 100, "documentation of", name)
+        check(proxy.GetHints().FindNestedElementByName("ShowInMenu" if group == "filters" else "ReaderFactory"), name)
+        iterator = proxy.NewPropertyIterator()
+        properties = 0
+        while not iterator.IsAtEnd():
+            documentation = iterator.GetProperty().GetDocumentation()
+            text = documentation.GetDescription() if documentation else None
+            check(text and len(text.strip()) > 20, "documentation of", name, iterator.GetKey())
+            properties += 1
+            iterator.Next()
+        check(properties > 2, name, properties)
+
+
+def test_atlas():
+    reader = SegmentationReaderVoxplex(FileName=ATLAS)
+    mesher = MeshSegmentationTetrahedralize(Input=reader)
+    check_equal(mesher.Delta, 2.0, "default Delta at 1 mm")
+    mesher.Delta = 3.0
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), set(range(1, 117)), "labels of the atlas")
+    info = mesher[0].GetDataInformation()
+    check(60000 < info.GetNumberOfCells() < 200000, "tetrahedra", info.GetNumberOfCells())
+    # The atlas spans 147 x 180 x 147 mm in LPS; NIfTI has it in RAS with x reversed.
+    bounds = info.GetBounds()
+    for found, expected in zip(bounds, (-73, 73, -75, 106, -62, 85)):
+        check(abs(found - expected) < 4, "bounds", bounds)
+    interfaces = mesher[1].GetDataInformation()
+    check(interfaces.GetNumberOfCells() > 20000, "triangles", interfaces.GetNumberOfCells())
+    check_equal([mesher.SMProxy.GetOutputPortName(i) for i in (0, 1)], ["Mesh", "Interfaces"])
+    check_equal(interfaces.GetDataSetTypeAsString(), "vtkPolyData")
+    check(interfaces.GetArrayInformation("Labels", 1).GetNumberOfComponents() == 2, "Labels")
+    check(info.GetArrayInformation("SPACE", 2) is not None, "field data SPACE")
+    screenshot(mesher, "atlas.png", ("CELLS", "Label"))
+    quality = MeshQuality(Input=mesher)
+    quality.UpdatePipeline()
+    check_equal(count_cells(quality), info.GetNumberOfCells())
+
+
+def test_options():
+    reader = XMLImageDataReader(FileName=[write_image(make_image(two_balls), "balls.vti")])
+    mesher = MeshSegmentationTetrahedralize(Input=reader, Threads=1)
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {3, 7})
+    cells = count_cells(mesher)
+    check(cells > 100, cells)
+
+    mesher.LabelTable = [7, 0.0, 0]
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {3}, "label 7 left out")
+    mesher.LabelTable = [3, 0.8, 1]
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {3, 7}, "label 7 is back")
+    check(count_cells(mesher) > 1.3 * cells, "label 3 finer", count_cells(mesher), cells)
+    mesher.LabelTable = []
+    mesher.UpdatePipeline()
+    check_equal(count_cells(mesher), cells, "no rows")
+
+    mesher.Delta = 1.0
+    mesher.UpdatePipeline()
+    check(count_cells(mesher) > 2 * cells, "half of Delta", count_cells(mesher), cells)
+    mesher.Delta = 0.0
+    mesher.UpdatePipeline()
+    check_equal(count_cells(mesher), cells, "0 means the default")
+
+    sizes = make_image(lambda i, j, k: 1, name="Size")
+    size_reader = XMLImageDataReader(FileName=[write_image(sizes, "sizes.vti")])
+    mesher.SizeImage = size_reader
+    mesher.UpdatePipeline()
+    check(count_cells(mesher) > 1.3 * cells, "size image", count_cells(mesher), cells)
+    mesher.SizeImage = None
+    mesher.UpdatePipeline()
+    check_equal(count_cells(mesher), cells, "size image taken away")
+    mesher.ElementSize = 1.0
+    mesher.UpdatePipeline()
+    check(count_cells(mesher) > 1.3 * cells, "element size", count_cells(mesher), cells)
+
+
+def test_default_delta():
+    """It follows the spacing, and is the filter's own."""
+    for spacing, expected in (((1, 1, 1), 2.0), ((0.5, 2.0, 8.0), 4.0)):
+        reader = XMLImageDataReader(FileName=[write_image(make_image(two_balls, spacing=spacing), "spaced.vti")])
+        reader.UpdatePipeline()
+        mesher = MeshSegmentationTetrahedralize(Input=reader)
+        check(abs(mesher.Delta - expected) < 1e-9, spacing, mesher.Delta)
+        mesher.Delta = 17.0
+        mesher.SMProxy.GetProperty("Delta").ResetToDefault()
+        check(abs(mesher.Delta - expected) < 1e-9, "reset", mesher.Delta)
+
+
+def test_arrays():
+    """Point and cell arrays can be chosen; the default is the active one."""
+    image = make_image(two_balls)
+    other = make_image(lambda i, j, k: 5 if 4 <= i < 12 and 4 <= j < 12 and 4 <= k < 12 else 0, name="Box")
+    image.GetPointData().AddArray(other.GetPointData().GetArray("Box"))
+    reader = XMLImageDataReader(FileName=[write_image(image, "arrays.vti")])
+    reader.UpdatePipeline()
+    mesher = MeshSegmentationTetrahedralize(Input=reader)
+    check_equal(list(mesher.LabelArray), ["POINTS", "Segmentation"])
+    mesher.LabelArray = ["POINTS", "Box"]
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {5})
+
+
+def main():
+    load_plugin(namespace=globals())
+    test_documentation()
+    test_options()
+    test_default_delta()
+    test_arrays()
+    test_atlas()
+
+
+run(main)

@@ -1,0 +1,473 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqVoxplexWindowTest.h"
+
+#include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
+#include "pqObjectBuilder.h"
+#include "pqOutputPort.h"
+#include "pqPVApplicationCore.h"
+#include "pqPipelineSource.h"
+#include "pqProgressManager.h"
+#include "pqPropertiesPanel.h"
+#include "pqRenderView.h"
+#include "pqSearchBox.h"
+#include "pqServer.h"
+#include "pqServerManagerModel.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPointData.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMTransferFunctionManager.h"
+#include "vtkSMViewProxy.h"
+#include "vtkStringArray.h"
+#include "vtkXMLImageDataWriter.h"
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QDialog>
+#include <QDockWidget>
+#include <QElapsedTimer>
+#include <QIcon>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QScreen>
+#include <QTimer>
+#include <QToolButton>
+
+#include <iostream>
+
+namespace
+{
+const char MeshLabel[] = "Mesh Segmentation (Tetrahedralize)";
+const char SeriesLabel[] = "Mesh Segmentation Series (Space-Time)";
+const char SliceLabel[] = "Space-Time Mesh Slice";
+
+/** An action's text without the & of its shortcut. */
+QString textOf(const QAction* action)
+{
+  return action->text().remove('&');
+}
+/** An image of one label, 3, that is called liver. */
+void writeNamedImage(const QString& path)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 4);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->Fill(3);
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  values->InsertNextValue(3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  names->InsertNextValue("liver");
+  image->GetFieldData()->AddArray(values);
+  image->GetFieldData()->AddArray(names);
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetFileName(path.toUtf8().data());
+  writer->SetInputData(image);
+  writer->Write();
+}
+} // namespace
+
+pqVoxplexWindowTest::pqVoxplexWindowTest(QObject* parent)
+  : QObject(parent)
+{
+}
+
+void pqVoxplexWindowTest::startup()
+{
+  QTimer::singleShot(3000, this, SLOT(run()));
+}
+
+void pqVoxplexWindowTest::shutdown() {}
+
+void pqVoxplexWindowTest::check(bool condition, const QString& what)
+{
+  if (!condition)
+  {
+    ++this->Failures;
+    std::cerr << "FAILED: " << qPrintable(what) << std::endl;
+  }
+}
+
+void pqVoxplexWindowTest::run()
+{
+  this->Window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  this->check(this->Window && this->Window->isVisible(), "the window is visible");
+  if (this->Window)
+  {
+    for (QWidget* widget : QApplication::topLevelWidgets()) // the welcome
+    {
+      if (auto* const dialog = qobject_cast<QDialog*>(widget))
+      {
+        dialog->close();
+      }
+    }
+    this->Window->showNormal();
+    this->Window->resize(1400, 900);
+    if (auto* const dock = this->Window->findChild<QDockWidget*>("propertiesDock"))
+    {
+      this->Window->resizeDocks({ dock }, { 440 }, Qt::Horizontal);
+    }
+    this->testMenu();
+    this->testQuickLaunch("tetrahedralize", { MeshLabel });
+    this->testQuickLaunch("segmentation", { MeshLabel, SeriesLabel });
+    this->testQuickLaunch("mesh", { MeshLabel, SeriesLabel, SliceLabel });
+    this->testMeshing();
+    this->testPanel();
+    this->testColors();
+    this->takePicture();
+    this->testAbort();
+  }
+  std::cout << (this->Failures ? "checks failed" : "all checks passed") << std::endl;
+  std::_Exit(this->Failures ? 1 : 0); // without questions about unsaved work
+}
+
+//----------------------------------------------------------------------------------------------------
+void pqVoxplexWindowTest::wait(int milliseconds)
+{
+  QElapsedTimer timer;
+  timer.start();
+  do
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 50);
+  } while (timer.elapsed() < milliseconds);
+}
+
+void pqVoxplexWindowTest::grab(const QString& name)
+{
+  this->wait(500);
+  const QString path = qEnvironmentVariable("VOXPLEX_TEST_OUTPUT") + "/" + name;
+  const QRect area = this->Window->frameGeometry();
+  const QPixmap picture =
+    QApplication::primaryScreen()->grabWindow(0, area.x(), area.y(), area.width(), area.height());
+  this->check(picture.save(path), "save " + path);
+}
+
+QMenu* pqVoxplexWindowTest::findMenu() const
+{
+  for (QAction* top : this->Window->menuBar()->actions())
+  {
+    if (textOf(top) == "Filters" && top->menu())
+    {
+      for (QAction* action : top->menu()->actions())
+      {
+        if (textOf(action) == "Voxplex")
+        {
+          return action->menu();
+        }
+      }
+    }
+  }
+  return nullptr;
+}
+
+QAction* pqVoxplexWindowTest::findAction(const QString& label) const
+{
+  if (QMenu* const menu = this->findMenu())
+  {
+    for (QAction* action : menu->actions())
+    {
+      if (textOf(action) == label)
+      {
+        return action;
+      }
+    }
+  }
+  return nullptr;
+}
+
+void pqVoxplexWindowTest::openMenu(const QString& picture)
+{
+  for (QAction* top : this->Window->menuBar()->actions())
+  {
+    if (textOf(top) == "Filters" && top->menu())
+    {
+      top->menu()->popup(this->Window->mapToGlobal(QPoint(190, 20)));
+      this->wait(500); // what can be chosen is found out when the menu is about to be shown
+      if (QMenu* const menu = this->findMenu())
+      {
+        menu->popup(this->Window->mapToGlobal(QPoint(455, 440)));
+        this->grab(picture);
+        menu->close();
+      }
+      top->menu()->close();
+    }
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+void pqVoxplexWindowTest::testMenu()
+{
+  this->openMenu("menu.png");
+  QMenu* const menu = this->findMenu();
+  this->check(menu != nullptr, "Filters > Voxplex is in the menu bar");
+  this->check(menu && menu->actions().size() == 3, "it has three filters");
+  for (const QString label : { MeshLabel, SeriesLabel, SliceLabel })
+  {
+    QAction* const action = this->findAction(label);
+    this->check(action != nullptr, "'" + label + "' is in the menu");
+    this->check(action && !action->icon().isNull() && !action->icon().pixmap(16).isNull(),
+      "'" + label + "' has an icon");
+    this->check(action && !action->isEnabled(), "'" + label + "' is greyed out without an input");
+  }
+}
+
+void pqVoxplexWindowTest::testQuickLaunch(const QString& typed, const QStringList& expected)
+{
+  // The dialog runs an event loop of its own.
+  QTimer::singleShot(500, this,
+    [&]
+    {
+      QWidget* const dialog = QApplication::activeModalWidget();
+      auto* const found = dialog ? dialog->findChild<QListWidget*>() : nullptr;
+      this->check(found != nullptr, "the quick launch opens");
+      if (found == nullptr)
+      {
+        return;
+      }
+      for (const QChar& letter : typed)
+      {
+        QKeyEvent press(
+          QEvent::KeyPress, Qt::Key_A + letter.unicode() - 'a', Qt::NoModifier, QString(letter));
+        QApplication::sendEvent(dialog, &press);
+      }
+      QStringList items;
+      for (int i = 0; i < found->count(); ++i)
+      {
+        items << found->item(i)->text().remove('&');
+      }
+      for (const QString& label : expected)
+      {
+        this->check(items.contains(label),
+          "the quick launch finds '" + label + "' by '" + typed + "' among " + items.join(", "));
+      }
+      qobject_cast<QDialog*>(dialog)->reject();
+    });
+  pqPVApplicationCore::instance()->quickLaunch();
+}
+
+//----------------------------------------------------------------------------------------------------
+void pqVoxplexWindowTest::apply()
+{
+  if (auto* const panel = this->Window->findChild<pqPropertiesPanel*>())
+  {
+    panel->apply();
+  }
+  this->wait(300);
+}
+
+void pqVoxplexWindowTest::testMeshing()
+{
+  pqServer* const server = pqActiveObjects::instance().activeServer();
+  pqObjectBuilder* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  this->Reader = builder->createReader("sources", "VoxplexSegmentationReader",
+    QStringList(qEnvironmentVariable("VOXPLEX_TEST_ATLAS")), server);
+  this->check(this->Reader != nullptr, "the reader");
+  this->apply();
+  pqActiveObjects::instance().setActiveSource(this->Reader);
+  this->wait(300);
+
+  this->openMenu("menu-image.png");
+  QAction* const action = this->findAction(MeshLabel);
+  this->check(action && action->isEnabled(), "the menu offers the filter for an image");
+  QAction* const slice = this->findAction(SliceLabel);
+  this->check(slice && !slice->isEnabled(), "the menu does not offer the slice for an image");
+  if (action)
+  {
+    action->trigger();
+  }
+  this->wait(300);
+  this->Mesher = pqActiveObjects::instance().activeSource();
+  this->check(this->Mesher && QString(this->Mesher->getProxy()->GetXMLName()) == "VoxplexTetMesh",
+    "the menu makes the filter");
+  if (this->Mesher)
+  {
+    this->check(vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").GetAsDouble() == 2.0,
+      "the default Delta");
+    vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(4.0);
+    const double row[] = { 8.0, 3.0, 1.0 };
+    vtkSMPropertyHelper(this->Mesher->getProxy(), "LabelTable").Set(row, 3);
+    this->apply();
+    vtkPVDataInformation* const data = this->Mesher->getOutputPort(0)->getDataInformation();
+    this->check(data->GetNumberOfCells() > 10000, "tetrahedra after Apply");
+  }
+}
+
+void pqVoxplexWindowTest::testPanel()
+{
+  auto* const panel = this->Window->findChild<pqPropertiesPanel*>();
+  auto* const delta = panel ? panel->findChild<QWidget*>("Delta") : nullptr;
+  this->check(delta && delta->isVisible(), "Delta is in the panel");
+  this->check(delta && delta->findChild<QWidget*>("ScaleBy") && delta->findChild<QWidget*>("Reset"),
+    "with buttons to scale and to reset");
+  for (const QString name : { "LabelArray", "LabelTable", "SmoothingSigma" })
+  {
+    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
+    this->check(widget && widget->isVisible(), name + " is in the panel");
+  }
+  for (const QString name : { "NumberOfThreads", "FacetAngle", "SizeImage", "SizeArray", "Force" })
+  {
+    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
+    this->check(widget && !widget->isVisible(), name + " is hidden by default");
+  }
+  this->grab("panel.png");
+  auto* const search = panel ? panel->findChild<pqSearchBox*>() : nullptr;
+  auto* const gear = search ? search->findChild<QAbstractButton*>("AdvancedButton") : nullptr;
+  this->check(gear != nullptr, "the button for advanced properties");
+  if (gear)
+  {
+    gear->click();
+    this->wait(500);
+    for (const QString name :
+      { "NumberOfThreads", "FacetAngle", "SizeImage", "SizeArray", "Force" })
+    {
+      auto* const widget = panel->findChild<QWidget*>(name);
+      this->check(widget && widget->isVisible(), name + " is an advanced property");
+    }
+    this->grab("panel-advanced.png");
+    gear->click();
+  }
+}
+
+void pqVoxplexWindowTest::testColors()
+{
+  if (this->Mesher == nullptr)
+  {
+    return;
+  }
+  auto* const representation = vtkSMPVRepresentationProxy::SafeDownCast(
+    this->Mesher->getOutputPort(0)->getRepresentation(pqActiveObjects::instance().activeView())
+      ? this->Mesher->getOutputPort(0)
+          ->getRepresentation(pqActiveObjects::instance().activeView())
+          ->getProxy()
+      : nullptr);
+  this->check(representation != nullptr, "the mesh is shown after Apply");
+  this->check(representation &&
+      QString(vtkSMPropertyHelper(representation, "Representation").GetAsString()) ==
+        "Surface With Edges",
+    "with its edges");
+  this->check(representation && representation->GetUsingScalarColoring(), "coloured by its labels");
+  // Categories by themselves, with the names in the table beside the atlas.
+  vtkSMProxy* const map = this->colorMap();
+  this->check(vtkSMPropertyHelper(map, "IndexedLookup").GetAsInt() == 1, "as categories");
+  this->check(
+    vtkSMPropertyHelper(map, "Annotations").GetNumberOfElements() == 2 * 116, "116 of them");
+  this->check(QString(vtkSMPropertyHelper(map, "Annotations").GetAsString(1)) == "Precentral_L",
+    "with names");
+
+  // What the user changes stays, unless the labels are others.
+  vtkSMPropertyHelper(map, "IndexedLookup").Set(0);
+  map->UpdateVTKObjects();
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(4.5);
+  this->apply();
+  this->check(
+    vtkSMPropertyHelper(map, "IndexedLookup").GetAsInt() == 0, "the user's colour map stays");
+  vtkSMPropertyHelper(map, "IndexedLookup").Set(1);
+  map->UpdateVTKObjects();
+
+  // A source with names: a file.
+  const QString path = qEnvironmentVariable("VOXPLEX_TEST_OUTPUT") + "/named.vti";
+  writeNamedImage(path);
+  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
+  pqPipelineSource* const named = builder->createReader(
+    "sources", "XMLImageDataReader", QStringList(path), pqActiveObjects::instance().activeServer());
+  this->apply();
+  this->check(QString(vtkSMPropertyHelper(map, "Annotations").GetAsString(1)) == "liver",
+    "names of a file's field data");
+  builder->destroy(named);
+  pqActiveObjects::instance().setActiveSource(this->Mesher);
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(4.0);
+  this->apply();
+}
+
+vtkSMProxy* pqVoxplexWindowTest::colorMap() const
+{
+  vtkNew<vtkSMTransferFunctionManager> maps;
+  return maps->GetColorTransferFunction("Label", this->Mesher->proxyManager());
+}
+
+void pqVoxplexWindowTest::takePicture()
+{
+  auto* const view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  if (this->Mesher == nullptr || view == nullptr)
+  {
+    return;
+  }
+  // Cut open, whole elements, seen from the side of the cut; 116 names do not fit into a legend.
+  pqPipelineSource* const clip = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", "Clip", this->Mesher);
+  vtkSMProxy* const plane = vtkSMPropertyHelper(clip->getProxy(), "ClipFunction").GetAsProxy();
+  const double origin[] = { 22.0, 0.0, 0.0 };
+  vtkSMPropertyHelper(plane, "Origin").Set(origin, 3);
+  plane->UpdateVTKObjects();
+  vtkSMPropertyHelper(clip->getProxy(), "PreserveInputCells").Set(1);
+  this->apply();
+  vtkSMPropertyHelper(clip->getProxy(), "ClipFunction").GetAsProxy()->UpdateVTKObjects();
+  pqActiveObjects::instance().setActiveSource(this->Mesher);
+  auto* const clipped = vtkSMPVRepresentationProxy::SafeDownCast(
+    clip->getOutputPort(0)->getRepresentation(view)->getProxy());
+  vtkSMPVRepresentationProxy::HideScalarBarIfNotNeeded(clipped, view->getProxy());
+  clipped->SetScalarBarVisibility(view->getProxy(), false);
+  vtkSMPropertyHelper(clipped, "Representation").Set("Surface With Edges");
+  const double edges[] = { 0.2, 0.2, 0.2 };
+  vtkSMPropertyHelper(clipped, "EdgeColor").Set(edges, 3);
+  clipped->UpdateVTKObjects();
+  const double look[] = { -1.0, 0.35, -0.3 };
+  const double up[] = { 0.0, 0.0, 1.0 };
+  view->resetViewDirection(look[0], look[1], look[2], up[0], up[1], up[2]);
+  view->forceRender();
+  this->grab("window.png");
+}
+
+//----------------------------------------------------------------------------------------------------
+void pqVoxplexWindowTest::testAbort()
+{
+  if (this->Mesher == nullptr)
+  {
+    return;
+  }
+  bool pressed = false;
+  QTimer timer; // its events are handled while the filter executes
+  this->connect(&timer, &QTimer::timeout, this,
+    [&]
+    {
+      for (QToolButton* button : this->Window->findChildren<QToolButton*>())
+      {
+        if (button->objectName().contains("abort", Qt::CaseInsensitive) && button->isVisible() &&
+          button->isEnabled() && !pressed)
+        {
+          pressed = true;
+          button->click();
+        }
+      }
+    });
+  timer.start(50);
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta")
+    .Set(0.7); // minutes, if it were not stopped
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "NumberOfThreads").Set(1);
+  this->apply();
+  timer.stop();
+  this->check(pressed, "the Abort button shows while the filter executes");
+  this->check(this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells() == 0,
+    "nothing comes out of a filter that was stopped");
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(5.0);
+  this->apply();
+  this->check(this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells() > 5000,
+    "the next Apply meshes");
+}
