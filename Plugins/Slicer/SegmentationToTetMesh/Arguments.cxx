@@ -1,0 +1,403 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Arguments.h"
+
+#include "Description.h"
+#include "Errors.h"
+#include "OptionValues.h"
+#include "Parameters.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace po = boost::program_options;
+
+namespace voxplex::slicer
+{
+namespace
+{
+
+using cli::UsageError;
+
+/** Collects the arguments without flags. */
+constexpr const char* Places = "places";
+
+const char* ValueName(Kind kind)
+{
+  switch (kind)
+  {
+    case Kind::Image:
+    case Kind::Geometry:
+    case Kind::Table:
+      return "FILE";
+    case Kind::Double:
+      return "NUMBER";
+    case Kind::Integer:
+      return "WHOLE";
+    default:
+      return "TEXT";
+  }
+}
+
+/** The value of a flag may be empty: applications give empty lists so. */
+void AddOption(po::options_description& options, const Parameter& parameter)
+{
+  std::string names = parameter.LongFlag;
+  if (parameter.Flag)
+  {
+    names += std::string(",") + parameter.Flag;
+  }
+  std::string text = parameter.Description;
+  for (std::size_t i = 0; i < parameter.Elements.size(); ++i)
+  {
+    text += (i == 0 ? " One of: " : ", ") + parameter.Elements[i];
+  }
+  if (parameter.Type == Kind::Boolean)
+  {
+    options.add_options()(names.c_str(), text.c_str());
+    return;
+  }
+  if (!parameter.Default.empty())
+  {
+    text += " (default " + parameter.Default + ")";
+  }
+  options.add_options()(
+    names.c_str(), po::value<std::string>()->value_name(ValueName(parameter.Type)), text.c_str());
+}
+
+po::options_description StandardOptions()
+{
+  const auto text = [](const char* name) { return po::value<std::string>()->value_name(name); };
+  po::options_description options("Flags that every module has");
+  options.add_options() //
+    ("returnparameterfile", text("FILE"),
+      "write the results into this file, as lines of the form name = value") //
+    ("processinformationaddress", text("ADDRESS"),
+      "where the calling application, in the same process, has its ModuleProcessInformation") //
+    ("echo", "print the values of all parameters before the run")                             //
+    ("xml", "print the description of the module")                                            //
+    ("logo", "print the logo of the module")                                                  //
+    ("help,h", "print this text")                                                             //
+    ("version", "print the version");
+  return options;
+}
+
+po::options_description DeclareOptions()
+{
+  po::options_description all;
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    po::options_description options(group.Label);
+    for (const Parameter& parameter : group.Parameters)
+    {
+      if (!parameter.LongFlag.empty())
+      {
+        AddOption(options, parameter);
+      }
+    }
+    if (!options.options().empty())
+    {
+      all.add(options);
+    }
+  }
+  return all.add(StandardOptions());
+}
+
+/** Those that come by their place, in order. */
+std::vector<const Parameter*> PlacedParameters()
+{
+  std::vector<const Parameter*> placed;
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    for (const Parameter& parameter : group.Parameters)
+    {
+      if (parameter.Index >= 0)
+      {
+        placed.push_back(&parameter);
+      }
+    }
+  }
+  std::sort(placed.begin(), placed.end(),
+    [](const Parameter* a, const Parameter* b) { return a->Index < b->Index; });
+  return placed;
+}
+
+po::variables_map Parse(int argc, const char* const* argv)
+{
+  namespace style = po::command_line_style;
+  po::options_description options = DeclareOptions();
+  options.add_options()(Places, po::value<std::vector<std::string>>());
+  po::variables_map values;
+  try
+  {
+    po::store(po::command_line_parser(argc, argv)
+                .options(options)
+                .positional(po::positional_options_description().add(Places, -1))
+                .style(style::allow_long | style::long_allow_adjacent | style::long_allow_next |
+                  style::allow_short | style::allow_dash_for_short | style::short_allow_next)
+                .run(),
+      values);
+    po::notify(values);
+  }
+  catch (const po::error& error)
+  {
+    throw UsageError(error.what());
+  }
+  return values;
+}
+
+std::map<std::string, std::string> Defaults()
+{
+  std::map<std::string, std::string> values;
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    for (const Parameter& parameter : group.Parameters)
+    {
+      values[parameter.Name] = parameter.Default;
+    }
+  }
+  return values;
+}
+
+/** Takes over those with flags. */
+void TakeFlags(const po::variables_map& given, std::map<std::string, std::string>& values)
+{
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    for (const Parameter& parameter : group.Parameters)
+    {
+      if (!parameter.LongFlag.empty() && given.count(parameter.LongFlag))
+      {
+        values[parameter.Name] =
+          parameter.Type == Kind::Boolean ? "true" : given[parameter.LongFlag].as<std::string>();
+      }
+    }
+  }
+}
+
+void TakePlaces(const po::variables_map& given, std::map<std::string, std::string>& values)
+{
+  const auto texts =
+    given.count(Places) ? given[Places].as<std::vector<std::string>>() : std::vector<std::string>();
+  const auto placed = PlacedParameters();
+  if (texts.size() > placed.size())
+  {
+    throw UsageError(cli::Quoted(texts[placed.size()]) + " is one argument too many");
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    if (i >= texts.size() || texts[i].empty())
+    {
+      throw UsageError("the " + std::string(i == 0 ? "input" : "output") +
+        " is missing: " + placed[i]->Name + " (" + placed[i]->Label + ")");
+    }
+    values[placed[i]->Name] = texts[i];
+  }
+}
+
+ModuleProcessInformation* ParseAddress(const std::string& text)
+{
+  void* address = nullptr;
+  if (std::sscanf(text.c_str(), "%p", &address) != 1)
+  {
+    throw UsageError("--processinformationaddress: " + cli::Quoted(text) + " is not an address");
+  }
+  return static_cast<ModuleProcessInformation*>(address);
+}
+
+Arguments::Request RequestOf(const po::variables_map& given)
+{
+  if (given.count("help"))
+  {
+    return Arguments::Request::Help;
+  }
+  if (given.count("version"))
+  {
+    return Arguments::Request::Version;
+  }
+  if (given.count("xml"))
+  {
+    return Arguments::Request::Description;
+  }
+  return given.count("logo") ? Arguments::Request::Logo : Arguments::Request::Run;
+}
+
+/** What commas separate. Scripts of applications turn lists into text with spaces after the commas. */
+std::vector<std::string> Items(std::string text)
+{
+  text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+  return text.empty() ? std::vector<std::string>() : cli::SplitAtCommas(text);
+}
+
+/** Labels have no names here: applications know their segments by number. */
+std::int64_t LabelNumber(const std::string& option, const std::string& text)
+{
+  const std::optional<std::int64_t> number = cli::ParseLabelNumber(option, text);
+  if (!number)
+  {
+    throw UsageError("--" + option + ": " + cli::Quoted(text) + " is not the number of a label");
+  }
+  return *number;
+}
+
+/** The parameter of a name, and how the user calls it. */
+const Parameter& Find(const std::string& name)
+{
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    for (const Parameter& parameter : group.Parameters)
+    {
+      if (parameter.Name == name)
+      {
+        return parameter;
+      }
+    }
+  }
+  throw std::logic_error("there is no parameter '" + name + "'");
+}
+
+} // namespace
+
+Arguments::Arguments(int argc, const char* const* argv)
+  : Values(Defaults())
+{
+  const po::variables_map given = Parse(argc, argv);
+  this->Wanted = RequestOf(given);
+  if (this->Wanted != Request::Run)
+  {
+    return;
+  }
+  TakeFlags(given, this->Values);
+  TakePlaces(given, this->Values);
+  this->Echo = given.count("echo") > 0;
+  if (given.count("returnparameterfile"))
+  {
+    this->ReturnFile = given["returnparameterfile"].as<std::string>();
+  }
+  if (given.count("processinformationaddress"))
+  {
+    this->Host = ParseAddress(given["processinformationaddress"].as<std::string>());
+  }
+  this->Check();
+}
+
+/** Each value as its kind, so that mistakes are known before any work. */
+void Arguments::Check() const
+{
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    for (const Parameter& parameter : group.Parameters)
+    {
+      const std::string& text = this->Text(parameter.Name);
+      const auto& elements = parameter.Elements;
+      if (parameter.Type == Kind::Double)
+      {
+        this->Number(parameter.Name);
+      }
+      else if (parameter.Type == Kind::Integer)
+      {
+        this->Whole(parameter.Name);
+      }
+      else if (!elements.empty() &&
+        std::find(elements.begin(), elements.end(), text) == elements.end())
+      {
+        throw UsageError("--" + parameter.LongFlag + ": " + cli::Quoted(text) + " is not one of " +
+          elements.front() + ", " + elements.back());
+      }
+    }
+  }
+  this->Labels("labels");
+  this->LabelSizes("labelSizes");
+}
+
+const std::string& Arguments::Text(const std::string& name) const
+{
+  return this->Values.at(name);
+}
+
+double Arguments::Number(const std::string& name) const
+{
+  const Parameter& parameter = Find(name);
+  const std::string& text = this->Text(name);
+  constexpr double largest = std::numeric_limits<double>::max();
+  if (parameter.Limits)
+  {
+    return cli::ParseRange(
+      parameter.LongFlag, text, parameter.Limits->Minimum, parameter.Limits->Maximum);
+  }
+  const double value = cli::ParseRange(parameter.LongFlag, text, -largest, largest);
+  if (value < 0.0)
+  {
+    throw UsageError("--" + parameter.LongFlag + ": must be 0 or more, not " + text);
+  }
+  return value;
+}
+
+int Arguments::Whole(const std::string& name) const
+{
+  const Parameter& parameter = Find(name);
+  constexpr int largest = std::numeric_limits<int>::max();
+  return cli::ParseWhole(parameter.LongFlag, this->Text(name),
+    parameter.Limits ? static_cast<int>(parameter.Limits->Minimum) : 0,
+    parameter.Limits ? static_cast<int>(parameter.Limits->Maximum) : largest);
+}
+
+bool Arguments::IsSet(const std::string& name) const
+{
+  return this->Text(name) == "true";
+}
+
+std::vector<std::int64_t> Arguments::Labels(const std::string& name) const
+{
+  std::vector<std::int64_t> labels;
+  for (const std::string& text : Items(this->Text(name)))
+  {
+    labels.push_back(LabelNumber(Find(name).LongFlag, text));
+  }
+  return labels;
+}
+
+std::map<std::int64_t, double> Arguments::LabelSizes(const std::string& name) const
+{
+  const std::string& option = Find(name).LongFlag;
+  std::map<std::int64_t, double> sizes;
+  for (const std::string& text : Items(this->Text(name)))
+  {
+    const cli::LabelSizeText parsed = cli::ParseLabelSize(option, text);
+    if (!sizes.emplace(LabelNumber(option, parsed.Label), parsed.Size).second)
+    {
+      throw UsageError("--" + option + ": label " + parsed.Label + " is given twice");
+    }
+  }
+  return sizes;
+}
+
+std::string HelpText()
+{
+  std::ostringstream text;
+  text << "Usage: " << ModuleName << " [flags]";
+  const auto placed = PlacedParameters();
+  for (const Parameter* parameter : placed)
+  {
+    text << ' ' << parameter->Name;
+  }
+  text << "\n\n" << ModuleSummary << "\n\n";
+  for (const Parameter* parameter : placed)
+  {
+    text << "  " << parameter->Name << ": " << parameter->Description << '\n';
+  }
+  text
+    << '\n'
+    << DeclareOptions() << "\nExample:\n  " << ModuleName
+    << " --delta 1.5 --surfaces knee.vtp knee.nrrd knee.vtu\n\n"
+       "Exit status: 0 done or cancelled; 1 the image cannot be meshed or a file not be read or\n"
+       "written; 2 wrong command line. Files appear whole or not at all.\n";
+  return text.str();
+}
+
+} // namespace voxplex::slicer

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Description.h"
+
+#include "Parameters.h"
+
+#include <voxplexVersion.h>
+
+#include <sstream>
+#include <stdexcept>
+
+namespace voxplex::slicer
+{
+
+const char* const ModuleSummary =
+  "Turns a label map into a conforming mesh of tetrahedra for finite elements. Tissues share the "
+  "nodes of their common interfaces, and the interfaces are smooth rather than voxel stairs.";
+
+namespace
+{
+
+std::string Escaped(const std::string& text)
+{
+  std::string escaped;
+  for (const char c : text)
+  {
+    switch (c)
+    {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+const char* TagOf(Kind kind)
+{
+  switch (kind)
+  {
+    case Kind::Image:
+      return "image";
+    case Kind::Geometry:
+      return "geometry";
+    case Kind::Table:
+      return "table";
+    case Kind::Double:
+      return "double";
+    case Kind::Integer:
+      return "integer";
+    case Kind::Boolean:
+      return "boolean";
+    case Kind::String:
+      return "string";
+    case Kind::StringEnumeration:
+      return "string-enumeration";
+    case Kind::StringVector:
+      return "string-vector";
+    case Kind::IntegerVector:
+      return "integer-vector";
+  }
+  throw std::logic_error("unknown kind of parameter");
+}
+
+class Writer
+{
+public:
+  void Open(const std::string& tag, const std::string& attributes = "")
+  {
+    this->Indent() << '<' << tag << attributes << ">\n";
+    this->Depth += 1;
+  }
+
+  void Close(const std::string& tag)
+  {
+    this->Depth -= 1;
+    this->Indent() << "</" << tag << ">\n";
+  }
+
+  void Element(const std::string& tag, const std::string& text)
+  {
+    this->Indent() << '<' << tag << '>' << Escaped(text) << "</" << tag << ">\n";
+  }
+
+  std::string Text() const { return this->Stream.str(); }
+
+private:
+  std::ostream& Indent() { return this->Stream << std::string(2 * this->Depth, ' '); }
+
+  std::ostringstream Stream;
+  std::size_t Depth = 0;
+};
+
+std::string Attribute(const char* name, const std::string& value)
+{
+  return value.empty() ? "" : std::string(" ") + name + "=\"" + Escaped(value) + '"';
+}
+
+std::string Number(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void Write(Writer& xml, const Parameter& parameter)
+{
+  const char* tag = TagOf(parameter.Type);
+  xml.Open(tag,
+    Attribute("type", parameter.NodeType) + Attribute("fileExtensions", parameter.FileExtensions));
+  xml.Element("name", parameter.Name);
+  if (parameter.Flag)
+  {
+    xml.Element("flag", std::string("-") + parameter.Flag);
+  }
+  if (!parameter.LongFlag.empty())
+  {
+    xml.Element("longflag", "--" + parameter.LongFlag);
+  }
+  xml.Element("label", parameter.Label);
+  if (parameter.Direction != Channel::None)
+  {
+    xml.Element("channel", parameter.Direction == Channel::Input ? "input" : "output");
+  }
+  if (parameter.Index >= 0)
+  {
+    xml.Element("index", std::to_string(parameter.Index));
+  }
+  xml.Element("description", parameter.Description);
+  if (!parameter.Default.empty())
+  {
+    xml.Element("default", parameter.Default);
+  }
+  for (const std::string& element : parameter.Elements)
+  {
+    xml.Element("element", element);
+  }
+  if (parameter.Limits)
+  {
+    xml.Open("constraints");
+    xml.Element("minimum", Number(parameter.Limits->Minimum));
+    xml.Element("maximum", Number(parameter.Limits->Maximum));
+    xml.Element("step", Number(parameter.Limits->Step));
+    xml.Close("constraints");
+  }
+  xml.Close(tag);
+}
+
+} // namespace
+
+std::string DescribeModule()
+{
+  Writer xml;
+  xml.Open("executable");
+  xml.Element("category", "Segmentation.Meshing");
+  xml.Element("title", "Segmentation To Tetrahedral Mesh");
+  xml.Element("description", ModuleSummary);
+  xml.Element("version", VOXPLEX_VERSION);
+  xml.Element("documentation-url", VOXPLEX_REPOSITORY_URL "/Documentation/Slicer.md");
+  xml.Element("license", "BSD-3-Clause");
+  xml.Element("contributor", "The Voxplex developers");
+  for (const ParameterGroup& group : ParameterGroups())
+  {
+    xml.Open("parameters", group.Advanced ? Attribute("advanced", "true") : "");
+    xml.Element("label", group.Label);
+    xml.Element("description", group.Description);
+    for (const Parameter& parameter : group.Parameters)
+    {
+      Write(xml, parameter);
+    }
+    xml.Close("parameters");
+  }
+  xml.Close("executable");
+  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + xml.Text();
+}
+
+} // namespace voxplex::slicer

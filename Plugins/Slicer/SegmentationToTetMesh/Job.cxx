@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Job.h"
+
+#include "Arguments.h"
+#include "Description.h"
+#include "Errors.h"
+#include "MeshFile.h"
+#include "OutputFiles.h"
+#include "ProgressReport.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkExecutive.h>
+#include <vtkImageData.h>
+#include <vtkImageToTetMeshFilter.h>
+#include <vtkMeshingStatistics.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSegmentationReader.h>
+#include <vtkSimplexMeshWriter.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <iostream>
+#include <string_view>
+#include <utility>
+
+namespace voxplex::slicer
+{
+namespace
+{
+
+constexpr ProgressReport::Stage Reading{ "vtkSegmentationReader", "Reading the label map", 0.0,
+  0.05 };
+constexpr ProgressReport::Stage Meshing{ "vtkImageToTetMeshFilter", "Meshing", 0.05, 0.95 };
+constexpr ProgressReport::Stage Writing{ "vtkSimplexMeshWriter", "Writing the mesh", 0.95, 1.0 };
+
+void Warn(const std::string& warning)
+{
+  std::cerr << ModuleName << ": warning: " << warning << '\n';
+}
+
+/** An object with an observer of its errors and warnings does not print them. */
+void Silence(vtkObject* object)
+{
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  object->AddObserver(vtkCommand::ErrorEvent, nothing);
+  object->AddObserver(vtkCommand::WarningEvent, nothing);
+}
+
+void Silence(vtkAlgorithm* algorithm)
+{
+  Silence(static_cast<vtkObject*>(algorithm));
+  Silence(algorithm->GetExecutive());
+}
+
+vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
+{
+  const std::string& path = arguments.Text("inputLabels");
+  const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
+  Silence(reader.Get());
+  reader->SetFileName(path.c_str());
+  if (const std::string& table = arguments.Text("colorTable"); !table.empty())
+  {
+    reader->SetLabelTableFileName(table.c_str());
+  }
+  reader->SetSpace(arguments.Text("space") == "RAS" ? vtkSegmentationReader::SPACE_RAS
+                                                    : vtkSegmentationReader::SPACE_LPS);
+  reader->Update();
+  if (!reader->GetErrorMessage().empty())
+  {
+    throw cli::RunError(reader->GetErrorMessage());
+  }
+  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
+  {
+    Warn(reader->GetWarning(i));
+  }
+  if (reader->GetNumberOfFrames() != 1)
+  {
+    throw cli::RunError("cannot mesh '" + path +
+      "': it has several time frames; this module meshes one, the program voxplex all of them");
+  }
+  return reader;
+}
+
+void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
+{
+  filter->SetDelta(arguments.Number("delta"));
+  filter->SetElementSize(arguments.Number("size"));
+  for (const auto& [label, size] : arguments.LabelSizes("labelSizes"))
+  {
+    filter->SetLabelSize(label, size);
+  }
+  for (const std::int64_t label : arguments.Labels("labels"))
+  {
+    filter->AddLabel(label);
+  }
+  filter->SetRadiusEdgeRatio(arguments.Number("radiusEdge"));
+  filter->SetFacetAngle(arguments.Number("facetAngle"));
+  filter->SetSmoothingSigma(arguments.Number("smoothing"));
+  filter->SetNumberOfThreads(arguments.Whole("threads"));
+  filter->SetForce(arguments.IsSet("force"));
+}
+
+void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
+{
+  auto* filter = static_cast<vtkImageToTetMeshFilter*>(caller);
+  if (!static_cast<ProgressReport*>(report)->Show(filter->GetProgress()))
+  {
+    filter->SetAbortExecute(1);
+  }
+}
+
+/** The filter's errors speak of its methods; the user has flags. */
+std::string InTermsOfFlags(std::string message)
+{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> terms{ {
+    { "SetLabelSize()", "--labelsizes" },
+    { "AddLabel()", "--labels" },
+    { "or force it", "or go on with --force" },
+    { "Correct the labels to keep", "Correct --labels" },
+    { "RadiusEdgeRatio is", "--radiusedge is" },
+    { "Force goes down", "--force goes down" },
+  } };
+  for (const auto& [theirs, ours] : terms)
+  {
+    const std::size_t at = message.find(theirs);
+    if (at != std::string::npos)
+    {
+      message.replace(at, theirs.size(), ours);
+    }
+  }
+  return message;
+}
+
+vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
+  const Arguments& arguments, vtkAlgorithmOutput* labels, ProgressReport& report)
+{
+  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  filter->SetInputConnection(labels);
+  Configure(filter, arguments);
+  Silence(filter.Get());
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(OnProgress);
+  observer->SetClientData(&report);
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  filter->Update();
+  filter->RemoveObserver(tag);
+  if (!filter->GetErrorMessage().empty())
+  {
+    throw cli::RunError("cannot mesh '" + arguments.Text("inputLabels") +
+      "': " + InTermsOfFlags(filter->GetErrorMessage()));
+  }
+  return filter;
+}
+
+void WriteMesh(vtkImageToTetMeshFilter* filter, int content, const std::string& path,
+  const cli::OutputFiles& files)
+{
+  if (!path.empty())
+  {
+    cli::WriteMeshFile(filter->GetOutput(), filter->GetInterfaces(), content, path, files);
+  }
+}
+
+std::string MissingLabels(vtkMeshingStatistics* statistics)
+{
+  std::string list;
+  for (int i = 0; i < statistics->GetNumberOfLostLabels(); ++i)
+  {
+    list += (i == 0 ? "" : ",") + std::to_string(statistics->GetLostLabel(i));
+  }
+  return list;
+}
+
+/** What the application reads back after the run. */
+void WriteResults(
+  vtkMeshingStatistics* statistics, const std::string& path, const cli::OutputFiles& files)
+{
+  if (path.empty())
+  {
+    return;
+  }
+  files.WriteText(path,
+    [&](io::TextFile& file)
+    {
+      file << "numberOfTetrahedra = " << statistics->GetNumberOfElements() << '\n';
+      file << "usedDelta = " << statistics->GetDelta() << '\n';
+      file << "missingLabels = " << MissingLabels(statistics) << '\n';
+    });
+}
+
+void Summarize(vtkMeshingStatistics* statistics)
+{
+  std::cout << statistics->GetNumberOfElements() << " tetrahedra with "
+            << statistics->GetNumberOfVertices() << " nodes, "
+            << statistics->GetNumberOfInterfaceFacets() << " triangles on the interfaces; delta "
+            << statistics->GetDelta() << '\n';
+  if (const std::string missing = MissingLabels(statistics); !missing.empty())
+  {
+    Warn("the mesh lacks labels that are too small for delta: " + missing);
+  }
+}
+
+/** Announces all outputs, so that what cannot be written is known before any work. */
+void Announce(cli::OutputFiles& files, const Arguments& arguments)
+{
+  for (const std::string& path :
+    { arguments.Text("outputMesh"), arguments.Text("outputSurfaces"), arguments.ReturnFile })
+  {
+    if (!path.empty())
+    {
+      files.Add(path);
+    }
+  }
+  files.ForbidOverwriting(arguments.Text("inputLabels"));
+}
+
+/** Before any work. */
+void RequireFormat(const std::string& path, int content)
+{
+  if (!path.empty() && !vtkSimplexMeshWriter::HasFormat(path, content, 3))
+  {
+    throw cli::UsageError("'" + path + "': its extension is not that of a format known here; use " +
+      vtkSimplexMeshWriter::ListExtensions(content, 3));
+  }
+}
+
+} // namespace
+
+void RunJob(const Arguments& arguments)
+{
+  const std::string& meshPath = arguments.Text("outputMesh");
+  const std::string& surfacesPath = arguments.Text("outputSurfaces");
+  RequireFormat(meshPath, vtkSimplexMeshWriter::CONTENT_MESH);
+  RequireFormat(surfacesPath, vtkSimplexMeshWriter::CONTENT_INTERFACES);
+  cli::OutputFiles files;
+  Announce(files, arguments);
+
+  ProgressReport report(arguments.Host);
+  report.Start(Reading);
+  const auto reader = Read(arguments);
+
+  report.Start(Meshing);
+  const auto filter = Mesh(arguments, reader->GetOutputPort(), report);
+
+  report.Start(Writing);
+  WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_MESH, meshPath, files);
+  WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_INTERFACES, surfacesPath, files);
+  WriteResults(filter->GetStatistics(), arguments.ReturnFile, files);
+  report.Finish();
+  files.Commit();
+  Summarize(filter->GetStatistics());
+}
+
+} // namespace voxplex::slicer

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Parameters.h"
+
+namespace voxplex::slicer
+{
+namespace
+{
+
+ParameterGroup Files()
+{
+  return { .Label = "Input and output",
+    .Description = "The label map, and the mesh that is made of it",
+    .Parameters = {
+      { .Type = Kind::Image,
+        .Name = "inputLabels",
+        .Label = "Label map",
+        .Description = "The segmentation: one whole number a voxel, 0 is background. Origin, "
+                       "spacing and axes are honoured.",
+        .Index = 0,
+        .Direction = Channel::Input,
+        .NodeType = "label",
+        .FileExtensions = ".nrrd" },
+      { .Type = Kind::Table,
+        .Name = "colorTable",
+        .Label = "Colour table",
+        .Description =
+          "Names and colours of the labels, for the mesh. Optional: the names in a .seg.nrrd "
+          "file are used without.",
+        .LongFlag = "colortable",
+        .Direction = Channel::Input,
+        .NodeType = "color",
+        .FileExtensions = ".ctbl" },
+      { .Type = Kind::Geometry,
+        .Name = "outputMesh",
+        .Label = "Mesh",
+        .Description = "The tetrahedra, with the label of each in the cell array Label.",
+        .Index = 1,
+        .Direction = Channel::Output,
+        .NodeType = "model",
+        .FileExtensions = ".vtu" },
+      { .Type = Kind::Geometry,
+        .Name = "outputSurfaces",
+        .Label = "Interfaces",
+        .Description = "The triangles between labels, and between labels and background, with both "
+                       "labels of each in the cell array Labels. Optional.",
+        .LongFlag = "surfaces",
+        .Direction = Channel::Output,
+        .NodeType = "model",
+        .FileExtensions = ".vtp" },
+    } };
+}
+
+ParameterGroup Density()
+{
+  return { .Label = "Density",
+    .Description = "How fine the mesh is. Lengths are in the unit of the image, usually "
+                   "millimetres.",
+    .Parameters = {
+      { .Type = Kind::Double,
+        .Name = "delta",
+        .Label = "Delta",
+        .Description = "Sampling density of the interfaces: the edges of their triangles are about "
+                       "one to two times as long. 0 derives it from the spacing of the voxels.",
+        .LongFlag = "delta",
+        .Flag = 'd',
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "size",
+        .Label = "Largest element",
+        .Description = "Upper bound of the circumradii of all elements. 0 sets none.",
+        .LongFlag = "size",
+        .Default = "0" },
+      { .Type = Kind::StringVector,
+        .Name = "labelSizes",
+        .Label = "Largest element of labels",
+        .Description = "The same for single labels: LABEL=LENGTH, separated by commas, such as "
+                       "3=1.5,7=2.",
+        .LongFlag = "labelsizes" },
+      { .Type = Kind::IntegerVector,
+        .Name = "labels",
+        .Label = "Labels",
+        .Description = "Mesh these labels only, such as 1,2,5; the others become background. Left "
+                       "empty, all are meshed.",
+        .LongFlag = "labels" },
+    } };
+}
+
+ParameterGroup Quality()
+{
+  return { .Label = "Quality",
+    .Description = "The defaults suit finite elements.",
+    .Advanced = true,
+    .Parameters = {
+      { .Type = Kind::Double,
+        .Name = "radiusEdge",
+        .Label = "Radius-edge ratio",
+        .Description = "Upper bound of circumradius over shortest edge of every element. Below "
+                       "1.932 it is not proved that meshing ends, and Force is needed.",
+        .LongFlag = "radiusedge",
+        .Default = "2",
+        .Limits = Constraints{ 1.0, 10.0, 0.1 } },
+      { .Type = Kind::Double,
+        .Name = "facetAngle",
+        .Label = "Facet angle",
+        .Description = "Lower bound of the angles of triangles on the interfaces, in degrees.",
+        .LongFlag = "facetangle",
+        .Default = "30",
+        .Limits = Constraints{ 0.0, 30.0, 1.0 } },
+      { .Type = Kind::Double,
+        .Name = "smoothing",
+        .Label = "Smoothing",
+        .Description =
+          "How far voxel stairs are smoothed: the standard deviation of a Gaussian, in "
+          "voxels. Every voxel centre keeps its label. 0 switches it off.",
+        .LongFlag = "smoothing",
+        .Flag = 's',
+        .Default = "1",
+        .Limits = Constraints{ 0.0, 10.0, 0.1 } },
+    } };
+}
+
+ParameterGroup Running()
+{
+  return { .Label = "Running",
+    .Description = "How the module works.",
+    .Advanced = true,
+    .Parameters = {
+      { .Type = Kind::Integer,
+        .Name = "threads",
+        .Label = "Threads",
+        .Description = "How many threads work; 0 means all cores. With 1 the mesh is the same in "
+                       "every run.",
+        .LongFlag = "threads",
+        .Flag = 't',
+        .Default = "0",
+        .Limits = Constraints{ 0.0, 1024.0, 1.0 } },
+      { .Type = Kind::Boolean,
+        .Name = "force",
+        .Label = "Force",
+        .Description = "Go on although the mesh is estimated not to fit into memory, or the "
+                       "radius-edge ratio is too low.",
+        .LongFlag = "force",
+        .Default = "false" },
+      { .Type = Kind::StringEnumeration,
+        .Name = "space",
+        .Label = "Coordinates",
+        .Description = "Coordinates in the files: LPS is that of DICOM and of Slicer's files, RAS "
+                       "that of Slicer's scene. The files say which; Slicer reads both.",
+        .LongFlag = "space",
+        .Default = "LPS",
+        .Elements = { "LPS", "RAS" } },
+    } };
+}
+
+ParameterGroup Results()
+{
+  return { .Label = "Results",
+    .Description = "What is known about the mesh afterwards.",
+    .Parameters = {
+      { .Type = Kind::Integer,
+        .Name = "numberOfTetrahedra",
+        .Label = "Tetrahedra",
+        .Description = "How many there are.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "usedDelta",
+        .Label = "Delta used",
+        .Description = "The sampling density that was used.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::String,
+        .Name = "missingLabels",
+        .Label = "Labels without elements",
+        .Description = "Labels of the image that the mesh lacks, because they are too small for "
+                       "delta.",
+        .Direction = Channel::Output },
+    } };
+}
+
+} // namespace
+
+const std::vector<ParameterGroup>& ParameterGroups()
+{
+  static const std::vector<ParameterGroup> groups{ Files(), Density(), Quality(), Running(),
+    Results() };
+  return groups;
+}
+
+} // namespace voxplex::slicer

@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the module decides, computes and says; needs VTK but not Slicer.
+
+One run is: choose segments and settings, hand the parameters of the CLI module SegmentationToTetMesh to a runner, follow
+its progress, and give the finished mesh the names and colours of the segments. A runner is whatever can carry the CLI
+module out: in Slicer, Scene.CommandLineRunner; in the tests, a process. It has two methods:
+
+    start(parameters, onChange)   begins, and calls onChange(RunState) until the state is final
+    cancel()                      asks for an end
+"""
+from __future__ import annotations
+
+import enum
+import json
+import math
+from dataclasses import asdict, dataclass, fields, replace
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
+from vtkmodules.vtkCommonDataModel import VTK_TETRA
+
+
+class MeshingError(Exception):
+    """The user can mend it; the text says how."""
+
+
+@dataclass
+class Segment:
+    """A segment and what was chosen for it."""
+    id: str
+    name: str
+    color: tuple  # red, green, blue, from 0 to 1
+    mesh: bool = True  # otherwise it becomes background
+    size: float = 0.0  # upper bound of its elements' circumradii; 0: none
+
+
+@dataclass
+class Settings:
+    """Lengths are in millimetres. The defaults are those of the CLI module."""
+    delta: float = 0.0  # 0: derived from the spacing
+    size: float = 0.0  # 0: no bound
+    smoothing: float = 1.0  # in voxels
+    radiusEdge: float = 2.0
+    facetAngle: float = 30.0  # degrees
+    threads: int = 0  # 0: all cores
+    force: bool = False
+
+    @classmethod
+    def fromTexts(cls, text):
+        """From a parameter node; text(name) gives what is stored, or an empty text."""
+        settings = cls()
+        for field in fields(cls):
+            stored = text(field.name)
+            if stored:
+                setattr(settings, field.name, _parse(stored, type(getattr(settings, field.name))))
+        return settings
+
+    def toTexts(self):
+        """For a parameter node."""
+        return {name: str(value).lower() if isinstance(value, bool) else repr(value)
+                for name, value in asdict(self).items()}
+
+
+def _parse(text, kind):
+    try:
+        return text == "true" if kind is bool else kind(text)
+    except ValueError:
+        return kind()  # a scene that was edited by hand
+
+
+class Phase(enum.Enum):
+    IDLE = "idle"
+    RUNNING = "running"
+    CANCELLING = "cancelling"
+    COMPLETED = "completed"
+    CANCELLED = "cancelled"
+    FAILED = "failed"
+
+    @property
+    def isFinal(self):
+        return self in (Phase.COMPLETED, Phase.CANCELLED, Phase.FAILED)
+
+
+@dataclass
+class RunState:
+    """What a runner tells."""
+    phase: Phase
+    progress: float = 0.0  # 0 to 1
+    message: str = ""  # the present stage; if it failed, why
+    warnings: str = ""
+
+
+# --- Choices of segments ------------------------------------------------------------------------------------
+
+def mergeChoices(segments, stored):
+    """The segments with the choices that a parameter node has stored for those of the same id.
+
+    Segments without a stored choice are meshed; choices for segments that no longer exist are dropped."""
+    try:
+        choices = json.loads(stored) if stored else {}
+    except json.JSONDecodeError:
+        choices = {}
+    merged = []
+    for segment in segments:
+        choice = choices.get(segment.id, {})
+        merged.append(replace(segment, mesh=bool(choice.get("mesh", True)), size=float(choice.get("size", 0.0))))
+    return merged
+
+
+def storeChoices(segments):
+    """The choices as one text, for a parameter node."""
+    return json.dumps({segment.id: {"mesh": segment.mesh, "size": segment.size} for segment in segments})
+
+
+def parseSize(text):
+    """The size that a user typed: 0 if nothing. Raises MeshingError."""
+    text = text.strip().replace(",", ".")
+    try:
+        size = float(text) if text else 0.0
+    except ValueError:
+        size = math.nan
+    if not (math.isfinite(size) and size >= 0.0):
+        raise MeshingError("'%s' is not a size: type a length in millimetres, or nothing for no bound" % text)
+    return size
+
+
+def meshedSegments(segments):
+    """Those that are meshed; their labels are 1, 2, ... in this order, as Slicer exports them."""
+    return [segment for segment in segments if segment.mesh]
+
+
+# --- Parameters of the CLI module ---------------------------------------------------------------------------
+
+def commandParameters(segments, settings):
+    """The CLI module's parameters by name, without its files. Raises MeshingError."""
+    chosen = meshedSegments(segments)
+    if not chosen:
+        raise MeshingError("No segment is chosen: check at least one in the table")
+    for name in ("delta", "size", "smoothing"):
+        if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0.0):
+            raise MeshingError("%s must be 0 or more" % name.capitalize())
+    sizes = ["%d=%r" % (label, segment.size) for label, segment in enumerate(chosen, 1) if segment.size > 0.0]
+    return {**asdict(settings), "labelSizes": ",".join(sizes)}
+
+
+# --- The mesh -----------------------------------------------------------------------------------------------
+
+def labelMesh(mesh, segments):
+    """Adds the names and colours of the segments as field data: LabelValues, LabelNames, LabelColors."""
+    values, names, colors = vtkIntArray(), vtkStringArray(), vtkDoubleArray()
+    colors.SetNumberOfComponents(3)
+    for label, segment in enumerate(meshedSegments(segments), 1):
+        values.InsertNextValue(label)
+        names.InsertNextValue(segment.name)
+        colors.InsertNextTuple(segment.color)
+    for name, array in (("LabelValues", values), ("LabelNames", names), ("LabelColors", colors)):
+        array.SetName(name)
+        mesh.GetFieldData().RemoveArray(name)
+        mesh.GetFieldData().AddArray(array)
+
+
+@dataclass
+class LabelFigures:
+    label: int
+    elements: int
+    volume: float
+
+
+def measureLabels(mesh):
+    """The number and the volume of the tetrahedra of each label. Raises MeshingError if it is no such mesh."""
+    array = mesh.GetCellData().GetArray("Label") if mesh else None
+    if array is None or mesh.GetNumberOfCells() == 0:
+        raise MeshingError("The module made no tetrahedra")
+    if not mesh.IsHomogeneous() or mesh.GetCellType(0) != VTK_TETRA:
+        raise MeshingError("The mesh has other cells than tetrahedra")
+    labels = vtk_to_numpy(array)
+    corners = vtk_to_numpy(mesh.GetPoints().GetData())[
+        vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 4)].astype(float)
+    edges = corners[:, 1:] - corners[:, :1]
+    volumes = np.abs(np.linalg.det(edges)) / 6.0
+    return [LabelFigures(int(label), int((labels == label).sum()), float(volumes[labels == label].sum()))
+            for label in np.unique(labels)]
+
+
+def describeMesh(mesh, segments):
+    """Lines for the log."""
+    names = {label: segment.name for label, segment in enumerate(meshedSegments(segments), 1)}
+    figures = measureLabels(mesh)
+    lines = ["%d tetrahedra with %d nodes" % (mesh.GetNumberOfCells(), mesh.GetNumberOfPoints())]
+    lines += ["  %s: %d tetrahedra, %.4g mm³" % (names.get(f.label, "label %d" % f.label), f.elements, f.volume)
+              for f in figures]
+    found = {f.label for f in figures}
+    lines += ["  %s: none; it is too small for this delta" % name for label, name in names.items() if label not in found]
+    return lines
+
+
+# --- One run ------------------------------------------------------------------------------------------------
+
+class MeshingLogic:
+    """Carries one run after the other out, with a runner."""
+
+    def __init__(self, runner, log=lambda line: None, onChange=lambda state: None):
+        self.runner = runner
+        self.log = log
+        self.onChange = onChange
+        self.state = RunState(Phase.IDLE)
+
+    @property
+    def isBusy(self):
+        return self.state.phase in (Phase.RUNNING, Phase.CANCELLING)
+
+    def start(self, segments, settings):
+        """Begins a run. Raises MeshingError if the choices do not do, or another run is under way."""
+        if self.isBusy:
+            raise MeshingError("A mesh is being made: wait for it, or cancel it")
+        parameters = commandParameters(segments, settings)
+        self.log("Meshing " + ", ".join(segment.name for segment in meshedSegments(segments)))
+        self._change(RunState(Phase.RUNNING))
+        try:
+            self.runner.start(parameters, self._onRunnerChange)
+        except Exception as error:
+            self._onRunnerChange(RunState(Phase.FAILED, message=str(error)))
+            raise
+
+    def cancel(self):
+        """Asks the run, if there is one, to end."""
+        if self.state.phase is Phase.RUNNING:
+            self._change(replace(self.state, phase=Phase.CANCELLING))
+            self.runner.cancel()
+
+    def _onRunnerChange(self, state):
+        if not self.isBusy:
+            return  # an echo of a run that has ended
+        if not state.phase.isFinal and self.state.phase is Phase.CANCELLING:
+            return
+        if state.warnings:
+            self.log(state.warnings.strip())
+        if state.phase is Phase.FAILED:
+            self.log("Failed: " + (state.message.strip() or "the module gave no reason"))
+        elif state.phase is Phase.CANCELLED:
+            self.log("Cancelled")
+        self._change(state)
+
+    def _change(self, state):
+        self.state = state
+        self.onChange(state)

@@ -1,0 +1,271 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The module as a process of its own, which is how Slicer prefers to run it."""
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+import images
+import meshfiles
+from module import EXECUTABLE, ModuleTestCase, parse_parameter_file
+
+NUMBER = "[0-9.e+-]+"
+# One filter's report; Slicer removes from the output what looks like this.
+FILTER = re.compile(
+    "<filter-start>\n<filter-name>([A-Za-z]+)</filter-name>\n"
+    "<filter-comment> \"([^<\"]+)\" </filter-comment>\n</filter-start>\n"
+    "((?:<filter-progress>%s</filter-progress>\n<filter-stage-progress>%s</filter-stage-progress>\n)+)"
+    "<filter-end>\n<filter-name>([A-Za-z]+)</filter-name>\n<filter-time>(%s)</filter-time>\n</filter-end>\n"
+    % (NUMBER, NUMBER, NUMBER))
+
+
+def numbers(element, text):
+    return [float(value) for value in re.findall("<%s>([^<]*)</%s>" % (element, element), text)]
+
+
+class Runs(ModuleTestCase):
+    def setUp(self):
+        super().setUp()
+        self.geometry = images.Geometry(origin=(10.0, -20.0, 5.0), spacing=(1.0, 1.25, 0.75),
+                                        direction=np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+        self.array = images.two_labels()
+        self.input = images.write_nrrd(self.folder / "two.nrrd", self.array, self.geometry)
+
+    def mesh(self, *arguments, name="mesh.vtu"):
+        self.run_module(*arguments, self.input, name)
+        return meshfiles.read_tetrahedra(self.folder / name)
+
+    def test_mesh_and_interfaces(self):
+        mesh = self.mesh("--delta", 2, "--surfaces", "surfaces.vtp")
+        volume = self.geometry.voxel_volume()
+        for label in (3, 7):
+            self.assertAlmostEqual(mesh.volume_of_label()[label] / ((self.array == label).sum() * volume), 1, delta=0.08)
+        middle = self.geometry.physical(np.full(3, 11.5))
+        np.testing.assert_allclose((mesh.points.min(axis=0) + mesh.points.max(axis=0)) / 2, middle, atol=0.8)
+        surfaces = meshfiles.read_triangles(self.folder / "surfaces.vtp")
+        self.assertEqual({tuple(pair) for pair in surfaces.labels}, {(3, 0), (7, 0), (7, 3)})
+        self.assertEqual((mesh.space, surfaces.space), ("LPS", "LPS"))
+
+    def test_space(self):
+        lps = self.mesh("--threads", 1)
+        ras = self.mesh("--threads", 1, "--space", "RAS", "--surfaces", "ras.vtp", name="ras.vtu")
+        self.assertEqual((ras.space, meshfiles.read_triangles(self.folder / "ras.vtp").space), ("RAS", "RAS"))
+        # The extents agree, apart from the signs; the triangulation need not.
+        low, high = ras.points.min(axis=0), ras.points.max(axis=0)
+        signs = np.array([-1.0, -1.0, 1.0])
+        np.testing.assert_allclose(np.sort([signs * low, signs * high], axis=0),
+                                   [lps.points.min(axis=0), lps.points.max(axis=0)], atol=0.5)
+
+    def test_legacy_file_says_its_space_in_the_header(self):
+        """Slicer reads the coordinate system of .vtk files from the second line."""
+        for space in ("LPS", "RAS"):
+            self.run_module("--space", space, "--surfaces", "s.vtk", self.input, "mesh.vtk")
+            for name in ("mesh.vtk", "s.vtk"):
+                header = (self.folder / name).read_bytes().split(b"\n")[1]
+                self.assertIn(b"SPACE=" + space.encode(), header)
+
+    def test_parameters_matter(self):
+        cells = {name: len(self.mesh("--threads", 1, *arguments).cells) for name, arguments in {
+            "plain": ("--delta", 3), "fine": ("--delta", 2), "size": ("--delta", 3, "--size", 1.5),
+            "label size": ("--delta", 3, "--labelsizes", "3=1.5"), "both": ("--delta", 3, "--labelsizes", "3=1.5, 7=1.5"),
+            "letter": ("-d", 3)}.items()}
+        self.assertGreater(cells["fine"], 2 * cells["plain"])
+        self.assertGreater(cells["label size"], 1.2 * cells["plain"])
+        self.assertGreater(cells["both"], 1.2 * cells["label size"])
+        self.assertGreater(cells["size"], 1.2 * cells["label size"])
+        self.assertEqual(cells["letter"], cells["plain"])
+
+    def test_labels(self):
+        self.assertEqual(set(self.mesh("--labels", "7").labels), {7})
+        # As slicer.cli.run() writes the list [3, 7].
+        self.assertEqual(set(self.mesh("--labels", "3, 7").labels), {3, 7})
+
+    def names_and_colours(self, path):
+        data = meshfiles._read(vtkXMLUnstructuredGridReader(), str(path)).GetFieldData()
+        values, names, colours = (data.GetAbstractArray("Label" + what) for what in ("Values", "Names", "Colors"))
+        return {values.GetValue(i): (names.GetValue(i), tuple(np.round(colours.GetTuple3(i), 3)))
+                for i in range(values.GetNumberOfValues())}
+
+    def test_names_of_a_segmentation(self):
+        """Slicer's own files say which segment a label is."""
+        images.write_nrrd(self.folder / "two.seg.nrrd", self.array, self.geometry, key_values={
+            "Segment0_ID": "s0", "Segment0_Name": "Femur, left", "Segment0_LabelValue": "3", "Segment0_Layer": "0",
+            "Segment0_Color": "0.5 0.25 1", "Segment1_ID": "s1", "Segment1_Name": "Müll", "Segment1_LabelValue": "7",
+            "Segment1_Layer": "0", "Segment1_Color": "0 1 0.75"})
+        self.run_module("two.seg.nrrd", "mesh.vtu")
+        self.assertEqual(self.names_and_colours(self.folder / "mesh.vtu"),
+                         {3: ("Femur, left", (0.5, 0.25, 1.0)), 7: ("Müll", (0.0, 1.0, 0.75))})
+
+    def test_colour_table(self):
+        """As Slicer writes it for a colour node."""
+        (self.folder / "names.ctbl").write_text("# Color table file\n# 3 values\n0 background 0 0 0 0\n"
+                                                "3 Femur 255 0 0 255\n7 Tibia 0 51 255 255\n")
+        self.mesh("--colortable", "names.ctbl")
+        self.assertEqual(self.names_and_colours(self.folder / "mesh.vtu"),
+                         {3: ("Femur", (1.0, 0.0, 0.0)), 7: ("Tibia", (0.0, 0.2, 1.0))})
+        self.assert_refused(1, "'no.ctbl'", "--colortable", "no.ctbl", self.input, "other.vtu")
+
+    def test_quality_parameters(self):
+        def planes(*arguments):
+            self.run_module("--threads", 1, "--delta", 1, *arguments, "--surfaces", "s.stl", self.input, "mesh.vtu")
+            return meshfiles.read_triangles(self.folder / "s.stl").enclosed_volume()
+        self.assertNotEqual(planes("--smoothing", 0), planes("--smoothing", 1))
+        fine = len(self.mesh("--threads", 1, "--radiusedge", 2, "--facetangle", 30).cells)
+        self.assertGreater(len(self.mesh("--threads", 1, "--radiusedge", 1.2, "--force").cells), 1.1 * fine)
+        self.assertNotEqual(len(self.mesh("--threads", 1, "--facetangle", 0).cells), fine)
+
+    def test_radius_edge_needs_force(self):
+        self.assert_refused(1, "--force", "--radiusedge", 1.6, self.input, "mesh.vtu")
+        self.mesh("--radiusedge", 1.9, "--force")
+
+    def test_progress(self):
+        output = self.run_module("--delta", 0.7, self.input, "mesh.vtu")
+        reports = list(FILTER.finditer(output))
+        self.assertEqual([report.group(1) for report in reports], [report.group(4) for report in reports])
+        self.assertEqual([report.group(1) for report in reports],
+                         ["vtkSegmentationReader", "vtkImageToTetMeshFilter", "vtkSimplexMeshWriter"])
+        self.assertEqual([report.group(2) for report in reports],
+                         ["Reading the label map", "Meshing", "Writing the mesh"])
+        whole = numbers("filter-progress", output)
+        self.assertEqual((whole[0], whole[-1]), (0.0, 1.0))
+        self.assertEqual(whole, sorted(whole))
+        for report in reports:
+            stage = numbers("filter-stage-progress", report.group(3))
+            self.assertEqual((stage[0], stage[-1]), (0.0, 1.0))
+            self.assertEqual(stage, sorted(stage))
+            self.assertGreaterEqual(float(report.group(5)), 0.0)
+        # Between the first and the last there is more to see.
+        self.assertGreater(len(set(numbers("filter-progress", reports[1].group(3)))), 3)
+        rest = FILTER.sub("", output)
+        self.assertRegex(rest, r"^\d+ tetrahedra with \d+ nodes, \d+ triangles on the interfaces; delta 0.7\n$")
+
+    def test_results(self):
+        mesh = self.mesh("--delta", 2.5, "--returnparameterfile", "results.params")
+        results = parse_parameter_file(self.folder / "results.params")
+        self.assertEqual(results, {"numberOfTetrahedra": str(len(mesh.cells)), "usedDelta": "2.5", "missingLabels": ""})
+
+    def test_derived_delta_is_returned(self):
+        self.mesh("--returnparameterfile", "results.params")
+        self.assertGreater(float(parse_parameter_file(self.folder / "results.params")["usedDelta"]), 0.5)
+
+    def test_labels_that_get_lost(self):
+        self.array[2, 2, 2] = 9  # one voxel
+        images.write_nrrd(self.input, self.array, self.geometry)
+        done = self.call("--delta", 3, "--returnparameterfile", "results.params", self.input, "mesh.vtu")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(parse_parameter_file(self.folder / "results.params")["missingLabels"], "9")
+        self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: the mesh lacks labels .*: 9\n$")
+
+    def test_echo(self):
+        output = self.run_module("--echo", "--delta", 3, "--labels", "3,7", self.input, "mesh.vtu")
+        echo = output[:output.index("<filter-start>")].split("\n")
+        self.assertEqual(echo[0], "Command Line Arguments")
+        for line in ("    inputLabels: %s" % self.input, "    outputMesh: mesh.vtu", "    delta: 3", "    labels: 3,7",
+                     "    force: false", "    facetAngle: 30"):
+            self.assertIn(line, echo)
+
+    def test_help_and_version(self):
+        text = self.run_module("--help")
+        for word in ("Usage: SegmentationToTetMesh [flags] inputLabels outputMesh", "--labelsizes", "--xml",
+                     "--processinformationaddress"):
+            self.assertIn(word, text)
+        self.assertEqual(self.run_module("-h"), text)
+        self.assertRegex(self.run_module("--version"), r"^SegmentationToTetMesh  version: \d+\.\d+\.\d+\n$")
+        self.assertEqual(set(self.contents()), {"two.nrrd"})
+
+    def test_address_of_nobody(self):
+        self.assertIn("<filter-start>", self.run_module("--processinformationaddress", "0", self.input, "mesh.vtu"))
+
+
+class Refusals(ModuleTestCase):
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
+
+    def test_command_lines(self):
+        for pattern, arguments in {
+                "input is missing: inputLabels": (), "output is missing: outputMesh": ("ball.nrrd",),
+                "'c' is one argument too many": ("ball.nrrd", "b.vtu", "c"), "--nonsense": ("--nonsense", "a", "b"),
+                "--delta: 'x' is not a number": ("--delta", "x", "a", "b.vtu"),
+                "--delta: must be 0 or more": ("--delta=-1", "a", "b.vtu"),
+                "--delta.* more than once": ("-d", "1", "--delta", "2", "a", "b.vtu"),
+                "--delta.* missing": ("a", "b.vtu", "--delta"),
+                "--facetangle: must lie between 0 and 30": ("--facetangle", "31", "a", "b.vtu"),
+                "--threads: must be a whole number": ("--threads", "1.5", "a", "b.vtu"),
+                "--labels: '0' is not a label": ("--labels", "1,0", "a", "b.vtu"),
+                "--labels: 'Tibia' is not the number of a label": ("--labels", "Tibia", "a", "b.vtu"),
+                "--labelsizes: '3' is not of the form": ("--labelsizes", "3", "a", "b.vtu"),
+                "--labelsizes: label 3 is given twice": ("--labelsizes", "3=1,3=2", "a", "b.vtu"),
+                "--space: 'LAS' is not one of LPS, RAS": ("--space", "LAS", "a", "b.vtu"),
+                "is not an address": ("--processinformationaddress", "here", "a", "b.vtu"),
+                "'b.xyz': its extension is not that of a format known here; use .vtu": ("ball.nrrd", "b.xyz"),
+                "'s.vtu': .* use .vtp": ("--surfaces", "s.vtu", "ball.nrrd", "b.vtu")}.items():
+            with self.subTest(arguments):
+                done = self.assert_refused(2, pattern, *arguments)
+                self.assertRegex(done.stderr, "see --help\n$")
+                self.assertEqual(done.stdout, "")
+
+    def test_files(self):
+        images.write_nrrd(self.folder / "empty.nrrd", 0 * images.ball())
+        (self.folder / "bad.nrrd").write_text("NRRD0004\n")
+        for pattern, arguments in {
+                "'no.nrrd': there is no such file": ("no.nrrd", "b.vtu"),
+                "bad.nrrd": ("bad.nrrd", "b.vtu"),
+                "no foreground|only background": ("empty.nrrd", "b.vtu"),
+                "there is no folder 'no'": ("ball.nrrd", "no/b.vtu"),
+                "two outputs have this name": ("--returnparameterfile", "b.vtu", "ball.nrrd", "b.vtu"),
+                "Label 5 was asked for.* Correct --labels": ("--labels", "5", "ball.nrrd", "b.vtu"),
+                "--labelsizes .*5.* not occur": ("--labelsizes", "5=1", "ball.nrrd", "b.vtu"),
+                "--force": ("--delta", "0.001", "ball.nrrd", "b.vtu")}.items():
+            with self.subTest(arguments):
+                self.assert_refused(1, pattern, *arguments)
+
+    def test_time_series(self):
+        images.write_nrrd(self.folder / "series.nrrd", images.moving_balls())
+        self.assert_refused(1, "several time frames; this module meshes one", "series.nrrd", "b.vtu")
+
+    def test_the_input_is_not_overwritten(self):
+        (self.folder / "link.vtu").symlink_to(self.input)
+        self.assert_refused(1, "it is the input", "ball.nrrd", "link.vtu")
+
+    def test_all_files_or_none(self):
+        """The second output cannot be written: the first one, which is complete by then, does not appear."""
+        (self.folder / "mesh.vtu").write_text("older")
+        (self.folder / "s.vtp").mkdir()
+        self.assert_refused(1, "'s.vtp': it is a folder", "--surfaces", "s.vtp", "ball.nrrd", "mesh.vtu")
+        self.assertEqual((self.folder / "mesh.vtu").read_text(), "older")
+
+    def test_full_disk(self):
+        """Limited to 20 kB a file, while writing; all that is left is what was there before."""
+        before = self.contents()
+        done = subprocess.run(["bash", "-c", "ulimit -f 20; exec \"$@\"", "bash", EXECUTABLE, "--delta", "1", "ball.nrrd",
+                               "mesh.vtu"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, "^SegmentationToTetMesh: cannot write 'mesh.vtu': ")
+        self.assertEqual(self.contents(), before)
+
+    def test_interruption(self):
+        """Ctrl-C while meshing; Slicer's cancel is a kill, which cannot leave more."""
+        images.write_nrrd(self.input, images.ball(64, 28.0))
+        for number, status in ((signal.SIGINT, 130), (signal.SIGKILL, -9)):
+            before = self.contents()
+            with subprocess.Popen([EXECUTABLE, "--delta", "0.05", "--force", "ball.nrrd", "mesh.vtu"], cwd=self.folder,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)) as process:
+                while "Meshing" not in process.stdout.readline():
+                    pass
+                time.sleep(0.5)
+                process.send_signal(number)
+                process.communicate(timeout=30)
+            self.assertEqual(process.returncode, status)
+            self.assertEqual(self.contents(), before)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

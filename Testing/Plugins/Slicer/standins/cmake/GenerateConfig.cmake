@@ -1,0 +1,1 @@
+# Slicer writes the extension's CMake package here. See SlicerConfig.cmake.

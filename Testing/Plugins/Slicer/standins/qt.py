@@ -1,0 +1,257 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A stand-in for PythonQt's qt: the few widgets that the module uses, without a screen.
+
+Each class knows the properties, methods and signals of the real one that are used here, and nothing else: another name is
+an AttributeError, as it would be in Slicer.
+"""
+
+
+class Object:
+    """Properties are attributes; signals are connected by their full signature."""
+    PROPERTIES = ()
+    SIGNALS = ()
+
+    def __init__(self, *arguments):
+        object.__setattr__(self, "slots", {})
+        for name in self.PROPERTIES + ("toolTip",):
+            object.__setattr__(self, name, None)
+
+    def __setattr__(self, name, value):
+        if not hasattr(self, name) or callable(getattr(type(self), name, None)):
+            raise AttributeError("%s has no property %s" % (type(self).__name__, name))
+        object.__setattr__(self, name, value)
+
+    def _set(self, name, value):
+        object.__setattr__(self, name, value)
+
+    def connect(self, signal, slot):
+        if signal not in self.SIGNALS:
+            raise AttributeError("%s has no signal %s" % (type(self).__name__, signal))
+        self.slots.setdefault(signal, []).append(slot)
+        return True
+
+    def emit(self, signal, *arguments):
+        for slot in self.slots.get(signal, []):
+            slot(*arguments)
+
+    def setToolTip(self, text):
+        self.toolTip = text
+
+
+class Qt:
+    UserRole, DecorationRole = 0x0100, 1
+    ItemIsUserCheckable, ItemIsEnabled = 16, 32
+    Unchecked, Checked = 0, 2
+
+
+class QColor:
+    @classmethod
+    def fromRgbF(cls, red, green, blue):
+        color = cls()
+        color.rgb = (red, green, blue)
+        return color
+
+
+class Layout(Object):
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self._set("content", [])
+
+    def addWidget(self, widget):
+        self._require(widget)
+        self.content.append(widget)
+
+    def addLayout(self, layout):
+        self._require(layout)
+        self.content.append(layout)
+
+    def addStretch(self, stretch):
+        pass
+
+    @staticmethod
+    def _require(widget):
+        if not isinstance(widget, Object):
+            raise TypeError("%r is no widget" % widget)
+
+
+class QVBoxLayout(Layout):
+    pass
+
+
+class QHBoxLayout(Layout):
+    pass
+
+
+class QFormLayout(Layout):
+    def __init__(self, parent):
+        super().__init__(parent)
+        self._require(parent)
+
+    def addRow(self, *parts):
+        self._require(parts[-1])
+        if len(parts) > 2 or (len(parts) == 2 and not isinstance(parts[0], str)):
+            raise TypeError("addRow%r" % (parts,))
+        self.content.append(parts)
+
+
+class Value(Object):
+    """Setting the value tells those that are connected, if it is another one."""
+    PROPERTIES = ("_value", "minimum", "maximum")
+    KIND = float
+
+    def __init__(self):
+        super().__init__()
+        self._set("_value", self.KIND(0))
+
+    def setRange(self, low, high):
+        self._set("minimum", self.KIND(low))
+        self._set("maximum", self.KIND(high))
+
+    @property
+    def value(self):
+        return self._value
+
+    def __setattr__(self, name, value):
+        if name != "value":
+            super().__setattr__(name, value)
+            return
+        value = min(max(self.KIND(value), self.minimum), self.maximum)
+        if value != self._value:
+            self._set("_value", value)
+            for signal in self.SIGNALS:
+                self.emit(signal, value)
+
+
+class QDoubleSpinBox(Value):
+    PROPERTIES = Value.PROPERTIES + ("decimals", "singleStep", "specialValueText")
+    SIGNALS = ("valueChanged(double)",)
+
+
+class QSpinBox(Value):
+    PROPERTIES = Value.PROPERTIES + ("singleStep", "specialValueText")
+    SIGNALS = ("valueChanged(int)",)
+    KIND = int
+
+
+class QProgressBar(Value):
+    PROPERTIES = Value.PROPERTIES + ("format",)
+    KIND = int
+
+
+class QCheckBox(Object):
+    PROPERTIES = ("_checked",)
+    SIGNALS = ("toggled(bool)",)
+
+    @property
+    def checked(self):
+        return bool(self._checked)
+
+    def __setattr__(self, name, value):
+        if name != "checked":
+            super().__setattr__(name, value)
+        elif bool(value) != self.checked:
+            self._set("_checked", bool(value))
+            self.emit("toggled(bool)", self._checked)
+
+
+class QPushButton(Object):
+    PROPERTIES = ("text", "enabled")
+    SIGNALS = ("clicked(bool)",)
+
+    def __init__(self, text):
+        super().__init__()
+        self.text, self.enabled = text, True
+
+    def click(self):
+        if not self.enabled:
+            raise AssertionError("the button '%s' is disabled" % self.text)
+        self.emit("clicked(bool)", False)
+
+
+class QPlainTextEdit(Object):
+    PROPERTIES = ("plainText", "readOnly")
+
+    def __init__(self):
+        super().__init__()
+        self.plainText = ""
+
+    def clear(self):
+        self.plainText = ""
+
+    def appendPlainText(self, text):
+        self.plainText += ("\n" if self.plainText else "") + text
+
+
+class QTableWidgetItem:
+    def __init__(self, text=""):
+        if not isinstance(text, str):
+            raise TypeError("text is wanted, not %r" % text)
+        self._text, self._data, self._flags, self._state = text, {}, None, None
+        self._table = self._row = self._column = None
+
+    def _changed(self):
+        if self._table is not None:
+            self._table.emit("itemChanged(QTableWidgetItem*)", self)
+
+    def text(self):
+        return self._text
+
+    def setText(self, text):
+        self._text = text
+        self._changed()
+
+    def setFlags(self, flags):
+        self._flags = flags
+        self._changed()
+
+    def setData(self, role, value):
+        self._data[role] = value
+        self._changed()
+
+    def data(self, role):
+        return self._data.get(role)
+
+    def setCheckState(self, state):
+        self._state = state
+        self._changed()
+
+    def checkState(self):
+        return self._state
+
+    def row(self):
+        return self._row
+
+    def column(self):
+        return self._column
+
+
+class QTableWidget(Object):
+    SIGNALS = ("itemChanged(QTableWidgetItem*)",)
+
+    def __init__(self):
+        super().__init__()
+        for name, value in (("columns", 0), ("rows", 0), ("headers", []), ("items", {})):
+            self._set(name, value)
+
+    def setColumnCount(self, count):
+        self._set("columns", count)
+
+    def setRowCount(self, count):
+        self._set("rows", count)
+        self._set("items", {place: item for place, item in self.items.items() if place[0] < count})
+
+    def setHorizontalHeaderLabels(self, labels):
+        if len(labels) != self.columns:
+            raise AssertionError("%d headers for %d columns" % (len(labels), self.columns))
+        self._set("headers", labels)
+
+    def setItem(self, row, column, item):
+        if not (0 <= row < self.rows and 0 <= column < self.columns):
+            raise AssertionError("there is no cell %d, %d" % (row, column))
+        item._table, item._row, item._column = self, row, column
+        self.items[row, column] = item
+        self.emit("itemChanged(QTableWidgetItem*)", item)
+
+    def item(self, row, column):
+        return self.items.get((row, column))

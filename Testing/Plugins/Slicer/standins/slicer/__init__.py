@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A stand-in for Slicer's Python module: enough of it to run the scripted module from Apply to the coloured mesh, with
+the real CLI module. It knows the names that are used and no others.
+
+The geometry of label maps, which the real one takes from the segmentation, is that of labelmapGeometry.
+"""
+import os
+import types
+
+import images
+import qt
+
+from slicer import nodes, util  # noqa: F401
+from slicer.commandline import Module, Runner
+from slicer.nodes import vtkMRMLDisplayNode, vtkMRMLNode, vtkMRMLScene, vtkSegmentation  # noqa: F401
+
+labelmapGeometry = images.Geometry()
+mrmlScene = vtkMRMLScene()
+cli = Runner(mrmlScene)
+app = types.SimpleNamespace(processEvents=cli.processEvents)
+
+
+def _exportSegments(segmentationNode, ids, labelmapNode, referenceNode, extent):
+    labelmapNode.geometry = labelmapGeometry
+    return nodes.exportSegments(segmentationNode, ids, labelmapNode, referenceNode, extent)
+
+
+_segmentationsLogic = types.SimpleNamespace(ExportSegmentsToLabelmapNode=_exportSegments)
+modules = types.SimpleNamespace(
+    segmentations=types.SimpleNamespace(logic=lambda: _segmentationsLogic),
+    segmentationtotetmesh=Module(os.environ["VOXPLEX_SLICER_CLI"]))
+
+
+class qMRMLNodeComboBox(qt.Object):
+    PROPERTIES = ("nodeTypes", "addEnabled", "removeEnabled", "renameEnabled", "noneEnabled", "_node")
+    SIGNALS = ("currentNodeChanged(vtkMRMLNode*)",)
+
+    def setMRMLScene(self, scene):
+        pass
+
+    def setCurrentNode(self, node):
+        if node is not None and type(node).__name__ not in self.nodeTypes:
+            raise AssertionError("%s is not offered" % node)
+        if node is not self._node:
+            self._set("_node", node)
+            self.emit("currentNodeChanged(vtkMRMLNode*)", node)
+
+    def currentNode(self):
+        return self._node
+
+    @property
+    def currentNodeID(self):
+        return self._node.GetID() if self._node else ""
