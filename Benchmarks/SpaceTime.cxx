@@ -237,7 +237,8 @@ void Measure(const SpaceTimeOptions& options, const phantoms::SpaceTimePhantom& 
 {
   const std::vector<std::uint8_t> scalars = phantom.Scalars();
   const auto& n = phantom.Grid.Dimensions;
-  const double delta = options.Delta > 0.0 ? options.Delta : DefaultDelta<4>(phantom.Grid);
+  const double delta =
+    options.Delta > 0.0 ? options.Delta : DefaultDelta<4>(phantom.Grid.VoxelVolume());
   std::vector<Series> all = ListSeries(options);
   RunAll(options, delta, scalars, phantom.Grid, all);
 

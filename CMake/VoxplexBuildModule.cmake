@@ -1,8 +1,12 @@
-# Builds VTK::Voxplex against an installed VTK: scans vtk.module and lets VTK re-enter the root
-# CMakeLists.txt.
+# Builds VTK::Voxplex and VTK::VoxplexIO against an installed VTK: scans the vtk.module files and lets VTK
+# re-enter the root CMakeLists.txt, and enter IO/.
 
+set(_voxplex_module_files "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module")
+if (VOXPLEX_HAVE_IO)
+  list(APPEND _voxplex_module_files "${CMAKE_CURRENT_SOURCE_DIR}/IO/vtk.module")
+endif ()
 vtk_module_scan(
-  MODULE_FILES      "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module"
+  MODULE_FILES      ${_voxplex_module_files}
   PROVIDES_MODULES  voxplex_modules
   WANT_BY_DEFAULT   ON
   HIDE_MODULES_FROM_CACHE ON
@@ -12,7 +16,7 @@ vtk_module_scan(
 # root that path is empty and the build directory would be entered twice; seen from one folder above
 # it is the repository's name.
 function (voxplex_build_module)
-  set(CMAKE_SOURCE_DIR "${CMAKE_SOURCE_DIR}/..")
+  set(CMAKE_SOURCE_DIR "${CMAKE_CURRENT_SOURCE_DIR}/..")
   vtk_module_build(
     MODULES             ${voxplex_modules}
     PACKAGE             Voxplex

@@ -1,4 +1,4 @@
-# The Python package `voxplex`: VTK's wrapping of the module, and an __init__.py that exports it.
+# The Python package `voxplex`: VTK's wrapping of the modules, and the layer of Python/voxplex.
 #
 # Build tree: PYTHONPATH=<build>/${VOXPLEX_PYTHON_DESTINATION}.
 # Install tree: <prefix>/${VOXPLEX_PYTHON_DESTINATION}.
@@ -18,11 +18,45 @@ vtk_module_wrap_python(
   BUILD_STATIC        OFF
   INSTALL_EXPORT      Voxplex)
 
+# --- The layer in Python --------------------------------------------------------------------------
+
+file(RELATIVE_PATH _voxplex_program
+  "/prefix/${VOXPLEX_PYTHON_DESTINATION}/voxplex" "/prefix/${CMAKE_INSTALL_BINDIR}/voxplex")
 set(_voxplex_python_folder "${CMAKE_BINARY_DIR}/${VOXPLEX_PYTHON_DESTINATION}/voxplex")
-configure_file(Filters/Python/voxplex/__init__.py.in "${_voxplex_python_folder}/__init__.py" @ONLY)
+set(_voxplex_python_files
+  __init__.py
+  __main__.py
+  arrays.py
+  errors.py
+  execution.py
+  files.py
+  frames.py
+  images.py
+  meshing.py
+  names.py
+  sources.py
+  py.typed
+  vtkVoxplex.pyi
+  vtkVoxplexIO.pyi)
+foreach (_voxplex_file IN LISTS _voxplex_python_files)
+  configure_file("Python/voxplex/${_voxplex_file}" "${_voxplex_python_folder}/${_voxplex_file}" COPYONLY)
+endforeach ()
+configure_file(Python/voxplex/installation.py.in "${_voxplex_python_folder}/installation.py" @ONLY)
+list(TRANSFORM _voxplex_python_files PREPEND "${_voxplex_python_folder}/")
 install(
-  FILES       "${_voxplex_python_folder}/__init__.py"
+  FILES       ${_voxplex_python_files} "${_voxplex_python_folder}/installation.py"
   DESTINATION "${VOXPLEX_PYTHON_DESTINATION}/voxplex"
+  COMPONENT   python)
+
+# What importlib.metadata and pip list read.
+set(_voxplex_dist_info "${VOXPLEX_PYTHON_DESTINATION}/voxplex-${VOXPLEX_VERSION}.dist-info")
+configure_file(Python/METADATA.in "${CMAKE_BINARY_DIR}/${_voxplex_dist_info}/METADATA" @ONLY)
+file(WRITE "${CMAKE_BINARY_DIR}/${_voxplex_dist_info}/INSTALLER" "cmake\n")
+install(
+  FILES
+    "${CMAKE_BINARY_DIR}/${_voxplex_dist_info}/METADATA"
+    "${CMAKE_BINARY_DIR}/${_voxplex_dist_info}/INSTALLER"
+  DESTINATION "${_voxplex_dist_info}"
   COMPONENT   python)
 
 # What a test needs in its environment to import the package from the build tree. An interpreter that

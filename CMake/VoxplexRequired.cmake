@@ -10,9 +10,13 @@ function (voxplex_require found what debian_package variable)
   endif ()
 endfunction ()
 
-find_package(VTK 9.0 QUIET
-  COMPONENTS CommonCore CommonDataModel CommonExecutionModel)
-voxplex_require("${VTK_FOUND}" "VTK 9.0 or newer" "libvtk9-dev" VTK_DIR)
+macro (voxplex_find_cgal)
+  find_package(CGAL 5.0 QUIET)
+  voxplex_require("${CGAL_FOUND}" "CGAL 5 (its kernels only)" "libcgal-dev" CGAL_DIR)
+endmacro ()
 
-find_package(CGAL 5.0 QUIET)
-voxplex_require("${CGAL_FOUND}" "CGAL 5 (its kernels only)" "libcgal-dev" CGAL_DIR)
+macro (voxplex_find_vtk)
+  find_package(VTK 9.0 QUIET
+    COMPONENTS CommonCore CommonDataModel CommonExecutionModel)
+  voxplex_require("${VTK_FOUND}" "VTK 9.0 or newer" "libvtk9-dev" VTK_DIR)
+endmacro ()

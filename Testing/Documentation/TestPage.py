@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs what a page of Documentation/ tells its readers to run: TestPage.py PAGE.md
+
+In one empty folder, in order: blocks of `sh` by bash, blocks of `python` in one interpreter, one namespace. A
+block after a line `<!-- file: NAME -->` is written to that file; one after `<!-- not run: REASON -->` is left out.
+PYTHONPATH and VOXPLEX_PREFIX (an install tree, which stands for ~/voxplex) say what is tested.
+"""
+
+import contextlib
+import io
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+BLOCK = re.compile(r"^(?:<!-- (?P<mark>file|not run): (?P<value>.*?) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$",
+                   re.MULTILINE | re.DOTALL)
+
+
+def environment(folder):
+    """A home with ~/voxplex, and this interpreter as python3."""
+    programs = folder / "bin"
+    programs.mkdir()
+    (programs / "python3").symlink_to(sys.executable)
+    result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{os.environ['PATH']}"}
+    if "VOXPLEX_PREFIX" in os.environ:
+        (folder / "voxplex").symlink_to(os.environ["VOXPLEX_PREFIX"])
+    return result
+
+
+def run(page):
+    """The number of blocks that were run; raises what fails."""
+    text = page.read_text()
+    namespace = {"__name__": "page"}
+    count = 0
+    with tempfile.TemporaryDirectory() as home:
+        variables = environment(Path(home))
+        work = Path(home) / "work"
+        work.mkdir()
+        os.chdir(work)
+        for block in BLOCK.finditer(text):
+            where = f"{page.name}:{text.count(chr(10), 0, block.start('text')) + 1}"
+            if block["mark"] == "not run":
+                continue
+            count += 1
+            print(f"--- {where}: {block['value'] or block['kind']}", flush=True)
+            if block["mark"] == "file":
+                Path(block["value"]).write_text(block["text"])
+            elif block["kind"] == "sh":
+                subprocess.run(["bash", "-euo", "pipefail", "-c", block["text"]], check=True, env=variables, timeout=900)
+            elif block["kind"] == "python":
+                output = io.StringIO()
+                with contextlib.redirect_stdout(output):
+                    exec(compile(block["text"], where, "exec"), namespace)
+                print(output.getvalue(), flush=True)
+            else:
+                sys.exit(f"{where}: a block of kind {block['kind']!r} is neither run nor written to a file")
+        os.chdir("/")
+    if count != len(re.findall(r"^```\w", text, re.MULTILINE)) - len(re.findall(r"^<!-- not run: ", text, re.MULTILINE)):
+        sys.exit(f"{page.name}: some blocks were overlooked")
+    return count
+
+
+if __name__ == "__main__":
+    print(f"{run(Path(sys.argv[1]).resolve())} blocks were run")

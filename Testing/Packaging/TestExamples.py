@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The examples in C++, as built against an installed Voxplex. VOXPLEX_EXAMPLES is their build folder."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+FOLDER = Path(os.environ["VOXPLEX_EXAMPLES"])
+
+# 32 x 28 x 24 voxels of 1 x 1.5 x 2 mm: a cube of 10 mm and a smaller one, both bright, in a grey image.
+SPACING = numpy.array([1.0, 1.5, 2.0])
+LARGE = ((6, 17), (6, 13), (5, 10))  # first and last index along i, j, k
+SMALL = ((24, 29), (18, 22), (15, 18))
+
+
+def centre(box):
+    return numpy.array([0.5 * (first + last) for first, last in box])
+
+
+def grey_image():
+    """Indexed [k, j, i]."""
+    image = numpy.full((24, 28, 32), -100, dtype=numpy.int16)
+    for box in (LARGE, SMALL):
+        (i0, i1), (j0, j1), (k0, k1) = box
+        image[k0:k1 + 1, j0:j1 + 1, i0:i1 + 1] = 900
+    return image
+
+
+def write_meta_image(path, array, direction, origin):
+    """A MetaImage file: each row of TransformMatrix is the direction of one axis of the image."""
+    numbers = lambda values: " ".join(repr(float(value)) for value in numpy.asarray(values).reshape(-1))
+    kind = {numpy.dtype(numpy.int16): "MET_SHORT", numpy.dtype(numpy.uint8): "MET_UCHAR"}[array.dtype]
+    header = (f"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+              f"TransformMatrix = {numbers(numpy.asarray(direction).T)}\nOffset = {numbers(origin)}\n"
+              f"ElementSpacing = {numbers(SPACING)}\nDimSize = {' '.join(map(str, array.shape[::-1]))}\n"
+              f"ElementType = {kind}\nElementDataFile = LOCAL\n")
+    path.write_bytes(header.encode() + array.astype(array.dtype.newbyteorder("<")).tobytes())
+
+
+def read(path):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return points, cells, vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+
+
+def centroids(points, cells, labels):
+    """Of each label, weighted by volume; and the smallest volume of a cell."""
+    corners = points[cells]
+    a, b, c = (corners[:, n] - corners[:, 0] for n in (1, 2, 3))
+    volumes = numpy.einsum("ij,ij->i", numpy.cross(a, b), c) / 6.0
+    result = {}
+    for label in numpy.unique(labels):
+        chosen = labels == label
+        result[int(label)] = numpy.average(corners[chosen].mean(axis=1), axis=0, weights=volumes[chosen])
+    return result, volumes.min()
+
+
+class Examples(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def call(self, name, *arguments):
+        return subprocess.run([str(FOLDER / name), *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                              check=False)
+
+    def test_ball(self):
+        done = self.call("MeshBall", self.folder / "ball.vtu")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        points, cells, labels = read(self.folder / "ball.vtu")
+        self.assertRegex(done.stdout, f"^{len(cells)} tetrahedra")
+        self.assertEqual(set(labels), {1, 2})
+        centres, smallest = centroids(points, cells, labels)
+        numpy.testing.assert_allclose(centres[2], (19.5, 19.5, 19.0), atol=0.3)
+        self.assertGreater(smallest, 0.0)
+
+    DIRECTIONS = {
+        "identity": numpy.eye(3),
+        "axes exchanged": numpy.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]),
+        "oblique": numpy.array([[0.8, -0.6, 0], [0.48, 0.64, -0.6], [0.36, 0.48, 0.8]]),
+        "left-handed": numpy.array([[0.8, 0.6, 0], [-0.6, 0.8, 0], [0, 0, -1.0]]),
+    }
+    ORIGIN = numpy.array([-40.0, 25.0, 310.0])
+
+    def check(self, points, cells, labels, direction, expected):
+        centres, smallest = centroids(points, cells, labels)
+        self.assertEqual(set(centres), set(expected))
+        self.assertGreater(smallest, 0.0)
+        for label, box in expected.items():
+            numpy.testing.assert_allclose(
+                centres[label], self.ORIGIN + direction @ (SPACING * centre(box)), atol=0.4)
+
+    @unittest.skipUnless((FOLDER / "MeshITKImage").exists(), "ITK was not found")
+    def test_itk_pipeline(self):
+        for name, direction in self.DIRECTIONS.items():
+            with self.subTest(name):
+                write_meta_image(self.folder / "ct.mha", grey_image(), direction, self.ORIGIN)
+                done = self.call("MeshITKImage", self.folder / "ct.mha", 300, 2.0, self.folder / "bone.vtu")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stdout, "^2 components, [1-9][0-9]+ tetrahedra\n$")
+                self.check(*read(self.folder / "bone.vtu"), direction, {1: LARGE, 2: SMALL})
+
+    @unittest.skipUnless((FOLDER / "MeshITKImage").exists(), "ITK was not found")
+    def test_itk_pipeline_fails_with_a_message(self):
+        done = self.call("MeshITKImage", self.folder / "none.mha", 300, 2.0, self.folder / "bone.vtu")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("none.mha", done.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    @unittest.skipUnless((FOLDER / "MeshFile").exists(), "Voxplex was built without IO")
+    def test_file(self):
+        direction = self.DIRECTIONS["oblique"]
+        labels = numpy.where(grey_image() > 0, 4, 0).astype(numpy.uint8)
+        write_meta_image(self.folder / "labels.mha", labels, direction, self.ORIGIN)
+        done = self.call("MeshFile", self.folder / "labels.mha", 2.0, self.folder / "mesh.vtu")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        points, cells, found = read(self.folder / "mesh.vtu")
+        self.assertEqual(set(found), {4})
+        self.assertEqual(done.stdout, f"{len(cells)} tetrahedra\n")
+        missing = self.call("MeshFile", self.folder / "none.mha", 2.0, self.folder / "mesh2.vtu")
+        self.assertEqual(missing.returncode, 1)
+        self.assertFalse((self.folder / "mesh2.vtu").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
