@@ -131,6 +131,9 @@ OptionGroups DeclareOptions()
     ("sliver-angle", text("DEGREES"),
       "dihedral angle below which, or above 180 less which, a tetrahedron is a sliver and split "
       "(default 9; 0: leave slivers; above 15 only with --force)") //
+    ("optimise",
+      "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a "
+      "few, radius-edge ratios up to 2.5") //
     ("smallest-component", text("VOXELS"),
       "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
       "0: "
@@ -351,6 +354,7 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.SliverAngle = ParseRange("sliver-angle", *text, 0, 59);
   }
+  p.Optimise = values.count("optimise") > 0;
   if (const auto* text = given("smallest-component"))
   {
     p.SmallestComponent =
@@ -506,9 +510,10 @@ void CheckDimension(const Parameters& p, int dimension)
       ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image");
   }
-  const std::array<std::pair<const char*, bool>, 4> tetOptions{ {
+  const std::array<std::pair<const char*, bool>, 5> tetOptions{ {
     { "--facet-angle", p.FacetAngle.has_value() },
     { "--sliver-angle", p.SliverAngle.has_value() },
+    { "--optimise", p.Optimise },
     { "--smallest-component", p.SmallestComponent.has_value() },
     { "--min-component-volume", p.MinimumComponentVolume.has_value() },
   } };

@@ -90,6 +90,7 @@ vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
   {
     filter->SetSliverAngle(*p.SliverAngle);
   }
+  filter->SetOptimise(p.Optimise);
   if (p.SmallestComponent)
   {
     filter->SetSmallestComponent(*p.SmallestComponent);

@@ -63,6 +63,7 @@ struct Parameters
   std::optional<double> RadiusEdgeRatio;
   std::optional<double> FacetAngle;
   std::optional<double> SliverAngle;
+  bool Optimise = false;
   std::optional<int> SmallestComponent;
   std::optional<double> MinimumComponentVolume;
   std::optional<double> SmoothingSigma;

@@ -59,7 +59,7 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) },
     { "size", OrNull(p.Size) }, { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
     { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
-    { "sliver_angle", OrNull(p.SliverAngle) },
+    { "sliver_angle", OrNull(p.SliverAngle) }, { "optimise", p.Optimise },
     { "smallest_component", OrNull(p.SmallestComponent) },
     { "min_component_volume", OrNull(p.MinimumComponentVolume) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
@@ -76,7 +76,8 @@ ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes
   return { { "read", times.Read }, { "label_field", s.GetLabelFieldTime() },
     { "distance_transform", s.GetDistanceTransformTime() }, { "components", s.GetComponentsTime() },
     { "refinement", s.GetRefinementTime() }, { "extraction", s.GetExtractionTime() },
-    { "write", times.Write }, { "total_without_io", s.GetTotalTime() } };
+    { "optimisation", s.GetOptimisationTime() }, { "write", times.Write },
+    { "total_without_io", s.GetTotalTime() } };
 }
 
 /** Adds the names to the object that has figures for each label. */

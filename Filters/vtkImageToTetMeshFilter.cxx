@@ -106,6 +106,7 @@ void vtkImageToTetMeshFilter::Mesh(
   Run<3> run(this, inputVector, input.Frame);
   run.Options.FacetAngle = this->FacetAngle;
   run.Options.TetSlivers.Angle = this->SliverAngle;
+  run.Options.Optimise = this->Optimise;
   run.Options.SmallestComponent = this->SmallestComponent;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
@@ -129,6 +130,7 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FacetAngle: " << this->FacetAngle << "\n";
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
+  os << indent << "Optimise: " << this->Optimise << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";

@@ -83,6 +83,19 @@ public:
 
   ///@{
   /**
+   * Improve shapes after refinement with flips and smoothing: dihedral angles of 15 to 155 degrees but for
+   * a few, at the price of radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is larger) and of interface
+   * angles down to 20 degrees where three or more labels meet. It takes about a fifth of the time of
+   * refinement. The mesh is no longer Delaunay. Default off.
+   * vtkMeshingStatistics::GetOptimised() and what follows it tell what it did.
+   */
+  vtkSetMacro(Optimise, bool);
+  vtkGetMacro(Optimise, bool);
+  vtkBooleanMacro(Optimise, bool);
+  ///@}
+
+  ///@{
+  /**
    * Every connected component (through voxel faces) of a label that has at least so many voxels gets
    * tetrahedra, however small or thin it is beside Delta: its interfaces are sampled as finely as that
    * takes. Default 8; 1 keeps single voxels, too; 0 leaves small components to chance. What has no
@@ -136,6 +149,7 @@ protected:
 
   double FacetAngle = 30.0;
   double SliverAngle = 9.0;
+  bool Optimise = false;
   int SmallestComponent = 8;
   double MinimumComponentVolume = 0.0;
 

@@ -213,6 +213,19 @@ void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
   }
 }
 
+void AddOptimisation(JsonWriter& json, const voxplex::OptimisationFigures& figures)
+{
+  json.Begin("optimisation");
+  json.Add("ran", figures.Ran);
+  json.Add("min_dihedral_before", figures.SmallestDihedralBefore);
+  json.Add("max_dihedral_before", figures.LargestDihedralBefore);
+  json.Add("poor_before", figures.PoorBefore);
+  json.Add("min_dihedral_after", figures.SmallestDihedralAfter);
+  json.Add("max_dihedral_after", figures.LargestDihedralAfter);
+  json.Add("poor_after", figures.PoorAfter);
+  json.End();
+}
+
 /** NaN without insertions. */
 double MeanCavitySize(const voxplex::RuleStatistics& rules)
 {
@@ -347,6 +360,14 @@ VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
 VOXPLEX_FIGURE(double, ComponentsTime, Run.Times.Components)
 VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
 VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
+VOXPLEX_FIGURE(double, OptimisationTime, Run.Times.Optimisation)
+VOXPLEX_FIGURE(bool, Optimised, Run.Optimisation.Ran)
+VOXPLEX_FIGURE(double, MinimumDihedralAngleBefore, Run.Optimisation.SmallestDihedralBefore)
+VOXPLEX_FIGURE(double, MaximumDihedralAngleBefore, Run.Optimisation.LargestDihedralBefore)
+VOXPLEX_FIGURE(double, MinimumDihedralAngleAfter, Run.Optimisation.SmallestDihedralAfter)
+VOXPLEX_FIGURE(double, MaximumDihedralAngleAfter, Run.Optimisation.LargestDihedralAfter)
+VOXPLEX_FIGURE(vtkTypeInt64, PoorElementsBefore, Run.Optimisation.PoorBefore)
+VOXPLEX_FIGURE(vtkTypeInt64, PoorElementsAfter, Run.Optimisation.PoorAfter)
 VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
 VOXPLEX_FIGURE(double, SeedingTime, Run.SeedingSeconds)
 VOXPLEX_FIGURE(bool, SwitchedToLocal, Run.SwitchedToLocal)
@@ -507,6 +528,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("components", v.Run.Components);
   AddComponents(json, "lost_components", v.Run.LostComponents);
   AddComponents(json, "dropped_components", v.DroppedComponents);
+  AddOptimisation(json, v.Run.Optimisation);
   if (v.HasQuality)
   {
     AddQuality(json, v.Quality);
@@ -525,6 +547,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("components", v.Run.Times.Components);
   json.Add("refinement", v.Run.Times.Refinement);
   json.Add("extraction", v.Run.Times.Extraction);
+  json.Add("optimisation", v.Run.Times.Optimisation);
   json.Add("total", v.Run.Times.Total());
   json.End();
   json.Begin("memory");

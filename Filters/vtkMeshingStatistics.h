@@ -182,6 +182,21 @@ public:
 
   ///@{
   /**
+   * Optimisation after refinement (vtkImageToTetMeshFilter::SetOptimise()): whether it ran, the smallest and
+   * largest dihedral angle before and after it in degrees, and how many tetrahedra had angles outside of
+   * 15 to 155 degrees, or too large a radius-edge ratio, before and after it.
+   */
+  bool GetOptimised() const;
+  double GetMinimumDihedralAngleBefore() const;
+  double GetMaximumDihedralAngleBefore() const;
+  double GetMinimumDihedralAngleAfter() const;
+  double GetMaximumDihedralAngleAfter() const;
+  vtkTypeInt64 GetPoorElementsBefore() const;
+  vtkTypeInt64 GetPoorElementsAfter() const;
+  ///@}
+
+  ///@{
+  /**
    * Geometric predicates: all calls; calls that the fast filter could not decide; calls decided by
    * exact arithmetic; exact ties decided by the symbolic perturbation.
    */
@@ -194,7 +209,7 @@ public:
   ///@{
   /**
    * Wall-clock seconds of each stage: reading the labels and smoothing them, the distance
-   * transform, connected components, refinement, extraction of the mesh into VTK data. The total is the sum of the five;
+   * transform, connected components, refinement, extraction of the mesh into VTK data, optimisation. The total is the sum of the six;
    * measuring the quality is not part of it.
    */
   double GetLabelFieldTime() const;
@@ -202,6 +217,7 @@ public:
   double GetComponentsTime() const;
   double GetRefinementTime() const;
   double GetExtractionTime() const;
+  double GetOptimisationTime() const;
   double GetTotalTime() const;
   ///@}
 

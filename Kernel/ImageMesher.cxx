@@ -8,6 +8,7 @@
 #include "Image/ImageDomain.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
+#include "Optimisation/MeshOptimiser.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
@@ -143,6 +144,9 @@ void CheckOptions(const MeshingOptions<D>& options)
 constexpr double PreparationShare = 0.2;
 constexpr double RefinementShare = 0.95; ///< end of refinement
 
+/** How far optimisation may move vertices off interfaces as a last means, in smallest voxel spacings. */
+constexpr double OptimisationTolerance = 0.1;
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -228,6 +232,7 @@ private:
       this->Stats.Times.Extraction += extraction.Seconds();
       if (!guard || !this->SampleLostComponents(*guard, image, mesh))
       {
+        this->Optimise(image, domain, mesh, stop);
         return !stop.stop_requested();
       }
       ++this->Stats.ComponentRounds;
@@ -236,6 +241,31 @@ private:
       {
         return false;
       }
+    }
+  }
+
+  /** @throws Cancelled */
+  void Optimise(const LabelImage<D>& image, const Domain<D>& domain, SimplexMesh<D>& mesh,
+    const std::stop_token& stop)
+  {
+    if constexpr (D == 3)
+    {
+      if (!this->Options.Optimise || stop.stop_requested())
+      {
+        return;
+      }
+      OptimisationOptions options;
+      options.RadiusEdgeRatio = std::max(OptimisedRadiusEdgeRatio, this->Options.RadiusEdgeRatio);
+      options.FacetAngle = this->Options.FacetAngle;
+      options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
+      options.InterfaceTolerance = OptimisationTolerance *
+        std::min({ image.Grid().Spacing(0), image.Grid().Spacing(1), image.Grid().Spacing(2) });
+      const OptimisationStatistics done =
+        OptimiseMesh(mesh, domain, options, this->Options.Threads, stop);
+      this->Stats.Times.Optimisation = done.Seconds;
+      this->Stats.Optimisation = { true, done.Before.SmallestDihedralAngle,
+        done.Before.LargestDihedralAngle, done.After.SmallestDihedralAngle,
+        done.After.LargestDihedralAngle, done.Before.Poor, done.After.Poor };
     }
   }
 

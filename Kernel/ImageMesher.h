@@ -46,6 +46,12 @@ struct MeshingOptions
   double SmoothingSigma = 1.0;
   /** Upper bound of circumradii, or null. */
   std::shared_ptr<const SizeFunction<D>> Size;
+  /**
+   * Improve shapes after refinement (Optimisation/MeshOptimiser.h): dihedral angles of 15 to 155 degrees where it
+   * can, radius-edge ratios up to 2.5 or RadiusEdgeRatio, whichever is larger. The mesh is no longer
+   * Delaunay. 3D only.
+   */
+  bool Optimise = false;
   /** Threads; 0 means all cores. */
   unsigned Threads = 1;
   /** What a refinement thread does when it meets another. */
@@ -77,6 +83,9 @@ enum class MeshingOutcome
   Done,
   Cancelled ///< the progress callback returned false; the mesh is empty
 };
+
+/** The radius-edge ratios that optimisation allows. */
+inline constexpr double OptimisedRadiusEdgeRatio = 2.5;
 
 /** The smallest radius-edge ratio for which termination is proved: sqrt(sqrt(3) + 2) (thesis, 2.3). */
 inline constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;

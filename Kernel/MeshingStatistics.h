@@ -105,10 +105,11 @@ struct StageTimes
   double Components = 0.0;        ///< connected components, before and after refinement
   double Refinement = 0.0;
   double Extraction = 0.0;
+  double Optimisation = 0.0;
   double Total() const
   {
     return this->LabelField + this->DistanceTransform + this->Components + this->Refinement +
-      this->Extraction;
+      this->Extraction + this->Optimisation;
   }
 };
 
@@ -154,6 +155,18 @@ struct ThreadStatistics
   }
 };
 
+/** What optimisation after refinement did. Angles are in degrees; "poor" is what is out of bounds. */
+struct OptimisationFigures
+{
+  bool Ran = false;
+  double SmallestDihedralBefore = 0.0;
+  double LargestDihedralBefore = 0.0;
+  double SmallestDihedralAfter = 0.0;
+  double LargestDihedralAfter = 0.0;
+  std::uint64_t PoorBefore = 0;
+  std::uint64_t PoorAfter = 0;
+};
+
 struct MeshingStatistics
 {
   RuleStatistics Rules;
@@ -172,6 +185,7 @@ struct MeshingStatistics
   std::uint64_t Components = 0; ///< connected components of all labels; 0 if none were looked for
   std::uint64_t ComponentSeeds = 0; ///< feature points inserted for small or thin ones, at most
   unsigned ComponentRounds = 0;     ///< times that refinement went on because one was lost
+  OptimisationFigures Optimisation;
   std::vector<ComponentReport> LostComponents; ///< connected components that have no element
   double SizesRaisedTo = 0.0;        ///< the floor of sizes, if some were below it; else 0
   std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values

@@ -186,11 +186,19 @@ public:
     if (filter->ComputeQuality)
     {
       figures.Quality = voxplex::MeasureQuality(
-        mesh, this->Options.RadiusEdgeRatio, this->Options.FacetAngle, this->Options.Threads);
+        mesh, this->RadiusEdgeBound(), this->Options.FacetAngle, this->Options.Threads);
       figures.HasQuality = true;
     }
     figures.Run.Times.LabelField += readingTime;
     return true;
+  }
+
+  /** What the elements are to keep. */
+  double RadiusEdgeBound() const
+  {
+    return this->Options.Optimise
+      ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.RadiusEdgeRatio)
+      : this->Options.RadiusEdgeRatio;
   }
 
   vtkMeshingStatistics::Figures& Figures() { return this->Filter->Private->Statistics->Edit(); }

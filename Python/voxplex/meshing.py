@@ -47,6 +47,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
+         optimise: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -61,6 +62,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
+         optimise: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -74,6 +76,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
+         optimise: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -120,6 +123,9 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     sliver_angle
         Tetrahedra only: those with a dihedral angle below this, or above 180 less this, are split. In
         degrees, default 9; 0 leaves them, above 15 needs force.
+    optimise
+        Tetrahedra only: improve shapes after refinement; dihedral angles of 15 to 155 degrees but for a few,
+        radius-edge ratios up to 2.5. Default False.
     smallest_component
         Tetrahedra only: connected components of at least so many voxels get elements whatever delta.
         Default 8; 0 leaves it to chance.
@@ -193,13 +199,13 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     if source.is_series:
         mesher = vtkImageToPentatopeMeshFilter()
         _refuse("only for images without time frames", facet_angle=facet_angle, sliver_angle=sliver_angle,
-                smallest_component=smallest_component, min_component_volume=min_component_volume)
+                optimise=optimise, smallest_component=smallest_component, min_component_volume=min_component_volume)
         _set(mesher, TimeScale=time_scale, PickingRegions=pick_slivers, RandomSeed=seed)
     else:
         mesher = vtkImageToTetMeshFilter()
         _refuse("only for images with time frames", times=times, time_scale=time_scale,
                 pick_slivers=pick_slivers, seed=seed)
-        _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle,
+        _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle, Optimise=optimise,
              SmallestComponent=smallest_component, MinimumComponentVolume=min_component_volume)
     source.connect(mesher)
     _set(mesher, Delta=delta, NumberOfThreads=threads, ElementSize=size, SmoothingSigma=smoothing,

@@ -113,6 +113,25 @@ class Options(ProgramTestCase):
     def test_equals_sign(self):
         self.mesh("--input=" + self.input, "--delta=3", "--output=mesh.vtu")
 
+    def test_shapes(self):
+        def run(*arguments):
+            report = self.statistics("--input", self.input, "--threads", 1, "--delta", 1, *arguments)
+            return report["quality"], report["optimisation"]
+        sharp, figures = run("--sliver-angle", 0)
+        self.assertLess(sharp["min_dihedral"], 4)
+        self.assertFalse(figures["ran"])
+        split, figures = run()
+        self.assertGreater(split["min_dihedral"], 4.6)
+        self.assertLess(split["max_dihedral"], 171)
+        self.assertLessEqual(split["max_radius_edge"], 2)
+        best, figures = run("--optimise")
+        self.assertTrue(figures["ran"])
+        self.assertGreater(best["min_dihedral"], 12)
+        self.assertLess(best["max_dihedral"], 160)
+        self.assertLessEqual(best["max_radius_edge"], 2.5)
+        self.assertEqual(best["radius_edge_violations"], 0)
+        self.assertAlmostEqual(figures["min_dihedral_after"], best["min_dihedral"], delta=1e-6)
+
 
 class Statistics(ProgramTestCase):
     def test_schema(self):
@@ -135,7 +154,7 @@ class Statistics(ProgramTestCase):
 
         self.check_quality(report["quality"], mesh, surface)
         time = report["time"]
-        stages = ("label_field", "distance_transform", "components", "refinement", "extraction")
+        stages = ("label_field", "distance_transform", "components", "refinement", "extraction", "optimisation")
         for name in ("read", "write", "total_without_io") + stages:
             self.assertIsInstance(time[name], float)
             self.assertGreaterEqual(time[name], 0.0)
@@ -320,7 +339,7 @@ class Talk(ProgramTestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
-                     "--facet-angle", "--sliver-angle", "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help",
+                     "--facet-angle", "--sliver-angle", "--optimise", "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--version", "--help",
                      "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
                      "--sliver-bound", "--seed", "--no-fine-grained"):
             self.assertIn(flag, done.stdout)

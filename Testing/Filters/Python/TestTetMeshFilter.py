@@ -248,6 +248,43 @@ class Components(unittest.TestCase):
         self.assertIn("Force", self.mesh(SliverAngle=16.0)[0].GetErrorMessage())
 
 
+class Optimisation(unittest.TestCase):
+    def test_shapes(self):
+        mesher = make_filter(make_image(two_labels))
+        mesher.SetDelta(1)
+        mesher.ComputeQualityOn()
+        mesher.SetSliverAngle(0)
+        self.assertFalse(mesher.GetOptimise())
+        mesher.Update()
+        before = mesher.GetStatistics()
+        self.assertFalse(before.GetOptimised())
+        self.assertEqual(before.GetOptimisationTime(), 0)
+        sharpest, volumes = before.GetMinimumDihedralAngle(), [before.GetLabelVolume(i) for i in range(2)]
+        self.assertLess(sharpest, 4)
+
+        mesher.OptimiseOn()
+        mesher.Update()
+        after = mesher.GetStatistics()
+        self.assertTrue(after.GetOptimised())
+        self.assertGreater(after.GetOptimisationTime(), 0)
+        self.assertAlmostEqual(after.GetMinimumDihedralAngleBefore(), sharpest, delta=1e-6)
+        self.assertAlmostEqual(after.GetMinimumDihedralAngleAfter(), after.GetMinimumDihedralAngle(), delta=1e-6)
+        self.assertAlmostEqual(after.GetMaximumDihedralAngleAfter(), after.GetMaximumDihedralAngle(), delta=1e-6)
+        self.assertGreater(after.GetMaximumDihedralAngleBefore(), 171)
+        self.assertGreater(after.GetMinimumDihedralAngle(), 12)
+        self.assertLess(after.GetMaximumDihedralAngle(), 160)
+        self.assertGreater(after.GetPoorElementsBefore(), after.GetPoorElementsAfter())
+        self.assertLess(after.GetMaximumRadiusEdgeRatio(), 2.5 + 1e-9)
+        self.assertEqual(after.GetRadiusEdgeViolations(), 0)
+        self.assertEqual(after.GetInvertedElements(), 0)
+        self.assertEqual(after.GetFacetAngleViolations(), after.GetFacetAngleViolationsAtJunctions())
+        for i, volume in enumerate(volumes):
+            self.assertAlmostEqual(after.GetLabelVolume(i), volume, delta=0.003 * volume)
+        figures = json.loads(after.ToJSON())
+        self.assertTrue(figures["optimisation"]["ran"])
+        self.assertEqual(figures["optimisation"]["poor_after"], after.GetPoorElementsAfter())
+
+
 class Threads(unittest.TestCase):
     MANAGERS = {"aggressive": "Aggressive", "random": "Random", "global": "Global", "local": "Local"}
     BALANCERS = {"rws": "RandomWorkStealing", "hws": "HierarchicalWorkStealing"}

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Flips.h
+ * @brief Changes of connectivity that raise the smallest score.
+ */
+#ifndef voxplex_Flips_h
+#define voxplex_Flips_h
+
+#include "Optimisation/InterfaceRules.h"
+#include "Optimisation/Patch.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/** What has been done. */
+struct FlipCounts
+{
+  FlipCounts& operator+=(const FlipCounts& other)
+  {
+    this->FacetFlips += other.FacetFlips;
+    this->EdgeRemovals += other.EdgeRemovals;
+    this->InterfaceFlips += other.InterfaceFlips;
+    this->Relabelled += other.Relabelled;
+    this->Dropped += other.Dropped;
+    return *this;
+  }
+
+  std::uint64_t FacetFlips = 0;
+  std::uint64_t EdgeRemovals = 0;
+  std::uint64_t InterfaceFlips = 0; ///< edge removals whose edge lay on an interface
+  std::uint64_t Relabelled = 0;     ///< tetrahedra that went to a neighbour's label
+  std::uint64_t Dropped = 0;        ///< tetrahedra on the mesh's boundary that were left out
+};
+
+/**
+ * @brief Flips: edge removal, on interfaces also, and the flip of a facet into an edge.
+ *
+ * Edge removal takes the tetrahedra around an edge ab out and fills the hole with pairs of tetrahedra, one
+ * with a and one with b, over the triangles of a triangulation of the polygon around the edge; the best
+ * triangulation is found by dynamic programming (Klincsek, Minimal triangulations of polygonal domains,
+ * 1980; Freitag and Ollivier-Gooch 1997). For rings of three and four these are the 3-2 and 4-4 flips.
+ *
+ * Where ab is an edge of the interface of two labels, between the triangles abc and abd, each label fills
+ * its own polygon, which has the edge cd: the interface flips to acd and bcd, and the volume of abcd
+ * changes its label. That is how slivers die that have two facets on an interface: their label's
+ * polygon is just the edge cd, so nothing is left of them. With background on the other side the sliver
+ * is left out of the mesh. The interface stays a manifold where it was one, labels keep their number of
+ * pieces, and InterfaceRules hold.
+ */
+class Flips
+{
+public:
+  Flips(Patch& patch, const InterfaceRules& rules)
+    : Target(patch)
+    , Rules(rules)
+  {
+  }
+
+  /** Does what raises the smallest score around t most; false if nothing does. */
+  bool Improve(std::uint32_t t);
+
+  /**
+   * A last means for a flat tetrahedron with two or more facets on interfaces: gives it to the label across
+   * two of them, if the flips around it can then get rid of it; false if not. The interface may
+   * not get more places where it is not a manifold than it has, no label loses its last tetrahedron
+   * around a vertex unless others of it are near, and InterfaceRules hold for new triangles.
+   */
+  bool ImproveByRelabelling(std::uint32_t t);
+
+  const FlipCounts& Counts() const { return this->Done; }
+
+private:
+  static constexpr std::size_t LongestRing = 10;
+
+  /** A way to fill a hole, and how good it is. */
+  struct Plan
+  {
+    double Score = 0.0; ///< the smallest after, up to 1
+    double Gain = 0.0;  ///< of the smallest score, up to 1
+    std::vector<std::uint32_t> Old;
+    std::vector<NewTetrahedron> Fresh;
+    bool OnInterface = false;
+  };
+
+  void ConsiderAll(std::uint32_t t);
+  bool Apply();
+  bool MayRelabel(std::uint32_t t, TetrahedralComplex::Label label);
+  double LargestCosine(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
+  double CosineOfFacet(std::uint32_t t, unsigned i) const;
+  bool IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const;
+  bool EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label);
+  std::size_t PiecesInStar(
+    std::uint32_t t, TetrahedralComplex::Label ofT, TetrahedralComplex::Label label);
+
+  void ConsiderEdge(std::uint32_t t, unsigned i, unsigned j);
+  void ConsiderFacet(std::uint32_t t, unsigned i);
+  void Consider(double before);
+
+  double ScoreOf(std::span<const std::uint32_t> cells) const;
+  bool MayFlipInterface(std::size_t firstRun);
+  bool IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b);
+  double Triangulate(
+    std::span<const std::uint32_t> chain, TetrahedralComplex::Label label, double floor);
+  void Emit(std::span<const std::uint32_t> chain, TetrahedralComplex::Label label, std::size_t i,
+    std::size_t j);
+
+  Patch& Target;
+  const InterfaceRules Rules;
+  FlipCounts Done;
+  EdgeRing Ring;
+  EdgeRing OtherRing;
+  VertexStar Star;
+  std::vector<char> Reached;
+  std::vector<std::size_t> Stack;
+  Plan Best;
+  Plan Current;
+  std::array<std::array<double, LongestRing + 1>, LongestRing + 1> Table;
+  std::array<std::array<std::size_t, LongestRing + 1>, LongestRing + 1> Choice;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file InterfaceRules.h
+ * @brief What optimisation may do to the triangles between two labels.
+ */
+#ifndef voxplex_InterfaceRules_h
+#define voxplex_InterfaceRules_h
+
+#include "Geometry/Point.h"
+#include "Geometry/SimplexQuality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxplex
+{
+
+/** Bounds that a change of an interface has to keep; what breaks one already may not get worse. */
+struct InterfaceRules
+{
+  double FacetCosine;    ///< of the smallest planar angle
+  double JunctionCosine; ///< the same where three or more labels meet at a vertex
+  double CreaseCosine; ///< of the largest angle between two triangles whose common edge is flipped
+
+  InterfaceRules(double facetAngle, double junctionAngle, double creaseAngle)
+    : FacetCosine(std::cos(facetAngle / DegreesPerRadian))
+    , JunctionCosine(std::cos(junctionAngle / DegreesPerRadian))
+    , CreaseCosine(std::cos(creaseAngle / DegreesPerRadian))
+  {
+  }
+};
+
+/** Cosine of the smallest angle of a triangle. */
+inline double CosineOfSmallestAngle(const Point<3>& a, const Point<3>& b, const Point<3>& c)
+{
+  const double ab = Distance2(a, b);
+  const double bc = Distance2(b, c);
+  const double ca = Distance2(c, a);
+  // It lies opposite to the shortest edge.
+  const double shortest = std::min({ ab, bc, ca });
+  const double product = shortest == ab ? bc * ca : shortest == bc ? ab * ca : ab * bc;
+  return (ab + bc + ca - 2.0 * shortest) / (2.0 * std::sqrt(product));
+}
+
+inline double CosineBetween(const Point<3>& a, const Point<3>& b)
+{
+  return Dot(a, b) / std::sqrt(Dot(a, a) * Dot(b, b));
+}
+
+} // namespace voxplex
+
+#endif

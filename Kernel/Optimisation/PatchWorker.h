@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file PatchWorker.h
+ * @brief One thread's passes over the poor tetrahedra of a patch.
+ */
+#ifndef voxplex_PatchWorker_h
+#define voxplex_PatchWorker_h
+
+#include "Image/Domain.h"
+#include "Optimisation/Flips.h"
+#include "Optimisation/InterfaceRules.h"
+#include "Optimisation/Patch.h"
+#include "Optimisation/Smoother.h"
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/** How much is done to a tetrahedron that flips and smoothing do not mend. */
+enum class Effort
+{
+  Plain,
+  Insertions, ///< also other labels for slivers, and new vertices
+  Nudges      ///< also moves off interfaces
+};
+
+/** When to stop. */
+struct OptimisationLimits
+{
+  std::stop_token Stop;
+  std::chrono::steady_clock::time_point Deadline = std::chrono::steady_clock::time_point::max();
+
+  bool OutOfTime() const { return std::chrono::steady_clock::now() >= this->Deadline; }
+};
+
+class PatchWorker
+{
+public:
+  /** @param reach see Smoother */
+  PatchWorker(TetrahedralComplex& complex, std::span<const std::uint32_t> blocks,
+    std::uint32_t block, const Domain<3>& domain, const InterfaceRules& rules, double reach,
+    const OptimisationLimits& limits)
+    : Mesh(complex)
+    , Limits(limits)
+    , Target(complex, blocks, block)
+    , Topology(this->Target, rules)
+    , Geometry(this->Target, domain, rules, reach)
+  {
+  }
+
+  Patch& GetPatch() { return this->Target; }
+  const FlipCounts& GetFlipCounts() const { return this->Topology.Counts(); }
+  const SmoothingCounts& GetSmoothingCounts() const { return this->Geometry.Counts(); }
+
+  /** Another tetrahedron to work on. */
+  void Add(std::uint32_t t) { this->Work.push_back({ t, 0 }); }
+
+  /**
+   * Works on every tetrahedron that was added or has become poor and was not tried since its vertices'
+   * tetrahedra changed last.
+   * @return how many were mended or made better
+   * @throws Cancelled
+   */
+  std::size_t Pass(Effort effort);
+
+  /** What is to be tried again although nothing changed. */
+  void ForgetTries();
+
+  /** Those that are poor after the last pass, in increasing order. */
+  std::vector<std::uint32_t> Left() const;
+
+private:
+  struct Task
+  {
+    std::uint32_t Cell;
+    std::uint32_t Tried; ///< the patch's clock then, 0 for never
+  };
+
+  bool IsPoor(std::uint32_t t) const
+  {
+    return this->Mesh.IsAlive(t) && this->Mesh.Scores[t] < 1.0f;
+  }
+  bool HasChanged(const Task& task) const;
+  bool Mend(std::uint32_t t, Effort effort);
+  bool MendByLastMeans(std::uint32_t t, Effort effort);
+
+  TetrahedralComplex& Mesh;
+  const OptimisationLimits& Limits;
+  Patch Target;
+  Flips Topology;
+  Smoother Geometry;
+  std::vector<Task> Work;
+};
+
+} // namespace voxplex
+
+#endif

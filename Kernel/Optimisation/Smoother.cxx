@@ -1,0 +1,443 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optimisation/Smoother.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Steps of one call. */
+constexpr int MostSteps = 8;
+/** Halvings of the length of a step. */
+constexpr int MostHalvings = 5;
+/** The longest step, in shortest edges of the star. */
+constexpr double LongestStep = 0.4;
+/** A step has to raise the smallest score by this part of it. */
+constexpr double LeastGain = 0.01;
+/** Scores within this factor of the smallest one count when a direction is chosen. */
+constexpr double ActiveFactor = 1.25;
+/** Length of differences for gradients, in shortest edges. */
+constexpr double Difference = 1e-5;
+/** A score that is good enough to stop at. */
+constexpr double Enough = 1.02;
+/** An insertion has to raise the smallest score by this factor. */
+constexpr double LeastGainOfInsertion = 1.1;
+/** How far beside an interface point its labels are asked, in shortest edges. */
+constexpr double Beside = 0.05;
+
+Point<3> Along(const Point<3>& p, double t, const Point<3>& d)
+{
+  return { p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2] };
+}
+
+/** The shortest vector in the convex hull of some, about (Frank and Wolfe's iteration). */
+Point<3> ShortestInHull(const std::vector<Point<3>>& vectors)
+{
+  Point<3> shortest = vectors[0];
+  for (int i = 0; i < 12; ++i)
+  {
+    const Point<3>* least = nullptr;
+    double leastDot = (1.0 - 1e-2) * Dot(shortest, shortest);
+    for (const Point<3>& vector : vectors)
+    {
+      const double dot = Dot(vector, shortest);
+      if (dot < leastDot)
+      {
+        leastDot = dot;
+        least = &vector;
+      }
+    }
+    if (least == nullptr)
+    {
+      break;
+    }
+    const Point<3> towards = Subtract(*least, shortest);
+    const double t = std::min(1.0, -Dot(shortest, towards) / Dot(towards, towards));
+    shortest = Along(shortest, t, towards);
+  }
+  return shortest;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+bool Smoother::Improve(std::uint32_t v)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  if (mesh.Kinds[v] == VertexRole::Fixed || !this->Target.GatherStar(v, this->Star))
+  {
+    return false;
+  }
+  this->Bound = Constraint::Free;
+  this->Fan.clear();
+  if (mesh.Kinds[v] == VertexRole::Surface)
+  {
+    this->Bound = Constraint::Surface;
+    this->GatherFan();
+    if (!this->FanIsDisk())
+    {
+      return false;
+    }
+  }
+  Point<3> p = mesh.Points[v];
+  if (!this->AscendInStar(p))
+  {
+    return false;
+  }
+  if (this->Bound == Constraint::Surface)
+  {
+    this->Anchors.erase(v);
+    ++this->Done.SurfaceMoves;
+  }
+  else
+  {
+    ++this->Done.FreeMoves;
+  }
+  return true;
+}
+
+bool Smoother::Nudge(std::uint32_t v)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  if (!(this->Reach > 0.0) || mesh.Kinds[v] == VertexRole::Free ||
+    !this->Target.GatherStar(v, this->Star))
+  {
+    return false;
+  }
+  this->Bound = Constraint::Anchor;
+  this->GatherFan();
+  Point<3> p = mesh.Points[v];
+  const auto known = this->Anchors.find(v);
+  this->Anchor = known == this->Anchors.end() ? p : known->second;
+  if (!this->AscendInStar(p))
+  {
+    return false;
+  }
+  this->Anchors.emplace(v, this->Anchor);
+  ++this->Done.Nudges;
+  return true;
+}
+
+bool Smoother::Insert(std::uint32_t t, unsigned i, unsigned j)
+{
+  constexpr std::size_t longestRing = 12;
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  EdgeRing& ring = this->Ring;
+  const std::uint32_t v = this->Target.SpareVertex();
+  if (v == TetrahedralComplex::None || !this->Target.GatherRing(t, i, j, longestRing, ring) ||
+    !ring.Closed)
+  {
+    return false;
+  }
+  double before = 1.0;
+  for (const std::uint32_t cell : ring.Cells)
+  {
+    before = std::min(before, static_cast<double>(mesh.Scores[cell]));
+    if (mesh.Labels[cell] != mesh.Labels[t])
+    {
+      return false;
+    }
+  }
+  this->Bound = Constraint::Free;
+  this->Fan.clear();
+  this->Fresh.clear();
+  this->Opposite.clear();
+  const Point<3>& a = mesh.Points[ring.A];
+  const Point<3>& b = mesh.Points[ring.B];
+  for (std::size_t k = 0; k < ring.Cells.size(); ++k)
+  {
+    const std::uint32_t x = ring.Link[k];
+    const std::uint32_t y = ring.Link[(k + 1) % ring.Link.size()];
+    // (a, b, x, y) becomes (a, v, x, y) and (v, b, x, y).
+    this->Fresh.push_back({ { v, ring.A, y, x }, mesh.Labels[t] });
+    this->Fresh.push_back({ { v, ring.B, x, y }, mesh.Labels[t] });
+    this->Opposite.insert(this->Opposite.end(), { a, mesh.Points[y], mesh.Points[x] });
+    this->Opposite.insert(this->Opposite.end(), { b, mesh.Points[x], mesh.Points[y] });
+  }
+  Point<3> p = Along(a, 0.5, Subtract(b, a));
+  this->Scores.resize(this->Fresh.size());
+  this->Tried.resize(this->Fresh.size());
+  this->ScoreAt(p, ShapeScore::Inverted);
+  std::swap(this->Scores, this->Tried);
+  this->Ascend(p);
+  if (*std::min_element(this->Scores.begin(), this->Scores.end()) < LeastGainOfInsertion * before)
+  {
+    return false;
+  }
+  this->Target.PlaceVertex(v, p);
+  if (!this->Target.Replace(ring.Cells, this->Fresh))
+  {
+    return false;
+  }
+  this->Target.KeepVertex();
+  ++this->Done.Insertions;
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+/** The interface triangles around the vertex, and their mean normal. */
+void Smoother::GatherFan()
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  const Point<3>& p = mesh.Points[this->Star.Vertex];
+  const bool fixed = mesh.Kinds[this->Star.Vertex] == VertexRole::Fixed;
+  this->Fan.clear();
+  this->Normal = { 0.0, 0.0, 0.0 };
+  for (std::size_t k = 0; k < this->Star.Cells.size(); ++k)
+  {
+    const std::uint32_t t = this->Star.Cells[k];
+    const auto& corners = this->Star.Corners[k];
+    for (unsigned i = 1; i < 4; ++i)
+    {
+      const auto other = mesh.LabelOf(mesh.Cells[t].N[mesh.IndexOf(t, corners[i])]);
+      if (other >= mesh.Labels[t])
+      {
+        continue;
+      }
+      this->Sides[0] = mesh.Labels[t];
+      this->Sides[1] = other;
+      // Corners are (v, 1, 2, 3): the facet without 3 is (v, 2, 1) as seen from outside.
+      FanFacet facet;
+      facet.First = corners[1 + (i + 1) % 3];
+      facet.Second = corners[1 + i % 3];
+      const Point<3>& x = mesh.Points[facet.First];
+      const Point<3>& y = mesh.Points[facet.Second];
+      facet.Normal = Cross(Subtract(x, p), Subtract(y, p));
+      const bool junction = fixed || mesh.Kinds[facet.First] == VertexRole::Fixed ||
+        mesh.Kinds[facet.Second] == VertexRole::Fixed;
+      facet.LargestCosine =
+        std::max(junction ? this->Rules.JunctionCosine : this->Rules.FacetCosine,
+          CosineOfSmallestAngle(p, x, y));
+      this->Normal = Along(this->Normal, 1.0, facet.Normal);
+      this->Fan.push_back(facet);
+    }
+  }
+}
+
+/** Whether the fan's triangles go once around the vertex; makes the normal one of length 1. */
+bool Smoother::FanIsDisk()
+{
+  const double length = std::sqrt(Dot(this->Normal, this->Normal));
+  if (this->Fan.size() < 3 || !(length > 0.0))
+  {
+    return false;
+  }
+  this->Normal = Along({ 0.0, 0.0, 0.0 }, 1.0 / length, this->Normal);
+  std::uint32_t at = this->Fan[0].First;
+  for (std::size_t k = 0; k < this->Fan.size(); ++k)
+  {
+    std::size_t next = k;
+    while (next < this->Fan.size() && this->Fan[next].First != at)
+    {
+      ++next;
+    }
+    if (next == this->Fan.size())
+    {
+      return false;
+    }
+    std::swap(this->Fan[k], this->Fan[next]);
+    at = this->Fan[k].Second;
+  }
+  return at == this->Fan[0].First;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Ascends in the star and moves its vertex there; false if it does not move. */
+bool Smoother::AscendInStar(Point<3>& p)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  this->Opposite.clear();
+  this->Scores.clear();
+  for (std::size_t k = 0; k < this->Star.Cells.size(); ++k)
+  {
+    for (unsigned i = 1; i < 4; ++i)
+    {
+      this->Opposite.push_back(mesh.Points[this->Star.Corners[k][i]]);
+    }
+    this->Scores.push_back(mesh.Scores[this->Star.Cells[k]]);
+  }
+  this->Tried.resize(this->Scores.size());
+  if (!this->Ascend(p))
+  {
+    return false;
+  }
+  this->Target.Move(this->Star, p, this->Scores);
+  return true;
+}
+
+/** Moves p until the smallest score is enough or no step helps; false if it does not move. */
+bool Smoother::Ascend(Point<3>& p)
+{
+  double shortest2 = Distance2(p, this->Opposite[0]);
+  for (const Point<3>& x : this->Opposite)
+  {
+    shortest2 = std::min(shortest2, Distance2(p, x));
+  }
+  this->ShortestEdge = std::sqrt(shortest2);
+  double score = *std::min_element(this->Scores.begin(), this->Scores.end());
+  bool moved = false;
+  for (int i = 0; i < MostSteps && score < Enough && this->Step(p, score); ++i)
+  {
+    moved = true;
+  }
+  return moved;
+}
+
+/** The smallest score with the vertex at p, up to Enough; stops once it is below `floor`. */
+double Smoother::ScoreAt(const Point<3>& p, double floor)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  double score = Enough;
+  for (std::size_t k = 0; k < this->Tried.size(); ++k)
+  {
+    const Point<3>* const x = &this->Opposite[3 * k];
+    const double own = mesh.Shape(p, x[0], x[1], x[2]);
+    this->Tried[k] = static_cast<float>(own);
+    score = std::min(score, own);
+    if (score < floor)
+    {
+      return score;
+    }
+  }
+  return score;
+}
+
+/** Where the smallest score grows fastest, and how fast; false if nowhere. */
+bool Smoother::Direction(const Point<3>& p, Point<3>& direction, double& slope)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  const float smallest = *std::min_element(this->Scores.begin(), this->Scores.end());
+  if (!(smallest > 0.0f))
+  {
+    return false; // there is no way up from an inverted tetrahedron
+  }
+  const double h = Difference * this->ShortestEdge;
+  this->Gradients.clear();
+  for (std::size_t k = 0; k < this->Scores.size(); ++k)
+  {
+    if (this->Scores[k] > ActiveFactor * smallest)
+    {
+      continue;
+    }
+    const Point<3>* const x = &this->Opposite[3 * k];
+    const double here = mesh.Shape(p, x[0], x[1], x[2]);
+    Point<3> gradient;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      Point<3> q = p;
+      q[a] += h;
+      gradient[a] = (mesh.Shape(q, x[0], x[1], x[2]) - here) / h;
+    }
+    if (this->Bound == Constraint::Surface)
+    {
+      gradient = Along(gradient, -Dot(gradient, this->Normal), this->Normal);
+    }
+    this->Gradients.push_back(gradient);
+  }
+  direction = ShortestInHull(this->Gradients);
+  slope = std::sqrt(Dot(direction, direction));
+  if (!(slope * this->ShortestEdge > 1e-6))
+  {
+    return false;
+  }
+  direction = Along({ 0.0, 0.0, 0.0 }, 1.0 / slope, direction);
+  return true;
+}
+
+bool Smoother::Step(Point<3>& p, double& score)
+{
+  Point<3> direction;
+  double slope;
+  if (!this->Direction(p, direction, slope))
+  {
+    return false;
+  }
+  const double floor = score * (1.0 + LeastGain) + 1e-9;
+  double length = std::min(LongestStep * this->ShortestEdge, 2.0 * (Enough - score) / slope);
+  for (int i = 0; i <= MostHalvings; ++i, length *= 0.5)
+  {
+    Point<3> q = Along(p, length, direction);
+    double reached = this->ScoreAt(q, floor);
+    if (reached < floor || !this->Constrain(q, length))
+    {
+      continue;
+    }
+    if (this->Bound != Constraint::Free)
+    {
+      reached = this->ScoreAt(q, floor);
+      if (reached < floor)
+      {
+        continue;
+      }
+    }
+    p = q;
+    score = reached;
+    std::swap(this->Scores, this->Tried);
+    return true;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Moves p to where the vertex may be; false if that is not near or breaks a rule. */
+bool Smoother::Constrain(Point<3>& p, double length) const
+{
+  if (this->Bound == Constraint::Surface)
+  {
+    const Point<3> raw = p;
+    if (!this->Project(raw, length, p))
+    {
+      return false;
+    }
+  }
+  else if (this->Bound == Constraint::Anchor)
+  {
+    const Point<3> away = Subtract(p, this->Anchor);
+    const double distance = std::sqrt(Dot(away, away));
+    if (distance > this->Reach)
+    {
+      p = Along(this->Anchor, this->Reach / distance, away);
+    }
+  }
+  return this->FanAllows(p);
+}
+
+/** To the interface of the vertex' two labels; false if the closest one is another. */
+bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), p) ||
+    Distance2(raw, p) > length * length)
+  {
+    return false;
+  }
+  const double beside = Beside * this->ShortestEdge;
+  const auto valueAt = [&](double offset)
+  { return this->Image.LabelValue(this->Image.Label(Along(p, offset, this->Normal))); };
+  return valueAt(-beside) == mesh.LabelValues[this->Sides[0]] &&
+    valueAt(beside) == mesh.LabelValues[this->Sides[1]];
+}
+
+bool Smoother::FanAllows(const Point<3>& p) const
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  for (const FanFacet& facet : this->Fan)
+  {
+    const Point<3>& x = mesh.Points[facet.First];
+    const Point<3>& y = mesh.Points[facet.Second];
+    if (CosineOfSmallestAngle(p, x, y) > facet.LargestCosine ||
+      CosineBetween(Cross(Subtract(x, p), Subtract(y, p)), facet.Normal) < 0.5)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace voxplex

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file TetrahedralComplex.h
+ * @brief A labelled tetrahedral mesh that can be changed: tetrahedra know their neighbours.
+ */
+#ifndef voxplex_TetrahedralComplex_h
+#define voxplex_TetrahedralComplex_h
+
+#include "Mesh/SimplexMesh.h"
+#include "Optimisation/ShapeScore.h"
+#include "Parallel/UninitialisedVector.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/** How a vertex may move. */
+enum class VertexRole : std::uint8_t
+{
+  Free,    ///< all around it has one label
+  Surface, ///< on an interface of two labels, of which background may be one
+  Fixed    ///< where three or more labels meet
+};
+
+/**
+ * @brief What optimisation works on: a SimplexMesh<3> with adjacency, kinds of vertices and scores.
+ *
+ * Tetrahedron: vertices V, positively oriented; N[i] is the neighbour across the facet opposite to V[i],
+ * None where the mesh ends. Slots of deleted tetrahedra have V[0] == None.
+ *
+ * Labels are indices into LabelValues, which is sorted; 0 is background, which no tetrahedron has.
+ *
+ * Threads may change disjoint blocks of the complex at the same time: see Patch.
+ */
+class TetrahedralComplex
+{
+public:
+  static constexpr std::uint32_t None = 0xffffffffu;
+  using Vertices = std::array<std::uint32_t, 4>;
+  using Label = std::uint32_t;
+
+  struct Tetrahedron
+  {
+    Vertices V;
+    Vertices N;
+  };
+
+  /**
+   * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet
+   * Complexity: linear but for the sorting of label values.
+   */
+  TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
+    const std::stop_token& stop);
+
+  /** Replaces the mesh by what this has become: points that are used, and interfaces. */
+  void Write(SimplexMesh<3>& mesh) const;
+
+  /** Makes room for more tetrahedra, which are not alive. */
+  void AddCells(std::size_t number);
+  /** Makes room for more vertices, which no tetrahedron has. */
+  void AddVertices(std::size_t number);
+
+  bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
+  Label LabelOf(std::uint32_t t) const { return t == None ? 0 : this->Labels[t]; }
+  const Point<3>& PointOf(std::uint32_t t, unsigned i) const
+  {
+    return this->Points[this->Cells[t].V[i]];
+  }
+
+  /** Which vertex of t is v; v must be one. */
+  unsigned IndexOf(std::uint32_t t, std::uint32_t v) const
+  {
+    const Vertices& w = this->Cells[t].V;
+    return w[0] == v ? 0u : w[1] == v ? 1u : w[2] == v ? 2u : 3u;
+  }
+
+  double Score(const Vertices& v) const
+  {
+    return this->Shape(
+      this->Points[v[0]], this->Points[v[1]], this->Points[v[2]], this->Points[v[3]]);
+  }
+
+  ShapeScore Shape;
+  UninitialisedVector<Point<3>> Points;
+  std::vector<VertexRole> Kinds;      ///< of vertices
+  std::vector<std::uint32_t> Hosts;   ///< a tetrahedron of each vertex
+  std::vector<std::uint32_t> Degrees; ///< number of tetrahedra of each vertex
+  std::vector<std::uint32_t> Changes; ///< when a tetrahedron of each vertex changed last
+  UninitialisedVector<Tetrahedron> Cells;
+  UninitialisedVector<Label> Labels;
+  UninitialisedVector<float> Scores;
+  std::vector<std::int64_t> LabelValues;
+
+private:
+  void CopyCells(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);
+  void Connect(unsigned threads, const std::stop_token& stop);
+  void FindKinds();
+};
+
+/** The vertices of a positively oriented tetrahedron, v first, in an order that keeps the orientation. */
+inline TetrahedralComplex::Vertices StartingAt(
+  const TetrahedralComplex::Vertices& v, unsigned first)
+{
+  switch (first)
+  {
+    case 0:
+      return v;
+    case 1:
+      return { v[1], v[0], v[3], v[2] };
+    case 2:
+      return { v[2], v[0], v[1], v[3] };
+    default:
+      return { v[3], v[0], v[2], v[1] };
+  }
+}
+
+} // namespace voxplex
+
+#endif
