@@ -41,6 +41,7 @@ Meshes a label image with Voxplex and with CGAL Mesh_3 and prints both, side by 
   --cgal-parallel  CGAL's Parallel_tag on one thread too (it orders its work differently)
   --repeat K       runs of each (default 3); medians are printed
   --threads T      threads of each (default 1; CGAL takes Parallel_tag for more than one)
+  --plain          Voxplex leaves slivers and small components alone, as CGAL's refinement does
   --no-cgal        Voxplex only
   --only-cgal      CGAL only; needs --elements or --cgal-size
   --json FILE      also writes medians, ratios and all runs to FILE
@@ -56,6 +57,7 @@ struct Options
   int Repeat = 3;
   unsigned Threads = 1;
   bool CgalParallel = false;
+  Care How = Care::Default;
   bool Voxplex = true;
   bool Cgal = true;
 };
@@ -75,6 +77,7 @@ Options ParseArguments(int argc, char** argv)
   };
   const std::map<std::string, std::function<void()>> flags = {
     { "--cgal-parallel", [&] { options.CgalParallel = true; } },
+    { "--plain", [&] { options.How = Care::Plain; } },
     { "--no-cgal", [&] { options.Cgal = false; } },
     { "--only-cgal", [&] { options.Voxplex = false; } },
   };
@@ -172,8 +175,9 @@ void Compare(const Options& options)
 {
   LabelVolume image = ReadLabelVolume(options.Image);
   const LabelVolumes volumes = VolumesOf(image);
-  Contestant voxplex{ "Voxplex",
-    [&](double delta) { return RunVoxplex(std::move(image), delta, options.Threads); } };
+  Contestant voxplex{ "Voxplex", [&](double delta) {
+                       return RunVoxplex(std::move(image), delta, options.Threads, options.How);
+                     } };
   Contestant cgal{ "CGAL Mesh_3",
     [&](double size) { return RunCgal(image, size, options.Threads, options.CgalParallel); } };
   SettleSizes(options, image, voxplex, cgal);

@@ -25,11 +25,18 @@ struct MesherRun
   std::uint64_t PeakBytes = 0;
 };
 
+/** What Voxplex does besides what CGAL's refinement does, too. */
+enum class Care
+{
+  Default,
+  Plain ///< slivers and small components are left alone
+};
+
 /**
- * Voxplex with default options. The total includes the extraction of the mesh into arrays.
+ * Voxplex with default options but for care. The total includes the extraction of the mesh into arrays.
  * @param image consumed: released as soon as the kernel has read it
  */
-MesherRun RunVoxplex(LabelVolume&& image, double delta, unsigned threads);
+MesherRun RunVoxplex(LabelVolume&& image, double delta, unsigned threads, Care care);
 
 /**
  * CGAL Mesh_3 on the labelled image domain, defaults throughout: facet angle 30 degrees,

@@ -321,7 +321,8 @@ void CompareQuality(
 void Tune(ScalingOptions& options, LabelVolume& image)
 {
   Contestant voxplex{ "Voxplex",
-    [&](double delta) { return RunVoxplex(std::move(image), delta, options.Threads.back()); } };
+    [&](double delta)
+    { return RunVoxplex(std::move(image), delta, options.Threads.back(), Care::Default); } };
   const double spacing = std::cbrt(image.Spacing[0] * image.Spacing[1] * image.Spacing[2]);
   TuneSize(voxplex, options.Delta > 0.0 ? options.Delta : 2.0 * spacing, options.Elements);
   options.Delta = voxplex.Size;

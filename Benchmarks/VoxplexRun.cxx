@@ -30,11 +30,16 @@ VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
   return result;
 }
 
-MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads)
+MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads, Care care)
 {
   MeshingOptions<3> options;
   options.Delta = delta;
   options.Threads = threads;
+  if (care == Care::Plain)
+  {
+    options.TetSlivers.Angle = 0.0;
+    options.SmallestComponent = 0;
+  }
   return RunVoxplex(std::move(volume), options).Run;
 }
 

@@ -358,6 +358,31 @@ TEST(DropComponents, SpecksBecomeWhatIsAroundThem)
 }
 
 //------------------------------------------------------------------------------------------------
+// A thin plate of 2 between two plates of 1: it becomes 1 first, the others background, and then it is a
+// speck of 1 that must go, too.
+TEST(DropComponents, WhatTouchesOtherSpecksGoesInTheEnd)
+{
+  LabelImage<3> image = phantoms::Make(phantoms::Cube(12),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const auto within = [](double x, double low, double high) { return x >= low && x <= high; };
+      if (p[2] > 9.5)
+      {
+        return 3;
+      }
+      if (!within(p[0], 2, 4) || !within(p[1], 2, 4) || !within(p[2], 2, 6))
+      {
+        return 0;
+      }
+      return p[2] == 4.0 ? 2 : 1;
+    });
+  EXPECT_EQ(DropComponents(image, 40.0).size(), 4u);
+  EXPECT_EQ(image.Counts()[1], 0);
+  EXPECT_EQ(image.Counts()[2], 0);
+  EXPECT_EQ(image.Counts()[3], 288);
+}
+
+//------------------------------------------------------------------------------------------------
 TEST(DropComponents, SomethingMustBeLeft)
 {
   LabelImage<3> image = phantoms::Ball(3.0);
@@ -412,6 +437,7 @@ TEST(ComponentGuard, KeepsIslandsThatAreSmallBesideDelta)
     EXPECT_EQ(CountFound(mesh, islands.Centres, 2, 1.5), 27u);
     EXPECT_EQ(statistics.Components, 28u);
     EXPECT_GT(statistics.ComponentSeeds, 27u * 8u);
+    EXPECT_EQ(statistics.ComponentRounds, 0u);
     EXPECT_TRUE(statistics.LostComponents.empty());
   }
 }

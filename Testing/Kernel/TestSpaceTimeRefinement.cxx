@@ -55,7 +55,10 @@ SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::ui
   ImageMesher<4> mesher(options);
   SimplexMesh<4> mesh;
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_GT(mesher.Statistics().Rules.SliversFound, 0u);
+  if (threads == 1) // with more, the mesh varies, and a small one may have none by chance
+  {
+    EXPECT_GT(mesher.Statistics().Rules.SliversFound, 0u);
+  }
   return mesh;
 }
 
