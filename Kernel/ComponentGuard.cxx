@@ -24,7 +24,7 @@ constexpr double SamplesPerThickness = 2.7;
 /**
  * The rules keep this times the spacing of a component's seeds: these carry its shape already. With 1 there
  * are twice as many additional elements on the knee atlas, and when single voxels are kept, too, they take
- * three times as long; with 3 single voxels are lost at first.
+ * three times as long; with 3 refinement then goes on twice rather than once.
  */
 constexpr double BoundFactor = 2.0;
 

@@ -19,7 +19,7 @@ enum class RuleOrder
   SurfaceFirst     ///< section 4.2: R1 to R5
 };
 
-/** The largest TetSliverOptions::Angle for which meshes grew by no more than a quarter. */
+/** The largest TetSliverOptions::Angle for which the mesh of the knee atlas grew by about a quarter. */
 inline constexpr double LargestSliverAngle = 15.0;
 
 /** In 3D: how slivers are fought (rule R7). */
@@ -28,7 +28,7 @@ struct TetSliverOptions
   /**
    * Tetrahedra with a dihedral angle below this, or above 180 less this, are slivers; degrees, 0 leaves
    * them alone, above LargestSliverAngle with Force only. The thesis bounds the mean ratio by 0.06, which
-   * a square lying flat reaches at 1.5 degrees.
+   * a square lying flat reaches at 0.9 degrees.
    */
   double Angle = 9.0;
   /** Radius of picking regions over that of the ball, 0 to 1. */

@@ -488,6 +488,35 @@ TEST(ComponentGuard, KeepsASheetThatIsThinBesideDelta)
 }
 
 //------------------------------------------------------------------------------------------------
+// Single voxels next to each other, flat ones: the first guess does not do for all of them.
+TEST(ComponentGuard, GoesOnUntilNothingIsLost)
+{
+  std::mt19937 random(5);
+  const LabelImage<3> image =
+    phantoms::Make(GridGeometry<3>::Orthogonal({ 24, 24, 12 }, { 0.3, 0.3, 1.0 }),
+      [&](const Point<3>&) -> std::int16_t
+      {
+        const unsigned draw = static_cast<unsigned>(random() % 100);
+        return draw < 5 ? 2 : draw < 8 ? 3 : 1;
+      });
+  for (const unsigned threads : { 1u, 4u })
+  {
+    MeshingOptions<3> options;
+    options.Delta = 3.0;
+    options.SmallestComponent = 1;
+    options.Threads = threads;
+    MeshingStatistics statistics;
+    const SimplexMesh<3> mesh = Mesh(image, options, statistics);
+    EXPECT_GE(statistics.ComponentRounds, 1u);
+    EXPECT_TRUE(statistics.LostComponents.empty());
+    const ImageDomain<3> domain(image, 1.0);
+    const ComponentGuard<3> guard(image, domain, 3.0, 1, 1, {});
+    EXPECT_GT(guard.GetComponents().All().size(), 100u);
+    EXPECT_TRUE(guard.FindLost(mesh).empty());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
 {
   const Islands islands(2);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Description.h"
 
+#include "MeshWriting/XMLText.h"
 #include "Parameters.h"
 
 #include <voxplexVersion.h>
@@ -18,32 +19,6 @@ const char* const ModuleSummary =
 
 namespace
 {
-
-std::string Escaped(const std::string& text)
-{
-  std::string escaped;
-  for (const char c : text)
-  {
-    switch (c)
-    {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 const char* TagOf(Kind kind)
 {
@@ -90,7 +65,7 @@ public:
 
   void Element(const std::string& tag, const std::string& text)
   {
-    this->Indent() << '<' << tag << '>' << Escaped(text) << "</" << tag << ">\n";
+    this->Indent() << '<' << tag << '>' << io::EscapeForXML(text) << "</" << tag << ">\n";
   }
 
   std::string Text() const { return this->Stream.str(); }
@@ -104,7 +79,7 @@ private:
 
 std::string Attribute(const char* name, const std::string& value)
 {
-  return value.empty() ? "" : std::string(" ") + name + "=\"" + Escaped(value) + '"';
+  return value.empty() ? "" : std::string(" ") + name + "=\"" + io::EscapeForXML(value) + '"';
 }
 
 std::string Number(double value)

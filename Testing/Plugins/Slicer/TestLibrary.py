@@ -61,8 +61,8 @@ class Host:
 class Library(ModuleTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.library = ctypes.CDLL(LIBRARY)
-        cls.library.ModuleEntryPoint.argtypes = [ctypes.c_int, ctypes.POINTER(ctypes.c_char_p)]
+        cls.loaded = ctypes.CDLL(LIBRARY)
+        cls.loaded.ModuleEntryPoint.argtypes = [ctypes.c_int, ctypes.POINTER(ctypes.c_char_p)]
 
     def setUp(self):
         super().setUp()
@@ -80,7 +80,7 @@ class Library(ModuleTestCase):
             os.dup2(out.fileno(), 1)
             os.dup2(err.fileno(), 2)
             try:
-                status = self.library.ModuleEntryPoint(len(words), argv)
+                status = self.loaded.ModuleEntryPoint(len(words), argv)
                 ctypes.CDLL(None).fflush(None)
             finally:
                 for original, descriptor in zip(kept, (1, 2)):
