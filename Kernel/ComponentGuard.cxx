@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComponentGuard.h"
 
+#include "LostComponents.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
 
 namespace voxplex
 {
@@ -39,14 +38,14 @@ constexpr double FinestVoxels = 0.1;
 //------------------------------------------------------------------------------------------------
 template <int D>
 ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain, double delta,
-  std::int64_t fewestVoxels, unsigned threads, const std::stop_token& stop)
+  std::int64_t fewestVoxels, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop)
   : Image(image)
   , Surfaces(domain)
   , All(image, threads, stop)
   , FewestVoxels(fewestVoxels)
   , Threads(threads)
   , Stop(stop)
-  , Local(image)
+  , Local(local)
 {
   double spacing = image.Grid().Spacing(0);
   for (int a = 1; a < D; ++a)
@@ -124,94 +123,8 @@ void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
 template <int D>
 std::vector<std::uint32_t> ComponentGuard<D>::FindLost(const SimplexMesh<D>& mesh) const
 {
-  const std::vector<Component<D>>& all = this->All.All();
-  const auto found = std::make_unique<std::atomic<bool>[]>(all.size());
-  const auto voxelOf = [&](std::size_t simplex)
-  {
-    Point<D> centroid{};
-    for (const std::uint32_t v : mesh.Simplices[simplex])
-    {
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        centroid[a] += mesh.Points[v][a] / (D + 1);
-      }
-    }
-    const Point<D> index = this->Image.Grid().ToIndex(centroid);
-    Index voxel;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
-    }
-    return voxel;
-  };
-  const auto mark = [&](const Index& voxel, std::int64_t label)
-  {
-    const std::uint32_t c = this->All.At(voxel);
-    if (c != Components<D>::None && this->Image.Values()[all[c].Label] == label &&
-      !found[c].load(std::memory_order_relaxed))
-    {
-      found[c].store(true, std::memory_order_relaxed);
-    }
-  };
-  constexpr std::size_t SimplicesAtOnce = 4096;
-  ParallelFor(
-    0, mesh.Simplices.size(), SimplicesAtOnce, this->Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t s = begin; s < end; ++s)
-      {
-        mark(voxelOf(s), mesh.Labels[s]);
-      }
-    },
-    this->Stop);
-
-  const auto isLost = [&](std::size_t c)
-  { return all[c].Voxels >= this->FewestVoxels && !found[c].load(std::memory_order_relaxed); };
-  std::vector<std::int64_t> labels; // of components that seem lost
-  for (std::size_t c = 0; c < all.size(); ++c)
-  {
-    if (isLost(c))
-    {
-      labels.push_back(this->Image.Values()[all[c].Label]);
-    }
-  }
-  std::sort(labels.begin(), labels.end());
-  ParallelFor(
-    0, labels.empty() ? 0 : mesh.Simplices.size(), SimplicesAtOnce, this->Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t s = begin; s < end; ++s)
-      {
-        if (!std::binary_search(labels.begin(), labels.end(), mesh.Labels[s]))
-        {
-          continue;
-        }
-        const Index centre = voxelOf(s);
-        Index voxel;
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          voxel[a] = centre[a] - 1;
-        }
-        while (voxel[D - 1] <= centre[D - 1] + 1)
-        {
-          mark(voxel, mesh.Labels[s]);
-          for (std::size_t a = 0; a < D && ++voxel[a] > centre[a] + 1 && a + 1 < D; ++a)
-          {
-            voxel[a] = centre[a] - 1;
-          }
-        }
-      }
-    },
-    this->Stop);
-  std::vector<std::uint32_t> lost;
-  for (std::size_t c = 0; c < all.size(); ++c)
-  {
-    if (isLost(c))
-    {
-      lost.push_back(static_cast<std::uint32_t>(c));
-    }
-  }
-  return lost;
+  return FindLostComponents(
+    this->All, this->Image, mesh, this->FewestVoxels, this->Threads, this->Stop);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -227,7 +140,10 @@ bool ComponentGuard<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
       any = true;
     }
   }
-  this->Local.Grade();
+  if (any)
+  {
+    this->Local.Grade();
+  }
   return any;
 }
 

@@ -43,14 +43,12 @@ public:
    * @param image, domain must live as long as this
    * @param delta the sampling density elsewhere
    * @param fewestVoxels smaller components are not looked after
+   * @param local where to sample more finely; receives bounds
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
   ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain, double delta,
-    std::int64_t fewestVoxels, unsigned threads, const std::stop_token& stop);
-
-  /** Where to sample more finely; SampleFiner() changes it. */
-  const LocalDelta<D>& GetLocalDelta() const { return this->Local; }
+    std::int64_t fewestVoxels, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop);
 
   /** What has been decided to insert so far, in the order of components. */
   const std::vector<FeatureSeed<D>>& GetSeeds() const { return this->Seeds; }
@@ -80,7 +78,7 @@ private:
   std::int64_t FewestVoxels;
   unsigned Threads;
   std::stop_token Stop;
-  LocalDelta<D> Local;
+  LocalDelta<D>& Local;
   std::vector<FeatureSeed<D>> Seeds;
 };
 

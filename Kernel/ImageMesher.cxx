@@ -5,11 +5,16 @@
 #include "ComponentGuard.h"
 #include "Error.h"
 #include "Geometry/Predicates.h"
+#include "Grading/LocalFeatureSize.h"
 #include "Image/ImageDomain.h"
+#include "Image/JunctionCurves.h"
+#include "InterfaceGuard.h"
+#include "Mesh/ManifoldRepair.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Parallel/ParallelFor.h"
+#include "Refinement/JunctionSeeds.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 #include "Refinement/Rules4D.h"
@@ -21,6 +26,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -101,6 +107,21 @@ void CheckTetSliverOptions(const TetSliverOptions& slivers, bool force)
   }
 }
 
+void CheckGradingOptions(const GradingOptions& grading)
+{
+  if (!(grading.Ratio > 0.0) || std::isinf(grading.Ratio))
+  {
+    throw InputError(
+      "the ratio of the sampling density to the local feature size must be positive; it is " +
+      Number(grading.Ratio));
+  }
+  if (!(grading.Lambda > 0.0) || std::isinf(grading.Lambda))
+  {
+    throw InputError("the largest local feature size must be a positive number of voxels; it is " +
+      Number(grading.Lambda));
+  }
+}
+
 template <int D>
 void CheckOptions(const MeshingOptions<D>& options)
 {
@@ -132,6 +153,7 @@ void CheckOptions(const MeshingOptions<D>& options)
   else
   {
     CheckTetSliverOptions(options.TetSlivers, options.Force);
+    CheckGradingOptions(options.Grading);
   }
   if (!FloatingPointIsStrict())
   {
@@ -143,6 +165,9 @@ void CheckOptions(const MeshingOptions<D>& options)
 /** How much of a run each stage takes, about; only progress depends on it. */
 constexpr double PreparationShare = 0.2;
 constexpr double RefinementShare = 0.95; ///< end of refinement
+
+/** Spacing of the points by which local feature sizes are measured, in delta. */
+constexpr double GradingSampleSpacing = 0.75;
 
 /** How far optimisation may move vertices off interfaces as a last means, in smallest voxel spacings. */
 constexpr double OptimisationTolerance = 0.1;
@@ -165,8 +190,11 @@ template <int D>
 class ImageMesher<D>::Stages
 {
 public:
-  Stages(const MeshingOptions<D>& options, MeshingStatistics& statistics)
+  /** @param isosurface what is meshed, or null to mesh the labels alone */
+  Stages(const MeshingOptions<D>& options, const IsosurfaceImage<D>* isosurface,
+    MeshingStatistics& statistics)
     : Options(options)
+    , Isosurface(isosurface)
     , Stats(statistics)
   {
   }
@@ -194,18 +222,15 @@ private:
   bool RunUnlessStopped(const LabelImage<D>& image, SimplexMesh<D>& mesh)
   {
     const std::stop_token stop = this->Stop.get_token();
-    const ImageDomain<D> domain(image, this->Options.SmoothingSigma, this->Options.Threads, stop);
-    this->Stats.Times.LabelField = domain.LabelFieldSeconds();
-    this->Stats.Times.DistanceTransform = domain.DistanceSeconds();
-    this->Stats.LabelFieldBytes = domain.GetLabelField().MemoryBytes();
-    this->Stats.DistanceBytes =
-      domain.GetFeatureTransform().MemoryBytes() + domain.GetSites().MemoryBytes();
+    const std::unique_ptr<const Domain<D>> made = this->MakeDomain(image, stop);
+    const Domain<D>& domain = *made;
     this->Fraction = PreparationShare;
     ThrowIfStopped(stop);
 
-    const MeshSizeEstimate estimate =
-      EstimateMeshSize<D>(image, this->Stats.Delta, SpacingFloorFraction * this->Stats.Delta,
-        this->Options.Size.get(), this->Options.Threads, stop);
+    const std::unique_ptr<const LocalFeatureSize> grading = this->Grade(image, domain, stop);
+    const MeshSizeEstimate estimate = EstimateMeshSize<D>(image,
+      grading ? grading->Equivalent() : this->Stats.Delta, SpacingFloorFraction * this->Stats.Delta,
+      this->Options.Size.get(), this->Options.Threads, stop);
     this->Stats.EstimatedElements = estimate.Elements;
     if (estimate.SizesBelowFloor)
     {
@@ -216,32 +241,144 @@ private:
       CheckMemory(estimate, this->Options.MemoryLimit);
     }
 
-    std::optional<ComponentGuard<D>> guard = this->GuardComponents(image, domain, stop);
-    RefinementContext<D> context(domain, this->Settings(guard ? &guard->GetLocalDelta() : nullptr),
+    LocalDelta<D> local(image);
+    std::optional<ComponentGuard<D>> components = this->GuardComponents(image, domain, local, stop);
+    RefinementContext<D> context(domain, this->Settings(local, grading.get()),
       this->MakeBox(domain), estimate.InterfaceVertices);
-    const std::uint64_t expected = estimate.Vertices;
-    if (!this->Refine(context, guard, expected, stop))
+    std::vector<FeatureSeed<D>> seeds = this->SampleJunctions(domain, context, stop);
+    if (components)
     {
-      return false;
+      seeds.insert(seeds.end(), components->GetSeeds().begin(), components->GetSeeds().end());
     }
-    for (;;)
+    const std::uint64_t expected = estimate.Vertices;
+    bool goOn = this->Refine(context, seeds, RefinementStart::Everywhere, expected, stop);
+    std::optional<InterfaceGuard> interfaces;
+    if constexpr (D == 3)
+    {
+      interfaces.emplace(image, *this->Sites, domain, this->Stats.LargestDelta,
+        grading ? &grading->Delta() : nullptr, local, this->Options.Threads, stop);
+    }
+    while (goOn)
     {
       this->Fraction = RefinementShare;
       Stopwatch extraction;
       ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
       this->Stats.Times.Extraction += extraction.Seconds();
-      if (!guard || !this->SampleLostComponents(*guard, image, mesh))
+      if (components && this->SampleLostComponents(*components, image, mesh))
+      {
+        ++this->Stats.ComponentRounds;
+        context.FollowLocalDelta();
+        goOn = this->Refine(
+          context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
+        continue;
+      }
+      this->RepairInterfaces(mesh, stop);
+      seeds = this->InspectInterfaces(interfaces, mesh);
+      if (seeds.empty())
       {
         this->Optimise(image, domain, mesh, stop);
         return !stop.stop_requested();
       }
-      ++this->Stats.ComponentRounds;
       context.FollowLocalDelta();
-      if (!this->Refine(context, guard, expected, stop))
+      goOn = this->Refine(context, seeds, RefinementStart::AtSeeds, expected, stop);
+    }
+    return false;
+  }
+
+  /** Points to go on with, for as many rounds as were asked for. @throws Cancelled */
+  std::vector<FeatureSeed<D>> InspectInterfaces(
+    std::optional<InterfaceGuard>& guard, const SimplexMesh<D>& mesh)
+  {
+    std::vector<FeatureSeed<D>> seeds;
+    if constexpr (D == 3)
+    {
+      InterfaceFigures& figures = this->Stats.Interfaces;
+      if (figures.Rounds < this->Options.InterfaceRounds)
       {
-        return false;
+        Stopwatch inspection;
+        seeds = guard->Inspect(mesh);
+        figures.Rounds += seeds.empty() ? 0 : 1;
+        figures.Seeds += seeds.size();
+        this->Stats.Times.Interfaces += inspection.Seconds();
       }
     }
+    return seeds;
+  }
+
+  /** @throws Cancelled */
+  void RepairInterfaces(SimplexMesh<D>& mesh, const std::stop_token& stop)
+  {
+    if constexpr (D == 3)
+    {
+      if (this->Options.InterfaceRounds > 0)
+      {
+        Stopwatch repair;
+        ManifoldRepairOptions options;
+        options.FacetAngle = this->Options.FacetAngle;
+        options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
+        const ManifoldRepairCounts counts = RepairManifold(mesh, options, stop);
+        this->Stats.Interfaces.NonManifoldRepaired = counts.Before - counts.After;
+        this->Stats.Interfaces.NonManifoldLeft = counts.After;
+        this->Stats.Times.Interfaces += repair.Seconds();
+      }
+    }
+  }
+
+  /** @throws Cancelled */
+  std::vector<FeatureSeed<D>> SampleJunctions(
+    const Domain<D>& domain, const RefinementContext<D>& context, const std::stop_token& stop)
+  {
+    std::vector<FeatureSeed<D>> seeds;
+    if constexpr (D == 3)
+    {
+      const auto* labelled =
+        dynamic_cast<const ImageDomain<D>*>(&domain); // an isosurface has no junctions
+      if (labelled && this->Options.SampleJunctions)
+      {
+        Stopwatch sampling;
+        const JunctionCurves junctions(labelled->GetImage(), labelled->GetLabelField(),
+          labelled->GetSites(), this->Options.Threads, stop);
+        seeds = voxplex::SampleJunctions(
+          junctions,
+          [&](const Point<3>& z, const std::array<LabelId, 3>& labels)
+          {
+            return std::min(
+              context.Delta(z, labels[0], labels[1]), context.Delta(z, labels[1], labels[2]));
+          },
+          this->Stats.LargestDelta);
+        this->Stats.Interfaces.JunctionCurves = junctions.Curves().size();
+        this->Stats.Interfaces.Corners = junctions.NumberOfCorners();
+        this->Stats.Interfaces.JunctionSeeds = seeds.size();
+        this->Stats.Times.Interfaces += sampling.Seconds();
+      }
+    }
+    return seeds;
+  }
+
+  /** @throws Cancelled */
+  std::unique_ptr<const Domain<D>> MakeDomain(
+    const LabelImage<D>& image, const std::stop_token& stop)
+  {
+    if (this->Isosurface)
+    {
+      return this->Measured(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
+        *this->Isosurface, this->Options.Threads, stop));
+    }
+    return this->Measured(std::make_unique<const ImageDomain<D>>(
+      image, this->Options.SmoothingSigma, this->Options.Threads, stop));
+  }
+
+  /** Notes what it took to make a domain. */
+  template <typename DomainType>
+  std::unique_ptr<const Domain<D>> Measured(std::unique_ptr<const DomainType> domain)
+  {
+    this->Sites = &domain->GetSites();
+    this->Stats.Times.LabelField = domain->LabelFieldSeconds();
+    this->Stats.Times.DistanceTransform = domain->DistanceSeconds();
+    this->Stats.LabelFieldBytes = domain->GetLabelField().MemoryBytes();
+    this->Stats.DistanceBytes =
+      domain->GetFeatureTransform().MemoryBytes() + domain->GetSites().MemoryBytes();
+    return domain;
   }
 
   /** @throws Cancelled */
@@ -258,25 +395,56 @@ private:
       options.RadiusEdgeRatio = std::max(OptimisedRadiusEdgeRatio, this->Options.RadiusEdgeRatio);
       options.FacetAngle = this->Options.FacetAngle;
       options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
+      options.Seconds = this->Options.OptimisationSeconds;
       options.InterfaceTolerance = OptimisationTolerance *
         std::min({ image.Grid().Spacing(0), image.Grid().Spacing(1), image.Grid().Spacing(2) });
       const OptimisationStatistics done =
         OptimiseMesh(mesh, domain, options, this->Options.Threads, stop);
       this->Stats.Times.Optimisation = done.Seconds;
-      this->Stats.Optimisation = { true, done.Before.SmallestDihedralAngle,
+      this->Stats.Optimisation = { true, done.OutOfTime, done.Before.SmallestDihedralAngle,
         done.Before.LargestDihedralAngle, done.After.SmallestDihedralAngle,
         done.After.LargestDihedralAngle, done.Before.Poor, done.After.Poor };
     }
   }
 
-  std::optional<ComponentGuard<D>> GuardComponents(
+  /** Null in uniform mode. @throws Cancelled */
+  std::unique_ptr<const LocalFeatureSize> Grade(
     const LabelImage<D>& image, const Domain<D>& domain, const std::stop_token& stop)
+  {
+    std::unique_ptr<const LocalFeatureSize> grading;
+    this->Stats.LargestDelta = this->Stats.Delta;
+    if constexpr (D == 3)
+    {
+      if (this->Options.Grading.Mode == GradingMode::LocalFeatureSize)
+      {
+        Stopwatch time;
+        GradingParameters parameters;
+        const GridGeometry<3>& grid = image.Grid();
+        parameters.Finest = this->Stats.Delta;
+        parameters.Ratio = this->Options.Grading.Ratio;
+        parameters.Lambda = this->Options.Grading.Lambda * std::cbrt(grid.VoxelVolume());
+        parameters.SampleSpacing = GradingSampleSpacing * this->Stats.Delta;
+        parameters.Salience =
+          std::max({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2), parameters.SampleSpacing });
+        grading = std::make_unique<const LocalFeatureSize>(
+          image, domain, parameters, this->Options.Threads, stop);
+        this->Stats.LargestDelta = grading->Largest();
+        this->Stats.GradingSamples = grading->Sample().size();
+        this->Stats.GradingPoles = grading->NumberOfPoles();
+        this->Stats.Times.Grading = time.Seconds();
+      }
+    }
+    return grading;
+  }
+
+  std::optional<ComponentGuard<D>> GuardComponents(const LabelImage<D>& image,
+    const Domain<D>& domain, LocalDelta<D>& local, const std::stop_token& stop)
   {
     std::optional<ComponentGuard<D>> guard;
     if (D == 3 && this->Options.SmallestComponent > 0)
     {
       Stopwatch components;
-      guard.emplace(image, domain, this->Stats.Delta, this->Options.SmallestComponent,
+      guard.emplace(image, domain, this->Stats.LargestDelta, this->Options.SmallestComponent, local,
         this->Options.Threads, stop);
       this->Stats.Components = guard->GetComponents().All().size();
       this->Stats.Times.Components = components.Seconds();
@@ -285,12 +453,11 @@ private:
   }
 
   /** False if stopped. */
-  bool Refine(RefinementContext<D>& context, const std::optional<ComponentGuard<D>>& guard,
-    std::uint64_t expectedVertices, const std::stop_token& stop)
+  bool Refine(RefinementContext<D>& context, const std::vector<FeatureSeed<D>>& seeds,
+    RefinementStart start, std::uint64_t expectedVertices, const std::stop_token& stop)
   {
     Stopwatch refinement;
-    Refiner<Rules> refiner(
-      context, this->Team(), guard ? guard->GetSeeds() : std::vector<FeatureSeed<D>>());
+    Refiner<Rules> refiner(context, this->Team(), seeds, start);
     const auto expected = static_cast<double>(expectedVertices);
     const bool done = refiner.Run(
       [&](std::uint64_t vertices)
@@ -342,11 +509,15 @@ private:
     return goOn;
   }
 
-  RefinementSettings<D> Settings(const LocalDelta<D>* local) const
+  RefinementSettings<D> Settings(const LocalDelta<D>& local, const LocalFeatureSize* grading) const
   {
     RefinementSettings<D> settings;
-    settings.Local = local;
-    settings.Delta = this->Stats.Delta;
+    settings.Local = D == 3 ? &local : nullptr;
+    settings.Delta = this->Stats.LargestDelta;
+    if constexpr (D == 3)
+    {
+      settings.Graded = grading ? &grading->Delta() : nullptr;
+    }
     settings.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
     settings.FacetAngle = this->Options.FacetAngle;
     settings.Size = this->Options.Size.get();
@@ -378,13 +549,15 @@ private:
     for (std::size_t a = 0; a < D; ++a)
     {
       const bool time = D == 4 && a == 3;
-      box.Min[a] -= time && domain.IsFlatEnd(0) ? 0.0 : 2.0 * this->Stats.Delta;
-      box.Max[a] += time && domain.IsFlatEnd(1) ? 0.0 : 2.0 * this->Stats.Delta;
+      box.Min[a] -= time && domain.IsFlatEnd(0) ? 0.0 : 2.0 * this->Stats.LargestDelta;
+      box.Max[a] += time && domain.IsFlatEnd(1) ? 0.0 : 2.0 * this->Stats.LargestDelta;
     }
     return box;
   }
 
+  const BitMask<D>* Sites = nullptr; ///< surface voxels of the domain
   const MeshingOptions<D>& Options;
+  const IsosurfaceImage<D>* Isosurface;
   MeshingStatistics& Stats;
 };
 
@@ -392,16 +565,30 @@ private:
 template <int D>
 MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
 {
+  return this->Run(image, nullptr, mesh);
+}
+
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh)
+{
+  return this->Run(image.Labels(), &image, mesh);
+}
+
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(
+  const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh)
+{
   mesh = SimplexMesh<D>();
   this->Stats = MeshingStatistics();
   CheckOptions(this->Options);
   this->Stats.Delta =
     this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid().VoxelVolume());
-  this->Stats.SmoothingSigma = this->Options.SmoothingSigma;
+  this->Stats.SmoothingSigma =
+    isosurface ? isosurface->Surface().SmoothingSigma : this->Options.SmoothingSigma;
   this->Stats.Contention = this->Options.Contention;
   this->Stats.Balance = this->Options.Balance;
 
-  Stages stages(this->Options, this->Stats);
+  Stages stages(this->Options, isosurface, this->Stats);
   const bool done =
     this->Progress ? this->RunReporting(stages, image, mesh) : stages.Run(image, mesh);
   if (!done)

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ImageMesher.h
- * @brief The kernel's front door: a label image in, a simplex mesh out.
+ * @brief The kernel's front door: a label image, or an isosurface, in, a simplex mesh out.
  */
 #ifndef voxplex_ImageMesher_h
 #define voxplex_ImageMesher_h
 
+#include "Grading/GradingOptions.h"
+#include "Image/IsosurfaceImage.h"
 #include "Image/LabelImage.h"
 #include "Image/SizeFunction.h"
 #include "Mesh/SimplexMesh.h"
@@ -27,6 +29,8 @@ struct MeshingOptions
 {
   /** Sampling density of interfaces (delta of the thesis); 0 derives it from the spacing (DefaultDelta). */
   double Delta = 0.0;
+  /** Where to sample interfaces more coarsely than Delta; 3D only. */
+  GradingOptions Grading;
   /** Upper bound of circumradius / shortest edge; below 1.93 termination is not proved (needs Force). */
   double RadiusEdgeRatio = 2.0;
   /** Lower bound of the angles of interface facets, degrees, 0 to 30; 3D only. */
@@ -42,7 +46,18 @@ struct MeshingOptions
    * comes. Those that got none all the same are in MeshingStatistics::LostComponents. 3D only.
    */
   std::int64_t SmallestComponent = 8;
-  /** Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. */
+  /** Begin with points on the curves where three labels or more meet, so that the mesh's edges follow them.
+   * 3D only. */
+  bool SampleJunctions = true;
+  /**
+   * How often refinement goes on, at most, because interfaces of the image are farther from those of the mesh than
+   * 1.5 delta, or because those of the mesh are not manifold; 0: never. 3D only.
+   */
+  unsigned InterfaceRounds = 5;
+  /**
+   * Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. Of label images
+   * only: see Isosurface::SmoothingSigma.
+   */
   double SmoothingSigma = 1.0;
   /** Upper bound of circumradii, or null. */
   std::shared_ptr<const SizeFunction<D>> Size;
@@ -52,6 +67,8 @@ struct MeshingOptions
    * Delaunay. 3D only.
    */
   bool Optimise = false;
+  /** Wall-clock seconds after which optimisation stops where it is, and the mesh depends on the machine; 0: never. */
+  double OptimisationSeconds = 0.0;
   /** Threads; 0 means all cores. */
   unsigned Threads = 1;
   /** What a refinement thread does when it meets another. */
@@ -95,7 +112,7 @@ template <int D>
 double DefaultDelta(double voxelVolume);
 
 /**
- * @brief Meshes one label image.
+ * @brief Meshes one label image, or the inside of an isosurface.
  *
  * Run() may be called repeatedly; distinct instances may run at the same time in one process. With
  * one thread the mesh is bit-for-bit reproducible.
@@ -121,11 +138,16 @@ public:
    * @throws InputError, TooLargeError, std::bad_alloc
    */
   MeshingOutcome Run(const LabelImage<D>& image, SimplexMesh<D>& mesh);
+  /** The same for what an isosurface of a grey-value image bounds. */
+  MeshingOutcome Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh);
 
   const MeshingStatistics& Statistics() const { return this->Stats; }
 
 private:
   class Stages;
+  /** @param isosurface of which `image` has the labels, or null */
+  MeshingOutcome Run(
+    const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
   bool RunReporting(Stages& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh);
 
   MeshingOptions<D> Options;

@@ -102,14 +102,16 @@ struct StageTimes
 {
   double LabelField = 0.0;        ///< label map, crop, smoothing
   double DistanceTransform = 0.0; ///< surface voxels and feature transform
+  double Grading = 0.0;           ///< local feature sizes
   double Components = 0.0;        ///< connected components, before and after refinement
+  double Interfaces = 0.0;        ///< junctions, and looking at the mesh's interfaces
   double Refinement = 0.0;
   double Extraction = 0.0;
   double Optimisation = 0.0;
   double Total() const
   {
-    return this->LabelField + this->DistanceTransform + this->Components + this->Refinement +
-      this->Extraction + this->Optimisation;
+    return this->LabelField + this->DistanceTransform + this->Grading + this->Components +
+      this->Interfaces + this->Refinement + this->Extraction + this->Optimisation;
   }
 };
 
@@ -159,12 +161,25 @@ struct ThreadStatistics
 struct OptimisationFigures
 {
   bool Ran = false;
+  bool OutOfTime = false; ///< stopped by MeshingOptions::OptimisationSeconds
   double SmallestDihedralBefore = 0.0;
   double LargestDihedralBefore = 0.0;
   double SmallestDihedralAfter = 0.0;
   double LargestDihedralAfter = 0.0;
   std::uint64_t PoorBefore = 0;
   std::uint64_t PoorAfter = 0;
+};
+
+/** What was done for the interfaces of a mesh in 3D, besides the rules. */
+struct InterfaceFigures
+{
+  std::uint64_t JunctionCurves = 0; ///< pieces between corners, and closed ones
+  std::uint64_t Corners = 0;        ///< where four labels meet
+  std::uint64_t JunctionSeeds = 0;  ///< feature points on them, at most
+  unsigned Rounds = 0;              ///< times that refinement went on for the sake of interfaces
+  std::uint64_t Seeds = 0;          ///< feature points inserted then, at most
+  std::uint64_t NonManifoldRepaired = 0; ///< edges that were not manifold on a label's boundary
+  std::uint64_t NonManifoldLeft = 0;     ///< that still are not; counted if Rounds were allowed
 };
 
 struct MeshingStatistics
@@ -178,13 +193,17 @@ struct MeshingStatistics
   /** A non-blocking contention manager made no progress and was replaced by the local one. */
   bool SwitchedToLocal = false;
   double SeedingSeconds =
-    0.0;              ///< part of Times.Refinement: the start, before all threads have work
-  double Delta = 0.0; ///< the delta that was used, in the image's unit of length
-  double SmoothingSigma = 0.0; ///< voxels
+    0.0;                     ///< part of Times.Refinement: the start, before all threads have work
+  double Delta = 0.0;        ///< the delta that was used, in the image's unit of length
+  double LargestDelta = 0.0; ///< the largest Delta(z): above Delta only if it is graded
+  double SmoothingSigma = 0.0;      ///< voxels
+  std::uint64_t GradingSamples = 0; ///< interface points by which local feature sizes were measured
+  std::uint64_t GradingPoles = 0;   ///< points of the medial axis that these gave
   std::uint64_t EstimatedElements = 0;
   std::uint64_t Components = 0; ///< connected components of all labels; 0 if none were looked for
   std::uint64_t ComponentSeeds = 0; ///< feature points inserted for small or thin ones, at most
   unsigned ComponentRounds = 0;     ///< times that refinement went on because one was lost
+  InterfaceFigures Interfaces;
   OptimisationFigures Optimisation;
   std::vector<ComponentReport> LostComponents; ///< connected components that have no element
   double SizesRaisedTo = 0.0;        ///< the floor of sizes, if some were below it; else 0

@@ -24,8 +24,8 @@ struct DistanceInterval
  * @brief A partition of space into labels, with interfaces between them.
  *
  * The interfaces (the boundary of Omega of the thesis) are where Label() changes. An image is one such
- * domain (ImageDomain); an isosurface of a grey-value image could be another. All methods are const
- * and safe to call from any number of threads.
+ * domain (ImageDomain), be it one of labels or the inside of an isosurface of a grey-value image. All methods
+ * are const and safe to call from any number of threads.
  */
 template <int D>
 class Domain

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ImageDomain.h
- * @brief A label image as the rules see it: labels, distances to interfaces, points on interfaces.
+ * @brief An image as the rules see it: labels, distances to interfaces, points on interfaces.
  */
 #ifndef voxplex_ImageDomain_h
 #define voxplex_ImageDomain_h
@@ -11,18 +11,22 @@
 #include "Image/Domain.h"
 #include "Image/FeatureTransform.h"
 #include "Image/LabelField.h"
+#include "Image/ScalarField.h"
 
 #include <algorithm>
+#include <concepts>
 #include <stop_token>
 
 namespace voxplex
 {
 
 /**
- * @brief The domain of a label image.
+ * @brief The domain of an image.
  *
- * Labels come from a LabelField. Distances come from the feature transform of the surface voxels
- * (the sites): those of the crop and of the layer of background around it that have a face
+ * Labels come from a field: the LabelField of a label image, or the ScalarField of an isosurface. What is
+ * said here holds for any field that keeps the labels of the label image at voxel centres and that
+ * interpolates multilinearly between them. Distances come from the feature transform of the surface
+ * voxels (the sites): those of the crop and of the layer of background around it that have a face
  * neighbour with another label. Every interface point lies in a cell between voxel centres of which
  * two corners that share an edge are sites; and next to every site, on a grid edge, there is an
  * interface point. Distance bounds follow from these two facts and are rigorous. The nearest site
@@ -34,7 +38,7 @@ namespace voxplex
  *
  * Immutable after construction: all methods are const and safe to call from any thread.
  */
-template <int D>
+template <int D, typename FieldType = LabelField<D>>
 class ImageDomain final : public Domain<D>
 {
 public:
@@ -53,9 +57,14 @@ public:
    *   std::bad_alloc
    */
   ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads = 1,
-    const std::stop_token& stop = {});
+    const std::stop_token& stop = {}) requires std::same_as<FieldType, LabelField<D>>;
   /** The domain does not keep the image alive. */
   ImageDomain(LabelImage<D>&&, double, unsigned = 1, const std::stop_token& = {}) = delete;
+
+  /** The same for the inside of an isosurface: label id 1. */
+  explicit ImageDomain(const IsosurfaceImage<D>& image, unsigned threads = 1,
+    const std::stop_token& stop = {}) requires std::same_as<FieldType, ScalarField<D>>;
+  explicit ImageDomain(IsosurfaceImage<D>&&, unsigned = 1, const std::stop_token& = {}) = delete;
 
   /**
    * The box of the crop and the layer of background around it; interfaces lie strictly inside, but at
@@ -73,9 +82,9 @@ public:
   bool NearSurfacePoint(
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**
-   * The point found lies on an interface of `label` to 0.005 voxel and is on average a few
-   * hundredths of a voxel farther from p than the nearest one. False only if p does not have
-   * `label`.
+   * The point found lies on an interface of `label` to FieldType::RootTolerance voxels (0.005, or 0.001 for
+   * isosurfaces) and is on average a few hundredths of a voxel farther from p than the nearest one.
+   * False only if p does not have `label`.
    */
   bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
   /** Steps of half a voxel, longer ones where the distance bounds allow it. */
@@ -86,7 +95,7 @@ public:
   bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
 
   const LabelImage<D>& GetImage() const { return this->Image; }
-  const LabelField<D>& GetLabelField() const { return this->Field; }
+  const FieldType& GetLabelField() const { return this->Field; }
   /** Of the lattice of GetLabelField(). */
   const FeatureTransform<D>& GetFeatureTransform() const { return this->Features; }
   /** The sites, on the lattice of GetLabelField(). */
@@ -103,6 +112,17 @@ public:
   }
 
 private:
+  /** A field, and the seconds that it took to make it. */
+  struct TimedField
+  {
+    FieldType Field;
+    double Seconds;
+  };
+  template <typename Function>
+  static TimedField MakeField(Function&& make);
+  ImageDomain(
+    const LabelImage<D>& image, TimedField&& field, unsigned threads, const std::stop_token& stop);
+
   /** Dense id of a voxel at a lattice index; background outside of the crop, but for flat ends. */
   LabelId VoxelId(const Index& lattice) const;
   /** The point nearest to p that is not beyond a flat end. */
@@ -150,7 +170,7 @@ private:
   const LabelImage<D>& Image;
   double FieldSeconds = 0.0;
   double FeatureSeconds = 0.0;
-  LabelField<D> Field;
+  FieldType Field;
   BitMask<D> Sites;
   Point<D> Spacing;
   FeatureTransform<D> Features;
@@ -165,6 +185,8 @@ private:
 
 extern template class ImageDomain<3>;
 extern template class ImageDomain<4>;
+extern template class ImageDomain<3, ScalarField<3>>;
+extern template class ImageDomain<4, ScalarField<4>>;
 
 } // namespace voxplex
 

@@ -4,11 +4,12 @@
 
 #include "Error.h"
 #include "Image/LabelSmoothing.h"
-#include "Parallel/ParallelFor.h"
 
+#include <algorithm>
 #include <cstring>
-#include <mutex>
+#include <memory>
 #include <sstream>
+#include <vector>
 
 namespace voxplex
 {
@@ -24,34 +25,6 @@ constexpr int KeptMargin = 328;
 constexpr int ThinMargin = 16384;
 
 } // namespace
-
-/** Memory for the samples of mixed tiles, taken by one thread at a time. */
-template <int D>
-struct LabelField<D>::Arena
-{
-  static constexpr std::size_t BlockSize = std::size_t{ 1 } << 18; ///< samples
-  std::vector<std::unique_ptr<Sample[]>> Blocks;
-  std::size_t Bytes = 0;
-  Sample* Next = nullptr;
-  std::size_t Left = 0;
-
-  /** Uninitialised; 16-byte aligned, since sizes are multiples of 8 samples. */
-  Sample* Allocate(std::size_t samples)
-  {
-    if (samples > this->Left)
-    {
-      const std::size_t size = std::max(BlockSize, samples);
-      this->Blocks.push_back(std::make_unique_for_overwrite<Sample[]>(size));
-      this->Bytes += size * sizeof(Sample);
-      this->Next = this->Blocks.back().get();
-      this->Left = size;
-    }
-    Sample* result = this->Next;
-    this->Next += samples;
-    this->Left -= samples;
-    return result;
-  }
-};
 
 /** Makes tiles; one instance serves one thread at a time. */
 template <int D>
@@ -76,100 +49,18 @@ public:
     this->Halo.resize(this->Rows * this->Width);
   }
 
-  /** The directory's entry of the tile whose first sample is at these lattice coordinates. */
-  std::uintptr_t MakeTile(const Index& first)
+  /** The samples of the tile whose first one is at these lattice coordinates. */
+  const Sample* MakeTile(const Index& first)
   {
-    LabelId label = 0;
-    if (this->IsUniform(first, label))
-    {
-      return (static_cast<std::uintptr_t>(label) << 1) | 1u;
-    }
-    ++this->MixedTiles;
     this->GatherHalo(first);
     this->GatherLabels();
-    return reinterpret_cast<std::uintptr_t>(this->Smooth());
+    return this->Smooth();
   }
 
-  Arena Memory;
-  std::size_t MixedTiles = 0;
+  typename Base::Arena Memory;
 
 private:
   static constexpr std::uint16_t NoSlot = 0xffff;
-
-  /**
-   * Calls row(in, x0, x1, k) for each row of a box of `width` samples along each axis: row k of the
-   * box, of which the samples x0 ... x1 - 1 lie in the crop, with ids from `in`; x0 == x1 if none
-   * does. Returns early when row returns false.
-   */
-  template <typename Function>
-  void ForEachRow(const Index& first, std::size_t width, Function&& row) const
-  {
-    const Index& crop = this->Image.CropDimensions();
-    const auto w = static_cast<std::int64_t>(width);
-    Index offset{};
-    const std::int64_t low = std::clamp<std::int64_t>(-(first[0] - 1), 0, w);
-    const std::int64_t high = std::clamp<std::int64_t>(crop[0] - (first[0] - 1), low, w);
-    for (std::size_t k = 0;; ++k)
-    {
-      bool inside = low < high;
-      std::int64_t at = 0;
-      for (std::size_t a = D; a-- > 1;)
-      {
-        std::int64_t i = first[a] - 1 + offset[a];
-        if (D == 4 && a == 3)
-        {
-          i = this->Image.IsCutInTime(0) ? std::max<std::int64_t>(i, 0) : i;
-          i = this->Image.IsCutInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
-        }
-        inside = inside && i >= 0 && i < crop[a];
-        at = at * crop[a] + i;
-      }
-      at = at * crop[0] + first[0] - 1;
-      const bool goOn = inside ? row(this->Image.Ids().data() + at + low, low, high, k)
-                               : row(static_cast<const LabelId*>(nullptr), low, low, k);
-      std::size_t a = 1;
-      while (a < D && ++offset[a] == w)
-      {
-        offset[a++] = 0;
-      }
-      if (!goOn || a == D)
-      {
-        return;
-      }
-    }
-  }
-
-  /** Whether all samples of a tile have one label. */
-  bool IsUniform(const Index& first, LabelId& label) const
-  {
-    bool started = false;
-    bool uniform = true;
-    label = 0;
-    this->ForEachRow(first, TileSamples,
-      [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t)
-      {
-        if (!started)
-        {
-          label = low == 0 && high > 0 ? in[0] : LabelId{ 0 };
-          started = true;
-        }
-        if (high - low == TileSamples)
-        {
-          const std::uint64_t wanted = label * 0x0001000100010001u;
-          std::uint64_t halves[2];
-          std::memcpy(halves, in, sizeof(halves));
-          uniform = ((halves[0] ^ wanted) | (halves[1] ^ wanted)) == 0;
-          return uniform;
-        }
-        uniform = label == 0;
-        for (std::int64_t i = 0; i < high - low; ++i)
-        {
-          uniform = uniform && in[i] == 0;
-        }
-        return uniform;
-      });
-    return uniform;
-  }
 
   /** Copies the ids within reach of the kernel. */
   void GatherHalo(Index first)
@@ -179,7 +70,7 @@ private:
       i -= static_cast<std::int64_t>(this->Radius);
     }
     const std::size_t width = this->Width;
-    this->ForEachRow(first, width,
+    Base::ForEachRow(this->Image, first, width,
       [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t k)
       {
         LabelId* out = this->Halo.data() + k * width;
@@ -322,7 +213,7 @@ private:
       }
       for (std::size_t i = 0; i < 8; ++i)
       {
-        if (thin[i] && in[i] != 0 && this->IsThinObject(in + i))
+        if (thin[i] && this->IsThinObject(in + i))
         {
           this->Margins[row * 8 + i] = ThinMargin;
         }
@@ -385,7 +276,7 @@ private:
 template <int D>
 LabelField<D>::LabelField(
   const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
-  : Grid(image.Grid())
+  : Base(image)
 {
   if (!(sigma >= 0.0 && sigma <= MaximumSigma))
   {
@@ -394,112 +285,9 @@ LabelField<D>::LabelField(
       << "smoothing) and " << MaximumSigma << ".";
     throw InputError(s.str());
   }
-  Index tiles{};
-  std::size_t numberOfTiles = 1;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    this->Dimensions[a] = image.CropDimensions()[a] + 2;
-    this->Shift[a] = static_cast<double>(image.CropOrigin()[a] - 1);
-    this->PerSpacing[a] = 1.0 / this->Grid.IndexToFrame[a][a];
-    for (std::size_t c = a + 1; c < D; ++c)
-    {
-      this->IsOrthogonal = this->IsOrthogonal && this->Grid.IndexToFrame[a][c] == 0.0;
-    }
-    this->LastCell[a] = static_cast<std::uint32_t>(this->Dimensions[a] - 2);
-    tiles[a] = static_cast<std::int64_t>(this->LastCell[a] / TileCells) + 1;
-    this->TileStride[a] = static_cast<std::uint32_t>(numberOfTiles);
-    numberOfTiles *= static_cast<std::size_t>(tiles[a]);
-  }
-  this->Directory.resize(numberOfTiles);
-  if (image.IsCutInTime(0))
-  {
-    this->Ends[0] = 1.0;
-  }
-  if (image.IsCutInTime(1))
-  {
-    this->Ends[1] = static_cast<double>(image.CropDimensions()[D - 1]);
-  }
-
   const LabelSmoothing smoothing(D, sigma);
-  std::vector<std::unique_ptr<Builder>> builders;
-  std::vector<Builder*> idle;
-  std::mutex mutex;
-  ParallelFor(
-    0, numberOfTiles, 128, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      Builder* builder = nullptr;
-      {
-        const std::scoped_lock lock(mutex);
-        if (idle.empty())
-        {
-          builders.push_back(std::make_unique<Builder>(image, smoothing));
-          idle.push_back(builders.back().get());
-        }
-        builder = idle.back();
-        idle.pop_back();
-      }
-      for (std::size_t tile = begin; tile < end; ++tile)
-      {
-        ThrowIfStopped(stop); // a tile in 4D with many labels and much smoothing takes a while
-        Index first{};
-        std::size_t rest = tile;
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          const auto n = static_cast<std::size_t>(tiles[a]);
-          first[a] = static_cast<std::int64_t>(rest % n * TileCells);
-          rest /= n;
-        }
-        this->Directory[tile] = builder->MakeTile(first);
-      }
-      const std::scoped_lock lock(mutex);
-      idle.push_back(builder);
-    },
-    stop);
-  for (const auto& builder : builders)
-  {
-    this->MixedTiles += builder->MixedTiles;
-    this->BlockBytes += builder->Memory.Bytes;
-    for (auto& block : builder->Memory.Blocks)
-    {
-      this->Blocks.push_back(std::move(block));
-    }
-  }
-}
-
-/** Gradient of the interpolation: one axis after the other, values and derivatives together. */
-template <int D>
-Point<D> LabelField<D>::PlaneGradient(const Sample* plane, const Cell& cell)
-{
-  constexpr unsigned corners = 1u << D;
-  const Sample* s = plane + cell.Offset;
-  std::array<std::array<float, corners>, D + 1> v; // the value, then the derivatives
-  for (unsigned c = 0; c < corners; ++c)
-  {
-    unsigned at = 0;
-    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
-    {
-      at += ((c >> a) & 1u) << (3 * a);
-    }
-    v[0][c] = s[at];
-  }
-  for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
-  {
-    for (unsigned c = 0; c < (corners >> (a + 1)); ++c)
-    {
-      v[a + 1][c] = v[0][2 * c + 1] - v[0][2 * c];
-      for (unsigned k = 0; k <= a; ++k)
-      {
-        v[k][c] = v[k][2 * c] + cell.Fraction[a] * (v[k][2 * c + 1] - v[k][2 * c]);
-      }
-    }
-  }
-  Point<D> gradient;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    gradient[a] = static_cast<double>(v[a + 1][0]);
-  }
-  return gradient;
+  this->MakeTiles(
+    image, threads, stop, [&] { return std::make_unique<Builder>(image, smoothing); });
 }
 
 template <int D>
@@ -519,7 +307,7 @@ bool LabelField<D>::MarginGradientAt(const Point<D>& x, LabelId label, Point<D>&
     {
       scale = -scale;
     }
-    gradient = PlaneGradient(planes, cell);
+    gradient = Base::PlaneGradient(planes, cell);
     for (double& g : gradient)
     {
       g *= 2.0 * scale;
@@ -548,19 +336,13 @@ bool LabelField<D>::MarginGradientAt(const Point<D>& x, LabelId label, Point<D>&
   {
     return false;
   }
-  gradient = PlaneGradient(planes + own * PlaneSize, cell);
-  const Point<D> minus = PlaneGradient(planes + other * PlaneSize, cell);
+  gradient = Base::PlaneGradient(planes + own * PlaneSize, cell);
+  const Point<D> minus = Base::PlaneGradient(planes + other * PlaneSize, cell);
   for (std::size_t a = 0; a < D; ++a)
   {
     gradient[a] = scale * (gradient[a] - minus[a]);
   }
   return true;
-}
-
-template <int D>
-std::size_t LabelField<D>::MemoryBytes() const
-{
-  return this->BlockBytes + this->Directory.size() * sizeof(std::uintptr_t);
 }
 
 template class LabelField<3>;

@@ -7,17 +7,14 @@
 #ifndef voxplex_LabelField_h
 #define voxplex_LabelField_h
 
-#include "Image/LabelImage.h"
+#include "Image/TiledLattice.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <stop_token>
-#include <vector>
 
 namespace voxplex
 {
@@ -42,32 +39,28 @@ namespace voxplex
  * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame it goes on
  * unchanged beyond it, for the smoothing and for queries: the ends are flat.
  *
- * **Storage.** The lattice (the crop of the label image and one layer of background around it) is
- * cut in tiles of TileCells cells along each axis. A tile stores its samples on all of its
- * (TileCells + 1)^D corners, so that a query reads one tile only:
+ * **Storage.** The tiles of a TiledLattice; those outside of the crop are background. A mixed one has 16-bit
+ * fixed-point samples:
  *
- *     directory: one 64-bit word a tile        samples of a mixed tile, 16-bit fixed point
- *     +--------------------------+             +---+----------+-----------------------------+
- *     | label << 1 | 1   uniform |             | k | k labels | planes of 8^D samples       |
- *     | address          mixed   | ----------> |   | ascending| k = 2: one, (u_0 - u_1) / 2 |
- *     +--------------------------+             +---+----------+ k > 2: k, u_l of each label |
- *                                                             +-----------------------------+
+ *     +---+----------+-----------------------------+
+ *     | k | k labels | planes of 8^D samples       |
+ *     |   | ascending| k = 2: one, (u_0 - u_1) / 2 |
+ *     +---+----------+ k > 2: k, u_l of each label |
+ *                    +-----------------------------+
  *
- * Samples depend on their neighbourhood alone and not on the tile: two tiles agree on the face that
- * they share. A tile whose samples all have one label is uniform: by the definition no other
- * label can win inside of it.
+ * In a tile whose samples all have one label no other label can win, by the definition: it is uniform.
  *
  * Immutable after construction: all methods are const and safe to call from any thread. A query
  * costs O(1) in a uniform tile, O(2^D k) in a mixed one.
  */
 template <int D>
-class LabelField
+class LabelField : public TiledLattice<D, std::int16_t>
 {
 public:
-  using Index = typename GridGeometry<D>::Index;
+  using typename TiledLattice<D, std::int16_t>::Index;
 
-  /** Cells of a tile along each axis; its 8 samples along x fill one vector register. */
-  static constexpr unsigned TileCells = 7;
+  /** Root finding along a line ends when the bracket is shorter or the margin smaller, in voxels. */
+  static constexpr double RootTolerance = 0.005;
   /** Largest standard deviation of the smoothing, voxels. */
   static constexpr double MaximumSigma = 5.0;
 
@@ -83,51 +76,6 @@ public:
     const std::stop_token& stop = {});
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
-
-  /** Samples of the lattice along each axis: the crop's voxels + 2. */
-  const Index& LatticeDimensions() const { return this->Dimensions; }
-
-  /** Lattice coordinates of a point of the frame: 0 is the layer of background before the crop. */
-  Point<D> ToLattice(const Point<D>& p) const
-  {
-    Point<D> x;
-    if (this->IsOrthogonal)
-    {
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        x[a] = p[a] * this->PerSpacing[a] - this->Shift[a];
-      }
-      return x;
-    }
-    x = this->Grid.ToIndex(p);
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      x[a] -= this->Shift[a];
-    }
-    return x;
-  }
-  /** Point of the frame at lattice coordinates. */
-  Point<D> ToFrame(Point<D> x) const
-  {
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      x[a] += this->Shift[a];
-    }
-    return this->Grid.ToFrame(x);
-  }
-
-  /**
-   * Lattice coordinates of the first and the last frame where the object is cut by them, else
-   * infinite: beyond a cut everything is as on it. Only in 4D; the last axis is time.
-   */
-  const std::array<double, 2>& FlatEnds() const { return this->Ends; }
-  /** The point of the lattice nearest to x that is not beyond a flat end. */
-  Point<D> ClampToEnds(Point<D> x) const
-  {
-    double& time = x[static_cast<std::size_t>(D) - 1];
-    time = time < this->Ends[0] ? this->Ends[0] : time > this->Ends[1] ? this->Ends[1] : time;
-    return x;
-  }
 
   /** Label of a point of the frame; background outside of the lattice. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
@@ -153,87 +101,19 @@ public:
    */
   bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
-  /** Memory held, bytes. */
-  std::size_t MemoryBytes() const;
-  std::size_t NumberOfTiles() const { return this->Directory.size(); }
-  std::size_t NumberOfMixedTiles() const { return this->MixedTiles; }
-
 private:
-  using Sample = std::int16_t;
-  static constexpr unsigned TileSamples = TileCells + 1;
-  static constexpr unsigned PlaneSize = D == 3 ? 512 : 4096;
+  using Base = TiledLattice<D, std::int16_t>;
+  using Base::PlaneSize;
+  using Base::TileSamples;
+  using typename Base::Cell;
+  using typename Base::Sample;
   static constexpr double SampleOne = 16384.0; ///< fixed-point representation of 1
 
-  /** Blocks of memory from which one thread at a time takes the samples of its tiles. */
-  struct Arena;
-
-  /** The cell that contains a point. */
-  struct Cell
-  {
-    const Sample* Tile; ///< null in a uniform tile
-    LabelId Uniform;
-    unsigned Offset; ///< of the cell's first corner in a plane
-    std::array<float, static_cast<std::size_t>(D)> Fraction;
-  };
-  Cell Locate(Point<D> x) const;
   static float InterpolatePlane(const Sample* plane, const Cell& cell);
-  static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
 
   class Builder;
-
-  GridGeometry<D> Grid;
-  bool IsOrthogonal = true;
-  Point<D> PerSpacing{};
-  Point<D> Shift{};
-  Index Dimensions{};
-  std::array<double, 2> Ends{ -std::numeric_limits<double>::infinity(),
-    std::numeric_limits<double>::infinity() };
-  std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
-  std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
-  std::vector<std::uintptr_t> Directory;
-  std::vector<std::unique_ptr<Sample[]>> Blocks;
-  std::size_t BlockBytes = 0;
-  std::size_t MixedTiles = 0;
 };
-
-template <int D>
-inline typename LabelField<D>::Cell LabelField<D>::Locate(Point<D> x) const
-{
-  if constexpr (D == 4)
-  {
-    x = this->ClampToEnds(x);
-  }
-  Cell cell;
-  cell.Tile = nullptr;
-  cell.Uniform = 0;
-  cell.Offset = 0;
-  std::uint32_t tile = 0;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    const double last = static_cast<double>(this->LastCell[a]);
-    if (!(x[a] >= 0.0 && x[a] <= last + 1.0)) // NaN is outside, too
-    {
-      return cell;
-    }
-    const auto c =
-      std::min(static_cast<std::uint32_t>(static_cast<std::int64_t>(x[a])), this->LastCell[a]);
-    cell.Fraction[a] = static_cast<float>(x[a] - static_cast<double>(c));
-    const std::uint32_t t = c / TileCells;
-    tile += t * this->TileStride[a];
-    cell.Offset += (c - t * TileCells) << (3 * a);
-  }
-  const std::uintptr_t entry = this->Directory[tile];
-  if (entry & 1)
-  {
-    cell.Uniform = static_cast<LabelId>(entry >> 1);
-  }
-  else
-  {
-    cell.Tile = reinterpret_cast<const Sample*>(entry);
-  }
-  return cell;
-}
 
 // Four pairs of samples at a time, where the compiler has vectors; the result is the same without.
 template <int D>

@@ -148,6 +148,82 @@ std::string Format(const Array& values, const char* separator = ", ")
   return s.str();
 }
 
+template <typename T, int D>
+[[noreturn]] void ThrowBadValue(T value, std::size_t voxel, const GridGeometry<D>& grid)
+{
+  std::ostringstream s;
+  s.precision(std::numeric_limits<T>::max_digits10);
+  s << "The value " << +value << " at index (" << Format(IndexOfVoxel(voxel, grid.Dimensions))
+    << ") ";
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    if (!std::isfinite(value))
+    {
+      s << "is not finite";
+    }
+    else if (std::floor(value) != value)
+    {
+      s << "is not whole";
+    }
+    else if (value < T(0))
+    {
+      s << "is negative";
+    }
+    else
+    {
+      s << "exceeds the largest label, 9223372036854775807";
+    }
+  }
+  else
+  {
+    s << (std::is_signed_v<T> ? "is negative" : "exceeds the largest label, 9223372036854775807");
+  }
+  s << "; labels are whole numbers from 0 (background). Segment or relabel the image first"
+    << (D == 3 && std::is_floating_point_v<T> ? ", or mesh an isosurface of it." : ".");
+  throw InputError(s.str());
+}
+
+template <int D>
+[[noreturn]] void ThrowTooManyLabels(std::size_t atLeast)
+{
+  throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
+    " distinct labels (" + std::to_string(atLeast) +
+    " were seen before giving up); it is most likely a grey-value image. Segment it first" +
+    (D == 3 ? ", or mesh an isosurface of it" : "") +
+    ", or choose the array that holds the segmentation.");
+}
+
+std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/** Throws unless each label that was selected is one of those that occur, in increasing order. */
+void CheckSelected(const std::vector<std::int64_t>& selected,
+  const std::vector<std::int64_t>& occurring, const std::string& was, const std::string& purpose)
+{
+  for (const std::int64_t value : selected)
+  {
+    if (value == 0)
+    {
+      throw InputError("Label 0 was " + was +
+        ", but 0 is background, which is never meshed; remove it from the labels " + purpose + ".");
+    }
+    if (!std::binary_search(occurring.begin(), occurring.end(), value))
+    {
+      const std::vector<std::int64_t> shown(
+        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
+      throw InputError("Label " + std::to_string(value) + " was " + was +
+        ", but does not occur in the image; its labels are " + Format(shown) +
+        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels " + purpose + ".");
+    }
+  }
+}
+
+} // namespace
+
 template <int D>
 void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars)
 {
@@ -199,80 +275,6 @@ void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars)
     }
   }
 }
-
-template <typename T, int D>
-[[noreturn]] void ThrowBadValue(T value, std::size_t voxel, const GridGeometry<D>& grid)
-{
-  std::ostringstream s;
-  s.precision(std::numeric_limits<T>::max_digits10);
-  s << "The value " << +value << " at index (" << Format(IndexOfVoxel(voxel, grid.Dimensions))
-    << ") ";
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    if (!std::isfinite(value))
-    {
-      s << "is not finite";
-    }
-    else if (std::floor(value) != value)
-    {
-      s << "is not whole";
-    }
-    else if (value < T(0))
-    {
-      s << "is negative";
-    }
-    else
-    {
-      s << "exceeds the largest label, 9223372036854775807";
-    }
-  }
-  else
-  {
-    s << (std::is_signed_v<T> ? "is negative" : "exceeds the largest label, 9223372036854775807");
-  }
-  s << "; labels are whole numbers from 0 (background). Segment or relabel the image first.";
-  throw InputError(s.str());
-}
-
-template <int D>
-[[noreturn]] void ThrowTooManyLabels(std::size_t atLeast)
-{
-  throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
-    " distinct labels (" + std::to_string(atLeast) +
-    " were seen before giving up); it is most likely a grey-value image. Segment it first, or "
-    "choose the array that holds the segmentation.");
-}
-
-std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
-/** Throws unless each label that was selected is one of those that occur, in increasing order. */
-void CheckSelected(const std::vector<std::int64_t>& selected,
-  const std::vector<std::int64_t>& occurring, const std::string& was, const std::string& purpose)
-{
-  for (const std::int64_t value : selected)
-  {
-    if (value == 0)
-    {
-      throw InputError("Label 0 was " + was +
-        ", but 0 is background, which is never meshed; remove it from the labels " + purpose + ".");
-    }
-    if (!std::binary_search(occurring.begin(), occurring.end(), value))
-    {
-      const std::vector<std::int64_t> shown(
-        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
-      throw InputError("Label " + std::to_string(value) + " was " + was +
-        ", but does not occur in the image; its labels are " + Format(shown) +
-        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels " + purpose + ".");
-    }
-  }
-}
-
-} // namespace
 
 template <int D>
 template <typename T>
@@ -517,6 +519,8 @@ void LabelImage<D>::Relabel(const Index& first, std::int64_t length, LabelId lab
 
 template class LabelImage<3>;
 template class LabelImage<4>;
+template void CheckGrid<3>(const GridGeometry<3>&, std::size_t);
+template void CheckGrid<4>(const GridGeometry<4>&, std::size_t);
 
 #define VOXPLEX_INSTANTIATE(T)                                                                     \
   template LabelImage<3> LabelImage<3>::FromScalars<T>(std::span<const T>, const GridGeometry<3>&, \

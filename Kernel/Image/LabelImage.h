@@ -33,6 +33,13 @@ struct LabelSelection
 };
 
 /**
+ * @throws InputError: fewer than two voxels along an axis, another number of scalars than of voxels, a
+ *   spacing that is not positive and finite, a matrix that is not upper triangular
+ */
+template <int D>
+void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars);
+
+/**
  * @brief Dense labels of the bounding box of the foreground; everything outside is background.
  *
  * Safe to read from any thread while nobody calls Relabel().
@@ -73,6 +80,12 @@ public:
    * @param first an index of the bounding box
    */
   void Relabel(const Index& first, std::int64_t length, LabelId label);
+
+  /**
+   * Gives a label another value than that of the image.
+   * @param value above that of the label before and below that of the one after
+   */
+  void SetValue(LabelId label, std::int64_t value) { this->LabelValues[label] = value; }
 
   /** Dense ids of the bounding box, first axis fastest. */
   std::span<const LabelId> Ids() const { return this->Voxels; }

@@ -104,39 +104,10 @@ inline Floats VOXPLEX_TO_FLOATS(const Shorts& shorts)
 }
 #endif
 
-/**
- * The 1D kernel (1 + c) g - c g*g as weights of the distances 0 ... R, in units of 1 / KernelOne;
- * {KernelOne} for sigma 0. c is chosen such that the second moment is KernelMoment; about 1 would
- * make it 0.
- */
-std::vector<int> NonShrinkingKernel(int dimension, double sigma)
+/** The kernel's weights in units of 1 / KernelOne; {KernelOne} for sigma 0. */
+std::vector<int> RoundedKernel(int dimension, double sigma)
 {
-  const int radius = static_cast<int>(std::ceil(4.0 * sigma));
-  std::vector<double> w(static_cast<std::size_t>(radius) + 1, 1.0);
-  if (radius > 0)
-  {
-    std::vector<double> g(w.size());
-    std::vector<double> gg(w.size());
-    std::array<double, 2> sum{};
-    std::array<double, 2> moment{};
-    for (std::size_t t = 0; t < w.size(); ++t)
-    {
-      const double x = static_cast<double>(t) / (KernelWidth * sigma);
-      const double sides = t == 0 ? 1.0 : 2.0;
-      g[t] = std::exp(-0.5 * x * x);
-      gg[t] = std::exp(-0.25 * x * x);
-      sum[0] += sides * g[t];
-      sum[1] += sides * gg[t];
-      moment[0] += sides * static_cast<double>(t * t) * g[t];
-      moment[1] += sides * static_cast<double>(t * t) * gg[t];
-    }
-    const double c = (moment[0] / sum[0] - KernelMoment(dimension) * sigma * sigma) /
-      (moment[1] / sum[1] - moment[0] / sum[0]);
-    for (std::size_t t = 0; t < w.size(); ++t)
-    {
-      w[t] = (1.0 + c) * g[t] / sum[0] - c * gg[t] / sum[1];
-    }
-  }
+  const std::vector<double> w = NonShrinkingKernel(sigma, KernelMoment(dimension));
   std::vector<int> weights;
   int rest = KernelOne;
   for (std::size_t t = 1; t < w.size(); ++t)
@@ -296,10 +267,41 @@ void KeepOwn(const std::uint16_t* __restrict own, std::uint16_t label,
 
 } // namespace
 
+std::vector<double> NonShrinkingKernel(double sigma, double secondMoment)
+{
+  const int radius = static_cast<int>(std::ceil(4.0 * sigma));
+  std::vector<double> w(static_cast<std::size_t>(radius) + 1, 1.0);
+  if (radius > 0)
+  {
+    std::vector<double> g(w.size());
+    std::vector<double> gg(w.size());
+    std::array<double, 2> sum{};
+    std::array<double, 2> moment{};
+    for (std::size_t t = 0; t < w.size(); ++t)
+    {
+      const double x = static_cast<double>(t) / (KernelWidth * sigma);
+      const double sides = t == 0 ? 1.0 : 2.0;
+      g[t] = std::exp(-0.5 * x * x);
+      gg[t] = std::exp(-0.25 * x * x);
+      sum[0] += sides * g[t];
+      sum[1] += sides * gg[t];
+      moment[0] += sides * static_cast<double>(t * t) * g[t];
+      moment[1] += sides * static_cast<double>(t * t) * gg[t];
+    }
+    const double c = (moment[0] / sum[0] - secondMoment * sigma * sigma) /
+      (moment[1] / sum[1] - moment[0] / sum[0]);
+    for (std::size_t t = 0; t < w.size(); ++t)
+    {
+      w[t] = (1.0 + c) * g[t] / sum[0] - c * gg[t] / sum[1];
+    }
+  }
+  return w;
+}
+
 LabelSmoothing::LabelSmoothing(int dimension, double sigma)
   : Dimension(dimension)
 {
-  const std::vector<int> weights = NonShrinkingKernel(dimension, sigma);
+  const std::vector<int> weights = RoundedKernel(dimension, sigma);
   for (const int w : weights)
   {
     this->Weights.push_back(static_cast<float>(w) / static_cast<float>(KernelOne));

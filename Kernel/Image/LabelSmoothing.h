@@ -21,6 +21,13 @@ namespace voxplex
 {
 
 /**
+ * The 1D kernel (1 + c) g - c g*g as weights of the distances 0, 1, ... 4 sigma in voxels, which add up to
+ * 1 over both sides; {1} for sigma 0.
+ * @param secondMoment of the kernel in sigma^2, which c makes it: 0 leaves parabolas as they are
+ */
+std::vector<double> NonShrinkingKernel(double sigma, double secondMoment);
+
+/**
  * @brief The separable kernel (1 + c) g - c g*g of LabelField, applied to indicators.
  *
  * Its weights are multiples of 2^-14 that add up to 1, and are applied as such: where all

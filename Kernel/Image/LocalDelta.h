@@ -54,38 +54,27 @@ public:
   /** Lowers the bound in all cells within a voxel of the run of voxels (an index of the crop). */
   void SetBound(const Index& first, std::int64_t length, LabelId label, double delta)
   {
-    if (this->Values.empty())
-    {
-      std::size_t count = 1;
-      for (const std::int64_t n : this->Cells)
+    this->ForCellsNear(first, length,
+      [&](std::size_t cell)
       {
-        count *= static_cast<std::size_t>(n);
-      }
-      this->Values.assign(count, Bound());
-    }
-    Index low;
-    Index high;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const std::int64_t last = first[a] + (a == 0 ? length - 1 : 0);
-      low[a] = std::max<std::int64_t>(first[a] - 1, 0) / Cell;
-      high[a] = std::min((last + 1) / Cell, this->Cells[a] - 1);
-    }
-    for (Index cell = low; cell[D - 1] <= high[D - 1];)
-    {
-      Bound& bound = this->Values[this->Offset(cell)];
-      if (delta < bound.Delta)
-      {
-        bound = { static_cast<float>(delta), label };
-      }
-      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
-      {
-        cell[a] = low[a];
-      }
-    }
+        Bound& bound = this->Values[cell];
+        if (delta < bound.Delta)
+        {
+          bound = { static_cast<float>(delta), label };
+        }
+      });
+    this->SetSpacing(first, length, delta);
     this->SmallestBound = std::min(this->SmallestBound, delta);
   }
 
+  /** The same for GradedAt() only: vertices there are so near to each other, but no rule asks for it. */
+  void SetSpacing(const Index& first, std::int64_t length, double spacing)
+  {
+    this->ForCellsNear(first, length,
+      [&](std::size_t cell)
+      { this->Spacings[cell] = std::min(this->Spacings[cell], static_cast<float>(spacing)); });
+    this->SmallestBound = std::min(this->SmallestBound, spacing);
+  }
   /** The bound at a point of the frame; that of the nearest cell outside of the crop. */
   Bound At(const Point<D>& p) const
   {
@@ -111,7 +100,7 @@ public:
     this->Graded.resize(this->Values.size());
     for (std::size_t c = 0; c < this->Values.size(); ++c)
     {
-      this->Graded[c] = this->Values[c].Delta;
+      this->Graded[c] = this->Spacings[c];
     }
     std::size_t stride = 1;
     for (std::size_t a = 0; a < D && !this->Graded.empty(); ++a)
@@ -142,6 +131,38 @@ public:
   double Smallest() const { return this->SmallestBound; }
 
 private:
+  /** Calls function(cell) for all cells within a voxel of a run of voxels. */
+  template <typename Function>
+  void ForCellsNear(const Index& first, std::int64_t length, Function&& function)
+  {
+    if (this->Values.empty())
+    {
+      std::size_t count = 1;
+      for (const std::int64_t n : this->Cells)
+      {
+        count *= static_cast<std::size_t>(n);
+      }
+      this->Values.assign(count, Bound());
+      this->Spacings.assign(count, std::numeric_limits<float>::infinity());
+    }
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const std::int64_t last = first[a] + (a == 0 ? length - 1 : 0);
+      low[a] = std::clamp<std::int64_t>((first[a] - 1) / Cell, 0, this->Cells[a] - 1);
+      high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
+    }
+    for (Index cell = low; cell[D - 1] <= high[D - 1];)
+    {
+      function(this->Offset(cell));
+      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
+      {
+        cell[a] = low[a];
+      }
+    }
+  }
+
   /** The nearest cell. */
   std::size_t CellOf(const Point<D>& p) const
   {
@@ -170,8 +191,9 @@ private:
   GridGeometry<D> Grid;
   Index Origin;
   Index Cells{};
-  std::vector<Bound> Values; ///< empty: no bound
-  std::vector<float> Graded; ///< the same, see GradedAt()
+  std::vector<Bound> Values;   ///< empty: no bound
+  std::vector<float> Spacings; ///< what GradedAt() starts from
+  std::vector<float> Graded;   ///< the same, see GradedAt()
   double SmallestBound = std::numeric_limits<double>::infinity();
 };
 

@@ -55,12 +55,22 @@ private:
   double SquaredDeviations = 0.0;
 };
 
-/** The bin of a normalized volume, which rounding may put a little above 1. */
-std::size_t BinOf(double normalizedVolume)
+/** Counts a value, given in widths of a bin; what lies beyond the last bin counts there. */
+template <std::size_t N>
+void Count(std::array<std::uint64_t, N>& bins, double value)
 {
-  constexpr auto last = static_cast<double>(MeshQuality::NumberOfBins - 1);
-  return static_cast<std::size_t>(
-    std::clamp(normalizedVolume * static_cast<double>(MeshQuality::NumberOfBins), 0.0, last));
+  constexpr auto last = static_cast<double>(N - 1);
+  // Not clamp: NaN (a ratio of two zeros) goes to the last bin, too.
+  ++bins[value < last ? static_cast<std::size_t>(std::max(0.0, value)) : N - 1];
+}
+
+template <std::size_t N>
+void Add(std::array<std::uint64_t, N>& bins, const std::array<std::uint64_t, N>& others)
+{
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    bins[i] += others[i];
+  }
 }
 
 /** What a run of elements contributes. */
@@ -74,7 +84,9 @@ struct ElementMeasures
   double MaximumDihedralAngle = 0.0;
   double MinimumNormalizedVolume = std::numeric_limits<double>::infinity();
   Moments NormalizedVolumes;
-  std::array<std::uint64_t, MeshQuality::NumberOfBins> Bins{};
+  decltype(MeshQuality::NormalizedVolumes) Bins{};
+  decltype(MeshQuality::DihedralAngles) DihedralBins{};
+  decltype(MeshQuality::RadiusEdgeRatios) RatioBins{};
   std::uint64_t InvertedSimplices = 0;
   std::map<std::int64_t, LabelMeasure> Labels;
 
@@ -90,10 +102,9 @@ struct ElementMeasures
     this->MinimumNormalizedVolume =
       std::min(this->MinimumNormalizedVolume, other.MinimumNormalizedVolume);
     this->NormalizedVolumes.Add(other.NormalizedVolumes);
-    for (std::size_t i = 0; i < this->Bins.size(); ++i)
-    {
-      this->Bins[i] += other.Bins[i];
-    }
+    voxplex::Add(this->Bins, other.Bins);
+    voxplex::Add(this->DihedralBins, other.DihedralBins);
+    voxplex::Add(this->RatioBins, other.RatioBins);
     this->InvertedSimplices += other.InvertedSimplices;
     for (const auto& [label, measure] : other.Labels)
     {
@@ -108,9 +119,24 @@ struct ElementMeasures
 /** What a run of facets contributes. */
 struct FacetMeasures
 {
-  double MinimumAngle = std::numeric_limits<double>::infinity();
+  double MinimumAngleOffJunctions = std::numeric_limits<double>::infinity();
+  double MinimumAngleAtJunctions = std::numeric_limits<double>::infinity();
   std::uint64_t Violations = 0;
   std::uint64_t ViolationsAtJunctions = 0;
+  std::uint64_t SmallAtJunctions = 0;
+  decltype(MeshQuality::PlanarAngles) Bins{};
+
+  void Add(const FacetMeasures& other)
+  {
+    this->MinimumAngleOffJunctions =
+      std::min(this->MinimumAngleOffJunctions, other.MinimumAngleOffJunctions);
+    this->MinimumAngleAtJunctions =
+      std::min(this->MinimumAngleAtJunctions, other.MinimumAngleAtJunctions);
+    this->Violations += other.Violations;
+    this->ViolationsAtJunctions += other.ViolationsAtJunctions;
+    this->SmallAtJunctions += other.SmallAtJunctions;
+    voxplex::Add(this->Bins, other.Bins);
+  }
 };
 
 /** The smallest box around the mesh, for the predicates' static filter. */
@@ -153,11 +179,12 @@ void MeasureElements(const SimplexMesh<D>& mesh, std::size_t first, std::size_t 
     measures.RadiusEdgeRatios.Add(ratio);
     measures.MaximumRadiusEdgeRatio = std::max(measures.MaximumRadiusEdgeRatio, ratio);
     measures.RadiusEdgeViolations += ratio >= radiusEdgeBound;
+    Count(measures.RatioBins, ratio / MeshQuality::RatioBinWidth);
 
     const double normalized = NormalizedVolume<D>(v.data(), radius2);
     measures.MinimumNormalizedVolume = std::min(measures.MinimumNormalizedVolume, normalized);
     measures.NormalizedVolumes.Add(normalized);
-    ++measures.Bins[BinOf(normalized)];
+    Count(measures.Bins, normalized * static_cast<double>(MeshQuality::NumberOfBins));
 
     if constexpr (D == 3)
     {
@@ -165,6 +192,10 @@ void MeasureElements(const SimplexMesh<D>& mesh, std::size_t first, std::size_t 
       const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
       measures.MinimumDihedralAngle = std::min(measures.MinimumDihedralAngle, *smallest);
       measures.MaximumDihedralAngle = std::max(measures.MaximumDihedralAngle, *largest);
+      for (const double angle : angles)
+      {
+        Count(measures.DihedralBins, angle / MeshQuality::AngleBinWidth);
+      }
     }
 
     LabelMeasure& label = measures.Labels[mesh.Labels[s]];
@@ -218,12 +249,16 @@ void MeasureFacets(const SimplexMesh<3>& mesh, std::size_t first, std::size_t la
     const std::array<double, 3> angles =
       PlanarAngles(mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]]);
     const double smallest = *std::min_element(angles.begin(), angles.end());
-    measures.MinimumAngle = std::min(measures.MinimumAngle, smallest);
-    if (smallest < facetAngleBound)
+    const bool atJunction = junctions[facet[0]] || junctions[facet[1]] || junctions[facet[2]];
+    double& minimum =
+      atJunction ? measures.MinimumAngleAtJunctions : measures.MinimumAngleOffJunctions;
+    minimum = std::min(minimum, smallest);
+    measures.Violations += smallest < facetAngleBound;
+    measures.ViolationsAtJunctions += atJunction && smallest < facetAngleBound;
+    measures.SmallAtJunctions += atJunction && smallest < MeshQuality::JunctionFacetAngle;
+    for (const double angle : angles)
     {
-      ++measures.Violations;
-      measures.ViolationsAtJunctions +=
-        junctions[facet[0]] || junctions[facet[1]] || junctions[facet[2]];
+      Count(measures.Bins, angle / MeshQuality::AngleBinWidth);
     }
   }
 }
@@ -259,11 +294,13 @@ MeshQuality MeasureQuality(
     quality.MeanNormalizedVolume = sum.NormalizedVolumes.GetMean();
     quality.NormalizedVolumeDeviation = sum.NormalizedVolumes.GetDeviation();
     quality.NormalizedVolumes = sum.Bins;
+    quality.RadiusEdgeRatios = sum.RatioBins;
     quality.InvertedSimplices = sum.InvertedSimplices;
     if (D == 3)
     {
       quality.MinimumDihedralAngle = sum.MinimumDihedralAngle;
       quality.MaximumDihedralAngle = sum.MaximumDihedralAngle;
+      quality.DihedralAngles = sum.DihedralBins;
     }
     for (const auto& [label, measure] : sum.Labels)
     {
@@ -281,13 +318,21 @@ MeshQuality MeasureQuality(
       ParallelFor(0, facets, Grain, threads,
         [&](std::size_t first, std::size_t last)
         { MeasureFacets(mesh, first, last, facetAngleBound, junctions, chunks[first / Grain]); });
-      quality.MinimumFacetAngle = std::numeric_limits<double>::infinity();
+      FacetMeasures sum;
       for (const FacetMeasures& chunk : chunks)
       {
-        quality.MinimumFacetAngle = std::min(quality.MinimumFacetAngle, chunk.MinimumAngle);
-        quality.FacetAngleViolations += chunk.Violations;
-        quality.FacetAngleViolationsAtJunctions += chunk.ViolationsAtJunctions;
+        sum.Add(chunk);
       }
+      const auto orNone = [](double angle)
+      { return std::isfinite(angle) ? angle : MeshQuality::NotApplicable; };
+      quality.MinimumFacetAngle =
+        std::min(sum.MinimumAngleOffJunctions, sum.MinimumAngleAtJunctions);
+      quality.MinimumFacetAngleOffJunctions = orNone(sum.MinimumAngleOffJunctions);
+      quality.MinimumFacetAngleAtJunctions = orNone(sum.MinimumAngleAtJunctions);
+      quality.FacetAngleViolations = sum.Violations;
+      quality.FacetAngleViolationsAtJunctions = sum.ViolationsAtJunctions;
+      quality.SmallFacetAnglesAtJunctions = sum.SmallAtJunctions;
+      quality.PlanarAngles = sum.Bins;
     }
   }
   else

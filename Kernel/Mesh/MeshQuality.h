@@ -33,6 +33,14 @@ struct MeshQuality
   static constexpr double NotApplicable = std::numeric_limits<double>::quiet_NaN();
   /** Bins of NormalizedVolumes, each 1 / NumberOfBins wide. */
   static constexpr std::size_t NumberOfBins = 20;
+  /** Bins of angles, each 2 degrees wide. */
+  static constexpr std::size_t NumberOfAngleBins = 90;
+  /** Bins of RadiusEdgeRatios, each RatioBinWidth wide. */
+  static constexpr std::size_t NumberOfRatioBins = 90;
+  static constexpr double AngleBinWidth = 2.0;
+  static constexpr double RatioBinWidth = 0.05;
+  /** What facets at junctions are asked for, degrees. */
+  static constexpr double JunctionFacetAngle = 20.0;
 
   double ShortestEdge = NotApplicable; ///< of all elements
 
@@ -43,6 +51,12 @@ struct MeshQuality
 
   double MinimumDihedralAngle = NotApplicable; ///< 3D only
   double MaximumDihedralAngle = NotApplicable; ///< 3D only
+  /** All six angles of all elements: bin i has those from 2 i to below 2 (i + 1) degrees, the last one
+   * also 180; 3D only. */
+  std::array<std::uint64_t, NumberOfAngleBins> DihedralAngles{};
+  /** Elements by radius-edge ratio: bin i has those from i / 20 to below (i + 1) / 20, the last one
+   * also all above. */
+  std::array<std::uint64_t, NumberOfRatioBins> RadiusEdgeRatios{};
 
   /** Volume over that of the regular simplex with the same circumradius; 1 is best, 0 is flat. */
   double MinimumNormalizedVolume = NotApplicable;
@@ -57,6 +71,12 @@ struct MeshQuality
   /** Those of them that touch a junction: a vertex where three or more labels, background counted,
    * meet. */
   std::uint64_t FacetAngleViolationsAtJunctions = 0;
+  double MinimumFacetAngleOffJunctions = NotApplicable; ///< of facets that touch none; 3D only
+  double MinimumFacetAngleAtJunctions = NotApplicable;  ///< of the others; 3D only
+  /** Facets at junctions with an angle below JunctionFacetAngle. */
+  std::uint64_t SmallFacetAnglesAtJunctions = 0;
+  /** All three angles of all interface facets, in bins as those of DihedralAngles; 3D only. */
+  std::array<std::uint64_t, NumberOfAngleBins> PlanarAngles{};
 
   std::uint64_t InvertedSimplices = 0; ///< not positively oriented, flat ones included; exact
 

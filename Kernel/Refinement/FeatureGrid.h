@@ -21,7 +21,8 @@ namespace voxplex
 /**
  * @brief Feature vertices hashed by the cell of a uniform grid; they are added and never removed.
  *
- * Cells have twice the side of the largest query radius, so a query visits at most 2^D of them. Every
+ * Cells have twice the side of the usual query radius, so a query visits at most 2^D of them, and more only
+ * if its radius is larger. Every
  * cell is a list whose head sits in a table of fixed size.
  *
  * All methods may be called by any number of threads at once; a query sees what was added before it
@@ -32,11 +33,12 @@ class FeatureGrid
 {
 public:
   /**
-   * @param radius largest radius that will be asked for
+   * @param radius up to which queries visit few cells; larger ones are slower, not wrong
    * @param expected about how many vertices will be added; more make queries slower, not wrong
    */
   FeatureGrid(const Point<D>& origin, double radius, std::uint64_t expected)
     : Origin(origin)
+    , Radius(radius)
     , InverseCell(0.5 / radius)
   {
     const std::uint64_t buckets =
@@ -62,7 +64,7 @@ public:
     }
   }
 
-  /** True if a vertex is nearer to p than `distance` (at most the radius of the constructor). */
+  /** True if a vertex is nearer to p than `distance`. */
   bool AnyWithin(const Point<D>& p, double distance) const
   {
     const double distance2 = distance * distance;
@@ -70,6 +72,10 @@ public:
     if (this->AnyInCell(centre, p, distance2))
     {
       return true;
+    }
+    if (distance > this->Radius)
+    {
+      return this->AnyInCells(p, distance);
     }
     // Along each axis the ball reaches into at most one of the two next cells.
     std::array<std::int64_t, static_cast<std::size_t>(D)> step;
@@ -135,6 +141,32 @@ private:
     return static_cast<std::uint32_t>(h) & this->Mask;
   }
 
+  /** All cells that the ball may reach. */
+  bool AnyInCells(const Point<D>& p, double distance) const
+  {
+    Cell low;
+    Cell high;
+    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+    {
+      low[a] = static_cast<std::int64_t>(
+        std::floor((p[a] - distance - this->Origin[a]) * this->InverseCell));
+      high[a] = static_cast<std::int64_t>(
+        std::floor((p[a] + distance - this->Origin[a]) * this->InverseCell));
+    }
+    for (Cell cell = low; cell[D - 1] <= high[D - 1];)
+    {
+      if (this->AnyInCell(cell, p, distance * distance))
+      {
+        return true;
+      }
+      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
+      {
+        cell[a] = low[a];
+      }
+    }
+    return false;
+  }
+
   bool AnyInCell(const Cell& cell, const Point<D>& p, double distance2) const
   {
     for (std::uint32_t n = this->Heads[this->Bucket(cell)].load(std::memory_order_acquire);
@@ -149,6 +181,7 @@ private:
   }
 
   Point<D> Origin;
+  double Radius;
   double InverseCell;
   std::uint32_t Mask = 0;
   std::unique_ptr<std::atomic<std::uint32_t>[]> Heads;

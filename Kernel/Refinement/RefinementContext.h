@@ -8,6 +8,7 @@
 #define voxplex_RefinementContext_h
 
 #include "Delaunay/Triangulation.h"
+#include "Grading/GradedDelta.h"
 #include "Image/Domain.h"
 #include "Image/LocalDelta.h"
 #include "Image/SizeFunction.h"
@@ -36,15 +37,23 @@ inline constexpr double EndMargin = 0.8;
 template <int D>
 struct RefinementSettings
 {
-  double Delta = 1.0;                   ///< sampling density
-  const LocalDelta<D>* Local = nullptr; ///< upper bound of delta; may be null
-  double RadiusEdgeRatio = 2.0;         ///< rho-bar
-  double FacetAngle = 30.0;             ///< degrees
+  double Delta = 1.0;                     ///< sampling density; if it is graded, the largest
+  const GradedDelta<D>* Graded = nullptr; ///< delta from place to place; null: the same everywhere
+  const LocalDelta<D>* Local = nullptr;   ///< upper bound of delta; may be null
+  double RadiusEdgeRatio = 2.0;           ///< rho-bar
+  double FacetAngle = 30.0;               ///< degrees
   const SizeFunction<D>* Size = nullptr;
   RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
   SliverOptions Slivers;                        ///< 4D only
   TetSliverOptions TetSlivers;                  ///< 3D only
 };
+
+/** The smallest sampling density, but for local bounds and sizes. */
+template <int D>
+double FinestDelta(const RefinementSettings<D>& settings)
+{
+  return settings.Graded ? std::min(settings.Graded->Finest(), settings.Delta) : settings.Delta;
+}
 
 /** Shared by all threads. */
 template <int D>
@@ -54,11 +63,11 @@ struct RefinementContext
     const Box<D>& box, std::uint64_t expectedFeatures)
     : Image(image)
     , Settings(settings)
-    , SizeFloor(SpacingFloorFraction * settings.Delta)
+    , SizeFloor(SpacingFloorFraction * FinestDelta(settings))
     , SpacingFloor(SizeFloor)
     , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
     , Mesh(box)
-    , Features(box.Min, settings.Delta, expectedFeatures)
+    , Features(box.Min, std::sqrt(FinestDelta(settings) * settings.Delta), expectedFeatures)
   {
     this->FollowLocalDelta();
   }
@@ -68,8 +77,8 @@ struct RefinementContext
   {
     if (this->Settings.Local)
     {
-      this->SpacingFloor =
-        SpacingFloorFraction * std::min(this->Settings.Delta, this->Settings.Local->Smallest());
+      this->SpacingFloor = SpacingFloorFraction *
+        std::min(FinestDelta(this->Settings), this->Settings.Local->Smallest());
     }
   }
 
@@ -88,6 +97,12 @@ struct RefinementContext
     return size < this->SizeFloor ? this->SizeFloor : size;
   }
 
+  /** The sampling density near a point, without local bounds and sizes. */
+  double GradedDeltaAt(const Point<D>& p) const
+  {
+    return this->Settings.Graded ? this->Settings.Graded->At(p) : this->Settings.Delta;
+  }
+
   /**
    * Delta_dOmega(z) of the thesis for a feature point between two labels: delta, or the local bound or the
    * size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
@@ -95,7 +110,7 @@ struct RefinementContext
    */
   double Delta(const Point<D>& z, LabelId a, LabelId b) const
   {
-    double delta = this->Settings.Delta;
+    double delta = this->GradedDeltaAt(z);
     if (this->Settings.Local)
     {
       const auto bound = this->Settings.Local->At(z);
@@ -111,10 +126,17 @@ struct RefinementContext
     return delta;
   }
 
-  /** Whether Delta() is below delta for any labels at z, but for sizes. */
+  /** Whether Delta() is below GradedDeltaAt() for any labels at z, but for sizes. */
   bool MayBeLocal(const Point<D>& z) const
   {
-    return this->Settings.Local && this->Settings.Local->At(z).Delta < this->Settings.Delta;
+    return this->Settings.Local && this->Settings.Local->At(z).Delta < this->GradedDeltaAt(z);
+  }
+
+  /** How near vertices are to each other at least, about: the finest delta, or less near what is sampled more finely. */
+  double SpacingAt(const Point<D>& p) const
+  {
+    const double finest = FinestDelta(this->Settings);
+    return this->Settings.Local ? std::min(finest, this->Settings.Local->GradedAt(p)) : finest;
   }
 
   /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */

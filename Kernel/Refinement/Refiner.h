@@ -21,6 +21,13 @@
 namespace voxplex
 {
 
+/** Of which simplices the rules are asked first. */
+enum class RefinementStart
+{
+  Everywhere,
+  AtSeeds
+};
+
 /**
  * @brief Refines the triangulation of a context by a set of rules, with any number of threads.
  *
@@ -44,12 +51,16 @@ public:
    * several at once; false stops refinement. */
   using Monitor = std::function<bool(std::uint64_t vertices)>;
 
-  /** @param seeds feature points to insert before the rules are asked */
+  /**
+   * @param seeds feature points to insert before the rules are asked
+   * @param start AtSeeds: only of what the seeds make; no rule applies to anything else
+   */
   explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {},
-    std::vector<FeatureSeed<D>> seeds = {})
+    std::vector<FeatureSeed<D>> seeds = {}, RefinementStart start = RefinementStart::Everywhere)
     : Context(context)
     , Options(options)
     , Seeds(std::move(seeds))
+    , Start(start)
     , Team(options)
   {
   }
@@ -167,6 +178,11 @@ private:
   void PushAll()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
+    if (this->Start == RefinementStart::AtSeeds)
+    {
+      InsertSeeds<Rules>(this->Context, *this->Workers[0], this->Seeds);
+      return;
+    }
     std::vector<SimplexId> simplices;
     if (!this->Seeds.empty())
     {
@@ -199,6 +215,11 @@ private:
     if (this->Options.FineGrained)
     {
       this->HelpEachOther();
+    }
+    if (this->Start == RefinementStart::AtSeeds)
+    {
+      InsertSeeds<Rules>(this->Context, *this->Workers[0], this->Seeds);
+      return;
     }
     const std::vector<SimplexId> simplices = SeedTriangulation<Rules>(this->Context,
       *this->Workers[0], this->Seeds, std::size_t{ this->Options.SeedsPerThread } * threads);
@@ -434,6 +455,7 @@ private:
   RefinementContext<D>& Context;
   const TeamOptions Options;
   const std::vector<FeatureSeed<D>> Seeds;
+  const RefinementStart Start;
   RefinementTeam Team;
   EagerRemoval Eager;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;

@@ -286,7 +286,7 @@ protected:
   {
     if (!this->Context.Settings.Size && !this->Context.MayBeLocal(z))
     {
-      return this->Context.Settings.Delta;
+      return this->Context.GradedDeltaAt(z);
     }
     const double distance = Distance(t.Ball.Center, z);
     const Point<D> behind =
@@ -475,12 +475,11 @@ private:
     {
       return false;
     }
-    if (const LocalDelta<D>* local = this->Context.Settings.Local)
-    {
-      const double own = Rules::RemovalRadius * local->GradedAt(vertex);
-      return distance2 < own * own;
-    }
-    return true;
+    const LocalDelta<D>* local = this->Context.Settings.Local;
+    const double own = Rules::RemovalRadius *
+      std::min(local ? local->GradedAt(vertex) : std::numeric_limits<double>::infinity(),
+        this->Context.GradedDeltaAt(vertex));
+    return distance2 < own * own;
   }
 
   /** Adds the free vertices of worker.Created that are nearer than the radius to z to ToRemove. */

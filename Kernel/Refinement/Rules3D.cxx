@@ -174,6 +174,7 @@ Verdict Rules3D::R7(const Element& t)
     verdict = verdict == Verdict::Good ? this->SplitSliver(t, tolerance) : verdict;
     verdict = verdict == Verdict::Good ? this->SampleAtSliver(t, tolerance) : verdict;
   }
+  verdict = verdict == Verdict::Good ? this->SampleBeside(t, 1.5) : verdict;
   this->Worker.Statistics.SliversKept += verdict == Verdict::Good ? 1 : 0;
   return verdict;
 }
@@ -185,7 +186,7 @@ Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
   const double clearance = SliverSpacing *
-    std::min(this->Context.Settings.Delta, this->Context.Size(t.Ball.Center, t.Label));
+    std::min(this->Context.SpacingAt(t.Ball.Center), this->Context.Size(t.Ball.Center, t.Label));
   PseudoRandom<3> random(options.Seed, t.Ball.Center);
   BetterStar judge(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
   return InsertPick(
@@ -238,7 +239,6 @@ Verdict Rules3D::SampleAtSliver(const Element& t, double tolerance)
 Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
-  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
   const Triangulation<3>::Simplex simplex = mesh.GetSimplex(s);
   const Point<3> centre = mesh.GetCircumball(s).Center;
   for (unsigned i = 0; i < 4; ++i)
@@ -250,32 +250,53 @@ Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
     {
       continue;
     }
-    const double delta = this->Context.Delta(z, t.Label, this->LabelOf(n));
-    const double clearance = SliverSpacing * delta;
-    const double radius = Distance(z, mesh.Position(simplex.V[(i + 1) % 4]));
-    PseudoRandom<3> random(options.Seed, z);
-    BetterStar judge(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
-    const Verdict verdict = InsertPick(
-      this->Worker.Statistics, options.Picks, judge,
-      [&](Point<3>& p)
-      {
-        const Point<3> q = random.InBall(z, options.PickingRadius * radius);
-        ++this->Worker.Statistics.ClosestSurfacePointCalls;
-        return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p);
-      },
-      [&](const Point<3>& p)
-      {
-        return this->Context.Features.AnyWithin(p, clearance)
-          ? Verdict::Good
-          : this->InsertFeature(
-              p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &judge);
-      });
+    const Verdict verdict = this->SampleNear(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])),
+      this->Context.Delta(z, t.Label, this->LabelOf(n)), t, tolerance);
     if (verdict != Verdict::Good)
     {
       return verdict;
     }
   }
   return Verdict::Good;
+}
+
+//------------------------------------------------------------------------------------------------
+// All four vertices on interfaces, but none of its facets nor of its neighbours': between two sides of a sheet.
+Verdict Rules3D::SampleBeside(const Element& t, double tolerance)
+{
+  Point<3> z;
+  ++this->Worker.Statistics.ClosestSurfacePointCalls;
+  if (!this->Context.Image.ClosestSurfacePoint(t.Ball.Center, t.Label, z) ||
+    Distance2(z, t.Ball.Center) > t.Ball.Radius2)
+  {
+    return Verdict::Good;
+  }
+  return this->SampleNear(z, t.Radius, this->DeltaBehind(t, z), t, tolerance);
+}
+
+//------------------------------------------------------------------------------------------------
+Verdict Rules3D::SampleNear(
+  const Point<3>& z, double radius, double delta, const Element& t, double tolerance)
+{
+  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
+  const double clearance = SliverSpacing * std::min(delta, this->Context.SpacingAt(z));
+  PseudoRandom<3> random(options.Seed, z);
+  BetterStar judge(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
+  return InsertPick(
+    this->Worker.Statistics, options.Picks, judge,
+    [&](Point<3>& p)
+    {
+      const Point<3> q = random.InBall(z, options.PickingRadius * radius);
+      ++this->Worker.Statistics.ClosestSurfacePointCalls;
+      return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p);
+    },
+    [&](const Point<3>& p)
+    {
+      return this->Context.Features.AnyWithin(p, clearance)
+        ? Verdict::Good
+        : this->InsertFeature(
+            p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &judge);
+    });
 }
 
 //------------------------------------------------------------------------------------------------

@@ -77,6 +77,9 @@ private:
   Verdict SplitSliver(const Element& t, double tolerance);
   Verdict SampleAtSliver(const Element& t, double tolerance);
   Verdict SampleFacetsOf(SimplexId s, const Element& t, double tolerance);
+  Verdict SampleBeside(const Element& t, double tolerance);
+  Verdict SampleNear(
+    const Point<3>& z, double radius, double delta, const Element& t, double tolerance);
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
 
   const double CosineOfFacetAngle;

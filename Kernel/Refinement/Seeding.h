@@ -33,14 +33,15 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
     return {};
   }
   const Box<D> bounds = context.Image.Bounds();
+  const double finest = FinestDelta(context.Settings);
   double volume = 1.0;
   for (std::size_t a = 0; a < D; ++a)
   {
-    volume *= std::max(bounds.Max[a] - bounds.Min[a], context.Settings.Delta);
+    volume *= std::max(bounds.Max[a] - bounds.Min[a], finest);
   }
   constexpr double FewestDeltas = 4.0;
-  const double spacing = std::max(
-    FewestDeltas * context.Settings.Delta, std::pow(volume / static_cast<double>(number), 1.0 / D));
+  const double spacing =
+    std::max(FewestDeltas * finest, std::pow(volume / static_cast<double>(number), 1.0 / D));
   std::array<std::size_t, static_cast<std::size_t>(D)> nodes;
   std::size_t count = 1;
   for (std::size_t a = 0; a < D; ++a)
@@ -67,7 +68,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
       context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z) &&
       !context.IsNearEnd(z, context.Settings.Delta, onEnd))
     {
-      sample.push_back({ z, context.Settings.Delta });
+      sample.push_back({ z, context.GradedDeltaAt(z) });
     }
   }
   return sample;
@@ -83,6 +84,33 @@ SimplexId FirstLiving(const Triangulation<D>& mesh)
     ++s;
   }
   return s;
+}
+
+/**
+ * Inserts feature points along a Hilbert curve.
+ *
+ * @param Rules as in Refiner
+ * @param worker inserts; nobody else may operate meanwhile. What is made is in its list of poor elements.
+ */
+template <typename Rules, int D = Rules::Dimension>
+void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
+  const std::vector<FeatureSeed<D>>& seeds)
+{
+  Triangulation<D>& mesh = context.Mesh;
+  std::vector<std::pair<std::uint64_t, std::size_t>> along;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    along.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
+  }
+  std::sort(along.begin(), along.end());
+  SimplexId near = FirstLiving(mesh);
+  Rules rules(context, worker);
+  for (const auto& [index, i] : along)
+  {
+    rules.InsertSeed(seeds[i], near);
+    near = mesh.IsAlive(near) ? near : FirstLiving(mesh);
+  }
+  mesh.Unlock(worker.Kernel);
 }
 
 /**
@@ -105,20 +133,7 @@ std::vector<SimplexId> SeedTriangulation(RefinementContext<D>& context, Refineme
   Triangulation<D>& mesh = context.Mesh;
   std::vector<FeatureSeed<D>> sample = SampleInterfaces(context, nodes);
   sample.insert(sample.end(), seeds.begin(), seeds.end());
-  std::vector<std::pair<std::uint64_t, std::size_t>> along;
-  for (std::size_t i = 0; i < sample.size(); ++i)
-  {
-    along.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(sample[i].Position), mesh.GetBox()), i });
-  }
-  std::sort(along.begin(), along.end());
-  SimplexId near = FirstLiving(mesh);
-  Rules rules(context, worker);
-  for (const auto& [index, i] : along)
-  {
-    rules.InsertSeed(sample[i], near);
-    near = mesh.IsAlive(near) ? near : FirstLiving(mesh);
-  }
-  mesh.Unlock(worker.Kernel);
+  InsertSeeds<Rules>(context, worker, sample);
   while (!worker.Poor.Empty()) // everything is screened again, in the order of the list
   {
     worker.Poor.Pop();

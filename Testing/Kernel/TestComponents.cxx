@@ -510,7 +510,8 @@ TEST(ComponentGuard, GoesOnUntilNothingIsLost)
     EXPECT_GE(statistics.ComponentRounds, 1u);
     EXPECT_TRUE(statistics.LostComponents.empty());
     const ImageDomain<3> domain(image, 1.0);
-    const ComponentGuard<3> guard(image, domain, 3.0, 1, 1, {});
+    LocalDelta<3> local(image);
+    const ComponentGuard<3> guard(image, domain, 3.0, 1, local, 1, {});
     EXPECT_GT(guard.GetComponents().All().size(), 100u);
     EXPECT_TRUE(guard.FindLost(mesh).empty());
   }
@@ -521,7 +522,8 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
 {
   const Islands islands(2);
   const ImageDomain<3> domain(islands.Image, 1.0);
-  ComponentGuard<3> guard(islands.Image, domain, 5.0, 8, 2, {});
+  LocalDelta<3> local(islands.Image);
+  ComponentGuard<3> guard(islands.Image, domain, 5.0, 8, local, 2, {});
   MeshingOptions<3> options;
   options.Delta = 5.0;
   MeshingStatistics statistics;
@@ -548,14 +550,14 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
 
   // More seeds, and a smaller bound, as often as there is room for them.
   std::size_t seeds = guard.GetSeeds().size();
-  double smallest = guard.GetLocalDelta().Smallest();
+  double smallest = local.Smallest();
   int rounds = 0;
   while (guard.SampleFiner(lost))
   {
     EXPECT_EQ(guard.GetSeeds().size(), seeds + 24);
-    EXPECT_LT(guard.GetLocalDelta().Smallest(), smallest);
+    EXPECT_LT(local.Smallest(), smallest);
     seeds = guard.GetSeeds().size();
-    smallest = guard.GetLocalDelta().Smallest();
+    smallest = local.Smallest();
     ASSERT_LT(++rounds, 10);
   }
   EXPECT_GE(rounds, 2);

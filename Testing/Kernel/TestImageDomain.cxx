@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <random>
+#include <type_traits>
 #include <stop_token>
 
 using namespace voxplex;
@@ -93,9 +94,9 @@ Point<D> RandomPoint(const Box<D>& box, double enlarge, std::mt19937& random)
 }
 
 /** Interface points: where Label() changes along random short segments, to 1e-6. */
-template <int D>
+template <int D, typename Field>
 std::vector<Point<D>> SampleInterfaces(
-  const ImageDomain<D>& domain, std::size_t count, std::mt19937& random)
+  const ImageDomain<D, Field>& domain, std::size_t count, std::mt19937& random)
 {
   std::vector<Point<D>> samples;
   const double step = domain.GetImage().Grid().IndexToFrame[0][0];
@@ -135,8 +136,8 @@ double NearestSample(const std::vector<Point<D>>& samples, const Point<D>& p)
 }
 
 /** Whether Label() is `label` at a point within r of z, and another at another. */
-template <int D>
-bool IsOnInterface(const ImageDomain<D>& domain, const Point<D>& z, LabelId label, double r)
+template <int D, typename Field>
+bool IsOnInterface(const ImageDomain<D, Field>& domain, const Point<D>& z, LabelId label, double r)
 {
   std::mt19937 random(1);
   bool same = false;
@@ -175,17 +176,11 @@ double Diagonal(const GridGeometry<D>& grid)
   return std::sqrt(s);
 }
 
-template <int D>
-class ImageDomainIn : public testing::Test
+template <int D, typename Field>
+void CheckDistanceBounds(
+  const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid, std::mt19937& random)
 {
-};
-
-template <int D>
-void CheckDistanceBounds(const GridGeometry<D>& grid, std::mt19937& random)
-{
-  const LabelImage<D> image = Balls<D>(grid, 4, random);
-  const ImageDomain<D> domain(image, 1.0);
-  const std::vector<Point<D>> samples = SampleInterfaces<D>(domain, 6000, random);
+  const std::vector<Point<D>> samples = SampleInterfaces(domain, 6000, random);
   const double diagonal = Diagonal(grid);
   double looseness = 0.0;
   constexpr int queries = 600;
@@ -209,12 +204,11 @@ void CheckDistanceBounds(const GridGeometry<D>& grid, std::mt19937& random)
   EXPECT_LT(looseness, 9.0 * diagonal);
 }
 
-template <int D>
-void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
+template <int D, typename Field>
+void CheckClosestSurfacePoint(
+  const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid, std::mt19937& random)
 {
-  const LabelImage<D> image = Balls<D>(grid, 4, random);
-  const ImageDomain<D> domain(image, 1.0);
-  const std::vector<Point<D>> samples = SampleInterfaces<D>(domain, 20000, random);
+  const std::vector<Point<D>> samples = SampleInterfaces(domain, 20000, random);
   const double diagonal = Diagonal(grid);
   double excess = 0.0;
   double off = 0.0;
@@ -227,8 +221,8 @@ void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
     ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
     // At the tip of something thin random points hardly ever meet it: there the margin tells, by the tolerance
     // of root finding.
-    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)) ||
-      std::abs(domain.GetLabelField().Margin(z, label)) < 0.005);
+    ASSERT_TRUE(IsOnInterface(domain, z, label, 0.03 * SmallestSpacing(grid)) ||
+      std::abs(domain.GetLabelField().Margin(z, label)) < Field::RootTolerance);
     const double more = Distance(p, z) - NearestSample<D>(samples, p);
     // The quick estimate: next to an interface too, by the samples' own spacing.
     Point<D> quick;
@@ -236,18 +230,18 @@ void CheckClosestSurfacePoint(const GridGeometry<D>& grid, std::mt19937& random)
     ASSERT_TRUE(domain.NearSurfacePoint(p, label, quick, error));
     ASSERT_LE(error, 0.25 * diagonal);
     off += (NearestSample<D>(samples, quick) - NearestSample<D>(samples, z)) / (diagonal * queries);
-    ASSERT_LT(more, 2.5 * diagonal); // a rare point; the mean below is what counts
+    ASSERT_LT(more, 4.0 * diagonal); // a rare point; the mean below is what counts
     excess += std::max(0.0, more) / queries;
   }
-  EXPECT_LT(excess, 0.2 * diagonal);
+  // In oblique images isosurfaces have sharper edges than smoothed labels.
+  EXPECT_LT(excess, (std::is_same_v<Field, LabelField<D>> ? 0.2 : 0.3) * diagonal);
   EXPECT_LT(off, 0.05);
 }
 
-template <int D>
-void CheckFirstCrossing(const GridGeometry<D>& grid, std::mt19937& random)
+template <int D, typename Field>
+void CheckFirstCrossing(
+  const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid, std::mt19937& random)
 {
-  const LabelImage<D> image = Balls<D>(grid, 4, random);
-  const ImageDomain<D> domain(image, 1.0);
   int found = 0;
   for (int q = 0; q < 300; ++q)
   {
@@ -261,7 +255,8 @@ void CheckFirstCrossing(const GridGeometry<D>& grid, std::mt19937& random)
     const double length = Distance(a, b);
     const int steps = static_cast<int>(length / (0.02 * SmallestSpacing(grid))) + 1;
     double first = std::numeric_limits<double>::infinity();
-    double run = 0.0;
+    double run = 0.0; // at a stretch, on other labels
+    double longest = 0.0;
     for (int i = 0; i <= steps; ++i)
     {
       const double t = static_cast<double>(i) / steps;
@@ -269,19 +264,106 @@ void CheckFirstCrossing(const GridGeometry<D>& grid, std::mt19937& random)
       {
         first = std::min(first, t * length);
         run += length / steps;
+        longest = std::max(longest, run);
+      }
+      else
+      {
+        run = 0.0;
       }
     }
     if (!crosses)
     {
-      ASSERT_LE(run, 0.5 * Diagonal(grid));
+      ASSERT_LE(longest, 0.5 * Diagonal(grid));
       continue;
     }
     ++found;
-    ASSERT_TRUE(IsOnInterface<D>(domain, z, label, 0.03 * SmallestSpacing(grid)));
+    ASSERT_TRUE(IsOnInterface(domain, z, label, 0.03 * SmallestSpacing(grid)));
     ASSERT_NEAR(Distance(a, z) + Distance(z, b), length, 1e-6 * length + 1e-9);
     ASSERT_GE(Distance(a, z), first - 0.05 * SmallestSpacing(grid));
   }
   EXPECT_GT(found, 20);
+}
+
+/** A sum of a few blobs, positive and negative, and noise: an isosurface of many shapes. */
+template <int D>
+std::vector<float> Blobs(const GridGeometry<D>& grid, std::mt19937& random)
+{
+  struct Blob
+  {
+    Point<D> Centre;
+    double Width;
+    double Height;
+  };
+  double smallest = std::numeric_limits<double>::infinity();
+  std::size_t voxels = 1;
+  for (const std::int64_t n : grid.Dimensions)
+  {
+    smallest = std::min(smallest, static_cast<double>(n));
+    voxels *= static_cast<std::size_t>(n);
+  }
+  std::vector<Blob> blobs(6);
+  for (std::size_t b = 0; b < blobs.size(); ++b)
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      blobs[b].Centre[a] = std::uniform_real_distribution<>(0.1, 0.9)(random) *
+        static_cast<double>(grid.Dimensions[a]);
+    }
+    blobs[b].Width = std::uniform_real_distribution<>(0.1, 0.25)(random) * smallest;
+    blobs[b].Height = b % 3 == 2 ? -1.0 : 1.0;
+  }
+  std::vector<float> values(voxels);
+  for (std::size_t i = 0; i < voxels; ++i)
+  {
+    std::size_t rest = i;
+    Point<D> p;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      p[a] = static_cast<double>(rest % static_cast<std::size_t>(grid.Dimensions[a]));
+      rest /= static_cast<std::size_t>(grid.Dimensions[a]);
+    }
+    double value = std::uniform_real_distribution<>(-0.02, 0.02)(random);
+    for (const Blob& blob : blobs)
+    {
+      value += blob.Height * std::exp(-0.5 * Distance2(p, blob.Centre) / (blob.Width * blob.Width));
+    }
+    // Not cut in time: queries beyond a flat end are not what is tested here.
+    const bool isEnd =
+      D == 4 && (p[D - 1] == 0.0 || p[D - 1] == static_cast<double>(grid.Dimensions[D - 1] - 1));
+    values[i] = isEnd ? -1.0f : static_cast<float>(value);
+  }
+  return values;
+}
+
+template <int D, typename Function>
+void OnIsosurfaces(std::mt19937& random, Function&& check)
+{
+  for (const auto& grid : Grids<D>())
+  {
+    const std::vector<float> values = Blobs<D>(grid, random);
+    const auto image = IsosurfaceImage<D>::template FromScalars<float>(values, grid, { 0.3 });
+    check(ImageDomain<D, ScalarField<D>>(image), grid);
+  }
+}
+
+template <int D, typename Function>
+void OnLabels(std::mt19937& random, Function&& check)
+{
+  for (const auto& grid : Grids<D>())
+  {
+    const LabelImage<D> image = Balls<D>(grid, 4, random);
+    check(ImageDomain<D>(image, 1.0), grid);
+  }
+}
+
+/** Calls check(domain, grid) for domains of labels and of isosurfaces. */
+template <typename Function>
+void OnEveryDomain(std::mt19937& random, Function&& check)
+{
+  OnLabels<3>(random, check);
+  OnLabels<4>(random, check);
+  OnIsosurfaces<3>(random, check);
+  OnIsosurfaces<4>(random, check);
 }
 
 } // namespace
@@ -289,40 +371,25 @@ void CheckFirstCrossing(const GridGeometry<D>& grid, std::mt19937& random)
 TEST(ImageDomain, DistanceBoundsHold)
 {
   std::mt19937 random(1);
-  for (const auto& grid : Grids<3>())
-  {
-    CheckDistanceBounds<3>(grid, random);
-  }
-  for (const auto& grid : Grids<4>())
-  {
-    CheckDistanceBounds<4>(grid, random);
-  }
+  OnEveryDomain(random,
+    [&]<int D, typename Field>(const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid)
+    { CheckDistanceBounds(domain, grid, random); });
 }
 
 TEST(ImageDomain, ClosestSurfacePointIsOnAnInterfaceAndNear)
 {
   std::mt19937 random(2);
-  for (const auto& grid : Grids<3>())
-  {
-    CheckClosestSurfacePoint<3>(grid, random);
-  }
-  for (const auto& grid : Grids<4>())
-  {
-    CheckClosestSurfacePoint<4>(grid, random);
-  }
+  OnEveryDomain(random,
+    [&]<int D, typename Field>(const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid)
+    { CheckClosestSurfacePoint(domain, grid, random); });
 }
 
 TEST(ImageDomain, FirstCrossingIsFirst)
 {
   std::mt19937 random(3);
-  for (const auto& grid : Grids<3>())
-  {
-    CheckFirstCrossing<3>(grid, random);
-  }
-  for (const auto& grid : Grids<4>())
-  {
-    CheckFirstCrossing<4>(grid, random);
-  }
+  OnEveryDomain(random,
+    [&]<int D, typename Field>(const ImageDomain<D, Field>& domain, const GridGeometry<D>& grid)
+    { CheckFirstCrossing(domain, grid, random); });
 }
 
 TEST(ImageDomain, SegmentsThatMissTheImage)
@@ -399,6 +466,13 @@ TEST(ImageDomain, StoppedConstructorsThrowCancelled)
     EXPECT_THROW(
       FeatureTransform<3>(domain.GetSites(), spacing, { 4, 4, 4 }, threads, stop), Cancelled);
     EXPECT_THROW(ImageDomain<3>(image, 1.0, threads, stop), Cancelled);
+    const auto grid = Grids<3>()[0];
+    const std::vector<float> values = Blobs<3>(grid, random);
+    EXPECT_THROW(
+      IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.3 }, threads, stop), Cancelled);
+    const auto isosurface = IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.3 });
+    EXPECT_THROW(ScalarField<3>(isosurface, threads, stop), Cancelled);
+    EXPECT_THROW((ImageDomain<3, ScalarField<3>>(isosurface, threads, stop)), Cancelled);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /** Shape measures of simplices with known shapes, and the tallies of small meshes made by hand. */
+#include "CubeMeshes.h"
 #include "Geometry/SimplexQuality.h"
+#include "Mesh/FindInterfaces.h"
 #include "Mesh/MeshQuality.h"
 
 #include <gtest/gtest.h>
@@ -368,6 +370,71 @@ TEST(MeshQuality, CountsFacetsAtJunctions)
 }
 
 //------------------------------------------------------------------------------
+// Kuhn's split of a cube: each tetrahedron has dihedral angles of 45, 45, 60, 90, 90 and 90 degrees, the
+// cube's faces those of halved squares; all have the cube's circumsphere.
+TEST(MeshQuality, HistogramsOfACube)
+{
+  CubeMesh cubes;
+  cubes.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 1);
+  cubes.AddTetrahedron({ { { 5, 5, 5 }, { 6, 6, 5 }, { 5, 6, 6 }, { 6, 5, 6 } } }, 1); // regular
+  FindInterfaces(cubes.Mesh, 1);
+  const MeshQuality quality = MeasureQuality(cubes.Mesh, 2.0, 30.0, 1);
+  const auto total = [](const auto& bins)
+  { return std::accumulate(bins.begin(), bins.end(), std::uint64_t{ 0 }); };
+  EXPECT_EQ(total(quality.DihedralAngles), 42U);
+  EXPECT_EQ(quality.DihedralAngles[22], 12U); // 45 degrees
+  EXPECT_EQ(
+    quality.DihedralAngles[29] + quality.DihedralAngles[30], 6U); // 60, give or take rounding
+  EXPECT_EQ(quality.DihedralAngles[35], 6U);                      // 70.53
+  EXPECT_EQ(quality.DihedralAngles[44] + quality.DihedralAngles[45], 18U); // 90
+  EXPECT_EQ(total(quality.RadiusEdgeRatios), 7U);
+  EXPECT_EQ(quality.RadiusEdgeRatios[12], 1U); // sqrt(6) / 4 = 0.612
+  EXPECT_EQ(quality.RadiusEdgeRatios[17], 6U); // sqrt(3) / 2 = 0.866
+  EXPECT_EQ(total(quality.PlanarAngles), 48U);
+  EXPECT_EQ(quality.PlanarAngles[22], 24U);
+  EXPECT_EQ(quality.PlanarAngles[44] + quality.PlanarAngles[45], 12U);
+  EXPECT_EQ(quality.PlanarAngles[29] + quality.PlanarAngles[30], 12U);
+}
+
+TEST(MeshQuality, WhatLiesBeyondTheLastBinCountsThere)
+{
+  SimplexMesh<3> mesh;
+  Append(mesh, { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 } } }, 1); // flat
+  const MeshQuality quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_EQ(quality.RadiusEdgeRatios.back(), 1U);
+  EXPECT_EQ(quality.DihedralAngles.front(), 4U);
+  EXPECT_EQ(quality.DihedralAngles.back(), 2U); // 180
+}
+
+// Facets with angles of 14 and 45 degrees, at a junction and off it.
+TEST(MeshQuality, SmallestFacetAngleAtJunctionsAndOffThem)
+{
+  SimplexMesh<3> mesh;
+  mesh.Points = { { 0, 0, 0 }, { 4, 1, 0 }, { 4, 0, 0 }, { -4, 1, 0 }, { -4, 0, 0 }, { 20, 0, 0 },
+    { 21, 0, 0 }, { 20, 1, 0 } };
+  mesh.Facets = { { 1, 0, 2 }, { 3, 4, 0 }, { 5, 6, 7 } };
+  mesh.FacetLabels = { { 2, 1 }, { 3, 2 }, { 2, 1 } };
+  MeshQuality quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  const double small = std::atan(0.25) * 180.0 / std::numbers::pi;
+  EXPECT_NEAR(quality.MinimumFacetAngleAtJunctions, small, 1e-12);
+  EXPECT_NEAR(quality.MinimumFacetAngleOffJunctions, 45.0, 1e-12);
+  EXPECT_NEAR(quality.MinimumFacetAngle, small, 1e-12);
+  EXPECT_EQ(quality.SmallFacetAnglesAtJunctions, 2U);
+
+  mesh.FacetLabels[1] = { 2, 1 }; // no junction
+  quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_TRUE(std::isnan(quality.MinimumFacetAngleAtJunctions));
+  EXPECT_NEAR(quality.MinimumFacetAngleOffJunctions, small, 1e-12);
+  EXPECT_EQ(quality.SmallFacetAnglesAtJunctions, 0U);
+
+  mesh.FacetLabels[1] = { 3, 2 };
+  mesh.Points[1][1] = mesh.Points[3][1] = 1.6; // 21.8 degrees: below 30, not below 20
+  quality = MeasureQuality(mesh, 2.0, 30.0, 1);
+  EXPECT_EQ(quality.FacetAngleViolationsAtJunctions, 2U);
+  EXPECT_EQ(quality.SmallFacetAnglesAtJunctions, 0U);
+}
+
+//------------------------------------------------------------------------------
 TEST(MeshQuality, DoesNotDependOnThreads)
 {
   SimplexMesh<3> mesh;
@@ -393,6 +460,9 @@ TEST(MeshQuality, DoesNotDependOnThreads)
   EXPECT_EQ(one.MeanNormalizedVolume, three.MeanNormalizedVolume);
   EXPECT_EQ(one.NormalizedVolumeDeviation, three.NormalizedVolumeDeviation);
   EXPECT_EQ(one.NormalizedVolumes, three.NormalizedVolumes);
+  EXPECT_EQ(one.DihedralAngles, three.DihedralAngles);
+  EXPECT_EQ(one.RadiusEdgeRatios, three.RadiusEdgeRatios);
+  EXPECT_EQ(one.PlanarAngles, three.PlanarAngles);
   EXPECT_EQ(
     std::accumulate(one.NormalizedVolumes.begin(), one.NormalizedVolumes.end(), 0U), 20000U);
   EXPECT_EQ(one.InvertedSimplices, three.InvertedSimplices);

@@ -39,15 +39,31 @@ class TestPhantomProgram(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.path = os.path.join(folder.name, "phantom.nrrd")
 
-    def write(self, *arguments):
+    def write(self, *arguments, dimension=4):
         result = run(arguments[0], self.path, *arguments[1:])
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout + result.stderr, "")
         fields, sizes, spacings, voxels = read_nrrd(self.path)
-        self.assertEqual(fields["dimension"], "4")
+        self.assertEqual(fields["dimension"], str(dimension))
         self.assertIn(fields["type"], ("unsigned char", "uchar", "uint8", "uint8_t"))
         self.assertEqual(len(voxels), math.prod(sizes))
         return sizes, spacings, voxels
+
+    def test_shapes_of_space(self):
+        ball = lambda radius: 4.0 / 3.0 * math.pi * radius**3
+        for name, coarsening, expected_sizes, spacing, volumes in [
+            ("ball", 8, [52, 52, 52], 0.32, [ball(7.5)]),
+            ("embedded-balls", 4, [158, 104, 104], 0.16, [ball(7.5) - ball(3.0), ball(3.0), ball(0.75)]),
+            ("torus", 2, [73, 73, 33], 0.5, [2.0 * math.pi**2 * 10.5 * 7.0**2]),
+        ]:
+            with self.subTest(name):
+                sizes, spacings, voxels = self.write(name, "--coarsening", str(coarsening), dimension=3)
+                self.assertEqual(sizes, expected_sizes)
+                for got in spacings:
+                    self.assertAlmostEqual(got, spacing)
+                self.assertEqual(set(voxels), set(range(len(volumes) + 1)))
+                for label, volume in enumerate(volumes, 1):
+                    self.assertAlmostEqual(voxels.count(label) * spacing**3 / volume, 1.0, delta=0.02)
 
     def test_four_ball(self):
         sizes, spacings, voxels = self.write("four-ball", "--radius", "6")
@@ -92,6 +108,8 @@ class TestPhantomProgram(unittest.TestCase):
             (["four-ball", self.path, "--radius", "-3"], "--radius"),
             (["four-ball", self.path, "--frames", "5"], "--frames"),
             (["merging-balls", self.path, "--frames", "1"], "--frames"),
+            (["torus", self.path, "--coarsening", "9"], "--coarsening"),
+            (["ball", self.path, "--radius", "3"], "--radius"),
             (["merging-balls", self.path, "--frames", "2.5"], "whole"),
             (["merging-balls", self.path, "--fraems", "3"], "--fraems"),
         ]:

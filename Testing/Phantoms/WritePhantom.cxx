@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file WritePhantom.cxx
- * @brief voxplexPhantom: writes a space-time label image of a known shape.
+ * @brief voxplexPhantom: writes a label image of a known shape, of space or of space-time.
  *
  * Exit status: 0 if the file was written, 2 if the arguments are wrong, 1 if writing failed.
  */
+#include "ImagePhantoms.h"
 #include "SpaceTimePhantoms.h"
 
 #include <itkImage.h>
@@ -21,6 +22,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 using namespace voxplex;
 using namespace voxplex::phantoms;
@@ -30,9 +32,15 @@ namespace
 
 constexpr const char* Usage = R"(usage: voxplexPhantom NAME FILE [options]
 
-Writes a label image with the axes x, y, z and time in the format that FILE's name asks for (.nrrd, .nhdr).
+Writes a label image in the format that FILE's name asks for (.nrrd, .nhdr).
 
-names:
+names, with the axes x, y and z (the thesis' table 2.2, millimetres):
+  ball               label 1, 416^3 voxels
+  embedded-balls     a ball (1) with one in it (2) and a small one apart (3), 634 x 416 x 416 voxels
+  torus              label 1, 147 x 147 x 67 voxels
+                       --coarsening N  of each: N times fewer voxels along x, y and z (default 1)
+
+names, with the axes x, y, z and time:
   four-ball          a ball in space and time, of label 1, away from the image's border
                        --radius R      of the ball, voxels (default 12)
   beating-ventricle  blood (1) within myocardium (2), one beat; cut by the first and last frame
@@ -128,12 +136,18 @@ std::int64_t TakeCount(Arguments& arguments, const std::string& option, std::int
   return static_cast<std::int64_t>(value);
 }
 
-SpaceTimePhantom MakePhantom(Arguments arguments)
+using Phantom = std::variant<ImagePhantom, SpaceTimePhantom>;
+
+Phantom MakePhantom(Arguments arguments)
 {
-  const std::map<std::string, std::function<SpaceTimePhantom()>> phantoms = {
+  const auto coarsening = [&](std::int64_t largest)
+  { return TakeCount(arguments, "--coarsening", 1, 1, largest); };
+  const std::map<std::string, std::function<Phantom()>> phantoms = {
+    { "ball", [&] { return SingleBall(coarsening(40)); } },
+    { "embedded-balls", [&] { return EmbeddedBalls(coarsening(40)); } },
+    { "torus", [&] { return Torus(coarsening(8)); } },
     { "four-ball", [&] { return FourBall(Take(arguments, "--radius", 12.0, 1.0, 60.0)); } },
-    { "beating-ventricle",
-      [&] { return BeatingVentricle(TakeCount(arguments, "--coarsening", 1, 1, 11)); } },
+    { "beating-ventricle", [&] { return BeatingVentricle(coarsening(11)); } },
     { "merging-balls",
       [&] { return MergingBalls(TakeCount(arguments, "--frames", 17, 2, 1000)); } },
   };
@@ -142,7 +156,7 @@ SpaceTimePhantom MakePhantom(Arguments arguments)
   {
     throw std::invalid_argument("no such phantom: " + arguments.Name);
   }
-  SpaceTimePhantom phantom = found->second();
+  Phantom phantom = found->second();
   if (!arguments.Options.empty())
   {
     throw std::invalid_argument(
@@ -151,18 +165,20 @@ SpaceTimePhantom MakePhantom(Arguments arguments)
   return phantom;
 }
 
-void Write(const SpaceTimePhantom& phantom, const std::string& fileName)
+template <typename PhantomType>
+void Write(const PhantomType& phantom, const std::string& fileName)
 {
-  using Image = itk::Image<std::uint8_t, 4>;
+  constexpr auto Dimension = static_cast<unsigned>(decltype(phantom.Grid.Dimensions)().size());
+  using Image = itk::Image<std::uint8_t, Dimension>;
   const std::vector<std::uint8_t> scalars = phantom.Scalars();
-  Image::SizeType size;
-  Image::SpacingType spacing;
-  for (unsigned axis = 0; axis < 4; ++axis)
+  typename Image::SizeType size;
+  typename Image::SpacingType spacing;
+  for (unsigned axis = 0; axis < Dimension; ++axis)
   {
     size[axis] = static_cast<itk::SizeValueType>(phantom.Grid.Dimensions[axis]);
     spacing[axis] = phantom.Grid.Spacing(static_cast<int>(axis));
   }
-  const Image::Pointer image = Image::New();
+  const typename Image::Pointer image = Image::New();
   image->SetRegions(size);
   image->SetSpacing(spacing);
   image->Allocate();
@@ -180,7 +196,7 @@ void Write(const SpaceTimePhantom& phantom, const std::string& fileName)
 int main(int argc, char** argv)
 {
   std::string file;
-  SpaceTimePhantom phantom;
+  Phantom phantom;
   try
   {
     Arguments arguments = ParseArguments(argc, argv);
@@ -194,7 +210,7 @@ int main(int argc, char** argv)
   }
   try
   {
-    Write(phantom, file);
+    std::visit([&](const auto& shape) { Write(shape, file); }, phantom);
   }
   catch (const std::exception& error)
   {

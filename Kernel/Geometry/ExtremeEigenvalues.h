@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ExtremeEigenvalues.h
+ * @brief The smallest and the largest eigenvalue of a small symmetric matrix.
+ */
+#ifndef voxplex_ExtremeEigenvalues_h
+#define voxplex_ExtremeEigenvalues_h
+
+#include "Geometry/Point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace voxplex
+{
+
+/** Smallest and largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. */
+template <int D>
+void ExtremeEigenvalues(
+  std::array<Point<D>, static_cast<std::size_t>(D)> m, double& smallest, double& largest)
+{
+  for (int sweep = 0; sweep < 50; ++sweep)
+  {
+    for (std::size_t p = 0; p < D; ++p)
+    {
+      for (std::size_t q = p + 1; q < D; ++q)
+      {
+        if (m[p][q] == 0.0)
+        {
+          continue;
+        }
+        const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
+        const double c = 1.0 / std::hypot(t, 1.0);
+        const double s = t * c;
+        for (std::size_t k = 0; k < D; ++k)
+        {
+          const double kp = m[k][p];
+          const double kq = m[k][q];
+          m[k][p] = c * kp - s * kq;
+          m[k][q] = s * kp + c * kq;
+        }
+        for (std::size_t k = 0; k < D; ++k)
+        {
+          const double pk = m[p][k];
+          const double qk = m[q][k];
+          m[p][k] = c * pk - s * qk;
+          m[q][k] = s * pk + c * qk;
+        }
+      }
+    }
+  }
+  smallest = largest = m[0][0];
+  for (std::size_t a = 1; a < D; ++a)
+  {
+    smallest = std::min(smallest, m[a][a]);
+    largest = std::max(largest, m[a][a]);
+  }
+}
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Grading/LocalFeatureSize.h"
+
+#include "Grading/InterfaceSamples.h"
+#include "Grading/MedialAxis.h"
+#include "Image/FeatureTransform.h"
+#include "Parallel/ParallelFor.h"
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace voxplex
+{
+
+namespace
+{
+
+constexpr std::size_t PointsAtOnce = 4096;
+
+/** Voxels of the grid that poles are entered in, along an edge of a cell of the feature transform. */
+constexpr std::uint32_t Stride = 4;
+
+/** Grids have at most about so many cells; that of poles has Stride^3 bits for each. */
+constexpr double MostCells = 16.0 * 1024.0 * 1024.0;
+
+/**
+ * Delta grows by no more than this over a unit of length. Where it grows faster R2 and R6 undo each
+ * other's work: with 1 refinement of the knee atlas creates 1.5 times as many elements, of which as many stay.
+ */
+constexpr double LargestSlope = 0.3;
+
+Box<3> BoundsOf(const std::vector<Point<3>>& points)
+{
+  Box<3> box{ points.front(), points.front() };
+  for (const Point<3>& p : points)
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      box.Min[a] = std::min(box.Min[a], p[a]);
+      box.Max[a] = std::max(box.Max[a], p[a]);
+    }
+  }
+  return box;
+}
+
+/** The edge of a cell, at least that asked for, with which a grid over the box has not too many. */
+double CellEdge(const Box<3>& box, double edge)
+{
+  double volume = 1.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    volume *= std::max(box.Max[a] - box.Min[a], edge);
+  }
+  return std::max(edge, std::cbrt(volume / MostCells));
+}
+
+/** @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal. */
+class NearestPole
+{
+public:
+  /** Poles outside of the bounds are left out. */
+  NearestPole(const std::vector<Point<3>>& poles, const Box<3>& bounds, double cell,
+    unsigned threads, const std::stop_token& stop)
+    : Origin(bounds.Min)
+    , Voxel(cell / Stride)
+    , Features(this->Enter(poles, bounds), { this->Voxel, this->Voxel, this->Voxel },
+        { Stride, Stride, Stride }, threads, stop)
+  {
+  }
+
+  /** At most `largest`. */
+  double Distance(const Point<3>& p, double largest) const
+  {
+    std::array<std::size_t, 3> low;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const double x = this->Coordinate(p, a) - 0.5 * Stride;
+      low[a] = this->Features.CellOf(a, x);
+    }
+    double nearest2 = largest * largest;
+    const auto& n = this->Features.CellDimensions();
+    for (unsigned corner = 0; corner < 8; ++corner)
+    {
+      std::size_t cell = 0;
+      for (std::size_t a = 3; a-- > 0;)
+      {
+        cell = cell * n[a] + std::min<std::size_t>(low[a] + ((corner >> a) & 1u), n[a] - 1);
+      }
+      const std::uint32_t site = this->Features.Site(cell);
+      if (site != FeatureTransform<3>::NoSite)
+      {
+        const auto index = this->Features.IndexOf(site);
+        double d2 = 0.0;
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          const double d = (this->Coordinate(p, a) - static_cast<double>(index[a])) * this->Voxel;
+          d2 += d * d;
+        }
+        nearest2 = std::min(nearest2, d2);
+      }
+    }
+    return std::sqrt(nearest2);
+  }
+
+private:
+  /** Continuous index in the grid of poles. */
+  double Coordinate(const Point<3>& p, std::size_t axis) const
+  {
+    return (p[axis] - this->Origin[axis]) / this->Voxel - 0.5;
+  }
+
+  BitMask<3> Enter(const std::vector<Point<3>>& poles, const Box<3>& bounds) const
+  {
+    BitMask<3>::Index dimensions;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      dimensions[a] = static_cast<std::int64_t>((bounds.Max[a] - bounds.Min[a]) / this->Voxel) + 1;
+    }
+    BitMask<3> mask(dimensions);
+    for (const Point<3>& pole : poles)
+    {
+      if (bounds.Contains(pole))
+      {
+        BitMask<3>::Index index;
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          index[a] = std::llround(this->Coordinate(pole, a));
+          index[a] = std::clamp<std::int64_t>(index[a], 0, dimensions[a] - 1);
+        }
+        mask.Set(index);
+      }
+    }
+    return mask;
+  }
+
+  const Point<3> Origin;
+  const double Voxel;
+  FeatureTransform<3> Features;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& domain,
+  const GradingParameters& parameters, unsigned threads, const std::stop_token& stop)
+  : Points(SampleLabelChanges(image, domain, parameters.SampleSpacing, threads, stop))
+  , LargestDelta(parameters.Finest)
+  , EquivalentDelta(parameters.Finest)
+{
+  Box<3> bounds = this->Points.empty() ? domain.Bounds() : BoundsOf(this->Points);
+  const double margin = std::min(parameters.Lambda, Distance(bounds.Min, bounds.Max));
+  MedialBalls balls;
+  balls.LargestRadius = margin;
+  balls.Salience = parameters.Salience;
+  const std::vector<Point<3>> poles = FindPoles(this->Points, balls, threads, stop);
+  this->Poles = poles.size();
+  this->Graded = std::make_unique<GradedDelta<3>>(bounds, CellEdge(bounds, parameters.Finest));
+
+  this->SizeOfPoint.assign(this->Points.size(), parameters.Lambda);
+  if (!poles.empty())
+  {
+    constexpr double WidestMargin = 16.0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      bounds.Min[a] -= std::min(margin, WidestMargin * parameters.Finest);
+      bounds.Max[a] += std::min(margin, WidestMargin * parameters.Finest);
+    }
+    const NearestPole nearest(poles, bounds, CellEdge(bounds, parameters.Finest), threads, stop);
+    ParallelFor(
+      0, this->Points.size(), PointsAtOnce, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          this->SizeOfPoint[k] = nearest.Distance(this->Points[k], parameters.Lambda);
+        }
+      },
+      stop);
+  }
+
+  double density = 0.0; // sum of 1 / Delta^2
+  const auto deltaOf = [&](std::size_t k)
+  { return std::max(parameters.Finest, parameters.Ratio * this->SizeOfPoint[k]); };
+  for (std::size_t k = 0; k < this->Points.size(); ++k)
+  {
+    this->Graded->Lower(this->Points[k], deltaOf(k));
+  }
+  if (this->Points.empty())
+  {
+    this->Graded->Lower(bounds.Min, parameters.Finest);
+  }
+  this->Graded->Grade(std::min(LargestSlope, parameters.Ratio), threads, stop);
+  for (const Point<3>& p : this->Points)
+  {
+    const double delta = this->Graded->At(p);
+    this->LargestDelta = std::max(this->LargestDelta, delta);
+    density += 1.0 / (delta * delta);
+  }
+  this->Graded->Cap(this->LargestDelta);
+  if (!this->Points.empty())
+  {
+    this->EquivalentDelta = std::sqrt(static_cast<double>(this->Points.size()) / density);
+  }
+}
+
+} // namespace voxplex

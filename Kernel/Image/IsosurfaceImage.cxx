@@ -1,0 +1,353 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/IsosurfaceImage.h"
+
+#include "Error.h"
+#include "Image/LabelSmoothing.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <type_traits>
+#include <vector>
+
+namespace voxplex
+{
+namespace
+{
+
+/** Voxels that a thread reads at once. */
+constexpr std::size_t Grain = std::size_t{ 1 } << 18;
+
+/** From a value to how far it is inside: exact in its sign, and 0 only for the isovalue itself. */
+class MarginOf
+{
+public:
+  explicit MarginOf(const Isosurface& surface)
+    : Value(surface.Value)
+    , Sign(surface.Inside == IsosurfaceSide::Above ? 1.0 : -1.0)
+  {
+  }
+
+  template <typename T>
+  double operator()(T value) const
+  {
+    return this->Sign * (static_cast<double>(value) - this->Value);
+  }
+
+private:
+  double Value;
+  double Sign;
+};
+
+/** What a pass over the values finds. */
+struct Census
+{
+  double Min = std::numeric_limits<double>::infinity();
+  double Max = -std::numeric_limits<double>::infinity();
+  double LargestMargin = 0.0; ///< of the finite ones, its absolute value
+
+  void Join(const Census& other)
+  {
+    this->Min = std::min(this->Min, other.Min);
+    this->Max = std::max(this->Max, other.Max);
+    this->LargestMargin = std::max(this->LargestMargin, other.LargestMargin);
+  }
+};
+
+template <typename T>
+Census TakeCensus(std::span<const T> scalars, const MarginOf& marginOf, unsigned threads,
+  const std::stop_token& stop)
+{
+  Census all;
+  std::mutex mutex;
+  ParallelFor(
+    0, scalars.size(), Grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Census census;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const auto value = static_cast<double>(scalars[i]);
+        if (std::isnan(value))
+        {
+          continue;
+        }
+        census.Min = std::min(census.Min, value);
+        census.Max = std::max(census.Max, value);
+        const double margin = std::abs(marginOf(value));
+        census.LargestMargin =
+          std::isfinite(margin) ? std::max(census.LargestMargin, margin) : census.LargestMargin;
+      }
+      const std::scoped_lock lock(mutex);
+      all.Join(census);
+    },
+    stop);
+  return all;
+}
+
+void CheckSurface(const Isosurface& surface)
+{
+  std::ostringstream s;
+  if (!std::isfinite(surface.Value))
+  {
+    s << "The isovalue is " << surface.Value << "; it must be finite.";
+  }
+  else if (surface.Label < 1)
+  {
+    s << "The label of the inside is " << surface.Label << "; it must be 1 or more.";
+  }
+  else if (!(surface.SmoothingSigma >= 0.0 && surface.SmoothingSigma <= Isosurface::LargestSigma))
+  {
+    s << "The standard deviation of the smoothing of grey values is " << surface.SmoothingSigma
+      << " voxels; it must be between 0 (no smoothing) and " << Isosurface::LargestSigma << ".";
+  }
+  if (!s.str().empty())
+  {
+    throw InputError(s.str());
+  }
+}
+
+void CheckRange(const Isosurface& surface, const std::array<double, 2>& range, const char* when)
+{
+  if (range[0] > range[1])
+  {
+    throw InputError("No voxel of the image has a number for a value (all are NaN): there is no "
+                     "isosurface to mesh. Choose another array.");
+  }
+  if (!(surface.Value >= range[0] && surface.Value <= range[1]))
+  {
+    std::ostringstream s;
+    s << "The isovalue " << surface.Value << " is outside of the image's range, which is from "
+      << range[0] << " to " << range[1] << when << ". Choose an isovalue in between.";
+    throw InputError(s.str());
+  }
+}
+
+/** The power of two that brings a margin to 0.5 ... 1, so that floats hold all margins. */
+double ScaleOf(const Census& census)
+{
+  int exponent = 0;
+  std::frexp(census.LargestMargin, &exponent);
+  return std::ldexp(1.0, std::clamp(-exponent, -1020, 1020));
+}
+
+/** As a float of the same sign, unless it is 0 or NaN; infinite ones as large ones. */
+float ToFloat(double margin)
+{
+  constexpr double largest = 16.0; // margins are up to 1, but for infinite values
+  const double clamped = std::clamp(margin, -largest, largest);
+  const auto result = static_cast<float>(std::isnan(margin) ? margin : clamped);
+  return result == 0.0f && margin != 0.0
+    ? std::copysign(std::numeric_limits<float>::min(), static_cast<float>(margin))
+    : result;
+}
+
+/** Columns of a strip that is smoothed at once. */
+constexpr std::size_t StripWidth = 64;
+
+/** Memory for a strip, kept from strip to strip. */
+struct StripBuffers
+{
+  std::vector<float> In;
+  std::vector<float> Out;
+};
+
+/**
+ * Smooths `width` columns of n values each, in place; one value of a column is `stride` after the other.
+ * Beyond their ends the outermost values are repeated.
+ */
+void SmoothStrip(float* values, std::size_t n, std::size_t stride, std::size_t width,
+  const std::vector<float>& weights, StripBuffers& buffers)
+{
+  const std::size_t radius = weights.size() - 1;
+  buffers.In.resize((n + 2 * radius) * width);
+  for (std::size_t j = 0; j < n + 2 * radius; ++j)
+  {
+    const std::size_t from = std::clamp(j, radius, n - 1 + radius) - radius;
+    std::copy_n(values + from * stride, width, buffers.In.data() + j * width);
+  }
+  buffers.Out.assign(n * width, 0.0f);
+  for (std::size_t t = 0; t <= 2 * radius; ++t)
+  {
+    const float weight = weights[t < radius ? radius - t : t - radius];
+    const float* in = buffers.In.data() + t * width;
+    float* out = buffers.Out.data();
+    for (std::size_t i = 0; i < n * width; ++i)
+    {
+      out[i] += weight * in[i];
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j)
+  {
+    std::copy_n(buffers.Out.data() + j * width, width, values + j * stride);
+  }
+}
+
+/** Smooths along every axis, in place. */
+template <int D>
+void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigma, unsigned threads,
+  const std::stop_token& stop)
+{
+  std::vector<float> weights;
+  for (const double w : NonShrinkingKernel(sigma, 0.0))
+  {
+    weights.push_back(static_cast<float>(w));
+  }
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const auto n = static_cast<std::size_t>(grid.Dimensions[a]);
+    const std::size_t strips = (stride + StripWidth - 1) / StripWidth; // of a block
+    const std::size_t blocks = values.size() / (n * stride);
+    ParallelFor(
+      0, blocks * strips, std::max<std::size_t>(1, Grain / (n * std::min(stride, StripWidth))),
+      threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        StripBuffers buffers;
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const std::size_t first = i % strips * StripWidth;
+          SmoothStrip(values.data() + i / strips * n * stride + first, n, stride,
+            std::min(StripWidth, stride - first), weights, buffers);
+        }
+      },
+      stop);
+    stride *= n;
+  }
+}
+
+/** The margins smoothed; those without a number, which count as 0, are NaN again after it. */
+template <int D, typename Function>
+std::vector<float> SmoothedMargins(const Function& read, const GridGeometry<D>& grid,
+  std::size_t voxels, double sigma, unsigned threads, const std::stop_token& stop)
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> margins(voxels);
+  std::vector<std::uint8_t> undefined(voxels);
+  ParallelFor(
+    0, voxels, Grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      read(begin, end - begin, margins.data() + begin);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        undefined[i] = std::isnan(margins[i]);
+        margins[i] = undefined[i] ? 0.0f : margins[i];
+      }
+    },
+    stop);
+  Smooth(margins, grid, sigma, threads, stop);
+  ParallelFor(
+    0, voxels, Grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        margins[i] = undefined[i] ? nan : margins[i];
+      }
+    },
+    stop);
+  return margins;
+}
+
+/** The range of the values with these margins. */
+std::array<double, 2> RangeOf(
+  const std::vector<float>& margins, const Isosurface& surface, double scale)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 2> range{ infinity, -infinity };
+  const double perMargin = (surface.Inside == IsosurfaceSide::Above ? 1.0 : -1.0) / scale;
+  for (const float margin : margins)
+  {
+    if (!std::isnan(margin))
+    {
+      const double value = surface.Value + perMargin * static_cast<double>(margin);
+      range = { std::min(range[0], value), std::max(range[1], value) };
+    }
+  }
+  return range;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+template <typename T>
+IsosurfaceImage<D> IsosurfaceImage<D>::FromScalars(std::span<const T> scalars,
+  const GridGeometry<D>& grid, const Isosurface& surface, unsigned threads,
+  const std::stop_token& stop)
+{
+  CheckGrid(grid, scalars.size());
+  CheckSurface(surface);
+  const MarginOf marginOf(surface);
+  const Census census = TakeCensus(scalars, marginOf, threads, stop);
+  IsosurfaceImage image;
+  image.Which = surface;
+  image.Values = { census.Min, census.Max };
+  CheckRange(surface, image.Values, "");
+  const double scale = ScaleOf(census);
+  image.Read = [scalars, marginOf, scale](std::size_t first, std::size_t count, float* margins)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      margins[i] = ToFloat(scale * marginOf(scalars[first + i]));
+    }
+  };
+  if (surface.SmoothingSigma > 0.0)
+  {
+    const auto smoothed = std::make_shared<const std::vector<float>>(
+      SmoothedMargins<D>(image.Read, grid, scalars.size(), surface.SmoothingSigma, threads, stop));
+    image.Read = [smoothed](std::size_t first, std::size_t count, float* margins)
+    { std::copy_n(smoothed->data() + first, count, margins); };
+    image.Values = RangeOf(*smoothed, surface, scale);
+    CheckRange(surface, image.Values, " after smoothing");
+  }
+  std::vector<unsigned char> mask(scalars.size());
+  ParallelFor(
+    0, scalars.size(), Grain, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<float> margins(end - begin);
+      image.Read(begin, end - begin, margins.data());
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        mask[i] = margins[i - begin] >= 0.0f; // not NaN
+      }
+    },
+    stop);
+  image.Inside = LabelImage<D>::template FromScalars<unsigned char>(mask, grid, {}, threads, stop);
+  image.Inside.SetValue(1, surface.Label);
+  return image;
+}
+
+template class IsosurfaceImage<3>;
+template class IsosurfaceImage<4>;
+
+#define VOXPLEX_INSTANTIATE(T)                                                                     \
+  template IsosurfaceImage<3> IsosurfaceImage<3>::FromScalars<T>(std::span<const T>,               \
+    const GridGeometry<3>&, const Isosurface&, unsigned, const std::stop_token&);                  \
+  template IsosurfaceImage<4> IsosurfaceImage<4>::FromScalars<T>(std::span<const T>,               \
+    const GridGeometry<4>&, const Isosurface&, unsigned, const std::stop_token&)
+VOXPLEX_INSTANTIATE(char);
+VOXPLEX_INSTANTIATE(signed char);
+VOXPLEX_INSTANTIATE(unsigned char);
+VOXPLEX_INSTANTIATE(short);
+VOXPLEX_INSTANTIATE(unsigned short);
+VOXPLEX_INSTANTIATE(int);
+VOXPLEX_INSTANTIATE(unsigned int);
+VOXPLEX_INSTANTIATE(long);
+VOXPLEX_INSTANTIATE(unsigned long);
+VOXPLEX_INSTANTIATE(long long);
+VOXPLEX_INSTANTIATE(unsigned long long);
+VOXPLEX_INSTANTIATE(float);
+VOXPLEX_INSTANTIATE(double);
+#undef VOXPLEX_INSTANTIATE
+
+} // namespace voxplex

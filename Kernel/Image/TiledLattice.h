@@ -1,0 +1,447 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file TiledLattice.h
+ * @brief Samples at the voxels near interfaces, in tiles that a query reads one of.
+ */
+#ifndef voxplex_TiledLattice_h
+#define voxplex_TiledLattice_h
+
+#include "Image/LabelImage.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <type_traits>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief What the fields that tell labels between voxel centres have in common: the lattice and its tiles.
+ *
+ * The lattice is the crop of a label image and one layer around it. It is cut in tiles of TileCells cells
+ * along each axis. A tile whose samples all have one label is uniform, and so is all of it; the other
+ * tiles, mixed ones, store samples on all of their (TileCells + 1)^D corners, so that a query reads one
+ * tile only:
+ *
+ *     directory: one 64-bit word a tile
+ *     +--------------------------+
+ *     | label << 1 | 1   uniform |
+ *     | address          mixed   | ----------> samples, as the field lays them out
+ *     +--------------------------+
+ *
+ * Samples must depend on their neighbourhood alone and not on the tile: then two tiles agree on the face
+ * that they share.
+ *
+ * Immutable after construction: all methods are const and safe to call from any thread.
+ */
+template <int D, typename SampleType>
+class TiledLattice
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** Cells of a tile along each axis; its 8 samples along x fill one vector register. */
+  static constexpr unsigned TileCells = 7;
+
+  /** Samples of the lattice along each axis: the crop's voxels + 2. */
+  const Index& LatticeDimensions() const { return this->Dimensions; }
+
+  /** Lattice coordinates of a point of the frame: 0 is the layer before the crop. */
+  Point<D> ToLattice(const Point<D>& p) const
+  {
+    Point<D> x;
+    if (this->IsOrthogonal)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        x[a] = p[a] * this->PerSpacing[a] - this->Shift[a];
+      }
+      return x;
+    }
+    x = this->Grid.ToIndex(p);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] -= this->Shift[a];
+    }
+    return x;
+  }
+  /** Point of the frame at lattice coordinates. */
+  Point<D> ToFrame(Point<D> x) const
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] += this->Shift[a];
+    }
+    return this->Grid.ToFrame(x);
+  }
+
+  /**
+   * Lattice coordinates of the first and the last frame where the object is cut by them, else
+   * infinite: beyond a cut everything is as on it. Only in 4D; the last axis is time.
+   */
+  const std::array<double, 2>& FlatEnds() const { return this->Ends; }
+  /** The point of the lattice nearest to x that is not beyond a flat end. */
+  Point<D> ClampToEnds(Point<D> x) const
+  {
+    double& time = x[static_cast<std::size_t>(D) - 1];
+    time = time < this->Ends[0] ? this->Ends[0] : time > this->Ends[1] ? this->Ends[1] : time;
+    return x;
+  }
+
+  /** Memory held, bytes. */
+  std::size_t MemoryBytes() const
+  {
+    return this->BlockBytes + this->Directory.size() * sizeof(std::uintptr_t);
+  }
+  std::size_t NumberOfTiles() const { return this->Directory.size(); }
+  std::size_t NumberOfMixedTiles() const { return this->MixedTiles; }
+
+protected:
+  using Sample = SampleType;
+  static constexpr unsigned TileSamples = TileCells + 1;
+  static constexpr unsigned PlaneSize = D == 3 ? 512 : 4096;
+
+  /** The lattice of an image, which is not referenced afterwards; all tiles are to be made. */
+  explicit TiledLattice(const LabelImage<D>& image);
+  TiledLattice(TiledLattice&&) noexcept = default;
+  TiledLattice& operator=(TiledLattice&&) noexcept = default;
+  ~TiledLattice() = default;
+
+  /** The cell that contains a point. */
+  struct Cell
+  {
+    const Sample* Tile; ///< null in a uniform tile
+    LabelId Uniform;
+    unsigned Offset; ///< of the cell's first corner in a plane
+    std::array<float, static_cast<std::size_t>(D)> Fraction;
+  };
+  Cell Locate(Point<D> x) const;
+
+  /** Gradient of the interpolation of a plane's samples in a cell, with respect to lattice coordinates. */
+  static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
+
+  /** Memory for the samples of mixed tiles, taken by one thread at a time. */
+  class Arena
+  {
+  public:
+    /** Uninitialised; 16-byte aligned, since sizes are multiples of 8 samples. */
+    Sample* Allocate(std::size_t samples);
+
+    std::vector<std::unique_ptr<Sample[]>> Blocks;
+    std::size_t Bytes = 0;
+
+  private:
+    static constexpr std::size_t BlockSize = std::size_t{ 1 } << 18; ///< samples
+    Sample* Next = nullptr;
+    std::size_t Left = 0;
+  };
+
+  /**
+   * Calls row(in, x0, x1, k) for each row of a box of `width` samples along each axis: row k of the
+   * box, of which the samples x0 ... x1 - 1 lie in the crop, with ids from `in`; x0 == x1 if none
+   * does. Beyond a flat end rows repeat. Returns early when row returns false.
+   */
+  template <typename Function>
+  static void ForEachRow(
+    const LabelImage<D>& image, const Index& first, std::size_t width, Function&& row);
+  /** Whether all samples of the tile that begins there have one label, which it tells. */
+  static bool IsUniform(const LabelImage<D>& image, const Index& first, LabelId& label);
+
+  /**
+   * Makes all mixed tiles. make() gives a std::unique_ptr of a builder, which serves one thread at a
+   * time: its MakeTile(first) returns the samples of the tile that begins at these lattice coordinates,
+   * in memory of its member Memory, an Arena.
+   * @throws Cancelled if a stop was requested before the end, which takes no longer than a tile
+   */
+  template <typename Function>
+  void MakeTiles(
+    const LabelImage<D>& image, unsigned threads, const std::stop_token& stop, Function&& make);
+
+private:
+  GridGeometry<D> Grid;
+  bool IsOrthogonal = true;
+  Point<D> PerSpacing{};
+  Point<D> Shift{};
+  Index Dimensions{};
+  std::array<double, 2> Ends{ -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() };
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
+  std::vector<std::uintptr_t> Directory;
+  std::vector<std::unique_ptr<Sample[]>> Blocks;
+  std::size_t BlockBytes = 0;
+  std::size_t MixedTiles = 0;
+};
+
+//------------------------------------------------------------------------------------------------
+template <int D, typename SampleType>
+TiledLattice<D, SampleType>::TiledLattice(const LabelImage<D>& image)
+  : Grid(image.Grid())
+{
+  std::size_t numberOfTiles = 1;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    this->Dimensions[a] = image.CropDimensions()[a] + 2;
+    this->Shift[a] = static_cast<double>(image.CropOrigin()[a] - 1);
+    this->PerSpacing[a] = 1.0 / this->Grid.IndexToFrame[a][a];
+    for (std::size_t c = a + 1; c < D; ++c)
+    {
+      this->IsOrthogonal = this->IsOrthogonal && this->Grid.IndexToFrame[a][c] == 0.0;
+    }
+    this->LastCell[a] = static_cast<std::uint32_t>(this->Dimensions[a] - 2);
+    this->TileStride[a] = static_cast<std::uint32_t>(numberOfTiles);
+    numberOfTiles *= static_cast<std::size_t>(this->LastCell[a] / TileCells) + 1;
+  }
+  this->Directory.resize(numberOfTiles);
+  if (image.IsCutInTime(0))
+  {
+    this->Ends[0] = 1.0;
+  }
+  if (image.IsCutInTime(1))
+  {
+    this->Ends[1] = static_cast<double>(image.CropDimensions()[D - 1]);
+  }
+}
+
+template <int D, typename SampleType>
+inline typename TiledLattice<D, SampleType>::Cell TiledLattice<D, SampleType>::Locate(
+  Point<D> x) const
+{
+  if constexpr (D == 4)
+  {
+    x = this->ClampToEnds(x);
+  }
+  Cell cell;
+  cell.Tile = nullptr;
+  cell.Uniform = 0;
+  cell.Offset = 0;
+  std::uint32_t tile = 0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const double last = static_cast<double>(this->LastCell[a]);
+    if (!(x[a] >= 0.0 && x[a] <= last + 1.0)) // NaN is outside, too
+    {
+      return cell;
+    }
+    const auto c =
+      std::min(static_cast<std::uint32_t>(static_cast<std::int64_t>(x[a])), this->LastCell[a]);
+    cell.Fraction[a] = static_cast<float>(x[a] - static_cast<double>(c));
+    const std::uint32_t t = c / TileCells;
+    tile += t * this->TileStride[a];
+    cell.Offset += (c - t * TileCells) << (3 * a);
+  }
+  const std::uintptr_t entry = this->Directory[tile];
+  if (entry & 1)
+  {
+    cell.Uniform = static_cast<LabelId>(entry >> 1);
+  }
+  else
+  {
+    cell.Tile = reinterpret_cast<const Sample*>(entry);
+  }
+  return cell;
+}
+
+/** One axis after the other, values and derivatives together. */
+template <int D, typename SampleType>
+Point<D> TiledLattice<D, SampleType>::PlaneGradient(const Sample* plane, const Cell& cell)
+{
+  constexpr unsigned corners = 1u << D;
+  const Sample* s = plane + cell.Offset;
+  std::array<std::array<float, corners>, D + 1> v; // the value, then the derivatives
+  for (unsigned c = 0; c < corners; ++c)
+  {
+    unsigned at = 0;
+    for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+    {
+      at += ((c >> a) & 1u) << (3 * a);
+    }
+    v[0][c] = s[at];
+  }
+  for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
+  {
+    for (unsigned c = 0; c < (corners >> (a + 1)); ++c)
+    {
+      v[a + 1][c] = v[0][2 * c + 1] - v[0][2 * c];
+      for (unsigned k = 0; k <= a; ++k)
+      {
+        v[k][c] = v[k][2 * c] + cell.Fraction[a] * (v[k][2 * c + 1] - v[k][2 * c]);
+      }
+    }
+  }
+  Point<D> gradient;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    gradient[a] = static_cast<double>(v[a + 1][0]);
+  }
+  return gradient;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D, typename SampleType>
+SampleType* TiledLattice<D, SampleType>::Arena::Allocate(std::size_t samples)
+{
+  if (samples > this->Left)
+  {
+    const std::size_t size = std::max(BlockSize, samples);
+    this->Blocks.push_back(std::make_unique_for_overwrite<Sample[]>(size));
+    this->Bytes += size * sizeof(Sample);
+    this->Next = this->Blocks.back().get();
+    this->Left = size;
+  }
+  Sample* result = this->Next;
+  this->Next += samples;
+  this->Left -= samples;
+  return result;
+}
+
+template <int D, typename SampleType>
+template <typename Function>
+void TiledLattice<D, SampleType>::ForEachRow(
+  const LabelImage<D>& image, const Index& begin, std::size_t width, Function&& row)
+{
+  const Index crop = image.CropDimensions(); // copies, which the compiler can keep in registers
+  const Index first = begin;
+  const LabelId* const ids = image.Ids().data();
+  const auto w = static_cast<std::int64_t>(width);
+  Index offset{};
+  const std::int64_t low = std::clamp<std::int64_t>(-(first[0] - 1), 0, w);
+  const std::int64_t high = std::clamp<std::int64_t>(crop[0] - (first[0] - 1), low, w);
+  for (std::size_t k = 0;; ++k)
+  {
+    bool inside = low < high;
+    std::int64_t at = 0;
+    for (std::size_t a = D; a-- > 1;)
+    {
+      std::int64_t i = first[a] - 1 + offset[a];
+      if (D == 4 && a == 3)
+      {
+        i = image.IsCutInTime(0) ? std::max<std::int64_t>(i, 0) : i;
+        i = image.IsCutInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
+      }
+      inside = inside && i >= 0 && i < crop[a];
+      at = at * crop[a] + i;
+    }
+    at = at * crop[0] + first[0] - 1;
+    const bool goOn = inside ? row(ids + at + low, low, high, k)
+                             : row(static_cast<const LabelId*>(nullptr), low, low, k);
+    std::size_t a = 1;
+    while (a < D && ++offset[a] == w)
+    {
+      offset[a++] = 0;
+    }
+    if (!goOn || a == D)
+    {
+      return;
+    }
+  }
+}
+
+template <int D, typename SampleType>
+bool TiledLattice<D, SampleType>::IsUniform(
+  const LabelImage<D>& image, const Index& first, LabelId& label)
+{
+  bool started = false;
+  bool uniform = true;
+  label = 0;
+  ForEachRow(image, first, TileSamples,
+    [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t)
+    {
+      if (!started)
+      {
+        label = low == 0 && high > 0 ? in[0] : LabelId{ 0 };
+        started = true;
+      }
+      if (high - low == TileSamples)
+      {
+        const std::uint64_t wanted = label * 0x0001000100010001u;
+        std::uint64_t halves[2];
+        std::memcpy(halves, in, sizeof(halves));
+        uniform = ((halves[0] ^ wanted) | (halves[1] ^ wanted)) == 0;
+        return uniform;
+      }
+      uniform = label == 0;
+      for (std::int64_t i = 0; i < high - low; ++i)
+      {
+        uniform = uniform && in[i] == 0;
+      }
+      return uniform;
+    });
+  return uniform;
+}
+
+template <int D, typename SampleType>
+template <typename Function>
+void TiledLattice<D, SampleType>::MakeTiles(
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop, Function&& make)
+{
+  std::vector<std::invoke_result_t<Function>> builders;
+  using Builder = typename std::invoke_result_t<Function>::element_type;
+  std::vector<Builder*> idle;
+  std::mutex mutex;
+  ParallelFor(
+    0, this->Directory.size(), 128, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Builder* builder = nullptr;
+      {
+        const std::scoped_lock lock(mutex);
+        if (idle.empty())
+        {
+          builders.push_back(make());
+          idle.push_back(builders.back().get());
+        }
+        builder = idle.back();
+        idle.pop_back();
+      }
+      std::size_t mixed = 0;
+      for (std::size_t tile = begin; tile < end; ++tile)
+      {
+        ThrowIfStopped(stop); // a tile in 4D with many labels and much smoothing takes a while
+        Index first{};
+        std::size_t rest = tile;
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          const std::size_t n = static_cast<std::size_t>(this->LastCell[a] / TileCells) + 1;
+          first[a] = static_cast<std::int64_t>(rest % n * TileCells);
+          rest /= n;
+        }
+        LabelId label = 0;
+        if (IsUniform(image, first, label))
+        {
+          this->Directory[tile] = (static_cast<std::uintptr_t>(label) << 1) | 1u;
+        }
+        else
+        {
+          ++mixed;
+          this->Directory[tile] = reinterpret_cast<std::uintptr_t>(builder->MakeTile(first));
+        }
+      }
+      const std::scoped_lock lock(mutex);
+      this->MixedTiles += mixed;
+      idle.push_back(builder);
+    },
+    stop);
+  for (const auto& builder : builders)
+  {
+    this->BlockBytes += builder->Memory.Bytes;
+    for (auto& block : builder->Memory.Blocks)
+    {
+      this->Blocks.push_back(std::move(block));
+    }
+  }
+}
+
+} // namespace voxplex
+
+#endif

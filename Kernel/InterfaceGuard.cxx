@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InterfaceGuard.h"
+
+#include "Mesh/InterfaceEdges.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+// Chosen on the knee atlas: around edges a larger radius adds elements and new trouble at its rim, around
+// far faces a smaller one leaves the tips of processes without what they hang on.
+
+/** Faces within so many delta of a far face, or of the middle of a non-manifold edge, are sampled. */
+constexpr double RadiusAtFace = 1.0;
+constexpr double RadiusAtEdge = 0.5;
+
+/** Spacing at the first visit, in delta. */
+constexpr double FirstSpacing = 0.5;
+
+/** Nothing is sampled more finely than this, in smallest voxel spacings. */
+constexpr double FinestVoxels = 0.2;
+
+/** The rules take half the spacing of the points for that of vertices nearby. */
+constexpr double SpacingFactor = 0.5;
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites,
+  const Domain<3>& domain, double delta, const GradedDelta<3>* graded, LocalDelta<3>& local,
+  unsigned threads, const std::stop_token& stop)
+  : Image(image)
+  , Sites(sites)
+  , Surfaces(domain)
+  , Delta(delta)
+  , Graded(graded)
+  , Local(local)
+  , Threads(threads)
+  , Stop(stop)
+{
+  const GridGeometry<3>& grid = this->Image.Grid();
+  const Point<3> spacing{ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) };
+  this->FinestSpacing = FinestVoxels * std::min({ spacing[0], spacing[1], spacing[2] });
+  this->VoxelDiagonal = std::sqrt(Dot(spacing, spacing));
+}
+
+//------------------------------------------------------------------------------------------------
+double InterfaceGuard::DeltaAt(const Point<3>& p) const
+{
+  return this->Graded ? this->Graded->At(p) : this->Delta;
+}
+
+bool InterfaceGuard::IsFar(const Point<3>& centre, const FeatureGrid<3>& vertices) const
+{
+  return !vertices.AnyWithin(
+    centre, std::max(LargestDistance * this->DeltaAt(centre), this->VoxelDiagonal));
+}
+
+//------------------------------------------------------------------------------------------------
+LabelId InterfaceGuard::IdOf(const Index& voxel) const
+{
+  const Index& n = this->Image.CropDimensions();
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (voxel[a] < 0 || voxel[a] >= n[a])
+    {
+      return 0;
+    }
+  }
+  return this->Image
+    .Ids()[static_cast<std::size_t>((voxel[2] * n[1] + voxel[1]) * n[0] + voxel[0])];
+}
+
+//------------------------------------------------------------------------------------------------
+Point<3> InterfaceGuard::CentreOf(const Index& voxel) const
+{
+  Point<3> index;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    index[a] = static_cast<double>(this->Image.CropOrigin()[a] + voxel[a]);
+  }
+  return this->Image.Grid().ToFrame(index);
+}
+
+Point<3> InterfaceGuard::CentreOf(const Face& face) const
+{
+  return Interpolate(this->CentreOf(face.Voxel), this->CentreOf(face.Next()), 0.5);
+}
+
+//------------------------------------------------------------------------------------------------
+template <typename Function>
+void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) const
+{
+  const auto rows =
+    static_cast<std::size_t>(this->Sites.Dimensions()[1]); // with a layer of background
+  const auto words = this->Sites.Row(row);
+  for (std::size_t w = 0; w < words.size(); ++w)
+  {
+    for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
+    {
+      const Index voxel{ static_cast<std::int64_t>(64 * w) + std::countr_zero(bits) - 1,
+        static_cast<std::int64_t>(row % rows) - 1, static_cast<std::int64_t>(row / rows) - 1 };
+      for (unsigned a = 0; a < 3; ++a)
+      {
+        const Face face{ voxel, a };
+        if (this->IdOf(voxel) != this->IdOf(face.Next()))
+        {
+          function(face);
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<Point<3>> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
+{
+  FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 },
+    std::max(LargestDistance * this->Delta, this->VoxelDiagonal), mesh.Points.size());
+  std::vector<bool> added(mesh.Points.size());
+  for (const auto& facet : mesh.Facets)
+  {
+    for (const std::uint32_t v : facet)
+    {
+      if (!added[v])
+      {
+        added[v] = true;
+        vertices.Add(mesh.Points[v]);
+      }
+    }
+  }
+  std::vector<Point<3>> centres;
+  for (const Face& face : this->Sampled)
+  {
+    if (this->IsFar(this->CentreOf(face), vertices))
+    {
+      centres.push_back(this->CentreOf(face));
+    }
+  }
+  if (!centres.empty())
+  {
+    return centres;
+  }
+  constexpr std::size_t RowsAtOnce = 64;
+  const std::size_t rows = this->Sites.NumberOfRows();
+  std::vector<std::vector<Point<3>>> found((rows - 1) / RowsAtOnce + 1);
+  ParallelFor(
+    0, rows, RowsAtOnce, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t row = first; row < last; ++row)
+      {
+        this->ForEachFaceOfRow(row,
+          [&](const Face& face)
+          {
+            const Point<3> centre = this->CentreOf(face);
+            if (this->IsFar(centre, vertices))
+            {
+              found[first / RowsAtOnce].push_back(centre);
+            }
+          });
+      }
+    },
+    this->Stop);
+  for (const auto& part : found)
+  {
+    centres.insert(centres.end(), part.begin(), part.end());
+  }
+  return centres;
+}
+
+//------------------------------------------------------------------------------------------------
+void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const
+{
+  const Point<3> at = this->Image.Grid().ToIndex(p);
+  Index low;
+  Index high;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double reach = radius / this->Image.Grid().Spacing(static_cast<int>(a));
+    const double x = at[a] - static_cast<double>(this->Image.CropOrigin()[a]);
+    low[a] = std::max<std::int64_t>(static_cast<std::int64_t>(std::floor(x - reach)), -1);
+    high[a] = std::min(
+      static_cast<std::int64_t>(std::ceil(x + reach)), this->Image.CropDimensions()[a] - 1);
+  }
+  Face face;
+  Index& v = face.Voxel;
+  for (v[2] = low[2]; v[2] <= high[2]; ++v[2])
+  {
+    for (v[1] = low[1]; v[1] <= high[1]; ++v[1])
+    {
+      for (v[0] = low[0]; v[0] <= high[0]; ++v[0])
+      {
+        for (face.Axis = 0; face.Axis < 3; ++face.Axis)
+        {
+          if (this->IdOf(v) != this->IdOf(face.Next()) &&
+            Distance2(this->CentreOf(face), p) <= radius * radius)
+          {
+            faces.push_back(face);
+          }
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
+{
+  const std::vector<Point<3>> far = this->FindFarFaces(mesh);
+  const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(mesh);
+  this->FarFaces = far.size();
+  this->NonManifoldEdges = edges.size();
+  // At junctions there may be some; they are no reason to go on, but are sampled along with the rest.
+  const bool goOn = !far.empty() ||
+    std::any_of(
+      edges.begin(), edges.end(), [](const InterfaceEdge& edge) { return !edge.IsJunction; });
+  if (!goOn)
+  {
+    return {};
+  }
+  std::vector<Face> faces;
+  for (const Point<3>& centre : far)
+  {
+    ThrowIfStopped(this->Stop);
+    this->AddFacesNear(centre, RadiusAtFace * this->DeltaAt(centre), faces);
+  }
+  for (const InterfaceEdge& edge : edges)
+  {
+    const Point<3> middle = Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5);
+    this->AddFacesNear(middle, RadiusAtEdge * this->DeltaAt(middle), faces);
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+
+  this->Sampled.insert(this->Sampled.end(), faces.begin(), faces.end());
+  std::sort(this->Sampled.begin(), this->Sampled.end());
+  this->Sampled.erase(std::unique(this->Sampled.begin(), this->Sampled.end()), this->Sampled.end());
+
+  std::vector<FeatureSeed<3>> seeds;
+  std::map<Index, double> spacings;
+  for (const Face& face : faces)
+  {
+    Index cell = face.Voxel;
+    for (std::int64_t& c : cell)
+    {
+      c = (c + 1) / LocalDelta<3>::Cell;
+    }
+    auto spacing = spacings.find(cell);
+    if (spacing == spacings.end())
+    {
+      const unsigned visit = this->Visits[cell]++;
+      const double first = FirstSpacing * this->DeltaAt(this->CentreOf(face));
+      spacing = spacings.emplace(cell, std::ldexp(first, -static_cast<int>(visit))).first;
+    }
+    Point<3> z;
+    if (spacing->second >= this->FinestSpacing &&
+      this->Surfaces.FirstCrossing(
+        this->CentreOf(face.Voxel), this->IdOf(face.Voxel), this->CentreOf(face.Next()), z))
+    {
+      seeds.push_back({ z, spacing->second });
+      this->Local.SetSpacing(face.Voxel, 1, SpacingFactor * spacing->second);
+    }
+  }
+  this->Local.Grade();
+  return seeds;
+}
+
+} // namespace voxplex

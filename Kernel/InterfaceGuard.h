@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file InterfaceGuard.h
+ * @brief Sees to it that the mesh's interfaces are near the image's, and manifold.
+ */
+#ifndef voxplex_InterfaceGuard_h
+#define voxplex_InterfaceGuard_h
+
+#include "Grading/GradedDelta.h"
+#include "Image/BitMask.h"
+#include "Image/Domain.h"
+#include "Image/LocalDelta.h"
+#include "Mesh/SimplexMesh.h"
+#include "Refinement/FeatureGrid.h"
+#include "Refinement/FeatureSeed.h"
+
+#include <map>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Finds what sampling with delta missed, and says where to sample more finely.
+ *
+ * R1 asks for the interface that is closest to a circumcentre, so the tip of a thin process, or a hole
+ * through a sheet, may never be looked at; and where two interfaces are nearer to each other than delta,
+ * tetrahedra of their labels alternate around edges. Inspect() looks at a mesh for
+ * - faces between voxels of different labels that have no vertex of the mesh's interfaces within
+ *   LargestDistance times delta, or a voxel's diagonal if that is more;
+ * - edges that are not manifold on the boundary of some label: other than two of its facets meet there.
+ *
+ * Around each of these it proposes points of the interfaces half a delta apart (a quarter, if it comes there
+ * again, and so on), to be inserted before refinement goes on. CGAL's Mesh_3 refines facets around such edges
+ * to the same end; the thesis has no such rule.
+ *
+ * Faces that were sampled before are looked at first, and all others only when nothing is wrong with these.
+ *
+ * Not thread safe; uses threads of its own. Inspect() takes time linear in the image's surface voxels and
+ * n log n in the mesh's interface facets.
+ */
+class InterfaceGuard
+{
+public:
+  /** The distance that is asked for, in delta; to a vertex, so that to a facet is less. */
+  static constexpr double LargestDistance = 1.4;
+
+  /**
+   * All references must live as long as this.
+   * @param sites the image's surface voxels (FindSurfaceVoxels)
+   * @param delta sampling density; if it is graded, the largest
+   * @param graded delta from place to place; null: the same everywhere
+   * @param local receives the spacing of what is proposed
+   * @param threads 0 means all cores; results do not depend on it
+   */
+  InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
+    double delta, const GradedDelta<3>* graded, LocalDelta<3>& local, unsigned threads,
+    const std::stop_token& stop);
+
+  /**
+   * Points that would mend what is wrong with the mesh's interfaces.
+   * @return nothing if all is well, or if the label field has no finer features to sample
+   * @throws Cancelled if a stop was requested before the end
+   */
+  std::vector<FeatureSeed<3>> Inspect(const SimplexMesh<3>& mesh);
+
+  /** Of the last mesh that was inspected. */
+  std::size_t NumberOfFarFaces() const { return this->FarFaces; }
+  /** Of the last mesh that was inspected. */
+  std::size_t NumberOfNonManifoldEdges() const { return this->NonManifoldEdges; }
+
+private:
+  using Index = GridGeometry<3>::Index;
+
+  /** Between a voxel of the crop, or one beside it, and the next along an axis. */
+  struct Face
+  {
+    Index Voxel;
+    unsigned Axis;
+
+    auto operator<=>(const Face&) const = default;
+    Index Next() const
+    {
+      Index next = this->Voxel;
+      ++next[this->Axis];
+      return next;
+    }
+  };
+
+  std::vector<Point<3>> FindFarFaces(const SimplexMesh<3>& mesh) const;
+  template <typename Function>
+  void ForEachFaceOfRow(std::size_t row, Function&& function) const;
+  void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
+  bool IsFar(const Point<3>& centre, const FeatureGrid<3>& vertices) const;
+  double DeltaAt(const Point<3>& p) const;
+  LabelId IdOf(const Index& voxel) const;
+  Point<3> CentreOf(const Index& voxel) const;
+  Point<3> CentreOf(const Face& face) const;
+
+  const LabelImage<3>& Image;
+  const BitMask<3>& Sites;
+  const Domain<3>& Surfaces;
+  const double Delta;
+  const GradedDelta<3>* const Graded;
+  double VoxelDiagonal;
+  double FinestSpacing;
+  LocalDelta<3>& Local;
+  const unsigned Threads;
+  const std::stop_token Stop;
+  std::map<Index, unsigned> Visits; ///< by cell of LocalDelta
+  std::vector<Face> Sampled;        ///< in earlier inspections, ascending
+  std::size_t FarFaces = 0;
+  std::size_t NonManifoldEdges = 0;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh's interfaces are near the image's, and manifold: guard, edges, repair.
+#include "Error.h"
+#include "Image/ImageDomain.h"
+#include "ImageMesher.h"
+#include "InterfaceGuard.h"
+#include "Mesh/InterfaceEdges.h"
+#include "Mesh/ManifoldRepair.h"
+#include "MeshChecks.h"
+#include "Phantoms.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+using namespace voxplex;
+
+namespace
+{
+
+/** From the faces between voxels of different labels to the vertices of the mesh's interfaces, at most. */
+double LargestDistance(const LabelImage<3>& image, const SimplexMesh<3>& mesh)
+{
+  std::set<std::uint32_t> used;
+  for (const auto& facet : mesh.Facets)
+  {
+    used.insert(facet.begin(), facet.end());
+  }
+  const auto& n = image.CropDimensions();
+  const auto idOf = [&](const GridGeometry<3>::Index& v) -> int
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      if (v[a] < 0 || v[a] >= n[a])
+      {
+        return 0;
+      }
+    }
+    return image.Ids()[static_cast<std::size_t>((v[2] * n[1] + v[1]) * n[0] + v[0])];
+  };
+  double largest = 0.0;
+  GridGeometry<3>::Index v;
+  for (v[2] = -1; v[2] < n[2]; ++v[2])
+  {
+    for (v[1] = -1; v[1] < n[1]; ++v[1])
+    {
+      for (v[0] = -1; v[0] < n[0]; ++v[0])
+      {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          GridGeometry<3>::Index next = v;
+          ++next[a];
+          if (idOf(v) == idOf(next))
+          {
+            continue;
+          }
+          Point<3> index;
+          for (std::size_t b = 0; b < 3; ++b)
+          {
+            index[b] = static_cast<double>(v[b] + image.CropOrigin()[b]) + (a == b ? 0.5 : 0.0);
+          }
+          const Point<3> centre = image.Grid().ToFrame(index);
+          double nearest = std::numeric_limits<double>::infinity();
+          for (const std::uint32_t p : used)
+          {
+            nearest = std::min(nearest, Distance(mesh.Points[p], centre));
+          }
+          largest = std::max(largest, nearest);
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+/** Edges at which a label other than background has not two facets of its boundary, counted apart. */
+std::set<std::array<std::uint32_t, 2>> BadEdges(const SimplexMesh<3>& mesh)
+{
+  std::set<std::array<std::uint32_t, 2>> bad;
+  for (const auto& [label, ridges] : checks::RidgesOfBoundaries(mesh))
+  {
+    for (const auto& [edge, count] : ridges)
+    {
+      if (label != 0 && count != 2)
+      {
+        bad.insert({ edge[0], edge[1] });
+      }
+    }
+  }
+  return bad;
+}
+
+/** A block with a hair: one voxel thick, 12 long. */
+LabelImage<3> BlockWithHair()
+{
+  return phantoms::Make(phantoms::Cube(30),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const bool block = p[0] > 3 && p[0] < 14 && p[1] > 8 && p[1] < 22 && p[2] > 8 && p[2] < 22;
+      const bool hair = p[0] >= 14 && p[0] < 26 && p[1] == 15 && p[2] == 15;
+      return block || hair ? 4 : 0;
+    });
+}
+
+/** Blobs of two labels in a third, and holes. */
+LabelImage<3> Blobs(unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::vector<std::array<double, 5>> blobs;
+  for (int k = 0; k < 60; ++k)
+  {
+    blobs.push_back({ 4.0 + random() % 24, 4.0 + random() % 24, 4.0 + random() % 24,
+      1.5 + 0.01 * (random() % 250), static_cast<double>(random() % 3) });
+  }
+  return phantoms::Make(phantoms::Cube(32),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      for (const auto& b : blobs)
+      {
+        if (Distance(p, { b[0], b[1], b[2] }) < b[3])
+        {
+          return static_cast<std::int16_t>(b[4]);
+        }
+      }
+      return Distance(p, { 15.5, 15.5, 15.5 }) < 13.0 ? 3 : 0;
+    });
+}
+
+SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned rounds,
+  MeshingStatistics* statistics = nullptr, unsigned threads = 1)
+{
+  MeshingOptions<3> options;
+  options.Delta = delta;
+  options.InterfaceRounds = rounds;
+  options.Threads = threads;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  if (statistics)
+  {
+    *statistics = mesher.Statistics();
+  }
+  return mesh;
+}
+
+struct RingShape
+{
+  double Height = 1.0;         ///< half of the edge's length
+  std::vector<double> Degrees; ///< of each tetrahedron; empty: all alike
+  bool HasCaps = false;        ///< each tetrahedron has a neighbour of its label below
+};
+
+/** Tetrahedra around an edge with the labels given, in a ring of radius 1; none where the label is 0. */
+SimplexMesh<3> Ring(const std::vector<std::int64_t>& labels, const RingShape& shape = {})
+{
+  const double height = shape.Height;
+  SimplexMesh<3> mesh;
+  mesh.Points.push_back({ 0.0, 0.0, -height });
+  mesh.Points.push_back({ 0.0, 0.0, height });
+  const std::size_t n = labels.size();
+  std::vector<double> angles{ 0.0 };
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    const double degrees =
+      shape.Degrees.empty() ? 360.0 / static_cast<double>(n) : shape.Degrees[k];
+    mesh.Points.push_back({ std::cos(angles[k]), std::sin(angles[k]), 0.0 });
+    angles.push_back(angles[k] + degrees * std::numbers::pi / 180.0);
+  }
+  std::map<std::array<std::uint32_t, 3>, std::vector<std::size_t>> sides;
+  constexpr unsigned outward[4][3] = { { 1, 2, 3 }, { 2, 0, 3 }, { 0, 1, 3 }, { 1, 0, 2 } };
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    if (labels[k] == 0)
+    {
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(2 + k);
+    const auto second = static_cast<std::uint32_t>(2 + (k + 1) % n);
+    mesh.Simplices.push_back({ 0, 1, first, second });
+    mesh.Labels.push_back(labels[k]);
+    if (shape.HasCaps)
+    {
+      const double middle = 0.5 * (angles[k] + angles[k + 1]);
+      const auto apex = static_cast<std::uint32_t>(mesh.Points.size());
+      mesh.Points.push_back({ 0.5 * std::cos(middle), 0.5 * std::sin(middle), -height - 1.0 });
+      mesh.Simplices.push_back({ apex, 0, first, second });
+      mesh.Labels.push_back(labels[k]);
+    }
+  }
+  const auto keyOf = [&](std::size_t t, unsigned i)
+  {
+    const auto& v = mesh.Simplices[t];
+    std::array<std::uint32_t, 3> key{ v[outward[i][0]], v[outward[i][1]], v[outward[i][2]] };
+    std::sort(key.begin(), key.end());
+    return key;
+  };
+  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+  {
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      sides[keyOf(t, i)].push_back(t);
+    }
+  }
+  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+  {
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      std::int64_t other = 0;
+      for (const std::size_t s : sides[keyOf(t, i)])
+      {
+        other = s != t ? mesh.Labels[s] : other;
+      }
+      if (other < mesh.Labels[t])
+      {
+        const auto& v = mesh.Simplices[t];
+        mesh.Facets.push_back({ v[outward[i][0]], v[outward[i][1]], v[outward[i][2]] });
+        mesh.FacetLabels.push_back({ mesh.Labels[t], other });
+      }
+    }
+  }
+  return mesh;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(InterfaceEdges, AreFoundByTheirLabels)
+{
+  EXPECT_TRUE(FindNonManifoldEdges(Ring({ 1, 1, 2, 2 })).empty());
+  const auto alternating = FindNonManifoldEdges(Ring({ 1, 2, 1, 2 }));
+  ASSERT_EQ(alternating.size(), 1u);
+  EXPECT_EQ(alternating[0].Ends, (std::array<std::uint32_t, 2>{ 0, 1 }));
+  EXPECT_FALSE(alternating[0].IsJunction);
+  const auto junction = FindNonManifoldEdges(Ring({ 1, 2, 1, 3 }));
+  ASSERT_EQ(junction.size(), 1u);
+  EXPECT_TRUE(junction[0].IsJunction);
+  // Background may be there in as many pieces as it likes, if no label is.
+  EXPECT_TRUE(FindNonManifoldEdges(Ring({ 1, 0, 2, 0 })).empty());
+  EXPECT_EQ(FindNonManifoldEdges(Ring({ 1, 0, 1, 0 })).size(), 1u);
+}
+
+TEST(InterfaceEdges, AgreeWithCountingByLabel)
+{
+  const SimplexMesh<3> mesh = Mesh(Blobs(1), 3.0, 0);
+  std::set<std::array<std::uint32_t, 2>> found;
+  for (const InterfaceEdge& edge : FindNonManifoldEdges(mesh))
+  {
+    found.insert(edge.Ends);
+  }
+  EXPECT_GT(found.size(), 3u);
+  EXPECT_EQ(found, BadEdges(mesh));
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
+{
+  SimplexMesh<3> mesh = Ring({ 1, 2, 1, 2 });
+  ASSERT_TRUE(checks::Complaints(mesh).empty());
+  const ManifoldRepairCounts counts = RepairManifold(mesh);
+  EXPECT_EQ(counts.Before, 1u);
+  EXPECT_EQ(counts.After, 0u);
+  EXPECT_TRUE(BadEdges(mesh).empty());
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  EXPECT_EQ(mesh.Simplices.size(), 4u);
+  EXPECT_EQ(std::count(mesh.Labels.begin(), mesh.Labels.end(), 1) % 2, 1); // one has changed
+}
+
+// A tetrahedron that hangs on an edge only goes, and its points with it.
+TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
+{
+  SimplexMesh<3> mesh = Ring({ 1, 1, 0, 1, 0 });
+  ASSERT_EQ(FindNonManifoldEdges(mesh).size(), 1u);
+  EXPECT_EQ(RepairManifold(mesh).After, 0u);
+  EXPECT_EQ(mesh.Simplices.size(), 2u);
+  EXPECT_EQ(mesh.Points.size(), 5u);
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+}
+
+// Whoever changes sides here leaves a triangle between itself and its cap, with an angle of 25 degrees in the narrow
+// tetrahedra and of 12 in the wide ones.
+TEST(ManifoldRepair, MakesNoSharpFacets)
+{
+  RingShape shape;
+  shape.Height = 0.15;
+  shape.Degrees = { 25.0, 155.0, 25.0, 155.0 };
+  shape.HasCaps = true;
+  const SimplexMesh<3> ring = Ring({ 1, 2, 1, 2 }, shape);
+  ASSERT_TRUE(checks::Complaints(ring).empty());
+  SimplexMesh<3> mesh = ring;
+  ManifoldRepairOptions options;
+  options.FacetAngle = 26.0;
+  options.JunctionFacetAngle = 26.0;
+  EXPECT_EQ(RepairManifold(mesh, options).After, 1u);
+  EXPECT_EQ(mesh.Labels, ring.Labels);
+  options.FacetAngle = 20.0;
+  options.JunctionFacetAngle = 20.0;
+  EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
+  EXPECT_EQ(mesh.Labels[2], 2); // a wide one stays
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+}
+
+TEST(ManifoldRepair, LeavesAGoodMeshAlone)
+{
+  SimplexMesh<3> mesh = Ring({ 1, 1, 2, 3 });
+  const SimplexMesh<3> before = mesh;
+  EXPECT_EQ(RepairManifold(mesh).Before, 0u);
+  EXPECT_EQ(mesh.Labels, before.Labels);
+  EXPECT_EQ(mesh.Facets, before.Facets);
+}
+
+TEST(ManifoldRepair, MendsRealMeshes)
+{
+  for (const unsigned seed : { 1u, 2u })
+  {
+    SimplexMesh<3> mesh = Mesh(Blobs(seed), 3.0, 0);
+    const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
+    const std::size_t before = BadEdges(mesh).size();
+    double smallest = 180.0;
+    const ManifoldRepairCounts counts = RepairManifold(mesh);
+    EXPECT_EQ(counts.Before, before);
+    EXPECT_EQ(counts.After, BadEdges(mesh).size());
+    EXPECT_LT(counts.After, before / 3 + 1);
+    const std::vector<std::string> complaints = checks::Complaints(mesh);
+    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    for (const auto& facet : mesh.Facets)
+    {
+      smallest = std::min(smallest, checks::SmallestAngle(mesh, facet));
+    }
+    EXPECT_GE(smallest, 20.0);
+    EXPECT_EQ(checks::Volumes(mesh).size(), volumes.size()); // no label is lost
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(InterfaceGuard, BringsOutAThinProcess)
+{
+  const LabelImage<3> image = BlockWithHair();
+  const double delta = 4.0;
+  EXPECT_GT(LargestDistance(image, Mesh(image, delta, 0)), 1.5 * delta);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    MeshingStatistics statistics;
+    const SimplexMesh<3> mesh = Mesh(image, delta, 5, &statistics, threads);
+    EXPECT_LE(LargestDistance(image, mesh), 1.5 * delta);
+    EXPECT_GE(statistics.Interfaces.Rounds, 1u);
+    EXPECT_GT(statistics.Interfaces.Seeds, 0u);
+  }
+}
+
+TEST(InterfaceGuard, LeavesManifoldBoundaries)
+{
+  for (const unsigned seed : { 1u, 2u, 3u })
+  {
+    const LabelImage<3> image = Blobs(seed);
+    EXPECT_GT(BadEdges(Mesh(image, 2.5, 0)).size(), 0u);
+    MeshingStatistics statistics;
+    const SimplexMesh<3> mesh = Mesh(image, 2.5, 5, &statistics);
+    EXPECT_EQ(BadEdges(mesh).size(), 0u);
+    EXPECT_EQ(statistics.Interfaces.NonManifoldLeft, 0u);
+    for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+    {
+      EXPECT_LT(checks::RadiusEdge(mesh, t), 2.0 + 1e-9);
+    }
+  }
+}
+
+TEST(InterfaceGuard, IsContentWithAGoodMesh)
+{
+  const LabelImage<3> image = phantoms::Ball(8.0);
+  MeshingStatistics statistics;
+  const SimplexMesh<3> with = Mesh(image, 2.0, 5, &statistics);
+  const SimplexMesh<3> without = Mesh(image, 2.0, 0);
+  EXPECT_EQ(statistics.Interfaces.Rounds, 0u);
+  EXPECT_EQ(with.Points, without.Points);
+  EXPECT_EQ(with.Simplices, without.Simplices);
+}
+
+// Half as far apart each time, until the label field has no more to show.
+TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
+{
+  const LabelImage<3> image = BlockWithHair();
+  const ImageDomain<3> domain(image, 1.0);
+  LocalDelta<3> local(image);
+  InterfaceGuard guard(image, domain.GetSites(), domain, 4.0, nullptr, local, 1, {});
+  SimplexMesh<3> nothing;
+  double spacing = 4.0;
+  int visits = 0;
+  for (;;)
+  {
+    const std::vector<FeatureSeed<3>> seeds = guard.Inspect(nothing);
+    if (seeds.empty())
+    {
+      break;
+    }
+    EXPECT_GT(guard.NumberOfFarFaces(), 100u);
+    for (const FeatureSeed<3>& seed : seeds)
+    {
+      EXPECT_DOUBLE_EQ(seed.Delta, 0.5 * spacing);
+      const DistanceInterval bounds = domain.DistanceBounds(seed.Position);
+      EXPECT_LE(bounds.Lower, 1e-6);
+    }
+    spacing *= 0.5;
+    EXPECT_LE(local.GradedAt(seeds.front().Position), spacing);
+    EXPECT_EQ(local.At(seeds.front().Position).Delta, std::numeric_limits<float>::infinity());
+    ASSERT_LT(++visits, 10);
+  }
+  EXPECT_EQ(visits, 4); // 2, 1, 0.5, 0.25; 0.125 is below a fifth of a voxel
+}
+
+TEST(InterfaceGuard, CanBeCancelled)
+{
+  const LabelImage<3> image = BlockWithHair();
+  const ImageDomain<3> domain(image, 1.0);
+  LocalDelta<3> local(image);
+  std::stop_source stop;
+  InterfaceGuard guard(image, domain.GetSites(), domain, 4.0, nullptr, local, 1, stop.get_token());
+  stop.request_stop();
+  EXPECT_THROW(guard.Inspect({}), Cancelled);
+}

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Curves where three labels meet: in the image, as points to begin with, and in the mesh.
+#include "Error.h"
+#include "Image/ImageDomain.h"
+#include "Image/JunctionCurves.h"
+#include "ImageMesher.h"
+#include "MeshChecks.h"
+#include "Phantoms.h"
+#include "Refinement/JunctionSeeds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+using namespace voxplex;
+
+namespace
+{
+
+constexpr double CentreX = 15.3;
+constexpr double CentreY = 15.8;
+constexpr double Bottom = 5.5;
+constexpr double Top = 24.5;
+
+/** A cylinder in three sectors, whose edge is an axis from bottom to top. */
+LabelImage<3> Sectors()
+{
+  return phantoms::Make(phantoms::Cube(31),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const double x = p[0] - CentreX;
+      const double y = p[1] - CentreY;
+      if (std::hypot(x, y) > 11.0 || p[2] < Bottom || p[2] > Top)
+      {
+        return 0;
+      }
+      const double angle = std::atan2(y, x);
+      return angle < -2.0 ? 1 : angle < 0.3 ? 2 : angle < 2.2 ? 5 : 1;
+    });
+}
+
+/** Every voxel one of five labels or background. */
+LabelImage<3> Noise(unsigned seed)
+{
+  std::mt19937 random(seed);
+  return phantoms::Make(GridGeometry<3>::Orthogonal({ 11, 9, 8 }, { 1.0, 0.5, 2.0 }),
+    [&](const Point<3>&) { return static_cast<std::int16_t>(random() % 6); });
+}
+
+JunctionCurves Trace(const LabelImage<3>& image, unsigned threads = 1)
+{
+  const ImageDomain<3> domain(image, 1.0);
+  return JunctionCurves(image, domain.GetLabelField(), domain.GetSites(), threads);
+}
+
+/** The labels at the points of a lattice of half a voxel within half a voxel of a point, along each axis. */
+std::set<LabelId> LabelsNear(
+  const LabelImage<3>& image, const ImageDomain<3>& domain, const Point<3>& p)
+{
+  std::set<LabelId> labels;
+  const Point<3> index = image.Grid().ToIndex(p);
+  for (int k = 0; k < 64; ++k)
+  {
+    Point<3> q;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      q[a] = 0.5 * (std::floor(2.0 * index[a]) + static_cast<double>((k >> (2 * a)) & 3) - 1.0);
+    }
+    labels.insert(domain.Label(image.Grid().ToFrame(q)));
+  }
+  return labels;
+}
+
+double DistanceToAxis(const Point<3>& p)
+{
+  return std::hypot(p[0] - CentreX, p[1] - CentreY);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(JunctionCurves, FollowTheAxisOfThreeSectors)
+{
+  const LabelImage<3> image = Sectors();
+  const JunctionCurves junctions = Trace(image);
+  EXPECT_EQ(junctions.NumberOfCorners(), 2u);
+  // The axis, three lines down the side, and three arcs at each end, all between the two corners or rims.
+  std::map<std::array<LabelId, 3>, double> lengths;
+  int axes = 0;
+  for (const JunctionCurves::Curve& curve : junctions.Curves())
+  {
+    for (std::size_t i = 1; i < curve.Points.size(); ++i)
+    {
+      lengths[curve.Labels] += Distance(curve.Points[i - 1], curve.Points[i]);
+    }
+    if (curve.Labels == std::array<LabelId, 3>{ 1, 2, 3 })
+    {
+      ++axes;
+      for (const Point<3>& p : curve.Points)
+      {
+        EXPECT_LT(DistanceToAxis(p), 0.5); // the field rounds the wider sectors
+      }
+      EXPECT_NEAR(std::abs(curve.Points.front()[2] - curve.Points.back()[2]), Top - Bottom, 1.0);
+    }
+  }
+  EXPECT_EQ(axes, 1);
+  EXPECT_NEAR((lengths[{ 1, 2, 3 }]), Top - Bottom, 2.0);
+  EXPECT_EQ(lengths.size(), 4u); // and each two of the labels with background
+}
+
+//------------------------------------------------------------------------------------------------
+// Whatever the labels: curves are closed or go from corner to corner, four at each.
+TEST(JunctionCurves, AreClosedOrEndInCorners)
+{
+  for (const unsigned seed : { 1u, 2u, 3u })
+  {
+    const LabelImage<3> image = Noise(seed);
+    const ImageDomain<3> domain(image, 1.0);
+    const JunctionCurves junctions = Trace(image);
+    std::map<Point<3>, int> ends;
+    std::size_t points = 0;
+    for (const JunctionCurves::Curve& curve : junctions.Curves())
+    {
+      ASSERT_GE(curve.Points.size(), 2u);
+      if (!curve.IsClosed)
+      {
+        ++ends[curve.Points.front()];
+        ++ends[curve.Points.back()];
+      }
+      EXPECT_LT(curve.Labels[0], curve.Labels[1]);
+      EXPECT_LT(curve.Labels[1], curve.Labels[2]);
+      const Point<3>& p = curve.Points[curve.Points.size() / 2];
+      const std::set<LabelId> near = LabelsNear(image, domain, p);
+      for (const LabelId label : curve.Labels)
+      {
+        EXPECT_TRUE(near.contains(label));
+      }
+      points += curve.Points.size();
+    }
+    EXPECT_GT(junctions.NumberOfCorners(), 20u);
+    EXPECT_EQ(ends.size(), junctions.NumberOfCorners());
+    for (const auto& [corner, count] : ends)
+    {
+      EXPECT_EQ(count, 4);
+    }
+    EXPECT_GT(points, 100u);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(JunctionCurves, DoNotDependOnThreads)
+{
+  const LabelImage<3> image = Noise(4);
+  const JunctionCurves one = Trace(image, 1);
+  const JunctionCurves four = Trace(image, 4);
+  ASSERT_EQ(one.Curves().size(), four.Curves().size());
+  for (std::size_t k = 0; k < one.Curves().size(); ++k)
+  {
+    EXPECT_EQ(one.Curves()[k].Points, four.Curves()[k].Points);
+    EXPECT_EQ(one.Curves()[k].Labels, four.Curves()[k].Labels);
+  }
+}
+
+TEST(JunctionCurves, NeedThreeLabels)
+{
+  EXPECT_TRUE(Trace(phantoms::Ball(6.0)).Curves().empty());
+  EXPECT_TRUE(Trace(phantoms::NestedBalls(12.0)).Curves().empty());
+}
+
+TEST(JunctionCurves, CanBeCancelled)
+{
+  const LabelImage<3> image = Noise(1);
+  const ImageDomain<3> domain(image, 1.0);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(
+    JunctionCurves(image, domain.GetLabelField(), domain.GetSites(), 1, stop.get_token()),
+    Cancelled);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(JunctionSeeds, AreAboutDeltaApart)
+{
+  const LabelImage<3> image = Sectors();
+  const JunctionCurves junctions = Trace(image);
+  const double delta = 2.0;
+  const std::vector<FeatureSeed<3>> seeds = SampleJunctions(
+    junctions, [&](const Point<3>&, const std::array<LabelId, 3>&) { return delta; }, delta);
+  std::vector<double> heights; // of those on the axis
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      EXPECT_GE(Distance(seeds[i].Position, seeds[j].Position), 0.75 * delta);
+    }
+    if (DistanceToAxis(seeds[i].Position) < 1.0)
+    {
+      heights.push_back(seeds[i].Position[2]);
+    }
+  }
+  std::sort(heights.begin(), heights.end());
+  ASSERT_GE(heights.size(), 7u);
+  EXPECT_NEAR(heights.front(), Bottom, 0.6); // the corners are among them
+  EXPECT_NEAR(heights.back(), Top, 0.6);
+  for (std::size_t i = 1; i < heights.size(); ++i)
+  {
+    EXPECT_LT(heights[i] - heights[i - 1], 1.6 * delta);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// What is smaller than delta is not gone around.
+TEST(JunctionSeeds, LeaveSmallLoopsOut)
+{
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(24),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const bool hole =
+        Distance(p, { 11.5, 11.5, 11.5 }) < 2.5; // of background, between the labels
+      const bool inside = Distance(p, { 11.5, 11.5, 11.5 }) < 9.0;
+      return !inside || hole ? 0 : p[0] < 11.5 ? 1 : 2;
+    });
+  const JunctionCurves junctions = Trace(image);
+  ASSERT_EQ(junctions.Curves().size(), 2u); // around the ball, and around the hole
+  const auto count = [&](double delta)
+  {
+    int near = 0;
+    for (const FeatureSeed<3>& seed : SampleJunctions(
+           junctions, [&](const Point<3>&, const std::array<LabelId, 3>&) { return delta; }, delta))
+    {
+      near += Distance(seed.Position, { 11.5, 11.5, 11.5 }) < 5.0 ? 1 : 0;
+    }
+    return near;
+  };
+  EXPECT_GE(count(1.0), 4);
+  EXPECT_EQ(count(5.0), 0);
+}
+
+//------------------------------------------------------------------------------------------------
+namespace
+{
+
+/** Edges of a mesh where three labels or more meet, background included. */
+std::vector<std::array<std::uint32_t, 2>> JunctionEdges(const SimplexMesh<3>& mesh)
+{
+  std::map<std::array<std::uint32_t, 2>, std::set<std::int64_t>> labels;
+  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  {
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      const auto [low, high] = std::minmax(mesh.Facets[f][i], mesh.Facets[f][(i + 1) % 3]);
+      labels[{ low, high }].insert(mesh.FacetLabels[f].begin(), mesh.FacetLabels[f].end());
+    }
+  }
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const auto& [edge, around] : labels)
+  {
+    if (around.size() > 2)
+    {
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
+struct AxisFigures
+{
+  double LargestDistance =
+    0.0;        ///< of the middle of a junction edge within the cylinder from the axis
+  int Ends = 0; ///< vertices with other than two junction edges there
+};
+
+AxisFigures MeshAxis(bool sample)
+{
+  MeshingOptions<3> options;
+  options.Delta = 2.0;
+  options.SampleJunctions = sample;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  EXPECT_EQ(mesher.Run(Sectors(), mesh), MeshingOutcome::Done);
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  EXPECT_EQ(mesher.Statistics().Interfaces.Corners, sample ? 2u : 0u);
+  EXPECT_EQ(mesher.Statistics().Interfaces.JunctionSeeds > 0, sample);
+  AxisFigures figures;
+  std::map<std::uint32_t, int> degrees;
+  for (const auto& edge : JunctionEdges(mesh))
+  {
+    const Point<3> middle = Interpolate(mesh.Points[edge[0]], mesh.Points[edge[1]], 0.5);
+    if (middle[2] > Bottom + 1.5 && middle[2] < Top - 1.5 && DistanceToAxis(middle) < 8.0)
+    {
+      figures.LargestDistance = std::max(figures.LargestDistance, DistanceToAxis(middle));
+    }
+    ++degrees[edge[0]];
+    ++degrees[edge[1]];
+  }
+  for (const auto& [vertex, degree] : degrees)
+  {
+    const Point<3>& p = mesh.Points[vertex];
+    if (p[2] > Bottom + 2.0 && p[2] < Top - 2.0 && DistanceToAxis(p) < 8.0)
+    {
+      figures.Ends += degree != 2 ? 1 : 0;
+    }
+  }
+  return figures;
+}
+
+} // namespace
+
+TEST(Junctions, ComeOutAsPolylines)
+{
+  const AxisFigures with = MeshAxis(true);
+  EXPECT_LT(with.LargestDistance, 0.5);
+  EXPECT_EQ(with.Ends, 0);
+  const AxisFigures without = MeshAxis(false);
+  EXPECT_GT(without.LargestDistance, 2.0 * with.LargestDistance);
+}
