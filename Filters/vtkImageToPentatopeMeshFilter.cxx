@@ -297,7 +297,7 @@ void vtkImageToPentatopeMeshFilter::Mesh(
     series.MakeLabelImage(frame.Grid, run.SelectedLabels(), run.Options.Threads);
   series.Clear();
   voxplex::SimplexMesh<4> mesh;
-  if (!run.Mesh(labels, mesh))
+  if (!run.Mesh(labels, labels, mesh))
   {
     return;
   }

@@ -95,7 +95,8 @@ public:
   /**
    * Standard deviation, in voxels along each axis, of the smoothing that turns voxel stairs into
    * smooth interfaces. It does not shrink objects, and every voxel centre keeps its label. Default
-   * 1; 0 switches it off.
+   * 1; 0 switches it off. Of label images only
+   * (vtkImageToTetMeshFilter::SetIsosurfaceSmoothingSigma()).
    */
   vtkSetMacro(SmoothingSigma, double);
   vtkGetMacro(SmoothingSigma, double);

@@ -3,6 +3,8 @@
 #include "vtkImageToTetMeshFilter.h"
 
 #include "Image/DropComponents.h"
+#include "Image/IsosurfaceImage.h"
+#include "Private/ImageLabels.h"
 #include "Private/MeshOutput.h"
 #include "Private/SimplexMeshRun.h"
 
@@ -18,22 +20,40 @@
 
 vtkStandardNewMacro(vtkImageToTetMeshFilter);
 
+static_assert(vtkImageToTetMeshFilter::UNIFORM == static_cast<int>(voxplex::GradingMode::Uniform));
+static_assert(vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE ==
+  static_cast<int>(voxplex::GradingMode::LocalFeatureSize));
+
 namespace
 {
 
-voxplex::LabelImage<3> ReadLabels(
-  const voxplex::ChosenArray& input, const voxplex::LabelSelection& selection, unsigned threads)
+using Filter = vtkImageToTetMeshFilter;
+static_assert(Filter::INSIDE_ABOVE == static_cast<int>(voxplex::IsosurfaceSide::Above) &&
+  Filter::INSIDE_BELOW == static_cast<int>(voxplex::IsosurfaceSide::Below));
+
+void CheckNoneSelected(const voxplex::LabelSelection& selection)
 {
-  const vtkSmartPointer<vtkDataArray> array = voxplex::Contiguous(input.Array);
-  const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
-  switch (array->GetDataType())
+  if (!selection.Only.empty() || !selection.But.empty())
   {
-    vtkTemplateMacro(return voxplex::LabelImage<3>::FromScalars<VTK_TT>(
-      std::span<const VTK_TT>(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), count),
-      input.Frame.Grid, selection, threads));
+    throw voxplex::InputError(
+      "AddLabel() and ExcludeLabel() choose among the labels of a label image, "
+      "but InputMode is isosurface; remove the labels.");
   }
-  throw voxplex::InputError(
-    "Scalars of type " + std::string(array->GetDataTypeAsString()) + " cannot be read as labels.");
+}
+
+/** @param scalars must live as long as the result */
+voxplex::IsosurfaceImage<3> ReadIsosurface(vtkDataArray* scalars, const voxplex::ImageFrame& frame,
+  const voxplex::Isosurface& surface, unsigned threads)
+{
+  const auto count = static_cast<std::size_t>(scalars->GetNumberOfTuples());
+  switch (scalars->GetDataType())
+  {
+    vtkTemplateMacro(return voxplex::IsosurfaceImage<3>::FromScalars<VTK_TT>(
+      std::span<const VTK_TT>(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), count),
+      frame.Grid, surface, threads));
+  }
+  throw voxplex::InputError("Scalars of type " + std::string(scalars->GetDataTypeAsString()) +
+    " cannot be read as grey values.");
 }
 
 } // namespace
@@ -54,6 +74,21 @@ void vtkImageToTetMeshFilter::SetSizeImplicitFunction(vtkImplicitFunction* funct
 vtkImplicitFunction* vtkImageToTetMeshFilter::GetSizeImplicitFunction() const
 {
   return this->SizeImplicitFunction;
+}
+
+const char* vtkImageToTetMeshFilter::GetGradingAsString() const
+{
+  return this->Grading == UNIFORM ? "uniform" : "local-feature-size";
+}
+
+const char* vtkImageToTetMeshFilter::GetInputModeAsString() const
+{
+  return this->InputMode == INPUT_LABELS ? "labels" : "isosurface";
+}
+
+const char* vtkImageToTetMeshFilter::GetInsideAsString() const
+{
+  return this->Inside == INSIDE_ABOVE ? "above" : "below";
 }
 
 vtkPolyData* vtkImageToTetMeshFilter::GetInterfaces()
@@ -84,6 +119,10 @@ double vtkImageToTetMeshFilter::FindDefaultDelta(vtkInformationVector** inputVec
 void vtkImageToTetMeshFilter::CheckParameters() const
 {
   this->Superclass::CheckParameters();
+  voxplex::CheckRange(this->FeatureRatio, std::numeric_limits<double>::min(),
+    std::numeric_limits<double>::max(), "FeatureRatio", "positive and finite");
+  voxplex::CheckRange(this->LargestFeature, std::numeric_limits<double>::min(),
+    std::numeric_limits<double>::max(), "LargestFeature", "positive and finite");
   voxplex::CheckRange(this->FacetAngle, 0.0, 30.0, "FacetAngle", "between 0 and 30 degrees");
   voxplex::CheckRange(this->SliverAngle, 0.0, this->Force ? 59.0 : voxplex::LargestSliverAngle,
     "SliverAngle",
@@ -93,6 +132,8 @@ void vtkImageToTetMeshFilter::CheckParameters() const
         "on to 59");
   voxplex::CheckRange(this->MinimumComponentVolume, 0.0, std::numeric_limits<double>::max(),
     "MinimumComponentVolume", "positive and finite, or 0 for none");
+  voxplex::CheckRange(this->OptimisationTimeLimit, 0.0, std::numeric_limits<double>::max(),
+    "OptimisationTimeLimit", "a number of seconds, or 0 for none");
 }
 
 void vtkImageToTetMeshFilter::Mesh(
@@ -104,20 +145,52 @@ void vtkImageToTetMeshFilter::Mesh(
     scalars, association, "image", " For time series, use vtkImageToPentatopeMeshFilter.");
 
   Run<3> run(this, inputVector, input.Frame);
+  run.Options.Grading.Mode = static_cast<voxplex::GradingMode>(this->Grading);
+  run.Options.Grading.Ratio = this->FeatureRatio;
+  run.Options.Grading.Lambda = this->LargestFeature;
   run.Options.FacetAngle = this->FacetAngle;
   run.Options.TetSlivers.Angle = this->SliverAngle;
   run.Options.Optimise = this->Optimise;
+  run.Options.OptimisationSeconds = this->OptimisationTimeLimit;
+  run.Options.SampleJunctions = this->SampleJunctions;
+  run.Options.InterfaceRounds = static_cast<unsigned>(this->InterfaceRounds);
   run.Options.SmallestComponent = this->SmallestComponent;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
-  voxplex::LabelImage<3> labels = ReadLabels(input, run.SelectedLabels(), run.Options.Threads);
-  std::vector<voxplex::ComponentReport> dropped =
-    voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Threads);
-  if (!run.Mesh(labels, mesh))
+  const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
   {
-    return;
+    std::vector<voxplex::ComponentReport> dropped =
+      voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Threads);
+    const bool done = run.Mesh(image, labels, mesh);
+    if (done)
+    {
+      run.Figures().DroppedComponents = std::move(dropped);
+    }
+    return done;
+  };
+  if (this->InputMode == INPUT_LABELS)
+  {
+    auto labels = ReadLabels(input, run.SelectedLabels(), run.Options.Threads);
+    if (!meshImage(labels, labels))
+    {
+      return;
+    }
   }
-  run.Figures().DroppedComponents = std::move(dropped);
+  else
+  {
+    CheckNoneSelected(run.SelectedLabels());
+    const voxplex::Isosurface surface{ this->Isovalue,
+      static_cast<voxplex::IsosurfaceSide>(this->Inside), this->InsideLabel,
+      this->IsosurfaceSmoothingSigma };
+    const vtkSmartPointer<vtkDataArray> values = voxplex::Contiguous(input.Array);
+    auto image = ReadIsosurface(values, input.Frame, surface, run.Options.Threads);
+    if (!meshImage(image, image.Labels()))
+    {
+      return;
+    }
+    run.Figures().Isosurface = { true, this->Isovalue, this->Inside == INSIDE_ABOVE,
+      image.Range() };
+  }
   const voxplex::StopWatch writing;
   voxplex::MoveToOutput(std::move(mesh), input.Frame, vtkUnstructuredGrid::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1), run.Options.Threads);
@@ -128,9 +201,20 @@ void vtkImageToTetMeshFilter::Mesh(
 void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Grading: " << this->GetGradingAsString() << "\n";
+  os << indent << "FeatureRatio: " << this->FeatureRatio << "\n";
+  os << indent << "LargestFeature: " << this->LargestFeature << "\n";
+  os << indent << "InputMode: " << this->GetInputModeAsString() << "\n";
+  os << indent << "Isovalue: " << this->Isovalue << "\n";
+  os << indent << "Inside: " << this->GetInsideAsString() << "\n";
+  os << indent << "InsideLabel: " << this->InsideLabel << "\n";
+  os << indent << "IsosurfaceSmoothingSigma: " << this->IsosurfaceSmoothingSigma << "\n";
   os << indent << "FacetAngle: " << this->FacetAngle << "\n";
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
   os << indent << "Optimise: " << this->Optimise << "\n";
+  os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";
+  os << indent << "SampleJunctions: " << this->SampleJunctions << "\n";
+  os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";

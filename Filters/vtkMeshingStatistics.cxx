@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshingStatistics.h"
 
+#include "Private/JsonWriter.h"
 #include "Private/MeshingFigures.h"
+#include "Private/QualityJson.h"
 
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <locale>
 #include <optional>
-#include <span>
-#include <sstream>
-#include <string_view>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshingStatistics);
@@ -20,163 +18,26 @@ vtkStandardNewMacro(vtkMeshingStatistics);
 namespace
 {
 
-/** Writes nested JSON objects. */
-class JsonWriter
+void AddIsosurface(voxplex::JsonWriter& json, const IsosurfaceFigures& isosurface)
 {
-public:
-  JsonWriter()
+  if (!isosurface.Meshed)
   {
-    this->Text.imbue(std::locale::classic());
-    this->Text.precision(std::numeric_limits<double>::max_digits10);
-    this->Text << "{";
+    json.AddNull("isosurface");
+    return;
   }
-
-  void Begin(const std::string& name)
+  json.Begin("isosurface");
+  json.Add("value", isosurface.Value);
+  json.Add("inside", std::string_view(isosurface.InsideIsAbove ? "above" : "below"));
+  json.BeginList("range");
+  for (const double value : isosurface.Range)
   {
-    this->Name(name);
-    this->Text << "{";
-    this->First = true;
-  }
-
-  void End()
-  {
-    this->Text << "}";
-    this->First = false;
-  }
-
-  void BeginList(const std::string& name)
-  {
-    this->Name(name);
-    this->Text << "[";
-    this->First = true;
-  }
-
-  /** An object of a list; ends with End(). */
-  void BeginItem()
-  {
-    this->Text << (this->First ? "{" : ", {");
-    this->First = true;
-  }
-
-  void EndList()
-  {
-    this->Text << "]";
-    this->First = false;
-  }
-
-  void Add(const std::string& name, double value)
-  {
-    this->Name(name);
-    if (std::isfinite(value))
-    {
-      this->Text << value;
-    }
-    else
-    {
-      this->Text << "null"; // JSON has no infinity
-    }
-  }
-
-  void Add(const std::string& name, std::int64_t value)
-  {
-    this->Name(name);
-    this->Text << value;
-  }
-
-  void Add(const std::string& name, std::uint64_t value)
-  {
-    this->Name(name);
-    this->Text << value;
-  }
-
-  void Add(const std::string& name, bool value)
-  {
-    this->Name(name);
-    this->Text << (value ? "true" : "false");
-  }
-
-  /** The text must not need escapes. */
-  void Add(const std::string& name, std::string_view text)
-  {
-    this->Name(name);
-    this->Text << '"' << text << '"';
-  }
-
-  template <typename T>
-  void Add(const std::string& name, std::span<const T> values)
-  {
-    this->Name(name);
-    this->Text << "[";
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      this->Text << (i ? ", " : "") << values[i];
-    }
-    this->Text << "]";
-  }
-
-  std::string Finish()
-  {
-    this->Text << "}";
-    return this->Text.str();
-  }
-
-private:
-  void Name(const std::string& name)
-  {
-    this->Text << (this->First ? "" : ", ") << '"' << name << "\": ";
-    this->First = false;
-  }
-
-  std::ostringstream Text;
-  bool First = true;
-};
-
-void AddQuality(JsonWriter& json, const voxplex::MeshQuality& quality)
-{
-  json.Begin("labels");
-  for (const auto& label : quality.Labels)
-  {
-    json.Begin(std::to_string(label.Label));
-    json.Add("elements", label.Elements);
-    json.Add("volume", label.Volume);
-    json.End();
-  }
-  json.End();
-  json.Begin("quality");
-  json.Add("shortest_edge", quality.ShortestEdge);
-  json.Add("max_radius_edge", quality.MaximumRadiusEdgeRatio);
-  json.Add("mean_radius_edge", quality.MeanRadiusEdgeRatio);
-  json.Add("radius_edge_deviation", quality.RadiusEdgeRatioDeviation);
-  json.Add("min_dihedral", quality.MinimumDihedralAngle);
-  json.Add("max_dihedral", quality.MaximumDihedralAngle);
-  json.Add("min_planar", quality.MinimumFacetAngle);
-  json.Add("min_normalized_volume", quality.MinimumNormalizedVolume);
-  json.Add("mean_normalized_volume", quality.MeanNormalizedVolume);
-  json.Add("normalized_volume_deviation", quality.NormalizedVolumeDeviation);
-  json.Add<std::uint64_t>("normalized_volume_histogram", quality.NormalizedVolumes);
-  json.Add("inverted_elements", quality.InvertedSimplices);
-  json.Add("radius_edge_violations", quality.RadiusEdgeViolations);
-  json.Add("facet_angle_violations", quality.FacetAngleViolations);
-  json.Add("facet_angle_violations_at_junctions", quality.FacetAngleViolationsAtJunctions);
-  json.End();
-}
-
-void AddComponents(JsonWriter& json, const std::string& name,
-  const std::vector<voxplex::ComponentReport>& components)
-{
-  json.BeginList(name);
-  for (const voxplex::ComponentReport& component : components)
-  {
-    json.BeginItem();
-    json.Add("label", component.Label);
-    json.Add("voxels", component.Voxels);
-    json.Add<std::int64_t>("voxel", component.Voxel);
-    json.End();
+    json.AddItem(value);
   }
   json.EndList();
+  json.End();
 }
 
-void AddRules(JsonWriter& json, const voxplex::RuleStatistics& rules)
+void AddRules(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
 {
   json.Begin("rules");
   for (std::size_t i = 0; i < rules.Fired.size(); ++i)
@@ -213,10 +74,24 @@ void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
   }
 }
 
-void AddOptimisation(JsonWriter& json, const voxplex::OptimisationFigures& figures)
+void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceFigures& figures)
+{
+  json.Begin("interfaces");
+  json.Add("junction_curves", figures.JunctionCurves);
+  json.Add("junction_corners", figures.Corners);
+  json.Add("junction_points", figures.JunctionSeeds);
+  json.Add("rounds", static_cast<std::uint64_t>(figures.Rounds));
+  json.Add("points", figures.Seeds);
+  json.Add("nonmanifold_edges_repaired", figures.NonManifoldRepaired);
+  json.Add("nonmanifold_edges_left", figures.NonManifoldLeft);
+  json.End();
+}
+
+void AddOptimisation(voxplex::JsonWriter& json, const voxplex::OptimisationFigures& figures)
 {
   json.Begin("optimisation");
   json.Add("ran", figures.Ran);
+  json.Add("out_of_time", figures.OutOfTime);
   json.Add("min_dihedral_before", figures.SmallestDihedralBefore);
   json.Add("max_dihedral_before", figures.LargestDihedralBefore);
   json.Add("poor_before", figures.PoorBefore);
@@ -232,7 +107,7 @@ double MeanCavitySize(const voxplex::RuleStatistics& rules)
   return static_cast<double>(rules.CavitySimplices) / static_cast<double>(rules.Insertions());
 }
 
-void AddCavities(JsonWriter& json, const voxplex::RuleStatistics& rules)
+void AddCavities(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
 {
   json.Begin("cavities");
   json.Add("mean", MeanCavitySize(rules));
@@ -245,7 +120,8 @@ void AddCavities(JsonWriter& json, const voxplex::RuleStatistics& rules)
   json.End();
 }
 
-void AddIfCounted(JsonWriter& json, const char* key, const std::optional<std::uint64_t>& count)
+void AddIfCounted(
+  voxplex::JsonWriter& json, const char* key, const std::optional<std::uint64_t>& count)
 {
   if (count)
   {
@@ -253,7 +129,7 @@ void AddIfCounted(JsonWriter& json, const char* key, const std::optional<std::ui
   }
 }
 
-void AddThreads(JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& threads)
+void AddThreads(voxplex::JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& threads)
 {
   json.BeginList("thread_statistics");
   for (const auto& thread : threads)
@@ -311,8 +187,13 @@ VOXPLEX_FIGURE(vtkTypeInt64, NumberOfElements, Elements)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfVertices, Vertices)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfInterfaceFacets, InterfaceFacets)
 VOXPLEX_FIGURE(double, Delta, Run.Delta)
+VOXPLEX_FIGURE(double, LargestDelta, Run.LargestDelta)
+VOXPLEX_FIGURE(vtkTypeInt64, GradingSamples, Run.GradingSamples)
+VOXPLEX_FIGURE(vtkTypeInt64, GradingPoles, Run.GradingPoles)
 VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
 VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
+VOXPLEX_FIGURE(bool, MeshedIsosurface, Isosurface.Meshed)
+VOXPLEX_FIGURE(double, Isovalue, Isosurface.Value)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components)
 VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.LostComponents.size())
@@ -357,7 +238,15 @@ VOXPLEX_FIGURE(vtkTypeInt64, PredicateExactCalls, Run.Predicates.ExactCalls)
 VOXPLEX_FIGURE(vtkTypeInt64, PredicatePerturbedCalls, Run.Predicates.Perturbed)
 VOXPLEX_FIGURE(double, LabelFieldTime, Run.Times.LabelField)
 VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
+VOXPLEX_FIGURE(double, GradingTime, Run.Times.Grading)
 VOXPLEX_FIGURE(double, ComponentsTime, Run.Times.Components)
+VOXPLEX_FIGURE(double, InterfacesTime, Run.Times.Interfaces)
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfJunctionCurves, Run.Interfaces.JunctionCurves)
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfJunctionCorners, Run.Interfaces.Corners)
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfJunctionPoints, Run.Interfaces.JunctionSeeds)
+VOXPLEX_FIGURE(int, InterfaceRounds, Run.Interfaces.Rounds)
+VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdgesRepaired, Run.Interfaces.NonManifoldRepaired)
+VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdgesLeft, Run.Interfaces.NonManifoldLeft)
 VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
 VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
 VOXPLEX_FIGURE(double, OptimisationTime, Run.Times.Optimisation)
@@ -439,6 +328,11 @@ double vtkMeshingStatistics::GetMeanCavitySize() const
   return MeanCavitySize(this->Values->Run.Rules);
 }
 
+void vtkMeshingStatistics::GetScalarRange(double range[2]) const
+{
+  std::copy_n(this->Values->Isosurface.Range.begin(), 2, range);
+}
+
 vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
 {
   return index >= 0 && index < this->GetNumberOfLostLabels()
@@ -509,12 +403,17 @@ vtkTypeInt64 vtkMeshingStatistics::GetRuleFired(int rule) const
 std::string vtkMeshingStatistics::ToJSON() const
 {
   const Figures& v = *this->Values;
-  JsonWriter json;
+  voxplex::JsonWriter json;
   json.Add("dimension", static_cast<std::int64_t>(v.Dimension));
   json.Add("elements", v.Elements);
   json.Add("vertices", v.Vertices);
   json.Add("interface_facets", v.InterfaceFacets);
   json.Add("delta", v.Run.Delta);
+  json.Add("largest_delta", v.Run.LargestDelta);
+  json.Begin("grading");
+  json.Add("samples", v.Run.GradingSamples);
+  json.Add("poles", v.Run.GradingPoles);
+  json.End();
   json.Add("smoothing_sigma", v.Run.SmoothingSigma);
   json.Add("threads", static_cast<std::int64_t>(v.Threads));
   json.Add(
@@ -524,14 +423,25 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("seeding_seconds", v.Run.SeedingSeconds);
   json.Add("estimated_elements", v.Run.EstimatedElements);
   json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
+  AddIsosurface(json, v.Isosurface);
   json.Add<std::int64_t>("lost_labels", v.LostLabels);
   json.Add("components", v.Run.Components);
-  AddComponents(json, "lost_components", v.Run.LostComponents);
-  AddComponents(json, "dropped_components", v.DroppedComponents);
+  voxplex::AddComponents(json, "lost_components", v.Run.LostComponents);
+  voxplex::AddComponents(json, "dropped_components", v.DroppedComponents);
+  AddInterfaces(json, v.Run.Interfaces);
   AddOptimisation(json, v.Run.Optimisation);
   if (v.HasQuality)
   {
-    AddQuality(json, v.Quality);
+    json.Begin("labels");
+    for (const auto& label : v.Quality.Labels)
+    {
+      json.Begin(std::to_string(label.Label));
+      json.Add("elements", label.Elements);
+      json.Add("volume", label.Volume);
+      json.End();
+    }
+    json.End();
+    voxplex::AddQuality(json, v.Quality);
   }
   AddRules(json, v.Run.Rules);
   AddCavities(json, v.Run.Rules);
@@ -544,7 +454,9 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Begin("time");
   json.Add("label_field", v.Run.Times.LabelField);
   json.Add("distance_transform", v.Run.Times.DistanceTransform);
+  json.Add("grading", v.Run.Times.Grading);
   json.Add("components", v.Run.Times.Components);
+  json.Add("interfaces", v.Run.Times.Interfaces);
   json.Add("refinement", v.Run.Times.Refinement);
   json.Add("extraction", v.Run.Times.Extraction);
   json.Add("optimisation", v.Run.Times.Optimisation);

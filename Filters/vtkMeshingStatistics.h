@@ -51,10 +51,33 @@ public:
 
   /** The delta that was used: the one asked for, or the one derived from the spacing. */
   double GetDelta() const;
+  /**
+   * The largest sampling density of any interface: delta, unless it is graded
+   * (vtkImageToTetMeshFilter::SetGrading()).
+   */
+  double GetLargestDelta() const;
+  ///@{
+  /**
+   * Points of the interfaces by which local feature sizes were measured, and points of the medial axis that they
+   * gave; 0 unless the sampling density is graded.
+   */
+  vtkTypeInt64 GetGradingSamples() const;
+  vtkTypeInt64 GetGradingPoles() const;
+  ///@}
   /** The number of threads that was asked for, or that VTK's SMP setting gave. */
   int GetNumberOfThreads() const;
   /** The number of elements that was estimated before meshing. */
   vtkTypeInt64 GetEstimatedNumberOfElements() const;
+
+  ///@{
+  /**
+   * Whether the inside of an isosurface was meshed (vtkImageToTetMeshFilter::SetInputMode()); if so, its
+   * value, and the smallest and the largest value of the image, as they are after smoothing.
+   */
+  bool GetMeshedIsosurface() const;
+  double GetIsovalue() const;
+  void GetScalarRange(double range[2]) const;
+  ///@}
 
   ///@{
   /**
@@ -182,6 +205,21 @@ public:
 
   ///@{
   /**
+   * Junctions and interfaces (vtkImageToTetMeshFilter::SetSampleJunctions() and SetInterfaceRounds()): curves
+   * where three labels meet, corners where four do, points that were inserted on them; times that refinement
+   * went on for the sake of interfaces; edges that were not manifold on the boundary of some label, made so by giving
+   * tetrahedra to a neighbour, and those left.
+   */
+  vtkTypeInt64 GetNumberOfJunctionCurves() const;
+  vtkTypeInt64 GetNumberOfJunctionCorners() const;
+  vtkTypeInt64 GetNumberOfJunctionPoints() const;
+  int GetInterfaceRounds() const;
+  vtkTypeInt64 GetNonManifoldEdgesRepaired() const;
+  vtkTypeInt64 GetNonManifoldEdgesLeft() const;
+  ///@}
+
+  ///@{
+  /**
    * Optimisation after refinement (vtkImageToTetMeshFilter::SetOptimise()): whether it ran, the smallest and
    * largest dihedral angle before and after it in degrees, and how many tetrahedra had angles outside of
    * 15 to 155 degrees, or too large a radius-edge ratio, before and after it.
@@ -209,12 +247,15 @@ public:
   ///@{
   /**
    * Wall-clock seconds of each stage: reading the labels and smoothing them, the distance
-   * transform, connected components, refinement, extraction of the mesh into VTK data, optimisation. The total is the sum of the six;
+   * transform, local feature sizes, connected components, what is done for junctions and interfaces, refinement, extraction of the mesh
+   * into VTK data, optimisation. The total is the sum of the eight;
    * measuring the quality is not part of it.
    */
   double GetLabelFieldTime() const;
   double GetDistanceTransformTime() const;
+  double GetGradingTime() const;
   double GetComponentsTime() const;
+  double GetInterfacesTime() const;
   double GetRefinementTime() const;
   double GetExtractionTime() const;
   double GetOptimisationTime() const;
@@ -284,8 +325,9 @@ public:
 
   /**
    * Everything as one JSON object:
-   * `{"dimension", "elements", "vertices", "interface_facets", "delta", "threads", "contention", "balance",
-   * "switched_to_local", "seeding_seconds", "sizes_raised_to", "lost_labels": [...],
+   * `{"dimension", "elements", "vertices", "interface_facets", "delta", "largest_delta", "grading": {"samples",
+   * "poles"}, "threads", "contention", "balance", "switched_to_local", "seeding_seconds", "sizes_raised_to",
+   * "isosurface": {"value", "inside", "range": [least, largest]} (null for labels), "lost_labels": [...],
    * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "cavities":
    * {"mean", "largest"}, "slivers": {"found", "picks", "kept"}, "predicates": {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
    * "contention_seconds", "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA

@@ -12,8 +12,18 @@
 
 #include "vtkMeshingStatistics.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
+
+/** What was meshed, if not labels. */
+struct IsosurfaceFigures
+{
+  bool Meshed = false;
+  double Value = 0.0;
+  bool InsideIsAbove = true;
+  std::array<double, 2> Range{}; ///< of the image's values
+};
 
 struct vtkMeshingStatistics::Figures
 {
@@ -22,6 +32,7 @@ struct vtkMeshingStatistics::Figures
   std::int64_t Vertices = 0;
   std::int64_t InterfaceFacets = 0;
   int Threads = 0;
+  IsosurfaceFigures Isosurface;
   std::vector<std::int64_t> LostLabels;                    ///< in the image, not in the mesh
   std::vector<voxplex::ComponentReport> DroppedComponents; ///< left out on request
   voxplex::MeshingStatistics Run; ///< its Times include what the filter itself does

@@ -132,10 +132,12 @@ public:
   /**
    * Calls the kernel and fills the statistics, its quality included if the filter asks for it. The
    * time since the run was made is counted as reading the labels.
+   * @param image what is meshed: the label image, or the isosurface that it belongs to
    * @return false if stopped; the mesh is then empty
    * @throws voxplex::Error, std::bad_alloc, what the size function throws
    */
-  bool Mesh(const voxplex::LabelImage<D>& labels, voxplex::SimplexMesh<D>& mesh)
+  template <typename Image>
+  bool Mesh(const Image& image, const voxplex::LabelImage<D>& labels, voxplex::SimplexMesh<D>& mesh)
   {
     vtkImageToSimplexMeshFilter* const filter = this->Filter;
     const auto values = labels.Values().subspan(1); // without background
@@ -154,7 +156,7 @@ public:
         this->ProgressBefore + (KernelProgress - this->ProgressBefore) * fraction);
       return !this->Sizes->Failed() && !this->Filter->StopRequested();
     };
-    const voxplex::MeshingOutcome outcome = mesher.Run(labels, mesh);
+    const voxplex::MeshingOutcome outcome = mesher.Run(image, mesh);
     this->Sizes->Rethrow();
     if (outcome == voxplex::MeshingOutcome::Cancelled || filter->StopRequested())
     {

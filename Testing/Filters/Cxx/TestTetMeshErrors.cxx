@@ -127,6 +127,11 @@ void TestParameters()
     ExpectError("size", filter, { "ElementSize" }, [&] { filter->SetElementSize(0.0); });
     filter->SetRadiusEdgeRatio(bad);
     ExpectError("ratio", filter, { "RadiusEdgeRatio" }, [&] { filter->SetRadiusEdgeRatio(2.0); });
+    filter->SetFeatureRatio(bad);
+    ExpectError("feature ratio", filter, { "FeatureRatio" }, [&] { filter->SetFeatureRatio(1.0); });
+    filter->SetLargestFeature(bad);
+    ExpectError(
+      "largest feature", filter, { "LargestFeature" }, [&] { filter->SetLargestFeature(12.0); });
     filter->SetFacetAngle(bad);
     ExpectError("angle", filter, { "FacetAngle" }, [&] { filter->SetFacetAngle(30.0); });
     filter->SetLabelSize(1, bad);

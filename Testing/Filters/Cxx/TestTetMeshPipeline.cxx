@@ -197,7 +197,8 @@ void TestPrintSelf()
   std::ostringstream text;
   filter->Print(text);
   for (const char* line :
-    { "Delta: 1.25", "RadiusEdgeRatio: 2", "FacetAngle: 30", "SmoothingSigma: 1", "ElementSize: 0",
+    { "Delta: 1.25", "RadiusEdgeRatio: 2", "Grading: uniform", "FeatureRatio: 1",
+      "LargestFeature: 12", "FacetAngle: 30", "SmoothingSigma: 1", "ElementSize: 0",
       "LabelSizes: 1=3.5", "SelectedLabels: 1", "SizeImplicitFunction:", "SizeFunction: (none)",
       "NumberOfThreads: 1", "ContentionManager: local", "LoadBalancer: hws", "PinThreads: Off",
       "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off", "ErrorMessage: (none)",

@@ -30,6 +30,7 @@ vtkSmartPointer<vtkImageToTetMeshFilter> MakeCoarse(const Placement& placement =
       return r < 13.0 ? (x[0] < 15.5 ? 1.0 : 2.0) : 0.0;
     }));
   filter->SetDelta(4.0);
+  filter->OptimiseOff(); // which keeps to sizes only about
   return filter;
 }
 

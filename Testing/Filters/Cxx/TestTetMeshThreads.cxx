@@ -128,7 +128,7 @@ void CheckParallelMesh(Filter* filter, Filter* like)
   CheckMesh(filter);
   vtkMeshingStatistics* statistics = filter->GetStatistics();
   CheckThreads(statistics, filter->GetNumberOfThreads());
-  CHECK(statistics->GetMaximumRadiusEdgeRatio() <= 2.0, statistics->GetMaximumRadiusEdgeRatio());
+  CHECK(statistics->GetMaximumRadiusEdgeRatio() <= 2.5, statistics->GetMaximumRadiusEdgeRatio());
   CHECK(statistics->GetRadiusEdgeViolations() == 0);
   CHECK(statistics->GetInvertedElements() == 0);
   CHECK(statistics->GetNumberOfLostLabels() == 0);

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/QualityTables.h"
+
+#include "Geometry/SimplexQuality.h"
+#include "Parallel/ParallelFor.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+
+namespace voxplex
+{
+namespace
+{
+
+double* AddDoubles(vtkCellData* cells, const char* name, std::size_t size)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(size));
+  cells->AddArray(array);
+  return array->GetPointer(0);
+}
+
+/** A column with a value for each of `rows`. */
+template <typename Array, typename Rows, typename ValueOf>
+void AddColumn(vtkTable* table, const char* name, const Rows& rows, ValueOf&& valueOf)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  for (const auto& row : rows)
+  {
+    column->InsertNextValue(static_cast<typename Array::ValueType>(valueOf(row)));
+  }
+  table->AddColumn(column);
+}
+
+/** Where each of the bins begins. */
+template <std::size_t N>
+void AddStarts(
+  vtkTable* table, const char* name, const std::array<std::uint64_t, N>& bins, double width)
+{
+  AddColumn<vtkDoubleArray>(table, name, bins,
+    [&bins, width](const std::uint64_t& bin)
+    { return width * static_cast<double>(&bin - bins.data()); });
+}
+
+template <std::size_t N>
+void AddBins(vtkTable* table, const char* name, const std::array<std::uint64_t, N>& bins)
+{
+  AddColumn<vtkTypeInt64Array>(table, name, bins, [](std::uint64_t count) { return count; });
+}
+
+/** All that there is to say of a label. */
+struct LabelRow
+{
+  LabelComparison Comparison;
+  LabelTopology Topology;
+};
+
+} // namespace
+
+void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellData* cells)
+{
+  constexpr std::size_t grain = 4096;
+  const std::size_t n = mesh.Simplices.size();
+  double* const smallest = AddDoubles(cells, "MinimumDihedralAngle", n);
+  double* const largest = AddDoubles(cells, "MaximumDihedralAngle", n);
+  double* const ratio = AddDoubles(cells, "RadiusEdgeRatio", n);
+  double* const volume = AddDoubles(cells, "Volume", n);
+  ParallelFor(0, n, grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t s = first; s < last; ++s)
+      {
+        std::array<const Point<3>*, 4> v;
+        for (std::size_t i = 0; i < v.size(); ++i)
+        {
+          v[i] = &mesh.Points[mesh.Simplices[s][i]];
+        }
+        const std::array<double, 6> angles = DihedralAngles(v.data());
+        smallest[s] = *std::min_element(angles.begin(), angles.end());
+        largest[s] = *std::max_element(angles.begin(), angles.end());
+        ratio[s] = voxplex::RadiusEdgeRatio<3>(v.data());
+        volume[s] = SignedVolume<3>(v.data());
+      }
+    });
+}
+
+void FillLabelTable(const MeshMeasurement& measurement, vtkTable* table)
+{
+  std::map<std::int64_t, LabelRow> rows;
+  for (const LabelMeasure& measure : measurement.Quality.Labels)
+  {
+    rows[measure.Label].Comparison = { measure.Label, 0, 0.0, measure.Elements, measure.Volume };
+  }
+  for (const LabelTopology& topology : measurement.Topology.Labels)
+  {
+    rows[topology.Label].Topology = topology;
+  }
+  if (measurement.Image)
+  {
+    for (const LabelComparison& comparison : measurement.Image->Labels)
+    {
+      rows[comparison.Label].Comparison = comparison;
+    }
+  }
+  const auto count = [&](const char* name, auto&& valueOf)
+  {
+    AddColumn<vtkTypeInt64Array>(
+      table, name, rows, [&](const auto& row) { return valueOf(row.second); });
+  };
+  const auto number = [&](const char* name, auto&& valueOf)
+  {
+    AddColumn<vtkDoubleArray>(
+      table, name, rows, [&](const auto& row) { return valueOf(row.second); });
+  };
+  count("Label", [](const LabelRow& row) { return row.Comparison.Label; });
+  count("Elements", [](const LabelRow& row) { return row.Comparison.Elements; });
+  number("Volume", [](const LabelRow& row) { return row.Comparison.Volume; });
+  count("BoundaryEdges", [](const LabelRow& row) { return row.Topology.BoundaryEdges; });
+  count("NonManifoldEdges", [](const LabelRow& row) { return row.Topology.NonManifoldEdges; });
+  count("NonManifoldEdgesAtJunctions",
+    [](const LabelRow& row) { return row.Topology.NonManifoldEdgesAtJunctions; });
+  if (measurement.Image)
+  {
+    count("Voxels", [](const LabelRow& row) { return row.Comparison.Voxels; });
+    number("ImageVolume", [](const LabelRow& row) { return row.Comparison.ImageVolume; });
+    number("VolumeError",
+      [](const LabelRow& row)
+      {
+        const LabelComparison& label = row.Comparison;
+        return (label.Volume - label.ImageVolume) / label.ImageVolume;
+      });
+  }
+}
+
+void FillHistograms(const MeshQuality& quality, vtkTable* table)
+{
+  AddStarts(table, "Angle", quality.DihedralAngles, MeshQuality::AngleBinWidth);
+  AddBins(table, "DihedralAngles", quality.DihedralAngles);
+  AddBins(table, "PlanarAngles", quality.PlanarAngles);
+  AddStarts(table, "Ratio", quality.RadiusEdgeRatios, MeshQuality::RatioBinWidth);
+  AddBins(table, "RadiusEdgeRatios", quality.RadiusEdgeRatios);
+}
+
+} // namespace voxplex
