@@ -43,12 +43,18 @@ constexpr const char* Examples = R"(Examples:
   Mesh with triangles of about 1.5 mm on the interfaces:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu
 
+  How good the mesh is, and how far its interfaces are from those of the image:
+    voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --hausdorff
+
   The interfaces between labels as a surface, and figures about the mesh:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --plc knee.vtp --stats knee.json
 
   An atlas whose labels have names, in a table beside it or in one that is given:
     voxplex --input aal.nii.gz --labels Hippocampus_L,Hippocampus_R --delta 1 --output h.vtu
     voxplex --input aparc+aseg.nii.gz --label-table FreeSurferColorLUT.txt --output brain.vtu
+
+  What is denser than 300 in a CT, as one tissue:
+    voxplex --input ct.nrrd --isovalue 300 --delta 1.5 --output bone.vtu
 
   Two labels only, label 3 finer than the rest, for Gmsh:
     voxplex --input knee.nrrd --labels 3,7 --delta 2 --size 4 --label-size 3=1 --output knee.msh
@@ -81,6 +87,7 @@ std::string SuggestOption(const po::options_description& options, std::string_vi
 struct OptionGroups
 {
   po::options_description Files{ "Files" };
+  po::options_description Isosurface{ "Grey-value images" };
   po::options_description Mesh{ "Density and quality of the mesh" };
   po::options_description Selection{ "Labels and coordinates" };
   po::options_description SpaceTime{ "Space-time images (four dimensions, the last is time)" };
@@ -89,7 +96,8 @@ struct OptionGroups
   po::options_description All() const
   {
     po::options_description all;
-    all.add(this->Files).add(this->Mesh).add(this->Selection).add(this->SpaceTime).add(this->Run);
+    all.add(this->Files).add(this->Isosurface).add(this->Mesh).add(this->Selection);
+    all.add(this->SpaceTime).add(this->Run);
     return all;
   }
 };
@@ -101,8 +109,10 @@ OptionGroups DeclareOptions()
   groups.Files.add_options() //
     ("input", text("FILE"),
       "the label image, of three or four dimensions: any file that ITK reads (NRRD, NIfTI, "
-      "MetaImage, ...) or a folder that holds a DICOM series; 0 is background") //
-    ("series", text("UID"), "which DICOM series, if the folder holds several")  //
+      "MetaImage, ...) or a folder that holds a DICOM series; 0 is background; or a grey-value "
+      "image "
+      "(--isovalue)")                                                          //
+    ("series", text("UID"), "which DICOM series, if the folder holds several") //
     ("output", text("FILE"),
       ("the tetrahedra; the extension chooses the format: " +
         ListExtensions(OutputOption::Output, 3) +
@@ -111,14 +121,37 @@ OptionGroups DeclareOptions()
     ("plc", text("FILE"),
       ("the triangles between labels: " + ListExtensions(OutputOption::Interfaces, 3) +
         "; of a space-time image the tetrahedra: " + ListExtensions(OutputOption::Interfaces, 4))
-        .c_str()) //
-    ("stats", text("FILE"), "figures about the mesh and the run: .json");
+        .c_str())                                                        //
+    ("stats", text("FILE"), "figures about the mesh and the run: .json") //
+    ("quality",
+      "measure the mesh against the image and print it: histograms of angles, junctions, "
+      "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too; not "
+      "of "
+      "space-time images") //
+    ("hausdorff",
+      "as --quality, and the symmetric Hausdorff distance between the interfaces of the mesh and "
+      "of the image");
+  groups.Isosurface.add_options() //
+    ("isovalue", text("VALUE"),
+      "the input has grey values, not labels: mesh what the isosurface at this value bounds") //
+    ("inside", text("above|below"),
+      "on which side of the isosurface the object lies (default above: greater values)") //
+    ("inside-label", text("LABEL"), "the label of its elements (default 1)");
   groups.Mesh.add_options() //
     ("delta", text("LENGTH"),
       "sampling density of the interfaces: their triangles' edges are about one to two times as "
       "long; the number of elements grows with the square of 1/delta (default: derived from the "
-      "spacing)")                                                                    //
-    ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere") //
+      "spacing)") //
+    ("grading", text("uniform|lfs"),
+      "sample interfaces with delta everywhere (uniform, default), or more coarsely where their "
+      "shape allows it, by the local feature size (lfs): the distance to the medial axis, half the "
+      "thickness of a tissue") //
+    ("feature-ratio", text("RATIO"),
+      "with --grading lfs: sampling density over local feature size where that gives more than "
+      "delta (default 1)") //
+    ("largest-feature", text("VOXELS"),
+      "with --grading lfs: larger local feature sizes count as this (lambda, default 12)") //
+    ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere")       //
     ("label-size", po::value<std::vector<std::string>>()->composing()->value_name("LABEL=LENGTH"),
       "the same in one label, given by number or name; may be repeated") //
     ("size-image", text("FILE"),
@@ -131,9 +164,17 @@ OptionGroups DeclareOptions()
     ("sliver-angle", text("DEGREES"),
       "dihedral angle below which, or above 180 less which, a tetrahedron is a sliver and split "
       "(default 9; 0: leave slivers; above 15 only with --force)") //
-    ("optimise",
-      "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a "
-      "few, radius-edge ratios up to 2.5") //
+    ("no-optimise",
+      "leave shapes as refinement makes them: Delaunay, radius-edge ratios below 2; otherwise "
+      "they are improved to dihedral angles of 15 to 155 degrees but for a few, with ratios up to "
+      "2.5") //
+    ("optimise-seconds", text("SECONDS"),
+      "stop improving shapes after so long, wherever that is (default: no limit)") //
+    ("no-junctions",
+      "do not sample the curves where three labels or more meet before all else: they zigzag") //
+    ("interface-rounds", text("NUMBER"),
+      "how often, at most, to refine again where an interface of the image is farther than 1.5 "
+      "delta from the mesh's, or a label's boundary is not manifold (default 5; 0: never)") //
     ("smallest-component", text("VOXELS"),
       "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
       "0: "
@@ -142,7 +183,8 @@ OptionGroups DeclareOptions()
       "leave out connected components that are smaller, such as specks: they become what is around "
       "them") //
     ("smoothing", text("VOXELS"),
-      "standard deviation of the smoothing of voxel stairs; 0 switches it off (default 1)");
+      "standard deviation of the smoothing of voxel stairs, or of noise in grey values; 0 switches "
+      "it off (default 1; with --isovalue 0)");
   groups.Selection.add_options() //
     ("labels", po::value<std::vector<std::string>>()->composing()->value_name("LIST"),
       "mesh these labels only, such as 1,2,5 or Tibia,Femur; the others become background; may be "
@@ -202,7 +244,8 @@ std::string HelpText(const OptionGroups& groups)
   text
     << "Usage: voxplex --input FILE [--delta LENGTH] [--output FILE] [--plc FILE] [options]\n\n"
        "Turns a segmented 3D image into a conforming mesh of tetrahedra for finite elements, and\n"
-       "one of space and time (4D) into a mesh of pentatopes.\n"
+       "one of space and time (4D) into a mesh of pentatopes. What an isosurface of a grey-value\n"
+       "image bounds is meshed with --isovalue.\n"
        "Lengths are in the unit of the image, usually millimetres.\n"
     << groups.All() << '\n'
     << Examples
@@ -327,9 +370,34 @@ Parameters ToParameters(const po::variables_map& values)
   file("stats", p.Statistics);
   file("size-image", p.SizeImage);
   file("label-table", p.LabelTable);
+  if (const auto* text = given("isovalue"))
+  {
+    constexpr double largest = std::numeric_limits<double>::max();
+    p.Isovalue = ParseRange("isovalue", *text, -largest, largest);
+  }
+  if (const auto* text = given("inside"))
+  {
+    p.Inside = ParseWord("inside", *text, Sides);
+  }
+  if (const auto* text = given("inside-label"))
+  {
+    p.InsideLabel = ParseWhole("inside-label", *text, 1, std::numeric_limits<int>::max());
+  }
   if (const auto* text = given("delta"))
   {
     p.Delta = ParsePositive("delta", *text, "; leave --delta out to derive it from the spacing");
+  }
+  if (const auto* text = given("grading"))
+  {
+    p.Grading = ParseWord("grading", *text, GradingModes);
+  }
+  if (const auto* text = given("feature-ratio"))
+  {
+    p.FeatureRatio = ParsePositive("feature-ratio", *text);
+  }
+  if (const auto* text = given("largest-feature"))
+  {
+    p.LargestFeature = ParsePositive("largest-feature", *text);
   }
   if (const auto* text = given("size"))
   {
@@ -354,7 +422,16 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.SliverAngle = ParseRange("sliver-angle", *text, 0, 59);
   }
-  p.Optimise = values.count("optimise") > 0;
+  p.NoOptimise = values.count("no-optimise") > 0;
+  if (const auto* text = given("optimise-seconds"))
+  {
+    p.OptimiseSeconds = ParsePositive("optimise-seconds", *text);
+  }
+  p.NoJunctions = values.count("no-junctions") > 0;
+  if (const auto* text = given("interface-rounds"))
+  {
+    p.InterfaceRounds = ParseWhole("interface-rounds", *text, 0, 100);
+  }
   if (const auto* text = given("smallest-component"))
   {
     p.SmallestComponent =
@@ -402,6 +479,8 @@ Parameters ToParameters(const po::variables_map& values)
   }
   p.Force = values.count("force") > 0;
   p.Progress = values.count("progress") > 0;
+  p.Hausdorff = values.count("hausdorff") > 0;
+  p.Quality = p.Hausdorff || values.count("quality") > 0;
   p.SpaceTime = ToSpaceTimeParameters(values);
   return p;
 }
@@ -430,6 +509,27 @@ void CheckSpaceTime(const SpaceTimeParameters& p, bool force)
   }
 }
 
+void CheckIsosurface(const Parameters& p)
+{
+  const auto refuse = [](const char* option, bool isGiven, const char* why)
+  {
+    if (isGiven)
+    {
+      throw UsageError(std::string(option) + why);
+    }
+  };
+  if (p.Isovalue)
+  {
+    constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
+    refuse("--labels", !p.LabelTexts.empty(), Why);
+    refuse("--label-table", !p.LabelTable.empty(), Why);
+    return;
+  }
+  constexpr const char* Why = ": inside of what? Give the isosurface with --isovalue";
+  refuse("--inside", !p.Inside.empty(), Why);
+  refuse("--inside-label", p.InsideLabel.has_value(), Why);
+}
+
 /** What no single option can tell. */
 void CheckTogether(const Parameters& p)
 {
@@ -438,6 +538,7 @@ void CheckTogether(const Parameters& p)
   {
     throw UsageError("--input is missing: which image shall be meshed?");
   }
+  CheckIsosurface(p);
   if (!p.Output.empty())
   {
     RequireFormat(OutputOption::Output, p.Output);
@@ -510,10 +611,19 @@ void CheckDimension(const Parameters& p, int dimension)
       ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image");
   }
-  const std::array<std::pair<const char*, bool>, 5> tetOptions{ {
+  const std::array<std::pair<const char*, bool>, 14> tetOptions{ {
+    { "--hausdorff", p.Hausdorff },
+    { "--quality", p.Quality },
+    { "--grading", !p.Grading.empty() },
+    { "--feature-ratio", p.FeatureRatio.has_value() },
+    { "--largest-feature", p.LargestFeature.has_value() },
+    { "--isovalue", p.Isovalue.has_value() },
     { "--facet-angle", p.FacetAngle.has_value() },
     { "--sliver-angle", p.SliverAngle.has_value() },
-    { "--optimise", p.Optimise },
+    { "--no-optimise", p.NoOptimise },
+    { "--optimise-seconds", p.OptimiseSeconds.has_value() },
+    { "--no-junctions", p.NoJunctions },
+    { "--interface-rounds", p.InterfaceRounds.has_value() },
     { "--smallest-component", p.SmallestComponent.has_value() },
     { "--min-component-volume", p.MinimumComponentVolume.has_value() },
   } };

@@ -37,6 +37,10 @@ static_assert(LoadBalancers[Filter::RANDOM_WORK_STEALING] == "rws" &&
   LoadBalancers[Filter::HIERARCHICAL_WORK_STEALING] == "hws");
 static_assert(RuleOrders[vtkImageToPentatopeMeshFilter::RADIUS_EDGE_FIRST] == "radius-edge" &&
   RuleOrders[vtkImageToPentatopeMeshFilter::SURFACE_FIRST] == "surface");
+static_assert(GradingModes[vtkImageToTetMeshFilter::UNIFORM] == "uniform" &&
+  GradingModes[vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE] == "lfs");
+static_assert(Sides[vtkImageToTetMeshFilter::INSIDE_ABOVE] == "above" &&
+  Sides[vtkImageToTetMeshFilter::INSIDE_BELOW] == "below");
 
 void Configure(Filter* filter, const Parameters& p, const LabelSelection& selection)
 {
@@ -79,9 +83,43 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   filter->ComputeQualityOn();
 }
 
+void SetIsosurface(vtkImageToTetMeshFilter* filter, const Parameters& p)
+{
+  filter->SetInputModeToIsosurface();
+  filter->SetIsovalue(*p.Isovalue);
+  if (!p.Inside.empty())
+  {
+    filter->SetInside(IndexOf(p.Inside, Sides));
+  }
+  if (p.InsideLabel)
+  {
+    filter->SetInsideLabel(*p.InsideLabel);
+  }
+  if (p.SmoothingSigma)
+  {
+    filter->SetIsosurfaceSmoothingSigma(*p.SmoothingSigma);
+  }
+}
+
 vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
 {
   const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  if (!p.Grading.empty())
+  {
+    filter->SetGrading(IndexOf(p.Grading, GradingModes));
+  }
+  if (p.FeatureRatio)
+  {
+    filter->SetFeatureRatio(*p.FeatureRatio);
+  }
+  if (p.LargestFeature)
+  {
+    filter->SetLargestFeature(*p.LargestFeature);
+  }
+  if (p.Isovalue)
+  {
+    SetIsosurface(filter, p);
+  }
   if (p.FacetAngle)
   {
     filter->SetFacetAngle(*p.FacetAngle);
@@ -90,7 +128,16 @@ vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
   {
     filter->SetSliverAngle(*p.SliverAngle);
   }
-  filter->SetOptimise(p.Optimise);
+  filter->SetOptimise(!p.NoOptimise);
+  if (p.OptimiseSeconds)
+  {
+    filter->SetOptimisationTimeLimit(*p.OptimiseSeconds);
+  }
+  filter->SetSampleJunctions(!p.NoJunctions);
+  if (p.InterfaceRounds)
+  {
+    filter->SetInterfaceRounds(*p.InterfaceRounds);
+  }
   if (p.SmallestComponent)
   {
     filter->SetSmallestComponent(*p.SmallestComponent);
@@ -151,12 +198,13 @@ int MeshingInput::Dimension() const
 
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> terms{ {
     { "SetLabelSize()", "--label-size" },
     { "AddLabel()", "--labels" },
     { "SetSeriesUID()", "--series" },
     { "SetTimeScale()", "--time-scale" },
     { "or force it", "or go on with --force" },
+    { "mesh an isosurface of it", "mesh an isosurface of it with --isovalue" },
     { "Correct the labels to keep", "Correct --labels" },
     { ", or choose the array that holds the segmentation", "" },
     { " Choose the array that holds the segmentation.", "" },

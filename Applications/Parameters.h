@@ -24,8 +24,14 @@ inline constexpr std::array<std::string_view, 4> ContentionManagers{ "aggressive
   "global", "local" };
 inline constexpr std::array<std::string_view, 2> LoadBalancers{ "rws", "hws" };
 
+/** What --inside takes. */
+inline constexpr std::array<std::string_view, 2> Sides{ "above", "below" };
+
 /** What --rule-order takes. */
 inline constexpr std::array<std::string_view, 2> RuleOrders{ "radius-edge", "surface" };
+
+/** What --grading takes. */
+inline constexpr std::array<std::string_view, 2> GradingModes{ "uniform", "lfs" };
 
 /** What is for images with several time frames only. */
 struct SpaceTimeParameters
@@ -59,11 +65,21 @@ struct Parameters
   std::string SizeImage;
   std::string LabelTable;
 
+  std::optional<double> Isovalue; ///< the input has grey values, if given
+  std::string Inside;             ///< one of Sides
+  std::optional<std::int64_t> InsideLabel;
+
   std::optional<double> Delta;
+  std::string Grading; ///< one of GradingModes
+  std::optional<double> FeatureRatio;
+  std::optional<double> LargestFeature; ///< voxels
   std::optional<double> RadiusEdgeRatio;
   std::optional<double> FacetAngle;
   std::optional<double> SliverAngle;
-  bool Optimise = false;
+  bool NoOptimise = false;
+  std::optional<double> OptimiseSeconds;
+  bool NoJunctions = false;
+  std::optional<int> InterfaceRounds;
   std::optional<int> SmallestComponent;
   std::optional<double> MinimumComponentVolume;
   std::optional<double> SmoothingSigma;
@@ -79,6 +95,8 @@ struct Parameters
   bool Force = false;
   std::uint64_t MemoryLimit = 0; ///< bytes; 0: the machine's memory
   bool Progress = false;
+  bool Quality = false;
+  bool Hausdorff = false; ///< implies Quality
 
   SpaceTimeParameters SpaceTime;
 };

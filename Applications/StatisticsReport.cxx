@@ -56,17 +56,22 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     labelSizes[std::to_string(label)] = size;
   }
   ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Series) },
-    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }, { "delta", OrNull(p.Delta) },
+    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) },
+    { "isovalue", OrNull(p.Isovalue) }, { "inside", OrNull(p.Inside) },
+    { "inside_label", OrNull(p.InsideLabel) }, { "delta", OrNull(p.Delta) },
     { "size", OrNull(p.Size) }, { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
-    { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
-    { "sliver_angle", OrNull(p.SliverAngle) }, { "optimise", p.Optimise },
+    { "grading", OrNull(p.Grading) }, { "feature_ratio", OrNull(p.FeatureRatio) },
+    { "largest_feature", OrNull(p.LargestFeature) }, { "radius_edge", OrNull(p.RadiusEdgeRatio) },
+    { "facet_angle", OrNull(p.FacetAngle) }, { "sliver_angle", OrNull(p.SliverAngle) },
+    { "no_optimise", p.NoOptimise }, { "optimise_seconds", OrNull(p.OptimiseSeconds) },
+    { "no_junctions", p.NoJunctions }, { "interface_rounds", OrNull(p.InterfaceRounds) },
     { "smallest_component", OrNull(p.SmallestComponent) },
     { "min_component_volume", OrNull(p.MinimumComponentVolume) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
     { "label_table", OrNull(p.LabelTable) }, { "space", ToString(p.OutputSpace) },
     { "threads", p.Threads }, { "contention", OrNull(p.Contention) },
     { "balance", OrNull(p.Balance) }, { "pin", p.PinThreads }, { "force", p.Force },
-    { "memory_limit", p.MemoryLimit } };
+    { "memory_limit", p.MemoryLimit }, { "quality", p.Quality }, { "hausdorff", p.Hausdorff } };
   parameters.update(DescribeSpaceTime(p.SpaceTime));
   return parameters;
 }
@@ -74,7 +79,8 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
 ordered_json DescribeTimes(const vtkMeshingStatistics& s, const InputOutputTimes& times)
 {
   return { { "read", times.Read }, { "label_field", s.GetLabelFieldTime() },
-    { "distance_transform", s.GetDistanceTransformTime() }, { "components", s.GetComponentsTime() },
+    { "distance_transform", s.GetDistanceTransformTime() }, { "grading", s.GetGradingTime() },
+    { "components", s.GetComponentsTime() }, { "interfaces", s.GetInterfacesTime() },
     { "refinement", s.GetRefinementTime() }, { "extraction", s.GetExtractionTime() },
     { "optimisation", s.GetOptimisationTime() }, { "write", times.Write },
     { "total_without_io", s.GetTotalTime() } };

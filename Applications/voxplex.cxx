@@ -5,6 +5,7 @@
 #include "CommandLine.h"
 #include "Errors.h"
 #include "Interruption.h"
+#include "Measuring.h"
 #include "MeshFile.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
@@ -186,6 +187,32 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> MeshOrExit(
   return filter;
 }
 
+/** Null if it was not asked for. */
+nlohmann::ordered_json MeasureOrExit(
+  const Parameters& p, const MeshingInput& input, vtkUnstructuredGrid* mesh)
+{
+  if (!p.Quality)
+  {
+    return nullptr;
+  }
+  nlohmann::ordered_json measurement;
+  {
+    const Interruption::CancellableStep step;
+    ProgressBar bar(p.Progress);
+    measurement = Measure(p, input, mesh,
+      [&bar](double fraction, const std::string& text)
+      {
+        bar.Show(fraction, text);
+        return !Interruption::Requested();
+      });
+  }
+  if (measurement.is_null() || Interruption::Requested())
+  {
+    Interruption::Exit();
+  }
+  return measurement;
+}
+
 /** Writes both results if their names were given. */
 void WriteMesh(vtkImageToSimplexMeshFilter* filter, const Parameters& p, const OutputFiles& files)
 {
@@ -220,6 +247,10 @@ void Run(const Parameters& p)
   MeshingInput input = Read(p);
   times.Read = reading.Seconds();
 
+  if (p.Isovalue) // a table beside the image is about other numbers
+  {
+    io::SetLabelTable(input.Labels->GetOutput()->GetFieldData(), {});
+  }
   const io::LabelTable names = io::GetLabelTable(input.Labels->GetOutput()->GetFieldData());
   input.Selection = SelectLabels(p, names);
 
@@ -236,15 +267,22 @@ void Run(const Parameters& p)
   }
   times.Write = writing.Seconds();
 
-  const auto report = MakeReport(filter->GetStatistics(), p,
-    LabelReport{ input.Selection, names, input.Labels->GetLabelTableSource() }, times);
+  auto report = MakeReport(filter->GetStatistics(), p,
+    LabelReport{ input.Selection, names, p.Isovalue ? "" : input.Labels->GetLabelTableSource() },
+    times);
+  const auto measurement = MeasureOrExit(p, input, filter->GetOutput());
+  if (!measurement.is_null())
+  {
+    AddMeasurement(measurement, report);
+  }
   if (!p.Statistics.empty())
   {
     WriteReport(report, p.Statistics, files);
   }
   files.Commit();
   Warn(Warnings(report));
-  std::cout << Summarize(report) << std::flush;
+  std::cout << Summarize(report) << (measurement.is_null() ? "" : SummarizeMeasurement(report))
+            << std::flush;
 }
 
 int Main(int argc, const char* const* argv)

@@ -9,10 +9,10 @@
 
 :func:`mesh` turns a segmented image (a vtkImageData, a NumPy array or a file) into a
 vtkUnstructuredGrid of tetrahedra, and a time series into one of pentatopes. `points`, `tets`,
-`labels` and their siblings show it as NumPy arrays that share its memory.
+`labels` and their siblings show it as NumPy arrays that share its memory. :func:`quality` measures it.
 
 Beside these functions there are the wrapped VTK classes, for pipelines: `vtkImageToTetMeshFilter`,
-`vtkImageToPentatopeMeshFilter`, `vtkPentatopeMeshTimeSlice` and, where files can be read
+`vtkImageToPentatopeMeshFilter`, `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality` and, where files can be read
 (`HAVE_IO`), `vtkSegmentationReader` and `vtkSimplexMeshWriter`. They work together with those of
 `vtkmodules`; help(voxplex.vtkImageToTetMeshFilter) has the arrays, units and errors of each.
 
@@ -24,18 +24,19 @@ from .errors import FileError, MeshingCancelled, MeshingError, MeshingWarning
 from .files import HAVE_IO, read_frames, read_segmentation, write
 from .images import array_from_image, image_from_array, images_from_array
 from .installation import VERSION as __version__
+from .measuring import quality
 from .meshing import MeshingResult, mesh
 from .names import label_names, set_label_names
 from .vtkVoxplex import (
     vtkImageToPentatopeMeshFilter, vtkImageToSimplexMeshFilter, vtkImageToTetMeshFilter, vtkMeshingStatistics,
-    vtkPentatopeMeshTimeSlice)
+    vtkPentatopeMeshTimeSlice, vtkSimplexMeshQuality)
 
 __all__ = [
     "FileError", "HAVE_IO", "MeshingCancelled", "MeshingError", "MeshingResult", "MeshingWarning", "__version__",
     "array_from_image", "image_from_array", "images_from_array", "label_names", "labels", "mesh", "pentatopes",
-    "point_ids", "points", "read_frames", "read_segmentation", "set_label_names", "tets", "times", "triangles",
-    "vtkImageToPentatopeMeshFilter", "vtkImageToSimplexMeshFilter", "vtkImageToTetMeshFilter",
-    "vtkMeshingStatistics", "vtkPentatopeMeshTimeSlice", "write",
+    "point_ids", "points", "quality", "read_frames", "read_segmentation", "set_label_names", "tets", "times",
+    "triangles", "vtkImageToPentatopeMeshFilter", "vtkImageToSimplexMeshFilter", "vtkImageToTetMeshFilter",
+    "vtkMeshingStatistics", "vtkPentatopeMeshTimeSlice", "vtkSimplexMeshQuality", "write",
 ]
 
 if HAVE_IO:

@@ -24,7 +24,8 @@ def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 
                      space: Optional[str] = None) -> vtkImageData:
     """An image with the voxels of an array of three dimensions.
 
-    array: indexed [k, j, i], one label a voxel, 0 is background. Any integer or real type, or bool.
+    array: indexed [k, j, i], one label a voxel, 0 is background, or one grey value. Any integer or real
+        type, or bool.
     spacing: the distances of voxels along i, j and k.
     origin: where voxel (0, 0, 0) lies.
     direction: a 3 x 3 matrix (or its 9 numbers, row by row), whose columns are the directions of
@@ -46,7 +47,7 @@ def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 
     if voxels.dtype == numpy.bool_:
         voxels = voxels.view(numpy.uint8)
     if voxels.dtype.kind not in "iuf":
-        raise ValueError(f"the array has elements of type {voxels.dtype}, which are not labels")
+        raise ValueError(f"the array has elements of type {voxels.dtype}, which are not numbers")
     voxels = numpy.ascontiguousarray(voxels, dtype=voxels.dtype.newbyteorder("="))
     image = vtkImageData()
     image.SetDimensions(voxels.shape[2], voxels.shape[1], voxels.shape[0])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""mesh(): a label image in, a mesh out."""
+"""mesh(): a label image, or a grey-value image with an isovalue, in, a mesh out."""
 
 from __future__ import annotations
 
@@ -38,16 +38,24 @@ class MeshingResult(NamedTuple):
 
 # The filter's messages speak of its methods.
 _TERMS = {"SetLabelSize()": "label_sizes", "AddLabel()": "labels", "or force it": "or pass force=True",
-          "Force goes": "force=True goes"}
+          "Force goes": "force=True goes",
+          "mesh an isosurface of it": "mesh an isosurface of it (isovalue)"}
+
+
+_GRADING = {"uniform": vtkImageToTetMeshFilter.UNIFORM, "lfs": vtkImageToTetMeshFilter.LOCAL_FEATURE_SIZE}
 
 
 @overload
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
+         isovalue: Optional[float] = None, inside: Optional[str] = None,
+         inside_label: Optional[int] = None,
          size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
+         grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
-         optimise: Optional[bool] = None,
+         optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -58,11 +66,15 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
 
 @overload
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
+         isovalue: Optional[float] = None, inside: Optional[str] = None,
+         inside_label: Optional[int] = None,
          size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
+         grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
-         optimise: Optional[bool] = None,
+         optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -72,18 +84,22 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
 
 
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
+         isovalue: Optional[float] = None, inside: Optional[str] = None,
+         inside_label: Optional[int] = None,
          size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
+         grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
-         optimise: Optional[bool] = None,
+         optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
          times: Optional[Sequence[float]] = None, time_scale: Optional[float] = None,
          pick_slivers: Optional[bool] = None, seed: Optional[int] = None, force: bool = False,
          memory_limit: int = 0, progress: Optional[Progress] = None, full_output: bool = False) -> Union[vtkUnstructuredGrid, MeshingResult]:
-    """Meshes a segmented image, or a time series of such images.
+    """Meshes a segmented image, or a time series of such images, or what an isosurface bounds.
 
     Every tissue of a 3D image becomes tetrahedra (cell array `Label`), which share the nodes of
     interfaces; a time series becomes pentatopes of space-time (point array `Time`, too). Lengths are
@@ -92,7 +108,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     Parameters
     ----------
     image
-        One label a voxel, 0 is background. It may be
+        One label a voxel, 0 is background; with isovalue, one grey value a voxel. It may be
 
         - a vtkImageData; several components are the frames of a time series;
         - an array indexed [k, j, i] (see :mod:`voxplex.images`), or [t, k, j, i] for a time series;
@@ -104,6 +120,14 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         long. By default it is derived from the spacing.
     threads
         0 means what VTK's SMP setting says: all cores. One thread gives the same mesh every time.
+    isovalue
+        Tetrahedra only: the image has grey values (CT numbers, signed distances, densities), and what
+        lies inside of the isosurface at this value is meshed, as one tissue. Its vertices lie on the
+        isosurface of the trilinear interpolation; voxels that are NaN are outside.
+    inside
+        With isovalue: "above" (default) if the object has the greater values, or "below".
+    inside_label
+        With isovalue: the label of what is inside. Default 1.
     size
         Upper bound of every element's circumradius.
     label_sizes
@@ -115,9 +139,18 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         The same bound at every point: a vtkImageData of lengths, or an array of the shape of a 3D
         image (of one frame). 0 sets no bound.
     smoothing
-        How far voxel stairs are smoothed, in voxels. Default 1; 0 switches it off.
+        How far voxel stairs, or the noise of grey values, are smoothed, in voxels. Default 1, with
+        isovalue 0; 0 switches it off.
     radius_edge
         Upper bound of circumradius over shortest edge. Default 2.
+    grading
+        Tetrahedra only: "uniform", the default, samples interfaces with delta everywhere; "lfs" with
+        max(delta, feature_ratio * local feature size), which is coarser where the shape allows it. The local
+        feature size is the distance to the medial axis, about half the thickness of what is thin.
+    feature_ratio
+        Tetrahedra only, with grading="lfs": sampling density over local feature size. Default 1.
+    largest_feature
+        Tetrahedra only, with grading="lfs": larger local feature sizes count as this, in voxels. Default 12.
     facet_angle
         Tetrahedra only: lower bound of the angles of triangles on interfaces, in degrees. Default 30.
     sliver_angle
@@ -125,7 +158,15 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         degrees, default 9; 0 leaves them, above 15 needs force.
     optimise
         Tetrahedra only: improve shapes after refinement; dihedral angles of 15 to 155 degrees but for a few,
-        radius-edge ratios up to 2.5. Default False.
+        radius-edge ratios up to 2.5. Default True.
+    optimise_seconds
+        Tetrahedra only: stop improving shapes after so long. Default 0: no limit.
+    sample_junctions
+        Tetrahedra only: sample the curves where three labels or more meet before all else, so that edges follow
+        them. Default True.
+    interface_rounds
+        Tetrahedra only: how often, at most, to refine again where an interface of the image is farther than
+        1.5 delta from those of the mesh, or the boundary of a label is not manifold. Default 5; 0 is never.
     smallest_component
         Tetrahedra only: connected components of at least so many voxels get elements whatever delta.
         Default 8; 0 leaves it to chance.
@@ -198,17 +239,31 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     source = Source(image, geometry, times)
     if source.is_series:
         mesher = vtkImageToPentatopeMeshFilter()
-        _refuse("only for images without time frames", facet_angle=facet_angle, sliver_angle=sliver_angle,
-                optimise=optimise, smallest_component=smallest_component, min_component_volume=min_component_volume)
+        _refuse("only for images without time frames", isovalue=isovalue, grading=grading, feature_ratio=feature_ratio,
+                largest_feature=largest_feature, facet_angle=facet_angle, sliver_angle=sliver_angle,
+                optimise=optimise, optimise_seconds=optimise_seconds, sample_junctions=sample_junctions,
+                interface_rounds=interface_rounds, smallest_component=smallest_component, min_component_volume=min_component_volume)
         _set(mesher, TimeScale=time_scale, PickingRegions=pick_slivers, RandomSeed=seed)
     else:
         mesher = vtkImageToTetMeshFilter()
         _refuse("only for images with time frames", times=times, time_scale=time_scale,
                 pick_slivers=pick_slivers, seed=seed)
+        if grading is not None and grading not in _GRADING:
+            raise ValueError(f"grading must be one of {', '.join(_GRADING)}, not {grading!r}")
+        _set(mesher, Grading=None if grading is None else _GRADING[grading], FeatureRatio=feature_ratio, LargestFeature=largest_feature)
         _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle, Optimise=optimise,
+             OptimisationTimeLimit=optimise_seconds, SampleJunctions=sample_junctions, InterfaceRounds=interface_rounds,
              SmallestComponent=smallest_component, MinimumComponentVolume=min_component_volume)
+    if isovalue is None:
+        _refuse("only with isovalue", inside=inside, inside_label=inside_label)
+        _set(mesher, SmoothingSigma=smoothing)
+    else:
+        _refuse("only for images of labels, without isovalue", labels=labels)
+        mesher.SetInputModeToIsosurface()
+        _set(mesher, Isovalue=isovalue, Inside=_side(inside), InsideLabel=inside_label,
+             IsosurfaceSmoothingSigma=smoothing)
     source.connect(mesher)
-    _set(mesher, Delta=delta, NumberOfThreads=threads, ElementSize=size, SmoothingSigma=smoothing,
+    _set(mesher, Delta=delta, NumberOfThreads=threads, ElementSize=size,
          RadiusEdgeRatio=radius_edge, Force=force, MemoryLimit=memory_limit, ComputeQuality=full_output)
     names = source.names()
     for label, bound in (label_sizes or {}).items():
@@ -250,6 +305,16 @@ def _set(mesher: Any, **values: Any) -> None:
     for name, value in values.items():
         if value is not None:
             getattr(mesher, "Set" + name)(value)
+
+
+def _side(inside: Optional[str]) -> Optional[int]:
+    """The filter's number for a side."""
+    if inside is None:
+        return None
+    sides = {"above": vtkImageToTetMeshFilter.INSIDE_ABOVE, "below": vtkImageToTetMeshFilter.INSIDE_BELOW}
+    if inside not in sides:
+        raise ValueError(f"inside is {inside!r}, not 'above' or 'below'")
+    return sides[inside]
 
 
 def _refuse(why: str, **values: Any) -> None:

@@ -22,7 +22,7 @@ class CommandLine(ProgramTestCase):
 
     def test_unknown_flag(self):
         self.refuse("unknown option '--inptu'; did you mean --input", "--inptu", "a.nrrd")
-        self.refuse("unknown option '--quality'", "--input", "a.nrrd", "--quality", "1")
+        self.refuse("unknown option '--elegance'", "--input", "a.nrrd", "--elegance", "1")
 
     def test_abbreviations_are_not_guessed(self):
         self.refuse("unknown option '--thread'; did you mean --threads", "--input", "a.nrrd", "--thread", "2")
@@ -64,6 +64,9 @@ class CommandLine(ProgramTestCase):
             (("--size", "-2"), "--size: must be greater than 0"),
             (("--radius-edge", "0.5"), "--radius-edge: no tetrahedron"),
             (("--radius-edge", "1.5"), "--radius-edge: .*--force"),
+            (("--grading", "thickness"), "--grading: must be uniform or lfs, not 'thickness'"),
+            (("--feature-ratio", "0"), "--feature-ratio: must be greater than 0"),
+            (("--largest-feature", "-3"), "--largest-feature: must be greater than 0"),
             (("--facet-angle", "31"), "--facet-angle: must lie between 0 and 30"),
             (("--facet-angle", "-1"), "--facet-angle: must lie between 0 and 30"),
             (("--sliver-angle", "60"), "--sliver-angle: must lie between 0 and 59"),

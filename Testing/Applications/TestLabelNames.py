@@ -146,7 +146,7 @@ class Output(NamesTestCase):
 
     def test_statistics(self):
         array = images.two_labels(16, 6.0)
-        array[1, 1, 1] = 9
+        array[8, 8, 8] = 9  # one voxel beside an interface
         path = images.write_nrrd(self.folder / "lost.nrrd", array)
         (self.folder / "names.txt").write_text(self.TABLE + "9 Speck\n")
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 3, "--stats", "s.json",

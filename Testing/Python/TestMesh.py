@@ -37,6 +37,54 @@ def same(first, second):
             and numpy.array_equal(voxplex.labels(first), voxplex.labels(second)))
 
 
+class Isosurfaces(unittest.TestCase):
+    @staticmethod
+    def depth():
+        k, j, i = numpy.mgrid[:24, :24, :24]
+        return (8.0 - numpy.sqrt((i - 11.5) ** 2 + (j - 11.5) ** 2 + (k - 11.5) ** 2)).astype(numpy.float32)
+
+    def test_signed_distance(self):
+        mesh, interfaces, statistics = voxplex.mesh(self.depth(), 1.5, isovalue=0.0, threads=1, full_output=True)
+        self.assertEqual(set(voxplex.labels(mesh)), {1})
+        self.assertGreater(volumes(mesh).min(), 0.0)
+        self.assertAlmostEqual(volumes(mesh).sum() / (4 / 3 * numpy.pi * 8 ** 3), 1.0, delta=0.05)
+        radii = numpy.linalg.norm(voxplex.points(interfaces) - 11.5, axis=1)
+        self.assertLess(abs(radii - 8.0).max(), 0.06)
+        self.assertEqual(statistics["isosurface"]["inside"], "above")
+
+    def test_below_and_label(self):
+        above = voxplex.mesh(self.depth(), 1.5, isovalue=0.5, threads=1)
+        below = voxplex.mesh(-self.depth(), 1.5, isovalue=-0.5, inside="below", inside_label=9, threads=1)
+        self.assertTrue(numpy.array_equal(voxplex.points(above), voxplex.points(below)))
+        self.assertEqual(set(voxplex.labels(below)), {9})
+
+    def test_smoothing_is_of_grey_values(self):
+        noisy = self.depth() + numpy.random.default_rng(1).uniform(-0.5, 0.5, (24, 24, 24)).astype(numpy.float32)
+
+        def error(**arguments):
+            _, interfaces, _ = voxplex.mesh(noisy, 1.5, isovalue=0.0, threads=1, full_output=True, **arguments)
+            return abs(numpy.linalg.norm(voxplex.points(interfaces) - 11.5, axis=1) - 8.0).mean()
+
+        self.assertEqual(error(), error(smoothing=0.0))
+        self.assertLess(error(smoothing=1.5), 0.6 * error())
+
+    def test_refused(self):
+        with self.assertRaisesRegex(ValueError, "only with isovalue"):
+            voxplex.mesh(ball(), inside="below")
+        with self.assertRaisesRegex(ValueError, "only with isovalue"):
+            voxplex.mesh(ball(), inside_label=2)
+        with self.assertRaisesRegex(ValueError, "'left', not 'above' or 'below'"):
+            voxplex.mesh(self.depth(), isovalue=0.0, inside="left")
+        with self.assertRaisesRegex(ValueError, "labels: only for images of labels"):
+            voxplex.mesh(self.depth(), isovalue=0.0, labels=[1])
+        with self.assertRaisesRegex(ValueError, "isovalue: only for images without time frames"):
+            voxplex.mesh(beating(), isovalue=0.5)
+        with self.assertRaisesRegex(voxplex.MeshingError, "isovalue 9 is outside of the image's range"):
+            voxplex.mesh(self.depth(), isovalue=9)
+        with self.assertRaisesRegex(voxplex.MeshingError, r"isosurface of it \(isovalue\)"):
+            voxplex.mesh(self.depth())
+
+
 class Inputs(unittest.TestCase):
     def test_array(self):
         mesh = voxplex.mesh(brick(), 1.5)
@@ -157,6 +205,20 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(voxplex.MeshingError, "1.93"):
             voxplex.mesh(self.image, 2.0, radius_edge=1.9)
         self.assertGreater(voxplex.mesh(self.image, 2.0, radius_edge=1.9, force=True).GetNumberOfCells(), 0)
+
+    def test_grading(self):
+        uniform = voxplex.mesh(self.image, 0.7, threads=1)
+        self.assertTrue(same(uniform, voxplex.mesh(self.image, 0.7, threads=1, grading="uniform")))
+        graded, _, statistics = voxplex.mesh(self.image, 0.7, threads=1, grading="lfs", full_output=True)
+        self.assertLess(graded.GetNumberOfCells(), 0.8 * uniform.GetNumberOfCells())
+        self.assertGreater(statistics["largest_delta"], 0.7)
+        for options in (dict(feature_ratio=0.5), dict(largest_feature=1)):
+            finer = voxplex.mesh(self.image, 0.7, threads=1, grading="lfs", **options)
+            self.assertGreater(finer.GetNumberOfCells(), graded.GetNumberOfCells(), options)
+        with self.assertRaisesRegex(ValueError, "uniform, lfs.*'thin'"):
+            voxplex.mesh(self.image, grading="thin")
+        with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
+            voxplex.mesh(self.image, feature_ratio=0)
 
     def test_memory_limit(self):
         with self.assertRaisesRegex(voxplex.MeshingError, "or pass force=True"):

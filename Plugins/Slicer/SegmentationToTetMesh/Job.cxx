@@ -86,7 +86,19 @@ vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
 
 void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
 {
+  filter->SetInputMode(arguments.IsSet("isosurface") ? vtkImageToTetMeshFilter::INPUT_ISOSURFACE
+                                                     : vtkImageToTetMeshFilter::INPUT_LABELS);
+  filter->SetIsovalue(arguments.Number("isovalue"));
+  filter->SetInside(arguments.Text("inside") == "below" ? vtkImageToTetMeshFilter::INSIDE_BELOW
+                                                        : vtkImageToTetMeshFilter::INSIDE_ABOVE);
+  filter->SetInsideLabel(arguments.Whole("insideLabel"));
+  filter->SetIsosurfaceSmoothingSigma(arguments.Number("greySmoothing"));
   filter->SetDelta(arguments.Number("delta"));
+  filter->SetGrading(arguments.Text("grading") == "lfs"
+      ? vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE
+      : vtkImageToTetMeshFilter::UNIFORM);
+  filter->SetFeatureRatio(arguments.Number("featureRatio"));
+  filter->SetLargestFeature(arguments.Number("largestFeature"));
   filter->SetElementSize(arguments.Number("size"));
   for (const auto& [label, size] : arguments.LabelSizes("labelSizes"))
   {
@@ -115,10 +127,11 @@ void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
 /** The filter's errors speak of its methods; the user has flags. */
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> terms{ {
     { "SetLabelSize()", "--labelsizes" },
     { "AddLabel()", "--labels" },
     { "or force it", "or go on with --force" },
+    { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },
     { "Correct the labels to keep", "Correct --labels" },
     { "RadiusEdgeRatio is", "--radiusedge is" },
     { "Force goes down", "--force goes down" },

@@ -14,12 +14,13 @@ ParameterGroup Files()
     .Parameters = {
       { .Type = Kind::Image,
         .Name = "inputLabels",
-        .Label = "Label map",
-        .Description = "The segmentation: one whole number a voxel, 0 is background. Origin, "
-                       "spacing and axes are honoured.",
+        .Label = "Label map or volume",
+        .Description =
+          "The segmentation: one whole number a voxel, 0 is background; or, if Isosurface "
+          "is on, a volume of grey values. Origin, spacing and axes are honoured.",
         .Index = 0,
         .Direction = Channel::Input,
-        .NodeType = "label",
+        .NodeType = "any",
         .FileExtensions = ".nrrd" },
       { .Type = Kind::Table,
         .Name = "colorTable",
@@ -51,6 +52,50 @@ ParameterGroup Files()
     } };
 }
 
+ParameterGroup GreyValues()
+{
+  return { .Label = "Isosurface",
+    .Description = "Mesh what an isosurface of a volume of grey values bounds, as one label.",
+    .Parameters = {
+      { .Type = Kind::Boolean,
+        .Name = "isosurface",
+        .Label = "Isosurface",
+        .Description = "The input has grey values, not labels.",
+        .LongFlag = "isosurface",
+        .Default = "false" },
+      { .Type = Kind::Double,
+        .Name = "isovalue",
+        .Label = "Isovalue",
+        .Description = "The value of the isosurface.",
+        .LongFlag = "isovalue",
+        .Default = "0",
+        .Limits = Constraints{ -1e9, 1e9, 0.1 } },
+      { .Type = Kind::StringEnumeration,
+        .Name = "inside",
+        .Label = "Inside",
+        .Description = "On which side of the isosurface the object lies.",
+        .LongFlag = "inside",
+        .Default = "above",
+        .Elements = { "above", "below" } },
+      { .Type = Kind::Integer,
+        .Name = "insideLabel",
+        .Label = "Label of the inside",
+        .Description = "The label of its elements.",
+        .LongFlag = "insidelabel",
+        .Default = "1",
+        .Limits = Constraints{ 1.0, 65535.0, 1.0 } },
+      { .Type = Kind::Double,
+        .Name = "greySmoothing",
+        .Label = "Smoothing of grey values",
+        .Description =
+          "How far grey values are smoothed against noise: the standard deviation of a "
+          "Gaussian, in voxels. 0 switches it off.",
+        .LongFlag = "greysmoothing",
+        .Default = "0",
+        .Limits = Constraints{ 0.0, 5.0, 0.1 } },
+    } };
+}
+
 ParameterGroup Density()
 {
   return { .Label = "Density",
@@ -65,6 +110,31 @@ ParameterGroup Density()
         .LongFlag = "delta",
         .Flag = 'd',
         .Default = "0" },
+      { .Type = Kind::StringEnumeration,
+        .Name = "grading",
+        .Label = "Grading",
+        .Description = "uniform samples interfaces with delta everywhere; lfs more coarsely where "
+                       "their shape allows it, by the local feature size: the distance to the "
+                       "medial axis, about half the thickness of what is thin.",
+        .LongFlag = "grading",
+        .Default = "uniform",
+        .Elements = { "uniform", "lfs" } },
+      { .Type = Kind::Double,
+        .Name = "featureRatio",
+        .Label = "Feature ratio",
+        .Description =
+          "With grading lfs: sampling density over local feature size where that gives "
+          "more than delta.",
+        .LongFlag = "featureratio",
+        .Default = "1",
+        .Limits = Constraints{ 0.1, 4.0, 0.1 } },
+      { .Type = Kind::Double,
+        .Name = "largestFeature",
+        .Label = "Largest feature",
+        .Description = "With grading lfs: local feature sizes above this count as this, in voxels.",
+        .LongFlag = "largestfeature",
+        .Default = "12",
+        .Limits = Constraints{ 1.0, 100.0, 1.0 } },
       { .Type = Kind::Double,
         .Name = "size",
         .Label = "Largest element",
@@ -183,8 +253,8 @@ ParameterGroup Results()
 
 const std::vector<ParameterGroup>& ParameterGroups()
 {
-  static const std::vector<ParameterGroup> groups{ Files(), Density(), Quality(), Running(),
-    Results() };
+  static const std::vector<ParameterGroup> groups{ Files(), GreyValues(), Density(), Quality(),
+    Running(), Results() };
   return groups;
 }
 

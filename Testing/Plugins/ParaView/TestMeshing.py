@@ -5,7 +5,7 @@ from voxplex_testing import *
 
 from paraview.simple import MeshQuality, XMLImageDataReader
 
-FILTERS = ("VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice")
+FILTERS = ("VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice", "VoxplexSimplexMeshQuality")
 
 
 def test_documentation():
@@ -51,6 +51,16 @@ def test_atlas():
     quality = MeshQuality(Input=mesher)
     quality.UpdatePipeline()
     check_equal(count_cells(quality), info.GetNumberOfCells())
+    ours = SegmentationMeshQuality(Input=mesher, Segmentation=reader)
+    ours.UpdatePipeline()
+    check_equal(count_cells(ours), info.GetNumberOfCells())
+    for name in ("MinimumDihedralAngle", "MaximumDihedralAngle", "RadiusEdgeRatio", "Volume"):
+        check(ours[0].GetDataInformation().GetArrayInformation(name, 1) is not None, name)
+    check_equal([ours.SMProxy.GetOutputPortName(i) for i in (0, 1, 2)], ["Mesh", "Labels", "Histograms"])
+    check_equal(ours[1].GetDataInformation().GetNumberOfRows(), 116, "labels of the table")
+    check_equal(ours[2].GetDataInformation().GetNumberOfRows(), 90, "bins of the histograms")
+    ours.UpdatePropertyInformation()
+    check(0.5 < ours.HausdorffDistance < 6.0, "Hausdorff distance", ours.HausdorffDistance)
 
 
 def test_options():

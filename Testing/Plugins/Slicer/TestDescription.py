@@ -35,7 +35,7 @@ class Description(ModuleTestCase):
         self.assertEqual(find_faults(self.xml), [])
 
     def test_images_and_models(self):
-        expected = {"inputLabels": ("image", "label", "input", "0"), "colorTable": ("table", "color", "input", None),
+        expected = {"inputLabels": ("image", "any", "input", "0"), "colorTable": ("table", "color", "input", None),
                     "outputMesh": ("geometry", "model", "output", "1"),
                     "outputSurfaces": ("geometry", "model", "output", None)}
         for name, parts in expected.items():
@@ -136,7 +136,7 @@ class Rules(ModuleTestCase):
         self.assert_fault("<index>1</index>", "<index>1</index><longflag>--out</longflag>", "index and a flag")
         self.assert_fault("<channel>input</channel>", "", "channel")
         self.assert_fault("<channel>input</channel>", "<channel>in</channel>", "channel 'in'")
-        self.assert_fault('type="label"', 'type="labels"', "type 'labels'")
+        self.assert_fault('type="any"', 'type="all"', "type 'all'")
         self.assert_fault('type="model"', 'type="mesh"', "type 'mesh'")
         self.assert_fault('type="model"', 'kind="model"', "attributes")
         self.assert_fault("<longflag>--size</longflag>", "", "neither flag nor index")

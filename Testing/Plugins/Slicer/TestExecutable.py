@@ -120,6 +120,27 @@ class Runs(ModuleTestCase):
         self.assertGreater(len(self.mesh("--threads", 1, "--radiusedge", 1.2, "--force").cells), 1.1 * fine)
         self.assertNotEqual(len(self.mesh("--threads", 1, "--facetangle", 0).cells), fine)
 
+    def test_grading(self):
+        count = [len(self.mesh("--threads", 1, "--delta", 1, *arguments).cells) for arguments in (
+            (), ("--grading", "uniform"), ("--grading", "lfs"), ("--grading", "lfs", "--featureratio", 0.4),
+            ("--grading", "lfs", "--largestfeature", 1))]
+        self.assertEqual(count[0], count[1])
+        self.assertLess(count[2], 0.8 * count[0])
+        self.assertGreater(count[3], 1.1 * count[2])
+        self.assertGreater(count[4], 1.1 * count[2])
+
+    def test_isosurface(self):
+        z, y, x = np.mgrid[:24, :24, :24]
+        radius = np.sqrt((x - 11.5) ** 2 + (y - 11.5) ** 2 + (z - 11.5) ** 2)
+        images.write_nrrd(self.input, (100 * radius).astype(np.float32))
+        self.assert_refused(1, "mesh an isosurface of it with --isosurface", self.input, "mesh.vtu")
+        self.assert_refused(2, "--inside", "--isosurface", "--inside", "left", self.input, "mesh.vtu")
+        self.run_module("--isosurface", "--isovalue", 800, "--inside", "below", "--insidelabel", 4, "--surfaces",
+                        "s.vtp", self.input, "mesh.vtu")
+        self.assertEqual(set(meshfiles.read_tetrahedra(self.folder / "mesh.vtu").labels), {4})
+        distances = np.linalg.norm(meshfiles.read_triangles(self.folder / "s.vtp").points - 11.5, axis=1)
+        self.assertLess(abs(distances - 8.0).max(), 0.1)
+
     def test_radius_edge_needs_force(self):
         self.assert_refused(1, "--force", "--radiusedge", 1.6, self.input, "mesh.vtu")
         self.mesh("--radiusedge", 1.9, "--force")
@@ -155,7 +176,8 @@ class Runs(ModuleTestCase):
         self.assertGreater(float(parse_parameter_file(self.folder / "results.params")["usedDelta"]), 0.5)
 
     def test_labels_that_get_lost(self):
-        self.array[2, 2, 2] = 9  # one voxel
+        n = self.array.shape[0] // 2
+        self.array[n, n, n] = 9  # one voxel beside an interface
         images.write_nrrd(self.input, self.array, self.geometry)
         done = self.call("--delta", 3, "--returnparameterfile", "results.params", self.input, "mesh.vtu")
         self.assertEqual(done.returncode, 0)
@@ -196,6 +218,8 @@ class Refusals(ModuleTestCase):
                 "--delta: must be 0 or more": ("--delta=-1", "a", "b.vtu"),
                 "--delta.* more than once": ("-d", "1", "--delta", "2", "a", "b.vtu"),
                 "--delta.* missing": ("a", "b.vtu", "--delta"),
+                "--grading: 'thin' is not one of uniform, lfs": ("--grading", "thin", "a", "b.vtu"),
+                "--featureratio: must lie between": ("--featureratio", "0", "a", "b.vtu"),
                 "--facetangle: must lie between 0 and 30": ("--facetangle", "31", "a", "b.vtu"),
                 "--threads: must be a whole number": ("--threads", "1.5", "a", "b.vtu"),
                 "--labels: '0' is not a label": ("--labels", "1,0", "a", "b.vtu"),

@@ -213,7 +213,8 @@ class Runs(ModuleTestCase):
         self.assertEqual(data.GetAbstractArray("LabelNames").GetNumberOfValues(), 2)
 
     def test_lost_segment_is_named(self):
-        self.array[2, 2, 2] = 3
+        n = self.array.shape[0] // 2
+        self.array[n, n, n] = 3  # one voxel beside an interface
         images.write_nrrd(self.folder / "labels.nrrd", self.array)
         self.logic.start(SEGMENTS, Settings(delta=3.0))
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Measuring.h"
+
+#include "Errors.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkSegmentationReader.h>
+#include <vtkSimplexMeshQuality.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cstdint>
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+using nlohmann::ordered_json;
+
+namespace voxplex::cli
+{
+namespace
+{
+
+void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
+{
+  auto* const filter = static_cast<vtkSimplexMeshQuality*>(caller);
+  const auto& progress = *static_cast<const ProgressFunction*>(clientData);
+  if (!progress(filter->GetProgress(), "Measuring"))
+  {
+    filter->SetAbortExecute(1);
+  }
+}
+
+std::string Rounded(const ordered_json& number, int decimals)
+{
+  if (!number.is_number())
+  {
+    return "-";
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << number.get<double>();
+  return text.str();
+}
+
+/** The bins of a histogram joined by fives, in percent of all. */
+std::string Shares(const ordered_json& histogram, std::size_t bins)
+{
+  const auto counts = histogram.get<std::vector<std::uint64_t>>();
+  const double all =
+    static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 }));
+  std::string text;
+  for (std::size_t first = 0; first < bins; first += 5)
+  {
+    const double share =
+      static_cast<double>(std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(first),
+        counts.begin() + static_cast<std::ptrdiff_t>(first + 5), std::uint64_t{ 0 }));
+    text += " " + Rounded(100.0 * share / all, 1);
+  }
+  return text;
+}
+
+std::string Place(const ordered_json& place)
+{
+  return "(" + Rounded(place[0], 2) + ", " + Rounded(place[1], 2) + ", " + Rounded(place[2], 2) +
+    ")";
+}
+
+std::string Distances(const char* name, const ordered_json& figures)
+{
+  const auto direction = [&figures](const char* key)
+  {
+    const ordered_json& one = figures[key];
+    return Rounded(one["max"], 3) + " (mean " + Rounded(one["mean"], 3) + ", 99 % below " +
+      Rounded(one["p99"], 3) + ", largest at " + Place(one["place"]) + ")";
+  };
+  return std::string("  Hausdorff distance to ") + name + ": " + Rounded(figures["distance"], 3) +
+    "\n    from the mesh  " + direction("mesh_to_image") + "\n    from the image " +
+    direction("image_to_mesh") + "\n";
+}
+
+} // namespace
+
+ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
+  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
+{
+  vtkNew<vtkSimplexMeshQuality> filter;
+  filter->SetInputData(mesh);
+  filter->SetImageConnection(input.Labels->GetOutputPort());
+  for (const std::int64_t label : input.Selection.Labels)
+  {
+    filter->AddLabel(label);
+  }
+  filter->SetDistances(parameters.Hausdorff);
+  if (parameters.SmoothingSigma)
+  {
+    filter->SetSmoothingSigma(*parameters.SmoothingSigma);
+  }
+  if (parameters.FacetAngle)
+  {
+    filter->SetFacetAngle(*parameters.FacetAngle);
+  }
+  if (parameters.SmallestComponent)
+  {
+    filter->SetSmallestComponent(*parameters.SmallestComponent);
+  }
+  filter->SetNumberOfThreads(parameters.Threads);
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(OnProgress);
+  observer->SetClientData(const_cast<ProgressFunction*>(&progress));
+  filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  filter->Update();
+  if (filter->GetAborted())
+  {
+    return nullptr;
+  }
+  if (!filter->GetErrorMessage().empty())
+  {
+    throw RunError("cannot measure the mesh: " + filter->GetErrorMessage());
+  }
+  return ordered_json::parse(filter->ToJSON());
+}
+
+void AddMeasurement(const ordered_json& measurement, ordered_json& report)
+{
+  for (const auto& [label, figures] : measurement["labels"].items())
+  {
+    if (report["labels"].contains(label)) // lost ones are listed in "image"
+    {
+      report["labels"][label].update(figures);
+    }
+  }
+  for (const char* key : { "topology", "image", "hausdorff" })
+  {
+    report[key] = measurement[key];
+  }
+}
+
+std::string SummarizeMeasurement(const ordered_json& report)
+{
+  const ordered_json& quality = report["quality"];
+  const ordered_json& topology = report["topology"];
+  const ordered_json& image = report["image"];
+  std::ostringstream text;
+  text << "Quality:\n  dihedral angles in steps of 10 degrees, %:"
+       << Shares(quality["dihedral_histogram"], 90)
+       << "\n  interface angles in steps of 10 degrees, %:"
+       << Shares(quality["planar_histogram"], 90) << "\n  smallest interface angle "
+       << Rounded(quality["min_planar_off_junctions"], 1) << " degrees off junctions, "
+       << Rounded(quality["min_planar_at_junctions"], 1) << " at them\n  "
+       << topology["junction_edges"] << " junction edges, " << topology["corners"] << " corners; "
+       << topology["non_manifold_edges"] << " non-manifold edges, "
+       << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n  "
+       << image["lost_labels"].size() << " labels and " << image["lost_components"].size() << " of "
+       << image["components"] << " components lost; volumes of labels off by "
+       << Rounded(100.0 * image["label_volume_error"].get<double>(), 2) << " %\n";
+  const ordered_json& distances = report["hausdorff"];
+  if (distances.contains("voxels"))
+  {
+    text << Distances("the faces of voxels", distances["voxels"])
+         << Distances("the smooth interface", distances["smooth"]);
+  }
+  return text.str();
+}
+
+} // namespace voxplex::cli

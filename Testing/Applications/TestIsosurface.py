@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Grey-value images: --isovalue and what goes with it."""
+import numpy as np
+
+import images
+import meshfiles
+from program import ProgramTestCase, main
+
+SIZE, RADIUS = 32, 11.0
+
+
+def depth(size=SIZE, radius=RADIUS):
+    """How deep each voxel lies in a ball; negative outside."""
+    center = (size - 1) / 2
+    z, y, x = np.mgrid[:size, :size, :size]
+    return radius - np.sqrt((x - center) ** 2 + (y - center) ** 2 + (z - center) ** 2)
+
+
+class Isosurface(ProgramTestCase):
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "ball.nrrd", depth().astype(np.float32))
+
+    def distances(self, surface, radius=RADIUS):
+        center = (SIZE - 1) / 2
+        return np.abs(np.linalg.norm(meshfiles.read_triangles(self.folder / surface).points - center, axis=1) - radius)
+
+    def test_ball(self):
+        report = self.statistics("--input", self.input, "--threads", 1, "--isovalue", 0, "--delta", 2,
+                                 "--output", "ball.vtu", "--plc", "ball.vtp")
+        self.assertLess(self.distances("ball.vtp").max(), 0.05)
+        mesh = meshfiles.read_tetrahedra(self.folder / "ball.vtu")
+        self.assertEqual(set(mesh.labels), {1})
+        self.assertAlmostEqual(mesh.volumes().sum() / (4 / 3 * np.pi * RADIUS**3), 1.0, delta=0.04)
+        self.assertEqual(report["isosurface"]["value"], 0)
+        self.assertEqual(report["isosurface"]["inside"], "above")
+        np.testing.assert_allclose(report["isosurface"]["range"], [depth().min(), depth().max()], rtol=1e-6)
+        self.assertEqual(report["parameters"]["isovalue"], 0)
+        self.assertIsNone(report["parameters"]["inside"])
+
+    def test_other_value_side_and_label(self):
+        images.write_nrrd(self.input, np.rint(1000 - 20 * depth()).astype(np.int16))
+        report = self.statistics("--input", self.input, "--isovalue", 960, "--inside", "below", "--inside-label", 12,
+                                 "--label-size", "12=1.5", "--delta", 2, "--output", "m.vtu", "--plc", "s.vtp")
+        self.assertLess(self.distances("s.vtp", RADIUS - 2).max(), 0.1)
+        self.assertEqual(list(report["labels"]), ["12"])
+        self.assertEqual(report["parameters"]["inside"], "below")
+        self.assertEqual(report["parameters"]["inside_label"], 12)
+        self.assertEqual(report["parameters"]["label_size"], {"12": 1.5})
+
+    def test_smoothing_is_off_unless_it_is_given(self):
+        noise = np.random.default_rng(1).uniform(-0.6, 0.6, (SIZE,) * 3)
+        images.write_nrrd(self.input, (depth() + noise).astype(np.float32))
+        arguments = ("--input", self.input, "--threads", 1, "--isovalue", 0, "--delta", 2, "--plc", "s.vtp")
+        self.mesh(*arguments)
+        rough = self.distances("s.vtp").mean()
+        self.mesh(*arguments, "--smoothing", 1.5)
+        self.assertLess(self.distances("s.vtp").mean(), 0.5 * rough)
+        self.mesh(*arguments, "--smoothing", 0)
+        self.assertEqual(self.distances("s.vtp").mean(), rough)
+
+    def test_place_in_space(self):
+        tilt = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, -1]])
+        geometry = images.Geometry(origin=(-30.0, 5.0, 60.0), spacing=(0.5, 0.5, 1.5), direction=tilt)
+        k, j, i = np.mgrid[:14, :40, :40]
+        points = geometry.physical(np.stack([i, j, k], axis=-1))
+        center = geometry.physical((19.3, 19.8, 6.4))
+        values = (7.0 - np.linalg.norm(points - center, axis=-1)).astype(np.float32)
+        images.write_nrrd(self.input, values, geometry)
+        self.mesh("--input", self.input, "--isovalue", 0, "--delta", 1.2, "--plc", "s.vtp")
+        surface = meshfiles.read_triangles(self.folder / "s.vtp").points
+        self.assertLess(np.abs(np.linalg.norm(surface - center, axis=1) - 7.0).max(), 0.06)
+
+    def test_names_of_labels_are_not_for_grey_values(self):
+        values = np.rint(100 + 10 * depth()).clip(0).astype(np.int16)
+        values[0, 0, 0] = 1
+        (self.folder / "ct.nrrd.txt").write_text("1 Tibia\n")
+        path = images.write_nrrd(self.folder / "ct.nrrd", values)
+        report = self.statistics("--input", path, "--isovalue", 100, "--delta", 3, "--output", "m.vtu")
+        self.assertIsNone(report["labels"]["1"]["name"])
+        self.assertIsNone(report["label_names_from"])
+        self.assertNotIn(b"LabelNames", (self.folder / "m.vtu").read_bytes())
+
+    def test_wrong_arguments(self):
+        self.assert_refused(2, "--inside: inside of what\\? Give the isosurface with --isovalue",
+                            "--input", "a.nrrd", "--inside", "below")
+        self.assert_refused(2, "--inside-label: inside of what", "--input", "a.nrrd", "--inside-label", "2")
+        self.assert_refused(2, "--inside: .*above or below", "--input", "a.nrrd", "--isovalue", 1, "--inside", "left")
+        self.assert_refused(2, "--inside-label: .*1", "--input", "a.nrrd", "--isovalue", 1, "--inside-label", 0)
+        self.assert_refused(2, "--isovalue: .* is not a number", "--input", "a.nrrd", "--isovalue", "high")
+        self.assert_refused(2, "--isovalue: must be a finite number", "--input", "a.nrrd", "--isovalue", "nan")
+        for option in ("--labels", "--label-table"):
+            self.assert_refused(2, option + ": grey-value images have no labels", "--input", "a.nrrd", "--isovalue", 1,
+                                option, "1")
+        series = images.write_nrrd(self.folder / "t.nrrd", images.moving_balls())
+        self.assert_refused(2, "--isovalue: only for 3D images", "--input", series, "--isovalue", 1)
+
+    def test_values_without_a_surface(self):
+        self.assert_refused(1, "isovalue 50 is outside of the image's range, which is from -15.* to 10",
+                            "--input", self.input, "--isovalue", 50)
+        self.assert_refused(1, "label of the inside|label 3", "--input", self.input, "--isovalue", 0,
+                            "--label-size", "3=1")
+
+    def test_the_message_about_labels_shows_the_way(self):
+        self.assert_refused(1, "is not whole.*mesh an isosurface of it with --isovalue", "--input", self.input)
+
+
+if __name__ == "__main__":
+    main()

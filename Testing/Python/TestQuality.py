@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""voxplex.quality(), against NumPy, VTK's own filters and a check of meshes that shares no code with it."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersModeling import vtkHausdorffDistancePointSetFilter
+from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+import voxplex
+from phantoms import ball, beating, brick
+
+SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
+CHECK_MESH = SHARED / "check_mesh.py"
+KNEE = SHARED / "spl-knee-atlas.nrrd"
+
+
+def face_centres(labels):
+    """The centres of faces between voxels of different labels; unit voxels, x first."""
+    padded = numpy.pad(labels, 1)
+    centres = []
+    for axis in range(3):
+        faces = numpy.argwhere(numpy.diff(padded, axis=axis))[:, ::-1] - 1.0
+        faces[:, 2 - axis] += 0.5
+        centres.append(faces)
+    return numpy.concatenate(centres)
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.labels = ball(28, (11.0, 6.0))
+        cls.mesh, cls.interfaces, cls.statistics = voxplex.mesh(cls.labels, 2.0, threads=1, full_output=True)
+        cls.figures = voxplex.quality(cls.mesh, cls.labels)
+
+    def test_agrees_with_the_mesher(self):
+        quality = self.statistics["quality"]
+        for key, value in self.figures["quality"].items():
+            if value is None:  # there is no junction
+                self.assertIsNone(quality[key])
+                continue
+            numpy.testing.assert_allclose(value, quality[key], rtol=1e-6, err_msg=key)
+        self.assertEqual(self.figures["elements"], self.statistics["elements"])
+        self.assertEqual(self.figures["interface_facets"], self.statistics["interface_facets"])
+        self.assertEqual(self.figures["faces_of_three_elements"], 0)
+
+    def test_volumes(self):
+        for label in (1, 2):
+            figures = self.figures["labels"][str(label)]
+            voxels = int((self.labels == label).sum())
+            self.assertEqual(figures["voxels"], voxels)
+            self.assertEqual(figures["image_volume"], voxels)
+            self.assertAlmostEqual(figures["volume_error"], figures["volume"] / voxels - 1)
+            self.assertLess(abs(figures["volume_error"]), 0.2)
+
+    def test_histograms(self):
+        quality = self.figures["quality"]
+        self.assertEqual(sum(quality["dihedral_histogram"]), 6 * self.figures["elements"])
+        self.assertEqual(sum(quality["radius_edge_histogram"]), self.figures["elements"])
+        self.assertEqual(sum(quality["planar_histogram"]), 3 * self.figures["interface_facets"])
+        used = numpy.nonzero(quality["dihedral_histogram"])[0]
+        self.assertEqual(used[0], int(quality["min_dihedral"] // 2))
+        self.assertEqual(used[-1], int(quality["max_dihedral"] // 2))
+
+    def test_distances_to_voxels(self):
+        """By brute force, but for the inside of triangles: those of VTK's filter, below."""
+        centres = face_centres(self.labels)
+        points = voxplex.points(self.interfaces)
+        corners = points[voxplex.triangles(self.interfaces)]
+        samples = numpy.concatenate([points, corners.mean(axis=1)])
+        distances = numpy.array([numpy.linalg.norm(centres - p, axis=1).min() for p in samples])
+        figures = self.figures["hausdorff"]["voxels"]["mesh_to_image"]
+        self.assertEqual(figures["points"], len(samples))
+        numpy.testing.assert_allclose(
+            [figures["max"], figures["mean"], figures["p99"]],
+            [distances.max(), distances.mean(), numpy.percentile(distances, 99)], rtol=1e-6)
+        nearest = numpy.linalg.norm(samples - figures["place"], axis=1).min()
+        self.assertLess(nearest, 1e-6)
+
+    def test_distances_from_voxels(self):
+        centres = face_centres(self.labels)
+        cloud = vtkPolyData()
+        points = vtkPoints()
+        points.SetDataTypeToDouble()
+        vertices = vtkCellArray()
+        for centre in centres:
+            vertices.InsertNextCell(1, [points.InsertNextPoint(centre)])
+        cloud.SetPoints(points)
+        cloud.SetVerts(vertices)
+        theirs = vtkHausdorffDistancePointSetFilter()
+        theirs.SetInputData(0, cloud)
+        theirs.SetInputData(1, self.interfaces)
+        theirs.SetTargetDistanceMethodToPointToCell()
+        theirs.Update()
+        distances = vtk_to_numpy(theirs.GetOutput(0).GetPointData().GetArray("Distance"))
+        figures = self.figures["hausdorff"]["voxels"]["image_to_mesh"]
+        self.assertEqual(figures["points"], len(centres))
+        numpy.testing.assert_allclose(
+            [figures["max"], figures["mean"], figures["p99"]],
+            [distances.max(), distances.mean(), numpy.percentile(distances, 99)], rtol=1e-5)
+
+    def test_symmetric_distance(self):
+        for kind in ("voxels", "smooth"):
+            figures = self.figures["hausdorff"][kind]
+            self.assertEqual(figures["distance"],
+                             max(figures["mesh_to_image"]["max"], figures["image_to_mesh"]["max"]))
+        # Vertices lie on the smooth interface; the stairs of voxels are not part of that distance.
+        self.assertLess(self.figures["hausdorff"]["smooth"]["mesh_to_image"]["mean"],
+                        0.5 * self.figures["hausdorff"]["voxels"]["mesh_to_image"]["mean"])
+
+    def measured(self, name):
+        measurer = voxplex.vtkSimplexMeshQuality()
+        measurer.SetInputData(self.mesh)
+        measurer.Update()
+        return vtk_to_numpy(measurer.GetOutput().GetCellData().GetArray(name))
+
+    def test_dihedral_angles(self):
+        corners = voxplex.points(self.mesh)[voxplex.tets(self.mesh)]
+        faces = [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)]
+        normals = numpy.stack([numpy.cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a])
+                               for a, b, c in faces], axis=1)
+        normals /= numpy.linalg.norm(normals, axis=2, keepdims=True)
+        angles = numpy.degrees(numpy.stack([numpy.arccos(-(normals[:, i] * normals[:, j]).sum(axis=1))
+                                            for i in range(4) for j in range(i)], axis=1))
+        numpy.testing.assert_allclose(self.measured("MinimumDihedralAngle"), angles.min(axis=1), rtol=1e-9)
+        numpy.testing.assert_allclose(self.measured("MaximumDihedralAngle"), angles.max(axis=1), rtol=1e-9)
+        counts = numpy.histogram(angles, bins=90, range=(0, 180))[0]
+        self.assertEqual(self.figures["quality"]["dihedral_histogram"], counts.tolist())
+
+    def test_verdict(self):
+        """What VTK measures, too. Of dihedral angles VTK 9.1 has the smallest of only four."""
+        verdict = vtkMeshQuality()
+        verdict.SetInputData(self.mesh)
+        verdict.SaveCellQualityOn()
+        verdict.SetTetQualityMeasureToVolume()
+        verdict.Update()
+        volumes = vtk_to_numpy(verdict.GetOutput().GetCellData().GetArray("Quality"))
+        numpy.testing.assert_allclose(self.measured("Volume"), volumes, rtol=1e-9)
+        verdict.SetTetQualityMeasureToMinAngle()
+        verdict.Update()
+        angles = vtk_to_numpy(verdict.GetOutput().GetCellData().GetArray("Quality"))
+        excess = angles - self.measured("MinimumDihedralAngle")
+        self.assertGreater(excess.min(), -1e-9)
+        self.assertLess(numpy.median(excess), 1e-9)
+
+    def test_without_distances_and_without_image(self):
+        figures = voxplex.quality(self.mesh, self.labels, hausdorff=False)
+        self.assertEqual(figures["hausdorff"], {})
+        self.assertEqual(figures["image"]["lost_labels"], [])
+        figures = voxplex.quality(self.mesh)
+        self.assertNotIn("image", figures)
+        self.assertEqual(figures["quality"], self.figures["quality"])
+
+    def test_what_is_lost(self):
+        labels = self.labels.copy()
+        labels[0:2, 0:2, 0:2] = 7
+        figures = voxplex.quality(self.mesh, labels, hausdorff=False)
+        self.assertEqual(figures["image"]["lost_labels"], [7])
+        self.assertEqual(figures["image"]["lost_components"], [{"label": 7, "voxels": 8, "voxel": [0, 0, 0]}])
+        self.assertEqual(figures["labels"]["7"]["elements"], 0)
+        figures = voxplex.quality(self.mesh, labels, hausdorff=False, smallest_component=9)
+        self.assertEqual(figures["image"]["lost_components"], [])
+        figures = voxplex.quality(self.mesh, labels, labels=[1, 2])
+        self.assertEqual(figures["image"]["lost_labels"], [])
+        self.assertEqual(figures["hausdorff"], self.figures["hausdorff"])
+        labels[labels == 2] = 1
+        figures = voxplex.quality(self.mesh, labels, hausdorff=False)
+        self.assertEqual(figures["image"]["extra_labels"], [2])
+        self.assertIsNone(figures["labels"]["2"]["volume_error"])
+
+
+class Inputs(unittest.TestCase):
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = voxplex.mesh(brick(), 2.0, spacing=(0.5, 0.5, 1.0), threads=1)
+            path = os.path.join(folder, "brick.vtu")
+            writer = vtkXMLUnstructuredGridWriter()
+            writer.SetInputData(mesh)
+            writer.SetFileName(path)
+            writer.Write()
+            self.assertEqual(voxplex.quality(path, brick(), spacing=(0.5, 0.5, 1.0)),
+                             voxplex.quality(mesh, brick(), spacing=(0.5, 0.5, 1.0)))
+            with self.assertRaises(FileNotFoundError):
+                voxplex.quality(os.path.join(folder, "none.vtu"))
+            wrong = os.path.join(folder, "brick.stl")
+            Path(wrong).write_text("solid\n")
+            with self.assertRaisesRegex(voxplex.FileError, "not a .vtu file"):
+                voxplex.quality(wrong)
+
+    def test_refuses(self):
+        mesh = voxplex.mesh(brick(), 2.0)
+        with self.assertRaisesRegex(TypeError, "vtkImageData"):
+            voxplex.quality(vtkImageData())
+        with self.assertRaisesRegex(ValueError, "spacing: only with an image"):
+            voxplex.quality(mesh, spacing=(1, 1, 1))
+        with self.assertRaisesRegex(ValueError, "labels: only with an image"):
+            voxplex.quality(mesh, labels=[5])
+        with self.assertRaisesRegex(ValueError, "time frames"):
+            voxplex.quality(mesh, beating())
+        with self.assertRaisesRegex(voxplex.MeshingError, "SmoothingSigma is -1"):
+            voxplex.quality(mesh, brick(), smoothing=-1)
+        mesh.GetCellData().RemoveArray("Label")
+        with self.assertRaisesRegex(voxplex.MeshingError, "cell array of labels"):
+            voxplex.quality(mesh)
+
+    def test_progress(self):
+        mesh = voxplex.mesh(brick(), 2.0)
+        fractions = []
+        voxplex.quality(mesh, brick(), progress=fractions.append)
+        self.assertEqual(fractions[-1], 1.0)
+        self.assertEqual(fractions, sorted(fractions))
+        with self.assertRaises(voxplex.MeshingCancelled):
+            voxplex.quality(mesh, brick(), progress=lambda _fraction: False)
+
+
+@unittest.skipUnless(voxplex.HAVE_IO, "this build cannot read or write files")
+@unittest.skipUnless(CHECK_MESH.exists() and KNEE.exists(), "the check and the knee atlas are not beside the checkout")
+class AgainstAnIndependentCheck(unittest.TestCase):
+    def test_knee(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "knee.vtu")
+            voxplex.write(voxplex.mesh(KNEE, 4.0, sliver_angle=0, smallest_component=0, optimise=False,
+                                       sample_junctions=False, interface_rounds=0), path)
+            ours = voxplex.quality(path, KNEE)
+            check = subprocess.run([sys.executable, CHECK_MESH, KNEE, path], check=True, capture_output=True, text=True)
+            theirs = json.loads(check.stdout)
+        quality, topology, image = ours["quality"], ours["topology"], ours["image"]
+        self.assertEqual(ours["elements"], theirs["tets"])
+        self.assertEqual(ours["interface_facets"], theirs["interface_facets"])
+        self.assertEqual(topology["non_manifold_edges"], theirs["nonmanifold_edges"])
+        self.assertGreater(topology["non_manifold_edges"], 0)
+        self.assertEqual(topology["boundary_edges"], theirs["interface_edges"])
+        self.assertEqual(image["lost_labels"], theirs["labels_missing"])
+        self.assertEqual(len(image["lost_components"]), theirs["components_lost"][">=8"])
+        self.assertEqual(image["components"], theirs["components"][">=8"])
+        self.assertAlmostEqual(image["label_volume_error"], theirs["volume_rel_error_weighted_abs"], 9)
+        self.assertAlmostEqual(quality["min_dihedral"], theirs["dihedral_min"], 6)
+        self.assertAlmostEqual(quality["max_dihedral"], theirs["dihedral_max"], 6)
+        self.assertAlmostEqual(quality["max_radius_edge"], theirs["radius_edge_max"], 9)
+        self.assertAlmostEqual(quality["min_planar"], theirs["planar_min"], 6)
+        distances = ours["hausdorff"]["voxels"]
+        for figure in ("max", "mean", "p99"):
+            self.assertAlmostEqual(distances["mesh_to_image"][figure], theirs["distance_mesh_to_image"][figure], 6)
+            # They measure from points on the triangles that are less than a voxel apart, we from the triangles.
+            self.assertLessEqual(distances["image_to_mesh"][figure], theirs["distance_image_to_mesh"][figure] + 1e-6)
+            self.assertAlmostEqual(distances["image_to_mesh"][figure], theirs["distance_image_to_mesh"][figure], delta=0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()
