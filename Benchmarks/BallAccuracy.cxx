@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of a digital ball against the true sphere, by smoothing and delta: the table of
-// Documentation/Algorithm.md.
+// Meshes of a digital ball against the true sphere, by smoothing and delta, and of grey-value images of the
+// same ball: the tables of Documentation/Algorithm.md.
 #include "ImageMesher.h"
 
 #include "../Testing/Kernel/MeshChecks.h"
 #include "../Testing/Kernel/Phantoms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 #include <set>
+#include <vector>
 
 using namespace voxplex;
 
@@ -21,12 +24,16 @@ namespace
 struct Accuracy
 {
   double Distance = 0.0; ///< of interface vertices from the sphere, mean, voxels
+  double Farthest = 0.0; ///< at most
   double Normal = 0.0;   ///< error of facet normals, mean, degrees
   double Volume = 0.0;   ///< relative error
   std::size_t Elements = 0;
 };
 
-Accuracy Measure(const LabelImage<3>& image, double radius, double sigma, double delta)
+/** Of a ball in the middle of a cube of voxels. */
+template <typename Image>
+Accuracy Measure(
+  const Image& image, const GridGeometry<3>& grid, double radius, double sigma, double delta)
 {
   MeshingOptions<3> options;
   options.Delta = delta;
@@ -35,7 +42,7 @@ Accuracy Measure(const LabelImage<3>& image, double radius, double sigma, double
   SimplexMesh<3> mesh;
   mesher.Run(image, mesh);
 
-  const double c = 0.5 * static_cast<double>(image.Grid().Dimensions[0] - 1);
+  const double c = 0.5 * static_cast<double>(grid.Dimensions[0] - 1);
   const Point<3> centre = { c, c, c };
   Accuracy accuracy;
   std::set<std::uint32_t> vertices;
@@ -56,8 +63,9 @@ Accuracy Measure(const LabelImage<3>& image, double radius, double sigma, double
   }
   for (const std::uint32_t v : vertices)
   {
-    accuracy.Distance +=
-      std::abs(Distance(mesh.Points[v], centre) - radius) / static_cast<double>(vertices.size());
+    const double distance = std::abs(Distance(mesh.Points[v], centre) - radius);
+    accuracy.Distance += distance / static_cast<double>(vertices.size());
+    accuracy.Farthest = std::max(accuracy.Farthest, distance);
   }
   double volume = 0.0;
   for (const auto& [label, v] : checks::Volumes(mesh))
@@ -67,6 +75,57 @@ Accuracy Measure(const LabelImage<3>& image, double radius, double sigma, double
   accuracy.Volume = volume / (4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3)) - 1.0;
   accuracy.Elements = mesh.Simplices.size();
   return accuracy;
+}
+
+/** The part of a voxel that is in the ball, to 1/512. */
+double PartInside(const Point<3>& voxel, const Point<3>& centre, double radius)
+{
+  const double r = Distance(voxel, centre);
+  if (std::abs(r - radius) > 1.0)
+  {
+    return r < radius ? 1.0 : 0.0;
+  }
+  int inside = 0;
+  for (int i = 0; i < 512; ++i)
+  {
+    Point<3> p = voxel;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      p[a] += (((i >> (3 * a)) & 7) + 0.5) / 8.0 - 0.5;
+    }
+    inside += Distance(p, centre) < radius;
+  }
+  return inside / 512.0;
+}
+
+/** A grey-value image of a ball: what each voxel has, and the isovalue. */
+struct GreyBall
+{
+  const char* Name;
+  std::function<double(const Point<3>& voxel, const Point<3>& centre)> Value;
+  double Isovalue;
+};
+
+void MeasureGrey(const GreyBall& ball, const GridGeometry<3>& grid, double radius)
+{
+  const double c = 0.5 * static_cast<double>(grid.Dimensions[0] - 1);
+  std::vector<float> values;
+  for (std::int64_t k = 0; k < grid.Dimensions[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < grid.Dimensions[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < grid.Dimensions[0]; ++i)
+      {
+        const Point<3> voxel = { static_cast<double>(i), static_cast<double>(j),
+          static_cast<double>(k) };
+        values.push_back(static_cast<float>(ball.Value(voxel, { c, c, c })));
+      }
+    }
+  }
+  const auto image = IsosurfaceImage<3>::FromScalars<float>(values, grid, { ball.Isovalue });
+  const Accuracy a = Measure(image, grid, radius, 0.0, 2.0);
+  std::printf("%-20s %8.3f  %8.3f  %11.2f  %9.2f  %8zu\n", ball.Name, a.Distance, a.Farthest,
+    a.Normal, 100.0 * a.Volume, a.Elements);
 }
 
 } // namespace
@@ -81,17 +140,38 @@ int main(int argc, char** argv)
     return 2;
   }
   const LabelImage<3> image = phantoms::Ball(radius);
-  std::printf(
-    "ball of radius %g voxels\nsigma  delta  distance  normal, deg  volume, %%  elements\n",
+  std::printf("ball of radius %g voxels\nsigma  delta  distance   at most  normal, deg  volume, %% "
+              " elements\n",
     radius);
   for (const double sigma : { 0.0, 0.7, 1.0, 1.3 })
   {
     for (const double delta : { 2.0, 1.0 })
     {
-      const Accuracy a = Measure(image, radius, sigma, delta);
-      std::printf("%5.1f  %5.1f  %8.3f  %11.2f  %9.2f  %8zu\n", sigma, delta, a.Distance, a.Normal,
-        100.0 * a.Volume, a.Elements);
+      const Accuracy a = Measure(image, image.Grid(), radius, sigma, delta);
+      std::printf("%5.1f  %5.1f  %8.3f  %8.3f  %11.2f  %9.2f  %8zu\n", sigma, delta, a.Distance,
+        a.Farthest, a.Normal, 100.0 * a.Volume, a.Elements);
     }
+  }
+  std::printf("grey values, delta 2  distance   at most  normal, deg  volume, %%  elements\n");
+  const std::vector<GreyBall> balls = {
+    { "signed distance",
+      [=](const Point<3>& p, const Point<3>& centre) { return radius - Distance(p, centre); },
+      0.0 },
+    { "blurred by 1 voxel",
+      [=](const Point<3>& p, const Point<3>& centre)
+      { return 0.5 * (1.0 + std::erf((radius - Distance(p, centre)) / std::numbers::sqrt2)); },
+      0.5 },
+    { "part inside",
+      [=](const Point<3>& p, const Point<3>& centre) { return PartInside(p, centre, radius); },
+      0.5 },
+    { "the same in 8 bits",
+      [=](const Point<3>& p, const Point<3>& centre)
+      { return std::round(255.0 * PartInside(p, centre, radius)); },
+      127.5 },
+  };
+  for (const GreyBall& ball : balls)
+  {
+    MeasureGrey(ball, image.Grid(), radius);
   }
   return 0;
 }

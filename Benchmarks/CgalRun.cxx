@@ -11,7 +11,7 @@
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/make_mesh_3.h>
+#include <CGAL/make_mesh_3.h> // perturbation and exudation, too
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -72,8 +72,9 @@ SimplexMesh<3> ToArrays(const Complex& complex)
   return mesh;
 }
 
+/** @param optimisation is left out if null */
 template <typename ConcurrencyTag>
-MesherRun Run(const LabelVolume& volume, double size)
+MesherRun Run(const LabelVolume& volume, double size, Optimisation* optimisation = nullptr)
 {
   namespace parameters = CGAL::parameters;
   using Triangulation =
@@ -89,13 +90,23 @@ MesherRun Run(const LabelVolume& volume, double size)
     parameters::cell_radius_edge_ratio = 2.0);
 
   const Stopwatch refinement;
-  const Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
+  Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
     parameters::no_exude(), parameters::no_lloyd(), parameters::no_odt());
   run.RefinementSeconds = refinement.Seconds();
   run.TotalSeconds = total.Seconds();
   run.CpuSeconds = total.CpuSeconds();
   run.PeakBytes = PeakResidentBytes();
   run.Mesh = ToArrays(complex);
+  if (optimisation)
+  {
+    const Stopwatch perturbation;
+    CGAL::perturb_mesh_3(complex, domain);
+    optimisation->PerturbSeconds = perturbation.Seconds();
+    const Stopwatch exudation;
+    CGAL::exude_mesh_3(complex);
+    optimisation->ExudeSeconds = exudation.Seconds();
+    optimisation->Mesh = ToArrays(complex);
+  }
   return run;
 }
 
@@ -113,6 +124,11 @@ MesherRun RunCgal(const LabelVolume& image, double size, unsigned threads, bool 
 #else
   throw std::runtime_error("CGAL's Parallel_tag needs TBB, which was not found");
 #endif
+}
+
+MesherRun RunCgalAndOptimise(const LabelVolume& image, double size, Optimisation& optimisation)
+{
+  return Run<CGAL::Sequential_tag>(image, size, &optimisation);
 }
 
 } // namespace voxplex::benchmarks

@@ -25,6 +25,14 @@ struct MesherRun
   std::uint64_t PeakBytes = 0;
 };
 
+/** What CGAL's optimisation made of a mesh, and how long it took. */
+struct Optimisation
+{
+  SimplexMesh<3> Mesh;
+  double PerturbSeconds = 0.0;
+  double ExudeSeconds = 0.0;
+};
+
 /** What Voxplex does besides what CGAL's refinement does, too. */
 enum class Care
 {
@@ -51,6 +59,12 @@ MesherRun RunVoxplex(LabelVolume&& image, double delta, unsigned threads, Care c
  * refines the worst element first and is about half as fast
  */
 MesherRun RunCgal(const LabelVolume& image, double size, unsigned threads, bool parallel);
+
+/**
+ * The same with one thread and Sequential_tag, after which perturbation and exudation go over the
+ * mesh as make_mesh_3 lets them by default: without a limit of time or bound of angles.
+ */
+MesherRun RunCgalAndOptimise(const LabelVolume& image, double size, Optimisation& optimisation);
 
 } // namespace voxplex::benchmarks
 

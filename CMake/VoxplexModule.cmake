@@ -22,16 +22,21 @@ vtk_module_add_module(VTK::Voxplex
     Filters/vtkImageToTetMeshFilter
     Filters/vtkMeshingStatistics
     Filters/vtkPentatopeMeshTimeSlice
+    Filters/vtkSimplexMeshQuality
   PRIVATE_HEADERS
     Filters/Private/ChosenArray.h
     Filters/Private/ElementSizes.h
     Filters/Private/FrameGathering.h
     Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
+    Filters/Private/ImageLabels.h
+    Filters/Private/JsonWriter.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
     Filters/Private/OutputArrays.h
     Filters/Private/PentatopeOutput.h
+    Filters/Private/QualityJson.h
+    Filters/Private/QualityTables.h
     Filters/Private/SimplexMeshRun.h
     Filters/Private/SmpThreads.h
     Filters/Private/SpaceTimeFrame.h
@@ -41,8 +46,11 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/ElementSizes.cxx
     Filters/Private/FrameSeries.cxx
     Filters/Private/ImageFrame.cxx
+    Filters/Private/ImageLabels.cxx
     Filters/Private/MeshOutput.cxx
     Filters/Private/PentatopeOutput.cxx
+    Filters/Private/QualityJson.cxx
+    Filters/Private/QualityTables.cxx
     Filters/Private/SmpThreads.cxx
     Filters/Private/vtkFrameGatheringPipeline.cxx
     $<TARGET_OBJECTS:VoxplexExact>

@@ -32,6 +32,7 @@ set(_voxplex_python_files
   files.py
   frames.py
   images.py
+  measuring.py
   meshing.py
   names.py
   sources.py

@@ -1,0 +1,233 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Documentation/Quality.md from what Scripts/measure-quality measured."""
+import math
+import statistics
+
+# What is asked of the two atlases; the program measures all of it.
+CGAL_NON_MANIFOLD_ON_KNEE = 457
+COLUMNS = (("default", "Voxplex"), ("optimised", "optimised"), ("cgal", "CGAL"), ("cgal-optimised", "perturb + exude"))
+
+
+def median(runs, value):
+    return statistics.median(value(run) for run in runs)
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "| --- |" + " ---: |" * (len(header) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def number(value, decimals=2):
+    return "-" if value is None else f"{value:,.{decimals}f}"
+
+
+def count(value):
+    return f"{value:,}"
+
+
+class Atlas:
+    """What was measured of one image; answers with the figures that the page shows."""
+
+    def __init__(self, data):
+        self.title = data["title"]
+        self.delta = data["delta"]
+        self.figures = data["figures"]
+        self.runs = data["runs"]
+
+    def seconds(self, column):
+        """Single-threaded, median of the runs: of making the mesh, and of optimising it."""
+        if column in ("default", "optimised"):
+            runs = self.runs[column]
+            optimisation = median(runs, lambda run: run["time"]["optimisation"])
+            return median(runs, lambda run: run["time"]["total_without_io"]) - optimisation, optimisation
+        refinement = median(self.runs["cgal"], lambda run: run["refinement_seconds"])
+        if column == "cgal":
+            return refinement, 0.0
+        return refinement, median(self.runs["cgal"], lambda run: run["perturb_seconds"] + run["exude_seconds"])
+
+    def rows(self):
+        """Name of the figure, and how to print it for one mesh."""
+        return [
+            ("tetrahedra", lambda f: count(f["elements"])),
+            ("interface facets", lambda f: count(f["interface_facets"])),
+            ("labels lost", lambda f: f"{len(f['image']['lost_labels'])} of {self.labels()}"),
+            ("components of 8 voxels and more lost",
+             lambda f: f"{len(f['image']['lost_components'])} of {f['image']['components']}"),
+            ("Hausdorff distance to the faces of voxels, mm", lambda f: number(f["hausdorff"]["voxels"]["distance"])),
+            ("- over delta", lambda f: number(f["hausdorff"]["voxels"]["distance"] / self.delta)),
+            ("- from the mesh: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["mesh_to_image"])),
+            ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["image_to_mesh"])),
+            ("Hausdorff distance to the smooth interface, mm",
+             lambda f: number(f["hausdorff"]["smooth"]["distance"])),
+            ("- from the mesh: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["smooth"]["mesh_to_image"])),
+            ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["smooth"]["image_to_mesh"])),
+            ("volumes of labels, error, %", lambda f: number(100 * f["image"]["label_volume_error"])),
+            ("radius-edge ratio, largest", lambda f: number(f["quality"]["max_radius_edge"], 4)),
+            ("dihedral angle, smallest", lambda f: number(f["quality"]["min_dihedral"])),
+            ("dihedral angle, largest", lambda f: number(f["quality"]["max_dihedral"])),
+            ("facet angle off junctions, smallest", lambda f: number(f["quality"]["min_planar_off_junctions"])),
+            ("facet angle at junctions, smallest", lambda f: number(f["quality"]["min_planar_at_junctions"])),
+            ("facets with an angle below 30 degrees, off and at junctions", lambda f: "{} + {}".format(
+                count(off_junctions(f["quality"])), count(f["quality"]["facet_angle_violations_at_junctions"]))),
+            ("non-manifold edges (by label), off and at junctions", lambda f: "{} + {}".format(
+                count(non_manifold_off_junctions(f)), count(f["topology"]["non_manifold_edges_at_junctions"]))),
+            ("junction edges", lambda f: count(f["topology"]["junction_edges"])),
+            ("corners, irregular junction points", lambda f: "{}, {}".format(
+                count(f["topology"]["corners"]), count(f["topology"]["irregular_junction_points"]))),
+        ]
+
+    def labels(self):
+        first = next(iter(self.figures.values()))
+        return sum(1 for label in first["labels"].values() if label["voxels"] > 0)
+
+    def measured(self):
+        columns = [(key, name) for key, name in COLUMNS if key in self.figures]
+        rows = [[name] + [show(self.figures[key]) for key, _ in columns] for name, show in self.rows()]
+        rows.append(["made in, s"] + [number(self.seconds(key)[0]) for key, _ in columns])
+        rows.append(["optimised in, s"] + [number(self.seconds(key)[1]) if "optimised" in key else "-"
+                                           for key, _ in columns])
+        return table([""] + [name for _, name in columns], rows)
+
+    def criteria(self):
+        """What is asked, what was measured, and whether it is met; None where that cannot be said."""
+        result = []
+        for key, name in (("default", "Without optimisation"), ("optimised", "Optimised")):
+            figures, quality = self.figures[key], self.figures[key]["quality"]
+            image = figures["image"]
+            lost = len(image["lost_labels"]), len(image["lost_components"])
+            result.append((f"{name}: no label, no component of 8 voxels or more lost", f"{lost[0]}, {lost[1]}",
+                           lost == (0, 0)))
+            distance = figures["hausdorff"]["voxels"]["distance"] / self.delta
+            result.append((f"{name}: symmetric Hausdorff distance at most 1.5 delta", f"{distance:.2f} delta",
+                           distance <= 1.5))
+            result.append((f"{name}: no facet angle below 30 degrees off junctions",
+                           f"{off_junctions(quality)} facets, smallest {number(quality['min_planar_off_junctions'])}",
+                           off_junctions(quality) == 0))
+            small = quality["small_facet_angles_at_junctions"]
+            result.append((f"{name}: none below 20 at junctions",
+                           f"{small} facets, smallest {number(quality['min_planar_at_junctions'])}", small == 0))
+            off = non_manifold_off_junctions(figures)
+            result.append((f"{name}: non-manifold edges only at junctions", f"{off} off junctions", off == 0))
+            if self.title.startswith("Knee"):
+                edges = figures["topology"]["non_manifold_edges"]
+                result.append((f"{name}: fewer than half of CGAL's {CGAL_NON_MANIFOLD_ON_KNEE}", str(edges),
+                               2 * edges < CGAL_NON_MANIFOLD_ON_KNEE))
+        before, after = self.figures["default"]["quality"], self.figures["optimised"]["quality"]
+        result.append(("Without optimisation: radius-edge ratios below 2", number(before["max_radius_edge"], 4),
+                       before["max_radius_edge"] < 2))
+        result.append(("Without optimisation: dihedral angles of 4.6 to 171 degrees or better", _range(before),
+                       before["min_dihedral"] >= 4.6 and before["max_dihedral"] <= 171))
+        result.append(("Optimised: dihedral angles of 12 to 160 degrees or better", _range(after),
+                       after["min_dihedral"] >= 12 and after["max_dihedral"] <= 160))
+        result.append(("Optimised: radius-edge ratios at most 2.5", number(after["max_radius_edge"], 4),
+                       after["max_radius_edge"] <= 2.5))
+        ours = self.seconds("optimised")[1]
+        if "cgal-optimised" in self.figures:
+            theirs = self.seconds("cgal-optimised")[1]
+            result.append(("Optimisation in less time than perturb + exude", f"{ours:.2f} s against {theirs:.2f} s",
+                           ours < theirs))
+        for name, rate in self.rates():
+            plain, full = rate(self.runs["plain"]), rate(self.runs["default"])
+            result.append((f"{name}: everything on at least 70 % of plain refinement's",
+                           f"{full:,.0f} of {plain:,.0f}, {100 * full / plain:.0f} %", full >= 0.7 * plain))
+        return result
+
+    @staticmethod
+    def rates():
+        def refinement(run):
+            return run["elements"] / (run["time"]["refinement"] + run["time"]["components"])
+
+        def total(run):
+            return run["elements"] / (run["time"]["total_without_io"] - run["time"]["optimisation"])
+        return [("Tetrahedra a second, components and refinement", lambda runs: median(runs, refinement)),
+                ("Tetrahedra a second, all but optimisation", lambda runs: median(runs, total))]
+
+    def asked(self):
+        return table(["what is asked", "measured", "met"],
+                     [[text, value, "yes" if met else "**no**"] for text, value, met in self.criteria()])
+
+
+def off_junctions(quality):
+    return quality["facet_angle_violations"] - quality["facet_angle_violations_at_junctions"]
+
+
+def non_manifold_off_junctions(figures):
+    return figures["topology"]["non_manifold_edges"] - figures["topology"]["non_manifold_edges_at_junctions"]
+
+
+def _three(figures):
+    return f"{figures['max']:.2f}, {figures['p99']:.2f}, {figures['mean']:.3f}"
+
+
+def _range(quality):
+    return f"{quality['min_dihedral']:.2f} to {quality['max_dihedral']:.2f}"
+
+
+def grading_section(grading):
+    """None if the program cannot grade; else by input a list of runs of both modes."""
+    if grading is None:
+        return "This program has no `--grading`: nothing was measured.\n"
+    parts = ["Each input is meshed with several deltas in both modes. Of each graded mesh the table has the number of\n"
+             "tetrahedra, its Hausdorff distance to the smooth interface, and how many tetrahedra a uniform mesh has at\n"
+             "that distance: interpolated between the two uniform meshes beside it, logarithms over logarithms.\n"]
+    rows = []
+    for name, series in grading.items():
+        uniform = sorted((run["distance"], run["elements"]) for run in series["uniform"])
+        for run in series["lfs"]:
+            equal = _at_distance(uniform, run["distance"])
+            rows.append([name, number(run["delta"]), count(run["elements"]), number(run["distance"], 3),
+                         count(round(equal)) if equal else "beyond the series",
+                         f"{100 * (1 - run['elements'] / equal):.0f} %" if equal else "-"])
+    parts.append(table(["input", "delta", "graded: tetrahedra", "distance, mm", "uniform: tetrahedra", "saved"], rows))
+    rows = [[name, number(run["delta"]), count(run["elements"]), number(run["distance"], 3)]
+            for name, series in grading.items() for run in series["uniform"]]
+    parts.append("The uniform meshes:\n")
+    parts.append(table(["input", "delta", "tetrahedra", "distance, mm"], rows))
+    return "\n".join(parts)
+
+
+def _at_distance(series, distance):
+    """Elements of a uniform mesh at this distance; None outside of the series."""
+    for (low, more), (high, fewer) in zip(series, series[1:]):
+        if low <= distance <= high and high > low:
+            weight = _log_ratio(distance, low) / _log_ratio(high, low)
+            return more * (fewer / more) ** weight
+    return None
+
+
+def _log_ratio(a, b):
+    return math.log(a / b)
+
+
+INTRODUCTION = """\
+# Quality of the meshes
+
+Made by `Scripts/measure-quality`, tables and pictures: do not edit. All figures are those of
+`voxplex.quality()` ([UserGuide.md](UserGuide.md#quality)), of the files that the programs wrote; the meshes of
+CGAL 5.5's Mesh_3 are measured by the same function. One thread each. Times are medians of {repeat}, the programs taking turns
+on {machine}; seconds of one thread on this machine, so compare them with each other only.
+
+- **Voxplex**: `voxplex` without optimisation, all else at its default. **Optimised**: with it.
+- **CGAL**: `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
+  Voxplex has, without perturbation and exudation; **perturb + exude**: the same mesh after both, without limit of time.
+- A *junction* is where three labels or more meet, background counted; a *corner*, four. An *irregular* junction point
+  is no corner and has other than two junction edges. An edge of a label's own boundary is *non-manifold* if not exactly
+  two facets of it meet there; it counts once for each such label.
+- Distances are symmetric Hausdorff distances between the interfaces of the mesh and those of the image: the centres of
+  faces between voxels of different labels, or the smooth interface that Voxplex meshes. CGAL does not mesh the latter.
+"""
+
+
+def make_page(results):
+    parts = [INTRODUCTION.format(repeat=results["repeat"], machine=results["machine"])]
+    for key, data in results["atlases"].items():
+        atlas = Atlas(data)
+        parts += [f"## {atlas.title}\n", atlas.asked(), "All that was measured:\n", atlas.measured(),
+                  f"![Dihedral angles](Images/quality-{key}-dihedral.png)\n",
+                  f"![Radius-edge ratios and facet angles](Images/quality-{key}-shapes.png)\n"]
+    for name in results["missing"]:
+        parts.append(f"{name}\n")
+    parts += ["## Grading at equal distance\n", grading_section(results["grading"])]
+    parts += ["## Commands\n", "```sh\n" + "\n".join(results["commands"]) + "\n```\n"]
+    return "\n".join(parts)
