@@ -50,9 +50,9 @@ public:
       });
     for (std::size_t v = 0; v + 1 < this->Begins.size(); ++v)
     {
-      std::stable_sort(this->Uses.begin() + this->Begins[v],
-        this->Uses.begin() + this->Begins[v + 1],
-        [](const Use& a, const Use& b) { return a.High < b.High; });
+      std::sort(this->Uses.begin() + this->Begins[v], this->Uses.begin() + this->Begins[v + 1],
+        [](const Use& a, const Use& b)
+        { return a.High < b.High || (a.High == b.High && a.Facet < b.Facet); });
     }
   }
 
