@@ -167,7 +167,8 @@ def _range(quality):
 def grading_section(grading):
     """None if the program cannot grade; else by input a list of runs of both modes."""
     if grading is None:
-        return "This program has no `--grading`: nothing was measured.\n"
+        return ("Not measured in this run; [Benchmarks.md](Benchmarks.md#grading) has figures from before junctions were sampled "
+                "and interfaces inspected.\n")
     parts = ["Each input is meshed with several deltas in both modes. Of each graded mesh the table has the number of\n"
              "tetrahedra, its Hausdorff distance to the smooth interface, and how many tetrahedra a uniform mesh has at\n"
              "that distance: interpolated between the two uniform meshes beside it, logarithms over logarithms.\n"]
