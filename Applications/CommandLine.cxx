@@ -4,17 +4,15 @@
 
 #include "EditDistance.h"
 #include "Errors.h"
-#include "LabelSelection.h"
 #include "OptionValues.h"
 #include "OutputFormats.h"
+#include "ParameterChecks.h"
 #include "SliceFiles.h"
 #include "Version.h"
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string_view>
@@ -25,16 +23,6 @@ namespace voxplex::cli
 {
 namespace
 {
-
-/** Above this meshes can become very large. */
-constexpr double LargestSliverAngle = 15.0;
-/** Below this it is not proved that refinement ends: sqrt(sqrt(3) + 2). */
-constexpr double ProvedRadiusEdgeRatio = 1.9318516525781366;
-/** The ratio of the regular tetrahedron, sqrt(6) / 4: no element has a smaller one. */
-constexpr double RegularRadiusEdgeRatio = 0.6123724356957945;
-
-/** Above this meshes of space and time can become very large. */
-constexpr double LargestSliverBound = 0.03;
 
 /** Collects arguments that are neither a flag nor the value of one. */
 constexpr const char* Stray = "stray-arguments";
@@ -48,6 +36,9 @@ constexpr const char* Examples = R"(Examples:
 
   The interfaces between labels as a surface, and figures about the mesh:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --plc knee.vtp --stats knee.json
+
+  About 500,000 tetrahedra, finer where the labels Tibia and Femur touch:
+    voxplex --input knee.nrrd --elements 500000 --interface-size Tibia,Femur=0.5 --output knee.vtu
 
   An atlas whose labels have names, in a table beside it or in one that is given:
     voxplex --input aal.nii.gz --labels Hippocampus_L,Hippocampus_R --delta 1 --output h.vtu
@@ -151,11 +142,22 @@ OptionGroups DeclareOptions()
       "delta (default 1)") //
     ("largest-feature", text("VOXELS"),
       "with --grading lfs: larger local feature sizes count as this (lambda, default 12)") //
-    ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere")       //
+    ("elements", text("NUMBER"),
+      "solve for the delta that makes so many elements, to within a tenth, instead of --delta; it "
+      "takes two or three times as long") //
+    ("interface-size",
+      po::value<std::vector<std::string>>()->composing()->value_name("LABELS=LENGTH"),
+      "sampling density of the interfaces of one label, 3=0.5, or of the interface between two, "
+      "3,7=0.5 or Tibia,0=2 (0: background), in place of delta, smaller or larger; may be "
+      "repeated")                                                                    //
+    ("size", text("LENGTH"), "upper bound of the elements' circumradii, everywhere") //
     ("label-size", po::value<std::vector<std::string>>()->composing()->value_name("LABEL=LENGTH"),
       "the same in one label, given by number or name; may be repeated") //
     ("size-image", text("FILE"),
       "the same from an image whose values are lengths, 0 where there is no bound") //
+    ("gradation", text("SLOPE"),
+      "how much sizes and interface sizes may change over a unit of length (default 0.3; 0: no "
+      "limit)") //
     ("radius-edge", text("RATIO"),
       "upper bound of circumradius over shortest edge (default 2; below 1.932 only with --force)") //
     ("facet-angle", text("DEGREES"),
@@ -399,6 +401,21 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.LargestFeature = ParsePositive("largest-feature", *text);
   }
+  if (const auto* text = given("elements"))
+  {
+    p.Elements = ParseWhole("elements", *text, 1, std::numeric_limits<int>::max());
+  }
+  if (values.count("interface-size"))
+  {
+    for (const std::string& text : values["interface-size"].as<std::vector<std::string>>())
+    {
+      p.InterfaceSizeTexts.push_back(ParseInterfaceSize("interface-size", text));
+    }
+  }
+  if (const auto* text = given("gradation"))
+  {
+    p.Gradation = ParseRange("gradation", *text, 0, 1000);
+  }
   if (const auto* text = given("size"))
   {
     p.Size = ParsePositive("size", *text);
@@ -485,165 +502,7 @@ Parameters ToParameters(const po::variables_map& values)
   return p;
 }
 
-void CheckSpaceTime(const SpaceTimeParameters& p, bool force)
-{
-  if (p.SliverBound && *p.SliverBound > LargestSliverBound && !force)
-  {
-    throw UsageError("--sliver-bound: above 0.03 meshes can become very large; give --force to try "
-                     "all the same");
-  }
-  if (p.SliceCount && p.Slices.empty())
-  {
-    throw UsageError("--slice-count: of which slices? Give the beginning of their names with "
-                     "--slices");
-  }
-  if (p.NoPicking)
-  {
-    const char* useless = p.Picks ? "--picks" : p.SliverBound ? "--sliver-bound" : nullptr;
-    if (useless)
-    {
-      throw UsageError(std::string(useless) +
-        " is about picking regions, and --no-picking switches "
-        "them off: leave one of the two out");
-    }
-  }
-}
-
-void CheckIsosurface(const Parameters& p)
-{
-  const auto refuse = [](const char* option, bool isGiven, const char* why)
-  {
-    if (isGiven)
-    {
-      throw UsageError(std::string(option) + why);
-    }
-  };
-  if (p.Isovalue)
-  {
-    constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
-    refuse("--labels", !p.LabelTexts.empty(), Why);
-    refuse("--label-table", !p.LabelTable.empty(), Why);
-    return;
-  }
-  constexpr const char* Why = ": inside of what? Give the isosurface with --isovalue";
-  refuse("--inside", !p.Inside.empty(), Why);
-  refuse("--inside-label", p.InsideLabel.has_value(), Why);
-}
-
-/** What no single option can tell. */
-void CheckTogether(const Parameters& p)
-{
-  CheckSpaceTime(p.SpaceTime, p.Force);
-  if (p.Input.empty())
-  {
-    throw UsageError("--input is missing: which image shall be meshed?");
-  }
-  CheckIsosurface(p);
-  if (!p.Output.empty())
-  {
-    RequireFormat(OutputOption::Output, p.Output);
-  }
-  if (!p.Interfaces.empty())
-  {
-    RequireFormat(OutputOption::Interfaces, p.Interfaces);
-  }
-  if (!p.Statistics.empty())
-  {
-    RequireFormat(OutputOption::Statistics, p.Statistics);
-  }
-  if (p.RadiusEdgeRatio)
-  {
-    if (*p.RadiusEdgeRatio <= RegularRadiusEdgeRatio)
-    {
-      throw UsageError("--radius-edge: no tetrahedron has a ratio of 0.612 or less");
-    }
-    if (*p.RadiusEdgeRatio < ProvedRadiusEdgeRatio && !p.Force)
-    {
-      throw UsageError("--radius-edge: below 1.932 it is not proved that refinement ends; "
-                       "give --force to try all the same");
-    }
-  }
-  if (p.SliverAngle && *p.SliverAngle > LargestSliverAngle && !p.Force)
-  {
-    throw UsageError(
-      "--sliver-angle: above 15 degrees meshes can become very large; give --force to "
-      "try all the same");
-  }
-  if (!HasNames(p))
-  {
-    SelectLabels(p, io::LabelTable());
-  }
-}
-
-/** The names of the options that were given and are for several time frames only. */
-std::vector<std::string> SpaceTimeOptions(const SpaceTimeParameters& p)
-{
-  const std::array<std::pair<const char*, bool>, 9> options{ {
-    { "--time-scale", p.TimeScale.has_value() },
-    { "--slices", !p.Slices.empty() },
-    { "--slice-count", p.SliceCount.has_value() },
-    { "--rule-order", !p.RuleOrder.empty() },
-    { "--no-picking", p.NoPicking },
-    { "--picks", p.Picks.has_value() },
-    { "--sliver-bound", p.SliverBound.has_value() },
-    { "--seed", p.Seed.has_value() },
-    { "--no-fine-grained", p.NoFineGrained },
-  } };
-  std::vector<std::string> given;
-  for (const auto& [name, isGiven] : options)
-  {
-    if (isGiven)
-    {
-      given.emplace_back(name);
-    }
-  }
-  return given;
-}
-
 } // namespace
-
-void CheckDimension(const Parameters& p, int dimension)
-{
-  const std::vector<std::string> spaceTimeOptions = SpaceTimeOptions(p.SpaceTime);
-  if (dimension == 3 && !spaceTimeOptions.empty())
-  {
-    throw UsageError(spaceTimeOptions.front() +
-      ": only for space-time images, which have four dimensions and at least two time frames; " +
-      Quoted(p.Input) + " is a 3D image");
-  }
-  const std::array<std::pair<const char*, bool>, 14> tetOptions{ {
-    { "--hausdorff", p.Hausdorff },
-    { "--quality", p.Quality },
-    { "--grading", !p.Grading.empty() },
-    { "--feature-ratio", p.FeatureRatio.has_value() },
-    { "--largest-feature", p.LargestFeature.has_value() },
-    { "--isovalue", p.Isovalue.has_value() },
-    { "--facet-angle", p.FacetAngle.has_value() },
-    { "--sliver-angle", p.SliverAngle.has_value() },
-    { "--no-optimise", p.NoOptimise },
-    { "--optimise-seconds", p.OptimiseSeconds.has_value() },
-    { "--no-junctions", p.NoJunctions },
-    { "--interface-rounds", p.InterfaceRounds.has_value() },
-    { "--smallest-component", p.SmallestComponent.has_value() },
-    { "--min-component-volume", p.MinimumComponentVolume.has_value() },
-  } };
-  for (const auto& [name, isGiven] : tetOptions)
-  {
-    if (dimension == 4 && isGiven)
-    {
-      throw UsageError(std::string(name) + ": only for 3D images, and " + Quoted(p.Input) +
-        " is a space-time image; leave it out");
-    }
-  }
-  if (!p.Output.empty())
-  {
-    RequireFormat(OutputOption::Output, p.Output, dimension);
-  }
-  if (!p.Interfaces.empty())
-  {
-    RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
-  }
-}
 
 CommandLine ParseCommandLine(int argc, const char* const* argv)
 {

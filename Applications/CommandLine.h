@@ -30,13 +30,6 @@ struct CommandLine
  */
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
-/**
- * Checks what depends on the dimension of the image that is to be meshed, 3 or 4.
- *
- * @throws UsageError: options and output formats for the other dimension
- */
-void CheckDimension(const Parameters& parameters, int dimension);
-
 } // namespace voxplex::cli
 
 #endif

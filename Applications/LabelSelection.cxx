@@ -114,6 +114,47 @@ std::int64_t ToLabel(
     begin + "several labels are called " + Quoted(text) + ": " + list + "; give numbers");
 }
 
+/** The one or two labels of --interface-size: a name that has commas, or what commas separate. */
+std::vector<std::string> LabelsOfInterface(const std::string& text, const io::LabelTable& table)
+{
+  std::vector<std::string> labels =
+    LabelsCalled(text, table).size() == 1 ? std::vector{ text } : SplitAtCommas(text);
+  if (labels.size() > 2)
+  {
+    throw UsageError("--interface-size: " + Quoted(text) +
+      " is more than two labels; an interface lies between two, as in 3,7=0.5, and 3=0.5 "
+      "means all of label 3");
+  }
+  return labels;
+}
+
+void TakeInterfaceSizes(const Parameters& p, const io::LabelTable& table, LabelSelection& selection)
+{
+  for (const InterfaceSizeText& size : p.InterfaceSizeTexts)
+  {
+    std::pair<std::int64_t, std::int64_t> labels{ LabelSelection::AnyLabel,
+      LabelSelection::AnyLabel };
+    for (const std::string& text : LabelsOfInterface(size.Labels, table))
+    {
+      const std::int64_t label = text == "0" ? 0 : ToLabel("interface-size", text, table);
+      if (label == labels.first)
+      {
+        throw UsageError("--interface-size: label " + text + " has no interface with itself");
+      }
+      if (label != 0 && !selection.Labels.empty() &&
+        !std::binary_search(selection.Labels.begin(), selection.Labels.end(), label))
+      {
+        throw UsageError("--interface-size: label " + text + " is not among those of --labels");
+      }
+      labels = { std::max(labels.first, label), std::min(labels.first, label) };
+    }
+    if (!selection.InterfaceSizes.emplace(labels, size.Size).second)
+    {
+      throw UsageError("--interface-size: " + Quoted(size.Labels) + " is given twice");
+    }
+  }
+}
+
 } // namespace
 
 bool HasNames(const Parameters& p)
@@ -127,7 +168,15 @@ bool HasNames(const Parameters& p)
   };
   return std::any_of(p.LabelTexts.begin(), p.LabelTexts.end(), hasName) ||
     std::any_of(p.LabelSizeTexts.begin(), p.LabelSizeTexts.end(),
-      [&isName](const LabelSizeText& size) { return isName(size.Label); });
+      [&isName](const LabelSizeText& size) { return isName(size.Label); }) ||
+    std::any_of(p.InterfaceSizeTexts.begin(), p.InterfaceSizeTexts.end(),
+      [](const InterfaceSizeText& size)
+      {
+        const std::vector<std::string> labels = SplitAtCommas(size.Labels);
+        return std::any_of(labels.begin(), labels.end(),
+          [](const std::string& text)
+          { return text != "0" && !ParseLabelNumber("interface-size", text).has_value(); });
+      });
 }
 
 LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
@@ -158,6 +207,7 @@ LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
         "--label-size: label " + std::to_string(label) + " is not among those of --labels");
     }
   }
+  TakeInterfaceSizes(p, table, selection);
   return selection;
 }
 

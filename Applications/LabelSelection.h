@@ -21,6 +21,9 @@ struct LabelSelection
 {
   std::vector<std::int64_t> Labels; ///< to be meshed, sorted, each once; empty means all
   std::map<std::int64_t, double> Sizes;
+  /** Of interfaces: the larger label first; the other is AnyLabel where all interfaces of the first are meant. */
+  std::map<std::pair<std::int64_t, std::int64_t>, double> InterfaceSizes;
+  static constexpr std::int64_t AnyLabel = -1;
 };
 
 /** Whether a label is given by name, so that the image must be read to know which it is. */
@@ -28,10 +31,11 @@ bool HasNames(const Parameters& parameters);
 
 /**
  * Numbers are labels; anything else is the name of one, in which the case of letters matters only if names
- * differ in nothing else. A value of --labels that is as a whole a name, commas included, is that one.
+ * differ in nothing else. A value of --labels or --interface-size that is as a whole a name, commas included, is
+ * that one. In --interface-size 0 is the background.
  *
  * @param table the names in the image
- * @throws UsageError: no label has this name, or several have; a label is given two sizes, or one
+ * @throws UsageError: no label has this name, or several have; a label or an interface is given two sizes, or one
  *   although it is not to be meshed
  */
 LabelSelection SelectLabels(const Parameters& parameters, const io::LabelTable& table);

@@ -48,6 +48,18 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   {
     filter->SetDelta(*p.Delta);
   }
+  if (p.Elements)
+  {
+    filter->SetNumberOfElements(*p.Elements);
+  }
+  if (p.Gradation)
+  {
+    filter->SetGradation(*p.Gradation);
+  }
+  for (const auto& [labels, size] : selection.InterfaceSizes)
+  {
+    filter->SetInterfaceSize(labels.first, labels.second, size);
+  }
   if (p.RadiusEdgeRatio)
   {
     filter->SetRadiusEdgeRatio(*p.RadiusEdgeRatio);
@@ -198,8 +210,9 @@ int MeshingInput::Dimension() const
 
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> terms{ {
     { "SetLabelSize()", "--label-size" },
+    { "SetInterfaceSize()", "--interface-size" },
     { "AddLabel()", "--labels" },
     { "SetSeriesUID()", "--series" },
     { "SetTimeScale()", "--time-scale" },

@@ -116,6 +116,18 @@ LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
   return { std::string(label), ParsePositive(option, text.substr(equals + 1)) };
 }
 
+InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text)
+{
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos || equals == 0)
+  {
+    throw UsageError("--" + option + ": " + Quoted(text) +
+      " is not of the form LABEL=LENGTH or LABEL,LABEL=LENGTH, such as 3=0.5 or 3,7=0.5; "
+      "--delta is the density of all interfaces");
+  }
+  return { std::string(text.substr(0, equals)), ParsePositive(option, text.substr(equals + 1)) };
+}
+
 std::uint64_t ParseBytes(const std::string& option, const std::string& text)
 {
   constexpr std::string_view units = "KMGT";

@@ -54,6 +54,13 @@ struct LabelSizeText
   double Size;
 };
 
+/** An interface, by the number or name of one label or of two, and its sampling density. */
+struct InterfaceSizeText
+{
+  std::string Labels;
+  double Size;
+};
+
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
@@ -73,6 +80,7 @@ struct Parameters
   std::string Grading; ///< one of GradingModes
   std::optional<double> FeatureRatio;
   std::optional<double> LargestFeature; ///< voxels
+  std::optional<int> Elements;
   std::optional<double> RadiusEdgeRatio;
   std::optional<double> FacetAngle;
   std::optional<double> SliverAngle;
@@ -85,6 +93,8 @@ struct Parameters
   std::optional<double> SmoothingSigma;
   std::optional<double> Size;
   std::vector<LabelSizeText> LabelSizeTexts;
+  std::vector<InterfaceSizeText> InterfaceSizeTexts;
+  std::optional<double> Gradation;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
   io::Space OutputSpace = io::Space::LPS;
 

@@ -55,16 +55,25 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
   {
     labelSizes[std::to_string(label)] = size;
   }
+  ordered_json interfaceSizes = ordered_json::object();
+  for (const auto& [labels, size] : selection.InterfaceSizes)
+  {
+    interfaceSizes[std::to_string(labels.first) +
+      (labels.second == LabelSelection::AnyLabel ? "" : "," + std::to_string(labels.second))] =
+      size;
+  }
   ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Series) },
     { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) },
     { "isovalue", OrNull(p.Isovalue) }, { "inside", OrNull(p.Inside) },
     { "inside_label", OrNull(p.InsideLabel) }, { "delta", OrNull(p.Delta) },
-    { "size", OrNull(p.Size) }, { "label_size", labelSizes }, { "size_image", OrNull(p.SizeImage) },
-    { "grading", OrNull(p.Grading) }, { "feature_ratio", OrNull(p.FeatureRatio) },
-    { "largest_feature", OrNull(p.LargestFeature) }, { "radius_edge", OrNull(p.RadiusEdgeRatio) },
-    { "facet_angle", OrNull(p.FacetAngle) }, { "sliver_angle", OrNull(p.SliverAngle) },
-    { "no_optimise", p.NoOptimise }, { "optimise_seconds", OrNull(p.OptimiseSeconds) },
-    { "no_junctions", p.NoJunctions }, { "interface_rounds", OrNull(p.InterfaceRounds) },
+    { "elements", OrNull(p.Elements) }, { "interface_size", interfaceSizes },
+    { "gradation", OrNull(p.Gradation) }, { "size", OrNull(p.Size) }, { "label_size", labelSizes },
+    { "size_image", OrNull(p.SizeImage) }, { "grading", OrNull(p.Grading) },
+    { "feature_ratio", OrNull(p.FeatureRatio) }, { "largest_feature", OrNull(p.LargestFeature) },
+    { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
+    { "sliver_angle", OrNull(p.SliverAngle) }, { "no_optimise", p.NoOptimise },
+    { "optimise_seconds", OrNull(p.OptimiseSeconds) }, { "no_junctions", p.NoJunctions },
+    { "interface_rounds", OrNull(p.InterfaceRounds) },
     { "smallest_component", OrNull(p.SmallestComponent) },
     { "min_component_volume", OrNull(p.MinimumComponentVolume) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
@@ -158,6 +167,18 @@ std::string SummarizePentatopes(const ordered_json& report)
     Rounded(quality["mean_normalized_volume"], 2) + " +- " +
     Rounded(quality["normalized_volume_deviation"], 2) + "; cavities of " +
     Rounded(cavities["mean"], 0) + " pentatopes, at most " + Grouped(cavities["largest"]);
+}
+
+/** How --elements was met. */
+std::string SummarizeRuns(const ordered_json& report)
+{
+  if (report["elements_asked_for"].is_null())
+  {
+    return "";
+  }
+  const std::size_t runs = report["runs"].size();
+  return " (found in " + std::to_string(runs) + (runs == 1 ? " run" : " runs") + " for " +
+    Grouped(report["elements_asked_for"].get<std::int64_t>()) + " elements)";
 }
 
 /** What --min-component-volume left out. */
@@ -257,7 +278,8 @@ std::string Summarize(const ordered_json& report)
        << report["labels"].size() << (report["labels"].size() == 1 ? " label, " : " labels, ")
        << Grouped(report["vertices"]) << " vertices, " << Grouped(report["interface_facets"])
        << (isSpaceTime ? " boundary tetrahedra" : " interface triangles") << " with delta "
-       << Significant(report["delta"]) << ". " << SummarizeDropped(report["dropped_components"])
+       << Significant(report["delta"]) << SummarizeRuns(report) << ". "
+       << SummarizeDropped(report["dropped_components"])
        << (isSpaceTime ? SummarizePentatopes(report) : SummarizeTetrahedra(report["quality"]))
        << ". Read in " << Rounded(time["read"], 2) << " s, meshed in "
        << Rounded(time["total_without_io"], 2) << " s, written in " << Rounded(time["write"], 2)

@@ -9,6 +9,7 @@
 #include "MeshFile.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
+#include "ParameterChecks.h"
 #include "ProgressBar.h"
 #include "SliceFiles.h"
 #include "StatisticsReport.h"

@@ -32,6 +32,7 @@ using Filter = vtkImageToSimplexMeshFilter;
 static_assert(Filter::CONTENTION_RANDOM == static_cast<int>(voxplex::ContentionPolicy::Random) &&
   Filter::CONTENTION_GLOBAL == static_cast<int>(voxplex::ContentionPolicy::Global) &&
   Filter::CONTENTION_LOCAL == static_cast<int>(voxplex::ContentionPolicy::Local));
+static_assert(static_cast<std::int64_t>(Filter::ANY_LABEL) == voxplex::InterfaceSize::AnyLabel);
 static_assert(
   Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
 
@@ -44,6 +45,20 @@ void CheckSize(double size, const std::string& what)
     text << what << " is " << size << "; it must be positive and finite.";
     throw InputError(text.str());
   }
+}
+
+/** An interface, whatever the order of its labels: the larger comes first, and so ANY_LABEL last. */
+std::pair<std::int64_t, std::int64_t> InterfaceOf(std::int64_t label, std::int64_t other)
+{
+  return { std::max(label, other), std::min(label, other) };
+}
+
+std::string NameOf(const std::pair<std::int64_t, std::int64_t>& interface)
+{
+  return interface.second == Filter::ANY_LABEL
+    ? "all interfaces of label " + std::to_string(interface.first)
+    : "the interface of labels " + std::to_string(interface.first) + " and " +
+      std::to_string(interface.second);
 }
 
 /** Whether the piece that is asked for is one that stays empty. */
@@ -119,10 +134,10 @@ std::vector<std::int64_t> FindLostLabels(
   return lost;
 }
 
-void CheckSizedLabels(
-  const std::map<std::int64_t, double>& sizes, bool selected, std::span<const std::int64_t> labels)
+void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+  std::span<const std::int64_t> labels)
 {
-  for (const auto& [label, size] : sizes)
+  for (const std::int64_t label : sized)
   {
     if (std::binary_search(labels.begin(), labels.end(), label))
     {
@@ -130,7 +145,7 @@ void CheckSizedLabels(
     }
     const std::string where = selected ? "is not among the labels to mesh; these are "
                                        : "does not occur in the image; its labels are ";
-    throw InputError("SetLabelSize() gives a size to label " + std::to_string(label) + ", which " +
+    throw InputError(method + " gives a size to label " + std::to_string(label) + ", which " +
       where + ListLabels(labels) + ".");
   }
 }
@@ -196,6 +211,58 @@ vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSizedLabel(int index) const
   return index >= 0 && index < this->GetNumberOfLabelSizes()
     ? std::next(this->Private->LabelSizes.begin(), index)->first
     : 0;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkImageToSimplexMeshFilter::SetInterfaceSize(
+  vtkTypeInt64 label, vtkTypeInt64 other, double size)
+{
+  const auto [place, isNew] =
+    this->Private->InterfaceSizes.try_emplace(InterfaceOf(label, other), size);
+  if (isNew || place->second != size)
+  {
+    place->second = size;
+    this->Modified();
+  }
+}
+
+double vtkImageToSimplexMeshFilter::GetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other) const
+{
+  const auto found = this->Private->InterfaceSizes.find(InterfaceOf(label, other));
+  return found == this->Private->InterfaceSizes.end() ? 0.0 : found->second;
+}
+
+void vtkImageToSimplexMeshFilter::RemoveInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other)
+{
+  if (this->Private->InterfaceSizes.erase(InterfaceOf(label, other)) > 0)
+  {
+    this->Modified();
+  }
+}
+
+void vtkImageToSimplexMeshFilter::ClearInterfaceSizes()
+{
+  if (!this->Private->InterfaceSizes.empty())
+  {
+    this->Private->InterfaceSizes.clear();
+    this->Modified();
+  }
+}
+
+int vtkImageToSimplexMeshFilter::GetNumberOfInterfaceSizes() const
+{
+  return static_cast<int>(this->Private->InterfaceSizes.size());
+}
+
+void vtkImageToSimplexMeshFilter::GetSizedInterface(int index, vtkTypeInt64 labels[2]) const
+{
+  labels[0] = labels[1] = ANY_LABEL;
+  if (index >= 0 && index < this->GetNumberOfInterfaceSizes())
+  {
+    const auto& interface = std::next(this->Private->InterfaceSizes.begin(), index)->first;
+    labels[0] = interface.first;
+    labels[1] = interface.second;
+  }
 }
 
 //----------------------------------------------------------------------------------------------------
@@ -527,6 +594,22 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   {
     CheckSize(size, "The size of label " + std::to_string(label));
   }
+  CheckRange(this->Gradation, 0.0, largest, "Gradation", "positive and finite, or 0 for no limit");
+  for (const auto& [interface, size] : this->Private->InterfaceSizes)
+  {
+    if (interface.second < ANY_LABEL || interface.first < 0 || interface.first == interface.second)
+    {
+      throw InputError("SetInterfaceSize() takes two different labels, or a label and ANY_LABEL "
+                       "(-1); these are " +
+        std::to_string(interface.first) + " and " + std::to_string(interface.second) + ".");
+    }
+    CheckSize(size, "The size of " + NameOf(interface));
+  }
+  if (this->NumberOfElements > 0 && this->Delta > 0.0)
+  {
+    throw InputError("Both Delta and NumberOfElements are set; Delta is what meshing finds for a "
+                     "NumberOfElements: set one of the two to 0.");
+  }
 }
 
 unsigned vtkImageToSimplexMeshFilter::GetThreads() const
@@ -551,6 +634,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Delta: " << this->Delta << "\n";
+  os << indent << "NumberOfElements: " << this->NumberOfElements << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
   os << indent << "ElementSize: " << this->ElementSize << "\n";
@@ -560,6 +644,13 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << label << "=" << size;
   }
   os << (this->Private->LabelSizes.empty() ? " (none)\n" : "\n");
+  os << indent << "Gradation: " << this->Gradation << "\n";
+  os << indent << "InterfaceSizes:";
+  for (const auto& [interface, size] : this->Private->InterfaceSizes)
+  {
+    os << " " << interface.first << "," << interface.second << "=" << size;
+  }
+  os << (this->Private->InterfaceSizes.empty() ? " (none)\n" : "\n");
   os << indent << "SelectedLabels:";
   for (const std::int64_t label : this->Private->Labels)
   {

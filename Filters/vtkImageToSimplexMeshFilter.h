@@ -13,7 +13,7 @@
  * An element's circumradius stays below each bound that is given at its circumcentre: ElementSize,
  * the size of its label (SetLabelSize()), the size image (interpolated linearly; points outside
  * take the nearest value inside), the C++ callable (SetSizeFunction()) and what the subclass adds.
- * The smallest of them applies. Values that are NaN, zero or negative in the image or from a
+ * The smallest of them applies, and Gradation limits how fast it changes from place to place. Values that are NaN, zero or negative in the image or from a
  * function set no bound there. Very small sizes are raised to a floor, a fraction of Delta, so that
  * refinement always ends.
  *
@@ -21,8 +21,8 @@
  * Misuse is reported with vtkErrorMacro and leaves both outputs empty: no or unsuitable scalars,
  * fractional, negative or non-finite labels, no foreground, fewer than two voxels along an axis,
  * thousands of labels (a grey-value image), spacing that is not positive and finite, a singular
- * direction matrix, parameters out of range, a label in SetLabelSize(), AddLabel() or
- * ExcludeLabel() that the image does not have, a mesh that is estimated not to fit in memory, one that comes out empty, and what
+ * direction matrix, parameters out of range, a label in SetLabelSize(), SetInterfaceSize(), AddLabel() or
+ * ExcludeLabel() that the image does not have, both Delta and NumberOfElements, a NumberOfElements that no Delta makes, a mesh that is estimated not to fit in memory, one that comes out empty, and what
  * the subclass adds. The executive then adds a message of its own and its Update() returns 0.
  * GetErrorMessage() keeps the reason. Labels of the image that the mesh lacks, because Delta is too
  * coarse for them, are named with vtkWarningMacro; so are sizes that were raised, and a
@@ -84,6 +84,17 @@ public:
 
   ///@{
   /**
+   * Elements that the mesh is to have, to within a tenth; 0, the default, leaves it to Delta, which must be 0
+   * otherwise. Meshing is repeated with one Delta after the other, two or three times as a rule and at most
+   * twelve times, until the number is within 5 %, from the fourth time on within 10 %. All sizes stay what they are. An error
+   * if no Delta makes the number. vtkMeshingStatistics::GetDelta() and what belongs to GetNumberOfRuns() tell how it went.
+   */
+  vtkSetClampMacro(NumberOfElements, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(NumberOfElements, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
    * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 it is not
    * proved that refinement ends, and the value is refused unless Force is on.
    */
@@ -121,6 +132,41 @@ public:
   void ClearLabelSizes();
   int GetNumberOfLabelSizes() const;
   vtkTypeInt64 GetSizedLabel(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * How much element sizes and interface sizes may change over a unit of length: with 0.3, the default, an element 10 mm
+   * from a place of size 1 mm has a bound of 4 mm at most. So sizes pass into each other instead of stepping, whatever they come
+   * from. It changes nothing if no size is given, or one for all. 0 sets no limit; then a small size beside a large Delta can
+   * take very long.
+   */
+  vtkSetMacro(Gradation, double);
+  vtkGetMacro(Gradation, double);
+  ///@}
+
+  /** In SetInterfaceSize(): all interfaces of the other label. */
+  enum InterfaceLabels
+  {
+    ANY_LABEL = -1
+  };
+
+  ///@{
+  /**
+   * The sampling density of the interface between two labels, or with ANY_LABEL of all interfaces of a label,
+   * in place of Delta; smaller or larger. Labels are the image's own values, 0 is background, the order does not matter. What is
+   * given for a pair counts before what is given for its labels, of which the smaller one counts. Where element sizes at an interface are smaller
+   * they take its place, as they do with Delta. A label that the image does not have is an error when the filter executes.
+   * GetInterfaceSize() returns 0 where none was set. Those that are set are numbered in increasing order of
+   * the larger label, then of the other; GetSizedInterface() gives both, or twice ANY_LABEL for an index out of
+   * range.
+   */
+  void SetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other, double size);
+  double GetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other) const;
+  void RemoveInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other);
+  void ClearInterfaceSizes();
+  int GetNumberOfInterfaceSizes() const;
+  void GetSizedInterface(int index, vtkTypeInt64 labels[2]) const;
   ///@}
 
   ///@{
@@ -392,9 +438,11 @@ protected:
 
   double Delta = 0.0;
   double DefaultDelta = 0.0;
+  vtkTypeInt64 NumberOfElements = 0;
   double RadiusEdgeRatio = 2.0;
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;
+  double Gradation = 0.3;
   int NumberOfThreads = 0;
   int ContentionManager = CONTENTION_LOCAL;
   int LoadBalancer = HIERARCHICAL_WORK_STEALING;

@@ -37,6 +37,28 @@ void AddIsosurface(voxplex::JsonWriter& json, const IsosurfaceFigures& isosurfac
   json.End();
 }
 
+/** The search for a number of elements; null and empty if none was asked for. */
+void AddRuns(voxplex::JsonWriter& json, const voxplex::MeshingStatistics& run)
+{
+  if (run.ElementsAskedFor > 0)
+  {
+    json.Add("elements_asked_for", run.ElementsAskedFor);
+  }
+  else
+  {
+    json.AddNull("elements_asked_for");
+  }
+  json.BeginList("runs");
+  for (const voxplex::MeshingRun& one : run.Runs)
+  {
+    json.BeginItem();
+    json.Add("delta", one.Delta);
+    json.Add("elements", one.Elements);
+    json.End();
+  }
+  json.EndList();
+}
+
 void AddRules(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
 {
   json.Begin("rules");
@@ -190,6 +212,7 @@ VOXPLEX_FIGURE(double, Delta, Run.Delta)
 VOXPLEX_FIGURE(double, LargestDelta, Run.LargestDelta)
 VOXPLEX_FIGURE(vtkTypeInt64, GradingSamples, Run.GradingSamples)
 VOXPLEX_FIGURE(vtkTypeInt64, GradingPoles, Run.GradingPoles)
+VOXPLEX_FIGURE(vtkTypeInt64, ElementsAskedFor, Run.ElementsAskedFor)
 VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
 VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
 VOXPLEX_FIGURE(bool, MeshedIsosurface, Isosurface.Meshed)
@@ -347,6 +370,25 @@ vtkTypeInt64 vtkMeshingStatistics::GetLabel(int index) const
     : 0;
 }
 
+int vtkMeshingStatistics::GetNumberOfRuns() const
+{
+  return static_cast<int>(this->Values->Run.Runs.size());
+}
+
+double vtkMeshingStatistics::GetRunDelta(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfRuns()
+    ? this->Values->Run.Runs[static_cast<std::size_t>(index)].Delta
+    : 0.0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetRunElements(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfRuns()
+    ? static_cast<vtkTypeInt64>(this->Values->Run.Runs[static_cast<std::size_t>(index)].Elements)
+    : 0;
+}
+
 vtkTypeInt64 vtkMeshingStatistics::GetLabelElements(int index) const
 {
   return index >= 0 && index < this->GetNumberOfLabels()
@@ -414,6 +456,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("samples", v.Run.GradingSamples);
   json.Add("poles", v.Run.GradingPoles);
   json.End();
+  AddRuns(json, v.Run);
   json.Add("smoothing_sigma", v.Run.SmoothingSigma);
   json.Add("threads", static_cast<std::int64_t>(v.Threads));
   json.Add(
@@ -478,6 +521,11 @@ void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfVertices: " << this->GetNumberOfVertices() << "\n";
   os << indent << "NumberOfInterfaceFacets: " << this->GetNumberOfInterfaceFacets() << "\n";
   os << indent << "Delta: " << this->GetDelta() << "\n";
+  if (this->GetElementsAskedFor() > 0)
+  {
+    os << indent << "ElementsAskedFor: " << this->GetElementsAskedFor() << ", found in "
+       << this->GetNumberOfRuns() << " runs\n";
+  }
   os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << "\n";
   os << indent << "NumberOfLostLabels: " << this->GetNumberOfLostLabels() << "\n";
   os << indent << "HasQuality: " << this->GetHasQuality() << "\n";

@@ -53,7 +53,8 @@ public:
   double GetDelta() const;
   /**
    * The largest sampling density of any interface: delta, unless it is graded
-   * (vtkImageToTetMeshFilter::SetGrading()).
+   * (vtkImageToTetMeshFilter::SetGrading()) or interfaces have their own
+   * (vtkImageToSimplexMeshFilter::SetInterfaceSize()).
    */
   double GetLargestDelta() const;
   ///@{
@@ -64,6 +65,18 @@ public:
   vtkTypeInt64 GetGradingSamples() const;
   vtkTypeInt64 GetGradingPoles() const;
   ///@}
+  ///@{
+  /**
+   * If a number of elements was asked for (vtkImageToSimplexMeshFilter::SetNumberOfElements()): that number, how many times
+   * refinement was run to find the delta, and the delta and the elements of each run, in their order. Times are those of all
+   * runs together, everything else is of the run whose mesh was taken. Otherwise 0, also for an index out of range.
+   */
+  vtkTypeInt64 GetElementsAskedFor() const;
+  int GetNumberOfRuns() const;
+  double GetRunDelta(int index) const;
+  vtkTypeInt64 GetRunElements(int index) const;
+  ///@}
+
   /** The number of threads that was asked for, or that VTK's SMP setting gave. */
   int GetNumberOfThreads() const;
   /** The number of elements that was estimated before meshing. */

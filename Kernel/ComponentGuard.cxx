@@ -37,11 +37,12 @@ constexpr double FinestVoxels = 0.1;
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain, double delta,
-  std::int64_t fewestVoxels, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop)
+ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain,
+  const Components<D>& components, const std::vector<double>& delta, std::int64_t fewestVoxels,
+  LocalDelta<D>& local, unsigned threads, const std::stop_token& stop)
   : Image(image)
   , Surfaces(domain)
-  , All(image, threads, stop)
+  , All(components)
   , FewestVoxels(fewestVoxels)
   , Threads(threads)
   , Stop(stop)
@@ -52,15 +53,17 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
   {
     spacing = std::min(spacing, image.Grid().Spacing(a));
   }
-  this->FinestDelta = std::min(delta, FinestVoxels * spacing);
+  this->FinestDelta =
+    std::min(*std::min_element(delta.begin() + 1, delta.end()), FinestVoxels * spacing);
   const double voxelVolume = image.Grid().VoxelVolume();
-  this->Delta.assign(this->All.All().size(), delta);
+  this->Delta.resize(this->All.All().size());
   for (std::uint32_t c = 0; c < this->Delta.size(); ++c)
   {
     const Component<D>& component = this->All.All()[c];
+    this->Delta[c] = delta[component.Label];
     const double own =
       SamplesPerThickness * static_cast<double>(component.Voxels) * voxelVolume / component.Surface;
-    if (component.Voxels >= fewestVoxels && own < delta)
+    if (component.Voxels >= fewestVoxels && own < delta[component.Label])
     {
       ThrowIfStopped(stop);
       this->Sample(c, std::max(own, this->FinestDelta));

@@ -40,15 +40,16 @@ class ComponentGuard
 {
 public:
   /**
-   * @param image, domain must live as long as this
-   * @param delta the sampling density elsewhere
+   * @param image, domain, components must live as long as this
+   * @param delta the sampling density elsewhere, by dense id of the label
    * @param fewestVoxels smaller components are not looked after
    * @param local where to sample more finely; receives bounds
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
-  ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain, double delta,
-    std::int64_t fewestVoxels, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop);
+  ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain,
+    const Components<D>& components, const std::vector<double>& delta, std::int64_t fewestVoxels,
+    LocalDelta<D>& local, unsigned threads, const std::stop_token& stop);
 
   /** What has been decided to insert so far, in the order of components. */
   const std::vector<FeatureSeed<D>>& GetSeeds() const { return this->Seeds; }
@@ -72,7 +73,7 @@ private:
 
   const LabelImage<D>& Image;
   const Domain<D>& Surfaces;
-  Components<D> All;
+  const Components<D>& All;
   std::vector<double> Delta; ///< by component
   double FinestDelta;        ///< no component is sampled more finely
   std::int64_t FewestVoxels;

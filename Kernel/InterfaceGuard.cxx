@@ -35,13 +35,13 @@ constexpr double SpacingFactor = 0.5;
 
 //------------------------------------------------------------------------------------------------
 InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites,
-  const Domain<3>& domain, double delta, const GradedDelta<3>* graded, LocalDelta<3>& local,
-  unsigned threads, const std::stop_token& stop)
+  const Domain<3>& domain, const BaseDensity<3>& base, const InterfaceSizes<3>* sizes,
+  LocalDelta<3>& local, unsigned threads, const std::stop_token& stop)
   : Image(image)
   , Sites(sites)
   , Surfaces(domain)
-  , Delta(delta)
-  , Graded(graded)
+  , Base(base)
+  , Sizes(sizes)
   , Local(local)
   , Threads(threads)
   , Stop(stop)
@@ -53,15 +53,24 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
 }
 
 //------------------------------------------------------------------------------------------------
-double InterfaceGuard::DeltaAt(const Point<3>& p) const
+double InterfaceGuard::DeltaAt(const Face& face) const
 {
-  return this->Graded ? this->Graded->At(p) : this->Delta;
+  const Point<3> centre = this->CentreOf(face);
+  return this->Sizes ? this->Sizes->At(centre, this->IdOf(face.Voxel), this->IdOf(face.Next()))
+                     : this->Base.At(centre);
 }
 
-bool InterfaceGuard::IsFar(const Point<3>& centre, const FeatureGrid<3>& vertices) const
+/** Of all interfaces that there may be. */
+double InterfaceGuard::DensestAt(const Point<3>& p) const
+{
+  return this->Sizes ? std::min(this->Sizes->Largest(), this->Sizes->GradedAt(p))
+                     : this->Base.At(p);
+}
+
+bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices) const
 {
   return !vertices.AnyWithin(
-    centre, std::max(LargestDistance * this->DeltaAt(centre), this->VoxelDiagonal));
+    this->CentreOf(face), std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal));
 }
 
 //------------------------------------------------------------------------------------------------
@@ -121,10 +130,10 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<Point<3>> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
 {
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 },
-    std::max(LargestDistance * this->Delta, this->VoxelDiagonal), mesh.Points.size());
+    std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal), mesh.Points.size());
   std::vector<bool> added(mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {
@@ -137,21 +146,21 @@ std::vector<Point<3>> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) c
       }
     }
   }
-  std::vector<Point<3>> centres;
+  std::vector<Face> far;
   for (const Face& face : this->Sampled)
   {
-    if (this->IsFar(this->CentreOf(face), vertices))
+    if (this->IsFar(face, vertices))
     {
-      centres.push_back(this->CentreOf(face));
+      far.push_back(face);
     }
   }
-  if (!centres.empty())
+  if (!far.empty())
   {
-    return centres;
+    return far;
   }
   constexpr std::size_t RowsAtOnce = 64;
   const std::size_t rows = this->Sites.NumberOfRows();
-  std::vector<std::vector<Point<3>>> found((rows - 1) / RowsAtOnce + 1);
+  std::vector<std::vector<Face>> found((rows - 1) / RowsAtOnce + 1);
   ParallelFor(
     0, rows, RowsAtOnce, this->Threads,
     [&](std::size_t first, std::size_t last)
@@ -161,10 +170,9 @@ std::vector<Point<3>> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) c
         this->ForEachFaceOfRow(row,
           [&](const Face& face)
           {
-            const Point<3> centre = this->CentreOf(face);
-            if (this->IsFar(centre, vertices))
+            if (this->IsFar(face, vertices))
             {
-              found[first / RowsAtOnce].push_back(centre);
+              found[first / RowsAtOnce].push_back(face);
             }
           });
       }
@@ -172,9 +180,9 @@ std::vector<Point<3>> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) c
     this->Stop);
   for (const auto& part : found)
   {
-    centres.insert(centres.end(), part.begin(), part.end());
+    far.insert(far.end(), part.begin(), part.end());
   }
-  return centres;
+  return far;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -215,7 +223,7 @@ void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<
 //------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
 {
-  const std::vector<Point<3>> far = this->FindFarFaces(mesh);
+  const std::vector<Face> far = this->FindFarFaces(mesh);
   const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(mesh);
   this->FarFaces = far.size();
   this->NonManifoldEdges = edges.size();
@@ -228,15 +236,15 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
     return {};
   }
   std::vector<Face> faces;
-  for (const Point<3>& centre : far)
+  for (const Face& face : far)
   {
     ThrowIfStopped(this->Stop);
-    this->AddFacesNear(centre, RadiusAtFace * this->DeltaAt(centre), faces);
+    this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->DeltaAt(face), faces);
   }
   for (const InterfaceEdge& edge : edges)
   {
     const Point<3> middle = Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5);
-    this->AddFacesNear(middle, RadiusAtEdge * this->DeltaAt(middle), faces);
+    this->AddFacesNear(middle, RadiusAtEdge * this->DensestAt(middle), faces);
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
@@ -258,7 +266,7 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
     if (spacing == spacings.end())
     {
       const unsigned visit = this->Visits[cell]++;
-      const double first = FirstSpacing * this->DeltaAt(this->CentreOf(face));
+      const double first = FirstSpacing * this->DeltaAt(face);
       spacing = spacings.emplace(cell, std::ldexp(first, -static_cast<int>(visit))).first;
     }
     Point<3> z;

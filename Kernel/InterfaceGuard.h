@@ -7,9 +7,10 @@
 #ifndef voxplex_InterfaceGuard_h
 #define voxplex_InterfaceGuard_h
 
-#include "Grading/GradedDelta.h"
+#include "Grading/BaseDensity.h"
 #include "Image/BitMask.h"
 #include "Image/Domain.h"
+#include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureGrid.h"
@@ -50,14 +51,14 @@ public:
   /**
    * All references must live as long as this.
    * @param sites the image's surface voxels (FindSurfaceVoxels)
-   * @param delta sampling density; if it is graded, the largest
-   * @param graded delta from place to place; null: the same everywhere
+   * @param base sampling density
+   * @param sizes that of single interfaces, in its place; may be null
    * @param local receives the spacing of what is proposed
    * @param threads 0 means all cores; results do not depend on it
    */
   InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
-    double delta, const GradedDelta<3>* graded, LocalDelta<3>& local, unsigned threads,
-    const std::stop_token& stop);
+    const BaseDensity<3>& base, const InterfaceSizes<3>* sizes, LocalDelta<3>& local,
+    unsigned threads, const std::stop_token& stop);
 
   /**
    * Points that would mend what is wrong with the mesh's interfaces.
@@ -89,12 +90,13 @@ private:
     }
   };
 
-  std::vector<Point<3>> FindFarFaces(const SimplexMesh<3>& mesh) const;
+  std::vector<Face> FindFarFaces(const SimplexMesh<3>& mesh) const;
   template <typename Function>
   void ForEachFaceOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
-  bool IsFar(const Point<3>& centre, const FeatureGrid<3>& vertices) const;
-  double DeltaAt(const Point<3>& p) const;
+  bool IsFar(const Face& face, const FeatureGrid<3>& vertices) const;
+  double DeltaAt(const Face& face) const;
+  double DensestAt(const Point<3>& p) const;
   LabelId IdOf(const Index& voxel) const;
   Point<3> CentreOf(const Index& voxel) const;
   Point<3> CentreOf(const Face& face) const;
@@ -102,8 +104,8 @@ private:
   const LabelImage<3>& Image;
   const BitMask<3>& Sites;
   const Domain<3>& Surfaces;
-  const double Delta;
-  const GradedDelta<3>* const Graded;
+  const BaseDensity<3> Base;
+  const InterfaceSizes<3>* const Sizes;
   double VoxelDiagonal;
   double FinestSpacing;
   LocalDelta<3>& Local;

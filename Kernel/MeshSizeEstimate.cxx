@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -109,7 +110,7 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
 struct BallCount
 {
   double Sum = 0.0; ///< of 1 / size^D
-  bool BelowFloor = false;
+  double Smallest = std::numeric_limits<double>::infinity();
 };
 
 /** One voxel of the crop; nothing if it is background. */
@@ -133,7 +134,7 @@ void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double 
   const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[id]);
   if (s > 0.0 && std::isfinite(s))
   {
-    count.BelowFloor |= s < floor;
+    count.Smallest = std::min(count.Smallest, s);
     count.Sum += std::pow(std::max(s, floor), -D);
   }
 }
@@ -141,7 +142,7 @@ void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double 
 /** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
 template <int D>
 double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
-  bool& belowFloor, unsigned threads, const std::stop_token& stop)
+  double& smallest, unsigned threads, const std::stop_token& stop)
 {
   constexpr std::size_t grain = 512; // fixed, so that the sum does not depend on the threads
   const std::size_t voxels = image.Ids().size();
@@ -164,7 +165,7 @@ double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, do
   for (const BallCount& chunk : chunks)
   {
     sum += chunk.Sum;
-    belowFloor |= chunk.BelowFloor;
+    smallest = std::min(smallest, chunk.Smallest);
   }
   return sum * static_cast<double>(step) * image.Grid().VoxelVolume();
 }
@@ -204,9 +205,11 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
   {
     // Where sizes are small the interface is sampled by them, and its elements are among these.
     elements += Constants::ElementsPerBall *
-      BallsInObject(image, *size, sizeFloor, estimate.SizesBelowFloor, threads, stop);
+      BallsInObject(image, *size, sizeFloor, estimate.SmallestSize, threads, stop);
+    estimate.SizesBelowFloor = estimate.SmallestSize < sizeFloor;
   }
   estimate.InterfaceVertices = Saturate(interfaceVertices);
+  estimate.InterfaceElements = Saturate(Constants::ElementsPerInterfaceVertex * interfaceVertices);
   estimate.Elements = Saturate(elements);
   estimate.Vertices = Saturate(elements * Constants::VerticesPerElement) + 64;
   estimate.Bytes = Saturate(elements * Constants::BytesPerElement);

@@ -11,6 +11,7 @@
 #include "Image/SizeFunction.h"
 
 #include <cstdint>
+#include <limits>
 #include <stop_token>
 
 namespace voxplex
@@ -21,8 +22,10 @@ struct MeshSizeEstimate
   std::uint64_t Elements = 0; ///< of the final mesh
   std::uint64_t Vertices = 0; ///< of the triangulation, those outside of the object included
   std::uint64_t InterfaceVertices = 0;
-  bool SizesBelowFloor = false; ///< some sampled size had to be raised
-  std::uint64_t Bytes = 0;      ///< memory of the run at its peak, without the image
+  std::uint64_t InterfaceElements = 0; ///< of Elements those that grow with 1 / delta^(D-1)
+  bool SizesBelowFloor = false;        ///< some sampled size had to be raised
+  double SmallestSize = std::numeric_limits<double>::infinity(); ///< of those sampled
+  std::uint64_t Bytes = 0; ///< memory of the run at its peak, without the image
 };
 
 /**

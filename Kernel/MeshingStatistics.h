@@ -182,6 +182,13 @@ struct InterfaceFigures
   std::uint64_t NonManifoldLeft = 0;     ///< that still are not; counted if Rounds were allowed
 };
 
+/** One refinement in the search for a delta that makes a number of elements. */
+struct MeshingRun
+{
+  double Delta = 0.0;
+  std::uint64_t Elements = 0;
+};
+
 struct MeshingStatistics
 {
   RuleStatistics Rules;
@@ -195,8 +202,11 @@ struct MeshingStatistics
   double SeedingSeconds =
     0.0;                     ///< part of Times.Refinement: the start, before all threads have work
   double Delta = 0.0;        ///< the delta that was used, in the image's unit of length
-  double LargestDelta = 0.0; ///< the largest Delta(z): above Delta only if it is graded
-  double SmoothingSigma = 0.0;      ///< voxels
+  double LargestDelta = 0.0; ///< the largest Delta(z): not Delta if graded, or with interface sizes
+  double SmoothingSigma = 0.0;        ///< voxels
+  std::uint64_t ElementsAskedFor = 0; ///< MeshingOptions::Elements
+  /** If a number of elements was asked for: all runs, of which one made the mesh (Delta). Else empty. */
+  std::vector<MeshingRun> Runs;
   std::uint64_t GradingSamples = 0; ///< interface points by which local feature sizes were measured
   std::uint64_t GradingPoles = 0;   ///< points of the medial axis that these gave
   std::uint64_t EstimatedElements = 0;

@@ -81,6 +81,10 @@ public:
   bool Any() const;
 
   double Evaluate(const Point<D>& p, std::int64_t label) const override;
+  bool DependsOnLabelAlone() const override
+  {
+    return !this->Image && !this->Implicit && !this->Function;
+  }
 
   /** Whether Function has thrown; sizes are then of no use and meshing should stop. */
   bool Failed() const { return this->HasFailed.load(std::memory_order_acquire); }

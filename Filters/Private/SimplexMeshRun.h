@@ -54,9 +54,13 @@ void CheckRange(double value, double low, double high, const char* name, const c
 /** At most 20 labels, separated by commas. */
 std::string ListLabels(std::span<const std::int64_t> labels);
 
-/** Throws InputError if a label has a size but is not among those of the image. */
-void CheckSizedLabels(
-  const std::map<std::int64_t, double>& sizes, bool selected, std::span<const std::int64_t> labels);
+/**
+ * Throws InputError if a label was given a size but is not among those of the image.
+ * @param method by which it was given
+ * @param selected whether a part of the image's labels is meshed
+ */
+void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+  std::span<const std::int64_t> labels);
 
 /** "9 voxels of label 3 at (10, 20, 30)". */
 std::string Describe(const ComponentReport& component);
@@ -70,6 +74,8 @@ std::vector<std::int64_t> FindLostLabels(
 struct vtkImageToSimplexMeshFilter::Internals
 {
   std::map<std::int64_t, double> LabelSizes;
+  std::map<std::pair<std::int64_t, std::int64_t>, double>
+    InterfaceSizes; ///< the larger label first
   std::set<std::int64_t> Labels;
   std::set<std::int64_t> ExcludedLabels;
   SizeFunctionType SizeFunction;
@@ -107,6 +113,12 @@ public:
       this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
     }
     this->Options.Delta = filter->Delta;
+    this->Options.Elements = static_cast<std::uint64_t>(filter->NumberOfElements);
+    this->Options.Gradation = filter->Gradation;
+    for (const auto& [interface, size] : filter->Private->InterfaceSizes)
+    {
+      this->Options.InterfaceSizes.push_back({ interface.first, interface.second, size });
+    }
     this->Options.RadiusEdgeRatio = filter->RadiusEdgeRatio;
     this->Options.SmoothingSigma = filter->SmoothingSigma;
     this->Options.Threads = filter->GetThreads();
@@ -141,8 +153,7 @@ public:
   {
     vtkImageToSimplexMeshFilter* const filter = this->Filter;
     const auto values = labels.Values().subspan(1); // without background
-    voxplex::CheckSizedLabels(filter->Private->LabelSizes,
-      !filter->Private->Labels.empty() || !filter->Private->ExcludedLabels.empty(), values);
+    this->CheckLabels(values);
     if (this->Sizes->Any())
     {
       this->Options.Size = this->Sizes;
@@ -206,6 +217,31 @@ public:
   vtkMeshingStatistics::Figures& Figures() { return this->Filter->Private->Statistics->Edit(); }
 
 private:
+  /** Of sizes, against those of the image. */
+  void CheckLabels(std::span<const std::int64_t> labels) const
+  {
+    const Internals& filter = *this->Filter->Private;
+    const bool selected = !filter.Labels.empty() || !filter.ExcludedLabels.empty();
+    std::vector<std::int64_t> sized;
+    for (const auto& [label, size] : filter.LabelSizes)
+    {
+      sized.push_back(label);
+    }
+    voxplex::CheckSizedLabels(sized, "SetLabelSize()", selected, labels);
+    sized.clear();
+    for (const auto& [interface, size] : filter.InterfaceSizes)
+    {
+      for (const std::int64_t label : { interface.first, interface.second })
+      {
+        if (label > 0) // background and ANY_LABEL are always there
+        {
+          sized.push_back(label);
+        }
+      }
+    }
+    voxplex::CheckSizedLabels(sized, "SetInterfaceSize()", selected, labels);
+  }
+
   /** The fraction of the progress at the kernel's end; the rest is the copy into VTK data. */
   static constexpr double KernelProgress = 0.97;
 

@@ -32,6 +32,9 @@ public:
    * @param label the image's own label value at p (never background)
    */
   virtual double Evaluate(const Point<D>& p, std::int64_t label) const = 0;
+
+  /** Whether it is the same at all points of a label, which saves asking for each. */
+  virtual bool DependsOnLabelAlone() const { return false; }
 };
 
 } // namespace voxplex

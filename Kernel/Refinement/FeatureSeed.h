@@ -16,8 +16,7 @@ template <int D>
 struct FeatureSeed
 {
   Point<D> Position;
-  double
-    Delta; ///< it is left out if a feature vertex is nearer than this; at most the delta of the run
+  double Delta; ///< it is left out if a feature vertex is nearer than this
 };
 
 } // namespace voxplex

@@ -10,6 +10,7 @@
 #include "Delaunay/Triangulation.h"
 #include "Grading/GradedDelta.h"
 #include "Image/Domain.h"
+#include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
 #include "Image/SizeFunction.h"
 #include "MeshingStatistics.h"
@@ -39,16 +40,17 @@ struct RefinementSettings
 {
   double Delta = 1.0;                     ///< sampling density; if it is graded, the largest
   const GradedDelta<D>* Graded = nullptr; ///< delta from place to place; null: the same everywhere
-  const LocalDelta<D>* Local = nullptr;   ///< upper bound of delta; may be null
-  double RadiusEdgeRatio = 2.0;           ///< rho-bar
-  double FacetAngle = 30.0;               ///< degrees
+  const InterfaceSizes<D>* Interfaces = nullptr; ///< in place of delta; may be null
+  const LocalDelta<D>* Local = nullptr;          ///< upper bound of delta; may be null
+  double RadiusEdgeRatio = 2.0;                  ///< rho-bar
+  double FacetAngle = 30.0;                      ///< degrees
   const SizeFunction<D>* Size = nullptr;
   RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
   SliverOptions Slivers;                        ///< 4D only
   TetSliverOptions TetSlivers;                  ///< 3D only
 };
 
-/** The smallest sampling density, but for local bounds and sizes. */
+/** The smallest sampling density, but for interface sizes, local bounds and sizes of elements. */
 template <int D>
 double FinestDelta(const RefinementSettings<D>& settings)
 {
@@ -75,11 +77,16 @@ struct RefinementContext
   /** To be called when bounds were added to Settings.Local; not while anybody refines. */
   void FollowLocalDelta()
   {
+    double smallest = FinestDelta(this->Settings);
+    if (this->Settings.Interfaces)
+    {
+      smallest = std::min(smallest, this->Settings.Interfaces->Smallest());
+    }
     if (this->Settings.Local)
     {
-      this->SpacingFloor = SpacingFloorFraction *
-        std::min(FinestDelta(this->Settings), this->Settings.Local->Smallest());
+      smallest = std::min(smallest, this->Settings.Local->Smallest());
     }
+    this->SpacingFloor = SpacingFloorFraction * smallest;
   }
 
   /** sf(p), cleaned of what is no bound and raised to the floor. */
@@ -97,20 +104,21 @@ struct RefinementContext
     return size < this->SizeFloor ? this->SizeFloor : size;
   }
 
-  /** The sampling density near a point, without local bounds and sizes. */
+  /** The sampling density near a point, without interface sizes, local bounds and sizes of elements. */
   double GradedDeltaAt(const Point<D>& p) const
   {
     return this->Settings.Graded ? this->Settings.Graded->At(p) : this->Settings.Delta;
   }
 
   /**
-   * Delta_dOmega(z) of the thesis for a feature point between two labels: delta, or the local bound or the
-   * size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
+   * Delta_dOmega(z) of the thesis for a feature point between two labels: delta or what is asked for that
+   * interface in its place, or the local bound or the size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
    * meshed would make R3 insert the missing points one by one, and R6 remove what R5 asks for.
    */
   double Delta(const Point<D>& z, LabelId a, LabelId b) const
   {
-    double delta = this->GradedDeltaAt(z);
+    double delta =
+      this->Settings.Interfaces ? this->Settings.Interfaces->At(z, a, b) : this->GradedDeltaAt(z);
     if (this->Settings.Local)
     {
       const auto bound = this->Settings.Local->At(z);
@@ -126,17 +134,51 @@ struct RefinementContext
     return delta;
   }
 
-  /** Whether Delta() is below GradedDeltaAt() for any labels at z, but for sizes. */
+  /** Delta(z) for the interface point closest to p: the label of p is known, that beyond is just behind z. */
+  double DeltaBehind(const Point<D>& p, LabelId label, const Point<D>& z) const
+  {
+    const Point<D> behind =
+      Interpolate(p, z, 1.0 + this->SpacingFloor / std::max(Distance(p, z), 1e-300));
+    return this->Delta(z, label, this->Image.Label(behind));
+  }
+
+  /** Whether Delta() differs from GradedDeltaAt() for any labels at z, but for sizes. */
   bool MayBeLocal(const Point<D>& z) const
   {
-    return this->Settings.Local && this->Settings.Local->At(z).Delta < this->GradedDeltaAt(z);
+    return this->Settings.Interfaces ||
+      (this->Settings.Local && this->Settings.Local->At(z).Delta < this->GradedDeltaAt(z));
+  }
+
+  /** The largest Delta() of all interfaces. */
+  double LargestDelta() const
+  {
+    return this->Settings.Interfaces
+      ? std::max(this->Settings.Delta, this->Settings.Interfaces->Largest())
+      : this->Settings.Delta;
+  }
+
+  /** What the densest interfaces ask for at any point, without local bounds and sizes. */
+  double DensestAt(const Point<D>& p) const
+  {
+    return this->Settings.Interfaces ? this->Settings.Interfaces->GradedAt(p)
+                                     : this->GradedDeltaAt(p);
   }
 
   /** How near vertices are to each other at least, about: the finest delta, or less near what is sampled more finely. */
   double SpacingAt(const Point<D>& p) const
   {
-    const double finest = FinestDelta(this->Settings);
-    return this->Settings.Local ? std::min(finest, this->Settings.Local->GradedAt(p)) : finest;
+    double spacing = FinestDelta(this->Settings);
+    if (this->Settings.Interfaces)
+    {
+      spacing = std::min(spacing, this->Settings.Interfaces->GradedAt(p));
+    }
+    return this->Settings.Local ? std::min(spacing, this->Settings.Local->GradedAt(p)) : spacing;
+  }
+
+  /** The same inside of a label: no more than the size that is asked for there. */
+  double Spacing(const Point<D>& p, LabelId label) const
+  {
+    return std::min(this->SpacingAt(p), this->Size(p, label));
   }
 
   /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */

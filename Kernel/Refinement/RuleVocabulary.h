@@ -219,7 +219,7 @@ protected:
   {
     Point<D> z;
     double error;
-    if (t.Radius >= 2.0 * this->Context.Settings.Delta ||
+    if (t.Radius >= 2.0 * this->Context.LargestDelta() ||
       !this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error))
     {
       return false;
@@ -288,10 +288,7 @@ protected:
     {
       return this->Context.GradedDeltaAt(z);
     }
-    const double distance = Distance(t.Ball.Center, z);
-    const Point<D> behind =
-      Interpolate(t.Ball.Center, z, 1.0 + this->Context.SpacingFloor / std::max(distance, 1e-300));
-    return this->Context.Delta(z, t.Label, this->Context.Image.Label(behind));
+    return this->Context.DeltaBehind(t.Ball.Center, t.Label, z);
   }
 
   bool OwnFeatureVertexNear(const Element& t, const Point<D>& z, double distance) const
@@ -348,7 +345,8 @@ protected:
   {
     const Place place = this->PlaceOf(t.Ball.Center, CentreMargin * t.Radius);
     Point<D> z;
-    const double delta = place.OnEnd && this->Context.Settings.Size
+    const double delta =
+      place.OnEnd && (this->Context.Settings.Size || this->Context.Settings.Interfaces)
       ? this->Context.Delta(place.Position, t.Label, this->Context.Image.Label(place.Position))
       : this->Context.Settings.Delta;
     if (place.OnEnd && this->Context.Image.ClosestSurfacePointOnEnd(place.Position, z) &&
@@ -478,7 +476,7 @@ private:
     const LocalDelta<D>* local = this->Context.Settings.Local;
     const double own = Rules::RemovalRadius *
       std::min(local ? local->GradedAt(vertex) : std::numeric_limits<double>::infinity(),
-        this->Context.GradedDeltaAt(vertex));
+        this->Context.DensestAt(vertex));
     return distance2 < own * own;
   }
 

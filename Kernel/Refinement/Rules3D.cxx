@@ -185,8 +185,7 @@ Verdict Rules3D::R7(const Element& t)
 Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
-  const double clearance = SliverSpacing *
-    std::min(this->Context.SpacingAt(t.Ball.Center), this->Context.Size(t.Ball.Center, t.Label));
+  const double clearance = SliverSpacing * this->Context.Spacing(t.Ball.Center, t.Label);
   PseudoRandom<3> random(options.Seed, t.Ball.Center);
   BetterStar judge(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
   return InsertPick(

@@ -151,8 +151,7 @@ Verdict Rules4D::R4(const Element& s)
   RuleStatistics& statistics = this->Worker.Statistics;
   const SliverOptions& options = this->Context.Settings.Slivers;
   ++statistics.SliversFound;
-  const double clearance = SliverSpacing *
-    std::min(this->Context.Settings.Delta, this->Context.Size(s.Ball.Center, s.Label));
+  const double clearance = SliverSpacing * this->Context.Spacing(s.Ball.Center, s.Label);
   PseudoRandom<4> random(options.Seed, s.Ball.Center);
   BestPick judge(this->Context, s.Radius, s.Ball.Center);
   const Verdict verdict = InsertPick(

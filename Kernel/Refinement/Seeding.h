@@ -64,11 +64,14 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
     }
     Point<D> z;
     Point<D> onEnd;
+    const LabelId label = context.Image.Label(p);
     if (context.Image.DistanceBounds(p).Lower < spacing &&
-      context.Image.ClosestSurfacePoint(p, context.Image.Label(p), z) &&
+      context.Image.ClosestSurfacePoint(p, label, z) &&
       !context.IsNearEnd(z, context.Settings.Delta, onEnd))
     {
-      sample.push_back({ z, context.GradedDeltaAt(z) });
+      const double delta = context.GradedDeltaAt(z);
+      sample.push_back({ z,
+        context.Settings.Interfaces ? std::max(delta, context.DeltaBehind(p, label, z)) : delta });
     }
   }
   return sample;

@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 import warnings
 from typing import (
-    TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Optional, Sequence, Union, overload)
+    TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Optional, Sequence, Tuple, Union, overload)
 
 from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 Label = Union[int, str]
 """A label's value, or its name where the image carries names."""
 
+Interface = Union[Label, Tuple[Label, Label]]
+"""The interface between two labels, 0 being background, or all interfaces of a label."""
+
 
 class MeshingResult(NamedTuple):
     """All that mesh() has to say (full_output=True)."""
@@ -37,8 +40,8 @@ class MeshingResult(NamedTuple):
 
 
 # The filter's messages speak of its methods.
-_TERMS = {"SetLabelSize()": "label_sizes", "AddLabel()": "labels", "or force it": "or pass force=True",
-          "Force goes": "force=True goes",
+_TERMS = {"SetLabelSize()": "label_sizes", "SetInterfaceSize()": "interface_sizes", "AddLabel()": "labels",
+          "or force it": "or pass force=True", "Force goes": "force=True goes",
           "mesh an isosurface of it": "mesh an isosurface of it (isovalue)"}
 
 
@@ -49,7 +52,9 @@ _GRADING = {"uniform": vtkImageToTetMeshFilter.UNIFORM, "lfs": vtkImageToTetMesh
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          isovalue: Optional[float] = None, inside: Optional[str] = None,
          inside_label: Optional[int] = None,
-         size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
+         elements: Optional[int] = None, size: Optional[float] = None,
+         label_sizes: Optional[Mapping[Label, float]] = None,
+         interface_sizes: Optional[Mapping[Interface, float]] = None, gradation: Optional[float] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
@@ -68,7 +73,9 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          isovalue: Optional[float] = None, inside: Optional[str] = None,
          inside_label: Optional[int] = None,
-         size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
+         elements: Optional[int] = None, size: Optional[float] = None,
+         label_sizes: Optional[Mapping[Label, float]] = None,
+         interface_sizes: Optional[Mapping[Interface, float]] = None, gradation: Optional[float] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
@@ -86,7 +93,9 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
 def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          isovalue: Optional[float] = None, inside: Optional[str] = None,
          inside_label: Optional[int] = None,
-         size: Optional[float] = None, label_sizes: Optional[Mapping[Label, float]] = None,
+         elements: Optional[int] = None, size: Optional[float] = None,
+         label_sizes: Optional[Mapping[Label, float]] = None,
+         interface_sizes: Optional[Mapping[Interface, float]] = None, gradation: Optional[float] = None,
          labels: Optional[Iterable[Label]] = None, size_image: Optional[SizeImage] = None,
          smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
@@ -128,11 +137,19 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         With isovalue: "above" (default) if the object has the greater values, or "below".
     inside_label
         With isovalue: the label of what is inside. Default 1.
+    elements
+        How many elements the mesh is to have, to within a tenth, instead of delta, which is solved for: meshing
+        takes two or three times as long. The statistics have the delta, and each run that it took.
     size
         Upper bound of every element's circumradius.
     label_sizes
         The same for the elements of some labels: {label: size}. Labels may be given by name where
         the image carries names (see :func:`label_names`).
+    interface_sizes
+        How densely single interfaces are sampled, in place of delta: {(label, label): length} for the interface of two
+        labels, 0 being background, {label: length} for all interfaces of one.
+    gradation
+        How much sizes and interface sizes may change over a unit of length. Default 0.3; 0 sets no limit.
     labels
         Mesh these labels only, and take the others for background.
     size_image
@@ -234,6 +251,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
       ...
     voxplex.errors.MeshingError: Delta is -1; it must be positive and finite, or 0 to derive it from the spacing.
     """
+    if delta and elements:
+        raise ValueError("delta and elements: give one of the two; delta is what elements are solved for")
     geometry = {name: value for name, value in
                 (("spacing", spacing), ("origin", origin), ("direction", direction)) if value is not None}
     source = Source(image, geometry, times)
@@ -263,11 +282,13 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         _set(mesher, Isovalue=isovalue, Inside=_side(inside), InsideLabel=inside_label,
              IsosurfaceSmoothingSigma=smoothing)
     source.connect(mesher)
-    _set(mesher, Delta=delta, NumberOfThreads=threads, ElementSize=size,
+    _set(mesher, Delta=delta, NumberOfElements=elements, Gradation=gradation, NumberOfThreads=threads, ElementSize=size,
          RadiusEdgeRatio=radius_edge, Force=force, MemoryLimit=memory_limit, ComputeQuality=full_output)
     names = source.names()
     for label, bound in (label_sizes or {}).items():
         mesher.SetLabelSize(label_value(label, names), bound)
+    for interface, density in (interface_sizes or {}).items():
+        mesher.SetInterfaceSize(*_interface(interface, names), density)
     if labels is not None:
         chosen = [label_value(label, names) for label in labels]
         if not chosen:
@@ -298,6 +319,16 @@ def _run(mesher: Any, source: Source, progress: Optional[Progress]) -> None:
         for theirs, ours in _TERMS.items():
             message = message.replace(theirs, ours)
         raise MeshingError(message)
+
+
+def _interface(interface: Interface, names: Any) -> Tuple[int, int]:
+    """The two labels of a key of interface_sizes."""
+    if not isinstance(interface, tuple):
+        return label_value(interface, names), vtkImageToTetMeshFilter.ANY_LABEL
+    if len(interface) != 2:
+        raise ValueError(f"interface_sizes: {interface!r} is not a pair of labels")
+    first, second = (0 if label == 0 else label_value(label, names) for label in interface)
+    return first, second
 
 
 def _set(mesher: Any, **values: Any) -> None:

@@ -95,6 +95,19 @@ class CommandLine(ProgramTestCase):
             (("--label-size", "3=0"), "--label-size: must be greater than 0"),
             (("--label-size", "1.5=1"), "--label-size: '1.5' is not a label"),
             (("--label-size", "=1"), "--label-size: '' is not a label"),
+            (("--interface-size", "3"), "--interface-size: '3' is not of the form .*--delta"),
+            (("--interface-size", "=3"), "--interface-size: '=3' is not of the form"),
+            (("--interface-size", "3,7=0"), "--interface-size: must be greater than 0"),
+            (("--interface-size", "3,=1"), "--interface-size: '' is not a label"),
+            (("--interface-size", "3,-7=1"), "--interface-size: '-7' is not a label"),
+            (("--interface-size", "3,7,9=1"), "--interface-size: '3,7,9' is more than two labels"),
+            (("--interface-size", "3,3=1"), "--interface-size: label 3 has no interface with itself"),
+            (("--interface-size", "3,7=1", "--interface-size", "7,3=1"), "--interface-size: '7,3' is given twice"),
+            (("--labels", "1", "--interface-size", "0,3=1"), "label 3 is not among those of --labels"),
+            (("--gradation", "-1"), "--gradation: must lie between 0 and 1000"),
+            (("--elements", "0"), "--elements: must be a whole number from 1"),
+            (("--elements", "1e5"), "--elements: must be a whole number"),
+            (("--elements", "10", "--delta", "1"), "--delta and --elements do not go together"),
             (("--labels", "Tibia,1.5"), "--labels: '1.5' is not a label"),
             (("--label-size", "3=1", "--label-size", "3=2"), "--label-size: label 3 is given twice"),
             (("--labels", "1", "--label-size", "3=1"), "label 3 is not among those of --labels"),
@@ -257,6 +270,7 @@ class Labels(ProgramTestCase):
 
     def test_unknown_labels(self):
         self.refuse("--label-size.* label 5", images.ball(12, 4.0), "--label-size", "5=1")
+        self.refuse("--interface-size.* label 5", images.ball(12, 4.0), "--interface-size", "5,1=1")
         self.refuse("label 5.* --labels", images.ball(12, 4.0), "--labels", "1,5")
 
     def test_too_fine(self):

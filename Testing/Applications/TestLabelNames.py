@@ -71,6 +71,16 @@ class Selection(NamesTestCase):
         (self.folder / "names.txt").write_text("3 T1=low\n")
         self.assertEqual(self.labels("--label-table", "names.txt", "--label-size", "T1=low=2"), {3, 7})
 
+    def test_interfaces_of_names(self):
+        (self.folder / "names.txt").write_text("3 Tibia, left\n7 Femur\n")
+        files = []
+        for text in ("3,7=1", "Femur,3=1", "7=2", "femur=2", "3=2", "Tibia, left=2"):
+            self.mesh("--input", self.image, "--delta", 4, "--threads", 1, "--label-table", "names.txt",
+                      "--interface-size", text, "--output", "m.mesh")
+            files.append((self.folder / "m.mesh").read_bytes())
+        self.assertEqual(files[0::2], files[1::2])
+        self.assertEqual(len(set(files)), 3)
+
     def test_table_beside_the_image(self):
         (self.folder / "i.nrrd.txt").write_text(self.TABLE)
         self.assertEqual(self.labels("--labels", "Left hippocampus"), {3})
@@ -99,6 +109,7 @@ class Refusal(NamesTestCase):
                     r"'Left hippocampus' \(3\)\?", *table, "--labels", "Left hipocampus")
         self.refuse(r"--labels: .* 'left'; did you mean '.*' \((3|7)\) or '.*' \((3|7)\)\?", *table, "--labels", "left")
         self.refuse("--label-size: no label of the image is called 'Femur'\n", *table, "--label-size", "Femur=2")
+        self.refuse("--interface-size: no label of the image is called 'Femur'\n", *table, "--interface-size", "Femur,0=2")
 
     def test_no_names(self):
         self.refuse("--labels: 'Femur' is not a number, and the labels of the image have no names",

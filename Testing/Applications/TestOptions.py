@@ -58,6 +58,42 @@ class Options(ProgramTestCase):
         self.assertRegex(done.stderr, "^voxplex: warning: .*not in the mesh: label 5;.*--delta.*\n$")
         self.assertEqual(json.loads((self.folder / "s.json").read_text())["lost_labels"], [5])
 
+    def facets(self, *arguments):
+        # Points along a fine rim would make the facets beside it smaller.
+        self.mesh("--input", self.input, "--threads", 1, "--no-junctions", *arguments, "--plc", "i.vtp")
+        labels = [tuple(pair) for pair in meshfiles.read_triangles(self.folder / "i.vtp").labels]
+        return {pair: labels.count(pair) for pair in set(labels)}
+
+    def test_sizes_of_interfaces(self):
+        plain = self.facets("--delta", 2)
+        pair = self.facets("--delta", 2, "--interface-size", "3,7=1", "--gradation", 0)
+        self.assertGreater(pair[7, 3], 3 * plain[7, 3])
+        self.assertLess(pair[7, 0], 2 * plain[7, 0])
+        self.assertEqual(pair, self.facets("--delta", 2, "--interface-size", "7,3=1", "--gradation", 0))
+        background = self.facets("--delta", 2, "--interface-size", "0=4")
+        self.assertLess(background[7, 0], 0.7 * plain[7, 0])
+        self.assertLess(background[3, 0], 0.7 * plain[3, 0])
+        pair_first = self.facets("--delta", 2, "--interface-size", "0=4", "--interface-size", "3,0=1")
+        self.assertGreater(pair_first[3, 0], 3 * plain[3, 0])
+        graded = self.facets("--delta", 2, "--interface-size", "3,7=1", "--gradation", 0.1)
+        self.assertGreater(graded[7, 0], 1.2 * pair[7, 0])
+
+    def test_number_of_elements(self):
+        for threads in 1, 4:
+            report = self.statistics("--input", self.input, "--elements", 30000, "--threads", threads)
+            self.assertLess(abs(report["elements"] / 30000 - 1), 0.1)
+            self.assertEqual(report["elements_asked_for"], 30000)
+            self.assertIn({"delta": report["delta"], "elements": report["elements"]}, report["runs"])
+        done = self.mesh("--input", self.input, "--elements", 30000)
+        self.assertRegex(done.stdout, r"with delta [\d.]+ \(found in \d runs? for 30,000 elements\)\. ")
+        report = self.statistics("--input", self.input, "--delta", 2)
+        self.assertEqual((report["elements_asked_for"], report["runs"]), (None, []))
+
+    def test_a_number_of_elements_out_of_reach(self):
+        self.assert_refused(1, "no delta makes a mesh of 3000 elements within 10 %: the nearest of .* has ",
+                            "--input", self.input, "--size", 0.8, "--elements", 3000, "--output", "m.vtu")
+        self.assertFalse((self.folder / "m.vtu").exists())
+
     def test_size_of_a_label(self):
         free = self.elements_of_labels("--delta", 4)
         bound = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2")
@@ -421,7 +457,7 @@ class Talk(ProgramTestCase):
         done = self.call("--help")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
-                     "--size ", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
+                     "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
                      "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",

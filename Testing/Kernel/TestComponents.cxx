@@ -510,8 +510,10 @@ TEST(ComponentGuard, GoesOnUntilNothingIsLost)
     EXPECT_GE(statistics.ComponentRounds, 1u);
     EXPECT_TRUE(statistics.LostComponents.empty());
     const ImageDomain<3> domain(image, 1.0);
+    const Components<3> components(image);
+    const std::vector<double> delta(image.Values().size(), 3.0);
     LocalDelta<3> local(image);
-    const ComponentGuard<3> guard(image, domain, 3.0, 1, local, 1, {});
+    const ComponentGuard<3> guard(image, domain, components, delta, 1, local, 1, {});
     EXPECT_GT(guard.GetComponents().All().size(), 100u);
     EXPECT_TRUE(guard.FindLost(mesh).empty());
   }
@@ -522,8 +524,10 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
 {
   const Islands islands(2);
   const ImageDomain<3> domain(islands.Image, 1.0);
+  const Components<3> components(islands.Image);
+  const std::vector<double> delta(islands.Image.Values().size(), 5.0);
   LocalDelta<3> local(islands.Image);
-  ComponentGuard<3> guard(islands.Image, domain, 5.0, 8, local, 2, {});
+  ComponentGuard<3> guard(islands.Image, domain, components, delta, 8, local, 2, {});
   MeshingOptions<3> options;
   options.Delta = 5.0;
   MeshingStatistics statistics;

@@ -388,7 +388,7 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
   const LabelImage<3> image = BlockWithHair();
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
-  InterfaceGuard guard(image, domain.GetSites(), domain, 4.0, nullptr, local, 1, {});
+  InterfaceGuard guard(image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, {});
   SimplexMesh<3> nothing;
   double spacing = 4.0;
   int visits = 0;
@@ -420,7 +420,8 @@ TEST(InterfaceGuard, CanBeCancelled)
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
   std::stop_source stop;
-  InterfaceGuard guard(image, domain.GetSites(), domain, 4.0, nullptr, local, 1, stop.get_token());
+  InterfaceGuard guard(
+    image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, stop.get_token());
   stop.request_stop();
   EXPECT_THROW(guard.Inspect({}), Cancelled);
 }

@@ -238,6 +238,7 @@ TEST(SpaceTimeMeshing, SizesBoundCircumradii)
   const Tolerances nearEnds = { 2.4, 0.08, true };
   const std::size_t without = Mesh(image, 3.0).Simplices.size();
   MeshingOptions<4> options = SpaceTimeOptions(3.0);
+  options.Gradation = 0.0; // sizes that step; the tolerances are for them
   const auto size = [](double (*f)(const Point<4>&, std::int64_t))
   { return std::make_shared<CallableSizeOf<4>>(f); };
   options.Size = size([](const Point<4>& p, std::int64_t) { return p[3] < 4.0 ? 2.0 : 6.0; });

@@ -181,6 +181,26 @@ class Parameters(unittest.TestCase):
         by_array = self.assert_finer(size_image=sizes)
         self.assertGreater(self.count(9, by_array), 1.5 * self.count(5, by_array))
 
+    def test_sizes_of_interfaces(self):
+        pair = self.assert_finer(interface_sizes={(5, 9): 0.6})
+        self.assertTrue(same(pair, self.assert_finer(interface_sizes={("spleen", "liver"): 0.6})))
+        self.assertFalse(same(pair, self.assert_finer(interface_sizes={(9, 5): 0.6}, gradation=0.1)))
+        label = self.assert_finer(interface_sizes={"liver": 0.9})
+        self.assertTrue(same(label, self.assert_finer(interface_sizes={5: 0.9})))
+        self.assertFalse(same(label, self.assert_finer(interface_sizes={(5, 0): 0.9})))
+        for wrong in ((5, 9, 1), (5,)):
+            with self.assertRaisesRegex(ValueError, "interface_sizes: .* is not a pair"):
+                voxplex.mesh(self.image, interface_sizes={wrong: 1.0})
+
+    def test_number_of_elements(self):
+        mesh, _, statistics = voxplex.mesh(self.image, elements=20000, full_output=True)
+        self.assertLess(abs(mesh.GetNumberOfCells() / 20000 - 1), 0.1)
+        self.assertIn({"delta": statistics["delta"], "elements": mesh.GetNumberOfCells()}, statistics["runs"])
+        with self.assertRaisesRegex(ValueError, "delta and elements"):
+            voxplex.mesh(self.image, 2.0, elements=20000)
+        with self.assertRaisesRegex(voxplex.MeshingError, "no delta makes a mesh of 30 elements"):
+            voxplex.mesh(self.image, elements=30, size=0.5)
+
     def test_array_of_sizes_lies_where_the_image_lies(self):
         placed = dict(spacing=(1, 1, 1), origin=(500, 0, 0), threads=1)
         sizes = numpy.full((12, 16, 20), 3.0)
@@ -288,6 +308,8 @@ class Refusals(unittest.TestCase):
     def test_messages_of_the_filter(self):
         for words, options in {
                 "Delta is -1": dict(delta=-1), "label_sizes gives a size to label 3": dict(label_sizes={3: 1.0}),
+                "interface_sizes gives a size to label 3": dict(interface_sizes={(3, 5): 1.0}),
+                "Gradation is -1": dict(gradation=-1),
                 "[Ll]abels? .*4": dict(labels=[4]), "size of label 5": dict(label_sizes={5: -2.0})}.items():
             with self.subTest(words), self.assertRaisesRegex(voxplex.MeshingError, words):
                 voxplex.mesh(brick(), **options)

@@ -7,6 +7,8 @@
 #include "OptionValues.h"
 #include "Parameters.h"
 
+#include <vtkImageToTetMeshFilter.h>
+
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -313,6 +315,12 @@ void Arguments::Check() const
   }
   this->Labels("labels");
   this->LabelSizes("labelSizes");
+  this->InterfaceSizes("interfaceSizes");
+  if (this->Number("delta") > 0.0 && this->Whole("elements") > 0)
+  {
+    throw UsageError("--delta and --elements do not go together: delta is what is solved for; "
+                     "leave one of the two out");
+  }
 }
 
 const std::string& Arguments::Text(const std::string& name) const
@@ -372,6 +380,35 @@ std::map<std::int64_t, double> Arguments::LabelSizes(const std::string& name) co
     if (!sizes.emplace(LabelNumber(option, parsed.Label), parsed.Size).second)
     {
       throw UsageError("--" + option + ": label " + parsed.Label + " is given twice");
+    }
+  }
+  return sizes;
+}
+
+std::map<std::pair<std::int64_t, std::int64_t>, double> Arguments::InterfaceSizes(
+  const std::string& name) const
+{
+  const std::string& option = Find(name).LongFlag;
+  std::map<std::pair<std::int64_t, std::int64_t>, double> sizes;
+  for (const std::string& text : Items(this->Text(name)))
+  {
+    const cli::InterfaceSizeText parsed = cli::ParseInterfaceSize(option, text);
+    const std::size_t colon = parsed.Labels.find(':');
+    const auto label = [&option](const std::string& number) -> std::int64_t
+    { return number == "0" ? 0 : LabelNumber(option, number); };
+    const std::int64_t first = label(parsed.Labels.substr(0, colon));
+    std::int64_t other = vtkImageToTetMeshFilter::ANY_LABEL;
+    if (colon != std::string::npos)
+    {
+      other = label(parsed.Labels.substr(colon + 1));
+    }
+    if (first == other)
+    {
+      throw UsageError("--" + option + ": a label has no interface with itself: " + text);
+    }
+    if (!sizes.emplace(std::minmax(first, other), parsed.Size).second)
+    {
+      throw UsageError("--" + option + ": " + parsed.Labels + " is given twice");
     }
   }
   return sizes;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace voxplex::slicer
@@ -52,6 +53,9 @@ public:
   bool IsSet(const std::string& name) const;                       ///< of a flag without value
   std::vector<std::int64_t> Labels(const std::string& name) const; ///< empty, or 1,2,5
   std::map<std::int64_t, double> LabelSizes(const std::string& name) const;
+  /** By both labels, the smaller first: that of vtkImageToSimplexMeshFilter::ANY_LABEL, where all are meant. */
+  std::map<std::pair<std::int64_t, std::int64_t>, double> InterfaceSizes(
+    const std::string& name) const;
   ///@}
 
 private:

@@ -94,6 +94,12 @@ void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
   filter->SetInsideLabel(arguments.Whole("insideLabel"));
   filter->SetIsosurfaceSmoothingSigma(arguments.Number("greySmoothing"));
   filter->SetDelta(arguments.Number("delta"));
+  filter->SetNumberOfElements(arguments.Whole("elements"));
+  filter->SetGradation(arguments.Number("gradation"));
+  for (const auto& [labels, size] : arguments.InterfaceSizes("interfaceSizes"))
+  {
+    filter->SetInterfaceSize(labels.first, labels.second, size);
+  }
   filter->SetGrading(arguments.Text("grading") == "lfs"
       ? vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE
       : vtkImageToTetMeshFilter::UNIFORM);
@@ -127,8 +133,9 @@ void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
 /** The filter's errors speak of its methods; the user has flags. */
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> terms{ {
     { "SetLabelSize()", "--labelsizes" },
+    { "SetInterfaceSize()", "--interfacesizes" },
     { "AddLabel()", "--labels" },
     { "or force it", "or go on with --force" },
     { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },

@@ -110,6 +110,21 @@ ParameterGroup Density()
         .LongFlag = "delta",
         .Flag = 'd',
         .Default = "0" },
+      { .Type = Kind::Integer,
+        .Name = "elements",
+        .Label = "Number of elements",
+        .Description =
+          "Solve for the delta that makes so many tetrahedra, to within a tenth; delta must "
+          "be 0 then. It takes two or three times as long. 0 leaves it to delta.",
+        .LongFlag = "elements",
+        .Default = "0" },
+      { .Type = Kind::StringVector,
+        .Name = "interfaceSizes",
+        .Label = "Interface sizes",
+        .Description =
+          "In place of delta: LABEL=LENGTH for all interfaces of a label, LABEL:LABEL=LENGTH for "
+          "the one between two, 0 being background; separated by commas, such as 3=0.5,3:7=0.4.",
+        .LongFlag = "interfacesizes" },
       { .Type = Kind::StringEnumeration,
         .Name = "grading",
         .Label = "Grading",
@@ -147,6 +162,14 @@ ParameterGroup Density()
         .Description = "The same for single labels: LABEL=LENGTH, separated by commas, such as "
                        "3=1.5,7=2.",
         .LongFlag = "labelsizes" },
+      { .Type = Kind::Double,
+        .Name = "gradation",
+        .Label = "Gradation",
+        .Description =
+          "How much sizes, and interface sizes, may change over a unit of length. 0 sets "
+          "no limit.",
+        .LongFlag = "gradation",
+        .Default = "0.3" },
       { .Type = Kind::IntegerVector,
         .Name = "labels",
         .Label = "Labels",

@@ -13,6 +13,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 using namespace testing;
@@ -167,9 +168,47 @@ void TestParameters()
   filter->ExcludeLabel(1);
   filter->SetLabelSize(1, 1.0);
   ExpectError("excluded label", filter, { "label 1", "2" }, [&] { filter->ClearLabelSizes(); });
+  filter->SetInterfaceSize(2, 1, 1.0);
+  ExpectError("excluded interface", filter, { "SetInterfaceSize()", "label 1", "2" },
+    [&] { filter->ClearInterfaceSizes(); });
   filter->ExcludeLabel(2);
   ExpectError(
     "nothing left", filter, { "All labels", "excluded" }, [&] { filter->RemoveExcludedLabel(2); });
+}
+
+void TestInterfacesAndNumbers()
+{
+  const auto filter = MakeFilter(MakeBall(8.0));
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : { 0.0, -1.0, infinity, vtkMath::Nan() })
+  {
+    filter->SetInterfaceSize(1, 0, wrong);
+    ExpectError("interface size", filter, { "labels 1 and 0", "positive and finite" },
+      [&] { filter->RemoveInterfaceSize(0, 1); });
+  }
+  filter->SetInterfaceSize(1, vtkImageToTetMeshFilter::ANY_LABEL, -1.0);
+  ExpectError("interfaces of a label", filter, { "all interfaces of label 1" },
+    [&] { filter->ClearInterfaceSizes(); });
+  filter->SetInterfaceSize(9, 0, 1.0);
+  ExpectError("unknown interface", filter, { "SetInterfaceSize()", "label 9" },
+    [&] { filter->ClearInterfaceSizes(); });
+  for (const int label : { 1, -2 })
+  {
+    filter->SetInterfaceSize(1, label, 1.0);
+    ExpectError("no interface", filter, { "two different labels", "1 and" },
+      [&] { filter->ClearInterfaceSizes(); });
+  }
+  for (const double wrong : { -0.1, infinity, vtkMath::Nan() })
+  {
+    filter->SetGradation(wrong);
+    ExpectError("gradation", filter, { "Gradation" }, [&] { filter->SetGradation(0.3); });
+  }
+  filter->SetDelta(2.0);
+  filter->SetNumberOfElements(5000);
+  ExpectError("both", filter, { "Delta", "NumberOfElements" }, [&] { filter->SetDelta(0.0); });
+  filter->SetElementSize(0.8);
+  ExpectError("out of reach", filter, { "no delta makes a mesh of 5000 elements", "nearest" },
+    [&] { filter->SetElementSize(0.0); });
 }
 
 void TestMemory()
@@ -239,6 +278,7 @@ int TestTetMeshErrors(int, char*[])
   TestScalars();
   TestGeometry();
   TestParameters();
+  TestInterfacesAndNumbers();
   TestMemory();
   TestSizeImage();
   TestThrowingFunction();

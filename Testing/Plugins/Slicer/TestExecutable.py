@@ -73,6 +73,8 @@ class Runs(ModuleTestCase):
     def test_parameters_matter(self):
         cells = {name: len(self.mesh("--threads", 1, *arguments).cells) for name, arguments in {
             "plain": ("--delta", 3), "fine": ("--delta", 2), "size": ("--delta", 3, "--size", 1.5),
+            "interface": ("--delta", 3, "--interfacesizes", "3:7=1, 0=2", "--gradation", 0.5),
+            "interface of a label": ("--delta", 3, "--interfacesizes", "7=1"),
             "label size": ("--delta", 3, "--labelsizes", "3=1.5"), "both": ("--delta", 3, "--labelsizes", "3=1.5, 7=1.5"),
             "letter": ("-d", 3)}.items()}
         self.assertGreater(cells["fine"], 2 * cells["plain"])
@@ -80,6 +82,13 @@ class Runs(ModuleTestCase):
         self.assertGreater(cells["both"], 1.2 * cells["label size"])
         self.assertGreater(cells["size"], 1.2 * cells["label size"])
         self.assertEqual(cells["letter"], cells["plain"])
+        self.assertGreater(cells["interface"], 1.5 * cells["plain"])
+        self.assertGreater(cells["interface of a label"], 1.1 * cells["interface"])
+
+    def test_number_of_elements(self):
+        mesh = self.mesh("--elements", 20000, "--returnparameterfile", "results.params")
+        self.assertLess(abs(len(mesh.cells) / 20000 - 1), 0.1)
+        self.assertIn("usedDelta = ", (self.folder / "results.params").read_text())
 
     def test_labels(self):
         self.assertEqual(set(self.mesh("--labels", "7").labels), {7})
@@ -225,6 +234,12 @@ class Refusals(ModuleTestCase):
                 "--labels: '0' is not a label": ("--labels", "1,0", "a", "b.vtu"),
                 "--labels: 'Tibia' is not the number of a label": ("--labels", "Tibia", "a", "b.vtu"),
                 "--labelsizes: '3' is not of the form": ("--labelsizes", "3", "a", "b.vtu"),
+                "--interfacesizes: '3' is not of the form": ("--interfacesizes", "3", "a", "b.vtu"),
+                "--interfacesizes: '' is not a label": ("--interfacesizes", "3:=1", "a", "b.vtu"),
+                "--interfacesizes: 7:3 is given twice": ("--interfacesizes", "3:7=1,7:3=1", "a", "b.vtu"),
+                "a label has no interface with itself": ("--interfacesizes", "3:3=1", "a", "b.vtu"),
+                "--delta and --elements do not go together": ("--delta", "1", "--elements", "9", "a", "b.vtu"),
+                "--gradation: must be 0 or more": ("--gradation=-1", "a", "b.vtu"),
                 "--labelsizes: label 3 is given twice": ("--labelsizes", "3=1,3=2", "a", "b.vtu"),
                 "--space: 'LAS' is not one of LPS, RAS": ("--space", "LAS", "a", "b.vtu"),
                 "is not an address": ("--processinformationaddress", "here", "a", "b.vtu"),

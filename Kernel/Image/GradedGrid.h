@@ -1,0 +1,365 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file GradedGrid.h
+ * @brief Lengths that are given at some places and grow with the distance from there.
+ */
+#ifndef voxplex_GradedGrid_h
+#define voxplex_GradedGrid_h
+
+#include "Image/LabelImage.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief g(p) = min over the samples q of { length(q) + slope |p - q| }: the largest function that is at most the
+ * sample at each q and has no more than this slope.
+ *
+ * The bounding box of the foreground is cut in cells of a few voxels, two along each axis unless these are
+ * too many (MostCells). Of the samples in a cell the smallest length counts, at every place of the bounding box of those
+ * that have it. Each cell then finds the cell from which g is smallest at its centre: row by row along each axis, forth and back,
+ * neighbours hand on what they found, until nothing changes. Distances are those to the places themselves, not sums of steps,
+ * so that they are Euclidean whatever the spacing and the axes. A query takes the place that the cell of p has found, or its own.
+ * - With one sample a cell g is exceeded by no more than slope times the diagonal of a cell (two ways to
+ *   the centre of a cell where cones meet), and elsewhere right.
+ * - With several samples a cell g can be missed by so much in either direction.
+ *
+ * Source of the limit: P.-O. Persson, "Mesh size functions for implicit geometries and PDE-based gradient
+ * limiting", Engineering with Computers 22 (2006), which solves |grad g| = slope by fast marching.
+ *
+ * Queries may run in any number of threads. Building takes time linear in the number of voxels and, a few times, of cells,
+ * and 28 to 40 bytes a cell. Neither depends on the number of threads, nor does the result.
+ */
+template <int D>
+class GradedGrid
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  static constexpr std::int64_t SmallestCell = 2; ///< voxels along an axis
+  static constexpr std::size_t MostCells = std::size_t(1) << 20;
+
+  /** Nothing is given: At() is infinite. */
+  GradedGrid() = default;
+
+  /**
+   * @param slope growth over a unit of length, positive
+   * @param sample void(const Index& voxel, LabelId id, auto&& add): calls add(index, length) for each sample that belongs
+   *   to a voxel, with a continuous index of the bounding box of the foreground. It is called for all voxels but
+   *   background, from several threads at once. Lengths that are not positive and finite are left out.
+   * @throws Cancelled if a stop was requested before the end
+   */
+  template <typename Sample>
+  GradedGrid(const LabelImage<D>& image, double slope, Sample&& sample, unsigned threads,
+    const std::stop_token& stop = {})
+    : Grid(image.Grid())
+    , Origin(image.CropOrigin())
+    , Slope(slope)
+  {
+    std::size_t count = 0;
+    for (this->Edge = SmallestCell;; ++this->Edge)
+    {
+      count = 1;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        this->Cells[a] = (image.CropDimensions()[a] - 1) / this->Edge + 1;
+        count *= static_cast<std::size_t>(this->Cells[a]);
+      }
+      if (count <= MostCells)
+      {
+        break;
+      }
+    }
+    this->Places.resize(count);
+    this->Source.resize(count);
+    std::iota(this->Source.begin(), this->Source.end(), 0u);
+    ParallelFor(
+      0, count, 256, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t c = first; c < last; ++c)
+        {
+          this->SampleCell(image, c, sample);
+        }
+      },
+      stop);
+    this->HandOn(threads, stop);
+  }
+
+  /** g(p), for a point of the frame; outside of the box, too. */
+  double At(const Point<D>& p) const
+  {
+    if (this->Places.empty())
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    const std::uint32_t cell = this->CellOf(p);
+    const double handedOn = this->From(this->Source[cell], p);
+    return this->Source[cell] == cell ? handedOn : std::min(handedOn, this->From(cell, p));
+  }
+
+  /** Upper bound of what At() may be off, see the class. */
+  double Tolerance() const
+  {
+    double diagonal = 0.0;
+    for (int a = 0; a < D; ++a)
+    {
+      diagonal += this->Grid.Spacing(a); // no shorter than the diagonal, whatever the axes
+    }
+    return this->Slope * diagonal * static_cast<double>(this->Edge);
+  }
+
+  /** The smallest and the largest sample, each the smallest of its cell; infinite and 0 if there are none. */
+  std::array<double, 2> Range() const
+  {
+    std::array<double, 2> range{ std::numeric_limits<double>::infinity(), 0.0 };
+    for (const Place& place : this->Places)
+    {
+      if (std::isfinite(place.Length))
+      {
+        range[0] = std::min<double>(range[0], place.Length);
+        range[1] = std::max<double>(range[1], place.Length);
+      }
+    }
+    return range;
+  }
+
+private:
+  static constexpr float None = std::numeric_limits<float>::infinity();
+
+  /** The smallest length in a cell, and the box in the frame where it is. */
+  struct Place
+  {
+    float Length = None;
+    std::array<float, static_cast<std::size_t>(D)> Low{};
+    std::array<float, static_cast<std::size_t>(D)> High{};
+  };
+
+  template <typename Sample>
+  void SampleCell(const LabelImage<D>& image, std::size_t cell, Sample& sample)
+  {
+    const Index& extent = image.CropDimensions();
+    Index first;
+    Index last;
+    std::size_t rest = cell;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Cells[a]);
+      first[a] = static_cast<std::int64_t>(rest % n) * this->Edge;
+      last[a] = std::min(first[a] + this->Edge, extent[a]) - 1;
+      rest /= n;
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    Point<D> low{}; // where it is: continuous indices of the bounding box of the foreground
+    Point<D> high{};
+    const auto add = [&](const Point<D>& index, double length)
+    {
+      if (length < smallest && length > 0.0)
+      {
+        smallest = length;
+        low = index;
+        high = index;
+      }
+      else if (length == smallest)
+      {
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          low[a] = std::min(low[a], index[a]);
+          high[a] = std::max(high[a], index[a]);
+        }
+      }
+    };
+    for (Index voxel = first; voxel[D - 1] <= last[D - 1];)
+    {
+      std::size_t offset = 0;
+      for (std::size_t a = D; a-- > 0;)
+      {
+        offset = offset * static_cast<std::size_t>(extent[a]) + static_cast<std::size_t>(voxel[a]);
+      }
+      const LabelId id = image.Ids()[offset];
+      if (id != 0)
+      {
+        sample(voxel, id, add);
+      }
+      for (std::size_t a = 0; a < D && ++voxel[a] > last[a] && a + 1 < D; ++a)
+      {
+        voxel[a] = first[a];
+      }
+    }
+    this->Places[cell] = this->MakePlace(smallest, low, high);
+  }
+
+  /** With oblique axes the box in the frame is larger than that of indices, so lengths come out smaller. */
+  Place MakePlace(double length, const Point<D>& low, const Point<D>& high) const
+  {
+    Place place;
+    place.Length = static_cast<float>(length);
+    for (std::size_t r = 0; r < D; ++r)
+    {
+      double least = 0.0;
+      double most = 0.0;
+      for (std::size_t c = r; c < D; ++c)
+      {
+        const double x =
+          (low[c] + static_cast<double>(this->Origin[c])) * this->Grid.IndexToFrame[r][c];
+        const double y =
+          (high[c] + static_cast<double>(this->Origin[c])) * this->Grid.IndexToFrame[r][c];
+        least += std::min(x, y);
+        most += std::max(x, y);
+      }
+      place.Low[r] = static_cast<float>(least);
+      place.High[r] = static_cast<float>(most);
+    }
+    return place;
+  }
+
+  /** Rows of cells along an axis do not touch each other, so threads share them. */
+  void HandOn(unsigned threads, const std::stop_token& stop)
+  {
+    std::vector<float> values(this->Places.size());
+    for (std::size_t c = 0; c < values.size(); ++c)
+    {
+      values[c] = static_cast<float>(this->From(static_cast<std::uint32_t>(c), this->CentreOf(c)));
+    }
+    constexpr int MostRounds =
+      16; // three are enough for the atlases of Documentation/Benchmarks.md
+    std::atomic<bool> changed{ true };
+    for (int round = 0; round < MostRounds && changed; ++round)
+    {
+      changed = false;
+      std::size_t stride = 1;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        const auto n = static_cast<std::size_t>(this->Cells[a]);
+        Point<D> step;
+        for (std::size_t r = 0; r < D; ++r)
+        {
+          step[r] = static_cast<double>(this->Edge) * this->Grid.IndexToFrame[r][a];
+        }
+        ParallelFor(
+          0, values.size() / n, 64, threads,
+          [&](std::size_t first, std::size_t last)
+          {
+            bool any = false;
+            for (std::size_t row = first; row < last; ++row)
+            {
+              any |= this->HandOnInRow(
+                row / stride * stride * n + row % stride, n, stride, step, values);
+            }
+            if (any)
+            {
+              changed.store(true, std::memory_order_relaxed);
+            }
+          },
+          stop);
+        stride *= n;
+      }
+    }
+  }
+
+  /**
+   * Nothing is handed on to where less is asked for than at the giver: on the straight way from a place lengths grow.
+   * @param step from centre to centre
+   */
+  bool HandOnInRow(std::size_t start, std::size_t n, std::size_t stride, const Point<D>& step,
+    std::vector<float>& values)
+  {
+    bool any = false;
+    const Point<D> origin = this->CentreOf(start);
+    const auto handOn = [&](std::size_t i, std::size_t j)
+    {
+      const std::size_t from = start + i * stride;
+      const std::size_t to = start + j * stride;
+      if (!(values[from] < values[to]))
+      {
+        return;
+      }
+      Point<D> centre;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        centre[a] = origin[a] + static_cast<double>(j) * step[a];
+      }
+      const float value = static_cast<float>(this->From(this->Source[from], centre));
+      if (value < values[to])
+      {
+        values[to] = value;
+        this->Source[to] = this->Source[from];
+        any = true;
+      }
+    };
+    for (std::size_t i = 1; i < n; ++i)
+    {
+      handOn(i - 1, i);
+    }
+    for (std::size_t i = n - 1; i-- > 0;)
+    {
+      handOn(i + 1, i);
+    }
+    return any;
+  }
+
+  /** What the samples of one cell ask for at p. */
+  double From(std::uint32_t source, const Point<D>& p) const
+  {
+    const Place& place = this->Places[source];
+    double distance2 = 0.0;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double outside =
+        std::max({ 0.0, place.Low[a] - p[a], p[a] - static_cast<double>(place.High[a]) });
+      distance2 += outside * outside;
+    }
+    return place.Length + this->Slope * std::sqrt(distance2);
+  }
+
+  Point<D> CentreOf(std::size_t cell) const
+  {
+    Point<D> index;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Cells[a]);
+      index[a] = static_cast<double>(this->Origin[a]) - 0.5 +
+        (static_cast<double>(cell % n) + 0.5) * static_cast<double>(this->Edge);
+      cell /= n;
+    }
+    return this->Grid.ToFrame(index);
+  }
+
+  /** The nearest cell. */
+  std::uint32_t CellOf(const Point<D>& p) const
+  {
+    const Point<D> index = this->Grid.ToIndex(p);
+    std::size_t cell = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      const double x =
+        (index[a] - static_cast<double>(this->Origin[a]) + 0.5) / static_cast<double>(this->Edge);
+      cell = cell * static_cast<std::size_t>(this->Cells[a]) +
+        static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
+    }
+    return static_cast<std::uint32_t>(cell);
+  }
+
+  GridGeometry<D> Grid;
+  Index Origin{};
+  Index Cells{};
+  std::int64_t Edge = SmallestCell; ///< of a cell, in voxels
+  double Slope = 0.0;
+  std::vector<Place> Places;         ///< by cell
+  std::vector<std::uint32_t> Source; ///< by cell: the cell from which g is smallest at the centre
+};
+
+} // namespace voxplex
+
+#endif
