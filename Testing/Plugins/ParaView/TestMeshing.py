@@ -60,7 +60,7 @@ def test_atlas():
     check_equal(ours[1].GetDataInformation().GetNumberOfRows(), 116, "labels of the table")
     check_equal(ours[2].GetDataInformation().GetNumberOfRows(), 90, "bins of the histograms")
     ours.UpdatePropertyInformation()
-    check(0.5 < ours.HausdorffDistance < 6.0, "Hausdorff distance", ours.HausdorffDistance)
+    check(0.5 < ours.GetProperty('HausdorffDistance')[0] < 6.0, "Hausdorff distance", ours.GetProperty('HausdorffDistance')[0])
 
 
 def test_options():

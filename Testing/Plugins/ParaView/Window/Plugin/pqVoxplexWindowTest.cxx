@@ -217,7 +217,7 @@ void pqVoxplexWindowTest::testMenu()
   this->openMenu("menu.png");
   QMenu* const menu = this->findMenu();
   this->check(menu != nullptr, "Filters > Voxplex is in the menu bar");
-  this->check(menu && menu->actions().size() == 3, "it has three filters");
+  this->check(menu && menu->actions().size() == 4, "it has four filters");
   for (const QString label : { MeshLabel, SeriesLabel, SliceLabel })
   {
     QAction* const action = this->findAction(label);
