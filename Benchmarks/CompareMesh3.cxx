@@ -8,17 +8,14 @@
  * machine hit both alike. Quality is measured by the same routine on both meshes. GPL through CGAL:
  * never installed.
  */
+#include "CommandLine.h"
 #include "MeshComparison.h"
 #include "MeshReport.h"
 #include "Statistics.h"
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
-#include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -66,48 +63,30 @@ Options ParseArguments(int argc, char** argv)
 {
   Options options;
   using Text = const std::string&;
-  const std::map<std::string, std::function<void(Text)>> withValue = {
-    { "--delta", [&](Text value) { options.Delta = std::stod(value); } },
-    { "--elements", [&](Text value) { options.Elements = std::stod(value); } },
-    { "--cgal-size", [&](Text value) { options.CgalSize = std::stod(value); } },
-    { "--repeat", [&](Text value) { options.Repeat = std::stoi(value); } },
-    { "--threads",
-      [&](Text value) { options.Threads = static_cast<unsigned>(std::stoul(value)); } },
+  ArgumentTable table;
+  table.WithValue = {
+    { "--delta", [&](Text value) { options.Delta = ParseNumber(value); } },
+    { "--elements", [&](Text value) { options.Elements = ParseNumber(value); } },
+    { "--cgal-size", [&](Text value) { options.CgalSize = ParseNumber(value); } },
+    { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
+    { "--threads", [&](Text value) { options.Threads = ParseCount(value); } },
     { "--json", [&](Text value) { options.Json = value; } },
   };
-  const std::map<std::string, std::function<void()>> flags = {
+  table.Flags = {
     { "--cgal-parallel", [&] { options.CgalParallel = true; } },
     { "--plain", [&] { options.How = Care::Plain; } },
     { "--no-cgal", [&] { options.Cgal = false; } },
     { "--only-cgal", [&] { options.Voxplex = false; } },
   };
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
-    {
-      option->second(argv[++i]);
-    }
-    else if (const auto flag = flags.find(argument); flag != flags.end())
-    {
-      flag->second();
-    }
-    else if (options.Image.empty() && argument.rfind("--", 0) != 0)
-    {
-      options.Image = argument;
-    }
-    else
-    {
-      throw std::invalid_argument("unknown or incomplete argument " + argument);
-    }
-  }
+  table.File = &options.Image;
+  ReadArguments(argc, argv, table);
   const bool sized =
     options.Elements > 0.0 || (options.Voxplex ? options.Delta > 0.0 : options.CgalSize > 0.0);
   if (options.Image.empty() || !sized)
   {
     throw std::invalid_argument("an image and a size are needed");
   }
-  if (options.Repeat < 1 || options.Threads < 1 || !(options.Voxplex || options.Cgal))
+  if (!(options.Voxplex || options.Cgal))
   {
     throw std::invalid_argument("nothing to run");
   }
@@ -206,24 +185,5 @@ void Compare(const Options& options)
 
 int main(int argc, char** argv)
 {
-  Options options;
-  try
-  {
-    options = ParseArguments(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), Usage);
-    return 2;
-  }
-  try
-  {
-    Compare(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return RunProgram(argc, argv, Usage, ParseArguments, Compare);
 }

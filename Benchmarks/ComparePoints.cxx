@@ -8,13 +8,13 @@
  * is a child process of its own. GPL through CGAL: never installed.
  */
 #include "ChildProcess.h"
+#include "CommandLine.h"
 #include "PointsRun.h"
 #include "RandomPoints.h"
 #include "Statistics.h"
 
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -45,42 +45,17 @@ struct Options
 Options ParseArguments(int argc, char** argv)
 {
   Options options;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    const auto value = [&]
-    {
-      if (++i == argc)
-      {
-        throw std::invalid_argument(argument + " needs a value");
-      }
-      return std::stoul(argv[i]);
-    };
-    if (argument == "--dimension")
-    {
-      options.Dimension = static_cast<int>(value());
-    }
-    else if (argument == "--points")
-    {
-      options.Points = value();
-    }
-    else if (argument == "--repeat")
-    {
-      options.Repeat = static_cast<int>(value());
-    }
-    else if (argument == "--seed")
-    {
-      options.Seed = static_cast<unsigned>(value());
-    }
-    else if (argument == "--hilbert")
-    {
-      options.Rounds = false;
-    }
-    else
-    {
-      throw std::invalid_argument("unknown argument " + argument);
-    }
-  }
+  using Text = const std::string&;
+  constexpr unsigned largest = std::numeric_limits<unsigned>::max();
+  ArgumentTable table;
+  table.WithValue = {
+    { "--dimension", [&](Text value) { options.Dimension = static_cast<int>(ParseCount(value)); } },
+    { "--points", [&](Text value) { options.Points = ParseCount(value, largest); } },
+    { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
+    { "--seed", [&](Text value) { options.Seed = ParseCount(value, largest); } },
+  };
+  table.Flags = { { "--hilbert", [&] { options.Rounds = false; } } };
+  ReadArguments(argc, argv, table);
   if (options.Dimension != 3 && options.Dimension != 4)
   {
     throw std::invalid_argument("the dimension is 3 or 4");
@@ -136,24 +111,7 @@ void Compare(const Options& options)
 
 int main(int argc, char** argv)
 {
-  Options options;
-  try
-  {
-    options = ParseArguments(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), Usage);
-    return 2;
-  }
-  try
-  {
-    options.Dimension == 3 ? Compare<3>(options) : Compare<4>(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return RunProgram(argc, argv, Usage, ParseArguments,
+    [](const Options& options)
+    { options.Dimension == 3 ? Compare<3>(options) : Compare<4>(options); });
 }

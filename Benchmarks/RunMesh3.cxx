@@ -7,16 +7,12 @@
  * What Scripts/measure-quality compares with. Coordinates are indices times spacing. GPL through CGAL:
  * never installed.
  */
+#include "CommandLine.h"
 #include "MeshComparison.h"
 #include "WriteVtu.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
-#include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -49,31 +45,15 @@ Options ParseArguments(int argc, char** argv)
 {
   Options options;
   using Text = const std::string&;
-  const std::map<std::string, std::function<void(Text)>> withValue = {
-    { "--size", [&](Text value) { options.Size = std::stod(value); } },
-    { "--elements", [&](Text value) { options.Elements = std::stod(value); } },
+  ArgumentTable table;
+  table.WithValue = {
+    { "--size", [&](Text value) { options.Size = ParseNumber(value); } },
+    { "--elements", [&](Text value) { options.Elements = ParseNumber(value); } },
     { "--prefix", [&](Text value) { options.Prefix = value; } },
   };
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
-    {
-      option->second(argv[++i]);
-    }
-    else if (argument == "--no-meshes")
-    {
-      options.Meshes = false;
-    }
-    else if (options.Image.empty() && argument.rfind("--", 0) != 0)
-    {
-      options.Image = argument;
-    }
-    else
-    {
-      throw std::invalid_argument("unknown or incomplete argument " + argument);
-    }
-  }
+  table.Flags = { { "--no-meshes", [&] { options.Meshes = false; } } };
+  table.File = &options.Image;
+  ReadArguments(argc, argv, table);
   if (options.Image.empty() || options.Prefix.empty())
   {
     throw std::invalid_argument("an image and a prefix are needed");
@@ -120,24 +100,5 @@ void Run(const Options& options)
 
 int main(int argc, char** argv)
 {
-  Options options;
-  try
-  {
-    options = ParseArguments(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), Usage);
-    return 2;
-  }
-  try
-  {
-    Run(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return RunProgram(argc, argv, Usage, ParseArguments, Run);
 }

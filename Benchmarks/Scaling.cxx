@@ -6,6 +6,7 @@
  *
  * Every run is a child process of its own; all configurations take turns.
  */
+#include "CommandLine.h"
 #include "MeshComparison.h"
 #include "MeshReport.h"
 #include "Parallel/ParallelFor.h"
@@ -16,8 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -376,24 +375,6 @@ void Measure(ScalingOptions options)
 
 int main(int argc, char** argv)
 {
-  ScalingOptions options;
-  try
-  {
-    options = ParseScalingOptions(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), ScalingUsage);
-    return 2;
-  }
-  try
-  {
-    Measure(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return RunProgram(argc, argv, ScalingUsage, ParseScalingOptions,
+    [](const ScalingOptions& options) { Measure(options); });
 }

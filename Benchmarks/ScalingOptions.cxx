@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScalingOptions.h"
 
-#include "OptionNumbers.h"
+#include "CommandLine.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -117,7 +114,8 @@ ScalingOptions ParseScalingOptions(int argc, char** argv)
 {
   ScalingOptions options;
   using Text = const std::string&;
-  const std::map<std::string, std::function<void(Text)>> withValue = {
+  ArgumentTable table;
+  table.WithValue = {
     { "--delta", [&](Text value) { options.Delta = ParseNumber(value); } },
     { "--elements", [&](Text value) { options.Elements = ParseNumber(value); } },
     { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
@@ -139,31 +137,17 @@ ScalingOptions ParseScalingOptions(int argc, char** argv)
       { options.Balancers = ParsePolicies<BalancePolicy>(value, BalancePolicyNames); } },
     { "--json", [&](Text value) { options.Json = value; } },
   };
-  const std::map<std::string, bool ScalingOptions::*> flags = { { "--strong",
-                                                                  &ScalingOptions::Strong },
-    { "--weak", &ScalingOptions::Weak }, { "--synchronise", &ScalingOptions::Synchronise },
-    { "--ceiling", &ScalingOptions::Ceiling }, { "--pin", &ScalingOptions::Pin },
-    { "--no-seeds", &ScalingOptions::NoSeeds }, { "--eager", &ScalingOptions::Eager } };
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
-    {
-      option->second(argv[++i]);
-    }
-    else if (const auto flag = flags.find(argument); flag != flags.end())
-    {
-      options.*(flag->second) = true;
-    }
-    else if (options.Image.empty() && argument.rfind("--", 0) != 0)
-    {
-      options.Image = argument;
-    }
-    else
-    {
-      throw std::invalid_argument("unknown or incomplete argument " + argument);
-    }
-  }
+  table.Flags = {
+    { "--strong", [&] { options.Strong = true; } },
+    { "--weak", [&] { options.Weak = true; } },
+    { "--synchronise", [&] { options.Synchronise = true; } },
+    { "--ceiling", [&] { options.Ceiling = true; } },
+    { "--pin", [&] { options.Pin = true; } },
+    { "--no-seeds", [&] { options.NoSeeds = true; } },
+    { "--eager", [&] { options.Eager = true; } },
+  };
+  table.File = &options.Image;
+  ReadArguments(argc, argv, table);
   Complete(options);
   return options;
 }

@@ -8,6 +8,7 @@
  * Every run is a child process of its own; all configurations take turns.
  */
 #include "ChildProcess.h"
+#include "CommandLine.h"
 #include "MarkdownTable.h"
 #include "SpaceTimeOptions.h"
 #include "SpaceTimeRun.h"
@@ -17,8 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -266,26 +265,11 @@ void Measure(const SpaceTimeOptions& options, const phantoms::SpaceTimePhantom& 
 
 int main(int argc, char** argv)
 {
-  SpaceTimeOptions options;
-  phantoms::SpaceTimePhantom phantom;
-  try
+  const auto parse = [](int count, char** arguments)
   {
-    options = ParseSpaceTimeOptions(argc, argv);
-    phantom = MakePhantom(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), SpaceTimeUsage);
-    return 2;
-  }
-  try
-  {
-    Measure(options, phantom);
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+    const SpaceTimeOptions options = ParseSpaceTimeOptions(count, arguments);
+    return std::pair(options, MakePhantom(options));
+  };
+  return RunProgram(argc, argv, SpaceTimeUsage, parse,
+    [](const auto& parsed) { Measure(parsed.first, parsed.second); });
 }

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SpaceTimeOptions.h"
 
-#include "OptionNumbers.h"
+#include "CommandLine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -65,7 +63,8 @@ SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
   SpaceTimeOptions options;
   options.Threads = { 1 };
   using Text = const std::string&;
-  const std::map<std::string, std::function<void(Text)>> withValue = {
+  ArgumentTable table;
+  table.WithValue = {
     { "--phantom", [&](Text value) { options.Phantom = value; } },
     { "--coarsening", [&](Text value) { options.Coarsening = ParseCount(value); } },
     { "--time-scale", [&](Text value) { options.TimeScale = ParseNumber(value); } },
@@ -87,26 +86,11 @@ SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
     { "--threads", [&](Text value) { options.Threads = ParseThreads(value); } },
     { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
   };
-  const std::map<std::string, bool SpaceTimeOptions::*> flags = {
-    { "--no-fine-grained", &SpaceTimeOptions::NoFineGrained },
-    { "--frames", &SpaceTimeOptions::Frames }
+  table.Flags = {
+    { "--no-fine-grained", [&] { options.NoFineGrained = true; } },
+    { "--frames", [&] { options.Frames = true; } },
   };
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (const auto option = withValue.find(argument); option != withValue.end() && i + 1 < argc)
-    {
-      option->second(argv[++i]);
-    }
-    else if (const auto flag = flags.find(argument); flag != flags.end())
-    {
-      options.*(flag->second) = true;
-    }
-    else
-    {
-      throw std::invalid_argument("unknown or incomplete argument " + argument);
-    }
-  }
+  ReadArguments(argc, argv, table);
   if (options.Coarsening > 11)
   {
     throw std::invalid_argument("a coarsening of at most 11 is needed");
