@@ -4,6 +4,7 @@
 
 #include "Error.h"
 #include "Image/LabelSmoothing.h"
+#include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -335,19 +336,7 @@ template class IsosurfaceImage<4>;
     const GridGeometry<3>&, const Isosurface&, unsigned, const std::stop_token&);                  \
   template IsosurfaceImage<4> IsosurfaceImage<4>::FromScalars<T>(std::span<const T>,               \
     const GridGeometry<4>&, const Isosurface&, unsigned, const std::stop_token&)
-VOXPLEX_INSTANTIATE(char);
-VOXPLEX_INSTANTIATE(signed char);
-VOXPLEX_INSTANTIATE(unsigned char);
-VOXPLEX_INSTANTIATE(short);
-VOXPLEX_INSTANTIATE(unsigned short);
-VOXPLEX_INSTANTIATE(int);
-VOXPLEX_INSTANTIATE(unsigned int);
-VOXPLEX_INSTANTIATE(long);
-VOXPLEX_INSTANTIATE(unsigned long);
-VOXPLEX_INSTANTIATE(long long);
-VOXPLEX_INSTANTIATE(unsigned long long);
-VOXPLEX_INSTANTIATE(float);
-VOXPLEX_INSTANTIATE(double);
+VOXPLEX_FOR_EACH_SCALAR_TYPE(VOXPLEX_INSTANTIATE);
 #undef VOXPLEX_INSTANTIATE
 
 } // namespace voxplex

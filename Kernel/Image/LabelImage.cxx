@@ -3,6 +3,7 @@
 #include "Image/LabelImage.h"
 
 #include "Error.h"
+#include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -527,19 +528,7 @@ template void CheckGrid<4>(const GridGeometry<4>&, std::size_t);
     const LabelSelection&, unsigned, const std::stop_token&);                                      \
   template LabelImage<4> LabelImage<4>::FromScalars<T>(std::span<const T>, const GridGeometry<4>&, \
     const LabelSelection&, unsigned, const std::stop_token&)
-VOXPLEX_INSTANTIATE(char);
-VOXPLEX_INSTANTIATE(signed char);
-VOXPLEX_INSTANTIATE(unsigned char);
-VOXPLEX_INSTANTIATE(short);
-VOXPLEX_INSTANTIATE(unsigned short);
-VOXPLEX_INSTANTIATE(int);
-VOXPLEX_INSTANTIATE(unsigned int);
-VOXPLEX_INSTANTIATE(long);
-VOXPLEX_INSTANTIATE(unsigned long);
-VOXPLEX_INSTANTIATE(long long);
-VOXPLEX_INSTANTIATE(unsigned long long);
-VOXPLEX_INSTANTIATE(float);
-VOXPLEX_INSTANTIATE(double);
+VOXPLEX_FOR_EACH_SCALAR_TYPE(VOXPLEX_INSTANTIATE);
 #undef VOXPLEX_INSTANTIATE
 
 } // namespace voxplex

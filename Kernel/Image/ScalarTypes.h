@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ScalarTypes.h
+ * @brief The types of voxels that images are read from.
+ */
+#ifndef voxplex_ScalarTypes_h
+#define voxplex_ScalarTypes_h
+
+/** Writes `statement(T);` for each type T that a voxel may have: explicit instantiations of templates. */
+#define VOXPLEX_FOR_EACH_SCALAR_TYPE(statement)                                                    \
+  statement(char);                                                                                 \
+  statement(signed char);                                                                          \
+  statement(unsigned char);                                                                        \
+  statement(short);                                                                                \
+  statement(unsigned short);                                                                       \
+  statement(int);                                                                                  \
+  statement(unsigned int);                                                                         \
+  statement(long);                                                                                 \
+  statement(unsigned long);                                                                        \
+  statement(long long);                                                                            \
+  statement(unsigned long long);                                                                   \
+  statement(float);                                                                                \
+  statement(double)
+
+#endif
