@@ -74,18 +74,6 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-Point<D> ComponentGuard<D>::CentreOf(const Index& voxel) const
-{
-  Point<D> index;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    index[a] = static_cast<double>(this->Image.CropOrigin()[a] + voxel[a]);
-  }
-  return this->Image.Grid().ToFrame(index);
-}
-
-//------------------------------------------------------------------------------------------------
-template <int D>
 void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
 {
   this->Delta[component] = delta;
@@ -103,7 +91,7 @@ void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
         {
           continue;
         }
-        const Point<D> centre = this->CentreOf(voxel);
+        const Point<D> centre = this->Image.CentreOf(voxel);
         for (std::size_t a = 0; a < D; ++a)
         {
           for (const std::int64_t direction : { -1, 1 })
@@ -112,7 +100,7 @@ void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
             neighbour[a] += direction;
             Point<D> z;
             if (this->All.At(neighbour) != component &&
-              this->Surfaces.FirstCrossing(centre, label, this->CentreOf(neighbour), z))
+              this->Surfaces.FirstCrossing(centre, label, this->Image.CentreOf(neighbour), z))
             {
               this->Seeds.push_back({ z, delta });
             }

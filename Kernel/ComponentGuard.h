@@ -69,7 +69,6 @@ private:
   using Index = typename GridGeometry<D>::Index;
 
   void Sample(std::uint32_t component, double delta);
-  Point<D> CentreOf(const Index& voxel) const;
 
   const LabelImage<D>& Image;
   const Domain<D>& Surfaces;

@@ -56,8 +56,9 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
 double InterfaceGuard::DeltaAt(const Face& face) const
 {
   const Point<3> centre = this->CentreOf(face);
-  return this->Sizes ? this->Sizes->At(centre, this->IdOf(face.Voxel), this->IdOf(face.Next()))
-                     : this->Base.At(centre);
+  return this->Sizes
+    ? this->Sizes->At(centre, this->Image.At(face.Voxel), this->Image.At(face.Next()))
+    : this->Base.At(centre);
 }
 
 /** Of all interfaces that there may be. */
@@ -73,35 +74,9 @@ bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices) con
     this->CentreOf(face), std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal));
 }
 
-//------------------------------------------------------------------------------------------------
-LabelId InterfaceGuard::IdOf(const Index& voxel) const
-{
-  const Index& n = this->Image.CropDimensions();
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    if (voxel[a] < 0 || voxel[a] >= n[a])
-    {
-      return 0;
-    }
-  }
-  return this->Image
-    .Ids()[static_cast<std::size_t>((voxel[2] * n[1] + voxel[1]) * n[0] + voxel[0])];
-}
-
-//------------------------------------------------------------------------------------------------
-Point<3> InterfaceGuard::CentreOf(const Index& voxel) const
-{
-  Point<3> index;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    index[a] = static_cast<double>(this->Image.CropOrigin()[a] + voxel[a]);
-  }
-  return this->Image.Grid().ToFrame(index);
-}
-
 Point<3> InterfaceGuard::CentreOf(const Face& face) const
 {
-  return Interpolate(this->CentreOf(face.Voxel), this->CentreOf(face.Next()), 0.5);
+  return Interpolate(this->Image.CentreOf(face.Voxel), this->Image.CentreOf(face.Next()), 0.5);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -120,7 +95,7 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
       for (unsigned a = 0; a < 3; ++a)
       {
         const Face face{ voxel, a };
-        if (this->IdOf(voxel) != this->IdOf(face.Next()))
+        if (this->Image.At(voxel) != this->Image.At(face.Next()))
         {
           function(face);
         }
@@ -209,7 +184,7 @@ void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<
       {
         for (face.Axis = 0; face.Axis < 3; ++face.Axis)
         {
-          if (this->IdOf(v) != this->IdOf(face.Next()) &&
+          if (this->Image.At(v) != this->Image.At(face.Next()) &&
             Distance2(this->CentreOf(face), p) <= radius * radius)
           {
             faces.push_back(face);
@@ -271,8 +246,8 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
     }
     Point<3> z;
     if (spacing->second >= this->FinestSpacing &&
-      this->Surfaces.FirstCrossing(
-        this->CentreOf(face.Voxel), this->IdOf(face.Voxel), this->CentreOf(face.Next()), z))
+      this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
+        this->Image.CentreOf(face.Next()), z))
     {
       seeds.push_back({ z, spacing->second });
       this->Local.SetSpacing(face.Voxel, 1, SpacingFactor * spacing->second);

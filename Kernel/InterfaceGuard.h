@@ -97,8 +97,6 @@ private:
   bool IsFar(const Face& face, const FeatureGrid<3>& vertices) const;
   double DeltaAt(const Face& face) const;
   double DensestAt(const Point<3>& p) const;
-  LabelId IdOf(const Index& voxel) const;
-  Point<3> CentreOf(const Index& voxel) const;
   Point<3> CentreOf(const Face& face) const;
 
   const LabelImage<3>& Image;

@@ -168,23 +168,13 @@ private:
     }
   }
 
-  Point<3> CentreOf(const Index& voxel) const
-  {
-    Point<3> index;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      index[a] = static_cast<double>(this->Image.CropOrigin()[a] + voxel[a]);
-    }
-    return this->Image.Grid().ToFrame(index);
-  }
-
   void AddPoint(const Step& step, std::vector<Point<3>>& points) const
   {
     Index next = step.Voxel;
     ++next[step.Axis];
     Point<3> z;
     if (this->Surfaces.FirstCrossing(
-          this->CentreOf(step.Voxel), step.From, this->CentreOf(next), z))
+          this->Image.CentreOf(step.Voxel), step.From, this->Image.CentreOf(next), z))
     {
       for (std::size_t a = 0; a < 3; ++a)
       {

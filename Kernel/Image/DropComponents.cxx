@@ -15,22 +15,6 @@ namespace voxplex
 namespace
 {
 
-/** The label of a voxel of the crop; background beyond. */
-template <int D>
-LabelId LabelAt(const LabelImage<D>& image, const typename GridGeometry<D>::Index& voxel)
-{
-  std::int64_t at = 0;
-  for (std::size_t a = D; a-- > 0;)
-  {
-    if (voxel[a] < 0 || voxel[a] >= image.CropDimensions()[a])
-    {
-      return 0;
-    }
-    at = at * image.CropDimensions()[a] + voxel[a];
-  }
-  return image.Ids()[static_cast<std::size_t>(at)];
-}
-
 template <int D>
 LabelId MostFrequentNeighbour(
   const LabelImage<D>& image, const Components<D>& components, std::uint32_t component)
@@ -50,7 +34,7 @@ LabelId MostFrequentNeighbour(
             neighbour[a] += step;
             if (components.At(neighbour) != component)
             {
-              ++faces[LabelAt(image, neighbour)];
+              ++faces[image.At(neighbour)];
             }
           }
         }

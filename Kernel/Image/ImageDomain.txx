@@ -188,17 +188,7 @@ inline LabelId ImageDomain<D, FieldType>::VoxelId(const Index& index) const
 {
   Index lattice = index;
   ClampToCut(this->Image, lattice);
-  const Index& crop = this->Image.CropDimensions();
-  std::int64_t at = 0;
-  for (std::size_t a = D; a-- > 0;)
-  {
-    if (lattice[a] < 1 || lattice[a] > crop[a])
-    {
-      return 0;
-    }
-    at = at * crop[a] + lattice[a] - 1;
-  }
-  return this->Image.Ids()[static_cast<std::size_t>(at)];
+  return this->Image.AtLattice(lattice);
 }
 
 template <int D, typename FieldType>

@@ -16,33 +16,6 @@ namespace
 
 using Index = GridGeometry<3>::Index;
 
-/** The labels of a crop; background beyond. */
-class Voxels
-{
-public:
-  explicit Voxels(const LabelImage<3>& image)
-    : Image(image)
-  {
-  }
-
-  LabelId At(const Index& voxel) const
-  {
-    const Index& n = this->Image.CropDimensions();
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      if (voxel[a] < 0 || voxel[a] >= n[a])
-      {
-        return 0;
-      }
-    }
-    return this->Image
-      .Ids()[static_cast<std::size_t>(voxel[0] + n[0] * (voxel[1] + n[1] * voxel[2]))];
-  }
-
-private:
-  const LabelImage<3>& Image;
-};
-
 /**
  * pointOf(upper voxel, its label, label of the voxel before it, axis) for each face between different
  * labels; voxels are those of the crop, and the layer behind it.
@@ -51,7 +24,6 @@ template <typename PointOf>
 std::vector<Point<3>> ForEachFace(
   const LabelImage<3>& image, unsigned threads, const std::stop_token& stop, PointOf&& pointOf)
 {
-  const Voxels voxels(image);
   const Index& n = image.CropDimensions();
   std::vector<Point<3>> points;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -69,8 +41,8 @@ std::vector<Point<3>> ForEachFace(
         {
           Index before = voxel;
           --before[axis];
-          const LabelId upper = voxels.At(voxel);
-          const LabelId lower = voxels.At(before);
+          const LabelId upper = image.At(voxel);
+          const LabelId lower = image.At(before);
           if (upper != lower)
           {
             slabs[slab].push_back(pointOf(voxel, upper, lower, axis));

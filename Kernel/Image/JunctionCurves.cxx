@@ -205,29 +205,14 @@ public:
   }
 
 private:
-  LabelId VoxelId(const Index& lattice) const
-  {
-    const Index& crop = this->Image.CropDimensions();
-    std::int64_t at = 0;
-    for (std::size_t a = 3; a-- > 0;)
-    {
-      if (lattice[a] < 1 || lattice[a] > crop[a])
-      {
-        return 0;
-      }
-      at = at * crop[a] + lattice[a] - 1;
-    }
-    return this->Image.Ids()[static_cast<std::size_t>(at)];
-  }
-
   bool HasThreeLabels(const Index& cell) const
   {
-    const LabelId first = this->VoxelId(cell);
+    const LabelId first = this->Image.AtLattice(cell);
     LabelId second = first;
     for (unsigned c = 1; c < 8; ++c)
     {
       const LabelId id =
-        this->VoxelId({ cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2) });
+        this->Image.AtLattice({ cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2) });
       if (id != first && id != second)
       {
         if (second != first)

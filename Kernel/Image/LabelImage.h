@@ -90,6 +90,45 @@ public:
   /** Dense ids of the bounding box, first axis fastest. */
   std::span<const LabelId> Ids() const { return this->Voxels; }
 
+  /** Dense id of a voxel of the bounding box; 0 for all beyond it. */
+  LabelId At(const Index& voxel) const
+  {
+    std::int64_t at = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      if (voxel[a] < 0 || voxel[a] >= this->Extent[a])
+      {
+        return 0;
+      }
+      at = at * this->Extent[a] + voxel[a];
+    }
+    return this->Voxels[static_cast<std::size_t>(at)];
+  }
+
+  /**
+   * The same at an index of the lattice of a field, which begins one layer before the bounding box
+   * (TiledLattice). Fields go on beyond the cut of a space-time image; this does not.
+   */
+  LabelId AtLattice(Index lattice) const
+  {
+    for (std::int64_t& i : lattice)
+    {
+      --i;
+    }
+    return this->At(lattice);
+  }
+
+  /** The centre of a voxel of the bounding box, or beyond it, in the frame of Grid(). */
+  Point<D> CentreOf(const Index& voxel) const
+  {
+    Point<D> index;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      index[a] = static_cast<double>(this->Origin[a] + voxel[a]);
+    }
+    return this->WholeGrid.ToFrame(index);
+  }
+
   /**
    * Whether the first (0) or last (1) frame of a space-time image has foreground, so that the object
    * is cut there and ends flat; false in 3D, and if the time axis is not orthogonal to space.

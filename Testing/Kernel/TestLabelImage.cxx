@@ -150,6 +150,33 @@ TEST(LabelImage, KeepsTheLargestValues)
   EXPECT_EQ(image.Values()[2], largest);
 }
 
+// Foreground (1, 1, 0) = 7 and (2, 1, 1) = 3, so the bounding box begins at (1, 1, 0).
+TEST(LabelImage, VoxelsByTheirIndex)
+{
+  using Index = LabelImage<3>::Index;
+  GridGeometry<3> grid = Grid(4, 3, 2);
+  grid.IndexToFrame = { { { 2.0, 0.5, 0.25 }, { 0.0, 3.0, 0.125 }, { 0.0, 0.0, 5.0 } } };
+  const LabelImage<3> image = Read<short>(Small<short>(3), grid);
+  const auto expected = [](const Index& voxel) -> LabelId {
+    return voxel == Index{ 0, 0, 0 } ? 2 : voxel == Index{ 1, 0, 1 } ? 1 : 0;
+  };
+  for (std::int64_t z = -2; z < 4; ++z)
+  {
+    for (std::int64_t y = -2; y < 4; ++y)
+    {
+      for (std::int64_t x = -2; x < 4; ++x)
+      {
+        EXPECT_EQ(image.At({ x, y, z }), expected({ x, y, z })) << x << ' ' << y << ' ' << z;
+        EXPECT_EQ(image.AtLattice({ x + 1, y + 1, z + 1 }), expected({ x, y, z }));
+      }
+    }
+  }
+  const Point<3> last = { 2.0 * 2 + 0.5 + 0.25, 3.0 + 0.125, 5.0 };
+  EXPECT_EQ(image.CentreOf({ 1, 0, 1 }), last);
+  const Point<3> before = { -0.25, -0.125, -5.0 }; // (0, 0, -1) of the image
+  EXPECT_EQ(image.CentreOf({ -1, -1, -1 }), before);
+}
+
 TEST(LabelImage, KeptLabels)
 {
   const LabelImage<3> image = Read<short>(Small<short>(3), Grid(4, 3, 2), { { 7, 7 }, {} });
