@@ -4,7 +4,7 @@
 
 #include "Image/Components.h"
 #include "Image/ImageDomain.h"
-#include "Image/InterfaceSamples.h"
+#include "Image/InterfacePoints.h"
 #include "LostComponents.h"
 #include "Parallel/ParallelFor.h"
 

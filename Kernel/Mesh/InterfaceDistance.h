@@ -43,7 +43,7 @@ struct HausdorffFigures
 
 /**
  * Measures the distances between the interfaces of a mesh, Facets, and points all over those of an image
- * (InterfaceSamples.h).
+ * (InterfacePoints.h).
  *
  * - From the image: of each point from the nearest triangle of the mesh, exact but for rounding.
  * - From the mesh: of each vertex and each centroid of the triangles from the nearest point of the image;

@@ -3,7 +3,7 @@
 /** Distances between interfaces of meshes and images: known ones, and searches against brute force. */
 #include "CubeMeshes.h"
 #include "Image/ImageDomain.h"
-#include "Image/InterfaceSamples.h"
+#include "Image/InterfacePoints.h"
 #include "Mesh/BoundingTree.h"
 #include "Mesh/FindInterfaces.h"
 #include "Mesh/InterfaceDistance.h"
@@ -160,7 +160,7 @@ TEST(BoundingTree, EmptyAndAllInOnePlace)
 }
 
 //------------------------------------------------------------------------------
-TEST(InterfaceSamples, FacesOfACube)
+TEST(InterfacePoints, FacesOfACube)
 {
   const LabelImage<3> image = CubeImage(phantoms::Cube(8));
   const std::vector<Point<3>> faces = VoxelFaceCentres(image, 1);
@@ -178,7 +178,7 @@ TEST(InterfaceSamples, FacesOfACube)
   EXPECT_EQ(VoxelFaceCentres(image, 3), faces);
 }
 
-TEST(InterfaceSamples, LieInTheFrame)
+TEST(InterfacePoints, LieInTheFrame)
 {
   GridGeometry<3> grid = phantoms::Cube(8);
   grid.IndexToFrame = { { { 2.0, 0.5, 0.25 }, { 0.0, 3.0, 0.125 }, { 0.0, 0.0, 1.0 } } };
@@ -192,14 +192,14 @@ TEST(InterfaceSamples, LieInTheFrame)
 }
 
 // Where the image's border cuts an object, there are faces, too.
-TEST(InterfaceSamples, BorderOfTheImage)
+TEST(InterfacePoints, BorderOfTheImage)
 {
   const LabelImage<3> all =
     phantoms::Make(phantoms::Cube(3), [](const Point<3>&) -> std::int16_t { return 2; });
   EXPECT_EQ(VoxelFaceCentres(all, 1).size(), 54U);
 }
 
-TEST(InterfaceSamples, SmoothPointsLieOnTheInterface)
+TEST(InterfacePoints, SmoothPointsLieOnTheInterface)
 {
   const LabelImage<3> image = phantoms::NestedBalls(15);
   const LabelField<3> field(image, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Image/InterfaceSamples.h"
+#include "Image/InterfacePoints.h"
 
 #include "Parallel/ParallelFor.h"
 

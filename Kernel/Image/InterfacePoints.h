@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file InterfaceSamples.h
+ * @file InterfacePoints.h
  * @brief Points all over the interfaces of a label image: to measure distances from a mesh.
  */
-#ifndef voxplex_InterfaceSamples_h
-#define voxplex_InterfaceSamples_h
+#ifndef voxplex_InterfacePoints_h
+#define voxplex_InterfacePoints_h
 
 #include "Geometry/Point.h"
 #include "Image/LabelField.h"
