@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceEdges.h
- * @brief Edges at which the boundaries of labels are not surfaces.
+ * @brief The edges of interfaces with what meets there, and those at which the boundary of a label is no surface.
+ *
+ * For whoever mends a mesh and needs to know which edges; how many there are, and junctions and corners as
+ * reports have them, is InterfaceTopology's, which goes through the same lists.
  */
 #ifndef voxplex_InterfaceEdges_h
 #define voxplex_InterfaceEdges_h
@@ -11,16 +14,103 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex
 {
 
+/**
+ * @brief The edges of all facets of a mesh, each with the facets that share it.
+ *
+ * O(n) for n facets of which few share a point.
+ */
+class InterfaceEdgeLists
+{
+public:
+  /** An edge in the list of its smaller end, and a facet that has it. */
+  struct Use
+  {
+    std::uint32_t High;
+    std::uint32_t Facet;
+  };
+
+  /**
+   * @param threads used to sort; 0 means all cores
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  explicit InterfaceEdgeLists(
+    const SimplexMesh<3>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * Calls visit(ends, uses) for each edge in the order of its ends, which are ascending point numbers; uses is a
+   * std::span<const Use>, in the order of the facets.
+   */
+  template <typename Visit>
+  void ForEachEdge(Visit&& visit) const
+  {
+    for (std::uint32_t low = 0; low + 1 < this->Begins.size(); ++low)
+    {
+      for (std::uint32_t first = this->Begins[low], last = first; first < this->Begins[low + 1];
+           first = last)
+      {
+        while (last < this->Begins[low + 1] && this->Uses[last].High == this->Uses[first].High)
+        {
+          ++last;
+        }
+        visit(std::array<std::uint32_t, 2>{ low, this->Uses[first].High },
+          std::span<const Use>(this->Uses.data() + first, last - first));
+      }
+    }
+  }
+
+private:
+  std::vector<std::uint32_t> Begins; ///< of the list of each point
+  std::vector<Use> Uses;
+};
+
+/** How many facets at an edge have a label on one side. */
+struct LabelAtEdge
+{
+  std::int64_t Label;
+  std::uint32_t Facets;
+};
+
+/** The labels around an edge, ascending; background counts as one. */
+class LabelsAtEdge
+{
+public:
+  explicit LabelsAtEdge(const SimplexMesh<3>& mesh)
+    : Mesh(mesh)
+  {
+  }
+  /** @return valid until the next call */
+  std::span<const LabelAtEdge> Count(std::span<const InterfaceEdgeLists::Use> uses);
+
+private:
+  const SimplexMesh<3>& Mesh;
+  std::vector<std::int64_t> Sides;
+  std::vector<LabelAtEdge> Counts;
+};
+
+/** Three labels or more meet at a junction; background counts. */
+inline bool IsJunction(std::span<const LabelAtEdge> labels)
+{
+  return labels.size() > 2;
+}
+
+/** Whether the boundary of a label is a surface at an edge. */
+inline bool IsManifold(const LabelAtEdge& label)
+{
+  return label.Facets == 2;
+}
+
 /** An edge of an interface. */
 struct InterfaceEdge
 {
   std::array<std::uint32_t, 2> Ends; ///< point numbers, ascending
-  bool IsJunction;                   ///< three labels or more meet there; background counts
+  bool IsJunction;
 };
 
 /**

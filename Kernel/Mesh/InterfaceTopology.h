@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceTopology.h
- * @brief Junctions of the interfaces of a mesh, and where the boundary of a label is no manifold.
+ * @brief Counts for reports: junctions of the interfaces of a mesh, and edges where the boundary of a label is no
+ * manifold. Which edges these are is InterfaceEdges' to say.
  */
 #ifndef voxplex_InterfaceTopology_h
 #define voxplex_InterfaceTopology_h
