@@ -140,6 +140,11 @@ private:
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */
   double Length2(const Point<D>& step) const;
+  /**
+   * The point of the lattice's box nearest to x, in lattice coordinates; if axes are oblique, not that of the nearest
+   * indices.
+   */
+  Point<D> NearestOfLattice(const Point<D>& x) const;
   /** A site near x, close to the nearest one. */
   bool NearSite(const Point<D>& x, Index& site) const;
   /** A voxel near x with another label, next to a site near x. */

@@ -30,6 +30,8 @@ constexpr double QuickTolerance = 0.1;
  *  below which none is made. */
 constexpr int FootSteps = 2;
 constexpr double FootGain = 0.02;
+/** Of the search for the nearest point of an oblique lattice. */
+constexpr int ProjectionRounds = 10;
 /** Relative error of a stored distance and of the few operations on it. */
 constexpr double DistanceError = 1e-6;
 
@@ -246,13 +248,51 @@ inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<
 }
 
 template <int D, typename FieldType>
+Point<D> ImageDomain<D, FieldType>::NearestOfLattice(const Point<D>& x) const
+{
+  Point<D> last;
+  Point<D> y; // by coordinate descent, from where the indices end
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    last[a] = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
+    y[a] = std::clamp(x[a], 0.0, last[a]);
+  }
+  if (y == x)
+  {
+    return y;
+  }
+  const auto& matrix = this->Image.Grid().IndexToFrame;
+  for (int round = 0; round < ProjectionRounds; ++round)
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      Point<D> step = Subtract(y, x);
+      step[a] = 0.0;
+      const Point<D> others = this->Image.Grid().ToFrame(step);
+      double product = 0.0; // of them and a step along this axis
+      double own = 0.0;
+      for (std::size_t r = 0; r <= a; ++r)
+      {
+        product += matrix[r][a] * others[r];
+        own += matrix[r][a] * matrix[r][a];
+      }
+      y[a] = std::clamp(x[a] - product / own, 0.0, last[a]);
+    }
+  }
+  return y;
+}
+
+template <int D, typename FieldType>
 inline bool ImageDomain<D, FieldType>::NearSite(const Point<D>& x, Index& site) const
 {
-  // The nearest sites of the 2^D cells around x: one of them is nearest to x, or nearly so.
+  // The nearest sites of the 2^D cells around x, or around the point of the lattice that is nearest to x: one of
+  // them is nearest to x, or nearly so.
+  const Point<D> inside = this->IsOrthogonal ? x : this->NearestOfLattice(x);
   std::array<std::uint32_t, D> low;
   for (std::size_t a = 0; a < D; ++a)
   {
-    low[a] = this->Features.CellOf(a, x[a] - 0.5 * static_cast<double>(this->Features.Stride()[a]));
+    low[a] =
+      this->Features.CellOf(a, inside[a] - 0.5 * static_cast<double>(this->Features.Stride()[a]));
   }
   double best = std::numeric_limits<double>::infinity();
   std::uint32_t previous = FeatureTransform<D>::NoSite;
