@@ -44,6 +44,20 @@ LabelImage<3> Sectors()
     });
 }
 
+/** A ball cut by three oblique planes into the labels 1 to 8. */
+LabelImage<3> Octants()
+{
+  return phantoms::Make(phantoms::Cube(33),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const Point<3> d = Subtract(p, { 16.2, 15.7, 16.4 });
+      const int octant = (d[0] + 0.37 * d[1] - 0.21 * d[2] < 0.0 ? 1 : 0) +
+        (d[1] + 0.29 * d[2] - 0.33 * d[0] < 0.0 ? 2 : 0) +
+        (d[2] + 0.31 * d[0] - 0.27 * d[1] < 0.0 ? 4 : 0);
+      return static_cast<std::int16_t>(Dot(d, d) < 12.5 * 12.5 ? 1 + octant : 0);
+    });
+}
+
 /** Every voxel one of five labels or background. */
 LabelImage<3> Noise(unsigned seed)
 {
@@ -149,6 +163,34 @@ TEST(JunctionCurves, AreClosedOrEndInCorners)
       EXPECT_EQ(count, 4);
     }
     EXPECT_GT(points, 100u);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// Between voxels of two labels a third one may win: a curve that passes there must not be cut off.
+TEST(JunctionCurves, AreFollowedBetweenVoxelsOfTwoLabels)
+{
+  for (const LabelImage<3>& image : { Sectors(), Octants() })
+  {
+    const JunctionCurves junctions = Trace(image);
+    std::map<Point<3>, std::size_t> ends;
+    std::size_t open = 0;
+    for (const JunctionCurves::Curve& curve : junctions.Curves())
+    {
+      if (!curve.IsClosed)
+      {
+        ++open;
+        ++ends[curve.Points.front()];
+        ++ends[curve.Points.back()];
+      }
+    }
+    EXPECT_GE(junctions.NumberOfCorners(), 2u);
+    EXPECT_EQ(ends.size(), junctions.NumberOfCorners());
+    EXPECT_EQ(open, 2u * junctions.NumberOfCorners()); // four ends at each
+    for (const auto& [corner, count] : ends)
+    {
+      EXPECT_EQ(count, 4u) << corner[0] << ' ' << corner[1] << ' ' << corner[2];
+    }
   }
 }
 
