@@ -322,3 +322,43 @@ TEST(LabelField, FollowsABall)
   EXPECT_LT(angle, 6.0); // between voxels too; facets of a mesh average it to less than 4
   EXPECT_NEAR(volume, 1.0, 0.01);
 }
+
+// A layer of background one voxel thick stays open everywhere, between two labels or within one.
+TEST(LabelField, KeepsGapsOpen)
+{
+  constexpr std::int64_t n = 26;
+  constexpr double gap = 12.0; // voxels between 4 and 21
+  for (const std::size_t axis : { 0u, 1u, 2u })
+  {
+    for (const short other : { 1, 2 })
+    {
+      std::vector<short> scalars;
+      for (std::int64_t k = 0; k < n * n * n; ++k)
+      {
+        const std::array<std::int64_t, 3> voxel{ k % n, k / n % n, k / (n * n) };
+        const bool inside =
+          std::all_of(voxel.begin(), voxel.end(), [](auto x) { return x >= 4 && x <= 21; });
+        const auto height = static_cast<double>(voxel[axis]);
+        scalars.push_back(!inside || height == gap ? 0 : height < gap ? short{ 1 } : other);
+      }
+      const LabelField<3> field(MakeImage<3>(scalars, UnitGrid<3>(n)), 1.0);
+      std::mt19937 random(31);
+      std::uniform_real_distribution<double> along(4.0, 21.0);
+      std::uniform_real_distribution<double> across(-0.3, 0.3);
+      for (int trial = 0; trial < 2000; ++trial)
+      {
+        Point<3> p{ along(random), along(random), along(random) };
+        p[axis] = gap + across(random);
+        ASSERT_EQ(field.Label(p), 0) << p[0] << ' ' << p[1] << ' ' << p[2];
+        // It is no wider than a voxel and a half: not too much is raised.
+        p[axis] = gap + (trial % 2 == 0 ? 0.75 : -0.75);
+        const bool isInner = *std::min_element(p.begin(), p.end()) > 6.0 &&
+          *std::max_element(p.begin(), p.end()) < 19.0;
+        if (isInner)
+        {
+          ASSERT_NE(field.Label(p), 0) << p[0] << ' ' << p[1] << ' ' << p[2];
+        }
+      }
+    }
+  }
+}
