@@ -171,24 +171,50 @@ TEST(ImageMesher, NestedBallsKeepTheirLabels)
 TEST(ImageMesher, TouchingLabelsShareTheirInterface)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(16);
-  const SimplexMesh<3> mesh = Mesh(image, 1.0);
-  ExpectGood(mesh, 0.0);
-  const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
-  EXPECT_NEAR(volumes.at(1), volumes.at(2), 0.02 * volumes.at(1));
-  EXPECT_NEAR(MeshVolume(mesh), ImageVolume(image), 0.04 * ImageVolume(image));
-  double area = 0.0;
-  for (std::size_t k = 0; k < mesh.Facets.size(); ++k)
+  // The two labels are alike: their interface lies in the plane between them, but for a groove along its rim, where
+  // background wins against each of the two alone.
+  const LabelField<3> field(image, MeshingOptions<3>().SmoothingSigma);
+  constexpr int samples = 480; // along each axis of the image's section
+  constexpr double step = 23.0 / samples;
+  double expected = 0.0;
+  for (int j = 0; j < samples; ++j)
   {
-    if (mesh.FacetLabels[k] == std::array<std::int64_t, 2>{ 2, 1 })
+    for (int k = 0; k < samples; ++k)
     {
-      const auto& f = mesh.Facets[k];
-      const Point<3> n = checks::Cross(Subtract(mesh.Points[f[1]], mesh.Points[f[0]]),
-        Subtract(mesh.Points[f[2]], mesh.Points[f[0]]));
-      area += 0.5 * std::sqrt(Dot(n, n));
+      expected +=
+        field.Label({ 11.5, (j + 0.5) * step, (k + 0.5) * step }) != 0 ? step * step : 0.0;
     }
   }
-  // The smoothed interface has a groove along the rim, which the mesh follows.
-  EXPECT_NEAR(area, 16.0 * 16.0, 0.1 * 16.0 * 16.0);
+  for (const bool junctions : { false, true })
+  {
+    MeshingOptions<3> options;
+    options.Delta = 1.0;
+    options.SampleJunctions = junctions;
+    const SimplexMesh<3> mesh = Mesh(image, options);
+    ExpectGood(mesh, 0.0);
+    const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
+    EXPECT_NEAR(volumes.at(1), volumes.at(2), 0.02 * volumes.at(1));
+    EXPECT_NEAR(MeshVolume(mesh), ImageVolume(image), 0.04 * ImageVolume(image));
+    double area = 0.0;
+    for (std::size_t k = 0; k < mesh.Facets.size(); ++k)
+    {
+      if (mesh.FacetLabels[k] == std::array<std::int64_t, 2>{ 2, 1 })
+      {
+        const auto& f = mesh.Facets[k];
+        const Point<3> n = checks::Cross(Subtract(mesh.Points[f[1]], mesh.Points[f[0]]),
+          Subtract(mesh.Points[f[2]], mesh.Points[f[0]]));
+        area += 0.5 * std::sqrt(Dot(n, n));
+      }
+    }
+    if (junctions)
+    {
+      EXPECT_NEAR(area, expected, 0.015 * expected);
+    }
+    else // the groove is not followed
+    {
+      EXPECT_NEAR(area, 16.0 * 16.0, 0.08 * 16.0 * 16.0);
+    }
+  }
 }
 
 TEST(ImageMesher, SliversAreSplit)
