@@ -155,6 +155,8 @@ struct RingShape
   double Height = 1.0;         ///< half of the edge's length
   std::vector<double> Degrees; ///< of each tetrahedron; empty: all alike
   bool HasCaps = false;        ///< each tetrahedron has a neighbour of its label below
+  /** Number of a vertex between two tetrahedra of a label, which four more of them enclose; 0: none. */
+  std::uint32_t Inner = 0;
 };
 
 /** Tetrahedra around an edge with the labels given, in a ring of radius 1; none where the label is 0. */
@@ -192,6 +194,22 @@ SimplexMesh<3> Ring(const std::vector<std::int64_t>& labels, const RingShape& sh
       mesh.Points.push_back({ 0.5 * std::cos(middle), 0.5 * std::sin(middle), -height - 1.0 });
       mesh.Simplices.push_back({ apex, 0, first, second });
       mesh.Labels.push_back(labels[k]);
+    }
+  }
+  if (shape.Inner != 0)
+  {
+    const std::uint32_t inner = 2 + shape.Inner;
+    const auto outer = static_cast<std::uint32_t>(mesh.Points.size());
+    mesh.Points.push_back({ 2.0 * mesh.Points[inner][0], 2.0 * mesh.Points[inner][1], 0.0 });
+    for (const std::uint32_t pole : { 0u, 1u })
+    {
+      for (const std::uint32_t beside : { inner - 1, inner + 1 })
+      {
+        const bool isTurned = (pole == 0) != (beside < inner);
+        mesh.Simplices.push_back(
+          { pole, outer, isTurned ? beside : inner, isTurned ? inner : beside });
+        mesh.Labels.push_back(labels[shape.Inner]);
+      }
     }
   }
   const auto keyOf = [&](std::size_t t, unsigned i)
@@ -304,6 +322,42 @@ TEST(ManifoldRepair, MakesNoSharpFacets)
   EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
   EXPECT_EQ(mesh.Labels[2], 2); // a wide one stays
   EXPECT_TRUE(checks::Complaints(mesh).empty());
+}
+
+// The label in the narrow gap would be the cheapest to give up, but it has nothing else.
+TEST(ManifoldRepair, LosesNoLabel)
+{
+  RingShape shape;
+  shape.Degrees = { 110.0, 30.0, 110.0, 110.0 };
+  SimplexMesh<3> mesh = Ring({ 1, 2, 1, 3 }, shape);
+  ManifoldRepairOptions options; // no angle stands in the way
+  options.FacetAngle = 0.0;
+  options.JunctionFacetAngle = 0.0;
+  EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
+  EXPECT_EQ(labels, (std::set<std::int64_t>{ 1, 2, 3 }));
+}
+
+// The first two tetrahedra are the smallest, but the vertex between them is inside of their label: the image has no
+// interface there, so none may come to it.
+TEST(ManifoldRepair, BringsNoInterfaceToInnerVertices)
+{
+  RingShape shape;
+  shape.Degrees = { 15.0, 15.0, 110.0, 110.0, 110.0 };
+  ManifoldRepairOptions options; // no angle stands in the way
+  options.FacetAngle = 0.0;
+  options.JunctionFacetAngle = 0.0;
+  for (const bool enclosed : { false, true })
+  {
+    shape.Inner = enclosed ? 1 : 0;
+    SimplexMesh<3> mesh = Ring({ 1, 1, 2, 1, 2 }, shape);
+    ASSERT_TRUE(checks::Complaints(mesh).empty());
+    EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
+    EXPECT_TRUE(checks::Complaints(mesh).empty());
+    EXPECT_EQ(mesh.Labels[0], enclosed ? 1 : 2);
+    EXPECT_EQ(mesh.Labels[1], enclosed ? 1 : 2);
+  }
 }
 
 TEST(ManifoldRepair, LeavesAGoodMeshAlone)
