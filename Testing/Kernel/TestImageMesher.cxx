@@ -244,6 +244,44 @@ TEST(ImageMesher, SliversAreSplit)
   }
 }
 
+// Thin wavy sheets in balls: slivers with all vertices on the two sides of the sheet, none of whose facets nor of
+// their neighbours' is an interface's, go by points of the interface beside them.
+TEST(ImageMesher, SliversBetweenTwoSidesOfASheetAreSplit)
+{
+  std::uint64_t found = 0;
+  std::uint64_t kept = 0;
+  for (const unsigned seed : { 30u, 32u, 34u, 35u })
+  {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double low, double high)
+    { return std::uniform_real_distribution<>(low, high)(random); };
+    Point<3> normal{ uniform(-1, 1), uniform(-1, 1), uniform(-1, 1) };
+    const double length = std::sqrt(Dot(normal, normal));
+    const double halfThickness = uniform(0.8, 2.5) * length;
+    const double frequency = uniform(0.3, 0.6);
+    const double amplitude = uniform(1, 4) * length;
+    const LabelImage<3> image = phantoms::Make(phantoms::Cube(41),
+      [&](const Point<3>& p) -> std::int16_t
+      {
+        const Point<3> d = Subtract(p, { 20.0, 20.0, 20.0 });
+        const double height = Dot(d, normal) + amplitude * std::sin(frequency * d[1]);
+        return Dot(d, d) >= 17.0 * 17.0 ? 0 : std::abs(height) < halfThickness ? 2 : 1;
+      });
+    for (const double delta : { 1.5, 2.0, 2.5 })
+    {
+      MeshingOptions<3> options;
+      options.Delta = delta;
+      ImageMesher<3> mesher(options);
+      SimplexMesh<3> mesh;
+      mesher.Run(image, mesh);
+      found += mesher.Statistics().Rules.SliversFound;
+      kept += mesher.Statistics().Rules.SliversKept;
+    }
+  }
+  EXPECT_GT(found, 500u);
+  EXPECT_LE(kept, 1u); // without those points 6
+}
+
 TEST(ImageMesher, SheetOneVoxelThickSurvives)
 {
   const LabelImage<3> image = phantoms::Sheet(20);
