@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 using namespace testing;
@@ -241,6 +242,33 @@ void TestAgreesWithTheMesher()
   CHECK(filter->ToJSON() == json); // to the last bit
 }
 
+/** The mesh of a ball follows the smooth interface, which is half a voxel or so from the stairs of the image. */
+void TestSmoothInterfaceOfABall()
+{
+  const auto mesher = MakeFilter(MakeBall());
+  mesher->SetDelta(1.0);
+  vtkNew<vtkSimplexMeshQuality> filter;
+  filter->SetInputConnection(mesher->GetOutputPort());
+  filter->SetImageConnection(mesher->GetInputConnection(0, 0));
+  filter->Update();
+  // Vertices lie on the smooth interface, centroids of facets a tenth of a voxel beside it. The middle of a voxel's
+  // face is up to half a voxel from the mesh, and points between such middles are still farther from all of them.
+  const double smooth = filter->GetSmoothHausdorffDistance();
+  const double voxels = filter->GetHausdorffDistance();
+  CHECK(smooth > 0.05 && smooth < 0.25, smooth);
+  CHECK(voxels > 0.5 && voxels < 1.0, voxels);
+  CHECK(smooth < 0.5 * voxels);
+  const std::string json = filter->ToJSON();
+  const auto fromImage = [&](const std::string& interfaces)
+  {
+    const std::string key = "\"image_to_mesh\": {\"max\": ";
+    const std::size_t at = json.find(key, json.find("\"" + interfaces + "\": {\"distance\""));
+    return at == std::string::npos ? 0.0 : std::strtod(json.c_str() + at + key.size(), nullptr);
+  };
+  CHECK(fromImage("smooth") > 0.05 && fromImage("smooth") < 0.25, fromImage("smooth"));
+  CHECK(fromImage("voxels") > 0.35 && fromImage("voxels") < 0.6, fromImage("voxels"));
+}
+
 //----------------------------------------------------------------------------------------------------
 void ExpectError(vtkSimplexMeshQuality* filter, const std::string& words)
 {
@@ -337,6 +365,7 @@ int TestSimplexMeshQuality(int, char*[])
   TestPlacements();
   TestLabels();
   TestAgreesWithTheMesher();
+  TestSmoothInterfaceOfABall();
   TestErrors();
   TestEmptyMesh();
   TestAbort();
