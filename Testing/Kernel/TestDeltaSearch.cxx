@@ -120,6 +120,40 @@ TEST(DeltaSearch, TriesNoDeltaAboveTheLargest)
   }
 }
 
+TEST(DeltaSearch, StepsAreNotTooLarge)
+{
+  const auto second = [](std::uint64_t elements)
+  {
+    DeltaSearch search(1000, 1.0, 2.0);
+    search.Add(elements);
+    return search.Next().value_or(0.0);
+  };
+  EXPECT_EQ(second(4000), 2.0);
+  EXPECT_EQ(second(15000), 3.873);
+  EXPECT_EQ(second(1000000000), 4.0); // from here on by a factor of 4
+  EXPECT_EQ(second(70), 0.2646);
+  EXPECT_EQ(second(1), 0.25);
+  EXPECT_EQ(second(0), 0.25);
+}
+
+// Where two runs have nearly the same count, or very different ones, chance or a threshold is at work.
+TEST(DeltaSearch, ExponentsAreTakenWithinReason)
+{
+  const auto third = [](double exponent, std::uint64_t firstCount, std::uint64_t secondCount)
+  {
+    DeltaSearch search(1000, 1.0, exponent);
+    search.Add(firstCount);
+    const double delta = search.Next().value_or(0.0);
+    search.Add(secondCount);
+    return search.Next().value_or(0.0) / delta;
+  };
+  EXPECT_NEAR(third(2.0, 1500, 1200), std::pow(1.2, std::log(1.225) / std::log(1.25)), 1e-3);
+  EXPECT_NEAR(third(2.0, 1500, 1495), std::pow(1.495, 1.0 / 0.5), 1e-3); // not 0.016
+  EXPECT_NEAR(
+    third(2.0, 1500, 1600), std::pow(1.5, 1.0 / 0.5) / 1.225, 1e-3);    // more in a coarser one
+  EXPECT_NEAR(third(20.0, 1500, 1100), std::pow(1.1, 1.0 / 6.0), 1e-3); // not 15
+}
+
 TEST(DeltaSearch, FindsWhatLiesOnASteepSlope)
 {
   // Between two plateaus: lines through the runs lead nowhere, halving does.
