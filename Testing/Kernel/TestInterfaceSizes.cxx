@@ -277,6 +277,30 @@ TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
   EXPECT_NEAR(static_cast<double>(elements[1]) / static_cast<double>(elements[0]), 1.0, 0.01);
 }
 
+// R6 of a coarse interface leaves alone what a finer one beside it needs; else the two undo each other's work.
+TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
+{
+  const std::pair<LabelImage<3>, std::vector<InterfaceSize>> cases[] = {
+    { phantoms::NestedBalls(24.0), { { 200, 0, 8.0 } } },
+    { phantoms::TouchingLabels(30), { { 1, 0, 8.0 }, { 2, 0, 8.0 } } }
+  };
+  for (const auto& [image, sizes] : cases)
+  {
+    MeshingOptions<3> options;
+    options.Delta = 1.0;
+    options.InterfaceSizes = sizes;
+    options.Gradation = 0.0;
+    ImageMesher<3> mesher(options);
+    SimplexMesh<3> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    const RuleStatistics& rules = mesher.Statistics().Rules;
+    EXPECT_GT(rules.Removed, 20u) << "no test";
+    EXPECT_LT(
+      rules.Removed, mesh.Simplices.size() / 20); // else 40 % of them, or more than there are
+    EXPECT_LT(rules.Created, 10 * mesh.Simplices.size()); // else 39 and more for each that stays
+  }
+}
+
 // The finest of the interfaces that meet counts, whichever of the three it is.
 TEST(InterfaceSizes, JunctionsBelongToTheFinestInterface)
 {
