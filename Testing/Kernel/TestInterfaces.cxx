@@ -468,6 +468,43 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
   EXPECT_EQ(visits, 4); // 2, 1, 0.5, 0.25; 0.125 is below a fifth of a voxel
 }
 
+// Where three labels meet a boundary may pinch in the image itself: that alone is no reason for another round.
+TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
+{
+  const LabelImage<3> image = phantoms::TouchingLabels(14);
+  const double delta = 2.0;
+  const ImageDomain<3> domain(image, 1.0);
+  const SimplexMesh<3> good = Mesh(image, delta, 5);
+  for (const bool atJunction : { false, true })
+  {
+    // Four tetrahedra more around an edge, on the interface of the two labels.
+    SimplexMesh<3> mesh = good;
+    const SimplexMesh<3> ring = Ring({ 1, 2, 1, atJunction ? 3 : 2 });
+    const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+    for (Point<3> p : ring.Points)
+    {
+      for (double& x : p)
+      {
+        x += 10.5;
+      }
+      mesh.Points.push_back(p);
+    }
+    for (std::size_t f = 0; f < ring.Facets.size(); ++f)
+    {
+      const auto& v = ring.Facets[f];
+      mesh.Facets.push_back({ v[0] + first, v[1] + first, v[2] + first });
+      mesh.FacetLabels.push_back(ring.FacetLabels[f]);
+    }
+    LocalDelta<3> local(image);
+    InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
+    EXPECT_TRUE(guard.Inspect(good).empty());
+    EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 0u);
+    EXPECT_EQ(guard.Inspect(mesh).empty(), atJunction);
+    EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 1u);
+    EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
+  }
+}
+
 TEST(InterfaceGuard, CanBeCancelled)
 {
   const LabelImage<3> image = BlockWithHair();
