@@ -235,6 +235,13 @@ class Parameters(unittest.TestCase):
         for options in (dict(feature_ratio=0.5), dict(largest_feature=1)):
             finer = voxplex.mesh(self.image, 0.7, threads=1, grading="lfs", **options)
             self.assertGreater(finer.GetNumberOfCells(), graded.GetNumberOfCells(), options)
+        _, _, statistics = voxplex.mesh(self.image, 0.7, threads=1, grading="lfs", largest_feature=2,
+                                        full_output=True)
+        self.assertEqual(statistics["largest_delta"], 2)
+        counts = [voxplex.mesh(ball(), 0.7, threads=1, spacing=(1, 1, 1), grading="lfs",
+                               largest_feature=voxels).GetNumberOfCells() for voxels in (12, 4, 2, 1)]
+        self.assertGreater(counts[2], 3 * counts[0])  # in the brick features are smaller than that
+        self.assertEqual(counts, sorted(counts))
         with self.assertRaisesRegex(ValueError, "uniform, lfs.*'thin'"):
             voxplex.mesh(self.image, grading="thin")
         with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
