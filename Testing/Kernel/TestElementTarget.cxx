@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace voxplex;
@@ -150,6 +151,46 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
   options.Optimise = false;
   const auto elements = static_cast<double>(Mesh<3>(image, options).Simplices.size());
   EXPECT_NEAR(static_cast<double>(statistics.Runs.front().Elements), 0.96 * elements, 1.0);
+}
+
+// Many small balls: the count goes up and down with delta, so the last run need not be the one that is nearest.
+TEST(ElementTarget, KeepsTheNearestRunNotTheLast)
+{
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(44),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      double distance2 = 0.0;
+      for (const double x : p)
+      {
+        const double d = std::fmod(x, 11.0) - 5.0;
+        distance2 += d * d;
+      }
+      return distance2 <= 1.6 * 1.6 ? 1 : 0;
+    });
+  int earlier = 0;
+  for (std::uint64_t target = 2000; target < 3300; target += 97)
+  {
+    MeshingOptions<3> options;
+    options.Elements = target;
+    ImageMesher<3> mesher(options);
+    SimplexMesh<3> mesh;
+    try
+    {
+      ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    }
+    catch (const InputError&)
+    {
+      continue; // no delta makes so many
+    }
+    const std::vector<MeshingRun>& runs = mesher.Statistics().Runs;
+    const auto nearest = std::min_element(runs.begin(), runs.end(),
+      [&](const MeshingRun& a, const MeshingRun& b)
+      { return Deviation(a.Elements, target) < Deviation(b.Elements, target); });
+    EXPECT_EQ(mesher.Statistics().Delta, nearest->Delta) << target;
+    EXPECT_EQ(mesh.Simplices.size(), nearest->Elements) << target;
+    earlier += nearest + 1 != runs.end() ? 1 : 0;
+  }
+  EXPECT_GT(earlier, 0) << "no test";
 }
 
 TEST(ElementTarget, GoesWithGradingByLocalFeatureSize)
