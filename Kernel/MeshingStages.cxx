@@ -313,6 +313,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     Stopwatch extraction;
     ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
     this->Stats.Times.Extraction += extraction.Seconds();
+    this->RepairInterfaces(mesh, stop); // may take the last element of a component
     if (components && this->SampleLostComponents(*components, image, mesh))
     {
       ++this->Stats.ComponentRounds;
@@ -321,7 +322,6 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
         this->Refine(context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
       continue;
     }
-    this->RepairInterfaces(mesh, stop);
     seeds = this->InspectInterfaces(interfaces, mesh);
     if (seeds.empty())
     {
