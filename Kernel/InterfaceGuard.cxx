@@ -196,6 +196,41 @@ void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<
 }
 
 //------------------------------------------------------------------------------------------------
+InterfaceGuard::Index InterfaceGuard::CellOf(const Face& face)
+{
+  Index cell = face.Voxel;
+  for (std::int64_t& c : cell)
+  {
+    c = (c + 1) / LocalDelta<3>::Cell;
+  }
+  return cell;
+}
+
+double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
+{
+  return std::ldexp(FirstSpacing * this->DeltaAt(face), -static_cast<int>(visit));
+}
+
+//------------------------------------------------------------------------------------------------
+// Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
+// element has its label. R1 with the same spacing makes circumballs small enough; with twice that one of AAL's faces
+// stays far, and the knee atlas takes a round more.
+void InterfaceGuard::LowerBound(const Face& face)
+{
+  const auto visits = this->Visits.find(CellOf(face));
+  if (visits == this->Visits.end())
+  {
+    return;
+  }
+  const double spacing = this->SpacingAt(face, visits->second);
+  if (spacing >= this->FinestSpacing)
+  {
+    const LabelId label = std::max(this->IdOf(face.Voxel), this->IdOf(face.Next()));
+    this->Local.SetBound(face.Voxel, 1, label, spacing);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
 {
   const std::vector<Face> far = this->FindFarFaces(mesh);
@@ -228,21 +263,20 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
   std::sort(this->Sampled.begin(), this->Sampled.end());
   this->Sampled.erase(std::unique(this->Sampled.begin(), this->Sampled.end()), this->Sampled.end());
 
+  for (const Face& face : far)
+  {
+    this->LowerBound(face);
+  }
   std::vector<FeatureSeed<3>> seeds;
   std::map<Index, double> spacings;
   for (const Face& face : faces)
   {
-    Index cell = face.Voxel;
-    for (std::int64_t& c : cell)
-    {
-      c = (c + 1) / LocalDelta<3>::Cell;
-    }
+    const Index cell = CellOf(face);
     auto spacing = spacings.find(cell);
     if (spacing == spacings.end())
     {
       const unsigned visit = this->Visits[cell]++;
-      const double first = FirstSpacing * this->DeltaAt(face);
-      spacing = spacings.emplace(cell, std::ldexp(first, -static_cast<int>(visit))).first;
+      spacing = spacings.emplace(cell, this->SpacingAt(face, visit)).first;
     }
     Point<3> z;
     if (spacing->second >= this->FinestSpacing &&

@@ -34,8 +34,9 @@ namespace voxplex
  * - edges that are not manifold on the boundary of some label: other than two of its facets meet there.
  *
  * Around each of these it proposes points of the interfaces half a delta apart (a quarter, if it comes there
- * again, and so on), to be inserted before refinement goes on. CGAL's Mesh_3 refines facets around such edges
- * to the same end; the thesis has no such rule.
+ * again, and so on), to be inserted before refinement goes on. Where faces are far a second time, R1 gets a
+ * smaller delta besides (LocalDelta), so that circumcentres come to lie in what is thin. CGAL's Mesh_3 refines
+ * facets around such edges to the same end; the thesis has no such rule.
  *
  * Faces that were sampled before are looked at first, and all others only when nothing is wrong with these.
  *
@@ -53,7 +54,7 @@ public:
    * @param sites the image's surface voxels (FindSurfaceVoxels)
    * @param base sampling density
    * @param sizes that of single interfaces, in its place; may be null
-   * @param local receives the spacing of what is proposed
+   * @param local receives the spacing of what is proposed, and bounds
    * @param threads 0 means all cores; results do not depend on it
    */
   InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
@@ -95,6 +96,10 @@ private:
   void ForEachFaceOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
   bool IsFar(const Face& face, const FeatureGrid<3>& vertices) const;
+  void LowerBound(const Face& face);
+  static Index CellOf(const Face& face);
+  /** Of what is sampled when a cell is visited again after so many visits. */
+  double SpacingAt(const Face& face, unsigned visit) const;
   double DeltaAt(const Face& face) const;
   double DensestAt(const Point<3>& p) const;
   Point<3> CentreOf(const Face& face) const;

@@ -310,6 +310,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
   while (goOn)
   {
     this->Fraction = this->ProgressEnd;
+    local.ForgetLowered(); // refinement has seen to it
     Stopwatch extraction;
     ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
     this->Stats.Times.Extraction += extraction.Seconds();

@@ -41,6 +41,13 @@ public:
     for (std::size_t a = 0; a < D; ++a)
     {
       this->Cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
+      Point<D> unit{};
+      unit[a] = 1.0;
+      const Point<D> step = this->Grid.ToIndex(unit);
+      for (std::size_t b = 0; b < D; ++b)
+      {
+        this->VoxelsPerLength[b] = std::hypot(this->VoxelsPerLength[b], step[b]);
+      }
     }
   }
 
@@ -61,6 +68,8 @@ public:
         if (delta < bound.Delta)
         {
           bound = { static_cast<float>(delta), label };
+          this->Lowered[cell] = true;
+          this->AnyLowered = true;
         }
       });
     this->SetSpacing(first, length, delta);
@@ -89,6 +98,36 @@ public:
   {
     return this->Graded.empty() ? std::numeric_limits<double>::infinity()
                                 : this->Graded[this->CellOf(p)];
+  }
+
+  /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
+  bool HasLowered() const { return this->AnyLowered; }
+
+  /** The same for the cells that a ball of the frame may reach. */
+  bool HasLoweredWithin(const Point<D>& centre, double radius) const
+  {
+    if (!this->AnyLowered)
+    {
+      return false;
+    }
+    const Point<D> index = this->Grid.ToIndex(centre);
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double reach = radius * this->VoxelsPerLength[a];
+      low[a] = this->CellAlong(a, index[a] - reach);
+      high[a] = this->CellAlong(a, index[a] + reach);
+    }
+    bool found = false;
+    ForCells(low, high, [&](const Index& cell) { found |= this->Lowered[this->Offset(cell)]; });
+    return found;
+  }
+
+  void ForgetLowered()
+  {
+    this->Lowered.assign(this->Lowered.size(), false);
+    this->AnyLowered = false;
   }
 
   /** How much bounds grow over a unit of length. */
@@ -144,6 +183,7 @@ private:
       }
       this->Values.assign(count, Bound());
       this->Spacings.assign(count, std::numeric_limits<float>::infinity());
+      this->Lowered.assign(count, false);
     }
     Index low;
     Index high;
@@ -153,9 +193,16 @@ private:
       low[a] = std::clamp<std::int64_t>((first[a] - 1) / Cell, 0, this->Cells[a] - 1);
       high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
     }
+    ForCells(low, high, [&](const Index& cell) { function(this->Offset(cell)); });
+  }
+
+  /** Calls function(cell) for a block of cells. */
+  template <typename Function>
+  static void ForCells(const Index& low, const Index& high, Function&& function)
+  {
     for (Index cell = low; cell[D - 1] <= high[D - 1];)
     {
-      function(this->Offset(cell));
+      function(cell);
       for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
       {
         cell[a] = low[a];
@@ -170,11 +217,16 @@ private:
     Index cell;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const double x = (index[a] - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
-      cell[a] =
-        static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
+      cell[a] = this->CellAlong(a, index[a]);
     }
     return this->Offset(cell);
+  }
+
+  /** The nearest to a coordinate of the image's index space along an axis. */
+  std::int64_t CellAlong(std::size_t a, double index) const
+  {
+    const double x = (index - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
+    return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
   }
 
   std::size_t Offset(const Index& cell) const
@@ -191,9 +243,12 @@ private:
   GridGeometry<D> Grid;
   Index Origin;
   Index Cells{};
+  Point<D> VoxelsPerLength{};  ///< at most, of the change of each index
   std::vector<Bound> Values;   ///< empty: no bound
   std::vector<float> Spacings; ///< what GradedAt() starts from
   std::vector<float> Graded;   ///< the same, see GradedAt()
+  std::vector<bool> Lowered;   ///< since ForgetLowered()
+  bool AnyLowered = false;
   double SmallestBound = std::numeric_limits<double>::infinity();
 };
 

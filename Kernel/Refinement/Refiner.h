@@ -25,7 +25,7 @@ namespace voxplex
 enum class RefinementStart
 {
   Everywhere,
-  AtSeeds
+  AtSeeds ///< and where LocalDelta has lowered bounds
 };
 
 /**
@@ -53,7 +53,8 @@ public:
 
   /**
    * @param seeds feature points to insert before the rules are asked
-   * @param start AtSeeds: only of what the seeds make; no rule applies to anything else
+   * @param start AtSeeds: only of what the seeds make, and of simplices whose circumball reaches where
+   *   LocalDelta has a lower bound than before; no rule applies to anything else
    */
   explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {},
     std::vector<FeatureSeed<D>> seeds = {}, RefinementStart start = RefinementStart::Everywhere)
@@ -180,7 +181,7 @@ private:
     const Triangulation<D>& mesh = this->Context.Mesh;
     if (this->Start == RefinementStart::AtSeeds)
     {
-      InsertSeeds<Rules>(this->Context, *this->Workers[0], this->Seeds);
+      this->StartAtSeeds();
       return;
     }
     std::vector<SimplexId> simplices;
@@ -196,6 +197,28 @@ private:
       }
     }
     this->Screen(*this->Workers[0], simplices.data(), simplices.data() + simplices.size());
+  }
+
+  /** All for the first worker. */
+  void StartAtSeeds()
+  {
+    const Triangulation<D>& mesh = this->Context.Mesh;
+    const LocalDelta<D>* const local = this->Context.Settings.Local;
+    RefinementWorker<D>& worker = *this->Workers[0];
+    InsertSeeds<Rules>(this->Context, worker, this->Seeds);
+    std::vector<SimplexId> changed;
+    for (SimplexId s = 0; local && local->HasLowered() && s < mesh.SimplexIdEnd(); ++s)
+    {
+      if (mesh.IsAlive(s))
+      {
+        const Circumball<D> ball = mesh.GetCircumball(s);
+        if (local->HasLoweredWithin(ball.Center, std::sqrt(ball.Radius2)))
+        {
+          changed.push_back(s);
+        }
+      }
+    }
+    this->Screen(worker, changed.data(), changed.data() + changed.size());
   }
 
   /** Workers 1, 2 ..., each with its share of a seeded triangulation. */
@@ -218,7 +241,7 @@ private:
     }
     if (this->Start == RefinementStart::AtSeeds)
     {
-      InsertSeeds<Rules>(this->Context, *this->Workers[0], this->Seeds);
+      this->StartAtSeeds();
       return;
     }
     const std::vector<SimplexId> simplices = SeedTriangulation<Rules>(this->Context,

@@ -8,6 +8,7 @@
 #include "Image/ImageDomain.h"
 #include "Image/LocalDelta.h"
 #include "ImageMesher.h"
+#include "LostComponents.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
 
@@ -260,6 +261,36 @@ struct Islands
   std::vector<Point<3>> Centres;
 };
 
+/** Flat voxels of a block, in columns of one to three, get another label, or background. */
+LabelImage<3> SpeckledBlock(unsigned seed)
+{
+  std::mt19937 random(seed);
+  constexpr std::int64_t N = 12;
+  std::vector<std::int16_t> scalars(N * N * N, 0);
+  const auto at = [&](std::int64_t x, std::int64_t y, std::int64_t z) -> std::int16_t&
+  { return scalars[static_cast<std::size_t>((z * N + y) * N + x)]; };
+  const unsigned labels = 2 + random() % 3;
+  for (std::int64_t k = 0; k < (N - 2) * (N - 2) * (N - 2); ++k)
+  {
+    at(1 + k % (N - 2), 1 + k / (N - 2) % (N - 2), 1 + k / (N - 2) / (N - 2)) = 1;
+  }
+  const auto inside = [&] { return 1 + static_cast<std::int64_t>(random() % (N - 2)); };
+  for (int column = 0; column < 172; ++column)
+  {
+    const std::int64_t x = inside();
+    const std::int64_t y = inside();
+    const std::int64_t z = inside();
+    const auto label = static_cast<std::int16_t>(random() % (labels + 1));
+    const auto last = std::min(z + static_cast<std::int64_t>(random() % 3), N - 2);
+    for (std::int64_t k = z; k <= last; ++k)
+    {
+      at(x, y, k) = label;
+    }
+  }
+  return LabelImage<3>::FromScalars<std::int16_t>(
+    scalars, GridGeometry<3>::Orthogonal({ N, N, N }, { 1.0, 1.0, 3.0 }));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -413,6 +444,22 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
     }
   }
   EXPECT_TRUE(std::isinf(local.At(grid.ToFrame({ 36.0, 20.0, 20.0 })).Delta));
+  const Point<3> middle = grid.ToFrame({ 25.0, 20.0, 20.0 });
+  EXPECT_TRUE(local.HasLowered());
+  EXPECT_TRUE(local.HasLoweredWithin(middle, 0.0));
+  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 10.0));
+  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 7.0));
+  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
+  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 40.0, 20.0 }), 9.0));
+  EXPECT_TRUE(local.HasLoweredWithin({ -1000.0, 0.0, 0.0 }, 2000.0));
+  local.ForgetLowered();
+  EXPECT_FALSE(local.HasLowered());
+  EXPECT_FALSE(local.HasLoweredWithin(middle, 100.0));
+  local.SetBound({ 20, 20, 20 }, 10, 3, 0.5); // is less there already
+  EXPECT_FALSE(local.HasLowered());
+  local.SetBound({ 60, 60, 60 }, 1, 3, 0.5);
+  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 60.0, 60.0, 60.0 }), 0.0));
+  EXPECT_FALSE(local.HasLoweredWithin(middle, 0.0));
   const double slope = LocalDelta<3>::Slope;
   for (const double away : { 8.0, 20.0 })
   {
@@ -516,6 +563,28 @@ TEST(ComponentGuard, GoesOnUntilNothingIsLost)
     const ComponentGuard<3> guard(image, domain, components, delta, 1, local, 1, {});
     EXPECT_GT(guard.GetComponents().All().size(), 100u);
     EXPECT_TRUE(guard.FindLost(mesh).empty());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// Repairs give tetrahedra away, at times the only ones of a component: two of these images showed it.
+TEST(ComponentGuard, LooksAtRepairedInterfaces)
+{
+  for (const unsigned seed : { 9u, 19u })
+  {
+    const LabelImage<3> image = SpeckledBlock(seed);
+    const Components<3> components(image);
+    for (const double delta : { 1.5, 4.0 })
+    {
+      MeshingOptions<3> options;
+      options.Delta = delta;
+      options.SmallestComponent = 1;
+      MeshingStatistics statistics;
+      const SimplexMesh<3> mesh = Mesh(image, options, statistics);
+      EXPECT_GT(statistics.Interfaces.NonManifoldRepaired, 0u);
+      EXPECT_EQ(FindLostComponents(components, image, mesh, 1, 1, {}).size(),
+        statistics.LostComponents.size());
+    }
   }
 }
 

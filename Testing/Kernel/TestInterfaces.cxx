@@ -107,6 +107,20 @@ LabelImage<3> BlockWithHair()
     });
 }
 
+/** A crack of background between two labels, and a tip of it in one of them: 5 voxels long, mostly one thick. */
+LabelImage<3> BlockWithCrack()
+{
+  return phantoms::Make(phantoms::Cube(26),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const bool block = std::all_of(p.begin(), p.end(), [](double x) { return x >= 4 && x < 22; });
+      const bool crack = p[0] >= 7 && p[0] < 10;
+      const bool tip = (p[1] == 12 && p[2] == 12 && p[0] < 15) ||
+        (p[0] < 14 && ((p[1] == 13 && p[2] == 12) || (p[1] == 12 && p[2] == 13)));
+      return !block || crack || (p[0] >= 10 && tip) ? 0 : p[0] < 7 ? 7 : 4;
+    });
+}
+
 /** Blobs of two labels in a third, and holes. */
 LabelImage<3> Blobs(unsigned seed)
 {
@@ -408,6 +422,22 @@ TEST(InterfaceGuard, BringsOutAThinProcess)
   }
 }
 
+// Points on the tip alone leave it without an element: no circumcentre lies in it.
+TEST(InterfaceGuard, BringsOutAThinTipOfBackground)
+{
+  const LabelImage<3> image = BlockWithCrack();
+  for (const double delta : { 1.3, 1.4, 1.5, 1.6, 1.8 })
+  {
+    for (const unsigned threads : { 1u, 3u })
+    {
+      MeshingStatistics statistics;
+      const SimplexMesh<3> mesh = Mesh(image, delta, 5, &statistics, threads);
+      EXPECT_LE(LargestDistance(image, mesh), 1.5 * delta) << delta;
+      EXPECT_GE(statistics.Interfaces.Rounds, 1u);
+    }
+  }
+}
+
 TEST(InterfaceGuard, LeavesManifoldBoundaries)
 {
   for (const unsigned seed : { 1u, 2u, 3u })
@@ -462,7 +492,12 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
     }
     spacing *= 0.5;
     EXPECT_LE(local.GradedAt(seeds.front().Position), spacing);
-    EXPECT_EQ(local.At(seeds.front().Position).Delta, std::numeric_limits<float>::infinity());
+    // From the second time on R1 is to keep that spacing, too.
+    EXPECT_EQ(local.HasLowered(), visits > 0);
+    EXPECT_EQ(local.At(seeds.front().Position).Delta,
+      visits > 0 ? static_cast<float>(spacing) : std::numeric_limits<float>::infinity());
+    EXPECT_EQ(local.At(seeds.front().Position).Label, visits > 0 ? 1 : 0);
+    local.ForgetLowered();
     ASSERT_LT(++visits, 10);
   }
   EXPECT_EQ(visits, 4); // 2, 1, 0.5, 0.25; 0.125 is below a fifth of a voxel

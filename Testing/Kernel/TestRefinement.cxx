@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rules on an analytic domain, where every answer is known: after refinement none is violated.
 #include "BallDomain.h"
+#include "Image/ImageDomain.h"
 #include "Mesh/HilbertOrder.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
+#include "Phantoms.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
@@ -69,6 +71,48 @@ TEST(Refinement, NoRuleAppliesAfterwards)
       {
         EXPECT_EQ(fired, 0u);
       }
+    }
+  }
+}
+
+// Afterwards no rule applies anywhere, though only what is near the new bound was looked at.
+TEST(Refinement, FollowsBoundsThatWereLowered)
+{
+  const LabelImage<3> image = phantoms::Ball(25.0);
+  const ImageDomain<3> domain(image, 1.0);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    LocalDelta<3> local(image);
+    RefinementSettings<3> settings;
+    settings.Delta = 2.5;
+    settings.Local = &local;
+    TeamOptions team;
+    team.Threads = threads;
+    Box<3> box = domain.Bounds();
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      box.Min[a] -= 2.0 * settings.Delta;
+      box.Max[a] += 2.0 * settings.Delta;
+    }
+    RefinementContext<3> context(domain, settings, box, 1000);
+    ASSERT_TRUE(Refiner<Rules3D>(context, team).Run(nullptr));
+    const std::uint32_t features = context.Features.Size();
+    Refiner<Rules3D> idle(context, team, {}, RefinementStart::AtSeeds);
+    ASSERT_TRUE(idle.Run(nullptr));
+    EXPECT_EQ(idle.GetRuleStatistics().Evaluated, 0u);
+
+    local.SetBound({ 24, 24, 0 }, 2, 1, 1.0);
+    local.Grade();
+    context.FollowLocalDelta();
+    Refiner<Rules3D> near(context, team, {}, RefinementStart::AtSeeds);
+    ASSERT_TRUE(near.Run(nullptr));
+    EXPECT_GT(context.Features.Size(), features + 10);
+    Refiner<Rules3D> everywhere(context, team);
+    ASSERT_TRUE(everywhere.Run(nullptr));
+    EXPECT_LT(near.GetRuleStatistics().Evaluated, everywhere.GetRuleStatistics().Evaluated);
+    for (const std::uint64_t fired : everywhere.GetRuleStatistics().Fired)
+    {
+      EXPECT_EQ(fired, 0u);
     }
   }
 }
