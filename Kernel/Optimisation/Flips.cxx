@@ -286,9 +286,11 @@ bool Flips::MayFlipInterface(std::size_t firstRun)
     return false;
   }
 
-  const double before = std::max(CosineOfSmallestAngle(a, b, pc), CosineOfSmallestAngle(a, b, pd));
-  if (CosineOfSmallestAngle(a, pc, pd) > std::max(before, this->LargestCosine(ring.A, c, d)) ||
-    CosineOfSmallestAngle(b, pc, pd) > std::max(before, this->LargestCosine(ring.B, c, d)))
+  FacetBounds bounds(this->Rules);
+  bounds.Replace(CosineOfSmallestAngle(a, b, pc), this->IsAtJunction(ring.A, ring.B, c));
+  bounds.Replace(CosineOfSmallestAngle(a, b, pd), this->IsAtJunction(ring.A, ring.B, d));
+  if (!bounds.Allow(CosineOfSmallestAngle(a, pc, pd), this->IsAtJunction(ring.A, c, d)) ||
+    !bounds.Allow(CosineOfSmallestAngle(b, pc, pd), this->IsAtJunction(ring.B, c, d)))
   {
     return false;
   }
@@ -362,13 +364,18 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   {
     return false;
   }
+  const auto facetIsAtJunction = [&](unsigned i)
+  { return this->IsAtJunction(cell.V[(i + 1) & 3], cell.V[(i + 2) & 3], cell.V[(i + 3) & 3]); };
   unsigned shared = 0;
-  double before = -1.0; // the largest cosine of the smallest angle of an interface triangle
+  FacetBounds bounds(this->Rules);
   for (unsigned i = 0; i < 4; ++i)
   {
     const TetrahedralComplex::Label other = mesh.LabelOf(cell.N[i]);
     shared += other == label ? 1 : 0;
-    before = other == own ? before : std::max(before, this->CosineOfFacet(t, i));
+    if (other != own)
+    {
+      bounds.Replace(this->CosineOfFacet(t, i), facetIsAtJunction(i));
+    }
   }
   if (shared < 2 || !this->IsFlatTowards(t, label))
   {
@@ -377,10 +384,7 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   for (unsigned i = 0; i < 4; ++i)
   {
     const bool isNew = mesh.LabelOf(cell.N[i]) == own;
-    if (isNew &&
-      this->CosineOfFacet(t, i) >
-        std::max(before,
-          this->LargestCosine(cell.V[(i + 1) & 3], cell.V[(i + 2) & 3], cell.V[(i + 3) & 3])))
+    if (isNew && !bounds.Allow(this->CosineOfFacet(t, i), facetIsAtJunction(i)))
     {
       return false;
     }
@@ -414,13 +418,11 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   return goesOn;
 }
 
-/** Of the smallest angle of an interface triangle with these vertices. */
-double Flips::LargestCosine(std::uint32_t u, std::uint32_t v, std::uint32_t w) const
+bool Flips::IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const
 {
   const auto& kinds = this->Target.Mesh().Kinds;
-  const bool junction =
-    kinds[u] == VertexRole::Fixed || kinds[v] == VertexRole::Fixed || kinds[w] == VertexRole::Fixed;
-  return junction ? this->Rules.JunctionCosine : this->Rules.FacetCosine;
+  return kinds[u] == VertexRole::Fixed || kinds[v] == VertexRole::Fixed ||
+    kinds[w] == VertexRole::Fixed;
 }
 
 /** Of the smallest angle of facet i of t. */

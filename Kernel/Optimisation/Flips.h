@@ -92,7 +92,7 @@ private:
   void ConsiderAll(std::uint32_t t);
   bool Apply();
   bool MayRelabel(std::uint32_t t, TetrahedralComplex::Label label);
-  double LargestCosine(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
+  bool IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
   double CosineOfFacet(std::uint32_t t, unsigned i) const;
   bool IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const;
   bool EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label);

@@ -31,6 +31,36 @@ struct InterfaceRules
   }
 };
 
+/**
+ * What triangles may be like that take the place of others in an interface. Angles may be as small as those that
+ * were there, but off junctions only as those were that were off junctions, too.
+ */
+class FacetBounds
+{
+public:
+  explicit FacetBounds(const InterfaceRules& rules)
+    : LargestCosine(rules.FacetCosine)
+    , LargestJunctionCosine(rules.JunctionCosine)
+  {
+  }
+
+  /** A triangle that goes, by the cosine of its smallest angle. */
+  void Replace(double cosine, bool isAtJunction)
+  {
+    this->LargestJunctionCosine = std::max(this->LargestJunctionCosine, cosine);
+    this->LargestCosine = std::max(this->LargestCosine, isAtJunction ? -1.0 : cosine);
+  }
+  /** Whether a triangle may come. */
+  bool Allow(double cosine, bool isAtJunction) const
+  {
+    return cosine <= (isAtJunction ? this->LargestJunctionCosine : this->LargestCosine);
+  }
+
+private:
+  double LargestCosine;
+  double LargestJunctionCosine;
+};
+
 /** Cosine of the smallest angle of a triangle. */
 inline double CosineOfSmallestAngle(const Point<3>& a, const Point<3>& b, const Point<3>& c)
 {

@@ -313,6 +313,8 @@ TEST_P(OptimisedPhantom, KeepsFacetAngles)
   const MeshQuality after = MeasureQuality<3>(this->After, 2.0, 30.0 - 1e-6, 1);
   EXPECT_LE(after.FacetAngleViolations - after.FacetAngleViolationsAtJunctions,
     before.FacetAngleViolations - before.FacetAngleViolationsAtJunctions);
+  EXPECT_GE(after.MinimumFacetAngleOffJunctions,
+    std::min(30.0, before.MinimumFacetAngleOffJunctions) - 1e-6);
   EXPECT_GE(
     SmallestFacetAngle(this->After), std::min(20.0, SmallestFacetAngle(this->Before)) - 1e-6);
 }

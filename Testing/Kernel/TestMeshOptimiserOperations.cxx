@@ -3,6 +3,7 @@
 // Single operations of mesh optimisation on meshes of a few tetrahedra, and the score that steers them.
 #include "BallDomain.h"
 #include "MeshChecks.h"
+#include "Optimisation/InterfaceRules.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/Patch.h"
 #include "Optimisation/ShapeScore.h"
@@ -217,6 +218,25 @@ TEST(TetrahedralComplex, TellsKindsOfVertices)
   EXPECT_EQ(std::count(two.begin(), two.end(), VertexRole::Fixed), 4);
   EXPECT_EQ(two[0], VertexRole::Fixed);
   EXPECT_EQ(std::count(two.begin(), two.end(), VertexRole::Free), 0);
+}
+
+// A small angle at a junction is no excuse for one off it.
+TEST(FacetBounds, GoByWhatIsReplaced)
+{
+  const InterfaceRules rules(30.0, 20.0, 30.0);
+  const auto cosine = [](double degrees) { return std::cos(degrees / DegreesPerRadian); };
+  FacetBounds bounds(rules);
+  EXPECT_TRUE(bounds.Allow(cosine(30.1), false));
+  EXPECT_FALSE(bounds.Allow(cosine(29.9), false));
+  EXPECT_TRUE(bounds.Allow(cosine(20.1), true));
+  EXPECT_FALSE(bounds.Allow(cosine(19.9), true));
+  bounds.Replace(cosine(15.0), true);
+  bounds.Replace(cosine(25.0), false);
+  bounds.Replace(cosine(40.0), false);
+  EXPECT_TRUE(bounds.Allow(cosine(25.1), false));
+  EXPECT_FALSE(bounds.Allow(cosine(24.9), false));
+  EXPECT_TRUE(bounds.Allow(cosine(15.1), true));
+  EXPECT_FALSE(bounds.Allow(cosine(14.9), true));
 }
 
 //------------------------------------------------------------------------------------------------
