@@ -68,10 +68,24 @@ double InterfaceGuard::DensestAt(const Point<3>& p) const
                      : this->Base.At(p);
 }
 
-bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices) const
+bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices, Known* known) const
 {
-  return !vertices.AnyWithin(
-    this->CentreOf(face), std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal));
+  const Point<3> centre = this->CentreOf(face);
+  const double distance = std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal);
+  if (known)
+  {
+    constexpr double Safety = 1.0 - 1e-6;
+    if (Distance(centre, known->Centre) + known->Radius < Safety * distance)
+    {
+      return false;
+    }
+    if (vertices.AnyWithin(centre, 0.5 * distance))
+    {
+      *known = { centre, 0.5 * distance };
+      return false;
+    }
+  }
+  return !vertices.AnyWithin(centre, distance);
 }
 
 Point<3> InterfaceGuard::CentreOf(const Face& face) const
@@ -92,10 +106,11 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
     {
       const Index voxel{ static_cast<std::int64_t>(64 * w) + std::countr_zero(bits) - 1,
         static_cast<std::int64_t>(row % rows) - 1, static_cast<std::int64_t>(row / rows) - 1 };
+      const LabelId id = this->Image.At(voxel);
       for (unsigned a = 0; a < 3; ++a)
       {
         const Face face{ voxel, a };
-        if (this->Image.At(voxel) != this->Image.At(face.Next()))
+        if (id != this->Image.At(face.Next()))
         {
           function(face);
         }
@@ -124,7 +139,7 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
   std::vector<Face> far;
   for (const Face& face : this->Sampled)
   {
-    if (this->IsFar(face, vertices))
+    if (this->IsFar(face, vertices, nullptr))
     {
       far.push_back(face);
     }
@@ -134,18 +149,21 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
     return far;
   }
   constexpr std::size_t RowsAtOnce = 64;
+  constexpr std::size_t VoxelsOfKnown = 4;
   const std::size_t rows = this->Sites.NumberOfRows();
   std::vector<std::vector<Face>> found((rows - 1) / RowsAtOnce + 1);
   ParallelFor(
     0, rows, RowsAtOnce, this->Threads,
     [&](std::size_t first, std::size_t last)
     {
+      std::vector<Known> known(64 * this->Sites.WordsPerRow() / VoxelsOfKnown);
       for (std::size_t row = first; row < last; ++row)
       {
         this->ForEachFaceOfRow(row,
           [&](const Face& face)
           {
-            if (this->IsFar(face, vertices))
+            const auto x = static_cast<std::size_t>(face.Voxel[0] + 1);
+            if (this->IsFar(face, vertices, &known[x / VoxelsOfKnown]))
             {
               found[first / RowsAtOnce].push_back(face);
             }
@@ -225,7 +243,7 @@ void InterfaceGuard::LowerBound(const Face& face)
   const double spacing = this->SpacingAt(face, visits->second);
   if (spacing >= this->FinestSpacing)
   {
-    const LabelId label = std::max(this->IdOf(face.Voxel), this->IdOf(face.Next()));
+    const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
     this->Local.SetBound(face.Voxel, 1, label, spacing);
   }
 }

@@ -16,6 +16,7 @@
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 
+#include <limits>
 #include <map>
 #include <stop_token>
 #include <vector>
@@ -95,7 +96,14 @@ private:
   template <typename Function>
   void ForEachFaceOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
-  bool IsFar(const Face& face, const FeatureGrid<3>& vertices) const;
+  /** A place with a vertex nearer than the radius: faces beside it need not ask for another one. */
+  struct Known
+  {
+    Point<3> Centre{};
+    double Radius = std::numeric_limits<double>::infinity();
+  };
+  /** @param known of a face nearby; may be null */
+  bool IsFar(const Face& face, const FeatureGrid<3>& vertices, Known* known) const;
   void LowerBound(const Face& face);
   static Index CellOf(const Face& face);
   /** Of what is sampled when a cell is visited again after so many visits. */

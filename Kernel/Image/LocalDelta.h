@@ -68,8 +68,7 @@ public:
         if (delta < bound.Delta)
         {
           bound = { static_cast<float>(delta), label };
-          this->Lowered[cell] = true;
-          this->AnyLowered = true;
+          this->MarkLowered(cell);
         }
       });
     this->SetSpacing(first, length, delta);
@@ -111,22 +110,31 @@ public:
       return false;
     }
     const Point<D> index = this->Grid.ToIndex(centre);
+    Index middle;
     Index low;
     Index high;
+    bool isSmall = true; // does not reach beyond the next cells
     for (std::size_t a = 0; a < D; ++a)
     {
       const double reach = radius * this->VoxelsPerLength[a];
+      isSmall = isSmall && reach < static_cast<double>(Cell);
+      middle[a] = this->CellAlong(a, index[a]);
       low[a] = this->CellAlong(a, index[a] - reach);
       high[a] = this->CellAlong(a, index[a] + reach);
     }
+    if (isSmall && this->Lowered[this->Offset(middle)] == Unchanged)
+    {
+      return false;
+    }
     bool found = false;
-    ForCells(low, high, [&](const Index& cell) { found |= this->Lowered[this->Offset(cell)]; });
+    ForCells(
+      low, high, [&](const Index& cell) { found |= this->Lowered[this->Offset(cell)] == Itself; });
     return found;
   }
 
   void ForgetLowered()
   {
-    this->Lowered.assign(this->Lowered.size(), false);
+    this->Lowered.clear();
     this->AnyLowered = false;
   }
 
@@ -183,7 +191,6 @@ private:
       }
       this->Values.assign(count, Bound());
       this->Spacings.assign(count, std::numeric_limits<float>::infinity());
-      this->Lowered.assign(count, false);
     }
     Index low;
     Index high;
@@ -194,6 +201,34 @@ private:
       high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
     }
     ForCells(low, high, [&](const Index& cell) { function(this->Offset(cell)); });
+  }
+
+  void MarkLowered(std::size_t offset)
+  {
+    this->Lowered.resize(this->Values.size(), Unchanged);
+    this->AnyLowered = true;
+    if (this->Lowered[offset] == Itself)
+    {
+      return;
+    }
+    Index low;
+    Index high;
+    std::size_t rest = offset;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Cells[a]);
+      const auto c = static_cast<std::int64_t>(rest % n);
+      low[a] = std::max<std::int64_t>(c - 1, 0);
+      high[a] = std::min(c + 1, this->Cells[a] - 1);
+      rest /= n;
+    }
+    ForCells(low, high,
+      [&](const Index& cell)
+      {
+        std::uint8_t& state = this->Lowered[this->Offset(cell)];
+        state = std::max(state, Beside);
+      });
+    this->Lowered[offset] = Itself;
   }
 
   /** Calls function(cell) for a block of cells. */
@@ -247,7 +282,11 @@ private:
   std::vector<Bound> Values;   ///< empty: no bound
   std::vector<float> Spacings; ///< what GradedAt() starts from
   std::vector<float> Graded;   ///< the same, see GradedAt()
-  std::vector<bool> Lowered;   ///< since ForgetLowered()
+  /** What ForgetLowered() leaves, a cell beside one that was lowered since, and such a one. */
+  static constexpr std::uint8_t Unchanged = 0;
+  static constexpr std::uint8_t Beside = 1;
+  static constexpr std::uint8_t Itself = 2;
+  std::vector<std::uint8_t> Lowered; ///< since ForgetLowered()
   bool AnyLowered = false;
   double SmallestBound = std::numeric_limits<double>::infinity();
 };

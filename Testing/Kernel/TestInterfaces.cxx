@@ -532,9 +532,9 @@ TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
     }
     LocalDelta<3> local(image);
     InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
-    EXPECT_TRUE(guard.Inspect(good).empty());
+    EXPECT_TRUE(guard.Inspect(good, FindNonManifoldEdges(good)).empty());
     EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 0u);
-    EXPECT_EQ(guard.Inspect(mesh).empty(), atJunction);
+    EXPECT_EQ(guard.Inspect(mesh, FindNonManifoldEdges(mesh)).empty(), atJunction);
     EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 1u);
     EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
   }
