@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InterfaceGuard.h"
 
-#include "Mesh/InterfaceEdges.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -249,10 +248,10 @@ void InterfaceGuard::LowerBound(const Face& face)
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(const SimplexMesh<3>& mesh)
+std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
+  const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
 {
   const std::vector<Face> far = this->FindFarFaces(mesh);
-  const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(mesh);
   this->FarFaces = far.size();
   this->NonManifoldEdges = edges.size();
   // At junctions there may be some; they are no reason to go on, but are sampled along with the rest.

@@ -12,6 +12,7 @@
 #include "Image/Domain.h"
 #include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
+#include "Mesh/InterfaceEdges.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
@@ -64,10 +65,12 @@ public:
 
   /**
    * Points that would mend what is wrong with the mesh's interfaces.
+   * @param edges of the mesh: FindNonManifoldEdges()
    * @return nothing if all is well, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> Inspect(const SimplexMesh<3>& mesh);
+  std::vector<FeatureSeed<3>> Inspect(
+    const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges);
 
   /** Of the last mesh that was inspected. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }

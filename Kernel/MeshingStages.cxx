@@ -314,7 +314,8 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     Stopwatch extraction;
     ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
     this->Stats.Times.Extraction += extraction.Seconds();
-    this->RepairInterfaces(mesh, stop); // may take the last element of a component
+    const std::vector<InterfaceEdge> nonManifold =
+      this->RepairInterfaces(mesh, stop); // may take the last element of a component
     if (components && this->SampleLostComponents(*components, image, mesh))
     {
       ++this->Stats.ComponentRounds;
@@ -323,7 +324,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
         this->Refine(context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
       continue;
     }
-    seeds = this->InspectInterfaces(interfaces, mesh);
+    seeds = this->InspectInterfaces(interfaces, mesh, nonManifold);
     if (seeds.empty())
     {
       if (!this->IsFarFromTarget(mesh))
@@ -565,10 +566,12 @@ bool MeshingStages<D>::SampleLostComponents(
 }
 
 //------------------------------------------------------------------------------------------------
-/** @throws Cancelled */
+/** Returns the edges that are not manifold all the same. @throws Cancelled */
 template <int D>
-void MeshingStages<D>::RepairInterfaces(SimplexMesh<D>& mesh, const std::stop_token& stop)
+std::vector<InterfaceEdge> MeshingStages<D>::RepairInterfaces(
+  SimplexMesh<D>& mesh, const std::stop_token& stop)
 {
+  std::vector<InterfaceEdge> left;
   if constexpr (D == 3)
   {
     if (this->Options.InterfaceRounds > 0)
@@ -577,19 +580,22 @@ void MeshingStages<D>::RepairInterfaces(SimplexMesh<D>& mesh, const std::stop_to
       ManifoldRepairOptions options;
       options.FacetAngle = this->Options.FacetAngle;
       options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
-      const ManifoldRepairCounts counts = RepairManifold(mesh, options, stop);
+      ManifoldRepairCounts counts = RepairManifold(mesh, options, stop);
       this->Stats.Interfaces.NonManifoldRepaired = counts.Before - counts.After;
       this->Stats.Interfaces.NonManifoldLeft = counts.After;
+      left = std::move(counts.Left);
       this->Stats.Times.Interfaces += repair.Seconds();
     }
   }
+  return left;
 }
 
 //------------------------------------------------------------------------------------------------
 /** Points to go on with, for as many rounds as were asked for. @throws Cancelled */
 template <int D>
 std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(
-  std::optional<InterfaceGuard>& guard, const SimplexMesh<D>& mesh)
+  std::optional<InterfaceGuard>& guard, const SimplexMesh<D>& mesh,
+  const std::vector<InterfaceEdge>& nonManifold)
 {
   std::vector<FeatureSeed<D>> seeds;
   if constexpr (D == 3)
@@ -598,7 +604,7 @@ std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(
     if (figures.Rounds < this->Options.InterfaceRounds)
     {
       Stopwatch inspection;
-      seeds = guard->Inspect(mesh);
+      seeds = guard->Inspect(mesh, nonManifold);
       figures.Rounds += seeds.empty() ? 0 : 1;
       figures.Seeds += seeds.size();
       this->Stats.Times.Interfaces += inspection.Seconds();

@@ -3,7 +3,6 @@
 #include "Mesh/ManifoldRepair.h"
 
 #include "Geometry/SimplexQuality.h"
-#include "Mesh/InterfaceEdges.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -539,7 +538,7 @@ ManifoldRepairCounts RepairManifold(
   SimplexMesh<3>& mesh, const ManifoldRepairOptions& options, const std::stop_token& stop)
 {
   const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(mesh);
-  ManifoldRepairCounts counts{ edges.size(), edges.size() };
+  ManifoldRepairCounts counts{ edges.size(), edges.size(), edges };
   if (edges.empty())
   {
     return counts;
@@ -559,7 +558,8 @@ ManifoldRepairCounts RepairManifold(
   if (changed)
   {
     mender.Finish();
-    counts.After = FindNonManifoldEdges(mesh).size();
+    counts.Left = FindNonManifoldEdges(mesh);
+    counts.After = counts.Left.size();
   }
   return counts;
 }

@@ -7,10 +7,12 @@
 #ifndef voxplex_ManifoldRepair_h
 #define voxplex_ManifoldRepair_h
 
+#include "Mesh/InterfaceEdges.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <cstddef>
 #include <stop_token>
+#include <vector>
 
 namespace voxplex
 {
@@ -27,6 +29,7 @@ struct ManifoldRepairCounts
 {
   std::size_t Before = 0;
   std::size_t After = 0;
+  std::vector<InterfaceEdge> Left; ///< those after; FindNonManifoldEdges()
 };
 
 /**

@@ -298,6 +298,7 @@ TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
   const ManifoldRepairCounts counts = RepairManifold(mesh);
   EXPECT_EQ(counts.Before, 1u);
   EXPECT_EQ(counts.After, 0u);
+  EXPECT_TRUE(counts.Left.empty());
   EXPECT_TRUE(BadEdges(mesh).empty());
   EXPECT_TRUE(checks::Complaints(mesh).empty());
   EXPECT_EQ(mesh.Simplices.size(), 4u);
@@ -329,7 +330,10 @@ TEST(ManifoldRepair, MakesNoSharpFacets)
   ManifoldRepairOptions options;
   options.FacetAngle = 26.0;
   options.JunctionFacetAngle = 26.0;
-  EXPECT_EQ(RepairManifold(mesh, options).After, 1u);
+  const ManifoldRepairCounts counts = RepairManifold(mesh, options);
+  EXPECT_EQ(counts.After, 1u);
+  ASSERT_EQ(counts.Left.size(), 1u);
+  EXPECT_EQ(counts.Left[0].Ends, FindNonManifoldEdges(mesh)[0].Ends);
   EXPECT_EQ(mesh.Labels, ring.Labels);
   options.FacetAngle = 20.0;
   options.JunctionFacetAngle = 20.0;
@@ -478,7 +482,7 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
   int visits = 0;
   for (;;)
   {
-    const std::vector<FeatureSeed<3>> seeds = guard.Inspect(nothing);
+    const std::vector<FeatureSeed<3>> seeds = guard.Inspect(nothing, {});
     if (seeds.empty())
     {
       break;
@@ -549,5 +553,5 @@ TEST(InterfaceGuard, CanBeCancelled)
   InterfaceGuard guard(
     image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, stop.get_token());
   stop.request_stop();
-  EXPECT_THROW(guard.Inspect({}), Cancelled);
+  EXPECT_THROW(guard.Inspect({}, {}), Cancelled);
 }
