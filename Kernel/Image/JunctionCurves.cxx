@@ -130,6 +130,7 @@ public:
   {
     const Index& n = this->Field.LatticeDimensions();
     const std::size_t words = this->Sites.WordsPerRow();
+    FineLabels labels;
     for (std::int64_t j = 0; j + 1 < n[1]; ++j)
     {
       std::array<std::span<const std::uint64_t>, 4> rows;
@@ -148,7 +149,7 @@ public:
           const auto i = static_cast<std::int64_t>(64 * w) + std::countr_zero(cells);
           if (i + 1 < n[0] && this->HasThreeLabels({ i, j, k }))
           {
-            this->TraceCell({ i, j, k }, segments);
+            this->TraceCell({ i, j, k }, labels, segments);
           }
         }
       }
@@ -189,7 +190,8 @@ public:
       }
       followed.insert(cell);
       const std::size_t before = segments.size();
-      this->TraceCell(cell, segments);
+      FineLabels labels;
+      this->TraceCell(cell, labels, segments);
       for (std::size_t i = before; i < segments.size(); ++i)
       {
         for (const Number end : segments[i])
@@ -249,16 +251,31 @@ private:
     return false;
   }
 
-  void TraceCell(const Index& cell, std::vector<Segment>& segments) const
+  /** Labels of the points of the fine lattice in a cell. */
+  struct FineLabels
   {
-    std::array<LabelId, FineSide * FineSide * FineSide> labels;
+    Index Cell{ -2, -2, -2 };
+    std::array<LabelId, FineSide * FineSide * FineSide> Labels;
+
+    LabelId& At(std::int64_t x, std::int64_t y, std::int64_t z)
+    {
+      return this->Labels[static_cast<std::size_t>((z * FineSide + y) * FineSide + x)];
+    }
+  };
+
+  /** @param labels of the cell that was traced before, if any; receives those of this one */
+  void TraceCell(const Index& cell, FineLabels& labels, std::vector<Segment>& segments) const
+  {
+    const bool isNext = labels.Cell == Index{ cell[0] - 1, cell[1], cell[2] };
     const auto label = [&](std::int64_t x, std::int64_t y, std::int64_t z) -> LabelId&
-    { return labels[static_cast<std::size_t>((z * FineSide + y) * FineSide + x)]; };
+    { return labels.At(x, y, z); };
+    labels.Cell = cell;
     for (std::int64_t z = 0; z <= Fine; ++z)
     {
       for (std::int64_t y = 0; y <= Fine; ++y)
       {
-        for (std::int64_t x = 0; x <= Fine; ++x)
+        label(0, y, z) = isNext ? label(Fine, y, z) : LabelId(0);
+        for (std::int64_t x = isNext ? 1 : 0; x <= Fine; ++x)
         {
           label(x, y, z) =
             this->Field.LabelAt({ static_cast<double>(cell[0]) + static_cast<double>(x) / Fine,
