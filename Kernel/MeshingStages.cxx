@@ -166,16 +166,27 @@ std::optional<JunctionCurves> MeshingStages<D>::FindJunctions(
   std::optional<JunctionCurves> junctions;
   if constexpr (D == 3)
   {
-    const auto* labelled =
-      dynamic_cast<const ImageDomain<D>*>(&domain); // an isosurface has no junctions
-    if (labelled && this->Options.SampleJunctions)
+    const auto find = [&](const auto& image)
     {
       Stopwatch time;
-      junctions.emplace(labelled->GetImage(), labelled->GetLabelField(), labelled->GetSites(),
-        this->Options.Threads, stop);
+      junctions.emplace(
+        image.GetImage(), image.GetLabelField(), image.GetSites(), this->Options.Threads, stop);
       this->Stats.Interfaces.JunctionCurves = junctions->Curves().size();
       this->Stats.Interfaces.Corners = junctions->NumberOfCorners();
       this->Stats.Times.Interfaces += time.Seconds();
+    };
+    if (!this->Options.SampleJunctions)
+    {
+      return junctions;
+    }
+    if (const auto* labels = dynamic_cast<const ImageDomain<D>*>(&domain))
+    {
+      find(*labels);
+    }
+    // An isosurface has junctions only where the image cuts it.
+    if (const auto* isosurface = dynamic_cast<const ImageDomain<D, ScalarField<D>>*>(&domain))
+    {
+      find(*isosurface);
     }
   }
   return junctions;

@@ -15,6 +15,7 @@
 
 #include "Geometry/Point.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -74,6 +75,38 @@ struct GridGeometry
       index[k] = s / this->IndexToFrame[k][k];
     }
     return index;
+  }
+
+  /**
+   * The index between 0 and `last` whose point is nearest to that of another one; if axes are oblique it is not the
+   * nearest index. By coordinate descent, in time linear in D^3.
+   */
+  Point<D> NearestInBox(const Point<D>& index, const Point<D>& last) const
+  {
+    constexpr int rounds = 10;
+    Point<D> nearest;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      nearest[a] = std::clamp(index[a], 0.0, last[a]);
+    }
+    for (int round = 0; round < rounds && nearest != index; ++round)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        Point<D> step = Subtract(nearest, index);
+        step[a] = 0.0;
+        const Point<D> others = this->ToFrame(step);
+        double product = 0.0; // of them and a step along this axis
+        double own = 0.0;
+        for (std::size_t r = 0; r <= a; ++r)
+        {
+          product += this->IndexToFrame[r][a] * others[r];
+          own += this->IndexToFrame[r][a] * this->IndexToFrame[r][a];
+        }
+        nearest[a] = std::clamp(index[a] - product / own, 0.0, last[a]);
+      }
+    }
+    return nearest;
   }
 
   /** Length of the step of one voxel along an axis. */

@@ -36,6 +36,9 @@ namespace voxplex
  * label's margin by regula falsi, starting from the site's end; the ray ends at a voxel centre of
  * another label, which the field preserves, so it always crosses an interface.
  *
+ * Where a 3D image cuts the object, points found closer to a cut face than the search is exact are moved onto it,
+ * so that faces of the mesh are flat there.
+ *
  * Immutable after construction: all methods are const and safe to call from any thread.
  */
 template <int D, typename FieldType = LabelField<D>>
@@ -91,6 +94,24 @@ public:
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
+  bool IsCut() const override { return this->Field.IsCut(); }
+  unsigned CutFaces(const Point<D>& p) const override
+  {
+    return this->Field.IsCut() ? this->Field.CutFaces(this->Field.ToLattice(p), OnCutFace) : 0u;
+  }
+  bool IsBeyondCutFaces(const Point<D>& p) const override
+  {
+    return this->Field.IsCut() && this->Field.CutDistance(this->Field.ToLattice(p)) < 0.0;
+  }
+  Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned faces) const override
+  {
+    return faces == 0
+      ? p
+      : this->Field.ToFrame(this->Field.MoveOntoCutFaces(this->Field.ToLattice(p), faces));
+  }
+
+  bool NearCutEdge(const Point<D>& p, double reach, Point<D>& z) const override;
+
   /** Along the gradient of the label's margin in the frame of time, in steps of half a voxel. */
   bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
 
@@ -135,16 +156,19 @@ private:
     }
     return p;
   }
+  /** A point closer than this to a cut face has been found on it, voxels; one on it up to rounding is closer. */
+  static constexpr double NearCutFace = 2.0 * FieldType::RootTolerance;
+  static constexpr double OnCutFace = 1e-6;
   /** The frame's coordinates of a point that a search has found, not beyond a flat end. */
-  Point<D> Found(const Point<D>& x) const { return this->ClampToEnds(this->Field.ToFrame(x)); }
+  Point<D> Found(const Point<D>& x) const
+  {
+    const unsigned faces = this->Field.CutFaces(x, NearCutFace);
+    return this->ClampToEnds(
+      this->Field.ToFrame(faces == 0 ? x : this->Field.MoveOntoCutFaces(x, faces)));
+  }
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */
   double Length2(const Point<D>& step) const;
-  /**
-   * The point of the lattice's box nearest to x, in lattice coordinates; if axes are oblique, not that of the nearest
-   * indices.
-   */
-  Point<D> NearestOfLattice(const Point<D>& x) const;
   /** A site near x, close to the nearest one. */
   bool NearSite(const Point<D>& x, Index& site) const;
   /** A voxel near x with another label, next to a site near x. */

@@ -11,6 +11,7 @@
 #include "Image/ImageDomain.h"
 
 #include "Geometry/ExtremeEigenvalues.h"
+#include "Image/CutEdges.h"
 #include "Image/SurfaceVoxels.h"
 
 #include <algorithm>
@@ -30,8 +31,6 @@ constexpr double QuickTolerance = 0.1;
  *  below which none is made. */
 constexpr int FootSteps = 2;
 constexpr double FootGain = 0.02;
-/** Of the search for the nearest point of an oblique lattice. */
-constexpr int ProjectionRounds = 10;
 /** Relative error of a stored distance and of the few operations on it. */
 constexpr double DistanceError = 1e-6;
 
@@ -248,46 +247,20 @@ inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<
 }
 
 template <int D, typename FieldType>
-Point<D> ImageDomain<D, FieldType>::NearestOfLattice(const Point<D>& x) const
-{
-  Point<D> last;
-  Point<D> y; // by coordinate descent, from where the indices end
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    last[a] = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
-    y[a] = std::clamp(x[a], 0.0, last[a]);
-  }
-  if (y == x)
-  {
-    return y;
-  }
-  const auto& matrix = this->Image.Grid().IndexToFrame;
-  for (int round = 0; round < ProjectionRounds; ++round)
-  {
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      Point<D> step = Subtract(y, x);
-      step[a] = 0.0;
-      const Point<D> others = this->Image.Grid().ToFrame(step);
-      double product = 0.0; // of them and a step along this axis
-      double own = 0.0;
-      for (std::size_t r = 0; r <= a; ++r)
-      {
-        product += matrix[r][a] * others[r];
-        own += matrix[r][a] * matrix[r][a];
-      }
-      y[a] = std::clamp(x[a] - product / own, 0.0, last[a]);
-    }
-  }
-  return y;
-}
-
-template <int D, typename FieldType>
 inline bool ImageDomain<D, FieldType>::NearSite(const Point<D>& x, Index& site) const
 {
   // The nearest sites of the 2^D cells around x, or around the point of the lattice that is nearest to x: one of
   // them is nearest to x, or nearly so.
-  const Point<D> inside = this->IsOrthogonal ? x : this->NearestOfLattice(x);
+  Point<D> inside = x;
+  if (!this->IsOrthogonal)
+  {
+    Point<D> last;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      last[a] = static_cast<double>(this->Field.LatticeDimensions()[a] - 1);
+    }
+    inside = this->Image.Grid().NearestInBox(x, last);
+  }
   std::array<std::uint32_t, D> low;
   for (std::size_t a = 0; a < D; ++a)
   {
@@ -331,7 +304,7 @@ template <int D, typename FieldType>
 inline bool ImageDomain<D, FieldType>::NearVoxelOfOtherLabel(
   const Point<D>& x, LabelId label, Index& voxel) const
 {
-  Index site;
+  Index site{};
   if (!this->NearSite(x, site))
   {
     return false;
@@ -482,7 +455,8 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   {
     return false; // what the field has there belongs to the end
   }
-  z = moved;
+  z = this->MoveOntoCutFaces(moved,
+    this->Field.IsCut() ? this->Field.CutFaces(this->Field.ToLattice(moved), NearCutFace) : 0u);
   return true;
 }
 
@@ -490,7 +464,7 @@ template <int D, typename FieldType>
 inline bool ImageDomain<D, FieldType>::FindOnRay(
   const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& root) const
 {
-  Index voxel;
+  Index voxel{};
   if (!this->NearVoxelOfOtherLabel(x, label, voxel))
   {
     return false;
@@ -631,6 +605,22 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
       return true;
     }
     before = probe;
+  }
+  return false;
+}
+
+template <int D, typename FieldType>
+bool ImageDomain<D, FieldType>::NearCutEdge(const Point<D>& p, double reach, Point<D>& z) const
+{
+  if constexpr (D == 3)
+  {
+    const unsigned faces = this->CutFaces(p);
+    const Point<D> x = this->Field.MoveOntoCutFaces(this->Field.ToLattice(p), faces);
+    if (faces != 0 && CutEdgeSearch(this->Field, this->Image.Grid(), x, faces, reach).Find(z))
+    {
+      z = this->Found(z);
+      return true;
+    }
   }
   return false;
 }

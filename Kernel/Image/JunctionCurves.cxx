@@ -75,6 +75,79 @@ private:
 /** The numbers of the places that it joins. */
 using Segment = std::array<Numbering::Number, 2>;
 
+//------------------------------------------------------------------------------------------------
+/**
+ * The labels of the lattice, and behind each of the faces where the image cuts the object another one: so the edges
+ * of these faces are junctions, too.
+ */
+template <typename Field>
+class LabelledSpace
+{
+public:
+  LabelledSpace(const LabelImage<3>& image, const Field& field)
+    : Image(image)
+    , Interior(field)
+    , FirstOutside(static_cast<LabelId>(image.NumberOfLabels() + 1))
+  {
+  }
+
+  const Index& LatticeDimensions() const { return this->Interior.LatticeDimensions(); }
+  Point<3> ToFrame(const Point<3>& x) const { return this->Interior.ToFrame(x); }
+
+  bool IsOutside(LabelId id) const { return id >= this->FirstOutside; }
+  /** Whether three different labels make a junction; those of the outside and background alone do not. */
+  bool IsJunction(const std::array<LabelId, 3>& l) const
+  {
+    return l[0] != l[1] && l[0] != l[2] && l[1] != l[2] &&
+      (this->IsForeground(l[0]) || this->IsForeground(l[1]) || this->IsForeground(l[2]));
+  }
+
+  LabelId VoxelId(const Index& lattice) const
+  {
+    Point<3> x;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      x[a] = static_cast<double>(lattice[a]);
+    }
+    const LabelId behind = this->LabelBehind(x);
+    return behind != 0 ? behind : this->Image.AtLattice(lattice);
+  }
+
+  /** At lattice coordinates. What lies on a face belongs to the inside. */
+  LabelId LabelAt(const Point<3>& x) const
+  {
+    const LabelId behind = this->LabelBehind(x);
+    return behind != 0 ? behind : this->Interior.ExtendedLabelAt(x);
+  }
+  double MarginAt(const Point<3>& x, LabelId label) const
+  {
+    return this->Interior.ExtendedMarginAt(x, label);
+  }
+
+private:
+  bool IsForeground(LabelId id) const { return id != 0 && !this->IsOutside(id); }
+
+  /** That of the first face that x lies beyond; background if it lies beyond none. */
+  LabelId LabelBehind(const Point<3>& x) const
+  {
+    if (this->Interior.IsCut())
+    {
+      for (unsigned face = 0; face < 6; ++face)
+      {
+        if (this->Interior.IsBeyondCutFace(x, face))
+        {
+          return static_cast<LabelId>(this->FirstOutside + face);
+        }
+      }
+    }
+    return 0;
+  }
+
+  const LabelImage<3>& Image;
+  const Field& Interior;
+  const LabelId FirstOutside;
+};
+
 /** A tetrahedron of the subdivision with the labels of its corners. */
 struct FineTetrahedron
 {
@@ -92,17 +165,18 @@ struct FineTetrahedron
     { return static_cast<std::uint8_t>(this->Steps[k] & ~this->Steps[first]); };
     return { this->Corners[first], step(second), step(third), false };
   }
-  bool HasThreeLabels(unsigned facet) const
+  /** The labels of its facet without corner i. */
+  std::array<LabelId, 3> FacetLabels(unsigned facet) const
   {
-    std::array<LabelId, 3> l;
+    std::array<LabelId, 3> labels;
     for (unsigned i = 0, m = 0; i < 4; ++i)
     {
       if (i != facet)
       {
-        l[m++] = this->Labels[i];
+        labels[m++] = this->Labels[i];
       }
     }
-    return l[0] != l[1] && l[0] != l[2] && l[1] != l[2];
+    return labels;
   }
 };
 
@@ -114,21 +188,21 @@ unsigned CountDistinct(LabelId* begin, LabelId* end)
 
 //------------------------------------------------------------------------------------------------
 /** Finds the segments in cells of the lattice. */
+template <typename Field>
 class Tracer
 {
 public:
-  Tracer(const LabelImage<3>& image, const LabelField<3>& field, const BitMask<3>& sites)
-    : Image(image)
-    , Field(field)
+  Tracer(const LabelledSpace<Field>& space, const BitMask<3>& sites)
+    : Space(space)
     , Sites(sites)
-    , Numbers(field.LatticeDimensions())
+    , Numbers(space.LatticeDimensions())
   {
   }
 
   /** In the cells with voxels of three labels between layers k and k + 1. */
   void TraceLayer(std::int64_t k, std::vector<Segment>& segments) const
   {
-    const Index& n = this->Field.LatticeDimensions();
+    const Index& n = this->Space.LatticeDimensions();
     const std::size_t words = this->Sites.WordsPerRow();
     FineLabels labels;
     for (std::int64_t j = 0; j + 1 < n[1]; ++j)
@@ -209,12 +283,12 @@ public:
 private:
   bool HasThreeLabels(const Index& cell) const
   {
-    const LabelId first = this->Image.AtLattice(cell);
+    const LabelId first = this->Space.VoxelId(cell);
     LabelId second = first;
     for (unsigned c = 1; c < 8; ++c)
     {
       const LabelId id =
-        this->Image.AtLattice({ cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2) });
+        this->Space.VoxelId({ cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2) });
       if (id != first && id != second)
       {
         if (second != first)
@@ -241,7 +315,7 @@ private:
         {
           cell[a] -= side;
         }
-        exists &= cell[a] >= 0 && cell[a] + 1 < this->Field.LatticeDimensions()[a];
+        exists &= cell[a] >= 0 && cell[a] + 1 < this->Space.LatticeDimensions()[a];
       }
       if (exists && !this->HasThreeLabels(cell) && !followed.contains(cell))
       {
@@ -278,7 +352,7 @@ private:
         for (std::int64_t x = isNext ? 1 : 0; x <= Fine; ++x)
         {
           label(x, y, z) =
-            this->Field.LabelAt({ static_cast<double>(cell[0]) + static_cast<double>(x) / Fine,
+            this->Space.LabelAt({ static_cast<double>(cell[0]) + static_cast<double>(x) / Fine,
               static_cast<double>(cell[1]) + static_cast<double>(y) / Fine,
               static_cast<double>(cell[2]) + static_cast<double>(z) / Fine });
         }
@@ -307,7 +381,7 @@ private:
                 steps = static_cast<std::uint8_t>(steps | (1u << order[i]));
               }
             }
-            Trace(t, segments);
+            this->Trace(t, segments);
           }
         }
       }
@@ -328,7 +402,7 @@ private:
     unsigned found = 0;
     for (unsigned i = 0; i < 4; ++i)
     {
-      if (!t.HasThreeLabels(i))
+      if (!this->Space.IsJunction(t.FacetLabels(i)))
       {
         continue;
       }
@@ -341,25 +415,25 @@ private:
         ends[found++] = this->Numbers.NumberOf(t.Facet(i));
       }
     }
-    if (distinct == 3)
+    if (found == 2)
     {
       segments.push_back(ends);
     }
   }
 
-  const LabelImage<3>& Image;
-  const LabelField<3>& Field;
+  const LabelledSpace<Field>& Space;
   const BitMask<3>& Sites;
   const Numbering Numbers;
 };
 
 //------------------------------------------------------------------------------------------------
 /** Where points of curves are. */
+template <typename Field>
 class Locator
 {
 public:
-  explicit Locator(const LabelField<3>& field)
-    : Field(field)
+  explicit Locator(const LabelledSpace<Field>& space)
+    : Space(space)
   {
   }
 
@@ -370,7 +444,7 @@ public:
     std::array<LabelId, 3> labels;
     for (unsigned i = 0; i < 3; ++i)
     {
-      labels[i] = this->Field.LabelAt(x[i]);
+      labels[i] = this->Space.LabelAt(x[i]);
     }
     return labels;
   }
@@ -380,13 +454,34 @@ public:
   {
     const std::array<Point<3>, 3> x = CornersOf(place);
     const std::array<LabelId, 3> labels = this->LabelsOf(place);
+    std::array<unsigned, 3> inside;
+    unsigned count = 0;
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      if (!this->Space.IsOutside(labels[i]))
+      {
+        inside[count++] = i;
+      }
+    }
+    if (count == 1)
+    {
+      return x[inside[0]]; // on the edge of two faces
+    }
+    if (count == 2)
+    {
+      // On a face, on the line between the two.
+      const auto [i, j] = std::pair{ inside[0], inside[1] };
+      const double ahead = -this->Space.MarginAt(x[i], labels[j]);
+      const double behind = -this->Space.MarginAt(x[j], labels[i]);
+      return Interpolate(x[i], x[j], ahead + behind > 0.0 ? ahead / (ahead + behind) : 0.5);
+    }
     // By how much label l is ahead of that of corner i, there.
     std::array<std::array<double, 3>, 3> ahead;
     for (unsigned i = 0; i < 3; ++i)
     {
       for (unsigned l = 0; l < 3; ++l)
       {
-        ahead[i][l] = l == i ? 0.0 : this->Field.MarginAt(x[i], labels[l]);
+        ahead[i][l] = l == i ? 0.0 : this->Space.MarginAt(x[i], labels[l]);
       }
     }
     // Weights with sum 1 such that label 0 is as good as 1 and as 2: the cross product of the two rows.
@@ -433,19 +528,21 @@ private:
     return x;
   }
 
-  const LabelField<3>& Field;
+  const LabelledSpace<Field>& Space;
 };
 
 //------------------------------------------------------------------------------------------------
 /** The points of all curves and what is joined to what. */
+template <typename Field>
 class Graph
 {
 public:
   static constexpr std::uint32_t Nobody = 0xffffffffu;
 
-  Graph(const std::vector<Segment>& segments, const LabelField<3>& field)
-    : Where(field)
-    , Numbers(field.LatticeDimensions())
+  Graph(const std::vector<Segment>& segments, const LabelledSpace<Field>& space)
+    : Space(space)
+    , Where(space)
+    , Numbers(space.LatticeDimensions())
   {
     for (const Segment& segment : segments)
     {
@@ -467,16 +564,23 @@ public:
       if (!this->IsCorner(n))
       {
         this->Positions[n] =
-          field.ToFrame(this->Where.Locate(this->Numbers.PlaceOf(this->Places[n])));
+          space.ToFrame(this->Where.Locate(this->Numbers.PlaceOf(this->Places[n])));
       }
     }
     for (std::uint32_t n = 0; n < this->Places.size(); ++n)
     {
-      for (unsigned i = 0; i < 4 && this->IsCorner(n); ++i)
+      if (!this->IsCorner(n))
+      {
+        continue;
+      }
+      const auto ways = std::count_if(this->Neighbours[n].begin(), this->Neighbours[n].end(),
+        [](std::uint32_t other) { return other != Nobody; });
+      for (unsigned i = 0; i < ways; ++i)
       {
         for (unsigned a = 0; a < 3; ++a)
         {
-          this->Positions[n][a] += this->Positions[this->Neighbours[n][i]][a] / 4.0;
+          this->Positions[n][a] +=
+            this->Positions[this->Neighbours[n][i]][a] / static_cast<double>(ways);
         }
       }
     }
@@ -537,6 +641,10 @@ private:
   {
     JunctionCurves::Curve curve{ { this->Positions[start] },
       this->Where.LabelsOf(this->Numbers.PlaceOf(this->Places[next])), false };
+    for (LabelId& label : curve.Labels)
+    {
+      label = this->Space.IsOutside(label) ? LabelId{ 0 } : label;
+    }
     std::sort(curve.Labels.begin(), curve.Labels.end());
     std::uint32_t previous = start;
     while (next != Nobody && (next != start || this->IsCorner(next)))
@@ -556,23 +664,26 @@ private:
     return curve;
   }
 
-  const Locator Where;
+  const LabelledSpace<Field>& Space;
+  const Locator<Field> Where;
   const Numbering Numbers;
   std::vector<Numbering::Number> Places; ///< ascending
   std::vector<std::array<std::uint32_t, 4>>
-    Neighbours; ///< two; four of a corner; one of an open end
+    Neighbours; ///< two; up to four of a corner; one of an open end
   std::vector<Point<3>> Positions;
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-JunctionCurves::JunctionCurves(const LabelImage<3>& image, const LabelField<3>& field,
+template <typename Field>
+JunctionCurves::JunctionCurves(const LabelImage<3>& image, const Field& field,
   const BitMask<3>& sites, unsigned threads, const std::stop_token& stop)
 {
   const auto layers = static_cast<std::size_t>(field.LatticeDimensions()[2] - 1);
   std::vector<std::vector<Segment>> byLayer(layers);
-  const Tracer tracer(image, field, sites);
+  const LabelledSpace<Field> space(image, field);
+  const Tracer<Field> tracer(space, sites);
   ParallelFor(
     0, layers, 1, threads,
     [&](std::size_t first, std::size_t last)
@@ -590,9 +701,14 @@ JunctionCurves::JunctionCurves(const LabelImage<3>& image, const LabelField<3>& 
   }
   tracer.FollowOpenEnds(segments);
   ThrowIfStopped(stop);
-  const Graph graph(segments, field);
+  const Graph<Field> graph(segments, space);
   this->Corners = graph.NumberOfCorners();
   this->All = graph.Curves();
 }
+
+template JunctionCurves::JunctionCurves(
+  const LabelImage<3>&, const LabelField<3>&, const BitMask<3>&, unsigned, const std::stop_token&);
+template JunctionCurves::JunctionCurves(
+  const LabelImage<3>&, const ScalarField<3>&, const BitMask<3>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file JunctionCurves.h
- * @brief The curves where three labels meet, and the corners where four do.
+ * @brief The curves where three labels meet, and the corners where four do; the edges of the faces where the image cuts
+ *   the object.
  */
 #ifndef voxplex_JunctionCurves_h
 #define voxplex_JunctionCurves_h
 
 #include "Image/BitMask.h"
 #include "Image/LabelField.h"
+#include "Image/ScalarField.h"
 
 #include <cstdint>
 #include <stop_token>
@@ -26,7 +28,9 @@ namespace voxplex
  * four labels has four and is a corner. So curves are closed or end in corners, whatever the labels. On
  * its triangle a point is where the smoothed indicators of the three labels are equal, taken as linear there.
  *
- * Background counts as a label. Curves are looked for in cells between voxels of three labels or more and
+ * Background counts as a label. So does, behind each face where the image cuts the object, the space outside
+ * of the image, a label of its own for each: so the edges of these faces are curves, on them to rounding, and corners of
+ * the image's box are corners. Curves are looked for in cells between voxels of three labels or more and
  * followed from there; one that never comes to such a cell, where a third label wins by interpolation
  * alone, is not found.
  *
@@ -37,12 +41,13 @@ class JunctionCurves
 {
 public:
   /**
-   * @param image, field, sites a label image, where its interfaces are, and its surface voxels; not referenced
-   *   after construction
+   * @param image, field, sites a label image, where its interfaces are (a LabelField<3> or ScalarField<3>), and its
+   *   surface voxels; not referenced after construction
    * @param threads 0 means all cores; the result does not depend on it
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  JunctionCurves(const LabelImage<3>& image, const LabelField<3>& field, const BitMask<3>& sites,
+  template <typename Field>
+  JunctionCurves(const LabelImage<3>& image, const Field& field, const BitMask<3>& sites,
     unsigned threads = 1, const std::stop_token& stop = {});
 
   /** A polyline. */
@@ -50,13 +55,13 @@ public:
   {
     std::vector<Point<3>>
       Points; ///< in order, in the frame; a closed one does not repeat the first
-    std::array<LabelId, 3> Labels; ///< that meet there, ascending
+    std::array<LabelId, 3> Labels; ///< that meet there, ascending; 0 for the outside of the image
     bool IsClosed;
   };
 
   /** In the order in which they come up on the lattice. */
   const std::vector<Curve>& Curves() const { return this->All; }
-  /** Places where four labels meet: there curves end. */
+  /** Places where four labels meet, the outside of the image included: there curves end. */
   std::size_t NumberOfCorners() const { return this->Corners; }
 
 private:

@@ -74,12 +74,13 @@ private:
       [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t k)
       {
         LabelId* out = this->Halo.data() + k * width;
-        std::fill(out, out + low, LabelId{ 0 });
+        const auto [before, after] = Base::RowEnds(this->Image, in, low, high);
+        std::fill(out, out + low, before);
         if (low < high)
         {
           std::memcpy(out + low, in, static_cast<std::size_t>(high - low) * sizeof(LabelId));
         }
-        std::fill(out + high, out + width, LabelId{ 0 });
+        std::fill(out + high, out + width, after);
         return true;
       });
   }
@@ -291,7 +292,8 @@ LabelField<D>::LabelField(
 }
 
 template <int D>
-bool LabelField<D>::MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
+bool LabelField<D>::ExtendedMarginGradientAt(
+  const Point<D>& x, LabelId label, Point<D>& gradient) const
 {
   const Cell cell = this->Locate(x);
   if (!cell.Tile)

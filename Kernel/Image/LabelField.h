@@ -36,6 +36,9 @@ namespace voxplex
  * less, which makes up for what remains of the shrinking and for the chords of the mesh.
  * Documentation/Algorithm.md has the measured accuracy.
  *
+ * **Border.** Where a 3D image cuts the object (LabelImage::IsCut), labels go on unchanged for the smoothing, and all
+ * beyond the outer faces of the outermost voxels is background: the cut is flat, its edges are sharp.
+ *
  * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame it goes on
  * unchanged beyond it, for the smoothing and for queries: the ends are flat.
  *
@@ -91,15 +94,32 @@ public:
   }
 
   /** Label() at lattice coordinates. */
-  LabelId LabelAt(const Point<D>& x) const;
+  LabelId LabelAt(const Point<D>& x) const
+  {
+    return this->IsCut() && !(this->CutDistance(x) > 0.0) ? LabelId{ 0 } : this->ExtendedLabelAt(x);
+  }
   /** Margin() at lattice coordinates. */
-  double MarginAt(const Point<D>& x, LabelId label) const;
+  double MarginAt(const Point<D>& x, LabelId label) const
+  {
+    return this->MarginWithCuts(x, label, this->ExtendedMarginAt(x, label));
+  }
+  /** LabelAt(), but labels go on beyond the faces where the image cuts the object. */
+  LabelId ExtendedLabelAt(const Point<D>& x) const;
+  /** MarginAt(), but labels go on beyond the faces where the image cuts the object. */
+  double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
 
   /**
    * Gradient of MarginAt() with respect to the lattice coordinates.
-   * @return false in a uniform tile, or where `label` is not near: the gradient is unknown
+   * @return false in a uniform tile away from cuts, or where `label` is not near: the gradient is unknown
    */
-  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
+  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
+  {
+    return (this->IsCut() &&
+             this->CutGradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
+      this->ExtendedMarginGradientAt(x, label, gradient);
+  }
+  /** That of ExtendedMarginAt(). */
+  bool ExtendedMarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
 private:
   using Base = TiledLattice<D, std::int16_t>;
@@ -165,7 +185,7 @@ inline float LabelField<D>::InterpolatePlane(const Sample* plane, const Cell& ce
 }
 
 template <int D>
-inline LabelId LabelField<D>::LabelAt(const Point<D>& x) const
+inline LabelId LabelField<D>::ExtendedLabelAt(const Point<D>& x) const
 {
   const Cell cell = this->Locate(x);
   if (!cell.Tile)
@@ -193,7 +213,7 @@ inline LabelId LabelField<D>::LabelAt(const Point<D>& x) const
 }
 
 template <int D>
-inline double LabelField<D>::MarginAt(const Point<D>& x, LabelId label) const
+inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) const
 {
   const Cell cell = this->Locate(x);
   if (!cell.Tile)

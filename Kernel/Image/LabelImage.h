@@ -135,6 +135,17 @@ public:
    */
   bool IsCutInTime(unsigned end) const { return this->CutInTime[end]; }
 
+  /**
+   * Whether the first (0) or last (1) layer of voxels along an axis of a 3D image has foreground, so that
+   * the object is cut by the outer faces of these voxels; false in 4D.
+   */
+  bool IsCut(std::size_t axis, unsigned end) const
+  {
+    return D == 3 &&
+      (end == 0 ? this->Origin[axis] == 0
+                : this->Origin[axis] + this->Extent[axis] == this->WholeGrid.Dimensions[axis]);
+  }
+
   /** The image's label value of each dense id; Values()[0] = 0. */
   std::span<const std::int64_t> Values() const { return this->LabelValues; }
   /** Voxels of each dense id (that of background counts the bounding box only). */

@@ -93,8 +93,10 @@ private:
       [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t row)
       {
         LabelId* const ids = this->Ids.data() + row * Width;
-        std::fill_n(ids, Width, LabelId{ 0 });
+        const auto [before, after] = Base::RowEnds(this->Labels, in, low, high);
+        std::fill(ids, ids + low, before);
         std::copy(in, in + (high - low), ids + low);
+        std::fill(ids + high, ids + Width, after);
         Index index = first;
         std::size_t rest = row;
         for (std::size_t a = 1; a < D; ++a, rest /= Width)
@@ -106,10 +108,16 @@ private:
       });
   }
 
-  /** Margins of a row of the halo from a lattice point on. */
+  /** Margins of a row of the halo from a lattice point on; where the image cuts the object they go on. */
   void ReadMargins(Index lattice, Sample* margins) const
   {
     ClampToCut(this->Labels, lattice);
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      const std::int64_t last = this->Labels.CropDimensions()[a];
+      lattice[a] = this->Labels.IsCut(a, 0) ? std::max<std::int64_t>(lattice[a], 1) : lattice[a];
+      lattice[a] = this->Labels.IsCut(a, 1) ? std::min(lattice[a], last) : lattice[a];
+    }
     std::fill_n(margins, Width, std::numeric_limits<Sample>::quiet_NaN());
     Index voxel;
     bool inside = true;
@@ -127,6 +135,14 @@ private:
       Sample* const to = margins + (begin - voxel[0]);
       voxel[0] = begin;
       this->Image.ReadMargins(voxel, static_cast<std::size_t>(end - begin), to);
+      if (this->Labels.IsCut(0, 0))
+      {
+        std::fill(margins, to, *to);
+      }
+      if (this->Labels.IsCut(0, 1))
+      {
+        std::fill(to + (end - begin), margins + Width, to[end - begin - 1]);
+      }
     }
   }
 
@@ -194,7 +210,8 @@ ScalarField<D>::ScalarField(
 }
 
 template <int D>
-bool ScalarField<D>::MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
+bool ScalarField<D>::ExtendedMarginGradientAt(
+  const Point<D>& x, LabelId label, Point<D>& gradient) const
 {
   const Cell cell = this->Locate(x);
   if (!cell.Tile)

@@ -29,10 +29,13 @@ namespace voxplex
  * the multilinear interpolant, which on grid edges is where vtkFlyingEdges3D and marching cubes have
  * their points, to a thousandth of a voxel.
  *
- * **Without a value.** Beyond the image, and at voxels that have no number, the sample is the mean of
+ * **Without a value.** At voxels that have no number, and in 4D beyond the image, the sample is the mean of
  * the margins of the nearest inside voxels among the 3^D - 1 around (those across a face before those across
  * an edge), with a minus sign: the object is closed halfway, by a plane half a voxel beyond the outermost voxels, as
  * label images are.
+ *
+ * **Border.** Where a 3D image cuts the object (LabelImage::IsCut), values go on unchanged, and all
+ * beyond the outer faces of the outermost voxels is outside: the cut is flat, its edges are sharp.
  *
  * **Time.** In 4D flat ends are as in LabelField.
  *
@@ -66,6 +69,16 @@ public:
   /** Label() at lattice coordinates. */
   LabelId LabelAt(const Point<D>& x) const
   {
+    return this->IsCut() && !(this->CutDistance(x) > 0.0) ? LabelId{ 0 } : this->ExtendedLabelAt(x);
+  }
+  /** Margin() at lattice coordinates. */
+  double MarginAt(const Point<D>& x, LabelId label) const
+  {
+    return this->MarginWithCuts(x, label, this->ExtendedMarginAt(x, label));
+  }
+  /** LabelAt(), but the object goes on beyond the faces where the image cuts it. */
+  LabelId ExtendedLabelAt(const Point<D>& x) const
+  {
     const Cell cell = this->Locate(x);
     return cell.Tile ? static_cast<LabelId>(Interpolate(cell).Value > 0.0f) : cell.Uniform;
   }
@@ -80,14 +93,21 @@ public:
   {
     return this->MarginAt(this->ToLattice(p), label);
   }
-  /** Margin() at lattice coordinates. */
-  double MarginAt(const Point<D>& x, LabelId label) const;
+  /** MarginAt(), but the object goes on beyond the faces where the image cuts it. */
+  double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
 
   /**
    * A multiple of the gradient of MarginAt() in the cell of x, with respect to lattice coordinates.
-   * @return false in a uniform tile
+   * @return false in a uniform tile away from cuts
    */
-  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
+  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
+  {
+    return (this->IsCut() &&
+             this->CutGradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
+      this->ExtendedMarginGradientAt(x, label, gradient);
+  }
+  /** That of ExtendedMarginAt(). */
+  bool ExtendedMarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
 private:
   using Base = TiledLattice<D, float>;
@@ -139,7 +159,7 @@ inline typename ScalarField<D>::Interpolation ScalarField<D>::Interpolate(const 
 }
 
 template <int D>
-inline double ScalarField<D>::MarginAt(const Point<D>& x, LabelId label) const
+inline double ScalarField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) const
 {
   const Cell cell = this->Locate(x);
   if (!cell.Tile)

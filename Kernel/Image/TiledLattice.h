@@ -98,6 +98,29 @@ public:
     return x;
   }
 
+  /** Whether the image cuts the object anywhere (LabelImage::IsCut). */
+  bool IsCut() const { return this->HasCutFaces; }
+  /**
+   * How far, in voxels, x is from the nearest of the faces where the image cuts the object: their planes lie
+   * half a voxel outside of the outermost voxel centres. Negative beyond them, infinite if there are none.
+   */
+  double CutDistance(const Point<D>& x) const
+  {
+    std::size_t axis = 0;
+    double sign = 0.0;
+    return this->CutDistance(x, axis, sign);
+  }
+  /** The planes of x up to `tolerance` voxels: bit 2 a + end for that at the end of axis a. */
+  unsigned CutFaces(const Point<D>& x, double tolerance) const;
+  /** Whether x lies beyond the plane of this number: 2 a + end. */
+  bool IsBeyondCutFace(const Point<D>& x, unsigned face) const
+  {
+    const double plane = this->CutPlanes[face % 2][face / 2];
+    return face % 2 == 0 ? x[face / 2] < plane : x[face / 2] > plane;
+  }
+  /** Moves x onto planes that are given as bits. */
+  Point<D> MoveOntoCutFaces(Point<D> x, unsigned faces) const;
+
   /** Memory held, bytes. */
   std::size_t MemoryBytes() const
   {
@@ -127,6 +150,15 @@ protected:
   };
   Cell Locate(Point<D> x) const;
 
+  /** CutDistance(), and along which axis with which sign it grows. */
+  double CutDistance(const Point<D>& x, std::size_t& axis, double& sign) const;
+  /** By how much margins of labels change per voxel at cut faces. */
+  static constexpr double CutSlope = 2.0;
+  /** The margin of a label where the image cuts it, of that of the object as it would go on. */
+  double MarginWithCuts(const Point<D>& x, LabelId label, double margin) const;
+  /** The same for gradients; false if the cut does not matter at x. */
+  bool CutGradient(const Point<D>& x, LabelId label, double margin, Point<D>& gradient) const;
+
   /** Gradient of the interpolation of a plane's samples in a cell, with respect to lattice coordinates. */
   static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
 
@@ -149,11 +181,23 @@ protected:
   /**
    * Calls row(in, x0, x1, k) for each row of a box of `width` samples along each axis: row k of the
    * box, of which the samples x0 ... x1 - 1 lie in the crop, with ids from `in`; x0 == x1 if none
-   * does. Beyond a flat end rows repeat. Returns early when row returns false.
+   * does. Beyond a flat end and where the image cuts the object rows repeat; see RowEnds, too. Returns early
+   * when row returns false.
    */
   template <typename Function>
   static void ForEachRow(
     const LabelImage<D>& image, const Index& first, std::size_t width, Function&& row);
+  /** The ids of a row's samples before and after those in the crop: background, or that of the cut object. */
+  static std::array<LabelId, 2> RowEnds(
+    const LabelImage<D>& image, const LabelId* in, std::int64_t low, std::int64_t high)
+  {
+    if (low >= high)
+    {
+      return {};
+    }
+    return { image.IsCut(0, 0) ? in[0] : LabelId{ 0 },
+      image.IsCut(0, 1) ? in[high - low - 1] : LabelId{ 0 } };
+  }
   /** Whether all samples of the tile that begins there have one label, which it tells. */
   static bool IsUniform(const LabelImage<D>& image, const Index& first, LabelId& label);
 
@@ -175,6 +219,8 @@ private:
   Index Dimensions{};
   std::array<double, 2> Ends{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
+  bool HasCutFaces = false;
+  std::array<Point<D>, 2> CutPlanes; ///< coordinates of the faces at either end, or infinite
   std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
   std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
   std::vector<std::uintptr_t> Directory;
@@ -201,6 +247,11 @@ TiledLattice<D, SampleType>::TiledLattice(const LabelImage<D>& image)
     this->LastCell[a] = static_cast<std::uint32_t>(this->Dimensions[a] - 2);
     this->TileStride[a] = static_cast<std::uint32_t>(numberOfTiles);
     numberOfTiles *= static_cast<std::size_t>(this->LastCell[a] / TileCells) + 1;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    this->CutPlanes[0][a] = image.IsCut(a, 0) ? 0.5 : -infinity;
+    this->CutPlanes[1][a] =
+      image.IsCut(a, 1) ? static_cast<double>(image.CropDimensions()[a]) + 0.5 : infinity;
+    this->HasCutFaces = this->HasCutFaces || image.IsCut(a, 0) || image.IsCut(a, 1);
   }
   this->Directory.resize(numberOfTiles);
   if (image.IsCutInTime(0))
@@ -250,6 +301,95 @@ inline typename TiledLattice<D, SampleType>::Cell TiledLattice<D, SampleType>::L
     cell.Tile = reinterpret_cast<const Sample*>(entry);
   }
   return cell;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D, typename SampleType>
+inline double TiledLattice<D, SampleType>::CutDistance(
+  const Point<D>& x, std::size_t& axis, double& sign) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const double low = x[a] - this->CutPlanes[0][a];
+    const double high = this->CutPlanes[1][a] - x[a];
+    if (low < nearest)
+    {
+      nearest = low;
+      axis = a;
+      sign = 1.0;
+    }
+    if (high < nearest)
+    {
+      nearest = high;
+      axis = a;
+      sign = -1.0;
+    }
+  }
+  return nearest;
+}
+
+template <int D, typename SampleType>
+unsigned TiledLattice<D, SampleType>::CutFaces(const Point<D>& x, double tolerance) const
+{
+  unsigned faces = 0;
+  for (unsigned face = 0; face < 2 * D && this->HasCutFaces; ++face)
+  {
+    if (std::abs(x[face / 2] - this->CutPlanes[face % 2][face / 2]) <= tolerance)
+    {
+      faces |= 1u << face;
+    }
+  }
+  return faces;
+}
+
+template <int D, typename SampleType>
+Point<D> TiledLattice<D, SampleType>::MoveOntoCutFaces(Point<D> x, unsigned faces) const
+{
+  for (unsigned face = 0; face < 2 * D; ++face)
+  {
+    if ((faces >> face) & 1)
+    {
+      x[face / 2] = this->CutPlanes[face % 2][face / 2];
+    }
+  }
+  return x;
+}
+
+// Constructive solid geometry: the object is the intersection of what goes on and of a box, the background the
+// union of the rest.
+template <int D, typename SampleType>
+inline double TiledLattice<D, SampleType>::MarginWithCuts(
+  const Point<D>& x, LabelId label, double margin) const
+{
+  if (!this->HasCutFaces)
+  {
+    return margin;
+  }
+  const double cut = std::clamp(CutSlope * this->CutDistance(x), -2.0, 2.0);
+  if (label != 0)
+  {
+    return std::min(margin, cut);
+  }
+  // Background has the faces themselves: its margin must be positive there.
+  return margin > 0.0 || cut > 0.0 ? std::max(margin, -cut)
+                                   : std::max(-cut, std::numeric_limits<double>::min());
+}
+
+template <int D, typename SampleType>
+inline bool TiledLattice<D, SampleType>::CutGradient(
+  const Point<D>& x, LabelId label, double margin, Point<D>& gradient) const
+{
+  std::size_t axis = 0;
+  double sign = 0.0;
+  const double cut = CutSlope * this->CutDistance(x, axis, sign);
+  if (!(label != 0 ? cut < margin : -cut > margin))
+  {
+    return false;
+  }
+  gradient.fill(0.0);
+  gradient[axis] = (label != 0 ? CutSlope : -CutSlope) * sign;
+  return true;
 }
 
 /** One axis after the other, values and derivatives together. */
@@ -329,6 +469,8 @@ void TiledLattice<D, SampleType>::ForEachRow(
         i = image.IsCutInTime(0) ? std::max<std::int64_t>(i, 0) : i;
         i = image.IsCutInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
       }
+      i = image.IsCut(a, 0) ? std::max<std::int64_t>(i, 0) : i;
+      i = image.IsCut(a, 1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
       inside = inside && i >= 0 && i < crop[a];
       at = at * crop[a] + i;
     }
@@ -359,7 +501,7 @@ bool TiledLattice<D, SampleType>::IsUniform(
     {
       if (!started)
       {
-        label = low == 0 && high > 0 ? in[0] : LabelId{ 0 };
+        label = low == 0 && high > 0 ? in[0] : RowEnds(image, in, low, high)[0];
         started = true;
       }
       if (high - low == TileSamples)
@@ -370,10 +512,11 @@ bool TiledLattice<D, SampleType>::IsUniform(
         uniform = ((halves[0] ^ wanted) | (halves[1] ^ wanted)) == 0;
         return uniform;
       }
-      uniform = label == 0;
+      const auto [before, after] = RowEnds(image, in, low, high);
+      uniform = (low == 0 || before == label) && (high == TileSamples || after == label);
       for (std::int64_t i = 0; i < high - low; ++i)
       {
-        uniform = uniform && in[i] == 0;
+        uniform = uniform && in[i] == label;
       }
       return uniform;
     });

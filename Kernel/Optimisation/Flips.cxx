@@ -274,6 +274,11 @@ bool Flips::MayFlipInterface(std::size_t firstRun)
   const Point<3>& b = mesh.Points[ring.B];
   const Point<3>& pc = mesh.Points[c];
   const Point<3>& pd = mesh.Points[d];
+  const unsigned both = mesh.CutFacesOf(ring.A) & mesh.CutFacesOf(ring.B);
+  if ((both & mesh.CutFacesOf(c)) != (both & mesh.CutFacesOf(d)))
+  {
+    return false; // an edge of a face where the image cuts the object
+  }
 
   const Point<3> abc = Cross(Subtract(b, a), Subtract(pc, a));
   const Point<3> bad = Cross(Subtract(pd, a), Subtract(b, a));

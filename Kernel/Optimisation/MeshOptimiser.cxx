@@ -379,6 +379,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   if (statistics.Before.Poor != 0)
   {
     TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop);
+    complex.FindCutFaces(domain);
     Optimisation(complex, domain, options, threads, limits, statistics).Run();
     ThrowIfStopped(stop);
     SimplexMesh<3> result;

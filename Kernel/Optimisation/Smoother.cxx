@@ -70,7 +70,7 @@ Point<3> ShortestInHull(const std::vector<Point<3>>& vectors)
 bool Smoother::Improve(std::uint32_t v)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
-  if (mesh.Kinds[v] == VertexRole::Fixed || !this->Target.GatherStar(v, this->Star))
+  if (mesh.Kinds[v] >= VertexRole::Crease || !this->Target.GatherStar(v, this->Star))
   {
     return false;
   }
@@ -404,16 +404,18 @@ bool Smoother::Constrain(Point<3>& p, double length) const
     {
       p = Along(this->Anchor, this->Reach / distance, away);
     }
+    p = this->Image.MoveOntoCutFaces(p, this->Target.Mesh().CutFacesOf(this->Star.Vertex));
   }
   return this->FanAllows(p);
 }
 
-/** To the interface of the vertex' two labels; false if the closest one is another. */
+/** To the interface of the vertex' two labels; false if the closest one is another, or on another face of the cut. */
 bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
+  const unsigned faces = mesh.CutFacesOf(this->Star.Vertex);
   if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), p) ||
-    Distance2(raw, p) > length * length)
+    Distance2(raw, p) > length * length || (faces != 0 && this->Image.CutFaces(p) != faces))
   {
     return false;
   }

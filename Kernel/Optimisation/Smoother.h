@@ -48,8 +48,10 @@ struct SmoothingCounts
  * interface. It stays if that point is not between its two labels, if a planar angle of an
  * interface triangle would break its bound, or if a triangle would turn by more than 60 degrees.
  *
+ * A vertex on a face where the image cuts the object stays on it, one on an edge of such a face stays where it is.
+ *
  * As a last means, a vertex on an interface may be nudged in any direction, within a small distance of
- * where it was, which is then the fidelity that is given up; and a vertex may be inserted on an edge inside a
+ * where it was, which is then the fidelity that is given up (but where the image cuts the object, in the faces there); and a vertex may be inserted on an edge inside a
  * label, at once moved to where it is best.
  */
 class Smoother

@@ -128,6 +128,7 @@ void TetrahedralComplex::AddVertices(std::size_t number)
   const std::size_t size = this->Points.size() + number;
   this->Points.resize(size);
   this->Kinds.resize(size, VertexRole::Free);
+  this->CutFaces.resize(this->CutFaces.empty() ? 0 : size, 0);
   this->Hosts.resize(size, None);
   this->Degrees.resize(size, 0);
   this->Changes.resize(size, 0);
@@ -208,6 +209,43 @@ void TetrahedralComplex::FindKinds()
         else if (sides[v] != pair)
         {
           this->Kinds[v] = VertexRole::Fixed;
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+/** A vertex is on an edge if it lies on a face on which not all of its triangles towards background do. */
+void TetrahedralComplex::FindCutFaces(const Domain<3>& domain)
+{
+  if (!domain.IsCut())
+  {
+    return;
+  }
+  this->CutFaces.assign(this->Points.size(), 0);
+  for (std::size_t v = 0; v < this->Points.size(); ++v)
+  {
+    if (this->Kinds[v] != VertexRole::Free)
+    {
+      this->CutFaces[v] = static_cast<std::uint8_t>(domain.CutFaces(this->Points[v]));
+    }
+  }
+  for (const Tetrahedron& cell : this->Cells)
+  {
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      if (cell.N[i] != None)
+      {
+        continue;
+      }
+      const std::array<std::uint32_t, 3> f = SortedFacet(cell.V, i);
+      const unsigned common = this->CutFaces[f[0]] & this->CutFaces[f[1]] & this->CutFaces[f[2]];
+      for (const std::uint32_t v : f)
+      {
+        if (this->CutFaces[v] != common && this->Kinds[v] == VertexRole::Surface)
+        {
+          this->Kinds[v] = VertexRole::Crease;
         }
       }
     }

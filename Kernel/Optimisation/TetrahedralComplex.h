@@ -7,6 +7,7 @@
 #ifndef voxplex_TetrahedralComplex_h
 #define voxplex_TetrahedralComplex_h
 
+#include "Image/Domain.h"
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/ShapeScore.h"
 #include "Parallel/UninitialisedVector.h"
@@ -26,6 +27,7 @@ enum class VertexRole : std::uint8_t
 {
   Free,    ///< all around it has one label
   Surface, ///< on an interface of two labels, of which background may be one
+  Crease,  ///< the same, but on an edge of a face where the image cuts the object
   Fixed    ///< where three or more labels meet
 };
 
@@ -59,6 +61,9 @@ public:
   TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
     const std::stop_token& stop);
 
+  /** Finds out what lies where the image cuts the object; to be called once, before anything changes. */
+  void FindCutFaces(const Domain<3>& domain);
+
   /** Replaces the mesh by what this has become: points that are used, and interfaces. */
   void Write(SimplexMesh<3>& mesh) const;
 
@@ -69,6 +74,11 @@ public:
 
   bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
   Label LabelOf(std::uint32_t t) const { return t == None ? 0 : this->Labels[t]; }
+  /** Domain::CutFaces of a vertex. */
+  unsigned CutFacesOf(std::uint32_t v) const
+  {
+    return this->CutFaces.empty() ? 0u : this->CutFaces[v];
+  }
   const Point<3>& PointOf(std::uint32_t t, unsigned i) const
   {
     return this->Points[this->Cells[t].V[i]];
@@ -89,7 +99,9 @@ public:
 
   ShapeScore Shape;
   UninitialisedVector<Point<3>> Points;
-  std::vector<VertexRole> Kinds;      ///< of vertices
+  std::vector<VertexRole> Kinds; ///< of vertices
+  std::vector<std::uint8_t>
+    CutFaces; ///< Domain::CutFaces of vertices, or empty if the image cuts nothing
   std::vector<std::uint32_t> Hosts;   ///< a tetrahedron of each vertex
   std::vector<std::uint32_t> Degrees; ///< number of tetrahedra of each vertex
   std::vector<std::uint32_t> Changes; ///< when a tetrahedron of each vertex changed last

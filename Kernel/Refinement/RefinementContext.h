@@ -68,6 +68,7 @@ struct RefinementContext
     , SizeFloor(SpacingFloorFraction * FinestDelta(settings))
     , SpacingFloor(SizeFloor)
     , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
+    , IsCut(image.IsCut())
     , Mesh(box)
     , Features(box.Min, std::sqrt(FinestDelta(settings) * settings.Delta), expectedFeatures)
   {
@@ -208,6 +209,7 @@ struct RefinementContext
   const double SizeFloor;              ///< smaller sizes are raised to it
   double SpacingFloor;                 ///< points closer to a vertex than this are never inserted
   const std::array<bool, 2> IsFlatEnd; ///< Domain::IsFlatEnd; the box ends there
+  const bool IsCut;                    ///< Domain::IsCut
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
 };

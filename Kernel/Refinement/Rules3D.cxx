@@ -312,23 +312,36 @@ Verdict Rules3D::R3(const Element& t)
       continue;
     }
     const LabelId other = this->LabelOf(n);
-    if (other == t.Label || this->FacetIsGood(simplex.V, i))
+    if (other == t.Label)
+    {
+      continue;
+    }
+    const bool shapely = this->FacetIsGood(simplex.V, i);
+    if (shapely && !this->MayCrossCutFace(t, n, other))
     {
       continue;
     }
     Point<3> z;
-    if (!this->Context.Image.FirstCrossing(t.Ball.Center, t.Label, mesh.GetCircumball(n).Center, z))
+    if (!this->Context.Image.FirstCrossing(
+          t.Ball.Center, t.Label, mesh.GetCircumball(n).Center, z) ||
+      (shapely && this->FacetIsFlat(simplex.V, i, z)))
     {
       continue;
     }
-    if (this->Context.Features.AnyWithin(z, this->Context.SpacingFloor))
+    const double delta = this->Context.Delta(z, t.Label, other);
+    double clearance = this->Context.SpacingFloor;
+    if (shapely)
+    {
+      clearance = std::max(clearance, CutClearance * delta);
+      this->MoveToCutEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance);
+    }
+    if (this->Context.Features.AnyWithin(z, clearance))
     {
       ++this->Worker.Statistics.RefusedTooClose;
       continue;
     }
-    const double delta = this->Context.Delta(z, t.Label, other);
-    const Verdict verdict = this->InsertFeature(
-      z, delta, this->Context.SpacingFloor, t.Id, n, this->Worker.Statistics.Fired[2]);
+    const Verdict verdict =
+      this->InsertFeature(z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[2]);
     if (verdict != Verdict::Good)
     {
       return verdict; // z need not conflict with t: whoever called judges t again if it lives
@@ -370,6 +383,48 @@ bool Rules3D::FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) cons
     }
   }
   return true;
+}
+
+//------------------------------------------------------------------------------------------------
+bool Rules3D::MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const
+{
+  const auto isBeyond = [this](const Point<3>& p)
+  { return this->Context.Image.IsBeyondCutFaces(p); };
+  return this->Context.IsCut &&
+    ((t.Label == 0 && isBeyond(t.Ball.Center)) ||
+      (other == 0 && isBeyond(this->Context.Mesh.GetCircumball(neighbour).Center)));
+}
+
+//------------------------------------------------------------------------------------------------
+// A facet whose dual edge leaves the object through the border of the image has its vertices there.
+bool Rules3D::FacetIsFlat(
+  const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const
+{
+  unsigned faces = this->Context.Image.CutFaces(crossing);
+  if (faces == 0)
+  {
+    return true;
+  }
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    if (i != facet)
+    {
+      faces &= this->Context.Image.CutFaces(this->Context.Mesh.Position(v[i]));
+    }
+  }
+  return faces != 0;
+}
+
+//------------------------------------------------------------------------------------------------
+// What is in the way of flat facets is most often near an edge that has too few vertices.
+void Rules3D::MoveToCutEdge(Point<3>& z, double reach, double clearance) const
+{
+  Point<3> edge;
+  if (this->Context.Image.NearCutEdge(z, reach, edge) &&
+    !this->Context.Features.AnyWithin(edge, clearance))
+  {
+    z = edge;
+  }
 }
 
 } // namespace voxplex

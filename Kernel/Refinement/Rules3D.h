@@ -14,7 +14,9 @@
  * - R2: t whose circumball meets dOmega; r(t) >= 2 Delta(z): insert c(t), or its projection onto the
  *   box if it lies outside.
  * - R3: facet f whose dual edge meets dOmega at z; an angle of f is below the bound, or a vertex of f
- *   is not a feature vertex: insert z.
+ *   is not a feature vertex: insert z. Or z lies on a face where the image cuts the object and a vertex of f
+ *   does not: insert z, or a point nearby on an edge of that face, unless a feature vertex is nearer than
+ *   CutClearance Delta(z).
  * - R4: t with c(t) inside the object; r(t) / shortest edge >= rho-bar: insert c(t).
  * - R5: t with c(t) inside the object; r(t) >= sf(c(t)): insert c(t).
  * - R6: a new feature vertex z (of R1 or R3): remove the free vertices of its star that are nearer than
@@ -68,6 +70,8 @@ private:
   /** R7 inserts no point nearer than this times Delta to a vertex, a free one in the way of a feature
    * point excepted. With 0.4 a few slivers of the knee atlas stay, with 0.25 none. */
   static constexpr double SliverSpacing = 0.25;
+  /** Points that R3 inserts to make facets flat keep off feature vertices by this times delta. */
+  static constexpr double CutClearance = 0.4;
 
   bool MayBePoor(SimplexId t);
   class BetterStar;
@@ -81,6 +85,10 @@ private:
   Verdict SampleNear(
     const Point<3>& z, double radius, double delta, const Element& t, double tolerance);
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
+  bool MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const;
+  bool FacetIsFlat(
+    const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const;
+  void MoveToCutEdge(Point<3>& z, double reach, double clearance) const;
 
   const double CosineOfFacetAngle;
   const double SineOfSliverAngle; ///< 0: slivers are left alone

@@ -58,12 +58,23 @@ LabelImage<3> Octants()
     });
 }
 
-/** Every voxel one of five labels or background. */
+/** Every voxel one of five labels or background, those at the border background. */
 LabelImage<3> Noise(unsigned seed)
 {
   std::mt19937 random(seed);
-  return phantoms::Make(GridGeometry<3>::Orthogonal({ 11, 9, 8 }, { 1.0, 0.5, 2.0 }),
-    [&](const Point<3>&) { return static_cast<std::int16_t>(random() % 6); });
+  const auto grid = GridGeometry<3>::Orthogonal({ 13, 11, 10 }, { 1.0, 0.5, 2.0 });
+  return phantoms::Make(grid,
+    [&](const Point<3>& p)
+    {
+      const Point<3> index = grid.ToIndex(p);
+      bool border = false;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        border =
+          border || index[a] < 0.5 || index[a] > static_cast<double>(grid.Dimensions[a]) - 1.5;
+      }
+      return static_cast<std::int16_t>(border ? 0 : random() % 6);
+    });
 }
 
 JunctionCurves Trace(const LabelImage<3>& image, unsigned threads = 1)

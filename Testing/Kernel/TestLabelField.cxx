@@ -179,8 +179,8 @@ TEST(LabelField, WithoutSmoothingIsTheArgMaxOfInterpolatedIndicators)
         const double f = x - std::floor(x);
         const auto i = static_cast<std::int64_t>(std::floor(x)) + ((corner >> a) & 1);
         w *= (corner >> a) & 1 ? f : 1.0 - f;
-        inside = inside && i >= 0 && i < n;
-        at = at * n + i;
+        inside = inside && x > -0.5 && x < n - 0.5; // labels go on to where the image cuts them
+        at = at * n + std::clamp<std::int64_t>(i, 0, n - 1);
       }
       weight[inside ? static_cast<std::size_t>(scalars[static_cast<std::size_t>(at)]) : 0] += w;
     }
@@ -222,8 +222,8 @@ TEST(LabelField, TilesAgreeOnTheirFaces)
       high[axis] += 1e-7;
       for (int l = 0; l <= labels; ++l)
       {
-        const double a = field.MarginAt(low, static_cast<LabelId>(l));
-        const double b = field.MarginAt(high, static_cast<LabelId>(l));
+        const double a = field.ExtendedMarginAt(low, static_cast<LabelId>(l));
+        const double b = field.ExtendedMarginAt(high, static_cast<LabelId>(l));
         if (std::abs(a) == 2.0 || std::abs(b) == 2.0)
         {
           ASSERT_EQ(a > 0.0, b > 0.0); // a uniform tile

@@ -250,7 +250,7 @@ void CheckInterpolation(const GridGeometry<D>& grid, std::mt19937& random)
     // The gradient is that of the interpolation, but for a factor.
     Point<D> gradient;
     Point<D> x = field.ToLattice(p);
-    if (!field.MarginGradientAt(x, 1, gradient))
+    if (!field.ExtendedMarginGradientAt(x, 1, gradient))
     {
       continue;
     }
@@ -274,7 +274,7 @@ void CheckInterpolation(const GridGeometry<D>& grid, std::mt19937& random)
     {
       ASSERT_NEAR(Dot(exact, gradient) / (length * std::sqrt(Dot(gradient, gradient))), 1.0, 1e-4);
       Point<D> other;
-      ASSERT_TRUE(field.MarginGradientAt(x, 0, other));
+      ASSERT_TRUE(field.ExtendedMarginGradientAt(x, 0, other));
       ASSERT_EQ(other[0], -gradient[0]);
       ++compared;
     }
