@@ -27,6 +27,11 @@ constexpr double FirstSpacing = 0.5;
 /** Nothing is sampled more finely than this, in smallest voxel spacings. */
 constexpr double FinestVoxels = 0.2;
 
+/** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
+constexpr double LargestSurfaceDistance = 1.1;
+/** From faces of voxels it may be so many times as far, for their stairs. */
+constexpr double StairFactor = 1.15;
+
 /** The rules take half the spacing of the points for that of vertices nearby. */
 constexpr double SpacingFactor = 0.5;
 
@@ -67,7 +72,14 @@ double InterfaceGuard::DensestAt(const Point<3>& p) const
                      : this->Base.At(p);
 }
 
-bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices, Known* known) const
+double InterfaceGuard::RemedyAt(const Face& face) const
+{
+  const double delta = this->DeltaAt(face);
+  return this->Base.Graded ? std::min(delta, this->Base.Finest() / FirstSpacing) : delta;
+}
+
+bool InterfaceGuard::IsFarFromVertices(
+  const Face& face, const FeatureGrid<3>& vertices, Known* known) const
 {
   const Point<3> centre = this->CentreOf(face);
   const double distance = std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal);
@@ -85,6 +97,34 @@ bool InterfaceGuard::IsFar(const Face& face, const FeatureGrid<3>& vertices, Kno
     }
   }
   return !vertices.AnyWithin(centre, distance);
+}
+
+/** Of the mesh to interfaces where delta is graded. */
+double InterfaceGuard::NearEnough() const
+{
+  return std::max(LargestSurfaceDistance * this->Base.Finest(), 0.5 * this->VoxelDiagonal);
+}
+
+// The faces of voxels, and the interface that runs about them, which is what is meshed.
+bool InterfaceGuard::IsFarFromTriangles(const Face& face, const FeatureGrid<3>& vertices,
+  const BoundingTree<Triangle>& triangles, std::uint32_t& hint) const
+{
+  const Point<3> centre = this->CentreOf(face);
+  const double half = 0.5 * this->Image.Grid().Spacing(static_cast<int>(face.Axis));
+  const double nearEnough = this->NearEnough();
+  if (nearEnough > half && vertices.AnyWithin(centre, nearEnough - half))
+  {
+    return false;
+  }
+  const double distance = std::sqrt(triangles.Distance2To(centre, hint));
+  if (distance > StairFactor * nearEnough || distance + half <= nearEnough)
+  {
+    return distance + half > nearEnough;
+  }
+  Point<3> z;
+  return this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
+           this->Image.CentreOf(face.Next()), z) &&
+    triangles.Distance2To(z, hint) > nearEnough * nearEnough;
 }
 
 Point<3> InterfaceGuard::CentreOf(const Face& face) const
@@ -122,7 +162,9 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
 std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
 {
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 },
-    std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal), mesh.Points.size());
+    this->Base.Graded ? this->NearEnough()
+                      : std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal),
+    mesh.Points.size());
   std::vector<bool> added(mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {
@@ -135,10 +177,19 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
       }
     }
   }
+  // Where delta is graded there may be few vertices, but the triangles between them must be near.
+  const BoundingTree<Triangle> triangles(
+    this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop);
+  const auto isFar = [&](const Face& face, Known* known, std::uint32_t& hint)
+  {
+    return this->Base.Graded ? this->IsFarFromTriangles(face, vertices, triangles, hint)
+                             : this->IsFarFromVertices(face, vertices, known);
+  };
   std::vector<Face> far;
+  std::uint32_t nearest = 0;
   for (const Face& face : this->Sampled)
   {
-    if (this->IsFar(face, vertices, nullptr))
+    if (isFar(face, nullptr, nearest))
     {
       far.push_back(face);
     }
@@ -156,13 +207,14 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
     [&](std::size_t first, std::size_t last)
     {
       std::vector<Known> known(64 * this->Sites.WordsPerRow() / VoxelsOfKnown);
+      std::uint32_t hint = 0;
       for (std::size_t row = first; row < last; ++row)
       {
         this->ForEachFaceOfRow(row,
           [&](const Face& face)
           {
             const auto x = static_cast<std::size_t>(face.Voxel[0] + 1);
-            if (this->IsFar(face, vertices, &known[x / VoxelsOfKnown]))
+            if (isFar(face, &known[x / VoxelsOfKnown], hint))
             {
               found[first / RowsAtOnce].push_back(face);
             }
@@ -225,7 +277,7 @@ InterfaceGuard::Index InterfaceGuard::CellOf(const Face& face)
 
 double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 {
-  return std::ldexp(FirstSpacing * this->DeltaAt(face), -static_cast<int>(visit));
+  return std::ldexp(FirstSpacing * this->RemedyAt(face), -static_cast<int>(visit));
 }
 
 //------------------------------------------------------------------------------------------------
@@ -266,7 +318,7 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
   for (const Face& face : far)
   {
     ThrowIfStopped(this->Stop);
-    this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->DeltaAt(face), faces);
+    this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->RemedyAt(face), faces);
   }
   for (const InterfaceEdge& edge : edges)
   {

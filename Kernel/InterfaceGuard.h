@@ -12,11 +12,13 @@
 #include "Image/Domain.h"
 #include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
+#include "Mesh/BoundingTree.h"
 #include "Mesh/InterfaceEdges.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <stop_token>
@@ -32,7 +34,8 @@ namespace voxplex
  * through a sheet, may never be looked at; and where two interfaces are nearer to each other than delta,
  * tetrahedra of their labels alternate around edges. Inspect() looks at a mesh for
  * - faces between voxels of different labels that have no vertex of the mesh's interfaces within
- *   LargestDistance times delta, or a voxel's diagonal if that is more;
+ *   LargestDistance times delta, or a voxel's diagonal if that is more; where delta is graded and vertices may be rare,
+ *   from which the mesh's triangles are farther than 1.1 times the finest delta, or half a voxel's diagonal if that is more;
  * - edges that are not manifold on the boundary of some label: other than two of its facets meet there.
  *
  * Around each of these it proposes points of the interfaces half a delta apart (a quarter, if it comes there
@@ -106,12 +109,18 @@ private:
     double Radius = std::numeric_limits<double>::infinity();
   };
   /** @param known of a face nearby; may be null */
-  bool IsFar(const Face& face, const FeatureGrid<3>& vertices, Known* known) const;
+  bool IsFarFromVertices(const Face& face, const FeatureGrid<3>& vertices, Known* known) const;
+  /** @param hint see BoundingTree */
+  bool IsFarFromTriangles(const Face& face, const FeatureGrid<3>& vertices,
+    const BoundingTree<Triangle>& triangles, std::uint32_t& hint) const;
+  double NearEnough() const;
   void LowerBound(const Face& face);
   static Index CellOf(const Face& face);
   /** Of what is sampled when a cell is visited again after so many visits. */
   double SpacingAt(const Face& face, unsigned visit) const;
   double DeltaAt(const Face& face) const;
+  /** What sampling around a far face begins with: that, but not much more than the finest. */
+  double RemedyAt(const Face& face) const;
   double DensestAt(const Point<3>& p) const;
   Point<3> CentreOf(const Face& face) const;
 

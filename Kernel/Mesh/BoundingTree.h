@@ -11,6 +11,7 @@
 #include "Geometry/Point.h"
 #include "Geometry/Triangle.h"
 #include "Mesh/HilbertOrder.h"
+#include "Mesh/SimplexMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
 
@@ -253,6 +254,18 @@ double BoundingTree<Primitive>::Distance2To(const Point<3>& p, std::uint32_t& hi
     stack[depth++] = near;
   }
   return best;
+}
+
+/** The triangles of a mesh's interfaces. */
+inline std::vector<Triangle> TrianglesOf(const SimplexMesh<3>& mesh)
+{
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.Facets.size());
+  for (const auto& facet : mesh.Facets)
+  {
+    triangles.push_back({ mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]] });
+  }
+  return triangles;
 }
 
 } // namespace voxplex

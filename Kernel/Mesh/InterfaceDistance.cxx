@@ -72,17 +72,6 @@ DistanceFigures Measure(const std::vector<Point<3>>& points, unsigned threads,
   return figures;
 }
 
-std::vector<Triangle> TrianglesOf(const SimplexMesh<3>& mesh)
-{
-  std::vector<Triangle> triangles;
-  triangles.reserve(mesh.Facets.size());
-  for (const auto& facet : mesh.Facets)
-  {
-    triangles.push_back({ mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]] });
-  }
-  return triangles;
-}
-
 /** The vertices and the centroids of the interfaces. */
 std::vector<Point<3>> SamplesOf(const SimplexMesh<3>& mesh)
 {

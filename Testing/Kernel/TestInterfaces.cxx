@@ -3,9 +3,11 @@
 // The mesh's interfaces are near the image's, and manifold: guard, edges, repair.
 #include "Error.h"
 #include "Image/ImageDomain.h"
+#include "Image/InterfacePoints.h"
 #include "ImageMesher.h"
 #include "InterfaceGuard.h"
 #include "Mesh/InterfaceEdges.h"
+#include "Mesh/InterfaceDistance.h"
 #include "Mesh/ManifoldRepair.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
@@ -439,6 +441,37 @@ TEST(InterfaceGuard, BringsOutAThinTipOfBackground)
       EXPECT_LE(LargestDistance(image, mesh), 1.5 * delta) << delta;
       EXPECT_GE(statistics.Interfaces.Rounds, 1u);
     }
+  }
+}
+
+// Graded meshes have few vertices where interfaces are flat, but their triangles are no farther from the image than those
+// of a uniform mesh with the finest delta.
+TEST(InterfaceGuard, KeepsGradedMeshesNear)
+{
+  for (const unsigned seed : { 1u, 2u, 3u })
+  {
+    const LabelImage<3> image = Blobs(seed);
+    const std::vector<Point<3>> faces = VoxelFaceCentres(image, 1);
+    double distances[2];
+    std::size_t elements[2];
+    MeshingOptions<3> options;
+    options.Delta = 1.2;
+    options.Grading.Mode = GradingMode::LocalFeatureSize;
+    options.Grading.Ratio = 2.0;
+    for (const unsigned rounds : { 0u, 5u })
+    {
+      options.InterfaceRounds = rounds;
+      SimplexMesh<3> mesh;
+      ImageMesher<3> mesher(options);
+      ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+      const unsigned k = rounds > 0 ? 1 : 0;
+      distances[k] = MeasureHausdorff(mesh, faces, nullptr, 1).ImageToMesh.Maximum;
+      elements[k] = mesh.Simplices.size();
+    }
+    constexpr double largest = 1.1 * 1.15; // see NearEnough() and StairFactor
+    EXPECT_GT(distances[0], largest * options.Delta) << seed;
+    EXPECT_LE(distances[1], largest * options.Delta) << seed;
+    EXPECT_LT(elements[1], elements[0] + elements[0] / 20) << seed; // finer only where it has to be
   }
 }
 
