@@ -377,6 +377,10 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   {
     const TetrahedralComplex::Label other = mesh.LabelOf(cell.N[i]);
     shared += other == label ? 1 : 0;
+    if (label == 0 && other == 0 && this->CutFacesOfFacet(t, i) != 0)
+    {
+      return false; // would leave a hole in a flat face
+    }
     if (other != own)
     {
       bounds.Replace(this->CosineOfFacet(t, i), facetIsAtJunction(i));
@@ -428,6 +432,15 @@ bool Flips::IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) cons
   const auto& kinds = this->Target.Mesh().Kinds;
   return kinds[u] == VertexRole::Fixed || kinds[v] == VertexRole::Fixed ||
     kinds[w] == VertexRole::Fixed;
+}
+
+/** The faces of the image that facet i of t lies on. */
+unsigned Flips::CutFacesOfFacet(std::uint32_t t, unsigned i) const
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  const auto& v = mesh.Cells[t].V;
+  return mesh.CutFacesOf(v[(i + 1) & 3]) & mesh.CutFacesOf(v[(i + 2) & 3]) &
+    mesh.CutFacesOf(v[(i + 3) & 3]);
 }
 
 /** Of the smallest angle of facet i of t. */

@@ -93,6 +93,7 @@ private:
   bool Apply();
   bool MayRelabel(std::uint32_t t, TetrahedralComplex::Label label);
   bool IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
+  unsigned CutFacesOfFacet(std::uint32_t t, unsigned i) const;
   double CosineOfFacet(std::uint32_t t, unsigned i) const;
   bool IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const;
   bool EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label);
