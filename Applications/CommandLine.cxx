@@ -258,12 +258,35 @@ std::string HelpText(const OptionGroups& groups)
   return text.str();
 }
 
+/**
+ * An option that needs a value and is followed by another option, which would be taken for the value. A value that
+ * begins with two dashes can be given after an equals sign.
+ */
+void RequireValues(int argc, const char* const* argv, const po::options_description& all)
+{
+  for (int i = 1; i + 1 < argc; ++i)
+  {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with("--") || !std::string_view(argv[i + 1]).starts_with("--"))
+    {
+      continue;
+    }
+    const auto* const option = all.find_nothrow(std::string(argument.substr(2)), false);
+    if (option != nullptr && option->semantic()->min_tokens() > 0)
+    {
+      throw UsageError(
+        Quoted(argument) + " needs a value, but " + Quoted(argv[i + 1]) + " follows it");
+    }
+  }
+}
+
 po::variables_map ParseOptions(
   int argc, const char* const* argv, const po::options_description& all)
 {
   namespace style = po::command_line_style;
   po::options_description recognised;
   recognised.add(all).add_options()(Stray, po::value<std::vector<std::string>>());
+  RequireValues(argc, argv, all);
   po::variables_map values;
   try
   {

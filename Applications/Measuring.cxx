@@ -88,7 +88,10 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
 {
   vtkNew<vtkSimplexMeshQuality> filter;
   filter->SetInputData(mesh);
-  filter->SetImageConnection(input.Labels->GetOutputPort());
+  if (!parameters.Isovalue) // otherwise the image has no labels
+  {
+    filter->SetImageConnection(input.Labels->GetOutputPort());
+  }
   for (const std::int64_t label : input.Selection.Labels)
   {
     filter->AddLabel(label);
@@ -132,10 +135,10 @@ void AddMeasurement(const ordered_json& measurement, ordered_json& report)
       report["labels"][label].update(figures);
     }
   }
-  for (const char* key : { "topology", "image", "hausdorff" })
-  {
-    report[key] = measurement[key];
-  }
+  report["topology"] = measurement["topology"];
+  const bool hasImage = measurement.contains("image");
+  report["image"] = hasImage ? measurement["image"] : ordered_json();
+  report["hausdorff"] = hasImage ? measurement["hausdorff"] : ordered_json::object();
 }
 
 std::string SummarizeMeasurement(const ordered_json& report)
@@ -152,10 +155,13 @@ std::string SummarizeMeasurement(const ordered_json& report)
        << Rounded(quality["min_planar_at_junctions"], 1) << " at them\n  "
        << topology["junction_edges"] << " junction edges, " << topology["corners"] << " corners; "
        << topology["non_manifold_edges"] << " non-manifold edges, "
-       << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n  "
-       << image["lost_labels"].size() << " labels and " << image["lost_components"].size() << " of "
-       << image["components"] << " components lost; volumes of labels off by "
-       << Rounded(100.0 * image["label_volume_error"].get<double>(), 2) << " %\n";
+       << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n";
+  if (!image.is_null())
+  {
+    text << "  " << image["lost_labels"].size() << " labels and " << image["lost_components"].size()
+         << " of " << image["components"] << " components lost; volumes of labels off by "
+         << Rounded(100.0 * image["label_volume_error"].get<double>(), 2) << " %\n";
+  }
   const ordered_json& distances = report["hausdorff"];
   if (distances.contains("voxels"))
   {

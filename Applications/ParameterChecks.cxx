@@ -51,25 +51,43 @@ void CheckSpaceTime(const SpaceTimeParameters& p, bool force)
   }
 }
 
+void RefuseIf(bool isGiven, const char* option, const char* why)
+{
+  if (isGiven)
+  {
+    throw UsageError(std::string(option) + why);
+  }
+}
+
 void CheckIsosurface(const Parameters& p)
 {
-  const auto refuse = [](const char* option, bool isGiven, const char* why)
-  {
-    if (isGiven)
-    {
-      throw UsageError(std::string(option) + why);
-    }
-  };
   if (p.Isovalue)
   {
     constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
-    refuse("--labels", !p.LabelTexts.empty(), Why);
-    refuse("--label-table", !p.LabelTable.empty(), Why);
+    RefuseIf(!p.LabelTexts.empty(), "--labels", Why);
+    RefuseIf(!p.LabelTable.empty(), "--label-table", Why);
+    RefuseIf(p.Hausdorff, "--hausdorff",
+      ": distances are measured from the labels of an image, and a grey-value image has none; "
+      "give --quality in its place, or leave --isovalue out");
     return;
   }
   constexpr const char* Why = ": inside of what? Give the isosurface with --isovalue";
-  refuse("--inside", !p.Inside.empty(), Why);
-  refuse("--inside-label", p.InsideLabel.has_value(), Why);
+  RefuseIf(!p.Inside.empty(), "--inside", Why);
+  RefuseIf(p.InsideLabel.has_value(), "--inside-label", Why);
+}
+
+/** Options without effect unless another is given, or unless it is not. */
+void CheckDependent(const Parameters& p)
+{
+  if (p.Grading != "lfs")
+  {
+    constexpr const char* Why =
+      ": only for interfaces that are graded; give --grading lfs as well, or leave it out";
+    RefuseIf(p.FeatureRatio.has_value(), "--feature-ratio", Why);
+    RefuseIf(p.LargestFeature.has_value(), "--largest-feature", Why);
+  }
+  RefuseIf(p.NoOptimise && p.OptimiseSeconds, "--optimise-seconds",
+    " limits what --no-optimise switches off: leave one of the two out");
 }
 
 /** The names of the options that were given and are for several time frames only. */
@@ -107,6 +125,7 @@ void CheckTogether(const Parameters& p)
     throw UsageError("--input is missing: which image shall be meshed?");
   }
   CheckIsosurface(p);
+  CheckDependent(p);
   if (!p.Output.empty())
   {
     RequireFormat(OutputOption::Output, p.Output);

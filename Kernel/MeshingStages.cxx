@@ -238,7 +238,8 @@ bool MeshingStages<D>::SearchDelta(const Prepared& prepared, SimplexMesh<D>& mes
       (isCoarse
           ? "; grading by the local feature size keeps interfaces coarse whatever delta: ask for "
             "less, or for a smaller ratio of the sampling density to the local feature size"
-          : "; small components, element sizes and interface sizes have elements whatever delta"));
+          : "; ask for about so many, or for larger sizes: small components, element sizes and "
+            "interface sizes have elements whatever delta"));
   }
   return true;
 }

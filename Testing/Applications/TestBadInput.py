@@ -34,7 +34,12 @@ class CommandLine(ProgramTestCase):
     def test_missing_values(self):
         self.refuse("--input.* needs a value", "--input")
         self.refuse("--delta.* needs a value", "--input", "a.nrrd", "--delta")
-
+        self.refuse("'--elements' needs a value, but '--output' follows it", "--input", "a.nrrd", "--elements", "--output",
+                    "b.vtu")
+        self.refuse("'--input' needs a value, but '--pin' follows it", "--input", "--pin")
+        self.refuse("'--labels' needs a value, but '--delta=1' follows it", "--labels", "--delta=1", "--input", "a.nrrd")
+        # Two dashes at the beginning of a value are possible.
+        self.assert_refused(1, "'--pin'", "--pin", "--input=--pin", "--force")
         self.refuse("--contention.* needs a value", "--input", "a.nrrd", "--contention")
         self.refuse("--balance.* needs a value", "--input", "a.nrrd", "--balance")
 
@@ -67,6 +72,16 @@ class CommandLine(ProgramTestCase):
             (("--grading", "thickness"), "--grading: must be uniform or lfs, not 'thickness'"),
             (("--feature-ratio", "0"), "--feature-ratio: must be greater than 0"),
             (("--largest-feature", "-3"), "--largest-feature: must be greater than 0"),
+            (("--grading", ""), "--grading: must be uniform or lfs, not ''"),
+            (("--elements", "0"), "--elements: must be a whole number from 1 "),
+            (("--elements", "-5"), "--elements: must be a whole number from 1 .*, not '-5'"),
+            (("--elements", "1e5"), "--elements: must be a whole number from 1 .*, not '1e5'"),
+            (("--gradation", "-1"), "--gradation: must lie between 0 and 1000, not -1"),
+            (("--interface-rounds", "-1"), "--interface-rounds: must be a whole number from 0 to 100, not '-1'"),
+            (("--optimise-seconds", "0"), "--optimise-seconds: must be greater than 0, not 0"),
+            (("--isovalue", "nan"), "--isovalue: must be a finite number"),
+            (("--isovalue", "1", "--inside", "left"), "--inside: must be above or below, not 'left'"),
+            (("--isovalue", "1", "--inside-label", "0"), "--inside-label: must be a whole number from 1"),
             (("--facet-angle", "31"), "--facet-angle: must lie between 0 and 30"),
             (("--facet-angle", "-1"), "--facet-angle: must lie between 0 and 30"),
             (("--sliver-angle", "60"), "--sliver-angle: must lie between 0 and 59"),
@@ -85,6 +100,16 @@ class CommandLine(ProgramTestCase):
         ):
             with self.subTest(arguments):
                 self.refuse(pattern, "--input", "a.nrrd", *arguments)
+
+    def test_options_without_effect(self):
+        """They are refused rather than ignored."""
+        for option in ("--feature-ratio", "--largest-feature"):
+            for grading in ((), ("--grading", "uniform")):
+                self.refuse(option + ": .*give --grading lfs as well, or leave it out", "--input", "a.nrrd", option, "2",
+                            *grading)
+        self.refuse("--optimise-seconds limits what --no-optimise switches off: leave one of the two out",
+                    "--input", "a.nrrd", "--no-optimise", "--optimise-seconds", "3")
+        self.refuse("--hausdorff: .*grey-value.*--quality", "--input", "a.nrrd", "--isovalue", "3", "--hausdorff")
 
     def test_labels(self):
         for arguments, pattern in (

@@ -90,7 +90,8 @@ class Options(ProgramTestCase):
         self.assertEqual((report["elements_asked_for"], report["runs"]), (None, []))
 
     def test_a_number_of_elements_out_of_reach(self):
-        self.assert_refused(1, "no delta makes a mesh of 3000 elements within 10 %: the nearest of .* has ",
+        self.assert_refused(1, "no delta makes a mesh of 3000 elements within 10 %: the nearest of .* has .*; ask for about "
+                            "so many, or for larger sizes",
                             "--input", self.input, "--size", 0.8, "--elements", 3000, "--output", "m.vtu")
         self.assertFalse((self.folder / "m.vtu").exists())
 
@@ -225,6 +226,16 @@ class Quality(ProgramTestCase):
         self.assertEqual(list(report["labels"]), ["3"])
         self.assertEqual(report["image"]["lost_labels"], [])
         self.assertLess(report["hausdorff"]["voxels"]["distance"], 3)
+
+    def test_isosurface(self):
+        """Grey values are no labels: the mesh is measured without them."""
+        z, y, x = np.mgrid[:24, :24, :24] - 11.5
+        images.write_nrrd(self.folder / "two.nrrd", (100 * np.sqrt(x**2 + y**2 + z**2)).astype(np.float32))
+        text, report = self.report("--isovalue", 800, "--inside", "below", "--quality")
+        self.assertRegex(text, r"\n  0 junction edges, 0 corners; 0 non-manifold edges, 0 of them at junctions\n$")
+        self.assertEqual((report["image"], report["hausdorff"]), (None, {}))
+        self.assertEqual(report["topology"]["non_manifold_edges"], 0)
+        self.assertEqual(sum(report["quality"]["dihedral_histogram"]), 6 * report["elements"])
 
     def test_not_asked_for(self):
         text, report = self.report()
