@@ -8,6 +8,7 @@
 #include "MeshFile.h"
 #include "OutputFiles.h"
 #include "ProgressReport.h"
+#include "Results.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkExecutive.h>
@@ -17,11 +18,12 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSegmentationReader.h>
+#include <vtkSimplexMeshQuality.h>
 #include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <array>
-#include <iostream>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -33,12 +35,9 @@ namespace
 constexpr ProgressReport::Stage Reading{ "vtkSegmentationReader", "Reading the label map", 0.0,
   0.05 };
 constexpr ProgressReport::Stage Meshing{ "vtkImageToTetMeshFilter", "Meshing", 0.05, 0.95 };
-constexpr ProgressReport::Stage Writing{ "vtkSimplexMeshWriter", "Writing the mesh", 0.95, 1.0 };
-
-void Warn(const std::string& warning)
-{
-  std::cerr << ModuleName << ": warning: " << warning << '\n';
-}
+constexpr ProgressReport::Stage Measuring{ "vtkSimplexMeshQuality", "Comparing with the label map",
+  0.95, 0.98 };
+constexpr ProgressReport::Stage Writing{ "vtkSimplexMeshWriter", "Writing the mesh", 0.98, 1.0 };
 
 /** An object with an observer of its errors and warnings does not print them. */
 void Silence(vtkObject* object)
@@ -117,13 +116,22 @@ void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
   filter->SetRadiusEdgeRatio(arguments.Number("radiusEdge"));
   filter->SetFacetAngle(arguments.Number("facetAngle"));
   filter->SetSmoothingSigma(arguments.Number("smoothing"));
+  filter->SetSliverAngle(arguments.Number("sliverAngle"));
+  filter->SetOptimise(arguments.Text("optimise") == "on");
+  filter->SetOptimisationTimeLimit(arguments.Number("optimiseSeconds"));
+  filter->SetSampleJunctions(arguments.Text("junctions") == "on");
+  filter->SetInterfaceRounds(arguments.Whole("interfaceRounds"));
+  filter->SetSmallestComponent(arguments.Whole("smallestComponent"));
+  filter->SetMinimumComponentVolume(arguments.Number("minimumVolume"));
+  filter->ComputeQualityOn();
   filter->SetNumberOfThreads(arguments.Whole("threads"));
   filter->SetForce(arguments.IsSet("force"));
 }
 
+/** Of the filter that meshes, and of that which measures. */
 void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
 {
-  auto* filter = static_cast<vtkImageToTetMeshFilter*>(caller);
+  auto* filter = static_cast<vtkAlgorithm*>(caller);
   if (!static_cast<ProgressReport*>(report)->Show(filter->GetProgress()))
   {
     filter->SetAbortExecute(1);
@@ -133,7 +141,7 @@ void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
 /** The filter's errors speak of its methods; the user has flags. */
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> terms{ {
     { "SetLabelSize()", "--labelsizes" },
     { "SetInterfaceSize()", "--interfacesizes" },
     { "AddLabel()", "--labels" },
@@ -142,6 +150,8 @@ std::string InTermsOfFlags(std::string message)
     { "Correct the labels to keep", "Correct --labels" },
     { "RadiusEdgeRatio is", "--radiusedge is" },
     { "Force goes down", "--force goes down" },
+    { "SliverAngle is", "--sliverangle is" },
+    { "Force goes on", "--force goes on" },
   } };
   for (const auto& [theirs, ours] : terms)
   {
@@ -154,19 +164,25 @@ std::string InTermsOfFlags(std::string message)
   return message;
 }
 
-vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
-  const Arguments& arguments, vtkAlgorithmOutput* labels, ProgressReport& report)
+/** Executes with progress, as long as the application does not want it to stop. */
+void Update(vtkAlgorithm* filter, ProgressReport& report)
 {
-  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
-  filter->SetInputConnection(labels);
-  Configure(filter, arguments);
-  Silence(filter.Get());
+  Silence(filter);
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(OnProgress);
   observer->SetClientData(&report);
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
   filter->Update();
   filter->RemoveObserver(tag);
+}
+
+vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
+  const Arguments& arguments, vtkAlgorithmOutput* labels, ProgressReport& report)
+{
+  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  filter->SetInputConnection(labels);
+  Configure(filter, arguments);
+  Update(filter, report);
   if (!filter->GetErrorMessage().empty())
   {
     throw cli::RunError("cannot mesh '" + arguments.Text("inputLabels") +
@@ -175,51 +191,44 @@ vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
   return filter;
 }
 
+/** Nothing if the user does not want it, or if the image has grey values and so no labels. */
+std::optional<Comparison> Compare(const Arguments& arguments, vtkAlgorithmOutput* labels,
+  vtkUnstructuredGrid* mesh, ProgressReport& report)
+{
+  if (!arguments.IsSet("quality"))
+  {
+    return std::nullopt;
+  }
+  if (arguments.IsSet("isosurface"))
+  {
+    Warn("--quality compares with a label map, and the input has grey values: leave it out");
+    return std::nullopt;
+  }
+  report.Start(Measuring);
+  vtkNew<vtkSimplexMeshQuality> filter;
+  filter->SetInputData(mesh);
+  filter->SetImageConnection(labels);
+  for (const std::int64_t label : arguments.Labels("labels"))
+  {
+    filter->AddLabel(label);
+  }
+  filter->SetSmoothDistances(false);
+  filter->SetNumberOfThreads(arguments.Whole("threads"));
+  Update(filter, report);
+  if (!filter->GetErrorMessage().empty())
+  {
+    throw cli::RunError("cannot measure the mesh: " + filter->GetErrorMessage());
+  }
+  // Stopped: the next stage ends the run before anything is written.
+  return filter->GetAborted() ? std::nullopt : std::optional(CompareWithImage(filter));
+}
+
 void WriteMesh(vtkImageToTetMeshFilter* filter, int content, const std::string& path,
   const cli::OutputFiles& files)
 {
   if (!path.empty())
   {
     cli::WriteMeshFile(filter->GetOutput(), filter->GetInterfaces(), content, path, files);
-  }
-}
-
-std::string MissingLabels(vtkMeshingStatistics* statistics)
-{
-  std::string list;
-  for (int i = 0; i < statistics->GetNumberOfLostLabels(); ++i)
-  {
-    list += (i == 0 ? "" : ",") + std::to_string(statistics->GetLostLabel(i));
-  }
-  return list;
-}
-
-/** What the application reads back after the run. */
-void WriteResults(
-  vtkMeshingStatistics* statistics, const std::string& path, const cli::OutputFiles& files)
-{
-  if (path.empty())
-  {
-    return;
-  }
-  files.WriteText(path,
-    [&](io::TextFile& file)
-    {
-      file << "numberOfTetrahedra = " << statistics->GetNumberOfElements() << '\n';
-      file << "usedDelta = " << statistics->GetDelta() << '\n';
-      file << "missingLabels = " << MissingLabels(statistics) << '\n';
-    });
-}
-
-void Summarize(vtkMeshingStatistics* statistics)
-{
-  std::cout << statistics->GetNumberOfElements() << " tetrahedra with "
-            << statistics->GetNumberOfVertices() << " nodes, "
-            << statistics->GetNumberOfInterfaceFacets() << " triangles on the interfaces; delta "
-            << statistics->GetDelta() << '\n';
-  if (const std::string missing = MissingLabels(statistics); !missing.empty())
-  {
-    Warn("the mesh lacks labels that are too small for delta: " + missing);
   }
 }
 
@@ -265,13 +274,15 @@ void RunJob(const Arguments& arguments)
   report.Start(Meshing);
   const auto filter = Mesh(arguments, reader->GetOutputPort(), report);
 
+  const auto comparison = Compare(arguments, reader->GetOutputPort(), filter->GetOutput(), report);
+
   report.Start(Writing);
   WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_MESH, meshPath, files);
   WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_INTERFACES, surfacesPath, files);
-  WriteResults(filter->GetStatistics(), arguments.ReturnFile, files);
+  WriteResults(filter->GetStatistics(), comparison, arguments.ReturnFile, files);
   report.Finish();
   files.Commit();
-  Summarize(filter->GetStatistics());
+  PrintResults(filter->GetStatistics(), comparison);
 }
 
 } // namespace voxplex::slicer

@@ -18,7 +18,7 @@
 
 // An array, because applications take the symbol's address for that of the text. It is filled while
 // the library is loaded.
-char XMLModuleDescription[16384];
+char XMLModuleDescription[65536];
 
 namespace voxplex::slicer
 {

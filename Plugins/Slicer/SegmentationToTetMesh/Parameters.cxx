@@ -118,13 +118,6 @@ ParameterGroup Density()
           "be 0 then. It takes two or three times as long. 0 leaves it to delta.",
         .LongFlag = "elements",
         .Default = "0" },
-      { .Type = Kind::StringVector,
-        .Name = "interfaceSizes",
-        .Label = "Interface sizes",
-        .Description =
-          "In place of delta: LABEL=LENGTH for all interfaces of a label, LABEL:LABEL=LENGTH for "
-          "the one between two, 0 being background; separated by commas, such as 3=0.5,3:7=0.4.",
-        .LongFlag = "interfacesizes" },
       { .Type = Kind::StringEnumeration,
         .Name = "grading",
         .Label = "Grading",
@@ -134,6 +127,82 @@ ParameterGroup Density()
         .LongFlag = "grading",
         .Default = "uniform",
         .Elements = { "uniform", "lfs" } },
+      { .Type = Kind::Double,
+        .Name = "size",
+        .Label = "Largest element",
+        .Description = "Upper bound of the circumradii of all elements. 0 sets none.",
+        .LongFlag = "size",
+        .Default = "0" },
+      { .Type = Kind::StringVector,
+        .Name = "labelSizes",
+        .Label = "Largest element of labels",
+        .Description = "The same for single labels: LABEL=LENGTH, separated by commas, such as "
+                       "3=1.5,7=2.",
+        .LongFlag = "labelsizes" },
+      { .Type = Kind::IntegerVector,
+        .Name = "labels",
+        .Label = "Labels",
+        .Description = "Mesh these labels only, such as 1,2,5; the others become background. Left "
+                       "empty, all are meshed.",
+        .LongFlag = "labels" },
+    } };
+}
+
+ParameterGroup Shapes()
+{
+  return { .Label = "Shapes and small objects",
+    .Description = "What is looked after besides.",
+    .Parameters = {
+      { .Type = Kind::StringEnumeration,
+        .Name = "optimise",
+        .Label = "Optimise",
+        .Description = "Improve shapes after refinement: dihedral angles of 15 to 155 degrees but "
+                       "for a few, at the "
+                       "price of radius-edge ratios up to 2.5.",
+        .LongFlag = "optimise",
+        .Default = "on",
+        .Elements = { "on", "off" } },
+      { .Type = Kind::Integer,
+        .Name = "smallestComponent",
+        .Label = "Smallest component",
+        .Description =
+          "Connected components of a label with at least so many voxels get tetrahedra, "
+          "however small they are beside delta. 1 keeps single voxels, 0 leaves it to "
+          "chance.",
+        .LongFlag = "smallestcomponent",
+        .Default = "8" },
+      { .Type = Kind::Double,
+        .Name = "minimumVolume",
+        .Label = "Smallest volume",
+        .Description =
+          "Leave out connected components with less volume, such as specks: they become "
+          "what is around them. 0 leaves out none.",
+        .LongFlag = "minimumvolume",
+        .Default = "0" },
+      { .Type = Kind::Boolean,
+        .Name = "quality",
+        .Label = "Compare with the label map",
+        .Description =
+          "Measure the finished mesh: the Hausdorff distance of its interfaces from those of the "
+          "label map, errors of volumes, non-manifold edges. Not of isosurfaces.",
+        .LongFlag = "quality",
+        .Default = "false" },
+    } };
+}
+
+ParameterGroup Sizes()
+{
+  return { .Label = "Sizes of interfaces",
+    .Description = "How density changes from place to place.",
+    .Advanced = true,
+    .Parameters = {
+      { .Type = Kind::StringVector,
+        .Name = "interfaceSizes",
+        .Label = "Interface sizes",
+        .Description =
+          "In place of delta: LABEL=LENGTH for all interfaces of a label, LABEL:LABEL=LENGTH for "
+          "the one between two, 0 being background; separated by commas, such as 3=0.5,3:7=0.4.",
+        .LongFlag = "interfacesizes" },
       { .Type = Kind::Double,
         .Name = "featureRatio",
         .Label = "Feature ratio",
@@ -151,18 +220,6 @@ ParameterGroup Density()
         .Default = "12",
         .Limits = Constraints{ 1.0, 100.0, 1.0 } },
       { .Type = Kind::Double,
-        .Name = "size",
-        .Label = "Largest element",
-        .Description = "Upper bound of the circumradii of all elements. 0 sets none.",
-        .LongFlag = "size",
-        .Default = "0" },
-      { .Type = Kind::StringVector,
-        .Name = "labelSizes",
-        .Label = "Largest element of labels",
-        .Description = "The same for single labels: LABEL=LENGTH, separated by commas, such as "
-                       "3=1.5,7=2.",
-        .LongFlag = "labelsizes" },
-      { .Type = Kind::Double,
         .Name = "gradation",
         .Label = "Gradation",
         .Description =
@@ -170,12 +227,6 @@ ParameterGroup Density()
           "no limit.",
         .LongFlag = "gradation",
         .Default = "0.3" },
-      { .Type = Kind::IntegerVector,
-        .Name = "labels",
-        .Label = "Labels",
-        .Description = "Mesh these labels only, such as 1,2,5; the others become background. Left "
-                       "empty, all are meshed.",
-        .LongFlag = "labels" },
     } };
 }
 
@@ -210,6 +261,40 @@ ParameterGroup Quality()
         .Flag = 's',
         .Default = "1",
         .Limits = Constraints{ 0.0, 10.0, 0.1 } },
+      { .Type = Kind::Double,
+        .Name = "sliverAngle",
+        .Label = "Sliver angle",
+        .Description =
+          "Tetrahedra with a dihedral angle below this, or above 180 degrees less this, "
+          "are split. 0 leaves them alone; above 15 Force is needed.",
+        .LongFlag = "sliverangle",
+        .Default = "9",
+        .Limits = Constraints{ 0.0, 59.0, 1.0 } },
+      { .Type = Kind::Double,
+        .Name = "optimiseSeconds",
+        .Label = "Time for optimising",
+        .Description =
+          "Stop improving shapes after so many seconds, wherever that is. 0 sets no limit.",
+        .LongFlag = "optimiseseconds",
+        .Default = "0" },
+      { .Type = Kind::StringEnumeration,
+        .Name = "junctions",
+        .Label = "Junctions",
+        .Description = "Sample the curves where three labels or more meet before all else, so that "
+                       "edges follow them; otherwise they zigzag.",
+        .LongFlag = "junctions",
+        .Default = "on",
+        .Elements = { "on", "off" } },
+      { .Type = Kind::Integer,
+        .Name = "interfaceRounds",
+        .Label = "Interface rounds",
+        .Description =
+          "How often, at most, to refine again where an interface of the image is farther than 1.5 "
+          "delta from those of the mesh, or where the boundary of a label is not manifold. 0: "
+          "never.",
+        .LongFlag = "interfacerounds",
+        .Default = "5",
+        .Limits = Constraints{ 0.0, 100.0, 1.0 } },
     } };
 }
 
@@ -269,6 +354,58 @@ ParameterGroup Results()
         .Description = "Labels of the image that the mesh lacks, because they are too small for "
                        "delta.",
         .Direction = Channel::Output },
+      { .Type = Kind::Integer,
+        .Name = "missingComponents",
+        .Label = "Components without elements",
+        .Description =
+          "How many connected components the mesh lacks although they were looked after.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "smallestDihedralAngle",
+        .Label = "Smallest dihedral angle",
+        .Description = "Of all tetrahedra, in degrees.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "largestDihedralAngle",
+        .Label = "Largest dihedral angle",
+        .Description = "Of all tetrahedra, in degrees.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "largestRadiusEdge",
+        .Label = "Largest radius-edge ratio",
+        .Description = "Circumradius over shortest edge, of all tetrahedra.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "smallestFacetAngle",
+        .Label = "Smallest angle of triangles",
+        .Description = "Of those on the interfaces, in degrees.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "hausdorffDistance",
+        .Label = "Hausdorff distance",
+        .Description = "From the faces between voxels of different labels to the interfaces and "
+                       "back, if the mesh was compared with the label map.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Integer,
+        .Name = "nonManifoldEdges",
+        .Label = "Non-manifold edges",
+        .Description = "Edges of the boundary of a label that not exactly two of its triangles "
+                       "share, if the mesh was compared.",
+        .Direction = Channel::Output,
+        .Default = "0" },
+      { .Type = Kind::Double,
+        .Name = "volumeError",
+        .Label = "Error of volumes",
+        .Description = "Of the label that has the largest, as a fraction of its volume, if the "
+                       "mesh was compared.",
+        .Direction = Channel::Output,
+        .Default = "0" },
     } };
 }
 
@@ -276,8 +413,8 @@ ParameterGroup Results()
 
 const std::vector<ParameterGroup>& ParameterGroups()
 {
-  static const std::vector<ParameterGroup> groups{ Files(), GreyValues(), Density(), Quality(),
-    Running(), Results() };
+  static const std::vector<ParameterGroup> groups{ Files(), GreyValues(), Density(), Shapes(),
+    Sizes(), Quality(), Running(), Results() };
   return groups;
 }
 

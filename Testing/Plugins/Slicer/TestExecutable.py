@@ -138,6 +138,32 @@ class Runs(ModuleTestCase):
         self.assertGreater(count[3], 1.1 * count[2])
         self.assertGreater(count[4], 1.1 * count[2])
 
+    def test_shapes(self):
+        def figures(*arguments):
+            self.run_module("--threads", 1, "--delta", 1, *arguments, "--returnparameterfile", "results.params", self.input,
+                            "mesh.vtu")
+            return float(parse_parameter_file(self.folder / "results.params")["smallestDihedralAngle"])
+        best, split = figures(), figures("--optimise", "off")
+        self.assertGreater(best, 12)
+        self.assertLess(split, best)
+        self.assertLess(figures("--optimise", "off", "--sliverangle", 0), split)
+        self.assertLess(figures("--optimiseseconds", 1e-9), best)
+
+    def test_junctions_and_rounds(self):
+        self.array[2, 2, 2] = 3  # a speck, far from everything else
+        images.write_nrrd(self.input, self.array, self.geometry)
+        sizes = [len(self.mesh("--threads", 1, "--delta", 2, *arguments).cells)
+                 for arguments in ((), ("--junctions", "off"), ("--interfacerounds", 0))]
+        self.assertEqual(len(set(sizes)), 3, sizes)
+
+    def test_small_components(self):
+        n = self.array.shape[0] // 2
+        self.array[n, n, n] = 9  # one voxel beside an interface
+        images.write_nrrd(self.input, self.array, self.geometry)
+        kept = ("--delta", 3, "--smallestcomponent", 1)
+        self.assertIn(9, self.mesh(*kept).labels)
+        self.assertNotIn(9, self.mesh(*kept, "--minimumvolume", 2, name="other.vtu").labels)
+
     def test_isosurface(self):
         z, y, x = np.mgrid[:24, :24, :24]
         radius = np.sqrt((x - 11.5) ** 2 + (y - 11.5) ** 2 + (z - 11.5) ** 2)
@@ -173,12 +199,44 @@ class Runs(ModuleTestCase):
         # Between the first and the last there is more to see.
         self.assertGreater(len(set(numbers("filter-progress", reports[1].group(3)))), 3)
         rest = FILTER.sub("", output)
-        self.assertRegex(rest, r"^\d+ tetrahedra with \d+ nodes, \d+ triangles on the interfaces; delta 0.7\n$")
+        self.assertRegex(rest, r"^\d+ tetrahedra with \d+ nodes, \d+ triangles on the interfaces; delta 0.7\n"
+                         "Dihedral angles from NUMBER to NUMBER degrees, radius-edge ratio at most NUMBER, angles of triangles "
+                         "from NUMBER degrees\n$".replace("NUMBER", NUMBER))
 
     def test_results(self):
         mesh = self.mesh("--delta", 2.5, "--returnparameterfile", "results.params")
         results = parse_parameter_file(self.folder / "results.params")
-        self.assertEqual(results, {"numberOfTetrahedra": str(len(mesh.cells)), "usedDelta": "2.5", "missingLabels": ""})
+        figures = {name: float(results.pop(name)) for name in ("smallestDihedralAngle", "largestDihedralAngle",
+                                                              "largestRadiusEdge", "smallestFacetAngle")}
+        self.assertEqual(results, {"numberOfTetrahedra": str(len(mesh.cells)), "usedDelta": "2.5", "missingLabels": "",
+                                   "missingComponents": "0"})
+        self.assertTrue(12 < figures["smallestDihedralAngle"] < 70.5 < figures["largestDihedralAngle"] < 160, figures)
+        self.assertTrue(0.612 < figures["largestRadiusEdge"] < 2.5 and 20 < figures["smallestFacetAngle"] <= 60, figures)
+
+    def test_comparison_with_the_label_map(self):
+        def compare(*arguments):
+            output = self.run_module("--quality", "--threads", 1, *arguments, "--returnparameterfile", "results.params",
+                                     self.input, "mesh.vtu")
+            results = parse_parameter_file(self.folder / "results.params")
+            found = re.search("\nHausdorff distance (%s), (\\d+) non-manifold edges, volumes of labels off by up to (%s) %%\n$"
+                              % (NUMBER, NUMBER), output)
+            for printed, name, scale in zip(found.groups(), ("hausdorffDistance", "nonManifoldEdges", "volumeError"), (1, 1, 100)):
+                self.assertAlmostEqual(float(printed), scale * float(results[name]), delta=1e-4)
+            self.assertIn(" \"Comparing with the label map\" ", output)
+            return results
+        fine, coarse = compare("--delta", 1), compare("--delta", 4, "--optimise", "off")
+        self.assertTrue(0.2 < float(fine["hausdorffDistance"]) < 2, fine)
+        self.assertGreater(float(coarse["volumeError"]), 1.5 * float(fine["volumeError"]))
+        self.assertEqual(fine["nonManifoldEdges"], "0")
+        # Labels that are not meshed are background of the label map, too.
+        self.assertLess(float(compare("--delta", 1, "--labels", 7)["hausdorffDistance"]), 2)
+
+    def test_an_isosurface_is_not_compared(self):
+        done = self.call("--isosurface", "--isovalue", 2, "--quality", "--returnparameterfile", "results.params", self.input,
+                         "mesh.vtu")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: --quality compares with a label map, .*leave it out\n$")
+        self.assertNotIn("hausdorffDistance", parse_parameter_file(self.folder / "results.params"))
 
     def test_derived_delta_is_returned(self):
         self.mesh("--returnparameterfile", "results.params")
@@ -240,6 +298,14 @@ class Refusals(ModuleTestCase):
                 "a label has no interface with itself": ("--interfacesizes", "3:3=1", "a", "b.vtu"),
                 "--delta and --elements do not go together": ("--delta", "1", "--elements", "9", "a", "b.vtu"),
                 "--gradation: must be 0 or more": ("--gradation=-1", "a", "b.vtu"),
+                "--elements: must be a whole number from 0": ("--elements=-5", "a", "b.vtu"),
+                "--optimise: 'yes' is not one of on, off": ("--optimise", "yes", "a", "b.vtu"),
+                "--junctions: '' is not one of on, off": ("--junctions", "", "a", "b.vtu"),
+                "--optimiseseconds: must be 0 or more": ("--optimiseseconds=-1", "a", "b.vtu"),
+                "--interfacerounds: must be a whole number from 0 to 100": ("--interfacerounds=-1", "a", "b.vtu"),
+                "--smallestcomponent: must be a whole number from 0": ("--smallestcomponent=-1", "a", "b.vtu"),
+                "--sliverangle: must lie between 0 and 59": ("--sliverangle", "60", "a", "b.vtu"),
+                "--minimumvolume: must be 0 or more": ("--minimumvolume=-1", "a", "b.vtu"),
                 "--labelsizes: label 3 is given twice": ("--labelsizes", "3=1,3=2", "a", "b.vtu"),
                 "--space: 'LAS' is not one of LPS, RAS": ("--space", "LAS", "a", "b.vtu"),
                 "is not an address": ("--processinformationaddress", "here", "a", "b.vtu"),
@@ -261,6 +327,9 @@ class Refusals(ModuleTestCase):
                 "two outputs have this name": ("--returnparameterfile", "b.vtu", "ball.nrrd", "b.vtu"),
                 "Label 5 was asked for.* Correct --labels": ("--labels", "5", "ball.nrrd", "b.vtu"),
                 "--labelsizes .*5.* not occur": ("--labelsizes", "5=1", "ball.nrrd", "b.vtu"),
+                "no delta makes a mesh of 3 elements .*ask for about so many": ("--elements", "3", "ball.nrrd", "b.vtu"),
+                "every component of the image is smaller": ("--minimumvolume", "1e9", "ball.nrrd", "b.vtu"),
+                "--sliverangle is .*--force": ("--sliverangle", "16", "ball.nrrd", "b.vtu"),
                 "--force": ("--delta", "0.001", "ball.nrrd", "b.vtu")}.items():
             with self.subTest(arguments):
                 self.assert_refused(1, pattern, *arguments)

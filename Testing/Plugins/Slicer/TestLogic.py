@@ -23,8 +23,8 @@ MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMe
 sys.path.insert(0, str(MODULE))
 
 from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,  # noqa: E402
-                                    commandParameters, describeMesh, labelMesh, measureLabels, mergeChoices, parseSize,
-                                    storeChoices)
+                                    commandParameters, describeMesh, describeQuality, labelMesh, measureLabels,
+                                    mergeChoices, parseInterfaceSizes, parseSize, storeChoices)
 
 SEGMENTS = [Segment("s1", "Bone", (1.0, 0.9, 0.7)), Segment("s2", "Mark", (0.8, 0.1, 0.1)),
             Segment("s3", "Muscle, left", (0.5, 0.2, 0.2))]
@@ -89,11 +89,21 @@ class FilterRunner:
         self.filter.SetInputData(image)
 
     def start(self, parameters, onChange):
-        names = {"delta": "Delta", "size": "ElementSize", "smoothing": "SmoothingSigma", "radiusEdge": "RadiusEdgeRatio",
-                 "facetAngle": "FacetAngle", "threads": "NumberOfThreads", "force": "Force"}
+        names = {"delta": "Delta", "elements": "NumberOfElements", "size": "ElementSize", "smoothing": "SmoothingSigma",
+                 "radiusEdge": "RadiusEdgeRatio", "facetAngle": "FacetAngle", "sliverAngle": "SliverAngle",
+                 "gradation": "Gradation", "featureRatio": "FeatureRatio", "largestFeature": "LargestFeature",
+                 "optimiseSeconds": "OptimisationTimeLimit", "interfaceRounds": "InterfaceRounds",
+                 "smallestComponent": "SmallestComponent", "minimumVolume": "MinimumComponentVolume",
+                 "threads": "NumberOfThreads", "force": "Force"}
         for name, value in parameters.items():
-            if name != "labelSizes":
+            if name in names:
                 getattr(self.filter, "Set" + names[name])(value)
+        self.filter.SetGrading(["uniform", "lfs"].index(parameters["grading"]))
+        self.filter.SetOptimise(parameters["optimise"] == "on")
+        self.filter.SetSampleJunctions(parameters["junctions"] == "on")
+        rest = set(parameters) - set(names) - {"grading", "optimise", "junctions", "labelSizes"}
+        if any(parameters[name] for name in rest):
+            raise AssertionError("not for this runner: %s" % rest)
         for item in filter(None, parameters["labelSizes"].split(",")):
             label, size = item.split("=")
             self.filter.SetLabelSize(int(label), float(size))
@@ -135,13 +145,52 @@ class Choices(unittest.TestCase):
         self.assertEqual((texts["delta"], texts["threads"], texts["force"]), ("1.25", "3", "true"))
         self.assertEqual(Settings.fromTexts(texts.get), settings)
         self.assertEqual(Settings.fromTexts(lambda name: ""), Settings())
-        self.assertEqual(Settings.fromTexts({"delta": "by hand"}.get).delta, 0.0)
+        hand = Settings.fromTexts({"delta": "by hand", "smallestComponent": "eight"}.get)
+        self.assertEqual((hand.delta, hand.smallestComponent), (0.0, 8))
+        self.assertEqual(Settings.fromTexts(Settings(optimise="off", grading="lfs").toTexts().get).optimise, "off")
 
     def test_parameters(self):
         segments = [replace(SEGMENTS[0], mesh=False, size=9.0), replace(SEGMENTS[1]), replace(SEGMENTS[2], size=1.5)]
         parameters = commandParameters(segments, Settings(delta=2.0))
         self.assertEqual(parameters["labelSizes"], "2=1.5")  # the first is not meshed: the labels are 1 and 2
         self.assertEqual(parameters["delta"], 2.0)
+
+    def test_parameters_that_count(self):
+        """What has no effect is not passed on."""
+        def names(isosurface=False, **settings):
+            return set(commandParameters(SEGMENTS, Settings(**settings), isosurface))
+        plain = names()
+        self.assertEqual({"delta", "isovalue", "inside", "greySmoothing", "featureRatio", "largestFeature", "quality",
+                          "smoothing"} & plain, {"delta", "quality", "smoothing"})
+        self.assertEqual(names(grading="lfs") - plain, {"featureRatio", "largestFeature"})
+        self.assertEqual(plain - names(elements=9), {"delta"})
+        self.assertEqual(names(isosurface=True) ^ plain, {"isovalue", "inside", "greySmoothing", "quality", "smoothing"})
+        self.assertFalse(commandParameters(SEGMENTS, Settings())["isosurface"])
+        self.assertTrue(commandParameters(SEGMENTS, Settings(), isosurface=True)["isosurface"])
+
+    def test_interface_sizes(self):
+        segments = [*SEGMENTS, Segment("s4", "A : B", (0, 0, 1))]
+        for text, expected in {
+                "": "", " ; ": "", "Bone=0.5": "1=0.5", "Bone = 0,5; Mark : Bone = 2;": "1=0.5,2:1=2.0",
+                "Muscle, left : background = 1": "3:0=1.0", "A : B=1": "4=1.0", "Bone : A : B = 1": "1:4=1.0"}.items():
+            self.assertEqual(parseInterfaceSizes(text, segments), expected)
+        for text in ("Bone", "=1", "Skin=1", "Bone : Skin = 1", "Bone = 0", "Bone ="):
+            with self.assertRaisesRegex(MeshingError, "is not the size of an interface: write NAME = LENGTH"):
+                parseInterfaceSizes(text, segments)
+        # Labels are those of the segments that are meshed.
+        parameters = commandParameters([replace(SEGMENTS[0], mesh=False), *SEGMENTS[1:]], Settings(interfaceSizes="Mark = 1"))
+        self.assertEqual(parameters["interfaceSizes"], "1=1.0")
+
+    def test_figures_of_quality(self):
+        shapes = {"smallestDihedralAngle": "15.04", "largestDihedralAngle": "154.96", "largestRadiusEdge": "2.413",
+                  "smallestFacetAngle": "30.02", "missingComponents": "0"}
+        self.assertEqual(describeQuality(shapes), ["Dihedral angles from 15.0 to 155.0 degrees, radius-edge ratio at most 2.41, "
+                                                   "angles of triangles from 30.0 degrees"])
+        compared = {**shapes, "hausdorffDistance": "1.2345", "nonManifoldEdges": "2", "volumeError": "0.0151"}
+        self.assertEqual(describeQuality(compared)[1:], ["Hausdorff distance 1.23 mm, 2 non-manifold edges, volumes of segments "
+                                                         "off by up to 1.5 %"])
+        self.assertEqual(describeQuality({}), [])
+        self.assertEqual(describeQuality({"smallestDihedralAngle": ""}), [])
 
     def test_parameters_are_those_of_the_cli_module(self):
         xml = subprocess.run([EXECUTABLE, "--xml"], capture_output=True, check=True).stdout
@@ -150,7 +199,7 @@ class Choices(unittest.TestCase):
         self.assertLessEqual(set(parameters), set(known))
         # The defaults agree, too.
         for field in fields(Settings):
-            default = known[field.name].findtext("default")
+            default = known[field.name].findtext("default") or ""
             value = getattr(Settings(), field.name)
             self.assertEqual(value, default == "true" if isinstance(value, bool) else type(value)(default), field.name)
 
@@ -161,6 +210,8 @@ class Choices(unittest.TestCase):
             commandParameters(SEGMENTS, Settings(delta=-1.0))
         with self.assertRaisesRegex(MeshingError, "Size must be 0 or more"):
             commandParameters(SEGMENTS, Settings(size=float("nan")))
+        with self.assertRaisesRegex(MeshingError, "Elements must be 0 or more"):
+            commandParameters(SEGMENTS, Settings(elements=-5))
 
 
 class Runs(ModuleTestCase):
@@ -278,7 +329,9 @@ class Runs(ModuleTestCase):
     @unittest.skipUnless(os.environ.get("VOXPLEX_HAVE_PYTHON"), "the Python package was not built")
     def test_same_mesh_from_the_filter(self):
         """One runner is as good as the other."""
-        settings = Settings(delta=2.5, smoothing=0.5, radiusEdge=2.1, facetAngle=25.0, threads=1)
+        settings = Settings(delta=2.5, smoothing=0.5, radiusEdge=2.1, facetAngle=25.0, sliverAngle=7.0, gradation=0.5,
+                            grading="lfs", featureRatio=0.8, largestFeature=9.0, junctions="off", interfaceRounds=1,
+                            smallestComponent=3, minimumVolume=1.5, optimise="off", threads=1)
         segments = [replace(self.segments[0], size=2.0), self.segments[1]]
         self.logic.start(segments, settings)
         other = MeshingLogic(FilterRunner(self.array))

@@ -5,9 +5,11 @@
 
 It finds misspelt names and wrong arguments, and what the panel does when. How the panel looks it cannot tell.
 """
+import re
 import sys
 import types
 import unittest
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +23,8 @@ import qt  # noqa: E402
 import slicer  # noqa: E402
 import vtk  # noqa: E402
 import VoxplexMesher  # noqa: E402
-from VoxplexMesherLib.Logic import Phase, measureLabels  # noqa: E402
-from VoxplexMesherLib.Widget import MESH, NAME, SIZE  # noqa: E402
+from VoxplexMesherLib.Logic import Phase, Settings, measureLabels  # noqa: E402
+from VoxplexMesherLib.Widget import COMBO_BOXES, FLAGS, MESH, NAME, SIZE, SPIN_BOXES, SWITCHES  # noqa: E402
 
 
 class PanelTestCase(unittest.TestCase):
@@ -47,7 +49,7 @@ class PanelTestCase(unittest.TestCase):
 
     def choose_segmentation(self, **options):
         node = self.add_segmentation(**options)
-        self.widget.segmentationSelector.setCurrentNode(node)
+        self.widget.inputSelector.setCurrentNode(node)
         return node
 
     def item(self, row, column):
@@ -78,7 +80,7 @@ class Panel(PanelTestCase):
 
     def test_apply_needs_a_segmentation(self):
         self.assertFalse(self.widget.applyButton.enabled)
-        self.assertEqual(self.widget.applyButton.toolTip, "Choose a segmentation first")
+        self.assertEqual(self.widget.applyButton.toolTip, "Choose a segmentation or a volume first")
         self.assertFalse(self.widget.cancelButton.enabled)
         self.choose_segmentation()
         self.assertTrue(self.widget.applyButton.enabled)
@@ -86,7 +88,7 @@ class Panel(PanelTestCase):
     def test_first_segmentation_is_taken(self):
         node = self.add_segmentation()
         self.widget.enter()
-        self.assertIs(self.widget.segmentationSelector.currentNode(), node)
+        self.assertIs(self.widget.inputSelector.currentNode(), node)
 
     def test_table(self):
         self.choose_segmentation()
@@ -109,7 +111,7 @@ class Panel(PanelTestCase):
         segmentation.InvokeEvent(segmentation.SegmentModified)
         self.assertEqual(self.item(0, NAME).text(), "Fat")
         other = self.add_segmentation("Other")
-        self.widget.segmentationSelector.setCurrentNode(other)
+        self.widget.inputSelector.setCurrentNode(other)
         self.assertEqual(segmentation.observers, {})  # the first is no longer observed
         self.assertEqual(len(other.GetSegmentation().observers), 3)
 
@@ -120,11 +122,75 @@ class Panel(PanelTestCase):
         self.widget.threadsSpinBox.value = 3
         self.widget.forceCheckBox.checked = True
         self.assertEqual([node.GetParameter(name) for name in ("delta", "threads", "force")], ["1.5", "3", "true"])
-        for name, value in (("size", 4.0), ("smoothing", 0.5), ("radiusEdge", 1.95), ("facetAngle", 20.0), ("threads", 2)):
-            node.SetParameter(name, repr(value))
-            self.assertEqual(getattr(self.widget, name + "SpinBox").value, value)
         node.SetParameter("force", "false")
         self.assertFalse(self.widget.forceCheckBox.checked)
+
+    def test_every_setting_has_a_widget(self):
+        """Which shows what the parameter node has, and stores what is chosen."""
+        node = self.widget.parameterNode
+        known = {*SPIN_BOXES, *COMBO_BOXES, *SWITCHES, *FLAGS, "interfaceSizes"}
+        self.assertEqual(known, {field.name for field in fields(Settings)})
+        kinds = {**dict.fromkeys(SPIN_BOXES, "SpinBox"), **dict.fromkeys(SWITCHES + FLAGS, "CheckBox")}
+        for name, kind in kinds.items():
+            box, attribute = getattr(self.widget, name + kind), "value" if kind == "SpinBox" else "checked"
+            before = node.GetParameter(name)
+            shown = getattr(box, attribute)
+            setattr(box, attribute, shown + 1 if kind == "SpinBox" and shown + 1 <= box.maximum else
+                    shown - 1 if kind == "SpinBox" else not shown)
+            stored = node.GetParameter(name)
+            self.assertNotEqual(stored, before, name)
+            node.SetParameter(name, before)
+            self.assertEqual(getattr(box, attribute), shown, name)
+            self.assertNotEqual(box.toolTip, None, name)
+        for name in COMBO_BOXES:
+            box = getattr(self.widget, name + "ComboBox")
+            box.currentIndex = 1
+            self.assertEqual(node.GetParameter(name), box.items[1][1])
+            node.SetParameter(name, box.items[0][1])
+            self.assertEqual(box.currentIndex, 0)
+        self.widget.interfaceSizesLineEdit.type("Bone = 1")
+        self.assertEqual(node.GetParameter("interfaceSizes"), "Bone = 1")
+        node.SetParameter("interfaceSizes", "Bone = 2")
+        self.assertEqual(self.widget.interfaceSizesLineEdit.text, "Bone = 2")
+
+    def test_choices_of_the_cli_module(self):
+        parameters = slicer.modules.segmentationtotetmesh.parameters
+        for name in COMBO_BOXES:
+            offered = [data for _, data in getattr(self.widget, name + "ComboBox").items]
+            self.assertEqual(offered, [e.text for e in parameters[name].findall("element")])
+        for name in SWITCHES:
+            self.assertEqual([e.text for e in parameters[name].findall("element")], ["on", "off"])
+
+    def test_what_does_not_count_is_disabled(self):
+        w = self.widget
+        self.assertTrue(w.deltaSpinBox.enabled)
+        w.elementsSpinBox.value = 5000
+        self.assertFalse(w.deltaSpinBox.enabled)
+        w.elementsSpinBox.value = 0
+        self.assertTrue(w.deltaSpinBox.enabled)
+        self.assertFalse(w.featureRatioSpinBox.enabled or w.largestFeatureSpinBox.enabled)
+        w.gradingComboBox.currentIndex = 1
+        self.assertTrue(w.featureRatioSpinBox.enabled and w.largestFeatureSpinBox.enabled)
+        self.assertTrue(w.optimiseSecondsSpinBox.enabled)
+        w.optimiseCheckBox.checked = False
+        self.assertFalse(w.optimiseSecondsSpinBox.enabled)
+
+    def test_sections_for_the_input(self):
+        def shown():
+            return [self.widget.sections[title].visible for title in ("Segments", "Isosurface")]
+        self.assertEqual(shown(), [True, False])
+        volume = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLScalarVolumeNode", "CT")
+        node = self.widget.parameterNode
+        self.widget.inputSelector.setCurrentNode(volume)
+        self.assertEqual((node.GetNodeReference("Volume"), node.GetNodeReference("Segmentation")), (volume, None))
+        self.assertEqual(shown(), [False, True])
+        self.assertFalse(self.widget.qualityCheckBox.enabled or self.widget.smoothingSpinBox.enabled)
+        self.assertTrue(self.widget.applyButton.enabled)
+        segmentation = self.choose_segmentation()
+        self.assertEqual((node.GetNodeReference("Volume"), node.GetNodeReference("Segmentation")), (None, segmentation))
+        self.assertEqual(shown(), [True, False])
+        with self.assertRaisesRegex(AssertionError, "not offered"):
+            self.widget.inputSelector.setCurrentNode(slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode"))
 
     def test_defaults_are_those_of_the_cli_module(self):
         for name, p in slicer.modules.segmentationtotetmesh.parameters.items():
@@ -236,6 +302,109 @@ class Runs(PanelTestCase):
         self.assertEqual(figures.label, 1)
         self.assertAlmostEqual(figures.volume / (self.array == 7).sum(), 1.0, delta=0.08)
         self.assertRegex(self.log()[2], "^  Muscle: ")
+
+    def test_options_arrive(self):
+        """Each where it belongs: more elements or fewer, other shapes, a longer log."""
+        self.choose_segmentation(size=32)
+        w = self.widget
+        w.threadsSpinBox.value = 1
+
+        def count():
+            self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+            return self.mesh_node().GetMesh().GetNumberOfCells()
+        w.deltaSpinBox.value = 1.0
+        plain = count()
+        w.gradingComboBox.currentIndex = 1
+        graded = count()
+        self.assertLess(graded, 0.8 * plain)
+        w.featureRatioSpinBox.value = 0.4
+        self.assertGreater(count(), 1.1 * graded)
+        w.gradingComboBox.currentIndex = 0
+        w.interfaceSizesLineEdit.type("Bone : Muscle = 0.5; Muscle : background = 1.5")
+        self.assertNotEqual(count(), plain)
+        self.assertEqual(self.option("--interfacesizes"), "1:2=0.5,2:0=1.5")
+        w.interfaceSizesLineEdit.type("")
+        w.optimiseCheckBox.checked = False
+        count()
+        self.assertLess(self.dihedral_angles()[0], 14)
+        w.elementsSpinBox.value = 12000
+        self.assertLess(abs(count() / 12000 - 1), 0.1)
+        self.assertEqual(self.option("--delta"), "0")
+
+    def option(self, flag):
+        command = slicer.cli.commands[-1]
+        return command[command.index(flag) + 1]
+
+    def dihedral_angles(self):
+        """As the log has them."""
+        line, = [line for line in self.log() if line.startswith("Dihedral angles")]
+        return [float(text) for text in re.findall(r"from ([\d.]+) to ([\d.]+) degrees", line)[0]]
+
+    def test_figures_of_quality(self):
+        self.choose_segmentation()
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        low, high = self.dihedral_angles()
+        self.assertTrue(12 < low < 60 < high < 160, (low, high))
+        self.assertNotIn("Hausdorff", "\n".join(self.log()))
+        self.widget.qualityCheckBox.checked = True
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        distance, edges = re.match(r"Hausdorff distance ([\d.]+) mm, (\d+) non-manifold edges, volumes of segments off by up to "
+                                   r"[\d.]+ %$", self.log()[-1]).groups()
+        self.assertTrue(0.2 < float(distance) < 3.0, distance)
+        self.assertEqual(edges, "0")
+
+    def test_small_components(self):
+        segmentation = self.choose_segmentation().GetSegmentation()
+        speck = np.zeros_like(segmentation.segments["a"].voxels)
+        n = len(speck) // 2
+        speck[n, n, n] = True  # beside an interface
+        segmentation.add("c", "Speck", (0, 0, 1), speck)
+        self.widget.deltaSpinBox.value = 3.0
+        lost, found = "\n  Speck: none; it is too small for this delta", "\n  Speck: [1-9]"
+        self.apply()
+        self.assertRegex("\n".join(self.log()), lost)
+        self.widget.smallestComponentSpinBox.value = 1
+        self.apply()
+        self.assertRegex("\n".join(self.log()), found)
+        self.widget.minimumVolumeSpinBox.value = 2.0  # a voxel has 1
+        self.apply()
+        self.assertRegex("\n".join(self.log()), lost)
+
+    def test_isosurface(self):
+        """A ball of radius 8 in a volume; its mesh has the volume's name."""
+        z, y, x = np.mgrid[:24, :24, :24] - 11.5
+        volume = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLScalarVolumeNode", "Distances")
+        volume.array, volume.geometry = (100 * np.sqrt(x**2 + y**2 + z**2)).astype(np.float32), images.Geometry()
+        w = self.widget
+        w.inputSelector.setCurrentNode(volume)
+        w.isovalueSpinBox.value = 1e6
+        self.assertEqual(self.apply().phase, Phase.FAILED)
+        self.assertRegex(self.log()[-1], "^Failed: .*outside of the image's range, which is from 86.6")
+        w.isovalueSpinBox.value = 800.0
+        w.insideComboBox.currentIndex = 1
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        figures, = measureLabels(self.mesh_node().GetMesh())
+        self.assertAlmostEqual(figures.volume / (4.0 / 3.0 * np.pi * 8**3), 1.0, delta=0.08)
+        self.assertRegex("\n".join(self.log()), r"^Meshing Distances\n(.*\n)*  Distances: \d+ tetrahedra")
+        self.assertEqual(self.mesh_node().GetName(), "Distances mesh")
+        self.assertIn(volume, slicer.mrmlScene.nodes.values())  # the input is no temporary label map
+        self.assertEqual(self.mesh_node().GetDisplayNode().GetColorNode().colors[1][0], "Distances")
+
+    def test_segmentation_or_volume(self):
+        self.choose_segmentation()
+        volume = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLScalarVolumeNode", "CT")
+        self.widget.parameterNode.references["Volume"] = volume.GetID()  # as a script can
+        self.widget.applyButton.click()
+        self.assertRegex(slicer.util.shownErrors[-1], "not both")
+        self.assertEqual(slicer.cli.running, [])
+
+    def test_wrong_interface_sizes(self):
+        self.choose_segmentation()
+        self.widget.interfaceSizesLineEdit.type("Bone : Skin = 1")
+        self.widget.applyButton.click()
+        self.assertRegex(slicer.util.shownErrors[-1], "'Bone : Skin = 1' is not the size of an interface")
+        self.assertEqual(slicer.cli.running, [])
+        self.assertTrue(self.widget.applyButton.enabled)
 
     def test_interfaces(self):
         self.choose_segmentation()

@@ -14,7 +14,7 @@ from __future__ import annotations
 import enum
 import json
 import math
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -38,12 +38,29 @@ class Segment:
 
 @dataclass
 class Settings:
-    """Lengths are in millimetres. The defaults are those of the CLI module."""
+    """Lengths are in millimetres. Names and defaults are those of the CLI module, whose description says more."""
     delta: float = 0.0  # 0: derived from the spacing
+    elements: int = 0  # number of tetrahedra, in place of delta; 0: delta counts
+    grading: str = "uniform"  # or lfs: by the local feature size
     size: float = 0.0  # 0: no bound
+    optimise: str = "on"  # or off
+    smallestComponent: int = 8  # in voxels; 0: left to chance
+    quality: bool = False  # compare with the label map
+    interfaceSizes: str = ""  # see parseInterfaceSizes()
+    gradation: float = 0.3  # 0: no limit
+    featureRatio: float = 1.0  # with grading lfs
+    largestFeature: float = 12.0  # in voxels; with grading lfs
     smoothing: float = 1.0  # in voxels
     radiusEdge: float = 2.0
     facetAngle: float = 30.0  # degrees
+    sliverAngle: float = 9.0  # degrees; 0: slivers stay
+    optimiseSeconds: float = 0.0  # 0: no limit
+    junctions: str = "on"  # or off
+    interfaceRounds: int = 5
+    minimumVolume: float = 0.0  # of components, in cubic millimetres; 0: none is left out
+    isovalue: float = 0.0  # of a volume, as the next two
+    inside: str = "above"  # or below
+    greySmoothing: float = 0.0  # in voxels
     threads: int = 0  # 0: all cores
     force: bool = False
 
@@ -51,23 +68,23 @@ class Settings:
     def fromTexts(cls, text):
         """From a parameter node; text(name) gives what is stored, or an empty text."""
         settings = cls()
-        for field in fields(cls):
-            stored = text(field.name)
+        for setting in fields(cls):
+            stored = text(setting.name)
             if stored:
-                setattr(settings, field.name, _parse(stored, type(getattr(settings, field.name))))
+                setattr(settings, setting.name, _parse(stored, getattr(settings, setting.name)))
         return settings
 
     def toTexts(self):
         """For a parameter node."""
-        return {name: str(value).lower() if isinstance(value, bool) else repr(value)
+        return {name: value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else repr(value)
                 for name, value in asdict(self).items()}
 
 
-def _parse(text, kind):
+def _parse(text, default):
     try:
-        return text == "true" if kind is bool else kind(text)
+        return text == "true" if isinstance(default, bool) else type(default)(text)
     except ValueError:
-        return kind()  # a scene that was edited by hand
+        return default  # a scene that was edited by hand
 
 
 class Phase(enum.Enum):
@@ -90,6 +107,7 @@ class RunState:
     progress: float = 0.0  # 0 to 1
     message: str = ""  # the present stage; if it failed, why
     warnings: str = ""
+    results: dict = field(default_factory=dict)  # of a completed run: what the CLI module returned, texts by name
 
 
 # --- Choices of segments ------------------------------------------------------------------------------------
@@ -133,16 +151,57 @@ def meshedSegments(segments):
 
 # --- Parameters of the CLI module ---------------------------------------------------------------------------
 
-def commandParameters(segments, settings):
-    """The CLI module's parameters by name, without its files. Raises MeshingError."""
+OF_VOLUMES = ("isovalue", "inside", "greySmoothing")
+OF_SEGMENTATIONS = ("quality", "smoothing")
+OF_GRADING = ("featureRatio", "largestFeature")
+
+
+def commandParameters(segments, settings, isosurface=False):
+    """The CLI module's parameters by name, without its files. Of an isosurface there is one segment, its inside. What
+    does not count is left out: delta beside a number of elements, what belongs to grading without it, and so on. Raises
+    MeshingError."""
     chosen = meshedSegments(segments)
     if not chosen:
         raise MeshingError("No segment is chosen: check at least one in the table")
-    for name in ("delta", "size", "smoothing"):
+    for name in ("delta", "elements", "size", "smoothing"):
         if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0.0):
             raise MeshingError("%s must be 0 or more" % name.capitalize())
     sizes = ["%d=%r" % (label, segment.size) for label, segment in enumerate(chosen, 1) if segment.size > 0.0]
-    return {**asdict(settings), "labelSizes": ",".join(sizes)}
+    idle = OF_SEGMENTATIONS if isosurface else OF_VOLUMES
+    if settings.grading != "lfs":
+        idle += OF_GRADING
+    if settings.elements > 0:
+        idle += ("delta",)
+    parameters = {name: value for name, value in asdict(settings).items() if name not in idle}
+    parameters.update(labelSizes=",".join(sizes), isosurface=isosurface,
+                      interfaceSizes=parseInterfaceSizes(settings.interfaceSizes, chosen))
+    return parameters
+
+
+def parseInterfaceSizes(text, chosen):
+    """Interface sizes with names as the user types them, such as "Bone = 0.5; Bone : Muscle = 0.4; Skin : background = 2", with
+    labels as the CLI module wants them: "1=0.5,1:2=0.4,3:0=2". Raises MeshingError."""
+    labels = {"background": 0, **{segment.name: label for label, segment in enumerate(chosen, 1)}}
+    items = []
+    for item in filter(None, (part.strip() for part in text.split(";"))):
+        names, equals, size = item.rpartition("=")
+        pair = _splitNames(names.strip(), labels)
+        if not equals or pair is None or not parseSize(size) > 0.0:
+            raise MeshingError("'%s' is not the size of an interface: write NAME = LENGTH, or NAME : NAME = LENGTH, with names of "
+                               "segments that are meshed, or background" % item)
+        items.append(":".join(str(labels[name]) for name in pair) + "=%r" % parseSize(size))
+    return ",".join(items)
+
+
+def _splitNames(text, labels):
+    """One known name, or two; names may have colons themselves."""
+    if text in labels:
+        return (text,)
+    for place in (place for place, letter in enumerate(text) if letter == ":"):
+        pair = text[:place].strip(), text[place + 1:].strip()
+        if pair[0] in labels and pair[1] in labels:
+            return pair
+    return None
 
 
 # --- The mesh -----------------------------------------------------------------------------------------------
@@ -196,6 +255,26 @@ def describeMesh(mesh, segments):
     return lines
 
 
+def describeQuality(results):
+    """Lines for the log about what the CLI module returned; none if it returned nothing."""
+    figures = {name: float(text) for name, text in results.items() if _isNumber(text)}
+    lines = []
+    if "smallestDihedralAngle" in figures:
+        lines.append("Dihedral angles from %(smallestDihedralAngle).1f to %(largestDihedralAngle).1f degrees, radius-edge ratio at "
+                     "most %(largestRadiusEdge).2f, angles of triangles from %(smallestFacetAngle).1f degrees" % figures)
+    if "hausdorffDistance" in figures:
+        lines.append("Hausdorff distance %.3g mm, %d non-manifold edges, volumes of segments off by up to %.2g %%" % (
+            figures["hausdorffDistance"], figures["nonManifoldEdges"], 100.0 * figures["volumeError"]))
+    return lines
+
+
+def _isNumber(text):
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
 # --- One run ------------------------------------------------------------------------------------------------
 
 class MeshingLogic:
@@ -211,11 +290,11 @@ class MeshingLogic:
     def isBusy(self):
         return self.state.phase in (Phase.RUNNING, Phase.CANCELLING)
 
-    def start(self, segments, settings):
+    def start(self, segments, settings, isosurface=False):
         """Begins a run. Raises MeshingError if the choices do not do, or another run is under way."""
         if self.isBusy:
             raise MeshingError("A mesh is being made: wait for it, or cancel it")
-        parameters = commandParameters(segments, settings)
+        parameters = commandParameters(segments, settings, isosurface)
         self.log("Meshing " + ", ".join(segment.name for segment in meshedSegments(segments)))
         self._change(RunState(Phase.RUNNING))
         try:

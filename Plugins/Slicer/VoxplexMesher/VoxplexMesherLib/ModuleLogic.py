@@ -9,7 +9,7 @@
     logic.apply(node)      # returns at once; log and onChange are called later
     logic.wait()           # for scripts
 
-References: Segmentation, OutputMesh, OutputSurfaces (optional). Parameters: those of Logic.Settings, and Segments, the
+References: Segmentation, or Volume to mesh an isosurface; OutputMesh, OutputSurfaces (optional). Parameters: those of Logic.Settings, and Segments, the
 choices of Logic.storeChoices().
 """
 import logging
@@ -17,9 +17,9 @@ import logging
 import slicer
 from slicer.ScriptedLoadableModule import ScriptedLoadableModuleLogic
 
-from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Settings, describeMesh, mergeChoices,
-                                    storeChoices)
-from VoxplexMesherLib.Scene import CommandLineRunner, readSegments, showMesh, showSurfaces
+from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Settings, describeMesh, describeQuality,
+                                    mergeChoices, storeChoices)
+from VoxplexMesherLib.Scene import CommandLineRunner, insideOf, readSegments, showMesh, showSurfaces
 
 
 class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
@@ -42,7 +42,10 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
         return Settings.fromTexts(parameterNode.GetParameter)
 
     def segments(self, parameterNode):
-        """The segments of the chosen segmentation with their stored choices."""
+        """The segments of the chosen segmentation with their stored choices; of a volume the inside of its isosurface."""
+        volumeNode = parameterNode.GetNodeReference("Volume")
+        if volumeNode is not None:
+            return [insideOf(volumeNode)]
         return mergeChoices(readSegments(parameterNode.GetNodeReference("Segmentation")),
                             parameterNode.GetParameter("Segments"))
 
@@ -53,18 +56,21 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
 
     def apply(self, parameterNode):
         """Begins a run; a mesh node is made if none is chosen. Raises MeshingError."""
-        segmentationNode = parameterNode.GetNodeReference("Segmentation")
-        if segmentationNode is None:
-            raise MeshingError("Choose a segmentation first")
+        volumeNode = parameterNode.GetNodeReference("Volume")
+        inputNode = volumeNode or parameterNode.GetNodeReference("Segmentation")
+        if inputNode is None:
+            raise MeshingError("Choose a segmentation or a volume first")
+        if volumeNode is not None and parameterNode.GetNodeReference("Segmentation") is not None:
+            raise MeshingError("Choose a segmentation or a volume, not both")
         segments = self.segments(parameterNode)
         meshNode = parameterNode.GetNodeReference("OutputMesh")
         if meshNode is None:
-            meshNode = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLModelNode", segmentationNode.GetName() + " mesh")
+            meshNode = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLModelNode", inputNode.GetName() + " mesh")
             parameterNode.SetNodeReferenceID("OutputMesh", meshNode.GetID())
         surfacesNode = parameterNode.GetNodeReference("OutputSurfaces")
         self._outputs = (meshNode, surfacesNode, segments)
-        self.runner.prepare(segmentationNode, segments, meshNode, surfacesNode)
-        self.meshing.start(segments, self.settings(parameterNode))
+        self.runner.prepare(inputNode, segments, meshNode, surfacesNode)
+        self.meshing.start(segments, self.settings(parameterNode), isosurface=volumeNode is not None)
 
     def cancel(self):
         self.meshing.cancel()
@@ -82,7 +88,7 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
     def _show(self, state):
         meshNode, surfacesNode, segments = self._outputs
         try:
-            for line in describeMesh(meshNode.GetMesh(), segments):
+            for line in describeMesh(meshNode.GetMesh(), segments) + describeQuality(state.results):
                 self.log(line)
         except MeshingError as error:
             self.log("Failed: %s" % error)

@@ -20,31 +20,47 @@ def readSegments(segmentationNode):
     return segments
 
 
+def insideOf(volumeNode):
+    """What an isosurface of a volume node bounds, as the one segment that is meshed."""
+    return Segment(volumeNode.GetID(), volumeNode.GetName(), (0.9, 0.85, 0.7))
+
+
+def isVolume(node):
+    """Whether it is a volume of grey values."""
+    return node is not None and node.IsA("vtkMRMLScalarVolumeNode") and not node.IsA("vtkMRMLLabelMapVolumeNode")
+
+
 class CommandLineRunner:
-    """Runs the CLI module SegmentationToTetMesh on some segments of a segmentation.
+    """Runs the CLI module SegmentationToTetMesh on some segments of a segmentation, or on a volume.
 
     The segments are exported into a temporary label map, in which later segments win where they overlap. Slicer
     loads the results into the output nodes before the run counts as completed.
     """
+
+    RESULTS = ("missingComponents", "smallestDihedralAngle", "largestDihedralAngle", "largestRadiusEdge", "smallestFacetAngle")
+    RESULTS_OF_COMPARISON = ("hausdorffDistance", "nonManifoldEdges", "volumeError")
 
     def __init__(self):
         self.cliNode = None
         self.labelmapNode = None
         self.observation = None
         self.onChange = None
+        self.results = ()
 
-    def prepare(self, segmentationNode, segments, meshNode, surfacesNode=None):
-        """What the next start() works on."""
-        self.inputs = (segmentationNode, segments, meshNode, surfacesNode)
+    def prepare(self, inputNode, segments, meshNode, surfacesNode=None):
+        """What the next start() works on: a segmentation node, or a volume node."""
+        self.inputs = (inputNode, segments, meshNode, surfacesNode)
 
     def start(self, parameters, onChange):
-        segmentationNode, segments, meshNode, surfacesNode = self.inputs
+        inputNode, segments, meshNode, surfacesNode = self.inputs
         if not hasattr(slicer.modules, "segmentationtotetmesh"):
             raise MeshingError("The CLI module SegmentationToTetMesh is not loaded: add its folder to the module paths "
                                "in the application settings, and restart")
         self.onChange = onChange
-        self.labelmapNode = self._exportSegments(segmentationNode, segments)
-        nodes = {"inputLabels": self.labelmapNode, "outputMesh": meshNode}
+        self.results = self.RESULTS + (self.RESULTS_OF_COMPARISON if parameters.get("quality") else ())
+        if not isVolume(inputNode):
+            inputNode = self.labelmapNode = self._exportSegments(inputNode, segments)
+        nodes = {"inputLabels": inputNode, "outputMesh": meshNode}
         if surfacesNode is not None:
             nodes["outputSurfaces"] = surfacesNode
         self.cliNode = slicer.cli.run(slicer.modules.segmentationtotetmesh, None, {**parameters, **nodes},
@@ -76,16 +92,17 @@ class CommandLineRunner:
         elif status & cliNode.ErrorsMask:
             state = RunState(Phase.FAILED, message=errors or cliNode.GetStatusString())
         elif status & cliNode.Completed:
-            state = RunState(Phase.COMPLETED, 1.0, warnings=errors)
+            state = RunState(Phase.COMPLETED, 1.0, warnings=errors,
+                             results={name: cliNode.GetParameterAsString(name) for name in self.results})
         else:
             return  # before the start
         self._cleanUp()
         self.onChange(state)
 
     def _cleanUp(self):
-        """The scene keeps the outputs only."""
+        """The scene keeps the inputs and the outputs only."""
         self.cliNode.RemoveObserver(self.observation)
-        displayNode = self.labelmapNode.GetDisplayNode()
+        displayNode = self.labelmapNode.GetDisplayNode() if self.labelmapNode else None
         colorNode = displayNode.GetColorNode() if displayNode else None
         for node in (self.cliNode, self.labelmapNode, colorNode):
             if node is not None:

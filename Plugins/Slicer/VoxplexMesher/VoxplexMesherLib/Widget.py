@@ -10,10 +10,19 @@ from slicer.util import VTKObservationMixin
 
 from VoxplexMesherLib.Logic import MeshingError, Phase, parseSize
 from VoxplexMesherLib.ModuleLogic import VoxplexMesherLogic
+from VoxplexMesherLib.Scene import isVolume
 
 COLUMNS = ("Segment", "Mesh it", "Size (mm)")
 NAME, MESH, SIZE = range(3)
 SEGMENT_ID = qt.Qt.UserRole
+LARGEST_WHOLE = 2147483647
+# Settings by the kind of widget that shows them, which is called after the setting.
+SPIN_BOXES = ("delta", "elements", "size", "smallestComponent", "gradation", "featureRatio", "largestFeature", "smoothing",
+              "interfaceRounds", "radiusEdge", "facetAngle", "sliverAngle", "optimiseSeconds", "minimumVolume", "isovalue",
+              "greySmoothing", "threads")
+COMBO_BOXES = ("grading", "inside")
+SWITCHES = ("optimise", "junctions")  # check boxes of settings that are on or off
+FLAGS = ("quality", "force")  # check boxes of settings that are true or false
 
 
 class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
@@ -21,8 +30,9 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         ScriptedLoadableModuleWidget.__init__(self, parent)
         VTKObservationMixin.__init__(self)
         self.logic = None
+        self.sections = {}  # by title
         self.parameterNode = None
-        self.segmentationNode = None  # the one that is observed
+        self.segmentationNode = None  # the one that is observed, if segments are meshed
         self.updating = False  # while the panel follows the parameter node
 
     # --- Building the panel ---
@@ -34,7 +44,9 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.logic.onChange = self.showState
         self.buildNodes()
         self.buildSegments()
+        self.buildIsosurface()
         self.buildDensity()
+        self.buildShapes()
         self.buildAdvanced()
         self.buildRun()
         self.layout.addStretch(1)
@@ -47,17 +59,21 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         section.text = title
         section.collapsed = collapsed
         self.layout.addWidget(section)
+        self.sections[title] = section
         return qt.QFormLayout(section)
 
     def buildNodes(self):
         form = self.addSection("Input and output")
-        self.segmentationSelector = self.makeNodeSelector("vtkMRMLSegmentationNode", "The segmentation to mesh")
+        self.inputSelector = self.makeNodeSelector("vtkMRMLSegmentationNode", "The segmentation to mesh; or a volume, to mesh "
+                                                   "what an isosurface of it bounds")
+        self.inputSelector.nodeTypes = ["vtkMRMLSegmentationNode", "vtkMRMLScalarVolumeNode"]
+        self.inputSelector.showChildNodeTypes = False  # no label maps
         self.meshSelector = self.makeNodeSelector("vtkMRMLModelNode", "The mesh; left empty, a new model is made",
                                                   output=True)
         self.surfacesSelector = self.makeNodeSelector(
             "vtkMRMLModelNode", "The triangles between segments, and between segments and background; left empty, "
             "they are not made", output=True)
-        form.addRow("Segmentation:", self.segmentationSelector)
+        form.addRow("Segmentation or volume:", self.inputSelector)
         form.addRow("Mesh:", self.meshSelector)
         form.addRow("Interfaces:", self.surfacesSelector)
 
@@ -83,36 +99,100 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.segmentTable.connect("itemChanged(QTableWidgetItem*)", self.onSegmentItemChanged)
         form.addRow(self.segmentTable)
 
+    def buildIsosurface(self):
+        form = self.addSection("Isosurface")
+        self.isovalueSpinBox = self.makeSpinBox(-1e9, 1e9, 1.0, 3, "", "The value of the isosurface; it must lie within the range "
+                                                "of the volume")
+        self.insideComboBox = self.makeComboBox({"above": "above the isovalue", "below": "below the isovalue"},
+                                                "On which side of the isosurface the object lies")
+        self.greySmoothingSpinBox = self.makeSpinBox(0.0, 5.0, 0.1, 2, "off", "How far grey values are smoothed against noise, in "
+                                                     "voxels")
+        form.addRow("Isovalue:", self.isovalueSpinBox)
+        form.addRow("Inside:", self.insideComboBox)
+        form.addRow("Smoothing (voxels):", self.greySmoothingSpinBox)
+
     def buildDensity(self):
         form = self.addSection("Density")
         self.deltaSpinBox = self.makeSpinBox(0.0, 1000.0, 0.1, 3, "from the spacing", "Sampling density of the "
                                              "interfaces: the edges of their triangles are about one to two times as long")
+        self.elementsSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 10000, "as delta has it", "So many tetrahedra, to within a tenth, "
+                                                     "in place of delta, which is found by trying: it takes two or three times as long")
+        self.gradingComboBox = self.makeComboBox(
+            {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"}, "With the second, interfaces are sampled by their "
+            "local feature size, the distance to the medial axis (about half the thickness of what is thin); delta is then the "
+            "finest density")
         self.sizeSpinBox = self.makeSpinBox(0.0, 1000.0, 0.5, 3, "no bound",
                                             "Upper bound of the circumradii of all elements")
         form.addRow("Delta (mm):", self.deltaSpinBox)
+        form.addRow("Number of elements:", self.elementsSpinBox)
+        form.addRow("Grading:", self.gradingComboBox)
         form.addRow("Largest element (mm):", self.sizeSpinBox)
+
+    def buildShapes(self):
+        form = self.addSection("Shapes and small objects")
+        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
+                                                  "radius-edge ratios up to 2.5")
+        self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "left to chance", "Connected components of a segment "
+                                                              "with at least so many voxels get tetrahedra, however small they are "
+                                                              "beside delta")
+        self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
+                                                 "non-manifold edges. The log has the figures")
+        form.addRow("Optimise:", self.optimiseCheckBox)
+        form.addRow("Smallest component (voxels):", self.smallestComponentSpinBox)
+        form.addRow("Compare with the segments:", self.qualityCheckBox)
 
     def buildAdvanced(self):
         form = self.addSection("Advanced", collapsed=True)
+        self.buildInterfaces(form)
+        self.buildBounds(form)
+        self.threadsSpinBox = self.makeWholeSpinBox(1024, 1, "all cores", "With 1 the mesh is the same in every run")
+        self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, or the radius-edge "
+                                               "ratio is too low, or the sliver angle too large")
+        form.addRow("Threads:", self.threadsSpinBox)
+        form.addRow("Force:", self.forceCheckBox)
+
+    def buildInterfaces(self, form):
+        """How interfaces are sampled."""
+        self.interfaceSizesLineEdit = qt.QLineEdit()
+        self.interfaceSizesLineEdit.placeholderText = "Bone = 0.5; Bone : Muscle = 0.4; Skin : background = 2"
+        self.interfaceSizesLineEdit.setToolTip("In place of delta for all interfaces of a segment, or for the interface between two, "
+                                               "in millimetres")
+        self.interfaceSizesLineEdit.connect("editingFinished()", self.updateParameterNodeFromGUI)
+        self.gradationSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "no limit", "How much sizes, and interface sizes, may change over a "
+                                                 "millimetre")
+        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling density over local feature size, "
+                                                    "where that gives more than delta")
+        self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: local feature sizes above this count as "
+                                                      "this, in voxels")
         self.smoothingSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "off", "How far voxel stairs are smoothed, in voxels")
+        self.junctionsCheckBox = self.makeCheckBox("Sample the curves where three segments meet before all else, so that edges "
+                                                   "follow them")
+        self.interfaceRoundsSpinBox = self.makeWholeSpinBox(100, 1, "never", "How often, at most, to refine again where interfaces are "
+                                                            "farther than 1.5 delta from the mesh, or are not manifold")
+        form.addRow("Interface sizes (mm):", self.interfaceSizesLineEdit)
+        form.addRow("Gradation:", self.gradationSpinBox)
+        form.addRow("Feature ratio:", self.featureRatioSpinBox)
+        form.addRow("Largest feature (voxels):", self.largestFeatureSpinBox)
+        form.addRow("Smoothing (voxels):", self.smoothingSpinBox)
+        form.addRow("Sample junctions:", self.junctionsCheckBox)
+        form.addRow("Interface rounds:", self.interfaceRoundsSpinBox)
+
+    def buildBounds(self, form):
+        """What is asked of elements, and what is left out."""
         self.radiusEdgeSpinBox = self.makeSpinBox(1.0, 10.0, 0.1, 3, "", "Upper bound of circumradius over shortest edge; "
                                                   "below 1.932 only with Force")
         self.facetAngleSpinBox = self.makeSpinBox(0.0, 30.0, 1.0, 1, "", "Lower bound of the angles of triangles on the "
                                                   "interfaces, in degrees")
-        self.threadsSpinBox = qt.QSpinBox()
-        self.threadsSpinBox.setRange(0, 1024)
-        self.threadsSpinBox.specialValueText = "all cores"
-        self.threadsSpinBox.setToolTip("With 1 the mesh is the same in every run")
-        self.threadsSpinBox.connect("valueChanged(int)", self.updateParameterNodeFromGUI)
-        self.forceCheckBox = qt.QCheckBox()
-        self.forceCheckBox.setToolTip("Go on although the mesh is estimated not to fit into memory, or the radius-edge "
-                                      "ratio is too low")
-        self.forceCheckBox.connect("toggled(bool)", self.updateParameterNodeFromGUI)
-        form.addRow("Smoothing (voxels):", self.smoothingSpinBox)
+        self.sliverAngleSpinBox = self.makeSpinBox(0.0, 59.0, 1.0, 1, "slivers stay", "Tetrahedra with a dihedral angle below this, or "
+                                                   "above 180 less this, are split, in degrees; above 15 only with Force")
+        self.optimiseSecondsSpinBox = self.makeSpinBox(0.0, 1e6, 10.0, 1, "no limit", "Stop optimising after so many seconds")
+        self.minimumVolumeSpinBox = self.makeSpinBox(0.0, 1e9, 1.0, 3, "none is left out", "Connected components with less volume, such "
+                                                     "as specks, become what is around them")
         form.addRow("Radius-edge ratio:", self.radiusEdgeSpinBox)
         form.addRow("Facet angle:", self.facetAngleSpinBox)
-        form.addRow("Threads:", self.threadsSpinBox)
-        form.addRow("Force:", self.forceCheckBox)
+        form.addRow("Sliver angle:", self.sliverAngleSpinBox)
+        form.addRow("Time for optimising (s):", self.optimiseSecondsSpinBox)
+        form.addRow("Smallest volume (mm³):", self.minimumVolumeSpinBox)
 
     def makeSpinBox(self, low, high, step, decimals, textOfLow, toolTip):
         box = qt.QDoubleSpinBox()
@@ -122,6 +202,29 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         box.specialValueText = textOfLow
         box.setToolTip(toolTip)
         box.connect("valueChanged(double)", self.updateParameterNodeFromGUI)
+        return box
+
+    def makeWholeSpinBox(self, high, step, textOfZero, toolTip):
+        box = qt.QSpinBox()
+        box.setRange(0, high)
+        box.singleStep = step
+        box.specialValueText = textOfZero
+        box.setToolTip(toolTip)
+        box.connect("valueChanged(int)", self.updateParameterNodeFromGUI)
+        return box
+
+    def makeComboBox(self, textsOfValues, toolTip):
+        box = qt.QComboBox()
+        for value, text in textsOfValues.items():
+            box.addItem(text, value)
+        box.setToolTip(toolTip)
+        box.connect("currentIndexChanged(int)", self.updateParameterNodeFromGUI)
+        return box
+
+    def makeCheckBox(self, toolTip):
+        box = qt.QCheckBox()
+        box.setToolTip(toolTip)
+        box.connect("toggled(bool)", self.updateParameterNodeFromGUI)
         return box
 
     def buildRun(self):
@@ -162,7 +265,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
     def initializeParameterNode(self):
         node = self.logic.getParameterNode()
         self.logic.setDefaultParameters(node)
-        if node.GetNodeReference("Segmentation") is None:
+        if node.GetNodeReference("Segmentation") is None and node.GetNodeReference("Volume") is None:
             first = slicer.mrmlScene.GetFirstNodeByClass("vtkMRMLSegmentationNode")
             if first is not None:
                 node.SetNodeReferenceID("Segmentation", first.GetID())
@@ -198,28 +301,61 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.updating = True
         node = self.parameterNode
         self.observeSegmentation(node.GetNodeReference("Segmentation"))
-        self.segmentationSelector.setCurrentNode(node.GetNodeReference("Segmentation"))
+        self.inputSelector.setCurrentNode(self.inputNode())
         self.meshSelector.setCurrentNode(node.GetNodeReference("OutputMesh"))
         self.surfacesSelector.setCurrentNode(node.GetNodeReference("OutputSurfaces"))
         settings = self.logic.settings(node)
-        for name in ("delta", "size", "smoothing", "radiusEdge", "facetAngle", "threads"):
+        for name in SPIN_BOXES:
             getattr(self, name + "SpinBox").value = getattr(settings, name)
-        self.forceCheckBox.checked = settings.force
+        for name in COMBO_BOXES:
+            box = getattr(self, name + "ComboBox")
+            box.currentIndex = max(0, box.findData(getattr(settings, name)))
+        for name in SWITCHES:
+            getattr(self, name + "CheckBox").checked = getattr(settings, name) == "on"
+        for name in FLAGS:
+            getattr(self, name + "CheckBox").checked = getattr(settings, name)
+        self.interfaceSizesLineEdit.text = settings.interfaceSizes
         self.fillSegmentTable(self.logic.segments(node))
+        self.enableWhatCounts(settings)
         self.updateButtons()
         self.updating = False
+
+    def enableWhatCounts(self, settings):
+        """Shows the section for the kind of input, and disables what has no effect with the other choices."""
+        ofVolume = isVolume(self.inputNode())
+        self.sections["Isosurface"].visible = ofVolume
+        self.sections["Segments"].visible = not ofVolume
+        self.smoothingSpinBox.enabled = self.qualityCheckBox.enabled = not ofVolume
+        self.deltaSpinBox.enabled = settings.elements == 0
+        self.featureRatioSpinBox.enabled = self.largestFeatureSpinBox.enabled = settings.grading == "lfs"
+        self.optimiseSecondsSpinBox.enabled = settings.optimise == "on"
+
+    def inputNode(self):
+        """The node of the parameter node that is meshed, or None."""
+        node = self.parameterNode
+        return node and (node.GetNodeReference("Volume") or node.GetNodeReference("Segmentation"))
 
     def updateParameterNodeFromGUI(self, *_):
         if self.parameterNode is None or self.updating:
             return
         node = self.parameterNode
         wasModifying = node.StartModify()
-        node.SetNodeReferenceID("Segmentation", self.segmentationSelector.currentNodeID)
+        chosen = self.inputSelector.currentNodeID
+        ofVolume = isVolume(self.inputSelector.currentNode())
+        node.SetNodeReferenceID("Segmentation", "" if ofVolume else chosen)
+        node.SetNodeReferenceID("Volume", chosen if ofVolume else "")
         node.SetNodeReferenceID("OutputMesh", self.meshSelector.currentNodeID)
         node.SetNodeReferenceID("OutputSurfaces", self.surfacesSelector.currentNodeID)
-        for name in ("delta", "size", "smoothing", "radiusEdge", "facetAngle", "threads"):
+        for name in SPIN_BOXES:
             node.SetParameter(name, repr(getattr(self, name + "SpinBox").value))
-        node.SetParameter("force", "true" if self.forceCheckBox.checked else "false")
+        for name in COMBO_BOXES:
+            box = getattr(self, name + "ComboBox")
+            node.SetParameter(name, box.itemData(box.currentIndex))
+        for name in SWITCHES:
+            node.SetParameter(name, "on" if getattr(self, name + "CheckBox").checked else "off")
+        for name in FLAGS:
+            node.SetParameter(name, "true" if getattr(self, name + "CheckBox").checked else "false")
+        node.SetParameter("interfaceSizes", self.interfaceSizesLineEdit.text)
         node.EndModify(wasModifying)
 
     # --- The table of segments ---
@@ -276,7 +412,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def updateButtons(self):
         busy = self.logic.meshing.isBusy
-        ready = self.parameterNode is not None and self.parameterNode.GetNodeReference("Segmentation") is not None
+        ready = self.inputNode() is not None
         self.applyButton.enabled = ready and not busy
-        self.applyButton.toolTip = "Make the mesh" if ready else "Choose a segmentation first"
+        self.applyButton.toolTip = "Make the mesh" if ready else "Choose a segmentation or a volume first"
         self.cancelButton.enabled = self.logic.meshing.state.phase is Phase.RUNNING

@@ -16,6 +16,8 @@ class Object:
         object.__setattr__(self, "slots", {})
         for name in self.PROPERTIES + ("toolTip",):
             object.__setattr__(self, name, None)
+        for name in ("enabled", "visible"):
+            object.__setattr__(self, name, True)
 
     def __setattr__(self, name, value):
         if not hasattr(self, name) or callable(getattr(type(self), name, None)):
@@ -155,13 +157,76 @@ class QCheckBox(Object):
             self.emit("toggled(bool)", self._checked)
 
 
+class QComboBox(Object):
+    """Items are pairs of a text and what it stands for."""
+    PROPERTIES = ("_index",)
+    SIGNALS = ("currentIndexChanged(int)",)
+
+    def __init__(self):
+        super().__init__()
+        self._set("_index", -1)
+        self._set("items", [])
+
+    def addItem(self, text, data):
+        if not isinstance(text, str):
+            raise TypeError("text is wanted, not %r" % text)
+        self.items.append((text, data))
+        if self.currentIndex < 0:
+            self.currentIndex = 0
+
+    def itemData(self, index):
+        return self.items[index][1]
+
+    def findData(self, data):
+        return next((index for index, item in enumerate(self.items) if item[1] == data), -1)
+
+    @property
+    def currentIndex(self):
+        return self._index
+
+    def __setattr__(self, name, value):
+        if name != "currentIndex":
+            super().__setattr__(name, value)
+        elif value != self._index:
+            if not -1 <= value < len(self.items):
+                raise AssertionError("there is no item %r" % value)
+            self._set("_index", value)
+            self.emit("currentIndexChanged(int)", value)
+
+
+class QLineEdit(Object):
+    PROPERTIES = ("_text", "placeholderText")
+    SIGNALS = ("editingFinished()",)
+
+    def __init__(self):
+        super().__init__()
+        self._set("_text", "")
+
+    @property
+    def text(self):
+        return self._text
+
+    def __setattr__(self, name, value):
+        if name != "text":
+            super().__setattr__(name, value)
+        elif not isinstance(value, str):
+            raise TypeError("text is wanted, not %r" % value)
+        else:
+            self._set("_text", value)
+
+    def type(self, text):
+        """What a user does."""
+        self.text = text
+        self.emit("editingFinished()")
+
+
 class QPushButton(Object):
-    PROPERTIES = ("text", "enabled")
+    PROPERTIES = ("text",)
     SIGNALS = ("clicked(bool)",)
 
     def __init__(self, text):
         super().__init__()
-        self.text, self.enabled = text, True
+        self.text = text
 
     def click(self):
         if not self.enabled:

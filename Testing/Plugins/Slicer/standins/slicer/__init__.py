@@ -33,14 +33,16 @@ modules = types.SimpleNamespace(
 
 
 class qMRMLNodeComboBox(qt.Object):
-    PROPERTIES = ("nodeTypes", "addEnabled", "removeEnabled", "renameEnabled", "noneEnabled", "_node")
+    PROPERTIES = ("nodeTypes", "showChildNodeTypes", "addEnabled", "removeEnabled", "renameEnabled", "noneEnabled", "_node")
     SIGNALS = ("currentNodeChanged(vtkMRMLNode*)",)
 
     def setMRMLScene(self, scene):
         pass
 
     def setCurrentNode(self, node):
-        if node is not None and type(node).__name__ not in self.nodeTypes:
+        offered = node is None or type(node).__name__ in self.nodeTypes or (
+            self.showChildNodeTypes is not False and any(node.IsA(name) for name in self.nodeTypes))
+        if not offered:
             raise AssertionError("%s is not offered" % node)
         if node is not self._node:
             self._set("_node", node)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs a CLI module as Slicer does: the command line is made from the module's own description, images and models go
-through temporary files, progress is read from standard output, and cancelling kills the process."""
+through temporary files, progress is read from standard output, values that the module returns from a file, and
+cancelling kills the process."""
 import re
 import subprocess
 import tempfile
@@ -42,6 +43,10 @@ class vtkMRMLCommandLineModuleNode(vtkMRMLNode):
     def GetErrorText(self):
         return self.errors
 
+    def GetParameterAsString(self, name):
+        value = self.parameters.get(name, self.module.parameters[name].findtext("default") or "")
+        return value.GetID() if isinstance(value, vtkMRMLNode) else str(value)
+
     def Cancel(self):
         if self.IsBusy():
             self._become(self.Cancelling)
@@ -75,7 +80,12 @@ def _command(module, node):
             flags += [flag] if value in (True, "true") else []
         elif flag and value != "":
             flags += [flag, str(value)]
-    return [module.executable, *flags, *(places[index] for index in sorted(places))]
+    return [module.executable, "--returnparameterfile", str(_returnFile(node)), *flags,
+            *(places[index] for index in sorted(places))]
+
+
+def _returnFile(node):
+    return Path(node.folder.name) / "returned.params"
 
 
 def _file(p, name, node):
@@ -144,6 +154,11 @@ class Runner:
         if node.process.returncode != 0:
             self._end(node, node.Completed | node.ErrorsMask)
             return
+        for line in _returnFile(node).read_text().splitlines():
+            name, _, text = line.partition(" = ")
+            if node.module.parameters[name].find("longflag") is not None:
+                raise AssertionError("%s is not returned" % name)
+            node.parameters[name] = text
         for name, value in node.parameters.items():
             p = node.module.parameters[name]
             if isinstance(value, vtkMRMLNode) and p.findtext("channel") == "output":

@@ -36,6 +36,9 @@ class vtkMRMLNode(Observed):
     def GetName(self):
         return self.name
 
+    def IsA(self, className):
+        return className in (c.__name__ for c in type(self).__mro__)
+
     def SetName(self, name):
         self.name = name
 
@@ -220,14 +223,21 @@ class vtkMRMLModelNode(vtkMRMLDisplayableNode):
         return self.mesh
 
 
-class vtkMRMLLabelMapVolumeNode(vtkMRMLDisplayableNode):
+class vtkMRMLScalarVolumeNode(vtkMRMLDisplayableNode):
+    """A volume: its voxels, and where they lie."""
+
     def __init__(self, name=""):
         super().__init__(name)
-        self.array = None
+        self.array = self.geometry = None
+
+
+class vtkMRMLLabelMapVolumeNode(vtkMRMLScalarVolumeNode):
+    pass
 
 
 CLASSES = {c.__name__: c for c in (vtkMRMLScriptedModuleNode, vtkMRMLSegmentationNode, vtkMRMLColorTableNode,
-                                   vtkMRMLDisplayNode, vtkMRMLModelNode, vtkMRMLLabelMapVolumeNode)}
+                                   vtkMRMLDisplayNode, vtkMRMLModelNode, vtkMRMLScalarVolumeNode,
+                                   vtkMRMLLabelMapVolumeNode)}
 
 
 class vtkMRMLScene(Observed):
