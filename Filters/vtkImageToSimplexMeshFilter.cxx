@@ -605,7 +605,7 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
     }
     CheckSize(size, "The size of " + NameOf(interface));
   }
-  if (this->NumberOfElements > 0 && this->Delta > 0.0)
+  if (this->NumberOfElements > 0 && this->Delta > 0.0 && !this->DeltaIsSuggestion)
   {
     throw InputError("Both Delta and NumberOfElements are set; Delta is what meshing finds for a "
                      "NumberOfElements: set one of the two to 0.");
@@ -635,6 +635,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Delta: " << this->Delta << "\n";
   os << indent << "NumberOfElements: " << this->NumberOfElements << "\n";
+  os << indent << "DeltaIsSuggestion: " << this->DeltaIsSuggestion << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
   os << indent << "ElementSize: " << this->ElementSize << "\n";

@@ -85,12 +85,22 @@ public:
   ///@{
   /**
    * Elements that the mesh is to have, to within a tenth; 0, the default, leaves it to Delta, which must be 0
-   * otherwise. Meshing is repeated with one Delta after the other, two or three times as a rule and at most
+   * otherwise, unless DeltaIsSuggestion. Meshing is repeated with one Delta after the other, two or three times as a rule and at most
    * twelve times, until the number is within 5 %, from the fourth time on within 10 %. All sizes stay what they are. An error
    * if no Delta makes the number. vtkMeshingStatistics::GetDelta() and what belongs to GetNumberOfRuns() tell how it went.
    */
   vtkSetClampMacro(NumberOfElements, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(NumberOfElements, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Whether Delta is but a suggestion, without effect beside a NumberOfElements, rather than an error. For panels of
+   * applications, which always have a Delta. Default off.
+   */
+  vtkSetMacro(DeltaIsSuggestion, bool);
+  vtkGetMacro(DeltaIsSuggestion, bool);
+  vtkBooleanMacro(DeltaIsSuggestion, bool);
   ///@}
 
   ///@{
@@ -439,6 +449,7 @@ protected:
   double Delta = 0.0;
   double DefaultDelta = 0.0;
   vtkTypeInt64 NumberOfElements = 0;
+  bool DeltaIsSuggestion = false;
   double RadiusEdgeRatio = 2.0;
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;

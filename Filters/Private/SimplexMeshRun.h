@@ -112,7 +112,8 @@ public:
         voxplex::ChooseScalars(image, values, association, "image of element sizes", "");
       this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
     }
-    this->Options.Delta = filter->Delta;
+    const bool isDeltaIdle = filter->DeltaIsSuggestion && filter->NumberOfElements > 0;
+    this->Options.Delta = isDeltaIdle ? 0.0 : filter->Delta;
     this->Options.Elements = static_cast<std::uint64_t>(filter->NumberOfElements);
     this->Options.Gradation = filter->Gradation;
     for (const auto& [interface, size] : filter->Private->InterfaceSizes)

@@ -147,8 +147,20 @@ void TestNumberOfElements()
       statistics->ToJSON().find("\"elements_asked_for\": 20000, \"runs\": [{") != std::string::npos,
       statistics->ToJSON());
   }
+  // Beside it a Delta that is but a suggestion changes nothing; without it, it counts.
+  const vtkIdType found = filter->GetOutput()->GetNumberOfCells();
+  filter->SetNumberOfThreads(1);
+  filter->Modified();
+  filter->Update();
+  const vtkIdType withoutDelta = filter->GetOutput()->GetNumberOfCells();
+  CHECK(!filter->GetDeltaIsSuggestion());
+  filter->DeltaIsSuggestionOn();
+  filter->SetDelta(4.0);
+  filter->Update();
+  CHECK(filter->GetOutput()->GetNumberOfCells() == withoutDelta, withoutDelta, found);
   filter->SetNumberOfElements(0);
   filter->Update();
+  CHECK(filter->GetStatistics()->GetDelta() == 4.0, filter->GetStatistics()->GetDelta());
   CHECK(filter->GetStatistics()->GetNumberOfRuns() == 0);
   CHECK(filter->GetStatistics()->GetElementsAskedFor() == 0);
   CHECK(filter->GetStatistics()->ToJSON().find("\"elements_asked_for\": null, \"runs\": []") !=

@@ -102,6 +102,56 @@ def test_options():
     check(count_cells(mesher) > 1.3 * cells, "element size", count_cells(mesher), cells)
 
 
+def test_density_and_shapes():
+    reader = XMLImageDataReader(FileName=[write_image(make_image(two_balls), "balls.vti")])
+    mesher = MeshSegmentationTetrahedralize(Input=reader, Threads=1, Delta=1.0)
+
+    def count(**properties):
+        """With these alone."""
+        before = {name: mesher.GetPropertyValue(name) for name in properties}
+        for name, value in properties.items():
+            mesher.SetPropertyWithName(name, value)
+        mesher.UpdatePipeline()
+        cells = count_cells(mesher)
+        for name, value in before.items():
+            mesher.SetPropertyWithName(name, value)
+        return cells
+
+    plain = count()
+    check(abs(count(NumberOfElements=9000) / 9000 - 1) <= 0.1, "a number of elements, whatever Delta")
+    check_equal(count(), plain, "and Delta again")
+    graded = count(Grading="Local feature size")
+    check(graded < 0.8 * plain, "graded", graded, plain)
+    check(count(Grading="Local feature size", FeatureRatio=0.3) > 1.1 * graded, "feature ratio")
+    check(count(Grading="Local feature size", LargestFeature=1.0) > 1.1 * graded, "largest feature")
+    check_equal(count(FeatureRatio=0.3, LargestFeature=1.0), plain, "neither without grading")
+    finer = count(InterfaceTable=[3, 0, 0.5])
+    check(finer > 1.3 * plain, "interface between two", finer, plain)
+    check(count(InterfaceTable=[3, -1, 0.5, 7, -1, 0.5]) > 1.3 * finer, "of labels")
+    for properties in (dict(Optimise=0), dict(SliverAngle=0.0), dict(InterfaceRounds=0, SampleJunctions=0),
+                       dict(FacetAngle=10.0)):
+        check(count(**properties) != plain, properties)
+    check(count(InterfaceTable=[3, 0, 0.5], Gradation=0.1) > finer, "gradation")
+    check(count(MinimumComponentVolume=1e9) == 0, "everything left out")
+
+
+def test_isosurface():
+    image = make_image(lambda i, j, k: 10 * i, name="Ramp")
+    reader = XMLImageDataReader(FileName=[write_image(image, "ramp.vti")])
+    mesher = MeshSegmentationTetrahedralize(Input=reader, Threads=1, InputMode="Isosurface", InsideLabel=4)
+    reader.UpdatePipeline()
+    middle = 0.5 * sum(reader.GetDataInformation().GetArrayInformation("Ramp", 0).GetComponentRange(0))
+    mesher.Isovalue = middle
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {4})
+    bounds = mesher[0].GetDataInformation().GetBounds()
+    check(abs(bounds[0] - middle / 10) < 0.1, "above", bounds, middle)
+    mesher.Inside = "Below the isovalue"
+    mesher.UpdatePipeline()
+    bounds = mesher[0].GetDataInformation().GetBounds()
+    check(abs(bounds[1] - middle / 10) < 0.1, "below", bounds, middle)
+
+
 def test_default_delta():
     """It follows the spacing, and is the filter's own."""
     for spacing, expected in (((1, 1, 1), 2.0), ((0.5, 2.0, 8.0), 4.0)):
@@ -132,6 +182,8 @@ def main():
     load_plugin(namespace=globals())
     test_documentation()
     test_options()
+    test_density_and_shapes()
+    test_isosurface()
     test_default_delta()
     test_arrays()
     test_atlas()

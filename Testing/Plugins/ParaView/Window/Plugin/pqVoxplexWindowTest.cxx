@@ -46,9 +46,11 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
+#include <QScrollArea>
 #include <QTimer>
 #include <QToolButton>
 
+#include <cmath>
 #include <iostream>
 
 namespace
@@ -123,6 +125,10 @@ void pqVoxplexWindowTest::run()
     if (auto* const dock = this->Window->findChild<QDockWidget*>("propertiesDock"))
     {
       this->Window->resizeDocks({ dock }, { 440 }, Qt::Horizontal);
+      if (auto* const pipeline = this->Window->findChild<QDockWidget*>("pipelineBrowserDock"))
+      {
+        this->Window->resizeDocks({ pipeline, dock }, { 150, 600 }, Qt::Vertical);
+      }
     }
     this->testMenu();
     this->testQuickLaunch("tetrahedralize", { MeshLabel });
@@ -316,17 +322,15 @@ void pqVoxplexWindowTest::testPanel()
   this->check(delta && delta->isVisible(), "Delta is in the panel");
   this->check(delta && delta->findChild<QWidget*>("ScaleBy") && delta->findChild<QWidget*>("Reset"),
     "with buttons to scale and to reset");
-  for (const QString name : { "LabelArray", "LabelTable", "SmoothingSigma" })
-  {
-    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
-    this->check(widget && widget->isVisible(), name + " is in the panel");
-  }
-  for (const QString name : { "NumberOfThreads", "FacetAngle", "SizeImage", "SizeArray", "Force" })
-  {
-    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
-    this->check(widget && !widget->isVisible(), name + " is hidden by default");
-  }
+  this->checkShown({ "LabelArray", "InputMode", "LabelTable", "Delta", "NumberOfElements",
+                     "Grading", "SmoothingSigma", "Optimise" },
+    true);
+  this->checkShown({ "NumberOfThreads", "FacetAngle", "SizeImage", "SizeArray", "Force",
+                     "Gradation", "Isovalue", "FeatureRatio" },
+    false);
   this->grab("panel.png");
+  this->grabPanel("properties.png");
+  this->testDependentProperties();
   auto* const search = panel ? panel->findChild<pqSearchBox*>() : nullptr;
   auto* const gear = search ? search->findChild<QAbstractButton*>("AdvancedButton") : nullptr;
   this->check(gear != nullptr, "the button for advanced properties");
@@ -334,15 +338,90 @@ void pqVoxplexWindowTest::testPanel()
   {
     gear->click();
     this->wait(500);
-    for (const QString name :
-      { "NumberOfThreads", "FacetAngle", "SizeImage", "SizeArray", "Force" })
-    {
-      auto* const widget = panel->findChild<QWidget*>(name);
-      this->check(widget && widget->isVisible(), name + " is an advanced property");
-    }
+    this->checkShown(
+      { "LabelArray", "InputMode", "LabelTable", "SmallestComponent", "MinimumComponentVolume",
+        "Delta", "NumberOfElements", "Grading", "SmoothingSigma", "InterfaceTable", "FacetAngle",
+        "SampleJunctions", "InterfaceRounds", "ElementSize", "SizeImage", "SizeArray", "Gradation",
+        "Optimise", "OptimisationTimeLimit", "RadiusEdgeRatio", "SliverAngle", "Force",
+        "NumberOfThreads", "ContentionManager", "LoadBalancer", "PinThreads" },
+      true);
+    this->checkShown({ "Isovalue", "InsideLabel", "FeatureRatio", "LargestFeature" }, false);
     this->grab("panel-advanced.png");
+    this->grabPanel("properties-advanced.png");
+    this->set("InputMode", 1);
+    this->set("Grading", 1);
+    this->grabPanel("properties-isosurface.png");
+    this->checkShown({ "InputMode", "Isovalue", "Inside", "InsideLabel", "IsosurfaceSmoothingSigma",
+                       "LabelTable", "Grading", "FeatureRatio", "LargestFeature" },
+      true);
+    this->checkShown({ "SmoothingSigma" }, false);
+    this->set("Optimise", 0);
+    this->checkShown({ "OptimisationTimeLimit" }, false);
+    this->set("Optimise", 1);
+    this->set("InputMode", 0);
+    this->set("Grading", 0);
     gear->click();
   }
+}
+
+/** Those that are shown are where the names are, from top to bottom. */
+void pqVoxplexWindowTest::checkShown(const QStringList& names, bool shown)
+{
+  auto* const panel = this->Window->findChild<pqPropertiesPanel*>();
+  int last = -1;
+  for (const QString& name : names)
+  {
+    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
+    this->check(
+      widget && widget->isVisible() == shown, name + (shown ? " is shown" : " is not shown"));
+    if (widget && shown)
+    {
+      const int place = widget->mapTo(panel, QPoint(0, 0)).y();
+      this->check(place > last, name + " is below what comes before it");
+      last = place;
+    }
+  }
+}
+
+/** As if the user had chosen it, without Apply. */
+void pqVoxplexWindowTest::set(const char* property, int value)
+{
+  vtkSMPropertyHelper(this->Mesher->getProxy(), property).Set(value);
+  this->wait(300);
+}
+
+/** The whole list of properties, however much of it the window shows. */
+void pqVoxplexWindowTest::grabPanel(const QString& name)
+{
+  auto* const panel = this->Window->findChild<pqPropertiesPanel*>();
+  auto* const area = panel ? panel->findChild<QScrollArea*>() : nullptr;
+  this->check(area != nullptr, "the list of properties");
+  if (area)
+  {
+    this->wait(300);
+    const QString path = qEnvironmentVariable("VOXPLEX_TEST_OUTPUT") + "/" + name;
+    this->check(area->widget()->grab().save(path), "save " + path);
+  }
+}
+
+void pqVoxplexWindowTest::testDependentProperties()
+{
+  auto* const panel = this->Window->findChild<pqPropertiesPanel*>();
+  auto* const delta = panel ? panel->findChild<QWidget*>("Delta") : nullptr;
+  this->check(delta && delta->isEnabled(), "Delta can be changed");
+  this->set("NumberOfElements", 70000);
+  this->check(delta && !delta->isEnabled(), "Delta is greyed out beside a number of elements");
+  this->apply();
+  const double elements =
+    static_cast<double>(this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells());
+  this->check(std::abs(elements / 70000.0 - 1.0) <= 0.1, "the number of elements");
+  this->set("NumberOfElements", 0);
+  this->check(delta && delta->isEnabled(), "Delta can be changed again");
+  this->apply();
+  this->set("InputMode", 1);
+  this->checkShown({ "InputMode", "Isovalue", "Inside", "LabelTable" }, true);
+  this->checkShown({ "InsideLabel", "SmoothingSigma" }, false);
+  this->set("InputMode", 0);
 }
 
 void pqVoxplexWindowTest::testColors()

@@ -14,6 +14,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 class QAction;
 class QMainWindow;
@@ -43,6 +44,7 @@ private:
   void testQuickLaunch(const QString& typed, const QStringList& expected);
   void testMeshing();
   void testPanel();
+  void testDependentProperties();
   void testColors();
   void takePicture();
   void testAbort();
@@ -52,6 +54,9 @@ private:
   QMenu* findMenu() const;
   QAction* findAction(const QString& label) const;
   vtkSMProxy* colorMap() const;
+  void checkShown(const QStringList& names, bool shown);
+  void set(const char* property, int value);
+  void grabPanel(const QString& name);
   void apply();
   /** Handles events for a while. */
   void wait(int milliseconds);
