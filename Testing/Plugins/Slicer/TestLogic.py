@@ -169,10 +169,10 @@ class Choices(unittest.TestCase):
         self.assertTrue(commandParameters(SEGMENTS, Settings(), isosurface=True)["isosurface"])
 
     def test_interface_sizes(self):
-        segments = [*SEGMENTS, Segment("s4", "A : B", (0, 0, 1))]
+        segments = [*SEGMENTS, Segment("s4", "A : B", (0, 0, 1)), Segment("s5", "T=37", (0, 1, 1))]
         for text, expected in {
                 "": "", " ; ": "", "Bone=0.5": "1=0.5", "Bone = 0,5; Mark : Bone = 2;": "1=0.5,2:1=2.0",
-                "Muscle, left : background = 1": "3:0=1.0", "A : B=1": "4=1.0", "Bone : A : B = 1": "1:4=1.0"}.items():
+                "Muscle, left : background = 1": "3:0=1.0", "A : B=1": "4=1.0", "T=37 = 1": "5=1.0", "Bone : A : B = 1": "1:4=1.0"}.items():
             self.assertEqual(parseInterfaceSizes(text, segments), expected)
         for text in ("Bone", "=1", "Skin=1", "Bone : Skin = 1", "Bone = 0", "Bone ="):
             with self.assertRaisesRegex(MeshingError, "is not the size of an interface: write NAME = LENGTH"):

@@ -24,6 +24,7 @@ import slicer  # noqa: E402
 import vtk  # noqa: E402
 import VoxplexMesher  # noqa: E402
 from VoxplexMesherLib.Logic import Phase, Settings, measureLabels  # noqa: E402
+from VoxplexMesherLib.Scene import isVolume  # noqa: E402
 from VoxplexMesherLib.Widget import COMBO_BOXES, FLAGS, MESH, NAME, SIZE, SPIN_BOXES, SWITCHES  # noqa: E402
 
 
@@ -189,8 +190,10 @@ class Panel(PanelTestCase):
         segmentation = self.choose_segmentation()
         self.assertEqual((node.GetNodeReference("Volume"), node.GetNodeReference("Segmentation")), (None, segmentation))
         self.assertEqual(shown(), [True, False])
+        labels = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode")
         with self.assertRaisesRegex(AssertionError, "not offered"):
-            self.widget.inputSelector.setCurrentNode(slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode"))
+            self.widget.inputSelector.setCurrentNode(labels)
+        self.assertEqual([isVolume(n) for n in (volume, labels, segmentation, None)], [True, False, False, False])
 
     def test_defaults_are_those_of_the_cli_module(self):
         for name, p in slicer.modules.segmentationtotetmesh.parameters.items():
