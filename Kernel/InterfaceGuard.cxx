@@ -54,12 +54,28 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
   const Point<3> spacing{ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) };
   this->FinestSpacing = FinestVoxels * std::min({ spacing[0], spacing[1], spacing[2] });
   this->VoxelDiagonal = std::sqrt(Dot(spacing, spacing));
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    Point<3> half{};
+    half[a] = 0.5;
+    this->HalfSteps[a] = grid.ToFrame(half);
+  }
+  if (!this->Sizes && !this->Base.Graded)
+  {
+    constexpr double Safety = 1.0 - 1e-6;
+    const double distance = std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal);
+    this->EverywhereNear2 = Safety * distance * distance;
+  }
 }
 
 //------------------------------------------------------------------------------------------------
 double InterfaceGuard::DeltaAt(const Face& face) const
 {
-  const Point<3> centre = this->CentreOf(face);
+  return this->DeltaAt(face, this->CentreOf(face));
+}
+
+double InterfaceGuard::DeltaAt(const Face& face, const Point<3>& centre) const
+{
   return this->Sizes
     ? this->Sizes->At(centre, this->Image.At(face.Voxel), this->Image.At(face.Next()))
     : this->Base.At(centre);
@@ -78,25 +94,29 @@ double InterfaceGuard::RemedyAt(const Face& face) const
   return this->Base.Graded ? std::min(delta, this->Base.Finest() / FirstSpacing) : delta;
 }
 
+bool InterfaceGuard::IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const
+{
+  return this->Base.Graded ? this->IsFarFromTriangles(face, mesh, hint.Triangle)
+                           : this->IsFarFromVertices(face, mesh.Vertices, hint.Vertex);
+}
+
 bool InterfaceGuard::IsFarFromVertices(
-  const Face& face, const FeatureGrid<3>& vertices, Known* known) const
+  const Face& face, const FeatureGrid<3>& vertices, const Point<3>*& known) const
 {
   const Point<3> centre = this->CentreOf(face);
-  const double distance = std::max(LargestDistance * this->DeltaAt(face), this->VoxelDiagonal);
-  if (known)
+  const double distance =
+    std::max(LargestDistance * this->DeltaAt(face, centre), this->VoxelDiagonal);
+  if (known && Distance2(centre, *known) < distance * distance)
   {
-    constexpr double Safety = 1.0 - 1e-6;
-    if (Distance(centre, known->Centre) + known->Radius < Safety * distance)
-    {
-      return false;
-    }
-    if (vertices.AnyWithin(centre, 0.5 * distance))
-    {
-      *known = { centre, 0.5 * distance };
-      return false;
-    }
+    return false;
   }
-  return !vertices.AnyWithin(centre, distance);
+  known =
+    vertices.FindWithin(centre, 0.5 * distance); // it serves more faces nearby than a farther one
+  if (!known)
+  {
+    known = vertices.FindWithin(centre, distance);
+  }
+  return !known;
 }
 
 /** Of the mesh to interfaces where delta is graded. */
@@ -106,17 +126,17 @@ double InterfaceGuard::NearEnough() const
 }
 
 // The faces of voxels, and the interface that runs about them, which is what is meshed.
-bool InterfaceGuard::IsFarFromTriangles(const Face& face, const FeatureGrid<3>& vertices,
-  const BoundingTree<Triangle>& triangles, std::uint32_t& hint) const
+bool InterfaceGuard::IsFarFromTriangles(
+  const Face& face, const Interfaces& mesh, std::uint32_t& hint) const
 {
   const Point<3> centre = this->CentreOf(face);
   const double half = 0.5 * this->Image.Grid().Spacing(static_cast<int>(face.Axis));
   const double nearEnough = this->NearEnough();
-  if (nearEnough > half && vertices.AnyWithin(centre, nearEnough - half))
+  if (nearEnough > half && mesh.Vertices.AnyWithin(centre, nearEnough - half))
   {
     return false;
   }
-  const double distance = std::sqrt(triangles.Distance2To(centre, hint));
+  const double distance = std::sqrt(mesh.Triangles.Distance2To(centre, hint));
   if (distance > StairFactor * nearEnough || distance + half <= nearEnough)
   {
     return distance + half > nearEnough;
@@ -124,7 +144,30 @@ bool InterfaceGuard::IsFarFromTriangles(const Face& face, const FeatureGrid<3>& 
   Point<3> z;
   return this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
            this->Image.CentreOf(face.Next()), z) &&
-    triangles.Distance2To(z, hint) > nearEnough * nearEnough;
+    mesh.Triangles.Distance2To(z, hint) > nearEnough * nearEnough;
+}
+
+// Most are near a vertex that is known already: then it does not matter whether they are faces.
+void InterfaceGuard::FindFarFacesOf(
+  const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const
+{
+  const Point<3> centre = this->Image.CentreOf(voxel);
+  for (unsigned a = 0; a < 3; ++a)
+  {
+    if (hint.Vertex)
+    {
+      const Point<3> offset = Subtract(*hint.Vertex, centre);
+      if (Distance2(offset, this->HalfSteps[a]) < this->EverywhereNear2)
+      {
+        continue;
+      }
+    }
+    const Face face{ voxel, a };
+    if (this->Image.At(voxel) != this->Image.At(face.Next()) && this->IsFar(face, mesh, hint))
+    {
+      far.push_back(face);
+    }
+  }
 }
 
 Point<3> InterfaceGuard::CentreOf(const Face& face) const
@@ -134,7 +177,7 @@ Point<3> InterfaceGuard::CentreOf(const Face& face) const
 
 //------------------------------------------------------------------------------------------------
 template <typename Function>
-void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) const
+void InterfaceGuard::ForEachSiteOfRow(std::size_t row, Function&& function) const
 {
   const auto rows =
     static_cast<std::size_t>(this->Sites.Dimensions()[1]); // with a layer of background
@@ -143,17 +186,8 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
   {
     for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
     {
-      const Index voxel{ static_cast<std::int64_t>(64 * w) + std::countr_zero(bits) - 1,
-        static_cast<std::int64_t>(row % rows) - 1, static_cast<std::int64_t>(row / rows) - 1 };
-      const LabelId id = this->Image.At(voxel);
-      for (unsigned a = 0; a < 3; ++a)
-      {
-        const Face face{ voxel, a };
-        if (id != this->Image.At(face.Next()))
-        {
-          function(face);
-        }
-      }
+      function(Index{ static_cast<std::int64_t>(64 * w) + std::countr_zero(bits) - 1,
+        static_cast<std::int64_t>(row % rows) - 1, static_cast<std::int64_t>(row / rows) - 1 });
     }
   }
 }
@@ -161,10 +195,14 @@ void InterfaceGuard::ForEachFaceOfRow(std::size_t row, Function&& function) cons
 //------------------------------------------------------------------------------------------------
 std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
 {
-  FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 },
-    this->Base.Graded ? this->NearEnough()
-                      : std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal),
-    mesh.Points.size());
+  // Where delta is graded there may be few vertices, but the triangles between them must be near.
+  Interfaces interfaces{ FeatureGrid<3>({ 0.0, 0.0, 0.0 },
+                           this->Base.Graded
+                             ? this->NearEnough()
+                             : std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal),
+                           mesh.Points.size()),
+    BoundingTree<Triangle>(
+      this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop) };
   std::vector<bool> added(mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {
@@ -173,23 +211,15 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
       if (!added[v])
       {
         added[v] = true;
-        vertices.Add(mesh.Points[v]);
+        interfaces.Vertices.Add(mesh.Points[v]);
       }
     }
   }
-  // Where delta is graded there may be few vertices, but the triangles between them must be near.
-  const BoundingTree<Triangle> triangles(
-    this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop);
-  const auto isFar = [&](const Face& face, Known* known, std::uint32_t& hint)
-  {
-    return this->Base.Graded ? this->IsFarFromTriangles(face, vertices, triangles, hint)
-                             : this->IsFarFromVertices(face, vertices, known);
-  };
   std::vector<Face> far;
-  std::uint32_t nearest = 0;
+  Hint hint;
   for (const Face& face : this->Sampled)
   {
-    if (isFar(face, nullptr, nearest))
+    if (this->IsFar(face, interfaces, hint))
     {
       far.push_back(face);
     }
@@ -199,25 +229,22 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
     return far;
   }
   constexpr std::size_t RowsAtOnce = 64;
-  constexpr std::size_t VoxelsOfKnown = 4;
+  constexpr std::size_t VoxelsOfHint = 4;
   const std::size_t rows = this->Sites.NumberOfRows();
   std::vector<std::vector<Face>> found((rows - 1) / RowsAtOnce + 1);
   ParallelFor(
     0, rows, RowsAtOnce, this->Threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<Known> known(64 * this->Sites.WordsPerRow() / VoxelsOfKnown);
-      std::uint32_t hint = 0;
+      std::vector<Hint> hints(64 * this->Sites.WordsPerRow() / VoxelsOfHint);
       for (std::size_t row = first; row < last; ++row)
       {
-        this->ForEachFaceOfRow(row,
-          [&](const Face& face)
+        this->ForEachSiteOfRow(row,
+          [&](const Index& voxel)
           {
-            const auto x = static_cast<std::size_t>(face.Voxel[0] + 1);
-            if (isFar(face, &known[x / VoxelsOfKnown], hint))
-            {
-              found[first / RowsAtOnce].push_back(face);
-            }
+            const auto x = static_cast<std::size_t>(voxel[0] + 1);
+            this->FindFarFacesOf(
+              voxel, interfaces, hints[x / VoxelsOfHint], found[first / RowsAtOnce]);
           });
       }
     },

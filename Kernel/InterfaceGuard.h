@@ -18,8 +18,8 @@
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <stop_token>
 #include <vector>
@@ -100,26 +100,35 @@ private:
 
   std::vector<Face> FindFarFaces(const SimplexMesh<3>& mesh) const;
   template <typename Function>
-  void ForEachFaceOfRow(std::size_t row, Function&& function) const;
+  void ForEachSiteOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
-  /** A place with a vertex nearer than the radius: faces beside it need not ask for another one. */
-  struct Known
+  /** What the mesh's interfaces consist of. */
+  struct Interfaces
   {
-    Point<3> Centre{};
-    double Radius = std::numeric_limits<double>::infinity();
+    FeatureGrid<3> Vertices;
+    BoundingTree<Triangle> Triangles; ///< empty unless delta is graded
   };
-  /** @param known of a face nearby; may be null */
-  bool IsFarFromVertices(const Face& face, const FeatureGrid<3>& vertices, Known* known) const;
-  /** @param hint see BoundingTree */
-  bool IsFarFromTriangles(const Face& face, const FeatureGrid<3>& vertices,
-    const BoundingTree<Triangle>& triangles, std::uint32_t& hint) const;
+  /** What was near a face nearby. */
+  struct Hint
+  {
+    const Point<3>* Vertex = nullptr;
+    std::uint32_t Triangle = 0; ///< see BoundingTree
+  };
+  /** Those of a voxel on its upper sides. */
+  void FindFarFacesOf(
+    const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const;
+  bool IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const;
+  bool IsFarFromVertices(
+    const Face& face, const FeatureGrid<3>& vertices, const Point<3>*& known) const;
+  bool IsFarFromTriangles(const Face& face, const Interfaces& mesh, std::uint32_t& hint) const;
   double NearEnough() const;
   void LowerBound(const Face& face);
   static Index CellOf(const Face& face);
   /** Of what is sampled when a cell is visited again after so many visits. */
   double SpacingAt(const Face& face, unsigned visit) const;
   double DeltaAt(const Face& face) const;
-  /** What sampling around a far face begins with: that, but not much more than the finest. */
+  double DeltaAt(const Face& face, const Point<3>& centre) const;
+  /** What sampling around a far face begins with: delta, but not much more than the finest. */
   double RemedyAt(const Face& face) const;
   double DensestAt(const Point<3>& p) const;
   Point<3> CentreOf(const Face& face) const;
@@ -130,6 +139,9 @@ private:
   const BaseDensity<3> Base;
   const InterfaceSizes<3>* const Sizes;
   double VoxelDiagonal;
+  std::array<Point<3>, 3> HalfSteps; ///< from the centre of a voxel to those of its upper faces
+  /** Squared; no face is far that has a vertex nearer to its centre, up to rounding. 0: depends on the face. */
+  double EverywhereNear2 = 0.0;
   double FinestSpacing;
   LocalDelta<3>& Local;
   const unsigned Threads;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 
 namespace voxplex
 {
@@ -39,13 +40,27 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
     }
     return voxel;
   };
-  const auto mark = [&](const Index& voxel, std::int64_t label)
+  // Most elements belong to labels of which nothing is missing any more.
+  const std::span<const std::int64_t> values = image.Values();
+  const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(values.size());
+  for (const Component<D>& component : all)
+  {
+    missing[component.Label] += component.Voxels >= fewestVoxels ? 1u : 0u;
+  }
+  const auto idOf = [&](std::int64_t value)
+  {
+    const auto at = std::lower_bound(values.begin() + 1, values.end(), value); // after background
+    return at != values.end() && *at == value ? static_cast<LabelId>(at - values.begin())
+                                              : LabelId{ 0 };
+  };
+  const auto mark = [&](const Index& voxel, LabelId label)
   {
     const std::uint32_t c = components.At(voxel);
-    if (c != Components<D>::None && image.Values()[all[c].Label] == label &&
-      !found[c].load(std::memory_order_relaxed))
+    if (c != Components<D>::None && all[c].Label == label &&
+      !found[c].load(std::memory_order_relaxed) &&
+      !found[c].exchange(true, std::memory_order_relaxed) && all[c].Voxels >= fewestVoxels)
     {
-      found[c].store(true, std::memory_order_relaxed);
+      missing[label].fetch_sub(1, std::memory_order_relaxed);
     }
   };
   constexpr std::size_t SimplicesAtOnce = 4096;
@@ -53,31 +68,33 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
     0, mesh.Simplices.size(), SimplicesAtOnce, threads,
     [&](std::size_t begin, std::size_t end)
     {
+      std::int64_t value = 0;
+      LabelId label = 0;
       for (std::size_t s = begin; s < end; ++s)
       {
-        mark(voxelOf(s), mesh.Labels[s]);
+        if (mesh.Labels[s] != value)
+        {
+          value = mesh.Labels[s];
+          label = idOf(value);
+        }
+        if (missing[label].load(std::memory_order_relaxed) != 0)
+        {
+          mark(voxelOf(s), label);
+        }
       }
     },
     stop);
 
-  const auto isLost = [&](std::size_t c)
-  { return all[c].Voxels >= fewestVoxels && !found[c].load(std::memory_order_relaxed); };
-  std::vector<std::int64_t> labels; // of components that seem lost
-  for (std::size_t c = 0; c < all.size(); ++c)
-  {
-    if (isLost(c))
-    {
-      labels.push_back(image.Values()[all[c].Label]);
-    }
-  }
-  std::sort(labels.begin(), labels.end());
+  const bool seemsLost = std::any_of(missing.get(), missing.get() + values.size(),
+    [](const std::atomic<std::uint32_t>& n) { return n.load(std::memory_order_relaxed) != 0; });
   ParallelFor(
-    0, labels.empty() ? 0 : mesh.Simplices.size(), SimplicesAtOnce, threads,
+    0, seemsLost ? mesh.Simplices.size() : 0, SimplicesAtOnce, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t s = begin; s < end; ++s)
       {
-        if (!std::binary_search(labels.begin(), labels.end(), mesh.Labels[s]))
+        const LabelId label = idOf(mesh.Labels[s]);
+        if (missing[label].load(std::memory_order_relaxed) == 0)
         {
           continue;
         }
@@ -89,7 +106,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
         }
         while (voxel[D - 1] <= centre[D - 1] + 1)
         {
-          mark(voxel, mesh.Labels[s]);
+          mark(voxel, label);
           for (std::size_t a = 0; a < D && ++voxel[a] > centre[a] + 1 && a + 1 < D; ++a)
           {
             voxel[a] = centre[a] - 1;
@@ -101,7 +118,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   std::vector<std::uint32_t> lost;
   for (std::size_t c = 0; c < all.size(); ++c)
   {
-    if (isLost(c))
+    if (all[c].Voxels >= fewestVoxels && !found[c].load(std::memory_order_relaxed))
     {
       lost.push_back(static_cast<std::uint32_t>(c));
     }

@@ -133,14 +133,11 @@ bool Triangulation<D>::InConflictExactly(Worker& worker, SimplexId s, const Poin
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-Circumball<D> Triangulation<D>::GetCircumball(SimplexId s) const
+Circumball<D> Triangulation<D>::ComputeBallExactly(SimplexId s) const
 {
   const Simplex& simplex = this->Simplices[s];
   Circumball<D> ball = simplex.Ball;
-  if (!(ball.Radius2 >= 0.0))
-  {
-    ComputeCircumballExactly<D>(this->Points(simplex.V).data(), ball);
-  }
+  ComputeCircumballExactly<D>(this->Points(simplex.V).data(), ball);
   return ball;
 }
 

@@ -277,7 +277,11 @@ public:
   }
 
   /** The circumball: the cached one if reliable, else computed exactly and rounded. */
-  Circumball<D> GetCircumball(SimplexId s) const;
+  Circumball<D> GetCircumball(SimplexId s) const
+  {
+    const Circumball<D>& ball = this->Simplices[s].Ball;
+    return ball.Radius2 >= 0.0 ? ball : this->ComputeBallExactly(s);
+  }
 
   const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }
   const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }
@@ -307,6 +311,7 @@ private:
   using Candidate = typename Worker::Candidate;
 
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
+  Circumball<D> ComputeBallExactly(SimplexId s) const;
   SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
   void VerifySimplex(Worker& worker, SimplexId s, std::vector<std::string>& complaints) const;
   std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/JunctionCurves.h"
 
+#include "Image/JunctionGraph.h"
+#include "Image/JunctionLattice.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelSort.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +13,6 @@
 #include <cmath>
 #include <set>
 #include <span>
-#include <utility>
 
 namespace voxplex
 {
@@ -18,135 +20,14 @@ namespace voxplex
 namespace
 {
 
-using Index = GridGeometry<3>::Index;
+using namespace junctions;
 
-/** Points of the fine lattice to a voxel along each axis. */
-constexpr std::int64_t Fine = 2;
+/** Points of the fine lattice in a cell along each axis. */
 constexpr unsigned FineSide = Fine + 1;
 
 /** Axes in the six orders in which a tetrahedron of Freudenthal's subdivision goes from corner to corner. */
 constexpr std::array<std::array<unsigned, 3>, 6> Orders{ { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 },
   { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } } };
-
-/** Where a point of a curve is: a triangle or a tetrahedron of the subdivision. */
-struct Place
-{
-  std::array<std::int64_t, 3> Base; ///< first corner, on the fine lattice
-  std::uint8_t Second;              ///< steps from the first corner to the second, one bit an axis
-  std::uint8_t Third;               ///< the same to the third
-  bool IsCorner;                    ///< a tetrahedron; Second and Third tell which
-};
-
-/** Places as numbers, to sort and compare. */
-class Numbering
-{
-public:
-  using Number = std::uint64_t;
-
-  explicit Numbering(const Index& lattice)
-    : Side{ static_cast<std::uint64_t>(Fine * lattice[0]),
-      static_cast<std::uint64_t>(Fine * lattice[1]) }
-  {
-  }
-
-  Number NumberOf(const Place& place) const
-  {
-    const auto x = [&](unsigned a) { return static_cast<std::uint64_t>(place.Base[a]); };
-    const std::uint64_t base = (x(2) * this->Side[1] + x(1)) * this->Side[0] + x(0);
-    return base << 7 | static_cast<std::uint64_t>(place.Third) << 4 |
-      static_cast<std::uint64_t>(place.Second) << 1 | (place.IsCorner ? 1 : 0);
-  }
-  Place PlaceOf(Number number) const
-  {
-    const std::uint64_t base = number >> 7;
-    const std::uint64_t row = base / this->Side[0];
-    return { { static_cast<std::int64_t>(base % this->Side[0]),
-               static_cast<std::int64_t>(row % this->Side[1]),
-               static_cast<std::int64_t>(row / this->Side[1]) },
-      static_cast<std::uint8_t>((number >> 1) & 7), static_cast<std::uint8_t>((number >> 4) & 7),
-      IsCorner(number) };
-  }
-  static bool IsCorner(Number number) { return number & 1; }
-
-private:
-  std::array<std::uint64_t, 2> Side;
-};
-
-/** The numbers of the places that it joins. */
-using Segment = std::array<Numbering::Number, 2>;
-
-//------------------------------------------------------------------------------------------------
-/**
- * The labels of the lattice, and behind each of the faces where the image cuts the object another one: so the edges
- * of these faces are junctions, too.
- */
-template <typename Field>
-class LabelledSpace
-{
-public:
-  LabelledSpace(const LabelImage<3>& image, const Field& field)
-    : Image(image)
-    , Interior(field)
-    , FirstOutside(static_cast<LabelId>(image.NumberOfLabels() + 1))
-  {
-  }
-
-  const Index& LatticeDimensions() const { return this->Interior.LatticeDimensions(); }
-  Point<3> ToFrame(const Point<3>& x) const { return this->Interior.ToFrame(x); }
-
-  bool IsOutside(LabelId id) const { return id >= this->FirstOutside; }
-  /** Whether three different labels make a junction; those of the outside and background alone do not. */
-  bool IsJunction(const std::array<LabelId, 3>& l) const
-  {
-    return l[0] != l[1] && l[0] != l[2] && l[1] != l[2] &&
-      (this->IsForeground(l[0]) || this->IsForeground(l[1]) || this->IsForeground(l[2]));
-  }
-
-  LabelId VoxelId(const Index& lattice) const
-  {
-    Point<3> x;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      x[a] = static_cast<double>(lattice[a]);
-    }
-    const LabelId behind = this->LabelBehind(x);
-    return behind != 0 ? behind : this->Image.AtLattice(lattice);
-  }
-
-  /** At lattice coordinates. What lies on a face belongs to the inside. */
-  LabelId LabelAt(const Point<3>& x) const
-  {
-    const LabelId behind = this->LabelBehind(x);
-    return behind != 0 ? behind : this->Interior.ExtendedLabelAt(x);
-  }
-  double MarginAt(const Point<3>& x, LabelId label) const
-  {
-    return this->Interior.ExtendedMarginAt(x, label);
-  }
-
-private:
-  bool IsForeground(LabelId id) const { return id != 0 && !this->IsOutside(id); }
-
-  /** That of the first face that x lies beyond; background if it lies beyond none. */
-  LabelId LabelBehind(const Point<3>& x) const
-  {
-    if (this->Interior.IsCut())
-    {
-      for (unsigned face = 0; face < 6; ++face)
-      {
-        if (this->Interior.IsBeyondCutFace(x, face))
-        {
-          return static_cast<LabelId>(this->FirstOutside + face);
-        }
-      }
-    }
-    return 0;
-  }
-
-  const LabelImage<3>& Image;
-  const Field& Interior;
-  const LabelId FirstOutside;
-};
 
 /** A tetrahedron of the subdivision with the labels of its corners. */
 struct FineTetrahedron
@@ -180,6 +61,26 @@ struct FineTetrahedron
   }
 };
 
+/** Whether there are three different ones. */
+template <std::size_t N>
+bool AreThree(const std::array<LabelId, N>& labels)
+{
+  const LabelId first = labels[0];
+  LabelId second = first;
+  for (std::size_t c = 1; c < N; ++c)
+  {
+    if (labels[c] != first && labels[c] != second)
+    {
+      if (second != first)
+      {
+        return true;
+      }
+      second = labels[c];
+    }
+  }
+  return false;
+}
+
 unsigned CountDistinct(LabelId* begin, LabelId* end)
 {
   std::sort(begin, end);
@@ -205,13 +106,28 @@ public:
     const Index& n = this->Space.LatticeDimensions();
     const std::size_t words = this->Sites.WordsPerRow();
     FineLabels labels;
+    labels.Faces.resize(static_cast<std::size_t>(n[0]));
     for (std::int64_t j = 0; j + 1 < n[1]; ++j)
     {
       std::array<std::span<const std::uint64_t>, 4> rows;
+      std::array<const LabelId*, 4> ids;
+      bool inside = true;
       for (unsigned r = 0; r < 4; ++r)
       {
         rows[r] = this->Sites.Row(this->Sites.RowOf({ 0, j + (r & 1), k + (r >> 1) }));
+        ids[r] = this->Space.RowOf(j + (r & 1), k + (r >> 1));
+        inside = inside && ids[r];
       }
+      const auto hasThree = [&](std::int64_t i)
+      {
+        if (!inside || i < 1 || i + 2 >= n[0])
+        {
+          return this->HasThreeLabels({ i, j, k });
+        }
+        const auto id = [&](unsigned r, std::int64_t x) { return ids[r][x - 1]; };
+        return AreThree<8>({ id(0, i), id(0, i + 1), id(1, i), id(1, i + 1), id(2, i), id(2, i + 1),
+          id(3, i), id(3, i + 1) });
+      };
       const auto any = [&](std::size_t w)
       { return w < words ? rows[0][w] | rows[1][w] | rows[2][w] | rows[3][w] : 0; };
       for (std::size_t w = 0; w < words; ++w)
@@ -221,7 +137,7 @@ public:
         for (; cells != 0; cells &= cells - 1)
         {
           const auto i = static_cast<std::int64_t>(64 * w) + std::countr_zero(cells);
-          if (i + 1 < n[0] && this->HasThreeLabels({ i, j, k }))
+          if (i + 1 < n[0] && hasThree(i))
           {
             this->TraceCell({ i, j, k }, labels, segments);
           }
@@ -231,15 +147,19 @@ public:
   }
 
   /** Goes on into cells where curves leave those between voxels of three labels. */
-  void FollowOpenEnds(std::vector<Segment>& segments) const
+  void FollowOpenEnds(
+    std::vector<Segment>& segments, unsigned threads, const std::stop_token& stop) const
   {
     using Number = Numbering::Number;
-    std::vector<Number> places;
-    for (const Segment& segment : segments)
+    std::vector<Number> memory(4 * segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i)
     {
-      places.insert(places.end(), segment.begin(), segment.end());
+      std::copy(segments[i].Ends.begin(), segments[i].Ends.end(), memory.begin() + 2 * i);
     }
-    std::sort(places.begin(), places.end());
+    const std::span<Number> all(memory);
+    const std::span<const Number> places = ParallelRadixSort(
+      all.first(2 * segments.size()), all.last(2 * segments.size()), this->Numbers.Bits(),
+      [](Number number) { return number; }, threads, stop);
     std::set<Number> open; // triangles with a segment on one side only
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -268,7 +188,7 @@ public:
       this->TraceCell(cell, labels, segments);
       for (std::size_t i = before; i < segments.size(); ++i)
       {
-        for (const Number end : segments[i])
+        for (const Number end : segments[i].Ends)
         {
           if (!Numbering::IsCorner(end) && open.erase(end) == 0)
           {
@@ -283,22 +203,13 @@ public:
 private:
   bool HasThreeLabels(const Index& cell) const
   {
-    const LabelId first = this->Space.VoxelId(cell);
-    LabelId second = first;
-    for (unsigned c = 1; c < 8; ++c)
+    std::array<LabelId, 8> labels;
+    for (unsigned c = 0; c < 8; ++c)
     {
-      const LabelId id =
+      labels[c] =
         this->Space.VoxelId({ cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2) });
-      if (id != first && id != second)
-      {
-        if (second != first)
-        {
-          return true;
-        }
-        second = id;
-      }
     }
-    return false;
+    return AreThree(labels);
   }
 
   /** Of the two cells that share a triangle, the one that was not looked at. */
@@ -330,6 +241,13 @@ private:
   {
     Index Cell{ -2, -2, -2 };
     std::array<LabelId, FineSide * FineSide * FineSide> Labels;
+    /** Of cells traced before, by their first coordinate: the labels of the face to the next row, and its row. */
+    struct Face
+    {
+      std::int64_t Row = -1;
+      std::array<LabelId, FineSide * FineSide> Labels;
+    };
+    std::vector<Face> Faces;
 
     LabelId& At(std::int64_t x, std::int64_t y, std::int64_t z)
     {
@@ -337,24 +255,75 @@ private:
     }
   };
 
-  /** @param labels of the cell that was traced before, if any; receives those of this one */
+  /** Of a point of the fine lattice halfway between voxels: theirs, if they have one, since indicators are linear. */
+  LabelId LabelBetween(const Index& cell, const Index& fine, FineLabels& labels) const
+  {
+    const auto odd = [&](unsigned a) { return fine[a] & 1; };
+    const LabelId first = labels.At(fine[0] - odd(0), fine[1] - odd(1), fine[2] - odd(2));
+    for (std::int64_t z = -odd(2); z <= odd(2); z += 2)
+    {
+      for (std::int64_t y = -odd(1); y <= odd(1); y += 2)
+      {
+        for (std::int64_t x = -odd(0); x <= odd(0); x += 2)
+        {
+          if (labels.At(fine[0] + x, fine[1] + y, fine[2] + z) != first)
+          {
+            return this->Space.LabelAtFine(
+              { Fine * cell[0] + fine[0], Fine * cell[1] + fine[1], Fine * cell[2] + fine[2] });
+          }
+        }
+      }
+    }
+    return first;
+  }
+
+  /** @param labels of cells of the layer that were traced before, if any; receives those of this one */
   void TraceCell(const Index& cell, FineLabels& labels, std::vector<Segment>& segments) const
   {
     const bool isNext = labels.Cell == Index{ cell[0] - 1, cell[1], cell[2] };
     const auto label = [&](std::int64_t x, std::int64_t y, std::int64_t z) -> LabelId&
     { return labels.At(x, y, z); };
     labels.Cell = cell;
+    typename FineLabels::Face* const face =
+      labels.Faces.empty() ? nullptr : &labels.Faces[static_cast<std::size_t>(cell[0])];
+    const auto* const before = face && face->Row == cell[1] ? face : nullptr;
     for (std::int64_t z = 0; z <= Fine; ++z)
     {
       for (std::int64_t y = 0; y <= Fine; ++y)
       {
         label(0, y, z) = isNext ? label(Fine, y, z) : LabelId(0);
+      }
+    }
+    for (std::int64_t c = 0; c < 8; ++c)
+    {
+      const Index corner{ c & 1, (c >> 1) & 1, c >> 2 };
+      label(Fine * corner[0], Fine * corner[1], Fine * corner[2]) =
+        this->Space.VoxelId({ cell[0] + corner[0], cell[1] + corner[1], cell[2] + corner[2] });
+    }
+    for (std::int64_t z = 0; z <= Fine; ++z)
+    {
+      for (std::int64_t y = 0; y <= Fine; ++y)
+      {
         for (std::int64_t x = isNext ? 1 : 0; x <= Fine; ++x)
         {
-          label(x, y, z) =
-            this->Space.LabelAt({ static_cast<double>(cell[0]) + static_cast<double>(x) / Fine,
-              static_cast<double>(cell[1]) + static_cast<double>(y) / Fine,
-              static_cast<double>(cell[2]) + static_cast<double>(z) / Fine });
+          if (((x | y | z) & 1) == 0)
+          {
+            continue;
+          }
+          label(x, y, z) = before && y == 0
+            ? before->Labels[static_cast<std::size_t>(z * FineSide + x)]
+            : this->LabelBetween(cell, { x, y, z }, labels);
+        }
+      }
+    }
+    if (face)
+    {
+      face->Row = cell[1] + 1;
+      for (std::int64_t z = 0; z <= Fine; ++z)
+      {
+        for (std::int64_t x = 0; x <= Fine; ++x)
+        {
+          face->Labels[static_cast<std::size_t>(z * FineSide + x)] = label(x, Fine, z);
         }
       }
     }
@@ -364,6 +333,12 @@ private:
       {
         for (std::int64_t x = 0; x < Fine; ++x)
         {
+          if (!AreThree<8>({ label(x, y, z), label(x + 1, y, z), label(x, y + 1, z),
+                label(x + 1, y + 1, z), label(x, y, z + 1), label(x + 1, y, z + 1),
+                label(x, y + 1, z + 1), label(x + 1, y + 1, z + 1) }))
+          {
+            continue;
+          }
           for (const auto& order : Orders)
           {
             FineTetrahedron t;
@@ -398,279 +373,35 @@ private:
     }
     const Numbering::Number corner =
       this->Numbers.NumberOf({ t.Corners[0], t.Steps[1], t.Steps[2], true });
-    Segment ends;
+    Segment segment;
     unsigned found = 0;
     for (unsigned i = 0; i < 4; ++i)
     {
-      if (!this->Space.IsJunction(t.FacetLabels(i)))
+      const std::array<LabelId, 3> facet = t.FacetLabels(i);
+      if (!this->Space.IsJunction(facet))
       {
         continue;
       }
       if (distinct == 4)
       {
-        segments.push_back({ corner, this->Numbers.NumberOf(t.Facet(i)) });
+        segments.push_back(
+          { { corner, this->Numbers.NumberOf(t.Facet(i)) }, { t.FacetLabels(3), facet } });
       }
       else
       {
-        ends[found++] = this->Numbers.NumberOf(t.Facet(i));
+        segment.Ends[found] = this->Numbers.NumberOf(t.Facet(i));
+        segment.Labels[found++] = facet;
       }
     }
     if (found == 2)
     {
-      segments.push_back(ends);
+      segments.push_back(segment);
     }
   }
 
   const LabelledSpace<Field>& Space;
   const BitMask<3>& Sites;
   const Numbering Numbers;
-};
-
-//------------------------------------------------------------------------------------------------
-/** Where points of curves are. */
-template <typename Field>
-class Locator
-{
-public:
-  explicit Locator(const LabelledSpace<Field>& space)
-    : Space(space)
-  {
-  }
-
-  /** The labels at the corners of a triangle. */
-  std::array<LabelId, 3> LabelsOf(const Place& place) const
-  {
-    const std::array<Point<3>, 3> x = CornersOf(place);
-    std::array<LabelId, 3> labels;
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      labels[i] = this->Space.LabelAt(x[i]);
-    }
-    return labels;
-  }
-
-  /** Lattice coordinates of where the labels of the corners of a triangle are equal. */
-  Point<3> Locate(const Place& place) const
-  {
-    const std::array<Point<3>, 3> x = CornersOf(place);
-    const std::array<LabelId, 3> labels = this->LabelsOf(place);
-    std::array<unsigned, 3> inside;
-    unsigned count = 0;
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      if (!this->Space.IsOutside(labels[i]))
-      {
-        inside[count++] = i;
-      }
-    }
-    if (count == 1)
-    {
-      return x[inside[0]]; // on the edge of two faces
-    }
-    if (count == 2)
-    {
-      // On a face, on the line between the two.
-      const auto [i, j] = std::pair{ inside[0], inside[1] };
-      const double ahead = -this->Space.MarginAt(x[i], labels[j]);
-      const double behind = -this->Space.MarginAt(x[j], labels[i]);
-      return Interpolate(x[i], x[j], ahead + behind > 0.0 ? ahead / (ahead + behind) : 0.5);
-    }
-    // By how much label l is ahead of that of corner i, there.
-    std::array<std::array<double, 3>, 3> ahead;
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      for (unsigned l = 0; l < 3; ++l)
-      {
-        ahead[i][l] = l == i ? 0.0 : this->Space.MarginAt(x[i], labels[l]);
-      }
-    }
-    // Weights with sum 1 such that label 0 is as good as 1 and as 2: the cross product of the two rows.
-    std::array<Point<3>, 2> rows;
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      rows[0][i] = ahead[i][0] - ahead[i][1];
-      rows[1][i] = ahead[i][0] - ahead[i][2];
-    }
-    Point<3> weights{ rows[0][1] * rows[1][2] - rows[0][2] * rows[1][1],
-      rows[0][2] * rows[1][0] - rows[0][0] * rows[1][2],
-      rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0] };
-    const double sign = weights[0] + weights[1] + weights[2] < 0.0 ? -1.0 : 1.0;
-    double sum = 0.0;
-    for (double& w : weights)
-    {
-      w = std::max(sign * w, 0.0);
-      sum += w;
-    }
-    Point<3> located{};
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      const double w = sum > 0.0 ? weights[i] / sum : 1.0 / 3.0;
-      for (unsigned a = 0; a < 3; ++a)
-      {
-        located[a] += w * x[i][a];
-      }
-    }
-    return located;
-  }
-
-private:
-  static std::array<Point<3>, 3> CornersOf(const Place& place)
-  {
-    std::array<Point<3>, 3> x;
-    for (unsigned a = 0; a < 3; ++a)
-    {
-      const auto coordinate = [&](unsigned steps)
-      { return static_cast<double>(place.Base[a] + ((steps >> a) & 1)) / Fine; };
-      x[0][a] = coordinate(0);
-      x[1][a] = coordinate(place.Second);
-      x[2][a] = coordinate(place.Third);
-    }
-    return x;
-  }
-
-  const LabelledSpace<Field>& Space;
-};
-
-//------------------------------------------------------------------------------------------------
-/** The points of all curves and what is joined to what. */
-template <typename Field>
-class Graph
-{
-public:
-  static constexpr std::uint32_t Nobody = 0xffffffffu;
-
-  Graph(const std::vector<Segment>& segments, const LabelledSpace<Field>& space)
-    : Space(space)
-    , Where(space)
-    , Numbers(space.LatticeDimensions())
-  {
-    for (const Segment& segment : segments)
-    {
-      this->Places.insert(this->Places.end(), segment.begin(), segment.end());
-    }
-    std::sort(this->Places.begin(), this->Places.end());
-    this->Places.erase(std::unique(this->Places.begin(), this->Places.end()), this->Places.end());
-    this->Neighbours.assign(this->Places.size(), { Nobody, Nobody, Nobody, Nobody });
-    for (const Segment& segment : segments)
-    {
-      const std::uint32_t a = this->PositionOf(segment[0]);
-      const std::uint32_t b = this->PositionOf(segment[1]);
-      this->Join(a, b);
-      this->Join(b, a);
-    }
-    this->Positions.resize(this->Places.size());
-    for (std::uint32_t n = 0; n < this->Places.size(); ++n)
-    {
-      if (!this->IsCorner(n))
-      {
-        this->Positions[n] =
-          space.ToFrame(this->Where.Locate(this->Numbers.PlaceOf(this->Places[n])));
-      }
-    }
-    for (std::uint32_t n = 0; n < this->Places.size(); ++n)
-    {
-      if (!this->IsCorner(n))
-      {
-        continue;
-      }
-      const auto ways = std::count_if(this->Neighbours[n].begin(), this->Neighbours[n].end(),
-        [](std::uint32_t other) { return other != Nobody; });
-      for (unsigned i = 0; i < ways; ++i)
-      {
-        for (unsigned a = 0; a < 3; ++a)
-        {
-          this->Positions[n][a] +=
-            this->Positions[this->Neighbours[n][i]][a] / static_cast<double>(ways);
-        }
-      }
-    }
-  }
-
-  std::size_t NumberOfCorners() const
-  {
-    return static_cast<std::size_t>(
-      std::count_if(this->Places.begin(), this->Places.end(), Numbering::IsCorner));
-  }
-
-  /** First what begins or ends somewhere, then what is closed. */
-  std::vector<JunctionCurves::Curve> Curves() const
-  {
-    std::vector<JunctionCurves::Curve> curves;
-    std::vector<bool> visited(this->Places.size());
-    for (const bool closed : { false, true })
-    {
-      for (std::uint32_t n = 0; n < this->Places.size(); ++n)
-      {
-        const bool isEnd = this->IsCorner(n) || this->Neighbours[n][1] == Nobody;
-        if (visited[n] || isEnd == closed)
-        {
-          continue;
-        }
-        visited[n] = true;
-        const unsigned ways = closed ? 1 : 4;
-        for (unsigned i = 0; i < ways && this->Neighbours[n][i] != Nobody; ++i)
-        {
-          if (!visited[this->Neighbours[n][i]])
-          {
-            curves.push_back(this->Follow(n, this->Neighbours[n][i], visited));
-          }
-        }
-      }
-    }
-    return curves;
-  }
-
-private:
-  bool IsCorner(std::uint32_t n) const { return Numbering::IsCorner(this->Places[n]); }
-
-  std::uint32_t PositionOf(Numbering::Number place) const
-  {
-    return static_cast<std::uint32_t>(
-      std::lower_bound(this->Places.begin(), this->Places.end(), place) - this->Places.begin());
-  }
-
-  void Join(std::uint32_t from, std::uint32_t to)
-  {
-    auto& neighbours = this->Neighbours[from];
-    *std::find(neighbours.begin(), neighbours.end(), Nobody) = to;
-  }
-
-  /** From `start` by way of `next` to a corner, to an open end, or back to the start. */
-  JunctionCurves::Curve Follow(
-    std::uint32_t start, std::uint32_t next, std::vector<bool>& visited) const
-  {
-    JunctionCurves::Curve curve{ { this->Positions[start] },
-      this->Where.LabelsOf(this->Numbers.PlaceOf(this->Places[next])), false };
-    for (LabelId& label : curve.Labels)
-    {
-      label = this->Space.IsOutside(label) ? LabelId{ 0 } : label;
-    }
-    std::sort(curve.Labels.begin(), curve.Labels.end());
-    std::uint32_t previous = start;
-    while (next != Nobody && (next != start || this->IsCorner(next)))
-    {
-      curve.Points.push_back(this->Positions[next]);
-      if (this->IsCorner(next))
-      {
-        return curve;
-      }
-      visited[next] = true;
-      const auto& around = this->Neighbours[next];
-      const std::uint32_t beyond = around[0] == previous ? around[1] : around[0];
-      previous = next;
-      next = beyond;
-    }
-    curve.IsClosed = next == start;
-    return curve;
-  }
-
-  const LabelledSpace<Field>& Space;
-  const Locator<Field> Where;
-  const Numbering Numbers;
-  std::vector<Numbering::Number> Places; ///< ascending
-  std::vector<std::array<std::uint32_t, 4>>
-    Neighbours; ///< two; up to four of a corner; one of an open end
-  std::vector<Point<3>> Positions;
 };
 
 } // namespace
@@ -699,9 +430,8 @@ JunctionCurves::JunctionCurves(const LabelImage<3>& image, const Field& field,
   {
     segments.insert(segments.end(), layer.begin(), layer.end());
   }
-  tracer.FollowOpenEnds(segments);
-  ThrowIfStopped(stop);
-  const Graph<Field> graph(segments, space);
+  tracer.FollowOpenEnds(segments, threads, stop);
+  const Graph<Field> graph(segments, space, threads, stop);
   this->Corners = graph.NumberOfCorners();
   this->All = graph.Curves();
 }

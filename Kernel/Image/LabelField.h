@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <stop_token>
+#include <utility>
 
 namespace voxplex
 {
@@ -107,6 +108,10 @@ public:
   LabelId ExtendedLabelAt(const Point<D>& x) const;
   /** MarginAt(), but labels go on beyond the faces where the image cuts the object. */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
+  /** ExtendedMarginAt() of several labels. */
+  template <std::size_t N>
+  std::array<double, N> ExtendedMarginsAt(
+    const Point<D>& x, const std::array<LabelId, N>& labels) const;
 
   /**
    * Gradient of MarginAt() with respect to the lattice coordinates.
@@ -253,6 +258,58 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
   }
   const double margin = (1.0 / SampleOne) * static_cast<double>(own - other);
   return margin != 0.0 || !first ? margin : tie;
+}
+
+// Of all labels the best and the next best, of equal ones the smallest id.
+template <int D>
+template <std::size_t N>
+std::array<double, N> LabelField<D>::ExtendedMarginsAt(
+  const Point<D>& x, const std::array<LabelId, N>& labels) const
+{
+  std::array<double, N> margins;
+  const Cell cell = this->Locate(x);
+  if (!cell.Tile || cell.Tile[0] == 2)
+  {
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      margins[k] = this->ExtendedMarginAt(x, labels[k]);
+    }
+    return margins;
+  }
+  struct
+  {
+    float Value = -std::numeric_limits<float>::max();
+    LabelId Id = 0;
+  } best, next;
+  std::array<float, N> own;
+  own.fill(-static_cast<float>(SampleOne));
+  const auto count = static_cast<std::size_t>(cell.Tile[0]);
+  const Sample* planes = cell.Tile + HeaderSize(count);
+  for (std::size_t l = 0; l < count; ++l)
+  {
+    const float value = InterpolatePlane(planes + l * PlaneSize, cell);
+    const auto id = static_cast<LabelId>(cell.Tile[1 + l]);
+    if (value > best.Value)
+    {
+      next = std::exchange(best, { value, id });
+    }
+    else if (value > next.Value)
+    {
+      next = { value, id };
+    }
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      own[k] = id == labels[k] ? value : own[k];
+    }
+  }
+  for (std::size_t k = 0; k < N; ++k)
+  {
+    const auto& other = labels[k] == best.Id ? next : best;
+    const double margin = (1.0 / SampleOne) * static_cast<double>(own[k] - other.Value);
+    margins[k] =
+      margin != 0.0 || other.Id < labels[k] ? margin : std::numeric_limits<double>::min();
+  }
+  return margins;
 }
 
 extern template class LabelField<3>;

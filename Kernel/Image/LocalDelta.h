@@ -111,20 +111,23 @@ public:
     }
     const Point<D> index = this->Grid.ToIndex(centre);
     Index middle;
-    Index low;
-    Index high;
     bool isSmall = true; // does not reach beyond the next cells
     for (std::size_t a = 0; a < D; ++a)
     {
-      const double reach = radius * this->VoxelsPerLength[a];
-      isSmall = isSmall && reach < static_cast<double>(Cell);
+      isSmall = isSmall && radius * this->VoxelsPerLength[a] < static_cast<double>(Cell);
       middle[a] = this->CellAlong(a, index[a]);
-      low[a] = this->CellAlong(a, index[a] - reach);
-      high[a] = this->CellAlong(a, index[a] + reach);
     }
     if (isSmall && this->Lowered[this->Offset(middle)] == Unchanged)
     {
       return false;
+    }
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double reach = radius * this->VoxelsPerLength[a];
+      low[a] = this->CellAlong(a, index[a] - reach);
+      high[a] = this->CellAlong(a, index[a] + reach);
     }
     bool found = false;
     ForCells(

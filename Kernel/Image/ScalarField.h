@@ -95,6 +95,18 @@ public:
   }
   /** MarginAt(), but the object goes on beyond the faces where the image cuts it. */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
+  /** ExtendedMarginAt() of several labels. */
+  template <std::size_t N>
+  std::array<double, N> ExtendedMarginsAt(
+    const Point<D>& x, const std::array<LabelId, N>& labels) const
+  {
+    std::array<double, N> margins;
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      margins[k] = this->ExtendedMarginAt(x, labels[k]);
+    }
+    return margins;
+  }
 
   /**
    * A multiple of the gradient of MarginAt() in the cell of x, with respect to lattice coordinates.

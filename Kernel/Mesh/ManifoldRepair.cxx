@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -55,6 +54,42 @@ struct Change
   }
 };
 
+/** What is around an edge: rarely more than fits without memory of its own. */
+template <typename T>
+class ShortList
+{
+public:
+  /** The first for which is() is true, else `added` at the end. */
+  template <typename Predicate>
+  T& FindOrAdd(Predicate&& is, const T& added)
+  {
+    T* const found = std::find_if(this->begin(), this->end(), is);
+    if (found != this->end())
+    {
+      return *found;
+    }
+    if (this->Count == this->Few.size() && this->Many.empty())
+    {
+      this->Many.assign(this->Few.begin(), this->Few.end());
+    }
+    if (this->Count >= this->Few.size())
+    {
+      this->Many.push_back(added);
+      return this->Many[this->Count++];
+    }
+    return this->Few[this->Count++] = added;
+  }
+
+  std::size_t Size() const { return this->Count; }
+  T* begin() { return this->Many.empty() ? this->Few.data() : this->Many.data(); }
+  T* end() { return this->begin() + this->Count; }
+
+private:
+  std::array<T, 16> Few;
+  std::vector<T> Many; ///< all, once they are more
+  std::size_t Count = 0;
+};
+
 //------------------------------------------------------------------------------------------------
 /** The tetrahedra near the bad edges of a mesh, by their vertices. */
 class Neighbourhood
@@ -63,22 +98,22 @@ public:
   Neighbourhood(const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
     : Mesh(mesh)
   {
-    std::vector<bool> near(mesh.Points.size());
+    std::vector<std::uint8_t> near(mesh.Points.size());
     for (const InterfaceEdge& edge : edges)
     {
-      near[edge.Ends[0]] = true;
-      near[edge.Ends[1]] = true;
+      near[edge.Ends[0]] = 1;
+      near[edge.Ends[1]] = 1;
     }
     // A change asks for the stars of the vertices of its tetrahedra, and these for the edges of theirs.
     for (int ring = 0; ring < 2; ++ring)
     {
-      std::vector<bool> next = near;
+      std::vector<std::uint8_t> next = near;
       this->ForCellsNear(near,
         [&](std::uint32_t t)
         {
           for (const std::uint32_t v : mesh.Simplices[t])
           {
-            next[v] = true;
+            next[v] = 1;
           }
         });
       near = std::move(next);
@@ -88,7 +123,7 @@ public:
       {
         for (const std::uint32_t v : mesh.Simplices[t])
         {
-          if (near[v])
+          if (near[v] != 0)
           {
             this->Stars[v].push_back(t);
           }
@@ -99,13 +134,13 @@ public:
     {
       for (const std::uint32_t v : facet)
       {
-        this->OnInterface[v] = true;
+        this->OnInterface[v] = 1;
       }
     }
   }
 
   const SimplexMesh<3>& GetMesh() const { return this->Mesh; }
-  bool IsOnInterface(std::uint32_t v) const { return this->OnInterface[v]; }
+  bool IsOnInterface(std::uint32_t v) const { return this->OnInterface[v] != 0; }
   const std::vector<std::uint32_t>& StarOf(std::uint32_t v) const { return this->Stars.at(v); }
 
   std::int64_t LabelOf(std::uint32_t t, const Change* change) const
@@ -144,48 +179,79 @@ public:
     return std::nullopt;
   }
 
-  /**
-   * Labels with a number of boundary facets other than two or none at an edge, background left out; each counts
-   * more off junctions, where there is no excuse.
-   */
-  int CountBad(const Edge& edge, const Change* change) const
+  /** What is wrong at an edge. */
+  struct State
   {
-    // Of each facet with the edge, by its third vertex: the label on its sides.
-    std::map<std::uint32_t, std::array<std::int64_t, 2>> sides;
-    for (const std::uint32_t t : this->StarOf(edge))
+    int
+      Bad; ///< labels with a number of boundary facets other than two or none, background left out
+    bool IsJunction; ///< three labels or more meet there
+  };
+  State StateOf(const Edge& edge, const Change* change) const
+  {
+    // Few: lists that are searched from end to end. Of each facet with the edge the label on its sides.
+    struct Side
     {
-      for (const std::uint32_t v : this->Mesh.Simplices[t])
+      std::uint32_t Third; ///< vertex
+      std::array<std::int64_t, 2> Labels;
+    };
+    struct Count
+    {
+      std::int64_t Label;
+      int Facets;
+    };
+    ShortList<Side> sides;
+    ShortList<Count> facets;
+    for (const std::uint32_t t : this->StarOf(edge[0]))
+    {
+      const auto& corners = this->Mesh.Simplices[t];
+      if (std::find(corners.begin(), corners.end(), edge[1]) == corners.end())
+      {
+        continue;
+      }
+      const std::int64_t label = this->LabelOf(t, change);
+      for (const std::uint32_t v : corners)
       {
         if (v != edge[0] && v != edge[1])
         {
-          auto& labels = sides.try_emplace(v, std::array<std::int64_t, 2>{ 0, 0 }).first->second;
-          labels[1] = labels[0];
-          labels[0] = this->LabelOf(t, change);
+          Side& side = sides.FindOrAdd(
+            [&](const Side& known) { return known.Third == v; }, Side{ v, { 0, 0 } });
+          side.Labels = { label, side.Labels[0] };
         }
       }
     }
-    std::map<std::int64_t, int> facets;
-    for (const auto& [vertex, labels] : sides)
+    for (const Side& side : sides)
     {
-      if (labels[0] != labels[1])
+      for (const std::int64_t label : side.Labels)
       {
-        ++facets[labels[0]];
-        ++facets[labels[1]];
+        if (side.Labels[0] != side.Labels[1])
+        {
+          ++facets
+              .FindOrAdd(
+                [&](const Count& known) { return known.Label == label; }, Count{ label, 0 })
+              .Facets;
+        }
       }
     }
     const auto bad = std::count_if(facets.begin(), facets.end(),
-      [](const auto& entry) { return entry.first != 0 && entry.second != 2; });
-    return static_cast<int>(bad) * (facets.size() > 2 ? AtJunction : OffJunction);
+      [](const Count& count) { return count.Label != 0 && count.Facets != 2; });
+    return { static_cast<int>(bad), facets.Size() > 2 };
+  }
+
+  /** Counts more off junctions, where there is no excuse. */
+  int CountBad(const Edge& edge, const Change* change) const
+  {
+    const State state = this->StateOf(edge, change);
+    return state.Bad * (state.IsJunction ? AtJunction : OffJunction);
   }
 
 private:
   template <typename Function>
-  void ForCellsNear(const std::vector<bool>& near, Function&& function) const
+  void ForCellsNear(const std::vector<std::uint8_t>& near, Function&& function) const
   {
     for (std::uint32_t t = 0; t < this->Mesh.Simplices.size(); ++t)
     {
       const auto& v = this->Mesh.Simplices[t];
-      if (near[v[0]] || near[v[1]] || near[v[2]] || near[v[3]])
+      if ((near[v[0]] | near[v[1]] | near[v[2]] | near[v[3]]) != 0)
       {
         function(t);
       }
@@ -194,7 +260,7 @@ private:
 
   const SimplexMesh<3>& Mesh;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> Stars; ///< complete
-  std::vector<bool> OnInterface;
+  std::vector<std::uint8_t> OnInterface;                               ///< by vertex
 };
 
 //------------------------------------------------------------------------------------------------
@@ -243,21 +309,29 @@ public:
 
   bool IsBad(const Edge& edge) const { return this->Near.CountBad(edge, nullptr) != 0; }
 
-  /** Brings the mesh's facets in line with the labels, and takes out what was dropped. */
-  void Finish()
+  /**
+   * Brings the mesh's facets in line with the labels, and takes out what was dropped.
+   * @param before bad edges before any change, in the order of their ends
+   * @return those that there are now, in the same order
+   */
+  std::vector<InterfaceEdge> Finish(const std::vector<InterfaceEdge>& before)
   {
+    std::vector<InterfaceEdge> left = this->FindLeft(before);
+    std::vector<std::uint8_t> touched(this->Mesh.Points.size());
     std::set<Facet> around; // facets of what has changed
     for (const std::uint32_t t : this->Changed)
     {
       for (unsigned i = 0; i < 4; ++i)
       {
         around.insert(this->FacetOf(t, i));
+        touched[this->Mesh.Simplices[t][i]] = 1;
       }
     }
     std::size_t kept = 0;
     for (std::size_t f = 0; f < this->Mesh.Facets.size(); ++f)
     {
-      if (!around.contains(Sorted(this->Mesh.Facets[f])))
+      const Facet& v = this->Mesh.Facets[f];
+      if ((touched[v[0]] & touched[v[1]] & touched[v[2]]) == 0 || !around.contains(Sorted(v)))
       {
         this->Mesh.Facets[kept] = this->Mesh.Facets[f];
         this->Mesh.FacetLabels[kept++] = this->Mesh.FacetLabels[f];
@@ -275,10 +349,36 @@ public:
         }
       }
     }
-    this->DropBackground();
+    this->DropBackground(left);
+    return left;
   }
 
 private:
+  /** The bad edges now: of what has changed, and what was bad elsewhere. */
+  std::vector<InterfaceEdge> FindLeft(const std::vector<InterfaceEdge>& before) const
+  {
+    std::vector<InterfaceEdge> left;
+    const std::vector<Edge> changed = this->EdgesOf(this->Changed);
+    for (const InterfaceEdge& edge : before)
+    {
+      if (!std::binary_search(changed.begin(), changed.end(), edge.Ends))
+      {
+        left.push_back(edge);
+      }
+    }
+    for (const Edge& edge : changed)
+    {
+      const Neighbourhood::State state = this->Near.StateOf(edge, nullptr);
+      if (state.Bad > 0)
+      {
+        left.push_back({ edge, state.IsJunction });
+      }
+    }
+    std::sort(left.begin(), left.end(),
+      [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.Ends < b.Ends; });
+    return left;
+  }
+
   Facet FacetOf(std::uint32_t t, unsigned i) const
   {
     const auto& v = this->Mesh.Simplices[t];
@@ -348,23 +448,32 @@ private:
              [&](std::uint32_t p) { return std::find(w.begin(), w.end(), p) != w.end(); }) == 3;
   }
 
-  /** By how much CountBad() becomes less, over all edges. */
-  int GainOf(const Change& change) const
+  /** Those of some tetrahedra, ascending. */
+  template <typename Cells>
+  std::vector<Edge> EdgesOf(const Cells& cells) const
   {
-    std::set<Edge> edges;
-    for (const std::uint32_t t : change.Cells)
+    std::vector<Edge> edges;
+    for (const std::uint32_t t : cells)
     {
       const auto& v = this->Mesh.Simplices[t];
       for (unsigned i = 0; i < 4; ++i)
       {
         for (unsigned j = 0; j < i; ++j)
         {
-          edges.insert(MakeEdge(v[i], v[j]));
+          edges.push_back(MakeEdge(v[i], v[j]));
         }
       }
     }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+
+  /** By how much CountBad() becomes less, over all edges. */
+  int GainOf(const Change& change) const
+  {
     int gain = 0;
-    for (const Edge& edge : edges)
+    for (const Edge& edge : this->EdgesOf(change.Cells))
     {
       gain += this->Near.CountBad(edge, nullptr) - this->Near.CountBad(edge, &change);
     }
@@ -477,7 +586,8 @@ private:
     this->Mesh.FacetLabels.push_back({ std::max(own, other), std::min(own, other) });
   }
 
-  void DropBackground()
+  /** @param left edges, whose ends follow the numbers of the points */
+  void DropBackground(std::vector<InterfaceEdge>& left)
   {
     SimplexMesh<3>& mesh = this->Mesh;
     if (std::find(mesh.Labels.begin(), mesh.Labels.end(), 0) == mesh.Labels.end())
@@ -522,6 +632,10 @@ private:
     };
     renumber(mesh.Simplices);
     renumber(mesh.Facets);
+    for (InterfaceEdge& edge : left)
+    {
+      edge.Ends = { numbers[edge.Ends[0]], numbers[edge.Ends[1]] };
+    }
   }
 
   SimplexMesh<3>& Mesh;
@@ -557,8 +671,7 @@ ManifoldRepairCounts RepairManifold(
   }
   if (changed)
   {
-    mender.Finish();
-    counts.Left = FindNonManifoldEdges(mesh);
+    counts.Left = mender.Finish(edges);
     counts.After = counts.Left.size();
   }
   return counts;

@@ -67,15 +67,21 @@ public:
   /** True if a vertex is nearer to p than `distance`. */
   bool AnyWithin(const Point<D>& p, double distance) const
   {
+    return this->FindWithin(p, distance) != nullptr;
+  }
+
+  /** A vertex nearer to p than `distance`, null if there is none; it stays where it is. */
+  const Point<D>* FindWithin(const Point<D>& p, double distance) const
+  {
     const double distance2 = distance * distance;
     const Cell centre = this->CellOf(p);
-    if (this->AnyInCell(centre, p, distance2))
+    if (const Point<D>* const found = this->FindInCell(centre, p, distance2))
     {
-      return true;
+      return found;
     }
     if (distance > this->Radius)
     {
-      return this->AnyInCells(p, distance);
+      return this->FindInCells(p, distance);
     }
     // Along each axis the ball reaches into at most one of the two next cells.
     std::array<std::int64_t, static_cast<std::size_t>(D)> step;
@@ -99,12 +105,16 @@ public:
           cell[a] += step[a];
         }
       }
-      if (reached && this->AnyInCell(cell, p, distance2))
+      if (!reached)
       {
-        return true;
+        continue;
+      }
+      if (const Point<D>* const found = this->FindInCell(cell, p, distance2))
+      {
+        return found;
       }
     }
-    return false;
+    return nullptr;
   }
 
   std::uint32_t Size() const { return this->Count.load(std::memory_order_relaxed); }
@@ -142,7 +152,7 @@ private:
   }
 
   /** All cells that the ball may reach. */
-  bool AnyInCells(const Point<D>& p, double distance) const
+  const Point<D>* FindInCells(const Point<D>& p, double distance) const
   {
     Cell low;
     Cell high;
@@ -155,29 +165,29 @@ private:
     }
     for (Cell cell = low; cell[D - 1] <= high[D - 1];)
     {
-      if (this->AnyInCell(cell, p, distance * distance))
+      if (const Point<D>* const found = this->FindInCell(cell, p, distance * distance))
       {
-        return true;
+        return found;
       }
       for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
       {
         cell[a] = low[a];
       }
     }
-    return false;
+    return nullptr;
   }
 
-  bool AnyInCell(const Cell& cell, const Point<D>& p, double distance2) const
+  const Point<D>* FindInCell(const Cell& cell, const Point<D>& p, double distance2) const
   {
     for (std::uint32_t n = this->Heads[this->Bucket(cell)].load(std::memory_order_acquire);
          n != End; n = this->Nodes[n].Next)
     {
       if (Distance2(this->Nodes[n].Position, p) < distance2)
       {
-        return true;
+        return &this->Nodes[n].Position;
       }
     }
-    return false;
+    return nullptr;
   }
 
   Point<D> Origin;

@@ -209,7 +209,7 @@ private:
     std::vector<SimplexId> changed;
     for (SimplexId s = 0; local && local->HasLowered() && s < mesh.SimplexIdEnd(); ++s)
     {
-      if (mesh.IsAlive(s) && mesh.State(s).NearSurface)
+      if (mesh.State(s).NearSurface && mesh.IsAlive(s))
       {
         const Circumball<D> ball = mesh.GetCircumball(s);
         if (local->HasLoweredWithin(ball.Center, std::sqrt(ball.Radius2)))

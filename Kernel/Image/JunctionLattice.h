@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file JunctionLattice.h
+ * @brief Internal to JunctionCurves: the fine lattice, its labels, and the places of curves on it.
+ */
+#ifndef voxplex_JunctionLattice_h
+#define voxplex_JunctionLattice_h
+
+#include "Image/LabelImage.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace voxplex::junctions
+{
+
+using Index = GridGeometry<3>::Index;
+
+/** Points of the fine lattice to a voxel along each axis. */
+inline constexpr std::int64_t Fine = 2;
+
+/** Where a point of a curve is: a triangle or a tetrahedron of the subdivision. */
+struct Place
+{
+  std::array<std::int64_t, 3> Base; ///< first corner, on the fine lattice
+  std::uint8_t Second;              ///< steps from the first corner to the second, one bit an axis
+  std::uint8_t Third;               ///< the same to the third
+  bool IsCorner;                    ///< a tetrahedron; Second and Third tell which
+};
+
+/** Places as numbers, to sort and compare. */
+class Numbering
+{
+public:
+  using Number = std::uint64_t;
+
+  explicit Numbering(const Index& lattice)
+    : Side{ static_cast<std::uint64_t>(Fine * lattice[0]),
+      static_cast<std::uint64_t>(Fine * lattice[1]) }
+    , Layers(static_cast<std::uint64_t>(Fine * lattice[2]))
+  {
+  }
+
+  /** All numbers are below 2 to the power of this. */
+  unsigned Bits() const
+  {
+    return 7 + static_cast<unsigned>(std::bit_width(this->Side[0] * this->Side[1] * this->Layers));
+  }
+
+  Number NumberOf(const Place& place) const
+  {
+    const auto x = [&](unsigned a) { return static_cast<std::uint64_t>(place.Base[a]); };
+    const std::uint64_t base = (x(2) * this->Side[1] + x(1)) * this->Side[0] + x(0);
+    return base << 7 | static_cast<std::uint64_t>(place.Third) << 4 |
+      static_cast<std::uint64_t>(place.Second) << 1 | (place.IsCorner ? 1 : 0);
+  }
+  Place PlaceOf(Number number) const
+  {
+    const std::uint64_t base = number >> 7;
+    const std::uint64_t row = base / this->Side[0];
+    return { { static_cast<std::int64_t>(base % this->Side[0]),
+               static_cast<std::int64_t>(row % this->Side[1]),
+               static_cast<std::int64_t>(row / this->Side[1]) },
+      static_cast<std::uint8_t>((number >> 1) & 7), static_cast<std::uint8_t>((number >> 4) & 7),
+      IsCorner(number) };
+  }
+  static bool IsCorner(Number number) { return number & 1; }
+
+private:
+  std::array<std::uint64_t, 2> Side;
+  std::uint64_t Layers;
+};
+
+/** The numbers of the places that it joins, and the labels of their triangles. */
+struct Segment
+{
+  std::array<Numbering::Number, 2> Ends;
+  std::array<std::array<LabelId, 3>, 2> Labels;
+};
+
+//------------------------------------------------------------------------------------------------
+/**
+ * The labels of the lattice, and behind each of the faces where the image cuts the object another one: so the edges
+ * of these faces are junctions, too.
+ */
+template <typename Field>
+class LabelledSpace
+{
+public:
+  LabelledSpace(const LabelImage<3>& image, const Field& field)
+    : Image(image)
+    , Interior(field)
+    , FirstOutside(static_cast<LabelId>(image.NumberOfLabels() + 1))
+  {
+  }
+
+  const Index& LatticeDimensions() const { return this->Interior.LatticeDimensions(); }
+  Point<3> ToFrame(const Point<3>& x) const { return this->Interior.ToFrame(x); }
+
+  bool IsOutside(LabelId id) const { return id >= this->FirstOutside; }
+  /** Whether three different labels make a junction; those of the outside and background alone do not. */
+  bool IsJunction(const std::array<LabelId, 3>& l) const
+  {
+    return l[0] != l[1] && l[0] != l[2] && l[1] != l[2] &&
+      (this->IsForeground(l[0]) || this->IsForeground(l[1]) || this->IsForeground(l[2]));
+  }
+
+  LabelId VoxelId(const Index& lattice) const
+  {
+    Point<3> x;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      x[a] = static_cast<double>(lattice[a]);
+    }
+    const LabelId behind = this->LabelBehind(x);
+    return behind != 0 ? behind : this->Image.AtLattice(lattice);
+  }
+
+  /** At lattice coordinates. What lies on a face belongs to the inside. */
+  LabelId LabelAt(const Point<3>& x) const
+  {
+    const LabelId behind = this->LabelBehind(x);
+    return behind != 0 ? behind : this->Interior.ExtendedLabelAt(x);
+  }
+  double MarginAt(const Point<3>& x, LabelId label) const
+  {
+    return this->Interior.ExtendedMarginAt(x, label);
+  }
+  std::array<double, 3> MarginsAt(const Point<3>& x, const std::array<LabelId, 3>& labels) const
+  {
+    return this->Interior.ExtendedMarginsAt(x, labels);
+  }
+
+  /** At a point of the fine lattice. Voxel centres keep their labels. */
+  LabelId LabelAtFine(const Index& fine) const
+  {
+    static_assert(Fine == 2);
+    if (((fine[0] | fine[1] | fine[2]) & 1) == 0)
+    {
+      return this->VoxelId({ fine[0] / 2, fine[1] / 2, fine[2] / 2 });
+    }
+    return this->LabelAt({ 0.5 * static_cast<double>(fine[0]), 0.5 * static_cast<double>(fine[1]),
+      0.5 * static_cast<double>(fine[2]) });
+  }
+
+  /** The labels of a row of voxels from the first of the bounding box on; null if the row lies beyond that. */
+  const LabelId* RowOf(std::int64_t y, std::int64_t z) const
+  {
+    const Index& n = this->Image.CropDimensions();
+    return y < 1 || y > n[1] || z < 1 || z > n[2]
+      ? nullptr
+      : this->Image.Ids().data() + ((z - 1) * n[1] + y - 1) * n[0];
+  }
+
+private:
+  bool IsForeground(LabelId id) const { return id != 0 && !this->IsOutside(id); }
+
+  /** That of the first face that x lies beyond; background if it lies beyond none. */
+  LabelId LabelBehind(const Point<3>& x) const
+  {
+    if (this->Interior.IsCut())
+    {
+      for (unsigned face = 0; face < 6; ++face)
+      {
+        if (this->Interior.IsBeyondCutFace(x, face))
+        {
+          return static_cast<LabelId>(this->FirstOutside + face);
+        }
+      }
+    }
+    return 0;
+  }
+
+  const LabelImage<3>& Image;
+  const Field& Interior;
+  const LabelId FirstOutside;
+};
+
+} // namespace voxplex::junctions
+
+#endif
