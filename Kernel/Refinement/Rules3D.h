@@ -71,7 +71,7 @@ private:
    * point excepted. With 0.4 a few slivers of the knee atlas stay, with 0.25 none. */
   static constexpr double SliverSpacing = 0.25;
   /** Points that R3 inserts to make facets flat keep off feature vertices by this times delta. */
-  static constexpr double CutClearance = 0.4;
+  static constexpr double CutClearance = 0.25;
 
   bool MayBePoor(SimplexId t);
   class BetterStar;
