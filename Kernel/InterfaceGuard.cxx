@@ -29,6 +29,8 @@ constexpr double FinestVoxels = 0.2;
 
 /** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
 constexpr double LargestSurfaceDistance = 1.1;
+/** There sampling around what is too far begins with so many finest deltas, at most. */
+constexpr double Coarsest = 4.0;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
@@ -91,7 +93,7 @@ double InterfaceGuard::DensestAt(const Point<3>& p) const
 double InterfaceGuard::RemedyAt(const Face& face) const
 {
   const double delta = this->DeltaAt(face);
-  return this->Base.Graded ? std::min(delta, this->Base.Finest() / FirstSpacing) : delta;
+  return this->Base.Graded ? std::min(delta, Coarsest * this->Base.Asked) : delta;
 }
 
 bool InterfaceGuard::IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const
@@ -122,7 +124,7 @@ bool InterfaceGuard::IsFarFromVertices(
 /** Of the mesh to interfaces where delta is graded. */
 double InterfaceGuard::NearEnough() const
 {
-  return std::max(LargestSurfaceDistance * this->Base.Finest(), 0.5 * this->VoxelDiagonal);
+  return std::max(LargestSurfaceDistance * this->Base.Asked, 0.5 * this->VoxelDiagonal);
 }
 
 // The faces of voxels, and the interface that runs about them, which is what is meshed.

@@ -359,13 +359,14 @@ typename MeshingStages<D>::Density MeshingStages<D>::ChooseDensity(const Prepare
   Density density;
   density.Base.Delta = this->Stats.Delta;
   density.Base.Equivalent = this->Stats.Delta;
+  density.Base.Asked = this->Stats.Delta;
   if constexpr (D == 3)
   {
     density.Grading = this->Grade(prepared);
     if (density.Grading)
     {
       density.Base = { density.Grading->Largest(), &density.Grading->Delta(),
-        density.Grading->Equivalent() };
+        density.Grading->Equivalent(), this->Stats.Delta };
     }
   }
   this->Stats.LargestDelta = density.Base.Delta;

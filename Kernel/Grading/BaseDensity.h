@@ -21,6 +21,7 @@ struct BaseDensity
   double Delta = 1.0;                     ///< if it is graded, the largest
   const GradedDelta<D>* Graded = nullptr; ///< from place to place; null: the same everywhere
   double Equivalent = Delta;              ///< the uniform one that makes about as many vertices
+  double Asked = Delta;                   ///< that of the options, the finest there may be
 
   double At(const Point<D>& z) const { return this->Graded ? this->Graded->At(z) : this->Delta; }
 

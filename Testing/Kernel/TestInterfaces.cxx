@@ -6,8 +6,8 @@
 #include "Image/InterfacePoints.h"
 #include "ImageMesher.h"
 #include "InterfaceGuard.h"
-#include "Mesh/InterfaceEdges.h"
 #include "Mesh/InterfaceDistance.h"
+#include "Mesh/InterfaceEdges.h"
 #include "Mesh/ManifoldRepair.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
@@ -473,6 +473,24 @@ TEST(InterfaceGuard, KeepsGradedMeshesNear)
     EXPECT_LE(distances[1], largest * options.Delta) << seed;
     EXPECT_LT(elements[1], elements[0] + elements[0] / 20) << seed; // finer only where it has to be
   }
+}
+
+// Also where no feature is so small that delta would be used anywhere.
+TEST(InterfaceGuard, KeepsGradedBallsNear)
+{
+  const LabelImage<3> image = phantoms::Ball(14.0);
+  MeshingOptions<3> options;
+  options.Delta = 1.5;
+  options.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Grading.Ratio = 2.0;
+  SimplexMesh<3> mesh;
+  ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
+  const HausdorffFigures figures = MeasureHausdorff(mesh, VoxelFaceCentres(image, 1), nullptr, 1);
+  EXPECT_LE(figures.ImageToMesh.Maximum, 1.1 * 1.15 * options.Delta);
+  options.Grading.Mode = GradingMode::Uniform;
+  SimplexMesh<3> uniform;
+  ASSERT_EQ(ImageMesher<3>(options).Run(image, uniform), MeshingOutcome::Done);
+  EXPECT_LT(mesh.Simplices.size(), uniform.Simplices.size() / 3);
 }
 
 TEST(InterfaceGuard, LeavesManifoldBoundaries)
