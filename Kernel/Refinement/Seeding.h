@@ -134,9 +134,9 @@ std::vector<SimplexId> SeedTriangulation(RefinementContext<D>& context, Refineme
   const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
 {
   Triangulation<D>& mesh = context.Mesh;
-  std::vector<FeatureSeed<D>> sample = SampleInterfaces(context, nodes);
-  sample.insert(sample.end(), seeds.begin(), seeds.end());
-  InsertSeeds<Rules>(context, worker, sample);
+  InsertSeeds<Rules>(
+    context, worker, seeds); // first: the sample would stand in the way of junctions
+  InsertSeeds<Rules>(context, worker, SampleInterfaces(context, nodes));
   while (!worker.Poor.Empty()) // everything is screened again, in the order of the list
   {
     worker.Poor.Pop();
