@@ -479,8 +479,7 @@ TEST(CutFaces, OfTwoLabelsAreFlatInTheMesh)
         for (const unsigned face : { 0u, 4u })
         {
           EXPECT_NEAR(areas[face], expected[face], 0.03 * expected[face]) << face;
-          // What several threads insert at the same time may crowd out a point that would fill a notch.
-          EXPECT_LE(CountUncovered(mesh, image, face / 2), threads == 1 ? 0 : 12) << face;
+          EXPECT_EQ(CountUncovered(mesh, image, face / 2), 0) << face;
         }
         options.SampleJunctions = false;
         const std::array<double, 6> rough = FlatAreas(Mesh(image, options), domain);
