@@ -139,13 +139,14 @@ bool InterfaceGuard::IsFarFromTriangles(
     return false;
   }
   const double distance = std::sqrt(mesh.Triangles.Distance2To(centre, hint));
-  if (distance > StairFactor * nearEnough || distance + half <= nearEnough)
+  if (distance > StairFactor * nearEnough)
   {
-    return distance + half > nearEnough;
+    return true;
   }
   Point<3> z;
-  return this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
-           this->Image.CentreOf(face.Next()), z) &&
+  return distance + half > nearEnough &&
+    this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
+      this->Image.CentreOf(face.Next()), z) &&
     mesh.Triangles.Distance2To(z, hint) > nearEnough * nearEnough;
 }
 

@@ -39,16 +39,6 @@ Point<D> ToPoint(const typename GridGeometry<D>::Index& index)
   return p;
 }
 
-template <int D>
-Point<D> CentreInFrame(const LabelImage<D>& image, Point<D> index)
-{
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    index[a] += static_cast<double>(image.CropOrigin()[a]);
-  }
-  return image.Grid().ToFrame(index);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -68,9 +58,8 @@ std::shared_ptr<const SizeFunction<D>> GradedSize<D>::Limit(
     [&](const typename GridGeometry<D>::Index& voxel, LabelId id, auto&& add)
     {
       const Point<D> index = ToPoint<D>(voxel);
-      const double s = ofLabel.empty()
-        ? size->Evaluate(CentreInFrame<D>(image, index), image.Values()[id])
-        : ofLabel[id];
+      const double s =
+        ofLabel.empty() ? size->Evaluate(image.CentreOf(voxel), image.Values()[id]) : ofLabel[id];
       add(index, s);
       if (!(s > 0.0 && std::isfinite(s)) && !unbounded.load(std::memory_order_relaxed))
       {

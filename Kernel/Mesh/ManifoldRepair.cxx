@@ -54,41 +54,13 @@ struct Change
   }
 };
 
-/** What is around an edge: rarely more than fits without memory of its own. */
-template <typename T>
-class ShortList
+/** The first of a few for which is() is true, else `added` behind them. */
+template <typename T, typename Predicate>
+T& FindOrAdd(std::vector<T>& few, Predicate&& is, const T& added)
 {
-public:
-  /** The first for which is() is true, else `added` at the end. */
-  template <typename Predicate>
-  T& FindOrAdd(Predicate&& is, const T& added)
-  {
-    T* const found = std::find_if(this->begin(), this->end(), is);
-    if (found != this->end())
-    {
-      return *found;
-    }
-    if (this->Count == this->Few.size() && this->Many.empty())
-    {
-      this->Many.assign(this->Few.begin(), this->Few.end());
-    }
-    if (this->Count >= this->Few.size())
-    {
-      this->Many.push_back(added);
-      return this->Many[this->Count++];
-    }
-    return this->Few[this->Count++] = added;
-  }
-
-  std::size_t Size() const { return this->Count; }
-  T* begin() { return this->Many.empty() ? this->Few.data() : this->Many.data(); }
-  T* end() { return this->begin() + this->Count; }
-
-private:
-  std::array<T, 16> Few;
-  std::vector<T> Many; ///< all, once they are more
-  std::size_t Count = 0;
-};
+  const auto found = std::find_if(few.begin(), few.end(), is);
+  return found != few.end() ? *found : few.emplace_back(added);
+}
 
 //------------------------------------------------------------------------------------------------
 /** The tetrahedra near the bad edges of a mesh, by their vertices. */
@@ -199,8 +171,11 @@ public:
       std::int64_t Label;
       int Facets;
     };
-    ShortList<Side> sides;
-    ShortList<Count> facets;
+    constexpr std::size_t Most = 16; // mostly
+    std::vector<Side> sides;
+    std::vector<Count> facets;
+    sides.reserve(Most);
+    facets.reserve(Most);
     for (const std::uint32_t t : this->StarOf(edge[0]))
     {
       const auto& corners = this->Mesh.Simplices[t];
@@ -213,8 +188,8 @@ public:
       {
         if (v != edge[0] && v != edge[1])
         {
-          Side& side = sides.FindOrAdd(
-            [&](const Side& known) { return known.Third == v; }, Side{ v, { 0, 0 } });
+          Side& side = FindOrAdd(
+            sides, [&](const Side& known) { return known.Third == v; }, Side{ v, { 0, 0 } });
           side.Labels = { label, side.Labels[0] };
         }
       }
@@ -225,16 +200,14 @@ public:
       {
         if (side.Labels[0] != side.Labels[1])
         {
-          ++facets
-              .FindOrAdd(
-                [&](const Count& known) { return known.Label == label; }, Count{ label, 0 })
-              .Facets;
+          const auto hasLabel = [&](const Count& known) { return known.Label == label; };
+          ++FindOrAdd(facets, hasLabel, Count{ label, 0 }).Facets;
         }
       }
     }
     const auto bad = std::count_if(facets.begin(), facets.end(),
       [](const Count& count) { return count.Label != 0 && count.Facets != 2; });
-    return { static_cast<int>(bad), facets.Size() > 2 };
+    return { static_cast<int>(bad), facets.size() > 2 };
   }
 
   /** Counts more off junctions, where there is no excuse. */
