@@ -12,19 +12,137 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace voxplex
 {
 
 /**
+ * @brief How a Hilbert curve runs through the parts of a cube, as a finite automaton.
+ *
+ * A state is the symmetry of the cube that takes the curve through the whole to that through a part: the axes in
+ * another order, some of them reversed. J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc. 707 (2004),
+ * whose exchanges and inversions of lower bits make the states.
+ */
+template <int D>
+class HilbertAutomaton
+{
+public:
+  static constexpr unsigned Axes = static_cast<unsigned>(D);
+  static constexpr unsigned Parts = 1u << Axes;
+
+  constexpr HilbertAutomaton()
+  {
+    std::array<Symmetry, MostStates> states{};
+    std::array<std::uint16_t, MostCodes> numbers{}; // plus 1, of each code; 0: not met yet
+    for (unsigned a = 0; a < Axes; ++a)
+    {
+      states[0].Axis[a] = a;
+    }
+    numbers[states[0].Code()] = 1;
+    unsigned known = 1;
+    for (unsigned s = 0; s < known; ++s)
+    {
+      for (unsigned part = 0; part < Parts; ++part)
+      {
+        const unsigned seen = states[s].Apply(part);
+        const Symmetry next = states[s].Next(seen);
+        std::uint16_t& number = numbers[next.Code()];
+        if (number == 0)
+        {
+          states[known] = next;
+          number = static_cast<std::uint16_t>(++known);
+        }
+        this->Steps[s][part] = static_cast<std::uint16_t>((number - 1u) * Parts + GrayCode(seen));
+      }
+    }
+  }
+
+  /**
+   * Where the curve of a state comes to a part, not counting that all bits are reversed behind odd places, and the state
+   * in there.
+   * @param part bit a: the upper half along axis a
+   */
+  void Step(unsigned part, unsigned& state, unsigned& place) const
+  {
+    const unsigned step = this->Steps[state][part];
+    state = step / Parts;
+    place = step % Parts;
+  }
+
+private:
+  static constexpr unsigned MostStates = D == 3 ? 48 : 384; ///< symmetries of a cube
+  static constexpr unsigned MostCodes = 1u << (3 * Axes);
+
+  struct Symmetry
+  {
+    std::array<unsigned, Axes> Axis{};    ///< which one of the image takes the place of each
+    std::array<unsigned, Axes> Reverse{}; ///< 0 or 1
+
+    constexpr unsigned Code() const
+    {
+      unsigned code = 0;
+      for (unsigned a = 0; a < Axes; ++a)
+      {
+        code = code << 3 | this->Axis[a] << 1 | this->Reverse[a];
+      }
+      return code;
+    }
+    /** A part as the curve sees it. */
+    constexpr unsigned Apply(unsigned part) const
+    {
+      unsigned seen = 0;
+      for (unsigned a = 0; a < Axes; ++a)
+      {
+        seen |= (((part >> this->Axis[a]) & 1u) ^ this->Reverse[a]) << a;
+      }
+      return seen;
+    }
+    /** In a part: the first axis is reversed for each one in whose upper half that lies, else exchanged with it. */
+    constexpr Symmetry Next(unsigned seen) const
+    {
+      Symmetry next = *this;
+      for (unsigned a = 0; a < Axes; ++a)
+      {
+        if ((seen >> a) & 1u)
+        {
+          next.Reverse[0] ^= 1u;
+        }
+        else
+        {
+          std::swap(next.Axis[0], next.Axis[a]);
+          std::swap(next.Reverse[0], next.Reverse[a]);
+        }
+      }
+      return next;
+    }
+  };
+
+  /** The first axis has the highest bit. */
+  static constexpr unsigned GrayCode(unsigned seen)
+  {
+    unsigned code = 0;
+    unsigned bit = 0;
+    for (unsigned a = 0; a < Axes; ++a)
+    {
+      bit ^= (seen >> a) & 1u;
+      code = code << 1 | bit;
+    }
+    return code;
+  }
+
+  std::array<std::array<std::uint16_t, Parts>, MostStates> Steps{}; ///< next state and place
+};
+
+/**
  * @brief Distance along the Hilbert curve that fills a cube around the box, with 63 / D bits per axis.
  *
- * Points that are near along the curve are near in space. J. Skilling, "Programming the Hilbert
- * curve", AIP Conf. Proc. 707 (2004): from coordinates to the transposed index.
+ * Points that are near along the curve are near in space.
  */
 template <int D>
 std::uint64_t HilbertIndex(const Point<D>& p, const Box<D>& box)
 {
+  static constexpr HilbertAutomaton<D> Automaton;
   constexpr unsigned Axes = static_cast<unsigned>(D);
   constexpr unsigned Bits = 63 / Axes;
   double side = 0.0;
@@ -40,40 +158,20 @@ std::uint64_t HilbertIndex(const Point<D>& p, const Box<D>& box)
     x[a] = static_cast<std::uint32_t>(std::clamp(t, 0.0, Largest));
   }
 
-  // Without branches: half of them would be mispredicted, which takes twice as long.
-  for (unsigned b = Bits - 1; b > 0; --b)
-  {
-    const std::uint32_t lower = (1u << b) - 1;
-    for (unsigned a = 0; a < Axes; ++a)
-    {
-      // Where the bit is set the lower ones of x[0] are inverted, else exchanged with those of x[a].
-      const std::uint32_t invert = 0u - ((x[a] >> b) & 1u);
-      const std::uint32_t exchange = (x[0] ^ x[a]) & lower & ~invert;
-      x[0] ^= (lower & invert) | exchange;
-      x[a] ^= exchange;
-    }
-  }
-  for (unsigned a = 1; a < Axes; ++a)
-  {
-    x[a] ^= x[a - 1]; // Gray code
-  }
-  std::uint32_t t = x[Axes - 1] >> 1; // of each bit, the parity of those above it
-  for (const unsigned shift : { 1u, 2u, 4u, 8u, 16u })
-  {
-    t ^= t >> shift;
-  }
-  for (unsigned a = 0; a < Axes; ++a)
-  {
-    x[a] ^= t;
-  }
-
   std::uint64_t index = 0;
+  unsigned state = 0;
+  unsigned reversed = 0; // all bits or none
   for (unsigned b = Bits; b-- > 0;)
   {
+    unsigned part = 0;
     for (unsigned a = 0; a < Axes; ++a)
     {
-      index = (index << 1) | ((x[a] >> b) & 1u);
+      part |= ((x[a] >> b) & 1u) << a;
     }
+    unsigned place;
+    Automaton.Step(part, state, place);
+    index = index << Axes | (place ^ reversed);
+    reversed ^= (0u - (place & 1u)) & (HilbertAutomaton<D>::Parts - 1u);
   }
   return index;
 }

@@ -192,20 +192,86 @@ TEST(FeatureGrid, AgreesWithBruteForce)
   }
 }
 
-TEST(HilbertOrder, VisitsNeighbouringCellsOfALattice)
+template <int D>
+void ExpectHilbertOrderVisitsNeighbours(int levels)
 {
-  Box<3> box;
+  const int side = 1 << levels;
+  Box<D> box;
   box.Min.fill(0.0);
-  box.Max.fill(8.0);
-  std::vector<std::pair<std::uint64_t, Point<3>>> cells;
-  for (int k = 0; k < 512; ++k)
+  box.Max.fill(side);
+  std::vector<std::pair<std::uint64_t, Point<D>>> cells;
+  for (int k = 0; k < 1 << (levels * D); ++k)
   {
-    const Point<3> p = { (k & 7) + 0.5, ((k >> 3) & 7) + 0.5, (k >> 6) + 0.5 };
-    cells.push_back({ HilbertIndex<3>(p, box), p });
+    Point<D> p;
+    for (int a = 0; a < D; ++a)
+    {
+      p[static_cast<std::size_t>(a)] = ((k >> (levels * a)) & (side - 1)) + 0.5;
+    }
+    cells.push_back({ HilbertIndex<D>(p, box), p });
   }
   std::sort(cells.begin(), cells.end());
   for (std::size_t i = 1; i < cells.size(); ++i)
   {
-    EXPECT_NEAR(Distance(cells[i].second, cells[i - 1].second), 1.0, 1e-12);
+    ASSERT_NEAR(Distance(cells[i].second, cells[i - 1].second), 1.0, 1e-12) << D << " " << i;
   }
+}
+
+TEST(HilbertOrder, VisitsNeighbouringCellsOfALattice)
+{
+  ExpectHilbertOrderVisitsNeighbours<3>(3);
+  ExpectHilbertOrderVisitsNeighbours<3>(5);
+  ExpectHilbertOrderVisitsNeighbours<4>(2);
+  ExpectHilbertOrderVisitsNeighbours<4>(4);
+}
+
+// Skilling's algorithm, of which the automaton is the table.
+TEST(HilbertOrder, IsTheCurveOfSkilling)
+{
+  const auto expect = []<int D>(std::integral_constant<int, D>)
+  {
+    constexpr auto axes = static_cast<std::size_t>(D);
+    constexpr unsigned bits = 63 / D;
+    constexpr double side = static_cast<double>((1u << bits) - 1);
+    Box<D> box;
+    box.Min.fill(0.0);
+    box.Max.fill(side);
+    std::mt19937 random(7);
+    for (int k = 0; k < 2000; ++k)
+    {
+      std::array<std::uint32_t, axes> x;
+      Point<D> p;
+      for (std::size_t a = 0; a < axes; ++a)
+      {
+        x[a] = static_cast<std::uint32_t>(random()) >> (32 - bits);
+        p[a] = x[a];
+      }
+      for (unsigned b = bits - 1; b > 0; --b)
+      {
+        const std::uint32_t lower = (1u << b) - 1;
+        for (std::size_t a = 0; a < axes; ++a)
+        {
+          const std::uint32_t exchange = (x[a] >> b) & 1u ? 0u : (x[0] ^ x[a]) & lower;
+          x[0] ^= (x[a] >> b) & 1u ? lower : exchange;
+          x[a] ^= exchange;
+        }
+      }
+      for (std::size_t a = 1; a < axes; ++a)
+      {
+        x[a] ^= x[a - 1];
+      }
+      std::uint32_t parity = 0;
+      std::uint64_t index = 0;
+      for (unsigned b = bits; b-- > 0;)
+      {
+        for (std::size_t a = 0; a < axes; ++a)
+        {
+          index = index << 1 | (((x[a] >> b) & 1u) ^ parity);
+        }
+        parity ^= (x[axes - 1] >> b) & 1u;
+      }
+      ASSERT_EQ(HilbertIndex<D>(p, box), index) << D;
+    }
+  };
+  expect(std::integral_constant<int, 3>());
+  expect(std::integral_constant<int, 4>());
 }
