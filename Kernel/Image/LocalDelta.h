@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -111,13 +112,13 @@ public:
     }
     const Point<D> index = this->Grid.ToIndex(centre);
     Index middle;
-    bool isSmall = true; // does not reach beyond the next cells
+    double reach = 0.0; // in cells
     for (std::size_t a = 0; a < D; ++a)
     {
-      isSmall = isSmall && radius * this->VoxelsPerLength[a] < static_cast<double>(Cell);
+      reach = std::max(reach, radius * this->VoxelsPerLength[a] / Cell);
       middle[a] = this->CellAlong(a, index[a]);
     }
-    if (isSmall && this->Lowered[this->Offset(middle)] == Unchanged)
+    if (reach < this->CellsToLowered[this->Offset(middle)] - 1.0)
     {
       return false;
     }
@@ -125,19 +126,19 @@ public:
     Index high;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const double reach = radius * this->VoxelsPerLength[a];
-      low[a] = this->CellAlong(a, index[a] - reach);
-      high[a] = this->CellAlong(a, index[a] + reach);
+      const double voxels = radius * this->VoxelsPerLength[a];
+      low[a] = this->CellAlong(a, index[a] - voxels);
+      high[a] = this->CellAlong(a, index[a] + voxels);
     }
     bool found = false;
-    ForCells(
-      low, high, [&](const Index& cell) { found |= this->Lowered[this->Offset(cell)] == Itself; });
+    ForCells(low, high,
+      [&](const Index& cell) { found |= this->CellsToLowered[this->Offset(cell)] == 0; });
     return found;
   }
 
   void ForgetLowered()
   {
-    this->Lowered.clear();
+    this->CellsToLowered.clear();
     this->AnyLowered = false;
   }
 
@@ -208,30 +209,35 @@ private:
 
   void MarkLowered(std::size_t offset)
   {
-    this->Lowered.resize(this->Values.size(), Unchanged);
+    this->CellsToLowered.resize(this->Values.size(), Unknown);
     this->AnyLowered = true;
-    if (this->Lowered[offset] == Itself)
+    if (this->CellsToLowered[offset] == 0)
     {
       return;
     }
+    Index here;
     Index low;
     Index high;
     std::size_t rest = offset;
     for (std::size_t a = 0; a < D; ++a)
     {
       const auto n = static_cast<std::size_t>(this->Cells[a]);
-      const auto c = static_cast<std::int64_t>(rest % n);
-      low[a] = std::max<std::int64_t>(c - 1, 0);
-      high[a] = std::min(c + 1, this->Cells[a] - 1);
+      here[a] = static_cast<std::int64_t>(rest % n);
+      low[a] = std::max<std::int64_t>(here[a] - Unknown + 1, 0);
+      high[a] = std::min(here[a] + Unknown - 1, this->Cells[a] - 1);
       rest /= n;
     }
     ForCells(low, high,
       [&](const Index& cell)
       {
-        std::uint8_t& state = this->Lowered[this->Offset(cell)];
-        state = std::max(state, Beside);
+        std::int64_t cells = 0;
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          cells = std::max(cells, std::abs(cell[a] - here[a]));
+        }
+        std::uint8_t& known = this->CellsToLowered[this->Offset(cell)];
+        known = std::min(known, static_cast<std::uint8_t>(cells));
       });
-    this->Lowered[offset] = Itself;
   }
 
   /** Calls function(cell) for a block of cells. */
@@ -285,11 +291,10 @@ private:
   std::vector<Bound> Values;   ///< empty: no bound
   std::vector<float> Spacings; ///< what GradedAt() starts from
   std::vector<float> Graded;   ///< the same, see GradedAt()
-  /** What ForgetLowered() leaves, a cell beside one that was lowered since, and such a one. */
-  static constexpr std::uint8_t Unchanged = 0;
-  static constexpr std::uint8_t Beside = 1;
-  static constexpr std::uint8_t Itself = 2;
-  std::vector<std::uint8_t> Lowered; ///< since ForgetLowered()
+  /** Stands for this distance and larger ones. */
+  static constexpr std::uint8_t Unknown = 3;
+  /** How many cells away along an axis, at least, the next is that was lowered since ForgetLowered(). */
+  std::vector<std::uint8_t> CellsToLowered;
   bool AnyLowered = false;
   double SmallestBound = std::numeric_limits<double>::infinity();
 };

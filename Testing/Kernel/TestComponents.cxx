@@ -452,6 +452,15 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
   EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
   EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 40.0, 20.0 }), 9.0));
   EXPECT_TRUE(local.HasLoweredWithin({ -1000.0, 0.0, 0.0 }, 2000.0));
+  // The cells along the first axis end half a voxel behind voxel 31, however far the point and large the ball.
+  for (double i = 32.0; i < 64.0; i += 0.5)
+  {
+    for (double radius = 0.25; radius < 40.0; radius += 0.5)
+    {
+      ASSERT_EQ(local.HasLoweredWithin(grid.ToFrame({ i, 20.0, 20.0 }), radius), i - radius < 31.5)
+        << i << " " << radius;
+    }
+  }
   local.ForgetLowered();
   EXPECT_FALSE(local.HasLowered());
   EXPECT_FALSE(local.HasLoweredWithin(middle, 100.0));
