@@ -22,6 +22,67 @@
 namespace voxplex::junctions
 {
 
+/** Margins of three labels at points of the fine lattice; those asked for last are known. */
+template <typename Field>
+class KnownMargins
+{
+public:
+  explicit KnownMargins(const LabelledSpace<Field>& space)
+    : Space(space)
+    , Entries(NumberOfEntries)
+  {
+  }
+
+  std::array<double, 3> At(const Index& fine, const std::array<LabelId, 3>& labels)
+  {
+    std::array<double, 3> margins;
+    Entry& entry = this->Entries[Hash(fine)];
+    if (entry.Fine == fine && entry.Find(labels, margins))
+    {
+      return margins;
+    }
+    margins = this->Space.MarginsAt(LabelledSpace<Field>::OfFine(fine), labels);
+    entry = { fine, labels, margins };
+    return margins;
+  }
+
+private:
+  static constexpr std::size_t NumberOfEntries = 4096; ///< a power of two
+
+  struct Entry
+  {
+    Index Fine{ -1, -1, -1 };
+    std::array<LabelId, 3> Labels{};
+    std::array<double, 3> Margins{};
+
+    /** False if one is of another label. */
+    bool Find(const std::array<LabelId, 3>& labels, std::array<double, 3>& margins) const
+    {
+      for (unsigned i = 0; i < 3; ++i)
+      {
+        const auto found = std::find(this->Labels.begin(), this->Labels.end(), labels[i]);
+        if (found == this->Labels.end())
+        {
+          return false;
+        }
+        margins[i] = this->Margins[static_cast<std::size_t>(found - this->Labels.begin())];
+      }
+      return true;
+    }
+  };
+
+  /** Neighbours have different ones. */
+  static std::size_t Hash(const Index& fine)
+  {
+    return static_cast<std::size_t>(fine[0] + 97 * fine[1] + 1031 * fine[2]) &
+      (NumberOfEntries - 1);
+  }
+
+  const LabelledSpace<Field>& Space;
+  std::vector<Entry> Entries;
+};
+
+//------------------------------------------------------------------------------------------------
 /** Where points of curves are. */
 template <typename Field>
 class Locator
@@ -29,13 +90,16 @@ class Locator
 public:
   explicit Locator(const LabelledSpace<Field>& space)
     : Space(space)
+    , Margins(space)
   {
   }
 
   /** Lattice coordinates of where the labels of the corners of a triangle are equal. */
-  Point<3> Locate(const Place& place, const std::array<LabelId, 3>& labels) const
+  Point<3> Locate(const Place& place, const std::array<LabelId, 3>& labels)
   {
-    const std::array<Point<3>, 3> x = CornersOf(place);
+    const std::array<Index, 3> corners = CornersOf(place);
+    std::array<Point<3>, 3> x;
+    std::transform(corners.begin(), corners.end(), x.begin(), LabelledSpace<Field>::OfFine);
     std::array<unsigned, 3> inside;
     unsigned count = 0;
     for (unsigned i = 0; i < 3; ++i)
@@ -61,7 +125,7 @@ public:
     std::array<std::array<double, 3>, 3> ahead;
     for (unsigned i = 0; i < 3; ++i)
     {
-      ahead[i] = this->Space.MarginsAt(x[i], labels);
+      ahead[i] = this->Margins.At(corners[i], labels);
       ahead[i][i] = 0.0;
     }
     // Weights with sum 1 such that label 0 is as good as 1 and as 2: the cross product of the two rows.
@@ -94,21 +158,21 @@ public:
   }
 
 private:
-  static std::array<Point<3>, 3> CornersOf(const Place& place)
+  static std::array<Index, 3> CornersOf(const Place& place)
   {
-    std::array<Point<3>, 3> x;
+    std::array<Index, 3> corners;
     for (unsigned a = 0; a < 3; ++a)
     {
-      const auto coordinate = [&](unsigned steps)
-      { return static_cast<double>(place.Base[a] + ((steps >> a) & 1)) / Fine; };
-      x[0][a] = coordinate(0);
-      x[1][a] = coordinate(place.Second);
-      x[2][a] = coordinate(place.Third);
+      const auto coordinate = [&](unsigned steps) { return place.Base[a] + ((steps >> a) & 1); };
+      corners[0][a] = coordinate(0);
+      corners[1][a] = coordinate(place.Second);
+      corners[2][a] = coordinate(place.Third);
     }
-    return x;
+    return corners;
   }
 
   const LabelledSpace<Field>& Space;
+  KnownMargins<Field> Margins;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -122,17 +186,17 @@ public:
   Graph(const std::vector<Segment>& segments, const LabelledSpace<Field>& space, unsigned threads,
     const std::stop_token& stop)
     : Space(space)
-    , Where(space)
     , Numbers(space.LatticeDimensions())
   {
     this->JoinEnds(segments, threads, stop);
     this->Positions.resize(this->Places.size());
+    Locator<Field> locator(space);
     for (std::uint32_t n = 0; n < this->Places.size(); ++n)
     {
       if (!this->IsCorner(n))
       {
-        this->Positions[n] = space.ToFrame(
-          this->Where.Locate(this->Numbers.PlaceOf(this->Places[n]), this->Labels[n]));
+        this->Positions[n] =
+          space.ToFrame(locator.Locate(this->Numbers.PlaceOf(this->Places[n]), this->Labels[n]));
       }
     }
     for (std::uint32_t n = 0; n < this->Places.size(); ++n)
@@ -262,7 +326,6 @@ private:
   }
 
   const LabelledSpace<Field>& Space;
-  const Locator<Field> Where;
   const Numbering Numbers;
   std::vector<Numbering::Number> Places; ///< ascending
   std::vector<std::array<LabelId, 3>>

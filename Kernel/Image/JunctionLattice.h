@@ -99,6 +99,17 @@ public:
   const Index& LatticeDimensions() const { return this->Interior.LatticeDimensions(); }
   Point<3> ToFrame(const Point<3>& x) const { return this->Interior.ToFrame(x); }
 
+  /** Lattice coordinates of a point of the fine lattice. */
+  static Point<3> OfFine(const Index& fine)
+  {
+    Point<3> x;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      x[a] = static_cast<double>(fine[a]) / Fine;
+    }
+    return x;
+  }
+
   bool IsOutside(LabelId id) const { return id >= this->FirstOutside; }
   /** Whether three different labels make a junction; those of the outside and background alone do not. */
   bool IsJunction(const std::array<LabelId, 3>& l) const
@@ -141,8 +152,7 @@ public:
     {
       return this->VoxelId({ fine[0] / 2, fine[1] / 2, fine[2] / 2 });
     }
-    return this->LabelAt({ 0.5 * static_cast<double>(fine[0]), 0.5 * static_cast<double>(fine[1]),
-      0.5 * static_cast<double>(fine[2]) });
+    return this->LabelAt(OfFine(fine));
   }
 
   /** The labels of a row of voxels from the first of the bounding box on; null if the row lies beyond that. */
