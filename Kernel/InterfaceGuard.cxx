@@ -67,6 +67,12 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
     constexpr double Safety = 1.0 - 1e-6;
     const double distance = std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal);
     this->EverywhereNear2 = Safety * distance * distance;
+    double half = 0.0;
+    for (const Point<3>& step : this->HalfSteps)
+    {
+      half = std::max(half, std::sqrt(Dot(step, step)));
+    }
+    this->VoxelNear2 = Safety * (distance - half) * (distance - half); // half a diagonal is longer
   }
 }
 
@@ -155,6 +161,10 @@ void InterfaceGuard::FindFarFacesOf(
   const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const
 {
   const Point<3> centre = this->Image.CentreOf(voxel);
+  if (hint.Vertex && Distance2(*hint.Vertex, centre) < this->VoxelNear2)
+  {
+    return;
+  }
   for (unsigned a = 0; a < 3; ++a)
   {
     if (hint.Vertex)

@@ -142,6 +142,7 @@ private:
   std::array<Point<3>, 3> HalfSteps; ///< from the centre of a voxel to those of its upper faces
   /** Squared; no face is far that has a vertex nearer to its centre, up to rounding. 0: depends on the face. */
   double EverywhereNear2 = 0.0;
+  double VoxelNear2 = 0.0; ///< the same from the centre of a voxel to all of its upper faces
   double FinestSpacing;
   LocalDelta<3>& Local;
   const unsigned Threads;

@@ -9,10 +9,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace voxplex
@@ -90,17 +90,7 @@ public:
         });
       near = std::move(next);
     }
-    this->ForCellsNear(near,
-      [&](std::uint32_t t)
-      {
-        for (const std::uint32_t v : mesh.Simplices[t])
-        {
-          if (near[v] != 0)
-          {
-            this->Stars[v].push_back(t);
-          }
-        }
-      });
+    this->FillStars(near);
     this->OnInterface.resize(mesh.Points.size());
     for (const Facet& facet : mesh.Facets)
     {
@@ -113,7 +103,10 @@ public:
 
   const SimplexMesh<3>& GetMesh() const { return this->Mesh; }
   bool IsOnInterface(std::uint32_t v) const { return this->OnInterface[v] != 0; }
-  const std::vector<std::uint32_t>& StarOf(std::uint32_t v) const { return this->Stars.at(v); }
+  std::span<const std::uint32_t> StarOf(std::uint32_t v) const
+  {
+    return std::span(this->Cells).subspan(this->Begins[v], this->Begins[v + 1] - this->Begins[v]);
+  }
 
   std::int64_t LabelOf(std::uint32_t t, const Change* change) const
   {
@@ -218,6 +211,34 @@ public:
   }
 
 private:
+  void FillStars(const std::vector<std::uint8_t>& near)
+  {
+    this->Begins.resize(this->Mesh.Points.size() + 1);
+    std::vector<std::uint32_t> cells;
+    this->ForCellsNear(near,
+      [&](std::uint32_t t)
+      {
+        cells.push_back(t);
+        for (const std::uint32_t v : this->Mesh.Simplices[t])
+        {
+          this->Begins[v + 1] += near[v];
+        }
+      });
+    std::partial_sum(this->Begins.begin(), this->Begins.end(), this->Begins.begin());
+    this->Cells.resize(this->Begins.back());
+    std::vector<std::uint32_t> ends = this->Begins;
+    for (const std::uint32_t t : cells)
+    {
+      for (const std::uint32_t v : this->Mesh.Simplices[t])
+      {
+        if (near[v] != 0)
+        {
+          this->Cells[ends[v]++] = t;
+        }
+      }
+    }
+  }
+
   template <typename Function>
   void ForCellsNear(const std::vector<std::uint8_t>& near, Function&& function) const
   {
@@ -232,8 +253,9 @@ private:
   }
 
   const SimplexMesh<3>& Mesh;
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> Stars; ///< complete
-  std::vector<std::uint8_t> OnInterface;                               ///< by vertex
+  std::vector<std::uint32_t> Begins;     ///< of each vertex' star in Cells; of most an empty one
+  std::vector<std::uint32_t> Cells;      ///< of complete stars, ascending
+  std::vector<std::uint8_t> OnInterface; ///< by vertex
 };
 
 //------------------------------------------------------------------------------------------------
@@ -246,7 +268,8 @@ public:
     : Mesh(mesh)
     , Near(mesh, edges)
     , FacetCosine(std::cos(options.FacetAngle * std::numbers::pi / 180.0))
-    , JunctionCosine(std::cos(options.JunctionFacetAngle * std::numbers::pi / 180.0))
+    , JunctionCosine(std::cos(
+        std::min(options.JunctionFacetAngle, options.FacetAngle) * std::numbers::pi / 180.0))
   {
   }
 
@@ -482,7 +505,11 @@ private:
         }
         for (const std::uint32_t other : this->Near.StarOf(v))
         {
-          leavesSome |= this->Mesh.Labels[other] == own && !change.Touches(other);
+          if (leavesSome)
+          {
+            break;
+          }
+          leavesSome = this->Mesh.Labels[other] == own && !change.Touches(other);
         }
       }
       for (unsigned i = 0; i < 4; ++i)
@@ -503,22 +530,22 @@ private:
   bool HasGoodAngles(std::uint32_t t, unsigned i) const
   {
     const Facet facet = this->FacetOf(t, i);
-    double bound = this->FacetCosine;
-    for (const std::uint32_t v : facet)
-    {
-      bound = this->IsAtJunction(v) ? std::max(bound, this->JunctionCosine) : bound;
-    }
+    bool isSharp = false; // good enough at junctions only
     for (unsigned k = 0; k < 3; ++k)
     {
       const Point<3>& p = this->Mesh.Points[facet[k]];
       const Point<3> a = Subtract(this->Mesh.Points[facet[(k + 1) % 3]], p);
       const Point<3> b = Subtract(this->Mesh.Points[facet[(k + 2) % 3]], p);
-      if (Dot(a, b) > bound * std::sqrt(Dot(a, a) * Dot(b, b)))
+      const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
+      if (Dot(a, b) > this->JunctionCosine * lengths)
       {
         return false;
       }
+      isSharp |= Dot(a, b) > this->FacetCosine * lengths;
     }
-    return true;
+    return !isSharp ||
+      std::any_of(
+        facet.begin(), facet.end(), [this](std::uint32_t v) { return this->IsAtJunction(v); });
   }
 
   /** Whether three labels or more meet at a vertex; background counts where the mesh ends. */
@@ -614,7 +641,7 @@ private:
   SimplexMesh<3>& Mesh;
   const Neighbourhood Near;
   const double FacetCosine;
-  const double JunctionCosine;
+  const double JunctionCosine; ///< not smaller
   std::set<std::uint32_t> Changed;
 };
 
