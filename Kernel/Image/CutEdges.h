@@ -8,7 +8,6 @@
 #define voxplex_CutEdges_h
 
 #include "Image/GridGeometry.h"
-#include "Image/TiledLattice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ class CutEdgeSearch
 public:
   /**
    * @param field a LabelField<3> or ScalarField<3>
-   * @param x on the faces (bits as of TiledLattice::CutFaces), lattice coordinates
+   * @param x on the faces (bits as of CutPlanes), lattice coordinates
    * @param reach how far away, in the frame, the point may be
    */
   CutEdgeSearch(const Field& field, const GridGeometry<3>& grid, const Point<3>& x, unsigned faces,
@@ -46,7 +45,7 @@ public:
   {
     for (unsigned face = 0; face < 6; ++face)
     {
-      const Point<3> y = this->Image.MoveOntoCutFaces(this->From, 1u << face);
+      const Point<3> y = this->Image.Cuts().MoveOnto(this->From, 1u << face);
       if (!((this->Faces >> face) & 1) && std::isfinite(y[face / 2]) &&
         this->Image.ExtendedLabelAt(y) != 0)
       {

@@ -94,20 +94,22 @@ public:
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
-  bool IsCut() const override { return this->Field.IsCut(); }
+  bool IsCut() const override { return this->Field.Cuts().Exist(); }
   unsigned CutFaces(const Point<D>& p) const override
   {
-    return this->Field.IsCut() ? this->Field.CutFaces(this->Field.ToLattice(p), OnCutFace) : 0u;
+    return this->Field.Cuts().Exist() ? this->Field.Cuts().Near(this->Field.ToLattice(p), OnCutFace)
+                                      : 0u;
   }
   bool IsBeyondCutFaces(const Point<D>& p) const override
   {
-    return this->Field.IsCut() && this->Field.CutDistance(this->Field.ToLattice(p)) < 0.0;
+    return this->Field.Cuts().Exist() &&
+      this->Field.Cuts().Distance(this->Field.ToLattice(p)) < 0.0;
   }
   Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned faces) const override
   {
     return faces == 0
       ? p
-      : this->Field.ToFrame(this->Field.MoveOntoCutFaces(this->Field.ToLattice(p), faces));
+      : this->Field.ToFrame(this->Field.Cuts().MoveOnto(this->Field.ToLattice(p), faces));
   }
 
   bool NearCutEdge(const Point<D>& p, double reach, Point<D>& z) const override;
@@ -162,9 +164,9 @@ private:
   /** The frame's coordinates of a point that a search has found, not beyond a flat end. */
   Point<D> Found(const Point<D>& x) const
   {
-    const unsigned faces = this->Field.CutFaces(x, NearCutFace);
+    const unsigned faces = this->Field.Cuts().Near(x, NearCutFace);
     return this->ClampToEnds(
-      this->Field.ToFrame(faces == 0 ? x : this->Field.MoveOntoCutFaces(x, faces)));
+      this->Field.ToFrame(faces == 0 ? x : this->Field.Cuts().MoveOnto(x, faces)));
   }
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */

@@ -456,7 +456,8 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
     return false; // what the field has there belongs to the end
   }
   z = this->MoveOntoCutFaces(moved,
-    this->Field.IsCut() ? this->Field.CutFaces(this->Field.ToLattice(moved), NearCutFace) : 0u);
+    this->Field.Cuts().Exist() ? this->Field.Cuts().Near(this->Field.ToLattice(moved), NearCutFace)
+                               : 0u);
   return true;
 }
 
@@ -615,7 +616,7 @@ bool ImageDomain<D, FieldType>::NearCutEdge(const Point<D>& p, double reach, Poi
   if constexpr (D == 3)
   {
     const unsigned faces = this->CutFaces(p);
-    const Point<D> x = this->Field.MoveOntoCutFaces(this->Field.ToLattice(p), faces);
+    const Point<D> x = this->Field.Cuts().MoveOnto(this->Field.ToLattice(p), faces);
     if (faces != 0 && CutEdgeSearch(this->Field, this->Image.Grid(), x, faces, reach).Find(z))
     {
       z = this->Found(z);

@@ -278,6 +278,7 @@ template <int D>
 LabelField<D>::LabelField(
   const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
   : Base(image)
+  , Planes(image)
 {
   if (!(sigma >= 0.0 && sigma <= MaximumSigma))
   {

@@ -7,6 +7,7 @@
 #ifndef voxplex_LabelField_h
 #define voxplex_LabelField_h
 
+#include "Image/CutPlanes.h"
 #include "Image/TiledLattice.h"
 
 #include <array>
@@ -81,6 +82,9 @@ public:
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
 
+  /** Where the image cuts the object; none in 4D. */
+  const CutPlanes<D>& Cuts() const { return this->Planes; }
+
   /** Label of a point of the frame; background outside of the lattice. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
 
@@ -97,12 +101,13 @@ public:
   /** Label() at lattice coordinates. */
   LabelId LabelAt(const Point<D>& x) const
   {
-    return this->IsCut() && !(this->CutDistance(x) > 0.0) ? LabelId{ 0 } : this->ExtendedLabelAt(x);
+    return this->Planes.Exist() && !(this->Planes.Distance(x) > 0.0) ? LabelId{ 0 }
+                                                                     : this->ExtendedLabelAt(x);
   }
   /** Margin() at lattice coordinates. */
   double MarginAt(const Point<D>& x, LabelId label) const
   {
-    return this->MarginWithCuts(x, label, this->ExtendedMarginAt(x, label));
+    return this->Planes.Margin(x, label, this->ExtendedMarginAt(x, label));
   }
   /** LabelAt(), but labels go on beyond the faces where the image cuts the object. */
   LabelId ExtendedLabelAt(const Point<D>& x) const;
@@ -119,8 +124,8 @@ public:
    */
   bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
   {
-    return (this->IsCut() &&
-             this->CutGradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
+    return (this->Planes.Exist() &&
+             this->Planes.Gradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
       this->ExtendedMarginGradientAt(x, label, gradient);
   }
   /** That of ExtendedMarginAt(). */
@@ -138,6 +143,8 @@ private:
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
 
   class Builder;
+
+  CutPlanes<D> Planes;
 };
 
 // Four pairs of samples at a time, where the compiler has vectors; the result is the same without.

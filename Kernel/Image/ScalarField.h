@@ -7,6 +7,7 @@
 #ifndef voxplex_ScalarField_h
 #define voxplex_ScalarField_h
 
+#include "Image/CutPlanes.h"
 #include "Image/IsosurfaceImage.h"
 #include "Image/TiledLattice.h"
 
@@ -64,17 +65,21 @@ public:
   ScalarField(ScalarField&&) noexcept = default;
   ScalarField& operator=(ScalarField&&) noexcept = default;
 
+  /** Where the image cuts the object; none in 4D. */
+  const CutPlanes<D>& Cuts() const { return this->Planes; }
+
   /** 1 inside, else 0, at a point of the frame. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
   /** Label() at lattice coordinates. */
   LabelId LabelAt(const Point<D>& x) const
   {
-    return this->IsCut() && !(this->CutDistance(x) > 0.0) ? LabelId{ 0 } : this->ExtendedLabelAt(x);
+    return this->Planes.Exist() && !(this->Planes.Distance(x) > 0.0) ? LabelId{ 0 }
+                                                                     : this->ExtendedLabelAt(x);
   }
   /** Margin() at lattice coordinates. */
   double MarginAt(const Point<D>& x, LabelId label) const
   {
-    return this->MarginWithCuts(x, label, this->ExtendedMarginAt(x, label));
+    return this->Planes.Margin(x, label, this->ExtendedMarginAt(x, label));
   }
   /** LabelAt(), but the object goes on beyond the faces where the image cuts it. */
   LabelId ExtendedLabelAt(const Point<D>& x) const
@@ -114,8 +119,8 @@ public:
    */
   bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
   {
-    return (this->IsCut() &&
-             this->CutGradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
+    return (this->Planes.Exist() &&
+             this->Planes.Gradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
       this->ExtendedMarginGradientAt(x, label, gradient);
   }
   /** That of ExtendedMarginAt(). */
@@ -136,6 +141,8 @@ private:
   static Interpolation Interpolate(const Cell& cell);
 
   class Builder;
+
+  CutPlanes<D> Planes;
 };
 
 template <int D>

@@ -98,29 +98,6 @@ public:
     return x;
   }
 
-  /** Whether the image cuts the object anywhere (LabelImage::IsCut). */
-  bool IsCut() const { return this->HasCutFaces; }
-  /**
-   * How far, in voxels, x is from the nearest of the faces where the image cuts the object: their planes lie
-   * half a voxel outside of the outermost voxel centres. Negative beyond them, infinite if there are none.
-   */
-  double CutDistance(const Point<D>& x) const
-  {
-    std::size_t axis = 0;
-    double sign = 0.0;
-    return this->CutDistance(x, axis, sign);
-  }
-  /** The planes of x up to `tolerance` voxels: bit 2 a + end for that at the end of axis a. */
-  unsigned CutFaces(const Point<D>& x, double tolerance) const;
-  /** Whether x lies beyond the plane of this number: 2 a + end. */
-  bool IsBeyondCutFace(const Point<D>& x, unsigned face) const
-  {
-    const double plane = this->CutPlanes[face % 2][face / 2];
-    return face % 2 == 0 ? x[face / 2] < plane : x[face / 2] > plane;
-  }
-  /** Moves x onto planes that are given as bits. */
-  Point<D> MoveOntoCutFaces(Point<D> x, unsigned faces) const;
-
   /** Memory held, bytes. */
   std::size_t MemoryBytes() const
   {
@@ -149,15 +126,6 @@ protected:
     std::array<float, static_cast<std::size_t>(D)> Fraction;
   };
   Cell Locate(Point<D> x) const;
-
-  /** CutDistance(), and along which axis with which sign it grows. */
-  double CutDistance(const Point<D>& x, std::size_t& axis, double& sign) const;
-  /** By how much margins of labels change per voxel at cut faces. */
-  static constexpr double CutSlope = 2.0;
-  /** The margin of a label where the image cuts it, of that of the object as it would go on. */
-  double MarginWithCuts(const Point<D>& x, LabelId label, double margin) const;
-  /** The same for gradients; false if the cut does not matter at x. */
-  bool CutGradient(const Point<D>& x, LabelId label, double margin, Point<D>& gradient) const;
 
   /** Gradient of the interpolation of a plane's samples in a cell, with respect to lattice coordinates. */
   static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
@@ -219,8 +187,6 @@ private:
   Index Dimensions{};
   std::array<double, 2> Ends{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
-  bool HasCutFaces = false;
-  std::array<Point<D>, 2> CutPlanes; ///< coordinates of the faces at either end, or infinite
   std::array<std::uint32_t, static_cast<std::size_t>(D)> LastCell{};
   std::array<std::uint32_t, static_cast<std::size_t>(D)> TileStride{};
   std::vector<std::uintptr_t> Directory;
@@ -247,11 +213,6 @@ TiledLattice<D, SampleType>::TiledLattice(const LabelImage<D>& image)
     this->LastCell[a] = static_cast<std::uint32_t>(this->Dimensions[a] - 2);
     this->TileStride[a] = static_cast<std::uint32_t>(numberOfTiles);
     numberOfTiles *= static_cast<std::size_t>(this->LastCell[a] / TileCells) + 1;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    this->CutPlanes[0][a] = image.IsCut(a, 0) ? 0.5 : -infinity;
-    this->CutPlanes[1][a] =
-      image.IsCut(a, 1) ? static_cast<double>(image.CropDimensions()[a]) + 0.5 : infinity;
-    this->HasCutFaces = this->HasCutFaces || image.IsCut(a, 0) || image.IsCut(a, 1);
   }
   this->Directory.resize(numberOfTiles);
   if (image.IsCutInTime(0))
@@ -301,95 +262,6 @@ inline typename TiledLattice<D, SampleType>::Cell TiledLattice<D, SampleType>::L
     cell.Tile = reinterpret_cast<const Sample*>(entry);
   }
   return cell;
-}
-
-//------------------------------------------------------------------------------------------------
-template <int D, typename SampleType>
-inline double TiledLattice<D, SampleType>::CutDistance(
-  const Point<D>& x, std::size_t& axis, double& sign) const
-{
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    const double low = x[a] - this->CutPlanes[0][a];
-    const double high = this->CutPlanes[1][a] - x[a];
-    if (low < nearest)
-    {
-      nearest = low;
-      axis = a;
-      sign = 1.0;
-    }
-    if (high < nearest)
-    {
-      nearest = high;
-      axis = a;
-      sign = -1.0;
-    }
-  }
-  return nearest;
-}
-
-template <int D, typename SampleType>
-unsigned TiledLattice<D, SampleType>::CutFaces(const Point<D>& x, double tolerance) const
-{
-  unsigned faces = 0;
-  for (unsigned face = 0; face < 2 * D && this->HasCutFaces; ++face)
-  {
-    if (std::abs(x[face / 2] - this->CutPlanes[face % 2][face / 2]) <= tolerance)
-    {
-      faces |= 1u << face;
-    }
-  }
-  return faces;
-}
-
-template <int D, typename SampleType>
-Point<D> TiledLattice<D, SampleType>::MoveOntoCutFaces(Point<D> x, unsigned faces) const
-{
-  for (unsigned face = 0; face < 2 * D; ++face)
-  {
-    if ((faces >> face) & 1)
-    {
-      x[face / 2] = this->CutPlanes[face % 2][face / 2];
-    }
-  }
-  return x;
-}
-
-// Constructive solid geometry: the object is the intersection of what goes on and of a box, the background the
-// union of the rest.
-template <int D, typename SampleType>
-inline double TiledLattice<D, SampleType>::MarginWithCuts(
-  const Point<D>& x, LabelId label, double margin) const
-{
-  if (!this->HasCutFaces)
-  {
-    return margin;
-  }
-  const double cut = std::clamp(CutSlope * this->CutDistance(x), -2.0, 2.0);
-  if (label != 0)
-  {
-    return std::min(margin, cut);
-  }
-  // Background has the faces themselves: its margin must be positive there.
-  return margin > 0.0 || cut > 0.0 ? std::max(margin, -cut)
-                                   : std::max(-cut, std::numeric_limits<double>::min());
-}
-
-template <int D, typename SampleType>
-inline bool TiledLattice<D, SampleType>::CutGradient(
-  const Point<D>& x, LabelId label, double margin, Point<D>& gradient) const
-{
-  std::size_t axis = 0;
-  double sign = 0.0;
-  const double cut = CutSlope * this->CutDistance(x, axis, sign);
-  if (!(label != 0 ? cut < margin : -cut > margin))
-  {
-    return false;
-  }
-  gradient.fill(0.0);
-  gradient[axis] = (label != 0 ? CutSlope : -CutSlope) * sign;
-  return true;
 }
 
 /** One axis after the other, values and derivatives together. */
