@@ -327,7 +327,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
     this->Stats.Times.Extraction += extraction.Seconds();
     const std::vector<InterfaceEdge> nonManifold =
-      this->RepairInterfaces(mesh, stop); // may take the last element of a component
+      this->RepairInterfaces(prepared, mesh); // may take the last element of a component
     if (components && this->SampleLostComponents(*components, image, mesh))
     {
       ++this->Stats.ComponentRounds;
@@ -582,7 +582,7 @@ bool MeshingStages<D>::SampleLostComponents(
 /** Returns the edges that are not manifold all the same. @throws Cancelled */
 template <int D>
 std::vector<InterfaceEdge> MeshingStages<D>::RepairInterfaces(
-  SimplexMesh<D>& mesh, const std::stop_token& stop)
+  const Prepared& prepared, SimplexMesh<D>& mesh)
 {
   std::vector<InterfaceEdge> left;
   if constexpr (D == 3)
@@ -593,7 +593,8 @@ std::vector<InterfaceEdge> MeshingStages<D>::RepairInterfaces(
       ManifoldRepairOptions options;
       options.FacetAngle = this->Options.FacetAngle;
       options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
-      ManifoldRepairCounts counts = RepairManifold(mesh, options, stop);
+      options.Cut = &prepared.Domain;
+      ManifoldRepairCounts counts = RepairManifold(mesh, options, prepared.Stop);
       this->Stats.Interfaces.NonManifoldRepaired = counts.Before - counts.After;
       this->Stats.Interfaces.NonManifoldLeft = counts.After;
       left = std::move(counts.Left);

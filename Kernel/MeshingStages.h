@@ -135,7 +135,7 @@ private:
   void AddThreads(const std::vector<ThreadStatistics>& threads);
   bool SampleLostComponents(
     ComponentGuard<D>& guard, const LabelImage<D>& image, const SimplexMesh<D>& mesh);
-  std::vector<InterfaceEdge> RepairInterfaces(SimplexMesh<D>& mesh, const std::stop_token& stop);
+  std::vector<InterfaceEdge> RepairInterfaces(const Prepared& prepared, SimplexMesh<D>& mesh);
   std::vector<FeatureSeed<D>> InspectInterfaces(std::optional<InterfaceGuard>& guard,
     const SimplexMesh<D>& mesh, const std::vector<InterfaceEdge>& nonManifold);
   void Optimise(const Prepared& prepared, SimplexMesh<D>& mesh);

@@ -270,6 +270,7 @@ public:
     , FacetCosine(std::cos(options.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(
         std::min(options.JunctionFacetAngle, options.FacetAngle) * std::numbers::pi / 180.0))
+    , Cut(options.Cut)
   {
   }
 
@@ -277,15 +278,20 @@ public:
   bool Mend(const Edge& edge)
   {
     std::optional<Change> best;
+    bool bestDents = true;
     int bestGain = 0;
     double bestVolume = 0.0;
     for (Change& change : this->ChangesAt(edge))
     {
       const int gain = this->GainOf(change);
       const double volume = this->VolumeOf(change);
-      if (gain > 0 && (gain > bestGain || (gain == bestGain && volume < bestVolume)) &&
-        this->IsAllowed(change))
+      const bool dents = this->Dents(change);
+      const bool isBetter = dents != bestDents ? bestDents
+        : gain != bestGain                     ? gain > bestGain
+                                               : volume < bestVolume;
+      if (gain > 0 && isBetter && this->IsAllowed(change))
       {
+        bestDents = dents;
         bestGain = gain;
         bestVolume = volume;
         best = std::move(change);
@@ -527,6 +533,31 @@ private:
     return leavesSome;
   }
 
+  /** Whether it drops what has a facet on a face where the image cuts the object, which is flat. */
+  bool Dents(const Change& change) const
+  {
+    if (!this->Cut || change.Label != 0)
+    {
+      return false;
+    }
+    for (const std::uint32_t t : change.Cells)
+    {
+      for (unsigned i = 0; i < 4; ++i)
+      {
+        unsigned faces = ~0u;
+        for (const std::uint32_t v : this->FacetOf(t, i))
+        {
+          faces &= this->Cut->CutFaces(this->Mesh.Points[v]);
+        }
+        if (faces != 0)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
   bool HasGoodAngles(std::uint32_t t, unsigned i) const
   {
     const Facet facet = this->FacetOf(t, i);
@@ -642,6 +673,7 @@ private:
   const Neighbourhood Near;
   const double FacetCosine;
   const double JunctionCosine; ///< not smaller
+  const Domain<3>* const Cut;
   std::set<std::uint32_t> Changed;
 };
 

@@ -7,6 +7,7 @@
 #ifndef voxplex_ManifoldRepair_h
 #define voxplex_ManifoldRepair_h
 
+#include "Image/Domain.h"
 #include "Mesh/InterfaceEdges.h"
 #include "Mesh/SimplexMesh.h"
 
@@ -22,6 +23,8 @@ struct ManifoldRepairOptions
 {
   double FacetAngle = 30.0;         ///< smallest planar angle of new facets, degrees
   double JunctionFacetAngle = 20.0; ///< the same where three labels or more meet at a vertex
+  const Domain<3>* Cut =
+    nullptr; ///< of the mesh, if its image cuts the object: these faces get no dents
 };
 
 /** Edges that were not manifold on the boundary of some label. */
@@ -36,7 +39,9 @@ struct ManifoldRepairCounts
  * For each edge where other than two boundary facets of a label meet, tetrahedra around it are given to the
  * label of a neighbour, or to background, which drops them, if there are fewer such edges afterwards; those off
  * junctions count more. Tetrahedra are touched only if all their vertices are on interfaces already, so that these
- * get no vertex that is not on them; and something of the label stays at one of the vertices.
+ * get no vertex that is not on them; and something of the label stays at one of the vertices. What has a facet on a face
+ * where the image cuts the object is dropped only where nothing else helps, since that leaves a dent in the face: there
+ * parts of the object meet at an edge, and the dent is at the rim of the face.
  *
  * Elements stay what they are but for their labels. The mesh is the same in every run.
  * Takes time linear in the number of tetrahedra, little where few edges are bad.

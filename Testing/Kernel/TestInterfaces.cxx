@@ -389,6 +389,37 @@ TEST(ManifoldRepair, LeavesAGoodMeshAlone)
   EXPECT_EQ(mesh.Facets, before.Facets);
 }
 
+// A face where the image cuts the object lies in the plane of the edge and of the outer facets of the first and the
+// last tetrahedron. One of these may be dropped or go over to the label between them.
+TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
+{
+  const LabelImage<3> image = phantoms::CutBall(12);
+  const ImageDomain<3> domain(image, 1.0);
+  RingShape shape;
+  shape.Degrees = { 60.0, 60.0, 60.0, 180.0 };
+  ManifoldRepairOptions options;
+  for (const bool cut : { false, true })
+  {
+    options.Cut = cut ? &domain : nullptr;
+    for (const std::vector<std::int64_t>& labels :
+      { std::vector<std::int64_t>{ 1, 2, 1, 0 }, { 1, 0, 1, 0 } })
+    {
+      SimplexMesh<3> mesh = Ring(labels, shape);
+      for (Point<3>& p : mesh.Points)
+      {
+        p = { p[2] + 14.0, p[0] + 14.0, p[1] - 0.5 }; // the image's lower face along z is at -0.5
+      }
+      ASSERT_TRUE(checks::Complaints(mesh).empty());
+      const std::size_t tetrahedra = mesh.Simplices.size();
+      const ManifoldRepairCounts counts = RepairManifold(mesh, options);
+      EXPECT_EQ(counts.Before, 1u);
+      EXPECT_EQ(counts.After, 0u);
+      EXPECT_TRUE(checks::Complaints(mesh).empty());
+      EXPECT_EQ(mesh.Simplices.size(), tetrahedra - (cut && labels[1] == 2 ? 0 : 1));
+    }
+  }
+}
+
 TEST(ManifoldRepair, MendsRealMeshes)
 {
   for (const unsigned seed : { 1u, 2u })
