@@ -99,7 +99,12 @@ public:
 
   ShapeScore Shape;
   UninitialisedVector<Point<3>> Points;
-  std::vector<VertexRole> Kinds; ///< of vertices
+  /**
+   * Of vertices. Changes of connectivity need not update them: where Flips brings an interface triangle to a vertex, the
+   * vertex has one already between the same two labels, and on the same faces where the image cuts the object. So a
+   * vertex can only become freer than it was; it stays where it is then.
+   */
+  std::vector<VertexRole> Kinds;
   std::vector<std::uint8_t>
     CutFaces; ///< Domain::CutFaces of vertices, or empty if the image cuts nothing
   std::vector<std::uint32_t> Hosts;   ///< a tetrahedron of each vertex

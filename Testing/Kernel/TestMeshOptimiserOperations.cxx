@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Single operations of mesh optimisation on meshes of a few tetrahedra, and the score that steers them.
 #include "BallDomain.h"
+#include "Image/ImageDomain.h"
+#include "ImageMesher.h"
 #include "MeshChecks.h"
+#include "Optimisation/Flips.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/Patch.h"
 #include "Optimisation/ShapeScore.h"
+#include "Phantoms.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <span>
 
@@ -218,6 +223,83 @@ TEST(TetrahedralComplex, TellsKindsOfVertices)
   EXPECT_EQ(std::count(two.begin(), two.end(), VertexRole::Fixed), 4);
   EXPECT_EQ(two[0], VertexRole::Fixed);
   EXPECT_EQ(std::count(two.begin(), two.end(), VertexRole::Free), 0);
+}
+
+// They are not looked up again after flips: a vertex may turn out freer than it was, which costs quality only, but
+// never less free, which would let it leave a junction or the edge of a face where the image cuts the object.
+TEST(TetrahedralComplex, KindsHoldAfterFlips)
+{
+  // Cells of three labels and of background, cut by the image's border.
+  std::mt19937 random(7);
+  std::vector<Point<3>> seeds(240);
+  for (Point<3>& p : seeds)
+  {
+    p = { 0.1 * (random() % 280), 0.1 * (random() % 280), 0.1 * (random() % 280) };
+  }
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(28),
+    [&](const Point<3>& p) -> std::int16_t
+    {
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < seeds.size(); ++k)
+      {
+        nearest = Distance(p, seeds[k]) < Distance(p, seeds[nearest]) ? k : nearest;
+      }
+      return static_cast<std::int16_t>(nearest % 4);
+    });
+  const ImageDomain<3> domain(image, 1.0);
+  MeshingOptions<3> options;
+  options.Delta = 1.2;
+  options.TetSlivers.Angle = 0.0; // leaves many to relabelling
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  const ShapeScore score(30.0, 130.0, 2.0); // most can be better
+  TetrahedralComplex complex(mesh, score, 1, {});
+  complex.FindCutFaces(domain);
+  const std::size_t cells = complex.Cells.size();
+  complex.AddCells(cells);
+  std::vector<std::uint32_t> slots(cells);
+  std::iota(slots.begin(), slots.end(), static_cast<std::uint32_t>(cells));
+  const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
+  Patch patch(complex, blocks, 0);
+  patch.SetSlots(slots);
+  Flips flips(patch, InterfaceRules(2.0, 2.0, 100.0)); // rules that forbid little
+  for (int pass = 0; pass < 3; ++pass)
+  {
+    for (std::uint32_t t = 0; t < complex.Cells.size(); ++t)
+    {
+      if (complex.IsAlive(t) && (pass == 0 || !flips.Improve(t)))
+      {
+        flips.ImproveByRelabelling(t);
+      }
+    }
+  }
+  EXPECT_GT(flips.Counts().InterfaceFlips, 100u);
+  EXPECT_GT(flips.Counts().Relabelled, 100u);
+  EXPECT_GT(flips.Counts().Dropped, 100u);
+
+  SimplexMesh<3> after;
+  complex.Write(after);
+  EXPECT_TRUE(checks::Complaints(after).empty());
+  TetrahedralComplex fresh(after, score, 1, {});
+  fresh.FindCutFaces(domain);
+  std::vector<bool> isUsed(complex.Points.size());
+  for (const auto& cell : complex.Cells)
+  {
+    for (unsigned i = 0; i < 4 && cell.V[0] != TetrahedralComplex::None; ++i)
+    {
+      isUsed[cell.V[i]] = true;
+    }
+  }
+  std::uint32_t number = 0; // among those used
+  for (std::uint32_t v = 0; v < isUsed.size(); ++v)
+  {
+    if (isUsed[v])
+    {
+      EXPECT_LE(fresh.Kinds[number], complex.Kinds[v]) << v;
+      ++number;
+    }
+  }
 }
 
 // A small angle at a junction is no excuse for one off it.
