@@ -273,11 +273,12 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
 void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const
 {
   const Point<3> at = this->Image.Grid().ToIndex(p);
+  const Point<3> voxelsPerLength = this->Image.Grid().VoxelsPerLength();
   Index low;
   Index high;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    const double reach = radius / this->Image.Grid().Spacing(static_cast<int>(a));
+    const double reach = radius * voxelsPerLength[a];
     const double x = at[a] - static_cast<double>(this->Image.CropOrigin()[a]);
     low[a] = std::max<std::int64_t>(static_cast<std::int64_t>(std::floor(x - reach)), -1);
     high[a] = std::min(

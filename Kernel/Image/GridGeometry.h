@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace voxplex
@@ -119,6 +120,26 @@ struct GridGeometry
       s += v * v;
     }
     return std::sqrt(s);
+  }
+
+  /**
+   * By how much each index changes, at most, over a unit of length in any direction. 1 / Spacing() if the axes are
+   * orthogonal, else more.
+   */
+  Point<D> VoxelsPerLength() const
+  {
+    Point<D> voxels{};
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      Point<D> unit{};
+      unit[a] = 1.0;
+      const Point<D> step = this->ToIndex(unit);
+      for (std::size_t b = 0; b < D; ++b)
+      {
+        voxels[b] = std::hypot(voxels[b], step[b]);
+      }
+    }
+    return voxels;
   }
 
   /** Volume (area, hypervolume) of one voxel. */

@@ -10,7 +10,6 @@
 #include "Image/LabelImage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <vector>
@@ -38,17 +37,11 @@ public:
   explicit LocalDelta(const LabelImage<D>& image)
     : Grid(image.Grid())
     , Origin(image.CropOrigin())
+    , VoxelsPerLength(image.Grid().VoxelsPerLength())
   {
     for (std::size_t a = 0; a < D; ++a)
     {
       this->Cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
-      Point<D> unit{};
-      unit[a] = 1.0;
-      const Point<D> step = this->Grid.ToIndex(unit);
-      for (std::size_t b = 0; b < D; ++b)
-      {
-        this->VoxelsPerLength[b] = std::hypot(this->VoxelsPerLength[b], step[b]);
-      }
     }
   }
 
@@ -287,7 +280,7 @@ private:
   GridGeometry<D> Grid;
   Index Origin;
   Index Cells{};
-  Point<D> VoxelsPerLength{};  ///< at most, of the change of each index
+  Point<D> VoxelsPerLength;
   std::vector<Bound> Values;   ///< empty: no bound
   std::vector<float> Spacings; ///< what GradedAt() starts from
   std::vector<float> Graded;   ///< the same, see GradedAt()

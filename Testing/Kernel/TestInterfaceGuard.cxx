@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What the guard of interfaces samples around an edge, face by face.
+#include "Image/ImageDomain.h"
+#include "ImageMesher.h"
+#include "InterfaceGuard.h"
+#include "Phantoms.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace voxplex;
+
+namespace
+{
+
+/** Where the interface crosses the faces between voxels whose centres are so near to a point. */
+std::set<Point<3>> CrossingsNear(
+  const LabelImage<3>& image, const Domain<3>& domain, const Point<3>& p, double radius)
+{
+  std::set<Point<3>> crossings;
+  const auto& n = image.CropDimensions();
+  GridGeometry<3>::Index voxel;
+  for (voxel[2] = -1; voxel[2] < n[2]; ++voxel[2])
+  {
+    for (voxel[1] = -1; voxel[1] < n[1]; ++voxel[1])
+    {
+      for (voxel[0] = -1; voxel[0] < n[0]; ++voxel[0])
+      {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          GridGeometry<3>::Index next = voxel;
+          ++next[a];
+          const Point<3> from = image.CentreOf(voxel);
+          const Point<3> to = image.CentreOf(next);
+          Point<3> z;
+          if (image.At(voxel) != image.At(next) &&
+            Distance(Interpolate(from, to, 0.5), p) <= radius &&
+            domain.FirstCrossing(from, image.At(voxel), to, z))
+          {
+            crossings.insert(z);
+          }
+        }
+      }
+    }
+  }
+  return crossings;
+}
+
+} // namespace
+
+// Around an edge it samples all that is near, also where the axes of the image are oblique and voxels long.
+TEST(InterfaceGuard, ReachesAsFarInShearedImages)
+{
+  GridGeometry<3> sheared = GridGeometry<3>::Orthogonal({ 60, 30, 30 }, { 1.0, 1.0, 1.0 });
+  sheared.IndexToFrame[0][1] = 1.5;
+  sheared.IndexToFrame[0][2] = -0.8;
+  sheared.IndexToFrame[1][2] = 0.9;
+  const double delta = 6.0;
+  for (const GridGeometry<3>& grid : { phantoms::Cube(30), sheared })
+  {
+    const Point<3> centre =
+      grid.ToFrame({ 0.5 * static_cast<double>(grid.Dimensions[0]), 15.0, 15.0 });
+    const LabelImage<3> image = phantoms::Make(
+      grid, [&](const Point<3>& p) -> std::int16_t { return Distance(p, centre) < 11.0 ? 1 : 0; });
+    const ImageDomain<3> domain(image, 1.0);
+    MeshingOptions<3> options;
+    options.Delta = delta;
+    SimplexMesh<3> mesh;
+    ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
+    for (std::size_t f = 0; f < mesh.Facets.size(); f += 7)
+    {
+      const InterfaceEdge edge{ { mesh.Facets[f][0], mesh.Facets[f][1] }, false };
+      const Point<3> middle =
+        Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5);
+      const std::set<Point<3>> expected = CrossingsNear(image, domain, middle, 0.5 * delta);
+      LocalDelta<3> local(image);
+      InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
+      std::set<Point<3>> found;
+      for (const FeatureSeed<3>& seed : guard.Inspect(mesh, { edge }))
+      {
+        found.insert(seed.Position);
+      }
+      EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
+      EXPECT_GT(expected.size(), 10u);
+      EXPECT_EQ(found, expected) << f;
+    }
+  }
+}
