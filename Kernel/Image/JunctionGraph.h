@@ -115,11 +115,11 @@ public:
     }
     if (count == 2)
     {
-      // On a face, on the line between the two.
+      // On a face, on the line between the two. Not both are 0: of labels that tie the smallest wins, at either end.
       const auto [i, j] = std::pair{ inside[0], inside[1] };
       const double ahead = -this->Space.MarginAt(x[i], labels[j]);
       const double behind = -this->Space.MarginAt(x[j], labels[i]);
-      return Interpolate(x[i], x[j], ahead + behind > 0.0 ? ahead / (ahead + behind) : 0.5);
+      return Interpolate(x[i], x[j], ahead / (ahead + behind));
     }
     // By how much label l is ahead of that of corner i, there.
     std::array<std::array<double, 3>, 3> ahead;

@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "Image/ImageDomain.h"
 #include "Image/JunctionCurves.h"
+#include "Image/JunctionGraph.h"
 #include "ImageMesher.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
@@ -106,6 +107,55 @@ double DistanceToAxis(const Point<3>& p)
   return std::hypot(p[0] - CentreX, p[1] - CentreY);
 }
 
+/** Labels by their indicators, which are linear: a constant and a gradient each. */
+struct LinearField
+{
+  std::array<std::array<double, 4>, 3> Indicators;
+
+  double Indicator(const Point<3>& x, LabelId label) const
+  {
+    const std::array<double, 4>& u = this->Indicators[label];
+    return u[0] + u[1] * x[0] + u[2] * x[1] + u[3] * x[2];
+  }
+  double ExtendedMarginAt(const Point<3>& x, LabelId label) const
+  {
+    double other = -std::numeric_limits<double>::infinity();
+    for (LabelId l = 0; l < 3; ++l)
+    {
+      other = l != label ? std::max(other, this->Indicator(x, l)) : other;
+    }
+    return this->Indicator(x, label) - other;
+  }
+  template <std::size_t N>
+  std::array<double, N> ExtendedMarginsAt(
+    const Point<3>& x, const std::array<LabelId, N>& labels) const
+  {
+    std::array<double, N> margins;
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      margins[k] = this->ExtendedMarginAt(x, labels[k]);
+    }
+    return margins;
+  }
+};
+
+/** What is `constant` at (1, 2) and grows by s and t over half a voxel along x and y. */
+std::array<double, 4> Steps(double constant, double s, double t)
+{
+  return { constant - 2.0 * (s * 1.0 + t * 2.0), 2.0 * s, 2.0 * t, 0.0 };
+}
+
+/** A triangle of the fine lattice with the corners (1, 2, 3), (1.5, 2, 3) and (1.5, 2.5, 3). */
+constexpr junctions::Place Triangle{ { 2, 4, 6 }, 1, 3, false };
+
+Point<3> Locate(const LinearField& field, const std::array<LabelId, 3>& labels)
+{
+  const LabelImage<3> image =
+    phantoms::TouchingLabels(4); // of two labels: from 3 on all is outside
+  const junctions::LabelledSpace<LinearField> space(image, field);
+  return junctions::Locator<LinearField>(space).Locate(Triangle, labels);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -179,6 +229,48 @@ TEST(JunctionCurves, AreClosedOrEndInCorners)
 
 //------------------------------------------------------------------------------------------------
 // Between voxels of two labels a third one may win: a curve that passes there must not be cut off.
+// Where three labels are equal, and on the line between two where they are; by hand, with linear indicators.
+TEST(JunctionLocator, FindsWhereLabelsAreEqual)
+{
+  // The labels are as good as each other 0.6 steps of half a voxel along x and 0.35 along y from the first corner.
+  const auto step = [](double constant, double s, double t) -> std::array<double, 4> {
+    return { constant - 2.0 * (s * 1.0 + t * 2.0), 2.0 * s, 2.0 * t, 0.0 };
+  };
+  const LinearField three{ { Steps(0.6, -1.0, 0.0), Steps(-0.9, 1.5, 0.0),
+    Steps(-0.7, 0.0, 2.0) } };
+  const Point<3> p = Locate(three, { 0, 1, 2 });
+  EXPECT_NEAR(p[0], 1.3, 1e-12);
+  EXPECT_NEAR(p[1], 2.175, 1e-12);
+  EXPECT_NEAR(p[2], 3.0, 1e-12);
+
+  // Outside begins at one corner: on the edge between the two others.
+  const LinearField two{ { Steps(0.3, -1.0, 0.0), Steps(-0.3, 1.0, 0.0), Steps(-9.0, 0.0, 0.0) } };
+  const Point<3> first = Locate(two, { 0, 1, 4 });
+  EXPECT_NEAR(first[0], 1.15, 1e-12);
+  EXPECT_NEAR(first[1], 2.0, 1e-12);
+  const Point<3> diagonal = Locate(two, { 0, 3, 1 });
+  EXPECT_NEAR(diagonal[0], 1.15, 1e-12);
+  EXPECT_NEAR(diagonal[1], 2.15, 1e-12);
+  // On the edge of two faces: at the corner that is inside.
+  EXPECT_EQ(Locate(two, { 3, 1, 5 }), (Point<3>{ 1.5, 2.0, 3.0 }));
+  EXPECT_EQ(Locate(two, { 4, 5, 1 }), (Point<3>{ 1.5, 2.5, 3.0 }));
+}
+
+TEST(JunctionLocator, TakesTies)
+{
+  const auto step = [](double constant, double s, double t) -> std::array<double, 4> {
+    return { constant - 2.0 * (s * 1.0 + t * 2.0), 2.0 * s, 2.0 * t, 0.0 };
+  };
+  // Two labels tie at a corner, where the smaller one wins.
+  const LinearField two{ { Steps(0.0, -1.0, 0.0), Steps(0.0, 1.0, 0.0), Steps(-9.0, 0.0, 0.0) } };
+  EXPECT_EQ(Locate(two, { 0, 1, 4 }), (Point<3>{ 1.0, 2.0, 3.0 }));
+  // All three tie along a line through the triangle: the middle is on it.
+  const LinearField line{ { Steps(0.0, 0.0, 0.0), Steps(0.0, 1.0, -2.0), Steps(0.0, -1.0, 2.0) } };
+  const Point<3> p = Locate(line, { 0, 1, 2 });
+  EXPECT_NEAR(p[0], 1.0 + 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(p[1], 2.0 + 0.5 / 3.0, 1e-12);
+}
+
 TEST(JunctionCurves, AreFollowedBetweenVoxelsOfTwoLabels)
 {
   for (const LabelImage<3>& image : { Sectors(), Octants() })
