@@ -262,6 +262,49 @@ SimplexMesh<3> Ring(const std::vector<std::int64_t>& labels, const RingShape& sh
   return mesh;
 }
 
+/** Adds another mesh, so far along each axis. */
+void Append(const SimplexMesh<3>& other, double offset, SimplexMesh<3>& mesh)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+  for (Point<3> p : other.Points)
+  {
+    for (double& x : p)
+    {
+      x += offset;
+    }
+    mesh.Points.push_back(p);
+  }
+  for (auto cell : other.Simplices)
+  {
+    for (std::uint32_t& v : cell)
+    {
+      v += first;
+    }
+    mesh.Simplices.push_back(cell);
+  }
+  for (auto facet : other.Facets)
+  {
+    for (std::uint32_t& v : facet)
+    {
+      v += first;
+    }
+    mesh.Facets.push_back(facet);
+  }
+  mesh.Labels.insert(mesh.Labels.end(), other.Labels.begin(), other.Labels.end());
+  mesh.FacetLabels.insert(
+    mesh.FacetLabels.end(), other.FacetLabels.begin(), other.FacetLabels.end());
+}
+
+/** Four tetrahedra around an edge that is not manifold; whoever changes sides there makes a facet with 25 degrees. */
+SimplexMesh<3> SharpRing()
+{
+  RingShape shape;
+  shape.Height = 0.15;
+  shape.Degrees = { 25.0, 155.0, 25.0, 155.0 };
+  shape.HasCaps = true;
+  return Ring({ 1, 2, 1, 2 }, shape);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -322,11 +365,7 @@ TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
 // tetrahedra and of 12 in the wide ones.
 TEST(ManifoldRepair, MakesNoSharpFacets)
 {
-  RingShape shape;
-  shape.Height = 0.15;
-  shape.Degrees = { 25.0, 155.0, 25.0, 155.0 };
-  shape.HasCaps = true;
-  const SimplexMesh<3> ring = Ring({ 1, 2, 1, 2 }, shape);
+  const SimplexMesh<3> ring = SharpRing();
   ASSERT_TRUE(checks::Complaints(ring).empty());
   SimplexMesh<3> mesh = ring;
   ManifoldRepairOptions options;
@@ -441,6 +480,44 @@ TEST(ManifoldRepair, MendsRealMeshes)
     EXPECT_GE(smallest, 20.0);
     EXPECT_EQ(checks::Volumes(mesh).size(), volumes.size()); // no label is lost
   }
+}
+
+void ExpectTellsWhatIsLeft(const SimplexMesh<3>& mesh, const ManifoldRepairCounts& counts)
+{
+  const std::vector<InterfaceEdge> expected = FindNonManifoldEdges(mesh);
+  EXPECT_EQ(counts.After, expected.size());
+  ASSERT_EQ(counts.Left.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+  {
+    EXPECT_EQ(counts.Left[k].Ends, expected[k].Ends) << k;
+    EXPECT_EQ(counts.Left[k].IsJunction, expected[k].IsJunction) << k;
+  }
+}
+
+TEST(ManifoldRepair, TellsWhatIsLeft)
+{
+  std::size_t left = 0;
+  for (const unsigned seed : { 1u, 2u, 3u, 4u })
+  {
+    for (const double angle : { 20.0, 38.0, 55.0 })
+    {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", angle " << angle);
+      SimplexMesh<3> mesh = Mesh(Blobs(seed), 3.0, 0);
+      const ManifoldRepairCounts counts = RepairManifold(mesh, { angle, angle });
+      ExpectTellsWhatIsLeft(mesh, counts);
+      left += counts.Before > counts.After ? counts.After : 0;
+    }
+  }
+  EXPECT_GT(left, 5u); // where some were mended, but not all
+
+  // By the numbers that points have when others have gone with their tetrahedron.
+  SimplexMesh<3> mesh = Ring({ 1, 1, 0, 1, 0 });
+  Append(SharpRing(), 10.0, mesh);
+  const ManifoldRepairCounts counts = RepairManifold(mesh, { 26.0, 26.0 });
+  ExpectTellsWhatIsLeft(mesh, counts);
+  EXPECT_EQ(counts.Before, 2u);
+  ASSERT_EQ(counts.Left.size(), 1u);
+  EXPECT_EQ(counts.Left[0].Ends, (std::array<std::uint32_t, 2>{ 5, 6 })); // two points have gone
 }
 
 //------------------------------------------------------------------------------------------------
@@ -600,22 +677,7 @@ TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
   {
     // Four tetrahedra more around an edge, on the interface of the two labels.
     SimplexMesh<3> mesh = good;
-    const SimplexMesh<3> ring = Ring({ 1, 2, 1, atJunction ? 3 : 2 });
-    const auto first = static_cast<std::uint32_t>(mesh.Points.size());
-    for (Point<3> p : ring.Points)
-    {
-      for (double& x : p)
-      {
-        x += 10.5;
-      }
-      mesh.Points.push_back(p);
-    }
-    for (std::size_t f = 0; f < ring.Facets.size(); ++f)
-    {
-      const auto& v = ring.Facets[f];
-      mesh.Facets.push_back({ v[0] + first, v[1] + first, v[2] + first });
-      mesh.FacetLabels.push_back(ring.FacetLabels[f]);
-    }
+    Append(Ring({ 1, 2, 1, atJunction ? 3 : 2 }), 10.5, mesh);
     LocalDelta<3> local(image);
     InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
     EXPECT_TRUE(guard.Inspect(good, FindNonManifoldEdges(good)).empty());

@@ -138,6 +138,31 @@ void CheckMargin(int labels, std::int64_t blocky, double sigma)
   }
 }
 
+/** Margins of several labels at once are those of one after the other, to the last bit. */
+template <int D, std::size_t N>
+void CheckMargins(const LabelField<D>& field, const std::array<LabelId, N>& labels)
+{
+  std::mt19937 random(12);
+  int different = 0;
+  for (int trial = 0; trial < 4000; ++trial)
+  {
+    Point<D> x;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] = std::uniform_real_distribution<>(
+        -1.0, static_cast<double>(field.LatticeDimensions()[a]))(random);
+      x[a] = trial % 3 == 0 ? std::round(2.0 * x[a]) / 2.0 : x[a]; // where ties are
+    }
+    const std::array<double, N> margins = field.ExtendedMarginsAt(x, labels);
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      ASSERT_EQ(margins[k], field.ExtendedMarginAt(x, labels[k])) << trial << ", " << labels[k];
+      different += margins[k] != margins[0] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(different, 1000);
+}
+
 } // namespace
 
 TEST(LabelField, EveryVoxelCentreKeepsItsLabel)
@@ -198,6 +223,24 @@ TEST(LabelField, MarginIsPositiveExactlyForTheLabel)
     CheckMargin<3>(4, 3, sigma);
     CheckMargin<3>(12, 9, sigma);
     CheckMargin<4>(3, 3, sigma);
+  }
+}
+
+TEST(LabelField, MarginsOfSeveralLabelsAreThoseOfEach)
+{
+  std::mt19937 random(13);
+  for (const double sigma : { 0.0, 1.0 }) // without smoothing labels tie in many places
+  {
+    for (const int labels : { 1, 2, 5 })
+    {
+      SCOPED_TRACE(testing::Message() << sigma << ", " << labels << " labels");
+      const LabelField<3> field(
+        MakeImage<3>(Noise<3>(24, labels, 3, random), UnitGrid<3>(24)), sigma);
+      CheckMargins<3, 3>(field, { 0, 1, 2 });
+      CheckMargins<3, 4>(field, { 5, 2, 4, 0 });
+    }
+    const LabelField<4> field(MakeImage<4>(Noise<4>(11, 4, 3, random), UnitGrid<4>(11)), sigma);
+    CheckMargins<4, 3>(field, { 3, 1, 0 });
   }
 }
 

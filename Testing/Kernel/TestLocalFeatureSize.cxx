@@ -178,6 +178,35 @@ TEST(InterfaceSamples, BothSidesOfASheetNotTheBorder)
   EXPECT_GT(beside, 20);
 }
 
+// Where the image cuts an object there is no interface that could be sampled more coarsely.
+TEST(InterfaceSamples, LeaveFacesOfTheImageOut)
+{
+  const LabelImage<3> block =
+    phantoms::Make(GridGeometry<3>::Orthogonal({ 9, 8, 7 }, { 1.0, 0.5, 2.0 }),
+      [](const Point<3>&) { return std::int16_t{ 1 }; });
+  EXPECT_TRUE(Sample(block, 1.0).empty());
+  const LabelImage<3> half = phantoms::CutBall(14);
+  const double c = 0.5 * static_cast<double>(half.Grid().Dimensions[0] - 1);
+  for (const double spacing : { 1.0, 3.0 })
+  {
+    const std::vector<Point<3>> sample = Sample(half, spacing);
+    EXPECT_GT(sample.size(), 100u);
+    for (const Point<3>& p : sample)
+    {
+      ASSERT_NEAR(Distance(p, { c, c, 0.0 }), 11.5, 0.9); // on the sphere, not on the disk
+    }
+  }
+  // Two labels that touch the border: what is between them is sampled up to it.
+  const LabelImage<3> two = phantoms::Make(
+    phantoms::Cube(10), [](const Point<3>& p) -> std::int16_t { return p[1] < 4.5 ? 1 : 2; });
+  const std::vector<Point<3>> between = Sample(two, 1.0);
+  EXPECT_EQ(between.size(), 100u);
+  for (const Point<3>& p : between)
+  {
+    ASSERT_NEAR(p[1], 4.5, 0.1);
+  }
+}
+
 TEST(InterfaceSamples, AreTheSameForAnyNumberOfThreads)
 {
   const LabelImage<3> image = phantoms::NestedBalls(15.0);

@@ -401,6 +401,43 @@ TEST(ScalarField, ClosedHalfAVoxelBeyondTheBorder)
   }
 }
 
+// Beyond each face where the image cuts the object all is as in the outermost voxels, also across edges and corners.
+TEST(ScalarField, ValuesGoOnBeyondTheFacesOfTheImage)
+{
+  std::mt19937 random(21);
+  const auto grid = UnitGrid<3>(10);
+  const std::vector<double> values = Noise(grid, random);
+  const IsosurfaceImage<3> image = Make(values, grid, { 0.05 });
+  const ScalarField<3> field(image);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    ASSERT_TRUE(image.Labels().IsCut(axis, 0) && image.Labels().IsCut(axis, 1)) << axis;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    int labels[2] = {};
+    for (int i = 0; i < 2000; ++i)
+    {
+      Point<3> beyond = field.ToLattice(grid.ToFrame(RandomIndex(grid, 0.9, random)));
+      beyond[axis] = std::uniform_real_distribution<>(0.0, 1.0)(random);
+      beyond[axis] = i % 2 == 0 ? beyond[axis] : 11.0 - beyond[axis];
+      Point<3> on = beyond;
+      for (double& x : on)
+      {
+        x = std::clamp(x, 1.0, 10.0);
+      }
+      // But what is near 0, which is raised by what is beside it: that may be another amount at the border.
+      if (std::abs(field.ExtendedMarginAt(on, 1)) > 1e-2)
+      {
+        ASSERT_EQ(field.ExtendedLabelAt(beyond), field.ExtendedLabelAt(on)) << axis;
+        ++labels[field.ExtendedLabelAt(on)];
+      }
+    }
+    EXPECT_GT(labels[0], 200);
+    EXPECT_GT(labels[1], 200);
+  }
+}
+
 TEST(ScalarField, VoxelsWithoutANumberAreOutsideByHalfAVoxel)
 {
   const auto grid = UnitGrid<3>(12);
