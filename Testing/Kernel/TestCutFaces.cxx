@@ -206,6 +206,25 @@ MeshingOptions<3> WithDelta(double delta)
   return options;
 }
 
+/** Optimisation may do nearly anything. */
+OptimisationOptions Wild()
+{
+  OptimisationOptions options;
+  options.SmallestDihedralAngle = 40.0;
+  options.LargestDihedralAngle = 115.0;
+  options.FacetAngle = 5.0;
+  options.JunctionFacetAngle = 5.0;
+  options.CreaseAngle = 90.0;
+  options.InterfaceTolerance = 0.4;
+  return options;
+}
+
+std::size_t CountOnCutFaces(const SimplexMesh<3>& mesh, const Domain<3>& domain)
+{
+  return static_cast<std::size_t>(std::count_if(mesh.Points.begin(), mesh.Points.end(),
+    [&](const Point<3>& p) { return domain.CutFaces(p) != 0; }));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -587,16 +606,7 @@ TEST(CutFaces, StayFlatInOptimisation)
       for (const bool wild : { false, true })
       {
         SimplexMesh<3> after = before;
-        OptimisationOptions optimisation;
-        if (wild)
-        {
-          optimisation.SmallestDihedralAngle = 40.0;
-          optimisation.LargestDihedralAngle = 115.0;
-          optimisation.FacetAngle = 5.0;
-          optimisation.JunctionFacetAngle = 5.0;
-          optimisation.CreaseAngle = 90.0;
-          optimisation.InterfaceTolerance = 0.4;
-        }
+        const OptimisationOptions optimisation = wild ? Wild() : OptimisationOptions();
         const OptimisationStatistics statistics = OptimiseMesh(after, domain, optimisation, 1);
         EXPECT_TRUE(checks::Complaints(after).empty());
         if (wild)
@@ -614,6 +624,33 @@ TEST(CutFaces, StayFlatInOptimisation)
           EXPECT_NEAR(optimised[face], areas[face], tolerance * areas[face]) << face;
         }
       }
+    }
+  }
+}
+
+// Beside a shallow scoop in a cut face, whose side is the nearest interface of vertices on the face over chords of its rim.
+TEST(CutFaces, KeepTheirVerticesInOptimisation)
+{
+  for (const double height : { -7.5, -7.0 })
+  {
+    const LabelImage<3> image = phantoms::Make(phantoms::Cube(28),
+      [=](const Point<3>& p) -> std::int16_t
+      {
+        return p[2] < 9.0 && Distance(p, { 13.5, 13.5, 0.0 }) < 12.5 &&
+            !(Distance(p, { 13.6, 13.4, height }) < 8.3)
+          ? 1
+          : 0;
+      });
+    const ImageDomain<3> domain(image, 1.0);
+    for (const double delta : { 3.0, 3.5, 4.0, 4.5, 5.0 })
+    {
+      MeshingOptions<3> options = WithDelta(delta);
+      options.Optimise = false;
+      SimplexMesh<3> mesh = Mesh(image, options);
+      const std::size_t before = CountOnCutFaces(mesh, domain);
+      EXPECT_GT(before, 15u);
+      EXPECT_GT(OptimiseMesh(mesh, domain, Wild(), 1).Smoothing.SurfaceMoves, 0u);
+      EXPECT_GE(CountOnCutFaces(mesh, domain), before) << height << " " << delta;
     }
   }
 }

@@ -243,6 +243,11 @@ TEST(JunctionLocator, FindsWhereLabelsAreEqual)
   EXPECT_NEAR(p[1], 2.175, 1e-12);
   EXPECT_NEAR(p[2], 3.0, 1e-12);
 
+  // They are nowhere equal in the triangle, as the first label wins on most of the side opposite to its corner: there.
+  const LinearField apart{ { Steps(0.0, 0.0, 0.0), Steps(-0.1, 1.1, -11.0),
+    Steps(-0.1, -9.9, 11.0) } };
+  EXPECT_EQ(Locate(apart, { 0, 1, 2 }), (Point<3>{ 1.0, 2.0, 3.0 }));
+
   // Outside begins at one corner: on the edge between the two others.
   const LinearField two{ { Steps(0.3, -1.0, 0.0), Steps(-0.3, 1.0, 0.0), Steps(-9.0, 0.0, 0.0) } };
   const Point<3> first = Locate(two, { 0, 1, 4 });
