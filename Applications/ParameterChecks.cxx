@@ -41,7 +41,10 @@ void CheckSpaceTime(const SpaceTimeParameters& p, bool force)
   }
   if (p.NoPicking)
   {
-    const char* useless = p.Picks ? "--picks" : p.SliverBound ? "--sliver-bound" : nullptr;
+    const char* useless = p.Picks ? "--picks"
+      : p.SliverBound             ? "--sliver-bound"
+      : p.Seed                    ? "--seed"
+                                  : nullptr;
     if (useless)
     {
       throw UsageError(std::string(useless) +

@@ -177,7 +177,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         Tetrahedra only: improve shapes after refinement; dihedral angles of 15 to 155 degrees but for a few,
         radius-edge ratios up to 2.5. Default True.
     optimise_seconds
-        Tetrahedra only: stop improving shapes after so long. Default 0: no limit.
+        Tetrahedra only: stop improving shapes after so long. Default 0: no limit. Not with optimise=False.
     sample_junctions
         Tetrahedra only: sample the curves where three labels or more meet before all else, so that edges follow
         them. Default True.
@@ -199,7 +199,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     pick_slivers
         Pentatopes only: whether to fight slivers; False is faster. Default True.
     seed
-        Pentatopes only: of the random points tried against slivers. Default 0.
+        Pentatopes only: of the random points tried against slivers. Default 0. Not with pick_slivers=False.
     force
         Go on although the mesh is estimated not to fit in memory, or radius_edge is below 1.93,
         or sliver_angle above 15.
@@ -262,6 +262,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
                 largest_feature=largest_feature, facet_angle=facet_angle, sliver_angle=sliver_angle,
                 optimise=optimise, optimise_seconds=optimise_seconds, sample_junctions=sample_junctions,
                 interface_rounds=interface_rounds, smallest_component=smallest_component, min_component_volume=min_component_volume)
+        if pick_slivers is not None and not pick_slivers:
+            _refuse("of the points that pick_slivers=False does without; leave one of the two out", seed=seed)
         _set(mesher, TimeScale=time_scale, PickingRegions=pick_slivers, RandomSeed=seed)
     else:
         mesher = vtkImageToTetMeshFilter()
@@ -269,6 +271,11 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
                 pick_slivers=pick_slivers, seed=seed)
         if grading is not None and grading not in _GRADING:
             raise ValueError(f"grading must be one of {', '.join(_GRADING)}, not {grading!r}")
+        if grading != "lfs":
+            _refuse('only for interfaces that are graded; pass grading="lfs" as well, or leave it out',
+                    feature_ratio=feature_ratio, largest_feature=largest_feature)
+        if optimise is not None and not optimise:
+            _refuse("limits what optimise=False switches off; leave one of the two out", optimise_seconds=optimise_seconds)
         _set(mesher, Grading=None if grading is None else _GRADING[grading], FeatureRatio=feature_ratio, LargestFeature=largest_feature)
         _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle, Optimise=optimise,
              OptimisationTimeLimit=optimise_seconds, SampleJunctions=sample_junctions, InterfaceRounds=interface_rounds,

@@ -279,6 +279,7 @@ class Flags(SpaceTimeTestCase):
             (("--seed", "x"), "--seed: must be a whole number from 0"),
             (("--no-picking", "--picks", 5), "--picks is about picking regions.*--no-picking"),
             (("--no-picking", "--sliver-bound", 0.02), "--sliver-bound is about picking regions.*--no-picking"),
+            (("--no-picking", "--seed", 7), "--seed is about picking regions.*--no-picking"),
         ):
             with self.subTest(arguments):
                 self.assert_refused(2, pattern, "--input", self.input, *arguments)

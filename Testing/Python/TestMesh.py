@@ -246,7 +246,18 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "uniform, lfs.*'thin'"):
             voxplex.mesh(self.image, grading="thin")
         with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
-            voxplex.mesh(self.image, feature_ratio=0)
+            voxplex.mesh(self.image, grading="lfs", feature_ratio=0)
+
+    def test_refuses_what_has_no_effect(self):
+        for grading in (None, "uniform"):
+            for name in ("feature_ratio", "largest_feature"):
+                with self.assertRaisesRegex(ValueError, "^%s: only .* graded; pass grading=\"lfs\"" % name):
+                    voxplex.mesh(self.image, 2.0, grading=grading, **{name: 2})
+        with self.assertRaisesRegex(ValueError, "^optimise_seconds: limits what optimise=False switches off"):
+            voxplex.mesh(self.image, 2.0, optimise=False, optimise_seconds=1)
+        with self.assertRaisesRegex(ValueError, "^seed: of the points that pick_slivers=False does without"):
+            voxplex.mesh(beating(), 2.0, pick_slivers=False, seed=1)
+        self.assertGreater(voxplex.mesh(self.image, 2.0, optimise=True, optimise_seconds=1).GetNumberOfCells(), 0)
 
     def test_memory_limit(self):
         with self.assertRaisesRegex(voxplex.MeshingError, "or pass force=True"):
@@ -275,8 +286,8 @@ class SpaceTime(unittest.TestCase):
 
     def test_times_and_scale(self):
         times = (1.0, 1.5, 2.0, 2.5)
-        mesh, boundary, statistics = voxplex.mesh(beating(), 2.0, times=times, time_scale=4.0, pick_slivers=False,
-                                                  seed=3, spacing=(1, 1, 1), full_output=True)
+        mesh, boundary, statistics = voxplex.mesh(beating(), 2.0, times=times, time_scale=4.0, seed=3,
+                                                  spacing=(1, 1, 1), full_output=True)
         self.check(mesh, 1.0, 2.5)
         self.assertEqual(statistics["dimension"], 4)
         self.assertIsInstance(boundary, vtkUnstructuredGrid)
