@@ -73,6 +73,53 @@ double Volume(const SimplexMesh<3>& mesh)
   return volume;
 }
 
+/**
+ * Below the two triangles abc and abd of a label's boundary, which acd and bcd may replace. The smallest angle is 21
+ * degrees in abc, 26 in bcd, and 40 or more in the others.
+ */
+struct Quadrilateral
+{
+  bool IsMirrored;
+  bool HasJunction; ///< three labels meet at a, so that bcd alone is off junctions
+  double Height;    ///< of ab above cd; there is a tetrahedron abcd if it is not 0
+
+  SimplexMesh<3> Mesh() const
+  {
+    constexpr std::uint32_t a = 0, b = 1, c = 2, d = 3, e = 4;
+    std::vector<Point<3>> points = { { 1.6, -0.5, this->Height }, { 0.9, 1.3, this->Height },
+      { 1.6, 0.9, 0.0 }, { -0.1, 0.4, 0.0 }, { -0.8, -0.4, -1.2 } };
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+    if (this->Height != 0.0)
+    {
+      tetrahedra = { { a, b, c, d }, { a, c, d, e }, { b, c, d, e } };
+    }
+    else
+    {
+      tetrahedra = { { a, b, c, e }, { a, b, d, e } };
+    }
+    std::vector<std::int64_t> labels(tetrahedra.size(), 1);
+    if (this->HasJunction)
+    {
+      points.insert(points.end(), { { 3.6, -2.5, 0.0 }, { 3.6, -0.5, -2.0 }, { 1.6, -2.5, 2.0 } });
+      tetrahedra.push_back({ a, 5, 6, 7 });
+      labels.push_back(2);
+    }
+    for (Point<3>& p : points)
+    {
+      p[0] = this->IsMirrored ? -p[0] : p[0];
+    }
+    for (auto& v : tetrahedra)
+    {
+      const std::array x{ &points[v[0]], &points[v[1]], &points[v[2]], &points[v[3]] };
+      if (SignedVolume<3>(x.data()) < 0.0)
+      {
+        std::swap(v[2], v[3]);
+      }
+    }
+    return MeshOf(points, tetrahedra, labels);
+  }
+};
+
 } // namespace
 
 TEST(ShapeScore, IsOneAtEachBound)
@@ -405,6 +452,40 @@ TEST(Flips, LeaveJunctionsAlone)
   EXPECT_GT(statistics.Before.Poor, 0u);
   EXPECT_EQ(mesh.Simplices.size(), 3u);
   EXPECT_EQ(checks::Volumes(mesh), checks::Volumes(before));
+}
+
+// What was at a junction may have small angles, and is no excuse for small ones off it.
+TEST(Flips, MakeNoSmallAnglesOffJunctions)
+{
+  for (const bool isMirrored : { false, true })
+  {
+    for (const bool hasJunction : { false, true })
+    {
+      for (const double height : { 0.0, 0.03 })
+      {
+        SCOPED_TRACE(testing::Message() << isMirrored << hasJunction << ' ' << height);
+        const SimplexMesh<3> mesh = Quadrilateral{ isMirrored, hasJunction, height }.Mesh();
+        TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+        EXPECT_EQ(complex.Kinds[0] == VertexRole::Fixed, hasJunction);
+        EXPECT_EQ(complex.Kinds[1], VertexRole::Surface);
+        const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
+        Patch patch(complex, blocks, 0);
+        const std::uint32_t vertices[] = { 0, 1, 2, 3 };
+        patch.FindStars(vertices);
+        Flips flips(patch, InterfaceRules(30.0, 20.0, 30.0));
+        if (height == 0.0)
+        {
+          flips.Improve(0);
+          EXPECT_EQ(flips.Counts().InterfaceFlips, hasJunction ? 0u : 1u);
+        }
+        else
+        {
+          flips.ImproveByRelabelling(0);
+          EXPECT_EQ(flips.Counts().Dropped, hasJunction ? 0u : 1u);
+        }
+      }
+    }
+  }
 }
 
 TEST(MeshOptimiser, TakesDegenerateMeshes)
