@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace voxplex
 {
@@ -36,6 +38,31 @@ constexpr double StairFactor = 1.15;
 
 /** The rules take half the spacing of the points for that of vertices nearby. */
 constexpr double SpacingFactor = 0.5;
+
+template <typename T>
+void SortUnique(std::vector<T>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
+{
+  std::vector<Point<3>> vertices;
+  std::vector<bool> added(mesh.Points.size());
+  for (const auto& facet : mesh.Facets)
+  {
+    for (const std::uint32_t v : facet)
+    {
+      if (!added[v])
+      {
+        added[v] = true;
+        vertices.push_back(mesh.Points[v]);
+      }
+    }
+  }
+  return vertices;
+}
 
 } // namespace
 
@@ -206,41 +233,75 @@ void InterfaceGuard::ForEachSiteOfRow(std::size_t row, Function&& function) cons
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
+InterfaceGuard::Interfaces::Interfaces(const std::vector<Point<3>>& vertices, double reach,
+  std::vector<Triangle> triangles, unsigned threads, const std::stop_token& stop)
+  : Vertices({ 0.0, 0.0, 0.0 }, reach, vertices.size())
+  , Triangles(std::move(triangles), threads, stop)
 {
-  // Where delta is graded there may be few vertices, but the triangles between them must be near.
-  Interfaces interfaces{ FeatureGrid<3>({ 0.0, 0.0, 0.0 },
-                           this->Base.Graded
-                             ? this->NearEnough()
-                             : std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal),
-                           mesh.Points.size()),
-    BoundingTree<Triangle>(
-      this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop) };
-  std::vector<bool> added(mesh.Points.size());
-  for (const auto& facet : mesh.Facets)
+  for (const Point<3>& p : vertices)
   {
-    for (const std::uint32_t v : facet)
-    {
-      if (!added[v])
-      {
-        added[v] = true;
-        interfaces.Vertices.Add(mesh.Points[v]);
-      }
-    }
+    this->Vertices.Add(p);
   }
+}
+
+/** No vertex is asked for that is farther than this. */
+double InterfaceGuard::Reach() const
+{
+  const double delta =
+    this->Sizes ? std::max(this->Base.Delta, this->Sizes->Largest()) : this->Base.Delta;
+  return this->Base.Graded ? this->NearEnough()
+                           : std::max(LargestDistance * delta, this->VoxelDiagonal);
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<InterfaceGuard::Face> InterfaceGuard::FilterFar(
+  const std::vector<Face>& faces, const Interfaces& interfaces) const
+{
   std::vector<Face> far;
   Hint hint;
-  for (const Face& face : this->Sampled)
+  std::copy_if(faces.begin(), faces.end(), std::back_inserter(far),
+    [&](const Face& face) { return this->IsFar(face, interfaces, hint); });
+  return far;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(
+  std::vector<Point<3>>&& vertices, std::vector<Triangle>&& triangles)
+{
+  const Interfaces interfaces(
+    vertices, this->Reach(), std::move(triangles), this->Threads, this->Stop);
+  std::vector<Face> far;
+  if (this->Base.Graded)
   {
-    if (this->IsFar(face, interfaces, hint))
+    far = this->FilterFar(this->Sampled, interfaces);
+    return far.empty() ? this->FindAllFar(interfaces) : far;
+  }
+  if (this->Known.empty())
+  {
+    far = this->FindAllFar(interfaces);
+  }
+  else
+  {
+    // What was near is so still, unless the vertex that it was near to is none any more.
+    std::vector<Face> faces = this->Sampled;
+    const double same = 1e-6 * this->VoxelDiagonal;
+    for (const Point<3>& p : this->Known)
     {
-      far.push_back(face);
+      if (!interfaces.Vertices.AnyWithin(p, same))
+      {
+        this->AddFacesNear(p, this->Reach() + same, faces);
+      }
     }
+    SortUnique(faces);
+    far = this->FilterFar(faces, interfaces);
   }
-  if (!far.empty())
-  {
-    return far;
-  }
+  this->Known = std::move(vertices);
+  return far;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindAllFar(const Interfaces& interfaces) const
+{
   constexpr std::size_t RowsAtOnce = 64;
   constexpr std::size_t VoxelsOfHint = 4;
   const std::size_t rows = this->Sites.NumberOfRows();
@@ -262,6 +323,7 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
       }
     },
     this->Stop);
+  std::vector<Face> far;
   for (const auto& part : found)
   {
     far.insert(far.end(), part.begin(), part.end());
@@ -341,10 +403,19 @@ void InterfaceGuard::LowerBound(const Face& face)
 }
 
 //------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> InterfaceGuard::InspectVertices(std::vector<Point<3>> vertices)
+{
+  return this->Base.Graded ? std::vector<FeatureSeed<3>>()
+                           : this->Propose(this->FindFarFaces(std::move(vertices), {}), {});
+}
+
+//------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
   const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
 {
-  const std::vector<Face> far = this->FindFarFaces(mesh);
+  // Where delta is graded there may be few vertices, but the triangles between them must be near.
+  const std::vector<Face> far = this->FindFarFaces(
+    VerticesOfInterfaces(mesh), this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>());
   this->FarFaces = far.size();
   this->NonManifoldEdges = edges.size();
   // At junctions there may be some; they are no reason to go on, but are sampled along with the rest.
@@ -355,23 +426,35 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
   {
     return {};
   }
+  std::vector<Point<3>> middles;
+  for (const InterfaceEdge& edge : edges)
+  {
+    middles.push_back(Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5));
+  }
+  return this->Propose(far, middles);
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> InterfaceGuard::Propose(
+  const std::vector<Face>& far, const std::vector<Point<3>>& edges)
+{
   std::vector<Face> faces;
   for (const Face& face : far)
   {
     ThrowIfStopped(this->Stop);
     this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->RemedyAt(face), faces);
   }
-  for (const InterfaceEdge& edge : edges)
+  for (const Point<3>& middle : edges)
   {
-    const Point<3> middle = Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5);
     this->AddFacesNear(middle, RadiusAtEdge * this->DensestAt(middle), faces);
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-
+  if (faces.empty())
+  {
+    return {};
+  }
+  SortUnique(faces);
   this->Sampled.insert(this->Sampled.end(), faces.begin(), faces.end());
-  std::sort(this->Sampled.begin(), this->Sampled.end());
-  this->Sampled.erase(std::unique(this->Sampled.begin(), this->Sampled.end()), this->Sampled.end());
+  SortUnique(this->Sampled);
 
   for (const Face& face : far)
   {

@@ -43,7 +43,9 @@ namespace voxplex
  * smaller delta besides (LocalDelta), so that circumcentres come to lie in what is thin. CGAL's Mesh_3 refines
  * facets around such edges to the same end; the thesis has no such rule.
  *
- * Faces that were sampled before are looked at first, and all others only when nothing is wrong with these.
+ * The first inspection looks at all faces, later ones at those that were sampled and at those whose vertex is none of
+ * an interface any more; where delta is graded, at those that were sampled, and at all others only when nothing is
+ * wrong with these.
  *
  * Not thread safe; uses threads of its own. Inspect() takes time linear in the image's surface voxels and
  * n log n in the mesh's interface facets.
@@ -65,6 +67,14 @@ public:
   InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
     const BaseDensity<3>& base, const InterfaceSizes<3>* sizes, LocalDelta<3>& local,
     unsigned threads, const std::stop_token& stop);
+
+  /**
+   * What needs no mesh: points that would bring vertices near to far faces.
+   * @param vertices of the interfaces: FindInterfaceVertices()
+   * @return nothing if delta is graded, too
+   * @throws Cancelled if a stop was requested before the end
+   */
+  std::vector<FeatureSeed<3>> InspectVertices(std::vector<Point<3>> vertices);
 
   /**
    * Points that would mend what is wrong with the mesh's interfaces.
@@ -98,13 +108,15 @@ private:
     }
   };
 
-  std::vector<Face> FindFarFaces(const SimplexMesh<3>& mesh) const;
   template <typename Function>
   void ForEachSiteOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
   /** What the mesh's interfaces consist of. */
   struct Interfaces
   {
+    Interfaces(const std::vector<Point<3>>& vertices, double reach, std::vector<Triangle> triangles,
+      unsigned threads, const std::stop_token& stop);
+
     FeatureGrid<3> Vertices;
     BoundingTree<Triangle> Triangles; ///< empty unless delta is graded
   };
@@ -117,6 +129,15 @@ private:
   /** Those of a voxel on its upper sides. */
   void FindFarFacesOf(
     const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const;
+  double Reach() const;
+  /** @param triangles used where delta is graded */
+  std::vector<Face> FindFarFaces(
+    std::vector<Point<3>>&& vertices, std::vector<Triangle>&& triangles);
+  std::vector<Face> FindAllFar(const Interfaces& interfaces) const;
+  std::vector<Face> FilterFar(const std::vector<Face>& faces, const Interfaces& interfaces) const;
+  /** Points around far faces and middles of edges. */
+  std::vector<FeatureSeed<3>> Propose(
+    const std::vector<Face>& far, const std::vector<Point<3>>& edges);
   bool IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const;
   bool IsFarFromVertices(
     const Face& face, const FeatureGrid<3>& vertices, const Point<3>*& known) const;
@@ -149,6 +170,7 @@ private:
   const std::stop_token Stop;
   std::map<Index, unsigned> Visits; ///< by cell of LocalDelta
   std::vector<Face> Sampled;        ///< in earlier inspections, ascending
+  std::vector<Point<3>> Known;      ///< vertices of the last inspection, unless delta is graded
   std::size_t FarFaces = 0;
   std::size_t NonManifoldEdges = 0;
 };

@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "Image/GradedSize.h"
 #include "Image/ImageDomain.h"
+#include "Mesh/InterfaceVertices.h"
 #include "Mesh/ManifoldRepair.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
@@ -323,20 +324,24 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
   {
     this->Fraction = this->ProgressEnd;
     local.ForgetLowered(); // refinement has seen to it
-    Stopwatch extraction;
-    ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
-    this->Stats.Times.Extraction += extraction.Seconds();
-    const std::vector<InterfaceEdge> nonManifold =
-      this->RepairInterfaces(prepared, mesh); // may take the last element of a component
-    if (components && this->SampleLostComponents(*components, image, mesh))
+    seeds = this->InspectTriangulation(interfaces, context.Mesh, domain, stop);
+    if (seeds.empty())
     {
-      ++this->Stats.ComponentRounds;
-      context.FollowLocalDelta();
-      goOn =
-        this->Refine(context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
-      continue;
+      Stopwatch extraction;
+      ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
+      this->Stats.Times.Extraction += extraction.Seconds();
+      const std::vector<InterfaceEdge> nonManifold =
+        this->RepairInterfaces(prepared, mesh); // may take the last element of a component
+      if (components && this->SampleLostComponents(*components, image, mesh))
+      {
+        ++this->Stats.ComponentRounds;
+        context.FollowLocalDelta();
+        goOn = this->Refine(
+          context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
+        continue;
+      }
+      seeds = this->InspectMesh(interfaces, mesh, nonManifold);
     }
-    seeds = this->InspectInterfaces(interfaces, mesh, nonManifold);
     if (seeds.empty())
     {
       if (!this->IsFarFromTarget(mesh))
@@ -605,26 +610,52 @@ std::vector<InterfaceEdge> MeshingStages<D>::RepairInterfaces(
 }
 
 //------------------------------------------------------------------------------------------------
-/** Points to go on with, for as many rounds as were asked for. @throws Cancelled */
+/** Counts a round of those asked for if there are points to go on with. @param inspect returns these */
 template <int D>
-std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(
-  std::optional<InterfaceGuard>& guard, const SimplexMesh<D>& mesh,
-  const std::vector<InterfaceEdge>& nonManifold)
+template <typename Function>
+std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(Function&& inspect)
 {
   std::vector<FeatureSeed<D>> seeds;
-  if constexpr (D == 3)
+  InterfaceFigures& figures = this->Stats.Interfaces;
+  if (figures.Rounds < this->Options.InterfaceRounds)
   {
-    InterfaceFigures& figures = this->Stats.Interfaces;
-    if (figures.Rounds < this->Options.InterfaceRounds)
-    {
-      Stopwatch inspection;
-      seeds = guard->Inspect(mesh, nonManifold);
-      figures.Rounds += seeds.empty() ? 0 : 1;
-      figures.Seeds += seeds.size();
-      this->Stats.Times.Interfaces += inspection.Seconds();
-    }
+    Stopwatch inspection;
+    seeds = inspect();
+    figures.Rounds += seeds.empty() ? 0 : 1;
+    figures.Seeds += seeds.size();
+    this->Stats.Times.Interfaces += inspection.Seconds();
   }
   return seeds;
+}
+
+/** Points to go on with before there is a mesh, which takes longer than to look. @throws Cancelled */
+template <int D>
+std::vector<FeatureSeed<D>> MeshingStages<D>::InspectTriangulation(
+  std::optional<InterfaceGuard>& guard, const Triangulation<D>& triangulation,
+  const Domain<D>& domain, const std::stop_token& stop)
+{
+  if constexpr (D == 3)
+  {
+    return this->InspectInterfaces(
+      [&]
+      {
+        return guard->InspectVertices(
+          FindInterfaceVertices(triangulation, domain, this->Options.Threads, stop));
+      });
+  }
+  return {};
+}
+
+/** Points to go on with. @throws Cancelled */
+template <int D>
+std::vector<FeatureSeed<D>> MeshingStages<D>::InspectMesh(std::optional<InterfaceGuard>& guard,
+  const SimplexMesh<D>& mesh, const std::vector<InterfaceEdge>& nonManifold)
+{
+  if constexpr (D == 3)
+  {
+    return this->InspectInterfaces([&] { return guard->Inspect(mesh, nonManifold); });
+  }
+  return {};
 }
 
 //------------------------------------------------------------------------------------------------

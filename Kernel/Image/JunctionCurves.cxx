@@ -343,18 +343,23 @@ private:
           {
             FineTetrahedron t;
             std::array<std::int64_t, 3> at{ x, y, z };
-            std::uint8_t steps = 0;
-            for (unsigned i = 0; i < 4; ++i)
+            t.Labels[0] = label(x, y, z);
+            for (unsigned i = 0; i < 3; ++i)
             {
-              t.Corners[i] = { Fine * cell[0] + at[0], Fine * cell[1] + at[1],
-                Fine * cell[2] + at[2] };
-              t.Steps[i] = steps;
-              t.Labels[i] = label(at[0], at[1], at[2]);
-              if (i < 3)
-              {
-                ++at[order[i]];
-                steps = static_cast<std::uint8_t>(steps | (1u << order[i]));
-              }
+              ++at[order[i]];
+              t.Labels[i + 1] = label(at[0], at[1], at[2]);
+            }
+            if (!AreThree(t.Labels))
+            {
+              continue;
+            }
+            t.Corners[0] = { Fine * cell[0] + x, Fine * cell[1] + y, Fine * cell[2] + z };
+            t.Steps[0] = 0;
+            for (unsigned i = 0; i < 3; ++i)
+            {
+              t.Corners[i + 1] = t.Corners[i];
+              ++t.Corners[i + 1][order[i]];
+              t.Steps[i + 1] = static_cast<std::uint8_t>(t.Steps[i] | (1u << order[i]));
             }
             this->Trace(t, segments);
           }
@@ -363,14 +368,11 @@ private:
     }
   }
 
+  /** @param t has three labels or four */
   void Trace(const FineTetrahedron& t, std::vector<Segment>& segments) const
   {
     std::array<LabelId, 4> labels = t.Labels;
     const unsigned distinct = CountDistinct(labels.data(), labels.data() + 4);
-    if (distinct < 3)
-    {
-      return;
-    }
     const Numbering::Number corner =
       this->Numbers.NumberOf({ t.Corners[0], t.Steps[1], t.Steps[2], true });
     Segment segment;
