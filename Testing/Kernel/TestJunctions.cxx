@@ -261,6 +261,28 @@ TEST(JunctionLocator, FindsWhereLabelsAreEqual)
   EXPECT_EQ(Locate(two, { 4, 5, 1 }), (Point<3>{ 1.5, 2.5, 3.0 }));
 }
 
+// Margins are kept for the labels and the point that they were computed for, whoever else comes to their place.
+TEST(JunctionLocator, KeepsMarginsApart)
+{
+  const LinearField field{
+    { { { 0.1, 0.7, -0.2, 0.3 }, { 0.4, -0.1, 0.6, 0.2 }, { -0.3, 0.2, 0.5, -0.9 } } }
+  };
+  const LabelImage<3> image = phantoms::TouchingLabels(4);
+  const junctions::LabelledSpace<LinearField> space(image, field);
+  junctions::KnownMargins<LinearField> known(space);
+  std::mt19937 random(3);
+  for (int k = 0; k < 50000; ++k)
+  {
+    const junctions::Index fine{ static_cast<std::int64_t>(random() % 40),
+      static_cast<std::int64_t>(random() % 40), static_cast<std::int64_t>(random() % 40) };
+    std::array<LabelId, 3> labels{ 0, 1, 2 };
+    std::shuffle(labels.begin(), labels.end(), random);
+    labels[2] = random() % 2 == 0 ? labels[2] : labels[0];
+    ASSERT_EQ(known.At(fine, labels),
+      space.MarginsAt(junctions::LabelledSpace<LinearField>::OfFine(fine), labels));
+  }
+}
+
 TEST(JunctionLocator, TakesTies)
 {
   const auto step = [](double constant, double s, double t) -> std::array<double, 4> {
