@@ -320,6 +320,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     interfaces.emplace(image, *this->Sites, domain, density.Base, density.Sizes(), local,
       this->Options.Threads, stop);
   }
+  const NotchBounds notches = this->BoundsInNotches(prepared);
   while (goOn)
   {
     this->Fraction = this->ProgressEnd;
@@ -328,7 +329,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     if (seeds.empty())
     {
       Stopwatch extraction;
-      ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop);
+      ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop, &notches);
       this->Stats.Times.Extraction += extraction.Seconds();
       const std::vector<InterfaceEdge> nonManifold =
         this->RepairInterfaces(prepared, mesh); // may take the last element of a component

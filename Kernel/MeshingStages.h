@@ -18,11 +18,13 @@
 #include "Image/JunctionCurves.h"
 #include "Image/LocalDelta.h"
 #include "InterfaceGuard.h"
+#include "Mesh/NotchFilling.h"
 #include "Mesh/SimplexMesh.h"
 #include "MeshingOptions.h"
 #include "MeshingStatistics.h"
 #include "Refinement/Refiner.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -128,6 +130,20 @@ private:
     const Prepared& prepared, const RefinementContext<D>& context);
   RefinementSettings<D> Settings(
     const Prepared& prepared, const Density& density, const LocalDelta<D>& local) const;
+  /** What refinement promises of elements; 3D. */
+  NotchBounds BoundsInNotches(const Prepared& prepared) const
+  {
+    NotchBounds bounds;
+    if constexpr (D == 3)
+    {
+      bounds.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
+      bounds.DihedralAngle = this->Options.TetSlivers.Angle;
+      bounds.FacetAngle = this->Options.FacetAngle;
+      bounds.JunctionFacetAngle = std::min(bounds.JunctionFacetAngle, bounds.FacetAngle);
+      bounds.Size = prepared.Size.get();
+    }
+    return bounds;
+  }
   Box<D> MakeBox(const Domain<D>& domain, const Density& density) const;
   TeamOptions Team() const;
   bool Refine(RefinementContext<D>& context, const std::vector<FeatureSeed<D>>& seeds,

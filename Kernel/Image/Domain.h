@@ -90,6 +90,9 @@ public:
   /** Whether p lies beyond one of these planes, where all is background. */
   virtual bool IsBeyondCutFaces(const Point<D>&) const { return false; }
 
+  /** Whether p lies beyond none of these planes by more than rounding. */
+  virtual bool IsWithinCutFaces(const Point<D>&) const { return true; }
+
   /** The point on all of these planes to which p moves along the axes of the image. */
   virtual Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned) const { return p; }
 

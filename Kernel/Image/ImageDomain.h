@@ -105,6 +105,11 @@ public:
     return this->Field.Cuts().Exist() &&
       this->Field.Cuts().Distance(this->Field.ToLattice(p)) < 0.0;
   }
+  bool IsWithinCutFaces(const Point<D>& p) const override
+  {
+    return !this->Field.Cuts().Exist() ||
+      this->Field.Cuts().Distance(this->Field.ToLattice(p)) >= -OnCutFace;
+  }
   Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned faces) const override
   {
     return faces == 0

@@ -26,11 +26,12 @@ class Extraction
 {
 public:
   Extraction(const Triangulation<D>& triangulation, const Domain<D>& image, unsigned threads,
-    const std::stop_token& stop)
+    const std::stop_token& stop, const NotchBounds* notches)
     : Source(triangulation)
     , Image(image)
     , Threads(threads)
     , Stop(stop)
+    , Notches(notches)
     , Ids(triangulation.SimplexIdEnd())
     , Vertices(triangulation.VertexIdEnd())
     , Inside(Ids)
@@ -90,6 +91,7 @@ private:
         }
         this->Inside.OfChunk(first) = inside;
       });
+    this->FillNotches();
     this->NumberOfSimplices = this->Inside.TurnIntoPlaces();
   }
 
@@ -97,6 +99,23 @@ private:
   {
     const SimplexState& state = this->Source.State(s);
     return state.Labelled ? state.Label : this->Image.Label(this->Source.GetCircumball(s).Center);
+  }
+
+  /** As if they had been inside from the start. */
+  void FillNotches()
+  {
+    if constexpr (D == 3)
+    {
+      if (this->Notches && this->Image.IsCut())
+      {
+        for (const SimplexId s : voxplex::FillNotches(this->Source, this->Image, *this->Notches,
+               std::span(this->Labels), this->Threads, this->Stop))
+        {
+          ++this->Inside.OfChunk(s);
+          this->MarkVertices(s);
+        }
+      }
+    }
   }
 
   void MarkVertices(SimplexId s)
@@ -293,8 +312,9 @@ private:
   const Domain<D>& Image;
   const unsigned Threads;
   const std::stop_token& Stop;
-  const std::size_t Ids;      ///< all simplex ids are below
-  const std::size_t Vertices; ///< all vertex ids are below
+  const NotchBounds* const Notches; ///< null: they stay
+  const std::size_t Ids;            ///< all simplex ids are below
+  const std::size_t Vertices;       ///< all vertex ids are below
   SimplexMesh<D> Mesh;
   UninitialisedVector<LabelId> Labels;        ///< of each simplex id
   ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
@@ -312,15 +332,15 @@ private:
 //------------------------------------------------------------------------------------------------
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
-  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
+  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop, const NotchBounds* notches)
 {
   mesh = SimplexMesh<D>();
-  mesh = Extraction<D>(triangulation, image, threads, stop).Run();
+  mesh = Extraction<D>(triangulation, image, threads, stop, notches).Run();
 }
 
-template void ExtractMesh<3>(
-  const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
-template void ExtractMesh<4>(
-  const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned, const std::stop_token&);
+template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned,
+  const std::stop_token&, const NotchBounds*);
+template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned,
+  const std::stop_token&, const NotchBounds*);
 
 } // namespace voxplex

@@ -9,6 +9,7 @@
 
 #include "Delaunay/Triangulation.h"
 #include "Image/Domain.h"
+#include "Mesh/NotchFilling.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <stop_token>
@@ -27,17 +28,19 @@ namespace voxplex
  *
  * @param mesh receives the mesh; what it held is lost; empty if this throws
  * @param threads 0 means all cores
+ * @param notches if not null, and the image cuts the object, notches in these faces are filled (FillNotches()); 3D
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
-  SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
+  SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {},
+  const NotchBounds* notches = nullptr);
 
-extern template void ExtractMesh<3>(
-  const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
-extern template void ExtractMesh<4>(
-  const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned, const std::stop_token&);
+extern template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&,
+  unsigned, const std::stop_token&, const NotchBounds*);
+extern template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&,
+  unsigned, const std::stop_token&, const NotchBounds*);
 
 } // namespace voxplex
 
