@@ -75,10 +75,9 @@ LabelImage<3> Regions(const GridGeometry<3>& grid, int voxels)
     });
 }
 
-/** A ball that the border cuts, of a sheared image. */
-IsosurfaceImage<3> CutBall(double shear)
+/** Values of a ball that the border cuts, in 20 x 17 x 14 voxels. */
+std::vector<float> CutBall(const GridGeometry<3>& grid)
 {
-  const GridGeometry<3> grid = Sheared({ 20, 17, 14 }, shear);
   const Point<3> centre = grid.ToFrame({ 9.0, 8.0, 2.0 });
   std::vector<float> values;
   for (int k = 0; k < 14; ++k)
@@ -92,7 +91,7 @@ IsosurfaceImage<3> CutBall(double shear)
       }
     }
   }
-  return IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.0 });
+  return values;
 }
 
 /** A refined triangulation of the box around a domain. */
@@ -132,7 +131,9 @@ void ForEachCase(
   {
     const LabelImage<3> block = Block(shear);
     visit("block", ImageDomain<3>(block, 1.0), 2.3);
-    const IsosurfaceImage<3> ball = CutBall(shear);
+    const GridGeometry<3> grid = Sheared({ 20, 17, 14 }, shear);
+    const std::vector<float> values = CutBall(grid);
+    const auto ball = IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.0 });
     visit("isosurface", ImageDomain<3, ScalarField<3>>(ball), 1.5);
   }
   for (const double shear : { 0.0, 2.0 })
