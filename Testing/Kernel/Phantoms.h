@@ -7,8 +7,10 @@
 #include "Image/LabelImage.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <vector>
 
 namespace voxplex::phantoms
@@ -103,6 +105,27 @@ inline LabelImage<3> Sheet(std::int64_t side)
     {
       const auto within = [=](double x) { return x >= 4 && x < static_cast<double>(side + 4); };
       return within(p[0]) && within(p[1]) && p[2] == std::floor(static_cast<double>(n) / 2) ? 1 : 0;
+    });
+}
+
+/** Cells around random points that fill an image of 28 voxels a side, so that its border cuts them; in turn of so many labels from `first` on. */
+inline LabelImage<3> CutCells(unsigned seed, std::size_t cells, std::size_t labels, int first)
+{
+  std::mt19937 random(seed);
+  std::vector<Point<3>> points(cells);
+  for (Point<3>& p : points)
+  {
+    p = { 0.1 * (random() % 280), 0.1 * (random() % 280), 0.1 * (random() % 280) };
+  }
+  return Make(Cube(28),
+    [&](const Point<3>& p) -> std::int16_t
+    {
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < cells; ++k)
+      {
+        nearest = Distance(p, points[k]) < Distance(p, points[nearest]) ? k : nearest;
+      }
+      return static_cast<std::int16_t>(static_cast<std::size_t>(first) + nearest % labels);
     });
 }
 

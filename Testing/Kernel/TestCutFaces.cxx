@@ -524,22 +524,7 @@ TEST(CutFaces, HaveNoNotches)
 // Around edges in these faces labels change so often that repair has to do there; nothing is dropped for that.
 TEST(CutFaces, GetNoDentsInRepair)
 {
-  std::mt19937 random(5);
-  std::vector<Point<3>> seeds(200);
-  for (Point<3>& p : seeds)
-  {
-    p = { 0.1 * (random() % 280), 0.1 * (random() % 280), 0.1 * (random() % 280) };
-  }
-  const LabelImage<3> image = phantoms::Make(phantoms::Cube(28),
-    [&](const Point<3>& p) -> std::int16_t
-    {
-      std::size_t nearest = 0;
-      for (std::size_t k = 1; k < seeds.size(); ++k)
-      {
-        nearest = Distance(p, seeds[k]) < Distance(p, seeds[nearest]) ? k : nearest;
-      }
-      return static_cast<std::int16_t>(1 + nearest % 3);
-    });
+  const LabelImage<3> image = phantoms::CutCells(5, 200, 3, 1);
   const ImageDomain<3> domain(image, 1.0);
   for (const double delta : { 2.0, 3.0, 4.0 })
   {

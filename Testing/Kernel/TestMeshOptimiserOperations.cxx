@@ -276,23 +276,7 @@ TEST(TetrahedralComplex, TellsKindsOfVertices)
 // never less free, which would let it leave a junction or the edge of a face where the image cuts the object.
 TEST(TetrahedralComplex, KindsHoldAfterFlips)
 {
-  // Cells of three labels and of background, cut by the image's border.
-  std::mt19937 random(7);
-  std::vector<Point<3>> seeds(240);
-  for (Point<3>& p : seeds)
-  {
-    p = { 0.1 * (random() % 280), 0.1 * (random() % 280), 0.1 * (random() % 280) };
-  }
-  const LabelImage<3> image = phantoms::Make(phantoms::Cube(28),
-    [&](const Point<3>& p) -> std::int16_t
-    {
-      std::size_t nearest = 0;
-      for (std::size_t k = 1; k < seeds.size(); ++k)
-      {
-        nearest = Distance(p, seeds[k]) < Distance(p, seeds[nearest]) ? k : nearest;
-      }
-      return static_cast<std::int16_t>(nearest % 4);
-    });
+  const LabelImage<3> image = phantoms::CutCells(7, 240, 4, 0); // of three labels and of background
   const ImageDomain<3> domain(image, 1.0);
   MeshingOptions<3> options;
   options.Delta = 1.2;
