@@ -108,7 +108,10 @@ inline LabelImage<3> Sheet(std::int64_t side)
     });
 }
 
-/** Cells around random points that fill an image of 28 voxels a side, so that its border cuts them; in turn of so many labels from `first` on. */
+/**
+ * Cells around random points that fill an image of 28 voxels a side, so that its border cuts them; in turn of so many
+ * labels from `first` on.
+ */
 inline LabelImage<3> CutCells(unsigned seed, std::size_t cells, std::size_t labels, int first)
 {
   std::mt19937 random(seed);

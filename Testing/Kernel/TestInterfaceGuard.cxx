@@ -25,6 +25,32 @@ using namespace voxplex::checks;
 namespace
 {
 
+/** Calls function(voxel, next) for both sides of all faces between voxels of different labels. */
+template <typename Function>
+void ForEachFace(const LabelImage<3>& image, Function&& function)
+{
+  const auto& n = image.CropDimensions();
+  GridGeometry<3>::Index voxel;
+  for (voxel[2] = -1; voxel[2] < n[2]; ++voxel[2])
+  {
+    for (voxel[1] = -1; voxel[1] < n[1]; ++voxel[1])
+    {
+      for (voxel[0] = -1; voxel[0] < n[0]; ++voxel[0])
+      {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          GridGeometry<3>::Index next = voxel;
+          ++next[a];
+          if (image.At(voxel) != image.At(next))
+          {
+            function(voxel, next);
+          }
+        }
+      }
+    }
+  }
+}
+
 /** From the faces between voxels of different labels to the vertices of the mesh's interfaces, at most. */
 double LargestDistance(const LabelImage<3>& image, const SimplexMesh<3>& mesh)
 {
@@ -33,50 +59,18 @@ double LargestDistance(const LabelImage<3>& image, const SimplexMesh<3>& mesh)
   {
     used.insert(facet.begin(), facet.end());
   }
-  const auto& n = image.CropDimensions();
-  const auto idOf = [&](const GridGeometry<3>::Index& v) -> int
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      if (v[a] < 0 || v[a] >= n[a])
-      {
-        return 0;
-      }
-    }
-    return image.Ids()[static_cast<std::size_t>((v[2] * n[1] + v[1]) * n[0] + v[0])];
-  };
   double largest = 0.0;
-  GridGeometry<3>::Index v;
-  for (v[2] = -1; v[2] < n[2]; ++v[2])
-  {
-    for (v[1] = -1; v[1] < n[1]; ++v[1])
+  ForEachFace(image,
+    [&](const GridGeometry<3>::Index& voxel, const GridGeometry<3>::Index& next)
     {
-      for (v[0] = -1; v[0] < n[0]; ++v[0])
+      const Point<3> centre = Interpolate(image.CentreOf(voxel), image.CentreOf(next), 0.5);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t p : used)
       {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          GridGeometry<3>::Index next = v;
-          ++next[a];
-          if (idOf(v) == idOf(next))
-          {
-            continue;
-          }
-          Point<3> index;
-          for (std::size_t b = 0; b < 3; ++b)
-          {
-            index[b] = static_cast<double>(v[b] + image.CropOrigin()[b]) + (a == b ? 0.5 : 0.0);
-          }
-          const Point<3> centre = image.Grid().ToFrame(index);
-          double nearest = std::numeric_limits<double>::infinity();
-          for (const std::uint32_t p : used)
-          {
-            nearest = std::min(nearest, Distance(mesh.Points[p], centre));
-          }
-          largest = std::max(largest, nearest);
-        }
+        nearest = std::min(nearest, Distance(mesh.Points[p], centre));
       }
-    }
-  }
+      largest = std::max(largest, nearest);
+    });
   return largest;
 }
 
@@ -111,31 +105,18 @@ std::set<Point<3>> CrossingsNear(
   const LabelImage<3>& image, const Domain<3>& domain, const Point<3>& p, double radius)
 {
   std::set<Point<3>> crossings;
-  const auto& n = image.CropDimensions();
-  GridGeometry<3>::Index voxel;
-  for (voxel[2] = -1; voxel[2] < n[2]; ++voxel[2])
-  {
-    for (voxel[1] = -1; voxel[1] < n[1]; ++voxel[1])
+  ForEachFace(image,
+    [&](const GridGeometry<3>::Index& voxel, const GridGeometry<3>::Index& next)
     {
-      for (voxel[0] = -1; voxel[0] < n[0]; ++voxel[0])
+      const Point<3> from = image.CentreOf(voxel);
+      const Point<3> to = image.CentreOf(next);
+      Point<3> z;
+      if (Distance(Interpolate(from, to, 0.5), p) <= radius &&
+        domain.FirstCrossing(from, image.At(voxel), to, z))
       {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          GridGeometry<3>::Index next = voxel;
-          ++next[a];
-          const Point<3> from = image.CentreOf(voxel);
-          const Point<3> to = image.CentreOf(next);
-          Point<3> z;
-          if (image.At(voxel) != image.At(next) &&
-            Distance(Interpolate(from, to, 0.5), p) <= radius &&
-            domain.FirstCrossing(from, image.At(voxel), to, z))
-          {
-            crossings.insert(z);
-          }
-        }
+        crossings.insert(z);
       }
-    }
-  }
+    });
   return crossings;
 }
 
