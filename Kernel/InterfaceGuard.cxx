@@ -5,6 +5,7 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -83,23 +84,12 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
   const Point<3> spacing{ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) };
   this->FinestSpacing = FinestVoxels * std::min({ spacing[0], spacing[1], spacing[2] });
   this->VoxelDiagonal = std::sqrt(Dot(spacing, spacing));
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    Point<3> half{};
-    half[a] = 0.5;
-    this->HalfSteps[a] = grid.ToFrame(half);
-  }
   if (!this->Sizes && !this->Base.Graded)
   {
     constexpr double Safety = 1.0 - 1e-6;
     const double distance = std::max(LargestDistance * this->Base.Delta, this->VoxelDiagonal);
-    this->EverywhereNear2 = Safety * distance * distance;
-    double half = 0.0;
-    for (const Point<3>& step : this->HalfSteps)
-    {
-      half = std::max(half, std::sqrt(Dot(step, step)));
-    }
-    this->VoxelNear2 = Safety * (distance - half) * (distance - half); // half a diagonal is longer
+    const double half = 0.5 * std::max({ spacing[0], spacing[1], spacing[2] });
+    this->NearVoxel = Safety * (distance - half); // half a diagonal is longer
   }
 }
 
@@ -183,25 +173,11 @@ bool InterfaceGuard::IsFarFromTriangles(
     mesh.Triangles.Distance2To(z, hint) > nearEnough * nearEnough;
 }
 
-// Most are near a vertex that is known already: then it does not matter whether they are faces.
 void InterfaceGuard::FindFarFacesOf(
   const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const
 {
-  const Point<3> centre = this->Image.CentreOf(voxel);
-  if (hint.Vertex && Distance2(*hint.Vertex, centre) < this->VoxelNear2)
-  {
-    return;
-  }
   for (unsigned a = 0; a < 3; ++a)
   {
-    if (hint.Vertex)
-    {
-      const Point<3> offset = Subtract(*hint.Vertex, centre);
-      if (Distance2(offset, this->HalfSteps[a]) < this->EverywhereNear2)
-      {
-        continue;
-      }
-    }
     const Face face{ voxel, a };
     if (this->Image.At(voxel) != this->Image.At(face.Next()) && this->IsFar(face, mesh, hint))
     {
@@ -216,32 +192,61 @@ Point<3> InterfaceGuard::CentreOf(const Face& face) const
 }
 
 //------------------------------------------------------------------------------------------------
-template <typename Function>
-void InterfaceGuard::ForEachSiteOfRow(std::size_t row, Function&& function) const
+// Row by row of a ball: IndexToFrame is upper triangular, so that z and y of the frame are the same all along a row.
+void InterfaceGuard::ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) const
 {
-  const auto rows =
-    static_cast<std::size_t>(this->Sites.Dimensions()[1]); // with a layer of background
-  const auto words = this->Sites.Row(row);
-  for (std::size_t w = 0; w < words.size(); ++w)
+  const GridGeometry<3>::Matrix& m = this->Image.Grid().IndexToFrame;
+  const Index& n = voxels.Dimensions();
+  Point<3> x = this->Image.Grid().ToIndex(p); // in the mask, which has a layer more than the crop
+  for (std::size_t a = 0; a < 3; ++a)
   {
-    for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
+    x[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
+  }
+  // The places along an axis that are no farther than half a width from a centre; its square is rounded.
+  const auto places = [&](std::size_t a, double centre, double half2)
+  {
+    const double half = std::sqrt(std::max(half2, 0.0)) / m[a][a];
+    return std::pair{ std::max<std::int64_t>(
+                        static_cast<std::int64_t>(std::ceil(centre - half)), 0),
+      std::min(static_cast<std::int64_t>(std::floor(centre + half)), n[a] - 1) };
+  };
+  const double radius2 = this->NearVoxel * this->NearVoxel;
+  const auto layers = places(2, x[2], radius2);
+  for (std::int64_t k = layers.first; k <= layers.second; ++k)
+  {
+    const double dz = static_cast<double>(k) - x[2];
+    const double left2 = radius2 - m[2][2] * dz * m[2][2] * dz;
+    const auto rows = places(1, x[1] - m[1][2] * dz / m[1][1], left2);
+    for (std::int64_t j = rows.first; j <= rows.second; ++j)
     {
-      function(Index{ static_cast<std::int64_t>(64 * w) + std::countr_zero(bits) - 1,
-        static_cast<std::int64_t>(row % rows) - 1, static_cast<std::int64_t>(row / rows) - 1 });
+      const double dy = static_cast<double>(j) - x[1];
+      const double y = m[1][1] * dy + m[1][2] * dz;
+      const auto [first, last] =
+        places(0, x[0] - (m[0][1] * dy + m[0][2] * dz) / m[0][0], left2 - y * y);
+      const auto words = voxels.Row(voxels.RowOf({ 0, j, k }));
+      for (std::int64_t w = first / 64; w <= last / 64; ++w)
+      {
+        const std::int64_t low = std::max(first - 64 * w, std::int64_t{ 0 });
+        const std::int64_t high = std::min(last - 64 * w, std::int64_t{ 63 });
+        const std::uint64_t bits =
+          low > high ? 0 : (~std::uint64_t{ 0 } >> (63 - (high - low))) << low;
+        // Relaxed: bits are only cleared, and the loop's end orders that before its readers.
+        const std::atomic_ref<std::uint64_t> word(words[static_cast<std::size_t>(w)]);
+        if ((word.load(std::memory_order_relaxed) & bits) != 0)
+        {
+          word.fetch_and(~bits, std::memory_order_relaxed);
+        }
+      }
     }
   }
 }
 
 //------------------------------------------------------------------------------------------------
-InterfaceGuard::Interfaces::Interfaces(const std::vector<Point<3>>& vertices, double reach,
+InterfaceGuard::Interfaces::Interfaces(double reach, std::size_t expected,
   std::vector<Triangle> triangles, unsigned threads, const std::stop_token& stop)
-  : Vertices({ 0.0, 0.0, 0.0 }, reach, vertices.size())
+  : Vertices({ 0.0, 0.0, 0.0 }, reach, expected)
   , Triangles(std::move(triangles), threads, stop)
 {
-  for (const Point<3>& p : vertices)
-  {
-    this->Vertices.Add(p);
-  }
 }
 
 /** No vertex is asked for that is farther than this. */
@@ -265,61 +270,92 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FilterFar(
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(
-  std::vector<Point<3>>&& vertices, std::vector<Triangle>&& triangles)
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
 {
-  const Interfaces interfaces(
-    vertices, this->Reach(), std::move(triangles), this->Threads, this->Stop);
-  std::vector<Face> far;
+  const std::vector<Point<3>> vertices = VerticesOfInterfaces(mesh);
+  // Where delta is graded there may be few vertices, but the triangles between them must be near.
+  Interfaces interfaces(this->Reach(), vertices.size(),
+    this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop);
+  for (const Point<3>& p : vertices)
+  {
+    interfaces.Vertices.Add(p);
+  }
   if (this->Base.Graded)
   {
-    far = this->FilterFar(this->Sampled, interfaces);
-    return far.empty() ? this->FindAllFar(interfaces) : far;
+    const std::vector<Face> far = this->FilterFar(this->Sampled, interfaces);
+    return far.empty() ? this->FindAllFar(interfaces, vertices) : far;
   }
-  if (this->Known.empty())
+  if (!this->Known)
   {
-    far = this->FindAllFar(interfaces);
+    return this->FindAllFar(interfaces, vertices);
   }
-  else
-  {
-    // What was near is so still, unless the vertex that it was near to is none any more.
-    std::vector<Face> faces = this->Sampled;
-    const double same = 1e-6 * this->VoxelDiagonal;
-    for (const Point<3>& p : this->Known)
+  std::vector<Point<3>> gone;
+  this->Known->Vertices.ForEach(
+    [&](const Point<3>& p)
     {
-      if (!interfaces.Vertices.AnyWithin(p, same))
+      if (!interfaces.Vertices.AnyWithin(p, 1e-6 * this->VoxelDiagonal))
       {
-        this->AddFacesNear(p, this->Reach() + same, faces);
+        gone.push_back(p);
       }
-    }
-    SortUnique(faces);
-    far = this->FilterFar(faces, interfaces);
+    });
+  return this->FindFarAgain(gone, interfaces);
+}
+
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarAgain(
+  const std::vector<Point<3>>& gone, const Interfaces& interfaces) const
+{
+  std::vector<Face> faces = this->Sampled;
+  for (const Point<3>& p : gone)
+  {
+    this->AddFacesNear(p, this->Reach() + 1e-6 * this->VoxelDiagonal, faces); // for rounding
   }
-  this->Known = std::move(vertices);
-  return far;
+  SortUnique(faces);
+  return this->FilterFar(faces, interfaces);
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<InterfaceGuard::Face> InterfaceGuard::FindAllFar(const Interfaces& interfaces) const
+std::vector<InterfaceGuard::Face> InterfaceGuard::FindAllFar(
+  const Interfaces& interfaces, const std::vector<Point<3>>& vertices) const
 {
+  constexpr std::size_t Grain = 1024;
   constexpr std::size_t RowsAtOnce = 64;
-  constexpr std::size_t VoxelsOfHint = 4;
-  const std::size_t rows = this->Sites.NumberOfRows();
+  constexpr std::int64_t VoxelsOfHint = 4;
+  BitMask<3> voxels = this->Sites;
+  if (this->NearVoxel > 0.0)
+  {
+    ParallelFor(
+      0, vertices.size(), Grain, this->Threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->ClearVoxelsNear(vertices[i], voxels);
+        }
+      },
+      this->Stop);
+  }
+  const std::size_t rows = voxels.NumberOfRows();
+  const Index& n = voxels.Dimensions();
   std::vector<std::vector<Face>> found((rows - 1) / RowsAtOnce + 1);
   ParallelFor(
     0, rows, RowsAtOnce, this->Threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<Hint> hints(64 * this->Sites.WordsPerRow() / VoxelsOfHint);
+      std::vector<Hint> hints(static_cast<std::size_t>(n[0] / VoxelsOfHint + 1));
       for (std::size_t row = first; row < last; ++row)
       {
-        this->ForEachSiteOfRow(row,
-          [&](const Index& voxel)
+        const auto y = static_cast<std::int64_t>(row) % n[1] - 1;
+        const auto z = static_cast<std::int64_t>(row) / n[1] - 1;
+        const auto words = std::as_const(voxels).Row(row);
+        for (std::size_t w = 0; w < words.size(); ++w)
+        {
+          for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
           {
-            const auto x = static_cast<std::size_t>(voxel[0] + 1);
-            this->FindFarFacesOf(
-              voxel, interfaces, hints[x / VoxelsOfHint], found[first / RowsAtOnce]);
-          });
+            const std::int64_t x = static_cast<std::int64_t>(64 * w) + std::countr_zero(bits);
+            this->FindFarFacesOf({ x - 1, y, z }, interfaces,
+              hints[static_cast<std::size_t>(x / VoxelsOfHint)], found[first / RowsAtOnce]);
+          }
+        }
       }
     },
     this->Stop);
@@ -403,19 +439,33 @@ void InterfaceGuard::LowerBound(const Face& face)
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceGuard::InspectVertices(std::vector<Point<3>> vertices)
+std::vector<FeatureSeed<3>> InterfaceGuard::InspectVertices(
+  const InterfaceVertices::Changes& changes)
 {
-  return this->Base.Graded ? std::vector<FeatureSeed<3>>()
-                           : this->Propose(this->FindFarFaces(std::move(vertices), {}), {});
+  const bool isFirst = !this->Known;
+  if (isFirst)
+  {
+    this->Known.emplace(
+      this->Reach(), changes.Added.size(), std::vector<Triangle>(), this->Threads, this->Stop);
+  }
+  for (const Point<3>& p : changes.Gone)
+  {
+    this->Known->Vertices.Remove(p);
+  }
+  for (const Point<3>& p : changes.Added)
+  {
+    this->Known->Vertices.Add(p);
+  }
+  return this->Propose(isFirst ? this->FindAllFar(*this->Known, changes.Added)
+                               : this->FindFarAgain(changes.Gone, *this->Known),
+    {});
 }
 
 //------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
   const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
 {
-  // Where delta is graded there may be few vertices, but the triangles between them must be near.
-  const std::vector<Face> far = this->FindFarFaces(
-    VerticesOfInterfaces(mesh), this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>());
+  const std::vector<Face> far = this->FindFarFaces(mesh);
   this->FarFaces = far.size();
   this->NonManifoldEdges = edges.size();
   // At junctions there may be some; they are no reason to go on, but are sampled along with the rest.

@@ -14,6 +14,7 @@
 #include "Image/LocalDelta.h"
 #include "Mesh/BoundingTree.h"
 #include "Mesh/InterfaceEdges.h"
+#include "Mesh/InterfaceVertices.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
@@ -21,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -43,9 +45,9 @@ namespace voxplex
  * smaller delta besides (LocalDelta), so that circumcentres come to lie in what is thin. CGAL's Mesh_3 refines
  * facets around such edges to the same end; the thesis has no such rule.
  *
- * The first inspection looks at all faces, later ones at those that were sampled and at those whose vertex is none of
- * an interface any more; where delta is graded, at those that were sampled, and at all others only when nothing is
- * wrong with these.
+ * The first InspectVertices() looks at all faces; later ones, and Inspect() after it, at those that were sampled and at
+ * those whose vertex is none of an interface any more. Where delta is graded Inspect() looks at those that were sampled,
+ * and at all others only when nothing is wrong with these.
  *
  * Not thread safe; uses threads of its own. Inspect() takes time linear in the image's surface voxels and
  * n log n in the mesh's interface facets.
@@ -69,12 +71,11 @@ public:
     unsigned threads, const std::stop_token& stop);
 
   /**
-   * What needs no mesh: points that would bring vertices near to far faces.
-   * @param vertices of the interfaces: FindInterfaceVertices()
-   * @return nothing if delta is graded, too
+   * What needs no mesh: points that would bring vertices near to far faces. Not where delta is graded: there triangles count.
+   * @param changes of the interfaces' vertices since the last call; at the first all are added
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> InspectVertices(std::vector<Point<3>> vertices);
+  std::vector<FeatureSeed<3>> InspectVertices(const InterfaceVertices::Changes& changes);
 
   /**
    * Points that would mend what is wrong with the mesh's interfaces.
@@ -108,13 +109,11 @@ private:
     }
   };
 
-  template <typename Function>
-  void ForEachSiteOfRow(std::size_t row, Function&& function) const;
   void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
-  /** What the mesh's interfaces consist of. */
+  /** What interfaces consist of. */
   struct Interfaces
   {
-    Interfaces(const std::vector<Point<3>>& vertices, double reach, std::vector<Triangle> triangles,
+    Interfaces(double reach, std::size_t expected, std::vector<Triangle> triangles,
       unsigned threads, const std::stop_token& stop);
 
     FeatureGrid<3> Vertices;
@@ -129,11 +128,16 @@ private:
   /** Those of a voxel on its upper sides. */
   void FindFarFacesOf(
     const Index& voxel, const Interfaces& mesh, Hint& hint, std::vector<Face>& far) const;
+  /** Clears the bits of voxels nearer to p than NearVoxel. Other threads may do so at the same time. */
+  void ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) const;
   double Reach() const;
-  /** @param triangles used where delta is graded */
-  std::vector<Face> FindFarFaces(
-    std::vector<Point<3>>&& vertices, std::vector<Triangle>&& triangles);
-  std::vector<Face> FindAllFar(const Interfaces& interfaces) const;
+  std::vector<Face> FindFarFaces(const SimplexMesh<3>& mesh) const;
+  /** @param vertices those of the interfaces */
+  std::vector<Face> FindAllFar(
+    const Interfaces& interfaces, const std::vector<Point<3>>& vertices) const;
+  /** Of those that were sampled, and those that may have been near to vertices that have gone. */
+  std::vector<Face> FindFarAgain(
+    const std::vector<Point<3>>& gone, const Interfaces& interfaces) const;
   std::vector<Face> FilterFar(const std::vector<Face>& faces, const Interfaces& interfaces) const;
   /** Points around far faces and middles of edges. */
   std::vector<FeatureSeed<3>> Propose(
@@ -160,17 +164,15 @@ private:
   const BaseDensity<3> Base;
   const InterfaceSizes<3>* const Sizes;
   double VoxelDiagonal;
-  std::array<Point<3>, 3> HalfSteps; ///< from the centre of a voxel to those of its upper faces
-  /** Squared; no face is far that has a vertex nearer to its centre, up to rounding. 0: depends on the face. */
-  double EverywhereNear2 = 0.0;
-  double VoxelNear2 = 0.0; ///< the same from the centre of a voxel to all of its upper faces
+  /** No face is far whose lower voxel has a vertex nearer to its centre. 0: depends on the face. */
+  double NearVoxel = 0.0;
   double FinestSpacing;
   LocalDelta<3>& Local;
   const unsigned Threads;
   const std::stop_token Stop;
   std::map<Index, unsigned> Visits; ///< by cell of LocalDelta
   std::vector<Face> Sampled;        ///< in earlier inspections, ascending
-  std::vector<Point<3>> Known;      ///< vertices of the last inspection, unless delta is graded
+  std::optional<Interfaces> Known;  ///< vertices at the last InspectVertices()
   std::size_t FarFaces = 0;
   std::size_t NonManifoldEdges = 0;
 };

@@ -314,9 +314,14 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
   }
   const std::uint64_t expected = estimate.Vertices;
   bool goOn = this->Refine(context, seeds, RefinementStart::Everywhere, expected, stop);
+  std::optional<InterfaceVertices> vertices;
   std::optional<InterfaceGuard> interfaces;
   if constexpr (D == 3)
   {
+    if (!density.Base.Graded)
+    {
+      vertices.emplace(context.Mesh, domain, this->Options.Threads, stop);
+    }
     interfaces.emplace(image, *this->Sites, domain, density.Base, density.Sizes(), local,
       this->Options.Threads, stop);
   }
@@ -325,7 +330,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
   {
     this->Fraction = this->ProgressEnd;
     local.ForgetLowered(); // refinement has seen to it
-    seeds = this->InspectTriangulation(interfaces, context.Mesh, domain, stop);
+    seeds = this->InspectTriangulation(interfaces, vertices);
     if (seeds.empty())
     {
       Stopwatch extraction;
@@ -632,17 +637,14 @@ std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(Function&& inspe
 /** Points to go on with before there is a mesh, which takes longer than to look. @throws Cancelled */
 template <int D>
 std::vector<FeatureSeed<D>> MeshingStages<D>::InspectTriangulation(
-  std::optional<InterfaceGuard>& guard, const Triangulation<D>& triangulation,
-  const Domain<D>& domain, const std::stop_token& stop)
+  std::optional<InterfaceGuard>& guard, std::optional<InterfaceVertices>& vertices)
 {
   if constexpr (D == 3)
   {
-    return this->InspectInterfaces(
-      [&]
-      {
-        return guard->InspectVertices(
-          FindInterfaceVertices(triangulation, domain, this->Options.Threads, stop));
-      });
+    if (vertices)
+    {
+      return this->InspectInterfaces([&] { return guard->InspectVertices(vertices->Update()); });
+    }
   }
   return {};
 }

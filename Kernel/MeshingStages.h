@@ -154,8 +154,8 @@ private:
   std::vector<InterfaceEdge> RepairInterfaces(const Prepared& prepared, SimplexMesh<D>& mesh);
   template <typename Function>
   std::vector<FeatureSeed<D>> InspectInterfaces(Function&& inspect);
-  std::vector<FeatureSeed<D>> InspectTriangulation(std::optional<InterfaceGuard>& guard,
-    const Triangulation<D>& triangulation, const Domain<D>& domain, const std::stop_token& stop);
+  std::vector<FeatureSeed<D>> InspectTriangulation(
+    std::optional<InterfaceGuard>& guard, std::optional<InterfaceVertices>& vertices);
   std::vector<FeatureSeed<D>> InspectMesh(std::optional<InterfaceGuard>& guard,
     const SimplexMesh<D>& mesh, const std::vector<InterfaceEdge>& nonManifold);
   void Optimise(const Prepared& prepared, SimplexMesh<D>& mesh);

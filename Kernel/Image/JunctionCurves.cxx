@@ -427,7 +427,13 @@ JunctionCurves::JunctionCurves(const LabelImage<3>& image, const Field& field,
       }
     },
     stop);
+  std::size_t count = 0;
+  for (const std::vector<Segment>& layer : byLayer)
+  {
+    count += layer.size();
+  }
   std::vector<Segment> segments;
+  segments.reserve(count);
   for (const std::vector<Segment>& layer : byLayer)
   {
     segments.insert(segments.end(), layer.begin(), layer.end());

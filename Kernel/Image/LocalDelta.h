@@ -151,20 +151,23 @@ public:
     {
       const auto n = static_cast<std::size_t>(this->Cells[a]);
       const auto step = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
+      // To a row of cells from that before or behind it along the axis.
       const auto spread = [&](std::size_t from, std::size_t to)
-      { this->Graded[to] = std::min(this->Graded[to], this->Graded[from] + step); };
-      for (std::size_t c = 0; c < this->Graded.size(); ++c)
       {
-        if (c / stride % n != 0)
+        for (std::size_t c = 0; c < stride; ++c)
         {
-          spread(c - stride, c);
+          this->Graded[to + c] = std::min(this->Graded[to + c], this->Graded[from + c] + step);
         }
-      }
-      for (std::size_t c = this->Graded.size(); c-- > 0;)
+      };
+      for (std::size_t first = 0; first < this->Graded.size(); first += stride * n)
       {
-        if (c / stride % n != n - 1)
+        for (std::size_t k = 1; k < n; ++k)
         {
-          spread(c + stride, c);
+          spread(first + (k - 1) * stride, first + k * stride);
+        }
+        for (std::size_t k = n - 1; k > 0; --k)
+        {
+          spread(first + k * stride, first + (k - 1) * stride);
         }
       }
       stride *= n;

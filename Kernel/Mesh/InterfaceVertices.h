@@ -10,24 +10,66 @@
 #include "Delaunay/Triangulation.h"
 #include "Image/Domain.h"
 
+#include <cstdint>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace voxplex
 {
 
 /**
- * The vertices of all facets between tetrahedra of different labels, in the order of their ids: those of the facets that
- * ExtractMesh() makes.
+ * @brief The vertices of all facets between tetrahedra of different labels: those of the facets that ExtractMesh()
+ * makes. Follows a triangulation that is refined further.
  *
- * @param triangulation refined, so that the balls of which SimplexState::NearSurface is not set meet no interface
- * @param threads 0 means all cores; the result does not depend on it
- * @throws Cancelled if a stop was requested before the end
- *
- * Time linear in the numbers of simplices and vertices.
+ * Not thread safe; uses threads of its own. Nobody may change the triangulation while this looks at it.
  */
-std::vector<Point<3>> FindInterfaceVertices(const Triangulation<3>& triangulation,
-  const Domain<3>& image, unsigned threads = 1, const std::stop_token& stop = {});
+class InterfaceVertices
+{
+public:
+  /** Positions, each in the order of the vertices' ids. */
+  struct Changes
+  {
+    std::vector<Point<3>> Added;
+    std::vector<Point<3>> Gone;
+  };
+
+  /**
+   * The references must live as long as this.
+   * @param threads 0 means all cores; results do not depend on it
+   */
+  InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
+    unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * What has changed since the last call; at the first, all are added. The triangulation is refined, so that the balls
+   * of which SimplexState::NearSurface is not set meet no interface.
+   *
+   * The first call takes time linear in the numbers of simplices and vertices; later ones nearly none for each of
+   * these, and time linear in the sizes of the stars of those vertices that have new simplices.
+   * @throws Cancelled if a stop was requested before the end
+   */
+  Changes Update();
+
+private:
+  using Entry = std::pair<VertexId, Point<3>>;
+
+  Changes FindAll();
+  Changes FindChanges();
+  std::vector<VertexId> VerticesOfNewSimplices();
+  /** That of a simplex when it was seen last, or None if it was not alive. */
+  std::uint32_t GenerationOf(SimplexId s) const;
+  LabelId LabelOf(SimplexId s) const;
+  /** @param star scratch */
+  bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
+
+  const Triangulation<3>& Source;
+  const Domain<3>& Image;
+  const unsigned Threads;
+  const std::stop_token Stop;
+  std::vector<std::uint32_t> Seen; ///< GenerationOf() every simplex at the last call
+  std::vector<Entry> Known;        ///< at the last call, in the order of their ids
+};
 
 } // namespace voxplex
 

@@ -13,19 +13,20 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace voxplex
 {
 
 /**
- * @brief Feature vertices hashed by the cell of a uniform grid; they are added and never removed.
+ * @brief Feature vertices hashed by the cell of a uniform grid; refinement adds them and never removes one.
  *
  * Cells have twice the side of the usual query radius, so a query visits at most 2^D of them, and more only
  * if its radius is larger. Every
  * cell is a list whose head sits in a table of fixed size.
  *
- * All methods may be called by any number of threads at once; a query sees what was added before it
+ * All methods but Remove() may be called by any number of threads at once; a query sees what was added before it
  * began. No thread ever waits for another.
  */
 template <int D>
@@ -61,6 +62,34 @@ public:
     while (!head.compare_exchange_weak(
       node.Next, n, std::memory_order_release, std::memory_order_relaxed))
     {
+    }
+  }
+
+  /** Takes a vertex out that was added with just this position. Nobody may use the grid meanwhile. */
+  void Remove(const Point<D>& p)
+  {
+    std::uint32_t n = this->Heads[this->Bucket(this->CellOf(p))].load(std::memory_order_relaxed);
+    while (n != End && this->Nodes[n].Position != p)
+    {
+      n = this->Nodes[n].Next;
+    }
+    if (n != End)
+    {
+      this->Nodes[n].Position.fill(std::numeric_limits<double>::infinity()); // near nothing
+    }
+  }
+
+  /** Calls function(position) for all vertices that are there, in the order in which they were added. */
+  template <typename Function>
+  void ForEach(Function&& function) const
+  {
+    for (std::uint32_t n = 0; n < this->Size(); ++n)
+    {
+      const Point<D>& p = this->Nodes[n].Position;
+      if (p[0] < std::numeric_limits<double>::infinity())
+      {
+        function(p);
+      }
     }
   }
 
@@ -117,6 +146,7 @@ public:
     return nullptr;
   }
 
+  /** Those that were added. */
   std::uint32_t Size() const { return this->Count.load(std::memory_order_relaxed); }
 
 private:

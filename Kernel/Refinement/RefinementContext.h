@@ -275,6 +275,7 @@ struct alignas(CacheLineSize) RefinementWorker
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval> PendingRemovals;
+  bool ScreensLater = false; ///< what is made is not screened: whoever sets it does so at the end
   RuleStatistics Statistics;
 };
 

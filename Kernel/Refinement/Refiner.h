@@ -184,11 +184,8 @@ private:
       this->StartAtSeeds();
       return;
     }
+    SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0);
     std::vector<SimplexId> simplices;
-    if (!this->Seeds.empty())
-    {
-      SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0);
-    }
     for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
     {
       if (mesh.IsAlive(s))
@@ -244,8 +241,9 @@ private:
       this->StartAtSeeds();
       return;
     }
-    const std::vector<SimplexId> simplices = SeedTriangulation<Rules>(this->Context,
-      *this->Workers[0], this->Seeds, std::size_t{ this->Options.SeedsPerThread } * threads);
+    SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds,
+      std::size_t{ this->Options.SeedsPerThread } * threads);
+    const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh);
     for (std::size_t t = 0; t < threads; ++t)
     {
       this->Screen(*this->Workers[t], simplices.data() + simplices.size() * t / threads,

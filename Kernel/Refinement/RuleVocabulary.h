@@ -49,6 +49,10 @@ public:
   /** After every operation: pushes the new simplices that may be poor, by cheap bounds alone. */
   void ScreenCreated()
   {
+    if (this->Worker.ScreensLater)
+    {
+      return;
+    }
     this->Worker.RemoveDeleted(this->Context.Mesh);
     for (const SimplexId t : this->Worker.Kernel.Created)
     {

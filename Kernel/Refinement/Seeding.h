@@ -93,7 +93,7 @@ SimplexId FirstLiving(const Triangulation<D>& mesh)
  * Inserts feature points along a Hilbert curve.
  *
  * @param Rules as in Refiner
- * @param worker inserts; nobody else may operate meanwhile. What is made is in its list of poor elements.
+ * @param worker inserts; nobody else may operate meanwhile. What is made is screened, unless it screens later.
  */
 template <typename Rules, int D = Rules::Dimension>
 void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
@@ -117,31 +117,35 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
 }
 
 /**
- * Inserts a sample of the interfaces and the seeds that are asked for, and lists all living simplices so that neighbours in the list are
- * near each other in space: consecutive pieces of it are good starts for threads.
- *
- * The thesis starts all threads from the few simplices of the box and loses its first seconds to
- * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
- * of their own. The points are counted as insertions by R1.
+ * Inserts a sample of the interfaces and the seeds that are asked for.
  *
  * @param Rules as in Refiner
- * @param worker inserts; nobody else may operate meanwhile. Its list of poor elements is empty afterwards.
+ * @param worker inserts; nobody else may operate meanwhile. Nothing is screened: most of what is made does not last.
  * @param seeds to be inserted besides
  * @param nodes about how many points the sample has, 0 for none
  */
 template <typename Rules, int D = Rules::Dimension>
-std::vector<SimplexId> SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
+void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
   const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
 {
-  Triangulation<D>& mesh = context.Mesh;
+  worker.ScreensLater = true;
   InsertSeeds<Rules>(
     context, worker, seeds); // first: the sample would stand in the way of junctions
   InsertSeeds<Rules>(context, worker, SampleInterfaces(context, nodes));
-  while (!worker.Poor.Empty()) // everything is screened again, in the order of the list
-  {
-    worker.Poor.Pop();
-  }
+  worker.ScreensLater = false;
+}
 
+/**
+ * All living simplices, so that neighbours in the list are near each other in space: consecutive pieces of it are good
+ * starts for threads.
+ *
+ * The thesis starts all threads from the few simplices of the box and loses its first seconds to
+ * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
+ * of their own. The points are counted as insertions by R1.
+ */
+template <int D>
+std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh)
+{
   std::vector<std::pair<std::uint64_t, SimplexId>> order;
   for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
   {

@@ -469,13 +469,23 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
   local.SetBound({ 60, 60, 60 }, 1, 3, 0.5);
   EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 60.0, 60.0, 60.0 }), 0.0));
   EXPECT_FALSE(local.HasLoweredWithin(middle, 0.0));
-  const double slope = LocalDelta<3>::Slope;
-  for (const double away : { 8.0, 20.0 })
+  // As of Grade(): from cells 4 to 7 and 4 to 5 to all others.
+  constexpr double cell = LocalDelta<3>::Cell;
+  const auto cells = [](double c, double first, double last) {
+    return std::max({ first - c, c - last, 0.0 });
+  };
+  for (double z = 0.0; z < 16.0; ++z)
   {
-    const double along = local.GradedAt(grid.ToFrame({ 29.0 + away, 20.0, 20.0 }));
-    EXPECT_NEAR(along, 0.25 + slope * away, slope * 4.0);
-    const double across = local.GradedAt(grid.ToFrame({ 25.0, 20.0 + away, 20.0 }));
-    EXPECT_NEAR(across, 0.25 + slope * 2.0 * away, slope * 2.0 * 4.0);
+    for (double y = 0.0; y < 16.0; ++y)
+    {
+      for (double x = 0.0; x < 16.0; ++x)
+      {
+        const Point<3> p = grid.ToFrame({ cell * x + 1.5, cell * y + 1.5, cell * z + 1.5 });
+        const double away =
+          cell * (cells(x, 4.0, 7.0) + 2.0 * cells(y, 4.0, 5.0) + 0.5 * cells(z, 4.0, 5.0));
+        ASSERT_NEAR(local.GradedAt(p), 0.25 + LocalDelta<3>::Slope * away, 1e-4);
+      }
+    }
   }
 }
 

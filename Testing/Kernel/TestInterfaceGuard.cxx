@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What the guard of interfaces looks at and samples, face by face.
-#include "BallDomain.h"
 #include "Error.h"
 #include "Image/ImageDomain.h"
 #include "Image/InterfacePoints.h"
@@ -10,12 +9,11 @@
 #include "Mesh/InterfaceDistance.h"
 #include "Mesh/InterfaceEdges.h"
 #include "Mesh/InterfaceVertices.h"
-#include "Mesh/MeshExtraction.h"
-#include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -342,50 +340,75 @@ TEST(InterfaceGuard, ReachesAsFarInShearedImages)
 }
 
 //------------------------------------------------------------------------------------------------
-template <typename DomainType>
-void ExpectVerticesOfFacets(const DomainType& domain, double delta)
+/** Triangles with these vertices, each by itself. */
+SimplexMesh<3> TrianglesWith(std::vector<Point<3>> vertices)
 {
-  SCOPED_TRACE(delta);
-  RefinementSettings<3> settings;
-  settings.Delta = delta;
-  Box<3> box = domain.Bounds();
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    box.Min[a] -= 2.0 * settings.Delta;
-    box.Max[a] += 2.0 * settings.Delta;
-  }
-  RefinementContext<3> context(domain, settings, box, 1000);
-  Refiner<Rules3D> refiner(context);
-  ASSERT_TRUE(refiner.Run(nullptr));
   SimplexMesh<3> mesh;
-  ExtractMesh<3>(context.Mesh, domain, mesh);
-  std::set<Point<3>> expected;
-  for (const auto& facet : mesh.Facets)
+  vertices.resize(vertices.size() / 3 * 3);
+  for (std::uint32_t v = 0; v + 2 < vertices.size(); v += 3)
   {
-    for (const std::uint32_t v : facet)
-    {
-      expected.insert(mesh.Points[v]);
-    }
+    mesh.Facets.push_back({ v, v + 1, v + 2 });
   }
-  EXPECT_GT(expected.size(), 3u);
-  for (const unsigned threads : { 1u, 3u })
-  {
-    const std::vector<Point<3>> found = FindInterfaceVertices(context.Mesh, domain, threads);
-    EXPECT_EQ(found.size(), expected.size());
-    EXPECT_EQ(std::set<Point<3>>(found.begin(), found.end()), expected);
-  }
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_THROW(FindInterfaceVertices(context.Mesh, domain, 1, stop.get_token()), Cancelled);
+  mesh.Points.assign(vertices.begin(), vertices.end());
+  return mesh;
 }
 
-TEST(InterfaceVertices, AreThoseOfTheFacetsOfTheMesh)
+TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
 {
-  const LabelImage<3> image = phantoms::TouchingLabels(24);
-  ExpectVerticesOfFacets(ImageDomain<3>(image, 1.0), 2.5);
-  for (const double delta : { 0.5, 1.0, 2.0, 4.0, 5.0, 7.0 })
+  GridGeometry<3> sheared = GridGeometry<3>::Orthogonal({ 90, 22, 20 }, { 0.7, 1.1, 1.6 });
+  sheared.IndexToFrame[0][1] = 0.9;
+  sheared.IndexToFrame[0][2] = -0.6;
+  sheared.IndexToFrame[1][2] = 0.5;
+  std::mt19937 random(5);
+  std::normal_distribution<double> off(0.0, 2.0);
+  for (const GridGeometry<3>& grid : { phantoms::Cube(30), sheared })
   {
-    ExpectVerticesOfFacets(BallDomain(5.0), delta);
+    const Point<3> centre = grid.ToFrame({ 0.5 * static_cast<double>(grid.Dimensions[0]),
+      0.5 * static_cast<double>(grid.Dimensions[1]),
+      0.5 * static_cast<double>(grid.Dimensions[2]) });
+    const LabelImage<3> image = phantoms::Make(grid,
+      [&](const Point<3>& p) -> std::int16_t {
+        return Distance(p, centre) < 9.0 ? 1 : p[2] > centre[2] + 3.0 ? 2 : 0;
+      });
+    const ImageDomain<3> domain(image, 1.0);
+    const double delta = 2.5;
+    const double limit = std::max(InterfaceGuard::LargestDistance * delta,
+      std::sqrt(grid.Spacing(0) * grid.Spacing(0) + grid.Spacing(1) * grid.Spacing(1) +
+        grid.Spacing(2) * grid.Spacing(2)));
+    std::vector<Point<3>> centres;
+    ForEachFace(image,
+      [&](const GridGeometry<3>::Index& voxel, const GridGeometry<3>::Index& next)
+      { centres.push_back(Interpolate(image.CentreOf(voxel), image.CentreOf(next), 0.5)); });
+    for (const std::size_t step : { 10u, 40u, 200u })
+    {
+      std::vector<Point<3>> vertices; // near the faces, some of them outside of the image
+      for (std::size_t i = random() % step; i < centres.size(); i += 1 + random() % (2 * step))
+      {
+        vertices.push_back(centres[i]);
+        const double scale = random() % 4 == 0 ? 0.0 : 1.0;
+        for (double& x : vertices.back())
+        {
+          x += scale * off(random);
+        }
+      }
+      const SimplexMesh<3> mesh = TrianglesWith(vertices);
+      const auto expected = std::count_if(centres.begin(), centres.end(),
+        [&](const Point<3>& face)
+        {
+          return std::none_of(mesh.Points.begin(), mesh.Points.end(),
+            [&](const Point<3>& p) { return Distance(p, face) < limit; });
+        });
+      EXPECT_GT(expected, 0);
+      EXPECT_LT(static_cast<std::size_t>(expected), centres.size());
+      for (const unsigned threads : { 1u, 3u })
+      {
+        LocalDelta<3> local(image);
+        InterfaceGuard guard(
+          image, domain.GetSites(), domain, { delta }, nullptr, local, threads, {});
+        guard.Inspect(mesh, {});
+        EXPECT_EQ(guard.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
+      }
+    }
   }
 }
 
@@ -433,24 +456,39 @@ TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
           inside = &p;
         }
       }
-      vertices.push_back(*inside);
       LocalDelta<3> local(image);
       InterfaceGuard again = makeGuard(local);
-      const bool isNear = again.InspectVertices(vertices).empty();
+      vertices.push_back(*inside);
+      const bool isNear = again.InspectVertices({ vertices, {} }).empty();
       vertices.pop_back();
       LocalDelta<3> other(image);
-      const auto expected = makeGuard(other).InspectVertices(vertices);
+      const auto expected = makeGuard(other).InspectVertices({ vertices, {} });
       if (!isNear || expected.empty())
       {
         continue;
       }
       ++holes;
-      const auto found = again.InspectVertices(vertices);
+      const auto found = again.InspectVertices({ {}, { *inside } });
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t i = 0; i < found.size(); ++i)
       {
         EXPECT_EQ(found[i].Position, expected[i].Position);
       }
+      // A mesh without the vertex, too; and all is near again once there is another one.
+      LocalDelta<3> third(image);
+      InterfaceGuard before = makeGuard(third);
+      vertices.push_back(*inside);
+      EXPECT_TRUE(before.InspectVertices({ vertices, {} }).empty());
+      const auto isElsewhere = [&](const Point<3>& p) { return p != *inside; };
+      const auto kept = std::partition(vertices.begin(), vertices.end(), isElsewhere);
+      vertices.erase(kept, vertices.end());
+      while (vertices.size() % 3 != 0)
+      {
+        vertices.push_back(vertices.front());
+      }
+      EXPECT_EQ(before.Inspect(TrianglesWith(vertices), {}).size(), expected.size());
+      EXPECT_GT(before.NumberOfFarFaces(), 0u);
+      EXPECT_TRUE(before.InspectVertices({ { *inside }, { *inside } }).empty());
     }
     EXPECT_GT(holes, 3u) << withSizes;
   }

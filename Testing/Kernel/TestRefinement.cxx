@@ -189,6 +189,30 @@ TEST(FeatureGrid, AgreesWithBruteForce)
       points.push_back(p);
     }
     EXPECT_EQ(grid.Size(), 400u);
+    // Every third is taken out, and points that were never there.
+    std::vector<Point<3>> left;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      if (i % 3 == 0)
+      {
+        grid.Remove(points[i]);
+        grid.Remove({ points[i][0], points[i][1], points[i][2] + 1e-9 });
+        grid.Remove(points[i]);
+      }
+      else
+      {
+        left.push_back(points[i]);
+      }
+    }
+    std::vector<Point<3>> visited;
+    grid.ForEach([&](const Point<3>& p) { visited.push_back(p); });
+    EXPECT_EQ(visited, left);
+    for (const Point<3>& p : points)
+    {
+      const bool near = std::any_of(
+        left.begin(), left.end(), [&](const Point<3>& q) { return Distance(p, q) < 0.5; });
+      EXPECT_EQ(grid.AnyWithin(p, 0.5), near);
+    }
   }
 }
 
