@@ -78,11 +78,12 @@ private:
   /** Whether the faces leave this axis free. */
   bool IsFree(std::size_t axis) const { return ((this->Faces >> (2 * axis)) & 3) == 0; }
 
+  /** Labels go on beyond other cut faces, the object does not. */
   void Consider(const Point<3>& y)
   {
     const Point<3> step = this->Grid.ToFrame(Subtract(y, this->From));
     const double distance = std::sqrt(Dot(step, step));
-    if (distance <= this->Reach)
+    if (distance <= this->Reach && this->Image.Cuts().Distance(y) >= -Field::RootTolerance)
     {
       this->Reach = distance;
       this->Nearest = y;

@@ -405,6 +405,10 @@ bool Smoother::Constrain(Point<3>& p, double length) const
       p = Along(this->Anchor, this->Reach / distance, away);
     }
     p = this->Image.MoveOntoCutFaces(p, this->Target.Mesh().CutFacesOf(this->Star.Vertex));
+    if (!this->Image.IsWithinCutFaces(p))
+    {
+      return false;
+    }
   }
   return this->FanAllows(p);
 }

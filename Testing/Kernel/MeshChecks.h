@@ -4,6 +4,7 @@
 #ifndef voxplex_MeshChecks_h
 #define voxplex_MeshChecks_h
 
+#include "Image/GridGeometry.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
@@ -23,6 +24,19 @@ namespace voxplex::checks
 inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+/** By how many voxels a point lies outside of the box of an image that has an object at all its borders. */
+inline double DistanceOutside(const GridGeometry<3>& grid, const Point<3>& p)
+{
+  const Point<3> index = grid.ToIndex(p);
+  double distance = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    distance = std::max(
+      { distance, -0.5 - index[a], index[a] + 0.5 - static_cast<double>(grid.Dimensions[a]) });
+  }
+  return distance;
 }
 
 /** Rows and columns. */

@@ -41,6 +41,22 @@ inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)
   return GridGeometry<3>::Orthogonal({ n, n, n }, { spacing, spacing, spacing });
 }
 
+/** Its axes meet at angles that are the more acute the larger `shear` is, in all three pairs of them. */
+inline GridGeometry<3> Sheared(const GridGeometry<3>::Index& dimensions, double shear)
+{
+  GridGeometry<3> grid = GridGeometry<3>::Orthogonal(dimensions, { 0.7, 1.0, 1.3 });
+  grid.IndexToFrame[0][1] = 0.3 * shear;
+  grid.IndexToFrame[0][2] = -0.2 * shear;
+  grid.IndexToFrame[1][2] = 0.4 * shear;
+  return grid;
+}
+
+/** All voxels have label 1. */
+inline LabelImage<3> Block(const GridGeometry<3>& grid)
+{
+  return Make(grid, [](const Point<3>&) { return std::int16_t{ 1 }; });
+}
+
 inline LabelImage<3> Ball(double radius, double spacing = 1.0)
 {
   const std::int64_t n = static_cast<std::int64_t>(2 * radius / spacing) + 8;

@@ -26,17 +26,7 @@ namespace
 
 GridGeometry<3> ObliqueGrid(std::int64_t n)
 {
-  GridGeometry<3> grid = GridGeometry<3>::Orthogonal({ n, n - 3, n - 6 }, { 0.7, 1.0, 1.3 });
-  grid.IndexToFrame[0][1] = 0.3;
-  grid.IndexToFrame[0][2] = -0.2;
-  grid.IndexToFrame[1][2] = 0.4;
-  return grid;
-}
-
-/** All voxels have label 1. */
-LabelImage<3> Block(const GridGeometry<3>& grid)
-{
-  return phantoms::Make(grid, [](const Point<3>&) { return std::int16_t{ 1 }; });
+  return phantoms::Sheared({ n, n - 3, n - 6 }, 1.0);
 }
 
 /** A ball in two halves, cut by two borders that meet in it. */
@@ -359,7 +349,7 @@ TEST(CutFaces, NearEdges)
   EXPECT_FALSE(domain.NearCutEdge({ c, c, -0.5 }, 3.0, z));
   EXPECT_FALSE(domain.NearCutEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
 
-  const LabelImage<3> block = Block(ObliqueGrid(12));
+  const LabelImage<3> block = phantoms::Block(ObliqueGrid(12));
   const ImageDomain<3> oblique(block, 1.0);
   ASSERT_TRUE(oblique.NearCutEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
   EXPECT_NEAR(Distance(z, block.Grid().ToFrame({ -0.5, -0.5, 3.0 })), 0.0, 1e-9);
@@ -370,7 +360,7 @@ TEST(CutFaces, EdgesOfABlockAreTwelveCurves)
 {
   for (const auto& grid : { phantoms::Cube(9), ObliqueGrid(12) })
   {
-    const LabelImage<3> image = Block(grid);
+    const LabelImage<3> image = phantoms::Block(grid);
     const ImageDomain<3> domain(image, 1.0);
     const JunctionCurves edges(image, domain.GetLabelField(), domain.GetSites());
     EXPECT_EQ(edges.NumberOfCorners(), 8u);
@@ -438,7 +428,7 @@ TEST(CutFaces, MeshesOfBlocksAreExact)
   for (const auto& grid :
     { GridGeometry<3>::Orthogonal({ 20, 17, 14 }, { 1.0, 0.8, 1.5 }), ObliqueGrid(20) })
   {
-    const LabelImage<3> image = Block(grid);
+    const LabelImage<3> image = phantoms::Block(grid);
     const ImageDomain<3> domain(image, 1.0);
     const std::array<double, 6> expected = VoxelAreas(image);
     double volume = 1.0;
@@ -583,7 +573,7 @@ TEST(CutFaces, StayFlatInOptimisation)
     const GridGeometry<3> grid = upright ? phantoms::Cube(15) : ObliqueGrid(20);
     for (const bool block : { false, true })
     {
-      const LabelImage<3> image = block ? Block(grid) : CutHalves(grid);
+      const LabelImage<3> image = block ? phantoms::Block(grid) : CutHalves(grid);
       const ImageDomain<3> domain(image, 1.0);
       MeshingOptions<3> options = WithDelta(1.2);
       options.Optimise = false;

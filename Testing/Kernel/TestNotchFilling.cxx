@@ -32,21 +32,9 @@ using namespace voxplex;
 namespace
 {
 
-/** Its axes meet at angles that are the more acute the larger `shear` is. */
-GridGeometry<3> Sheared(const GridGeometry<3>::Index& dimensions, double shear)
-{
-  GridGeometry<3> grid = GridGeometry<3>::Orthogonal(dimensions, { 0.7, 1.0, 1.3 });
-  grid.IndexToFrame[0][1] = 0.3 * shear;
-  grid.IndexToFrame[0][2] = -0.2 * shear;
-  grid.IndexToFrame[1][2] = 0.4 * shear;
-  return grid;
-}
-
-/** All voxels have label 1. */
 LabelImage<3> Block(double shear)
 {
-  return phantoms::Make(
-    Sheared({ 20, 17, 14 }, shear), [](const Point<3>&) { return std::int16_t{ 1 }; });
+  return phantoms::Block(phantoms::Sheared({ 20, 17, 14 }, shear));
 }
 
 /** Regions of so many voxels with three labels, and background. */
@@ -131,7 +119,7 @@ void ForEachCase(
   {
     const LabelImage<3> block = Block(shear);
     visit("block", ImageDomain<3>(block, 1.0), 2.3);
-    const GridGeometry<3> grid = Sheared({ 20, 17, 14 }, shear);
+    const GridGeometry<3> grid = phantoms::Sheared({ 20, 17, 14 }, shear);
     const std::vector<float> values = CutBall(grid);
     const auto ball = IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.0 });
     visit("isosurface", ImageDomain<3, ScalarField<3>>(ball), 1.5);
@@ -140,7 +128,7 @@ void ForEachCase(
   {
     for (const int voxels : { 40, 110 })
     {
-      const LabelImage<3> regions = Regions(Sheared({ 30, 24, 20 }, shear), voxels);
+      const LabelImage<3> regions = Regions(phantoms::Sheared({ 30, 24, 20 }, shear), voxels);
       const ImageDomain<3> domain(regions, 1.0);
       visit("regions", domain, 2.5);
       visit("regions", domain, 4.0);
@@ -272,19 +260,6 @@ double FlatArea(const SimplexMesh<3>& mesh, const Domain<3>& domain)
   return area;
 }
 
-/** By how many voxels a point lies outside of the box of an image that has an object at all its borders. */
-double DistanceOutside(const GridGeometry<3>& grid, const Point<3>& p)
-{
-  const Point<3> index = grid.ToIndex(p);
-  double distance = 0.0;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    distance = std::max(
-      { distance, -0.5 - index[a], index[a] + 0.5 - static_cast<double>(grid.Dimensions[a]) });
-  }
-  return distance;
-}
-
 template <typename T>
 bool IsSubset(const std::set<T>& few, const std::set<T>& many)
 {
@@ -330,7 +305,7 @@ TEST(NotchFilling, TakesNothingFromTheMesh)
         EXPECT_TRUE(context.Image.IsBeyondCutFaces(ball.Center));
         for (const Point<3>& p : corners)
         {
-          EXPECT_LT(DistanceOutside(grid, p), 1e-5);
+          EXPECT_LT(checks::DistanceOutside(grid, p), 1e-5);
         }
         EXPECT_LT(RadiusEdgeRatio<3>(v.data()), bounds.RadiusEdgeRatio);
         const std::array<double, 6> angles = DihedralAngles(v.data());
