@@ -531,3 +531,62 @@ TEST(NotchFilling, FollowsTheOptionsOfTheMesher)
     EXPECT_GE(measures.Quality.MinimumFacetAngle, 10.0);
   }
 }
+
+// Facets of what is filled are as sharp as the user allows, and no sharper: at junctions and off them.
+TEST(NotchFilling, FollowsTheFacetAngleOfTheMesher)
+{
+  for (const double asked : { 15.0, 25.0 })
+  {
+    double sharpest = 180.0;
+    double sharpestAtJunctions = 180.0;
+    const auto measure = [&](const LabelImage<3>& image, double delta)
+    {
+      const ImageDomain<3> domain(image, 1.0);
+      MeshingOptions<3> options;
+      options.Delta = delta;
+      options.Optimise = false;
+      options.FacetAngle = asked;
+      ImageMesher<3> mesher(options);
+      SimplexMesh<3> mesh;
+      ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+      std::set<Corners<3>> filled; // sides of tetrahedra that refinement gives to background
+      for (const auto& simplex : mesh.Simplices)
+      {
+        const Corners<4> corners = CornersOf(mesh, simplex);
+        Circumball<3> ball;
+        ComputeCircumballExactly<3>(PointersTo(corners).data(), ball);
+        for (std::size_t i = 0; i < 4 && domain.IsBeyondCutFaces(ball.Center); ++i)
+        {
+          Corners<3> side;
+          std::copy(
+            corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(i), side.begin());
+          std::copy(corners.begin() + static_cast<std::ptrdiff_t>(i) + 1, corners.end(),
+            side.begin() + static_cast<std::ptrdiff_t>(i));
+          filled.insert(side);
+        }
+      }
+      const std::set<Point<3>> junctions = JunctionsOf(mesh);
+      for (const auto& facet : mesh.Facets)
+      {
+        const Corners<3> corners = CornersOf(mesh, facet);
+        if (filled.contains(corners))
+        {
+          double& least = std::any_of(corners.begin(), corners.end(),
+                            [&](const Point<3>& p) { return junctions.contains(p); })
+            ? sharpestAtJunctions
+            : sharpest;
+          least = std::min(least, checks::SmallestAngle(mesh, facet));
+        }
+      }
+    };
+    for (const double shear : { 1.5, 2.0, 2.5, 3.0 })
+    {
+      measure(Block(shear), 2.3);
+      measure(Regions(phantoms::Sheared({ 20, 17, 14 }, shear), 110), 2.5);
+    }
+    EXPECT_GE(sharpest, asked - 1e-9);
+    EXPECT_LT(sharpest, asked + 2.0);
+    EXPECT_GE(sharpestAtJunctions, std::min(asked, NotchBounds().JunctionFacetAngle) - 1e-9);
+    EXPECT_LT(sharpestAtJunctions, std::min(asked, NotchBounds().JunctionFacetAngle) + 2.0);
+  }
+}
