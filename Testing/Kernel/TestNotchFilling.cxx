@@ -524,12 +524,6 @@ TEST(NotchFilling, FollowsTheOptionsOfTheMesher)
     ratio.RadiusEdgeRatio = 1.5;
     EXPECT_LT(measure(image, ratio).Quality.MaximumRadiusEdgeRatio, 1.5);
   }
-  {
-    MeshingOptions<3> angle = options;
-    angle.FacetAngle = 10.0;
-    const Measures measures = measure(image, angle);
-    EXPECT_GE(measures.Quality.MinimumFacetAngle, 10.0);
-  }
 }
 
 // Facets of what is filled are as sharp as the user allows, and no sharper: at junctions and off them.
@@ -588,5 +582,47 @@ TEST(NotchFilling, FollowsTheFacetAngleOfTheMesher)
     EXPECT_LT(sharpest, asked + 2.0);
     EXPECT_GE(sharpestAtJunctions, std::min(asked, NotchBounds().JunctionFacetAngle) - 1e-9);
     EXPECT_LT(sharpestAtJunctions, std::min(asked, NotchBounds().JunctionFacetAngle) + 2.0);
+  }
+}
+
+// Refinement asks for no sizes beyond cut faces; circumcentres of what fills notches lie there.
+TEST(NotchFilling, FollowsTheSizesOfTheMesher)
+{
+  class SmallBeyond final : public SizeFunction<3>
+  {
+  public:
+    explicit SmallBeyond(const GridGeometry<3>& grid)
+      : Grid(grid)
+    {
+    }
+    double Evaluate(const Point<3>& p, std::int64_t) const override
+    {
+      return checks::DistanceOutside(this->Grid, p) > 0.0 ? 0.5 : 100.0;
+    }
+
+  private:
+    GridGeometry<3> Grid;
+  };
+  const LabelImage<3> image = Block(3.0);
+  const ImageDomain<3> domain(image, 1.0);
+  for (const bool sized : { false, true })
+  {
+    MeshingOptions<3> options;
+    options.Delta = 2.3;
+    options.Optimise = false;
+    options.Gradation = 0.0;
+    options.Size = sized ? std::make_shared<SmallBeyond>(image.Grid()) : nullptr;
+    ImageMesher<3> mesher(options);
+    SimplexMesh<3> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    const auto large = std::count_if(mesh.Simplices.begin(), mesh.Simplices.end(),
+      [&](const std::array<std::uint32_t, 4>& simplex)
+      {
+        const Corners<4> corners = CornersOf(mesh, simplex);
+        Circumball<3> ball;
+        ComputeCircumballExactly<3>(PointersTo(corners).data(), ball);
+        return domain.IsBeyondCutFaces(ball.Center) && ball.Radius2 >= 0.5 * 0.5;
+      });
+    EXPECT_EQ(large > 0, !sized) << large;
   }
 }
