@@ -422,7 +422,7 @@ TEST(CutFaces, EdgesOfNoiseEndInCorners)
 }
 
 //------------------------------------------------------------------------------------------------
-// A block comes out as it is: its volume, six flat faces, whatever delta.
+// A block comes out as it is: its volume, six flat faces, whatever delta. So do some with sheared axes.
 TEST(CutFaces, MeshesOfBlocksAreExact)
 {
   for (const auto& grid :
