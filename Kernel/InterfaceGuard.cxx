@@ -30,9 +30,7 @@ constexpr double FirstSpacing = 0.5;
 /** Nothing is sampled more finely than this, in smallest voxel spacings. */
 constexpr double FinestVoxels = 0.2;
 
-/** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
-constexpr double LargestSurfaceDistance = 1.1;
-/** There sampling around what is too far begins with so many finest deltas, at most. */
+/** Where delta is graded sampling around what is too far begins with so many finest deltas, at most. */
 constexpr double Coarsest = 4.0;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;

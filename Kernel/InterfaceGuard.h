@@ -57,6 +57,8 @@ class InterfaceGuard
 public:
   /** The distance that is asked for, in delta; to a vertex, so that to a facet is less. */
   static constexpr double LargestDistance = 1.4;
+  /** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
+  static constexpr double LargestSurfaceDistance = 1.1;
 
   /**
    * All references must live as long as this.

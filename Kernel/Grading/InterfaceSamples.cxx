@@ -99,7 +99,7 @@ public:
 
   std::size_t NumberOfLayers() const { return static_cast<std::size_t>(this->Cells[2]); }
 
-  void SampleLayer(std::size_t layer, std::vector<Point<3>>& points) const
+  void SampleLayer(std::size_t layer, LabelChanges& changes) const
   {
     std::vector<BestSteps> row(static_cast<std::size_t>(this->Cells[0]));
     for (std::int64_t y = 0; y < this->Cells[1]; ++y)
@@ -116,7 +116,7 @@ public:
       {
         for (const Step& step : steps)
         {
-          this->AddPoint(step, points);
+          this->AddPoint(step, changes);
         }
         steps.Clear();
       }
@@ -175,7 +175,7 @@ private:
     }
   }
 
-  void AddPoint(const Step& step, std::vector<Point<3>>& points) const
+  void AddPoint(const Step& step, LabelChanges& changes) const
   {
     Index next = step.Voxel;
     ++next[step.Axis];
@@ -187,7 +187,8 @@ private:
       {
         z[a] += Jitter * this->SmallestSpacing * PseudoRandom(step.Voxel, 3 * step.Axis + a);
       }
-      points.push_back(z);
+      changes.Points.push_back(z);
+      changes.Labels.push_back({ std::min(step.From, step.To), std::max(step.From, step.To) });
     }
   }
 
@@ -202,11 +203,11 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-std::vector<Point<3>> SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain,
-  double spacing, unsigned threads, const std::stop_token& stop)
+LabelChanges SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain, double spacing,
+  unsigned threads, const std::stop_token& stop)
 {
   const Sampler sampler(image, domain, spacing);
-  std::vector<std::vector<Point<3>>> layers(sampler.NumberOfLayers());
+  std::vector<LabelChanges> layers(sampler.NumberOfLayers());
   ParallelFor(
     0, layers.size(), 1, threads,
     [&](std::size_t begin, std::size_t end)
@@ -217,12 +218,13 @@ std::vector<Point<3>> SampleLabelChanges(const LabelImage<3>& image, const Domai
       }
     },
     stop);
-  std::vector<Point<3>> points;
-  for (const std::vector<Point<3>>& layer : layers)
+  LabelChanges changes;
+  for (const LabelChanges& layer : layers)
   {
-    points.insert(points.end(), layer.begin(), layer.end());
+    changes.Points.insert(changes.Points.end(), layer.Points.begin(), layer.Points.end());
+    changes.Labels.insert(changes.Labels.end(), layer.Labels.begin(), layer.Labels.end());
   }
-  return points;
+  return changes;
 }
 
 } // namespace voxplex

@@ -16,6 +16,13 @@
 namespace voxplex
 {
 
+/** Points of interfaces, and between which labels: the smaller one first. */
+struct LabelChanges
+{
+  std::vector<Point<3>> Points;
+  std::vector<std::array<LabelId, 2>> Labels;
+};
+
 /**
  * The image is cut in cells of about `spacing`. Of all steps from voxel to voxel that begin in a cell and
  * go from one label to another, the one nearest to the cell's centre gives a point where the domain's label
@@ -32,8 +39,8 @@ namespace voxplex
  * @param threads 0 means all cores; neither the points nor their order depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-std::vector<Point<3>> SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain,
-  double spacing, unsigned threads, const std::stop_token& stop);
+LabelChanges SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain, double spacing,
+  unsigned threads, const std::stop_token& stop);
 
 } // namespace voxplex
 

@@ -4,11 +4,13 @@
 
 #include "Grading/InterfaceSamples.h"
 #include "Grading/MedialAxis.h"
+#include "Grading/SampleCurvature.h"
 #include "Image/FeatureTransform.h"
 #include "Parallel/ParallelFor.h"
 
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace voxplex
 {
@@ -29,6 +31,16 @@ constexpr double MostCells = 16.0 * 1024.0 * 1024.0;
  * other's work: with 1 refinement of the knee atlas creates 1.5 times as many elements, of which as many stay.
  */
 constexpr double LargestSlope = 0.3;
+
+/**
+ * Where an interface bends with the radius R, Delta^2 / R is at most this times the distance that is allowed. A triangle
+ * with the circumradius Delta is Delta^2 / (2 R) away; some are larger than that, and voxels' stairs come on top. With
+ * 1.6 the mesh is too far in places as a rule, and the guard of interfaces makes up for it with more elements than are saved.
+ */
+constexpr double BendFactor = 1.2;
+
+/** The scale at which the bend is seen is that of Delta, which becomes smaller by it: so many times, at most. */
+constexpr int MostBends = 4;
 
 Box<3> BoundsOf(const std::vector<Point<3>>& points)
 {
@@ -144,10 +156,11 @@ private:
 //------------------------------------------------------------------------------------------------
 LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& domain,
   const GradingParameters& parameters, unsigned threads, const std::stop_token& stop)
-  : Points(SampleLabelChanges(image, domain, parameters.SampleSpacing, threads, stop))
-  , LargestDelta(parameters.Finest)
+  : LargestDelta(parameters.Finest)
   , EquivalentDelta(parameters.Finest)
 {
+  LabelChanges changes = SampleLabelChanges(image, domain, parameters.SampleSpacing, threads, stop);
+  this->Points = std::move(changes.Points);
   Box<3> bounds = this->Points.empty() ? domain.Bounds() : BoundsOf(this->Points);
   const double margin = std::min(parameters.Lambda, Distance(bounds.Min, bounds.Max));
   MedialBalls balls;
@@ -180,11 +193,12 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
   }
 
   double density = 0.0; // sum of 1 / Delta^2
-  const auto deltaOf = [&](std::size_t k)
-  { return std::max(parameters.Finest, parameters.Ratio * this->SizeOfPoint[k]); };
+  const double spacing = std::max(parameters.SampleSpacing, std::cbrt(image.Grid().VoxelVolume()));
+  const std::vector<double> deltas =
+    this->DeltaOfPoints(changes.Labels, spacing, parameters, threads, stop);
   for (std::size_t k = 0; k < this->Points.size(); ++k)
   {
-    this->Graded->Lower(this->Points[k], deltaOf(k));
+    this->Graded->Lower(this->Points[k], deltas[k]);
   }
   if (this->Points.empty())
   {
@@ -202,6 +216,42 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
   {
     this->EquivalentDelta = std::sqrt(static_cast<double>(this->Points.size()) / density);
   }
+}
+
+//------------------------------------------------------------------------------------------------
+// Within the local feature size of a point there is but one sheet, so what is not flat there is a bend.
+std::vector<double> LocalFeatureSize::DeltaOfPoints(
+  const std::vector<std::array<LabelId, 2>>& labels, double spacing,
+  const GradingParameters& parameters, unsigned threads, const std::stop_token& stop) const
+{
+  std::vector<double> deltas(this->Points.size(), parameters.Finest);
+  if (this->Points.empty())
+  {
+    return deltas;
+  }
+  const SampleCurvature curvature(this->Points, labels, spacing);
+  ParallelFor(
+    0, this->Points.size(), PointsAtOnce, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const double size = this->SizeOfPoint[k];
+        double delta = parameters.Ratio * size;
+        for (int i = 0; i < MostBends && delta > parameters.Finest; ++i)
+        {
+          const double bend = curvature.At(this->Points[k], labels[k], std::min(size, delta));
+          if (bend * delta * delta <= BendFactor * parameters.Tolerance)
+          {
+            break;
+          }
+          delta = std::sqrt(BendFactor * parameters.Tolerance / bend);
+        }
+        deltas[k] = std::max(parameters.Finest, delta);
+      }
+    },
+    stop);
+  return deltas;
 }
 
 } // namespace voxplex

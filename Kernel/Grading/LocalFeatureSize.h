@@ -11,6 +11,8 @@
 #include "Image/Domain.h"
 #include "Image/LabelImage.h"
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -26,17 +28,21 @@ struct GradingParameters
   double Lambda = 12.0;       ///< larger local feature sizes count as this
   double Salience = 1.0;      ///< lower edges and bumps do not count (MedialBalls)
   double SampleSpacing = 0.5; ///< of the interface points whose Voronoi diagram is taken
+  /** Triangles may be so far from interfaces that bend; infinite: Delta(z) does not depend on the bend. */
+  double Tolerance = std::numeric_limits<double>::infinity();
 };
 
 /**
- * @brief Delta(z) = Ratio x min(lambda, lfs(z)), but not below Finest (thesis, sections 2.2 and 2.6.1).
+ * @brief Delta(z) = min(Ratio x min(lambda, lfs(z)), sqrt(1.2 Tolerance / curvature(z))), but not below Finest
+ * (thesis, sections 2.2 and 2.6.1; the second term is not there).
  *
  * lfs(z), the local feature size, is the distance from a point z of the interfaces to their medial axis. It
  * is computed before refinement:
  * 1. SampleLabelChanges: points on all interfaces;
  * 2. FindPoles: points of the medial axis, from the Delaunay triangulation of these;
  * 3. the distance of each sample point to the nearest of them, by the feature transform of a grid;
- * 4. GradedDelta: Delta at the sample points, spread so that it is Lipschitz.
+ * 4. SampleCurvature: how strongly the interface bends there, as seen at the scale of Delta;
+ * 5. GradedDelta: Delta at the sample points, spread so that it is Lipschitz.
  *
  * The thesis adds feature points to the second triangulation while it refines, so that a point's lfs is too
  * large at first, and calls that its bottleneck (section 2.7). Here the sample is dense from the
@@ -68,6 +74,10 @@ public:
   std::size_t NumberOfPoles() const { return this->Poles; }
 
 private:
+  std::vector<double> DeltaOfPoints(const std::vector<std::array<LabelId, 2>>& labels,
+    double spacing, const GradingParameters& parameters, unsigned threads,
+    const std::stop_token& stop) const;
+
   std::vector<Point<3>> Points;
   std::vector<double> SizeOfPoint;
   std::size_t Poles = 0;

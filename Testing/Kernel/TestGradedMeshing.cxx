@@ -167,6 +167,23 @@ TEST(GradedMeshing, IsFineWhereTheShapeIs)
   EXPECT_LT(FeaturesNear(mesh, large, 8.0), FeaturesNear(plain, large, 8.0) / 3);
 }
 
+// Too coarse a start is made up for with more elements than a finer one needs: there is to be none.
+TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
+{
+  for (const LabelImage<3>& image : { phantoms::Ball(16.0), phantoms::Torus(22.0, 10.0) })
+  {
+    MeshingStatistics statistics;
+    const std::size_t plain = Mesh(image, Graded(2.0, 0.6)).Simplices.size();
+    MeshingOptions<3> coarse = Graded(2.0, 2.0);
+    const std::size_t ratio = Mesh(image, coarse, &statistics).Simplices.size();
+    coarse.Grading.Lambda = 100.0;
+    const std::size_t lambda = Mesh(image, coarse).Simplices.size();
+    EXPECT_LT(statistics.Interfaces.Seeds, 100u);
+    EXPECT_LT(ratio, plain + plain / 5);
+    EXPECT_LT(lambda, plain + plain / 5);
+  }
+}
+
 // R6 spares free vertices that serve finer interfaces; otherwise R2 puts them back again and again.
 TEST(GradedMeshing, RulesDoNotUndoEachOther)
 {

@@ -26,7 +26,7 @@ namespace
 std::vector<Point<3>> Sample(const LabelImage<3>& image, double spacing, unsigned threads = 1)
 {
   const ImageDomain<3> domain(image, 1.0);
-  return SampleLabelChanges(image, domain, spacing, threads, {});
+  return SampleLabelChanges(image, domain, spacing, threads, {}).Points;
 }
 
 Point<3> Centre(const LabelImage<3>& image)
@@ -550,13 +550,52 @@ TEST(LocalFeatureSize, DeltaIsBoundedAndLipschitz)
   }
 }
 
+// A ball of radius R may have triangles with a circumradius of sqrt(2 R Tolerance), whatever the ratio.
+TEST(LocalFeatureSize, DeltaIsBoundedByTheBend)
+{
+  GradingParameters parameters = Parameters(1.5, 100.0);
+  parameters.Ratio = 2.0;
+  const LabelImage<3> image = phantoms::Ball(20.0);
+  EXPECT_GT(Measure(image, parameters).Largest(), 30.0);
+  for (const double tolerance : { 1.0, 2.0 })
+  {
+    parameters.Tolerance = tolerance;
+    const LocalFeatureSize lfs = Measure(image, parameters);
+    const double expected = std::sqrt(1.2 * 20.0 * tolerance);
+    EXPECT_NEAR(lfs.Largest(), expected, 0.1 * expected);
+    EXPECT_NEAR(lfs.Equivalent(), expected, 0.2 * expected);
+  }
+}
+
+// What is thin is not bent for that: between two spheres the bend is theirs, not that of the gap.
+TEST(LocalFeatureSize, WhatIsThinIsNotBent)
+{
+  const LabelImage<3> image = phantoms::NestedBalls(24.0);
+  const Point<3> c = Centre(image);
+  GradingParameters parameters = Parameters(1.0, 100.0);
+  const LocalFeatureSize free = Measure(image, parameters);
+  parameters.Tolerance = 1.0;
+  const LocalFeatureSize lfs = Measure(image, parameters);
+  std::vector<double> outermost;
+  for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
+  {
+    if (Distance(lfs.Sample()[k], c) > 23.0)
+    {
+      outermost.push_back(lfs.Delta().At(lfs.Sample()[k]) / free.Delta().At(lfs.Sample()[k]));
+    }
+  }
+  EXPECT_GT(Quantile(outermost, 0.1), 0.95); // sqrt(1.2 x 4) / 4 = 0.55 if the gap counted
+}
+
 TEST(LocalFeatureSize, IsTheSameForAnyNumberOfThreads)
 {
   const LabelImage<3> image = phantoms::Torus(20.0, 10.0);
-  const LocalFeatureSize one = Measure(image, Parameters(1.5, 8.0), 1);
+  GradingParameters parameters = Parameters(1.5, 8.0);
+  parameters.Tolerance = 1.6;
+  const LocalFeatureSize one = Measure(image, parameters, 1);
   for (const unsigned threads : { 2u, 5u })
   {
-    const LocalFeatureSize other = Measure(image, Parameters(1.5, 8.0), threads);
+    const LocalFeatureSize other = Measure(image, parameters, threads);
     EXPECT_EQ(one.Sample(), other.Sample());
     EXPECT_EQ(one.Sizes(), other.Sizes());
     EXPECT_EQ(one.NumberOfPoles(), other.NumberOfPoles());
