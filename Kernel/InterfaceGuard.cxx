@@ -30,8 +30,12 @@ constexpr double FirstSpacing = 0.5;
 /** Nothing is sampled more finely than this, in smallest voxel spacings. */
 constexpr double FinestVoxels = 0.2;
 
-/** Where delta is graded sampling around what is too far begins with so many finest deltas, at most. */
+/** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
+constexpr double SurfaceDistance = 1.1;
+/** There sampling around what is too far begins with so many finest deltas, at most. */
 constexpr double Coarsest = 4.0;
+/** And circumballs are bounded where spacings are at most so many finest deltas. */
+constexpr double CoarsestBound = 0.5 * FirstSpacing;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
@@ -63,6 +67,12 @@ std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
   return vertices;
 }
 
+double DiagonalOf(const GridGeometry<3>& grid)
+{
+  const Point<3> voxel{ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) };
+  return std::sqrt(Dot(voxel, voxel));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -81,7 +91,8 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
   const GridGeometry<3>& grid = this->Image.Grid();
   const Point<3> spacing{ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) };
   this->FinestSpacing = FinestVoxels * std::min({ spacing[0], spacing[1], spacing[2] });
-  this->VoxelDiagonal = std::sqrt(Dot(spacing, spacing));
+  this->VoxelDiagonal = DiagonalOf(grid);
+  this->NearEnough = LargestSurfaceDistance(grid, this->Base.Asked);
   if (!this->Sizes && !this->Base.Graded)
   {
     constexpr double Safety = 1.0 - 1e-6;
@@ -89,6 +100,12 @@ InterfaceGuard::InterfaceGuard(const LabelImage<3>& image, const BitMask<3>& sit
     const double half = 0.5 * std::max({ spacing[0], spacing[1], spacing[2] });
     this->NearVoxel = Safety * (distance - half); // half a diagonal is longer
   }
+}
+
+//------------------------------------------------------------------------------------------------
+double InterfaceGuard::LargestSurfaceDistance(const GridGeometry<3>& grid, double delta)
+{
+  return std::max(SurfaceDistance * delta, 0.5 * DiagonalOf(grid));
 }
 
 //------------------------------------------------------------------------------------------------
@@ -142,33 +159,26 @@ bool InterfaceGuard::IsFarFromVertices(
   return !known;
 }
 
-/** Of the mesh to interfaces where delta is graded. */
-double InterfaceGuard::NearEnough() const
-{
-  return std::max(LargestSurfaceDistance * this->Base.Asked, 0.5 * this->VoxelDiagonal);
-}
-
 // The faces of voxels, and the interface that runs about them, which is what is meshed.
 bool InterfaceGuard::IsFarFromTriangles(
   const Face& face, const Interfaces& mesh, std::uint32_t& hint) const
 {
   const Point<3> centre = this->CentreOf(face);
   const double half = 0.5 * this->Image.Grid().Spacing(static_cast<int>(face.Axis));
-  const double nearEnough = this->NearEnough();
-  if (nearEnough > half && mesh.Vertices.AnyWithin(centre, nearEnough - half))
+  if (this->NearEnough > half && mesh.Vertices.AnyWithin(centre, this->NearEnough - half))
   {
     return false;
   }
   const double distance = std::sqrt(mesh.Triangles.Distance2To(centre, hint));
-  if (distance > StairFactor * nearEnough)
+  if (distance > StairFactor * this->NearEnough)
   {
     return true;
   }
   Point<3> z;
-  return distance + half > nearEnough &&
+  return distance + half > this->NearEnough &&
     this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
       this->Image.CentreOf(face.Next()), z) &&
-    mesh.Triangles.Distance2To(z, hint) > nearEnough * nearEnough;
+    mesh.Triangles.Distance2To(z, hint) > this->NearEnough * this->NearEnough;
 }
 
 void InterfaceGuard::FindFarFacesOf(
@@ -252,7 +262,7 @@ double InterfaceGuard::Reach() const
 {
   const double delta =
     this->Sizes ? std::max(this->Base.Delta, this->Sizes->Largest()) : this->Base.Delta;
-  return this->Base.Graded ? this->NearEnough()
+  return this->Base.Graded ? this->NearEnough
                            : std::max(LargestDistance * delta, this->VoxelDiagonal);
 }
 
@@ -420,7 +430,8 @@ double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 //------------------------------------------------------------------------------------------------
 // Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
 // element has its label. R1 with the same spacing makes circumballs small enough; with twice that one of AAL's faces
-// stays far, and the knee atlas takes a round more.
+// stays far, and the knee atlas takes a round more. Bounds grade into all of the label, so where delta is graded and
+// spacings begin with coarser ones no bound is set before points are as near to each other as they are elsewhere.
 void InterfaceGuard::LowerBound(const Face& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
@@ -429,7 +440,8 @@ void InterfaceGuard::LowerBound(const Face& face)
     return;
   }
   const double spacing = this->SpacingAt(face, visits->second);
-  if (spacing >= this->FinestSpacing)
+  if (spacing >= this->FinestSpacing &&
+    (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
   {
     const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
     this->Local.SetBound(face.Voxel, 1, label, spacing);

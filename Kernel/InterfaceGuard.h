@@ -57,8 +57,8 @@ class InterfaceGuard
 public:
   /** The distance that is asked for, in delta; to a vertex, so that to a facet is less. */
   static constexpr double LargestDistance = 1.4;
-  /** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
-  static constexpr double LargestSurfaceDistance = 1.1;
+  /** Where delta is graded the mesh may be so far from interfaces, with the finest delta that was asked for. */
+  static double LargestSurfaceDistance(const GridGeometry<3>& grid, double delta);
 
   /**
    * All references must live as long as this.
@@ -148,7 +148,6 @@ private:
   bool IsFarFromVertices(
     const Face& face, const FeatureGrid<3>& vertices, const Point<3>*& known) const;
   bool IsFarFromTriangles(const Face& face, const Interfaces& mesh, std::uint32_t& hint) const;
-  double NearEnough() const;
   void LowerBound(const Face& face);
   static Index CellOf(const Face& face);
   /** Of what is sampled when a cell is visited again after so many visits. */
@@ -166,6 +165,7 @@ private:
   const BaseDensity<3> Base;
   const InterfaceSizes<3>* const Sizes;
   double VoxelDiagonal;
+  double NearEnough; ///< LargestSurfaceDistance()
   /** No face is far whose lower voxel has a vertex nearer to its centre. 0: depends on the face. */
   double NearVoxel = 0.0;
   double FinestSpacing;

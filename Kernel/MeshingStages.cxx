@@ -411,7 +411,7 @@ std::unique_ptr<const LocalFeatureSize> MeshingStages<D>::Grade(const Prepared& 
       parameters.SampleSpacing = GradingSampleSpacing * this->Stats.Delta;
       parameters.Salience =
         std::max({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2), parameters.SampleSpacing });
-      parameters.Tolerance = InterfaceGuard::LargestSurfaceDistance * this->Stats.Delta;
+      parameters.Tolerance = InterfaceGuard::LargestSurfaceDistance(grid, this->Stats.Delta);
       grading = std::make_unique<const LocalFeatureSize>(
         prepared.Image, prepared.Domain, parameters, this->Options.Threads, prepared.Stop);
       this->Stats.GradingSamples = grading->Sample().size();

@@ -39,6 +39,12 @@ constexpr double LargestSlope = 0.3;
  */
 constexpr double BendFactor = 1.2;
 
+/**
+ * Interfaces are as rough as this times the largest voxel spacing, root mean square. With 0 stairs of voxels count as bends
+ * where Delta is small: the AAL atlas at ratio 2 gets a tenth more elements.
+ */
+constexpr double Roughness = 0.15;
+
 /** The scale at which the bend is seen is that of Delta, which becomes smaller by it: so many times, at most. */
 constexpr int MostBends = 4;
 
@@ -193,9 +199,12 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
   }
 
   double density = 0.0; // sum of 1 / Delta^2
-  const double spacing = std::max(parameters.SampleSpacing, std::cbrt(image.Grid().VoxelVolume()));
+  const GridGeometry<3>& grid = image.Grid();
+  const double spacing = std::max(parameters.SampleSpacing, std::cbrt(grid.VoxelVolume()));
+  const double roughness =
+    Roughness * std::max({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) });
   const std::vector<double> deltas =
-    this->DeltaOfPoints(changes.Labels, spacing, parameters, threads, stop);
+    this->DeltaOfPoints(changes.Labels, spacing, roughness, parameters, threads, stop);
   for (std::size_t k = 0; k < this->Points.size(); ++k)
   {
     this->Graded->Lower(this->Points[k], deltas[k]);
@@ -221,7 +230,7 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
 //------------------------------------------------------------------------------------------------
 // Within the local feature size of a point there is but one sheet, so what is not flat there is a bend.
 std::vector<double> LocalFeatureSize::DeltaOfPoints(
-  const std::vector<std::array<LabelId, 2>>& labels, double spacing,
+  const std::vector<std::array<LabelId, 2>>& labels, double spacing, double roughness,
   const GradingParameters& parameters, unsigned threads, const std::stop_token& stop) const
 {
   std::vector<double> deltas(this->Points.size(), parameters.Finest);
@@ -240,7 +249,8 @@ std::vector<double> LocalFeatureSize::DeltaOfPoints(
         double delta = parameters.Ratio * size;
         for (int i = 0; i < MostBends && delta > parameters.Finest; ++i)
         {
-          const double bend = curvature.At(this->Points[k], labels[k], std::min(size, delta));
+          const double bend =
+            curvature.At(this->Points[k], labels[k], std::min(size, delta), roughness);
           if (bend * delta * delta <= BendFactor * parameters.Tolerance)
           {
             break;

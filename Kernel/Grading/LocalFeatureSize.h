@@ -75,7 +75,7 @@ public:
 
 private:
   std::vector<double> DeltaOfPoints(const std::vector<std::array<LabelId, 2>>& labels,
-    double spacing, const GradingParameters& parameters, unsigned threads,
+    double spacing, double roughness, const GradingParameters& parameters, unsigned threads,
     const std::stop_token& stop) const;
 
   std::vector<Point<3>> Points;

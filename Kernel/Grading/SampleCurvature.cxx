@@ -61,8 +61,8 @@ public:
 
   std::size_t Count() const { return this->Points; }
 
-  /** Of a sphere with such points. */
-  double Curvature() const
+  /** Of a sphere with such points, but for the roughness. */
+  double Curvature(double roughness) const
   {
     const double weight = 1.0 / static_cast<double>(this->Points);
     std::array<Point<3>, 3> covariance;
@@ -79,8 +79,8 @@ public:
     double smallest;
     double largest;
     ExtremeEigenvalues<3>(covariance, smallest, largest);
-    smallest = std::max(smallest, 0.0);
-    const double along = trace - smallest; // r^2 / 2
+    const double along = trace - std::max(smallest, 0.0); // r^2 / 2
+    smallest = std::max(smallest - roughness * roughness, 0.0);
     return along > 0.0 ? std::sqrt(12.0 * smallest) / along : 0.0;
   }
 
@@ -174,7 +174,8 @@ SampleCurvature::SampleCurvature(
 }
 
 //------------------------------------------------------------------------------------------------
-double SampleCurvature::At(const Point<3>& p, const Labels& labels, double radius) const
+double SampleCurvature::At(
+  const Point<3>& p, const Labels& labels, double radius, double roughness) const
 {
   std::size_t number = 0;
   for (double largest = LargestRadius * this->Spacing;
@@ -206,7 +207,7 @@ double SampleCurvature::At(const Point<3>& p, const Labels& labels, double radiu
       }
     }
   }
-  return moments.Count() < FewestPoints ? 0.0 : moments.Curvature();
+  return moments.Count() < FewestPoints ? 0.0 : moments.Curvature(roughness);
 }
 
 } // namespace voxplex

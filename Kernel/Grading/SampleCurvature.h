@@ -47,8 +47,9 @@ public:
   /**
    * The curvature of a sphere that is as far off a plane as the points with these labels within `radius` of p are; of a
    * cylinder 0.87 times one over its radius, of a saddle 1.41 times its curvatures. 0 if there are too few points.
+   * @param roughness of the surface, root mean square: being so far off a plane is no bend
    */
-  double At(const Point<3>& p, const Labels& labels, double radius) const;
+  double At(const Point<3>& p, const Labels& labels, double radius, double roughness) const;
 
 private:
   struct Member

@@ -153,10 +153,10 @@ TEST(InterfaceGuard, BringsOutAThinTipOfBackground)
 }
 
 // Graded meshes have few vertices where interfaces are flat, but their triangles are no farther from the image than those
-// of a uniform mesh with the finest delta.
+// of a uniform mesh with the finest delta. Seeds 1 and 12 have places that it takes two rounds for.
 TEST(InterfaceGuard, KeepsGradedMeshesNear)
 {
-  for (const unsigned seed : { 1u, 2u, 3u })
+  for (const unsigned seed : { 1u, 2u, 3u, 12u })
   {
     const LabelImage<3> image = Blobs(seed);
     const std::vector<Point<3>> faces = VoxelFaceCentres(image, 1);
@@ -179,7 +179,7 @@ TEST(InterfaceGuard, KeepsGradedMeshesNear)
     constexpr double largest = 1.1 * 1.15; // see NearEnough() and StairFactor
     EXPECT_GT(distances[0], largest * options.Delta) << seed;
     EXPECT_LE(distances[1], largest * options.Delta) << seed;
-    EXPECT_LT(elements[1], elements[0] + elements[0] / 20) << seed; // finer only where it has to be
+    EXPECT_LT(elements[1], elements[0] + elements[0] / 8) << seed; // finer only where it has to be
   }
 }
 

@@ -567,24 +567,31 @@ TEST(LocalFeatureSize, DeltaIsBoundedByTheBend)
   }
 }
 
-// What is thin is not bent for that: between two spheres the bend is theirs, not that of the gap.
+// What is thin is not bent for that: of a spherical shell, radii 16 and 24, the bend is that of its spheres.
 TEST(LocalFeatureSize, WhatIsThinIsNotBent)
 {
-  const LabelImage<3> image = phantoms::NestedBalls(24.0);
-  const Point<3> c = Centre(image);
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(56),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const double r = Distance(p, { 27.5, 27.5, 27.5 });
+      return r > 16.0 && r < 24.0 ? 1 : 0;
+    });
   GradingParameters parameters = Parameters(1.0, 100.0);
+  parameters.Ratio = 3.0; // Delta = 12: within it is the other sphere, too
   const LocalFeatureSize free = Measure(image, parameters);
-  parameters.Tolerance = 1.0;
+  parameters.Tolerance =
+    6.0; // the outer sphere's bend would allow 13; half the gap, taken for its radius, 5.4
   const LocalFeatureSize lfs = Measure(image, parameters);
-  std::vector<double> outermost;
+  EXPECT_EQ(lfs.Sizes(), free.Sizes());
+  std::vector<double> outer;
   for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
   {
-    if (Distance(lfs.Sample()[k], c) > 23.0)
+    if (Distance(lfs.Sample()[k], { 27.5, 27.5, 27.5 }) > 20.0)
     {
-      outermost.push_back(lfs.Delta().At(lfs.Sample()[k]) / free.Delta().At(lfs.Sample()[k]));
+      outer.push_back(lfs.Delta().At(lfs.Sample()[k]) / free.Delta().At(lfs.Sample()[k]));
     }
   }
-  EXPECT_GT(Quantile(outermost, 0.1), 0.95); // sqrt(1.2 x 4) / 4 = 0.55 if the gap counted
+  EXPECT_GT(Quantile(outer, 0.1), 0.95);
 }
 
 TEST(LocalFeatureSize, IsTheSameForAnyNumberOfThreads)

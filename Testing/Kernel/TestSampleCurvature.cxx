@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 using namespace voxplex;
 
@@ -57,7 +58,7 @@ TEST(SampleCurvature, OfASphereIsThatOfItsRadiusAtAnyScale)
   {
     for (std::size_t k = 0; k < points.size(); k += 997)
     {
-      ASSERT_NEAR(curvature.At(points[k], Labels, scale * spacing), 1.0 / radius,
+      ASSERT_NEAR(curvature.At(points[k], Labels, scale * spacing, 0.0), 1.0 / radius,
         scale < 12.0 ? 0.005 : 0.025)
         << scale;
     }
@@ -68,12 +69,29 @@ TEST(SampleCurvature, OfBentSheetsIsAsDocumented)
 {
   const Point<3> middle{};
   const auto at = [&](auto&& height)
-  { return Make(Disc(1.2, 4000, height), 0.1).At(middle, Labels, 1.0); };
+  { return Make(Disc(1.2, 4000, height), 0.1).At(middle, Labels, 1.0, 0.0); };
   EXPECT_LT(at([](double x, double y) { return 0.4 * x - 0.7 * y; }), 1e-6);
   EXPECT_NEAR(at([](double x, double y) { return 0.05 * (x * x + y * y); }), 0.1, 0.005);
   EXPECT_NEAR(at([](double x, double) { return 0.05 * x * x; }), 0.087, 0.005);
   EXPECT_NEAR(
     at([](double x, double y) { return 0.05 * (x * x - y * y); }) / 0.1, std::sqrt(2.0), 0.05);
+}
+
+TEST(SampleCurvature, OfWhatIsRoughIsThatWithoutTheRoughness)
+{
+  std::minstd_rand random(7);
+  std::uniform_real_distribution<double> noise(-0.1, 0.1);
+  const double roughness = 0.1 / std::sqrt(3.0);
+  for (const double bend : { 0.0, 0.6 })
+  {
+    const SampleCurvature curvature =
+      Make(Disc(1.2, 4000,
+             [&](double x, double y) { return 0.5 * bend * (x * x + y * y) + noise(random); }),
+        0.1);
+    EXPECT_GT(curvature.At({}, Labels, 1.0, 0.0), bend + 0.1);
+    EXPECT_NEAR(curvature.At({}, Labels, 1.0, roughness), bend, bend > 0.0 ? 0.05 : 0.1);
+    EXPECT_EQ(curvature.At({}, Labels, 1.0, 2.0 * roughness), 0.0);
+  }
 }
 
 TEST(SampleCurvature, OfOneSurfaceIsNotThatOfAnother)
@@ -86,19 +104,19 @@ TEST(SampleCurvature, OfOneSurfaceIsNotThatOfAnother)
     labels.push_back({ 1, 3 });
   }
   const SampleCurvature apart(points, labels, 0.08);
-  EXPECT_LT(apart.At({ 0.0, 0.0, 0.0 }, Labels, 1.0), 1e-6);
-  EXPECT_LT(apart.At({ 0.0, 0.0, 0.5 }, { 1, 3 }, 1.0), 1e-6);
-  EXPECT_GT(Make(points, 0.08).At({ 0.0, 0.0, 0.0 }, Labels, 1.0), 0.5);
+  EXPECT_LT(apart.At({ 0.0, 0.0, 0.0 }, Labels, 1.0, 0.0), 1e-6);
+  EXPECT_LT(apart.At({ 0.0, 0.0, 0.5 }, { 1, 3 }, 1.0, 0.0), 1e-6);
+  EXPECT_GT(Make(points, 0.08).At({ 0.0, 0.0, 0.0 }, Labels, 1.0, 0.0), 0.5);
 }
 
 TEST(SampleCurvature, OfFewPointsIsNone)
 {
   std::vector<Point<3>> points = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.2 }, { 0.0, 1.0, 0.2 },
     { -1.0, 0.0, 0.2 }, { 0.0, -1.0, 0.2 }, { 0.7, 0.7, 0.2 }, { -0.7, 0.7, 0.2 } };
-  EXPECT_EQ(Make(points, 1.0).At(points[0], Labels, 2.0), 0.0);
+  EXPECT_EQ(Make(points, 1.0).At(points[0], Labels, 2.0, 0.0), 0.0);
   points.push_back({ 0.7, -0.7, 0.2 });
-  EXPECT_GT(Make(points, 1.0).At(points[0], Labels, 2.0), 0.1);
-  EXPECT_EQ(Make(points, 1.0).At({ 50.0, 50.0, 50.0 }, Labels, 2.0), 0.0);
+  EXPECT_GT(Make(points, 1.0).At(points[0], Labels, 2.0, 0.0), 0.1);
+  EXPECT_EQ(Make(points, 1.0).At({ 50.0, 50.0, 50.0 }, Labels, 2.0, 0.0), 0.0);
   const std::vector<Point<3>> same(20, { 4.0, 5.0, 6.0 });
-  EXPECT_EQ(Make(same, 1.0).At(same[0], Labels, 2.0), 0.0);
+  EXPECT_EQ(Make(same, 1.0).At(same[0], Labels, 2.0, 0.0), 0.0);
 }
