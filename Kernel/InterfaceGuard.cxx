@@ -34,8 +34,6 @@ constexpr double FinestVoxels = 0.2;
 constexpr double SurfaceDistance = 1.1;
 /** There sampling around what is too far begins with so many finest deltas, at most. */
 constexpr double Coarsest = 4.0;
-/** And circumballs are bounded where spacings are at most so many finest deltas. */
-constexpr double CoarsestBound = 0.5 * FirstSpacing;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
@@ -430,8 +428,7 @@ double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 //------------------------------------------------------------------------------------------------
 // Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
 // element has its label. R1 with the same spacing makes circumballs small enough; with twice that one of AAL's faces
-// stays far, and the knee atlas takes a round more. Bounds grade into all of the label, so where delta is graded and
-// spacings begin with coarser ones no bound is set before points are as near to each other as they are elsewhere.
+// stays far, and the knee atlas takes a round more.
 void InterfaceGuard::LowerBound(const Face& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
@@ -440,8 +437,7 @@ void InterfaceGuard::LowerBound(const Face& face)
     return;
   }
   const double spacing = this->SpacingAt(face, visits->second);
-  if (spacing >= this->FinestSpacing &&
-    (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
+  if (spacing >= this->FinestSpacing)
   {
     const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
     this->Local.SetBound(face.Voxel, 1, label, spacing);
