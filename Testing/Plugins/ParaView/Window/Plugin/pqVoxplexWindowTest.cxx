@@ -58,6 +58,7 @@ namespace
 const char MeshLabel[] = "Mesh Segmentation (Tetrahedralize)";
 const char SeriesLabel[] = "Mesh Segmentation Series (Space-Time)";
 const char SliceLabel[] = "Space-Time Mesh Slice";
+const char QualityLabel[] = "Segmentation Mesh Quality";
 
 /** An action's text without the & of its shortcut. */
 QString textOf(const QAction* action)
@@ -133,7 +134,7 @@ void pqVoxplexWindowTest::run()
     this->testMenu();
     this->testQuickLaunch("tetrahedralize", { MeshLabel });
     this->testQuickLaunch("segmentation", { MeshLabel, SeriesLabel });
-    this->testQuickLaunch("mesh", { MeshLabel, SeriesLabel, SliceLabel });
+    this->testQuickLaunch("mesh", { MeshLabel, SeriesLabel, SliceLabel, QualityLabel });
     this->testMeshing();
     this->testPanel();
     this->testColors();
@@ -224,7 +225,7 @@ void pqVoxplexWindowTest::testMenu()
   QMenu* const menu = this->findMenu();
   this->check(menu != nullptr, "Filters > Voxplex is in the menu bar");
   this->check(menu && menu->actions().size() == 4, "it has four filters");
-  for (const QString label : { MeshLabel, SeriesLabel, SliceLabel })
+  for (const QString label : { MeshLabel, SeriesLabel, SliceLabel, QualityLabel })
   {
     QAction* const action = this->findAction(label);
     this->check(action != nullptr, "'" + label + "' is in the menu");
