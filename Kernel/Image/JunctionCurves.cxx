@@ -13,6 +13,7 @@
 #include <cmath>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace voxplex
 {
@@ -248,6 +249,7 @@ private:
       std::array<LabelId, FineSide * FineSide> Labels;
     };
     std::vector<Face> Faces;
+    std::vector<Segment> OfCube; ///< scratch
 
     LabelId& At(std::int64_t x, std::int64_t y, std::int64_t z)
     {
@@ -339,6 +341,7 @@ private:
           {
             continue;
           }
+          labels.OfCube.clear();
           for (const auto& order : Orders)
           {
             FineTetrahedron t;
@@ -361,11 +364,60 @@ private:
               ++t.Corners[i + 1][order[i]];
               t.Steps[i + 1] = static_cast<std::uint8_t>(t.Steps[i] | (1u << order[i]));
             }
-            this->Trace(t, segments);
+            this->Trace(t, labels.OfCube);
           }
+          JoinInside(labels.OfCube);
+          segments.insert(segments.end(), labels.OfCube.begin(), labels.OfCube.end());
         }
       }
     }
+  }
+
+  /**
+   * Leaves out places inside of a cube that are nobody's ends: three of four. Those next to corners stay, for where the
+   * corner is depends on them, and so does a ring about the diagonal.
+   */
+  static void JoinInside(std::vector<Segment>& segments)
+  {
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      for (unsigned end = 0; end < 2; ++end)
+      {
+        std::size_t j = FindNext(segments, i, end);
+        while (j < segments.size())
+        {
+          const unsigned far = segments[j].Ends[0] == segments[i].Ends[end] ? 1 : 0;
+          segments[i].Ends[end] = segments[j].Ends[far];
+          segments[i].Labels[end] = segments[j].Labels[far];
+          segments[j] = segments.back();
+          segments.pop_back();
+          i = i == segments.size() ? j : i;
+          j = FindNext(segments, i, end);
+        }
+      }
+    }
+  }
+
+  /** The segment to join to an end of another one; their number if there is none. */
+  static std::size_t FindNext(
+    const std::vector<Segment>& segments, std::size_t segment, unsigned end)
+  {
+    const auto [place, other] =
+      std::pair{ segments[segment].Ends[end], segments[segment].Ends[1 - end] };
+    if (!Numbering::IsInsideOfCube(place) || Numbering::IsCorner(other))
+    {
+      return segments.size();
+    }
+    for (std::size_t j = 0; j < segments.size(); ++j)
+    {
+      const auto& ends = segments[j].Ends;
+      if (j != segment && (ends[0] == place || ends[1] == place))
+      {
+        const Numbering::Number far = ends[0] == place ? ends[1] : ends[0];
+        return Numbering::IsCorner(far) || far == other ? segments.size() : j;
+      }
+    }
+    return segments.size();
   }
 
   /** @param t has three labels or four */

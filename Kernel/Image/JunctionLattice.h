@@ -67,6 +67,11 @@ public:
       IsCorner(number) };
   }
   static bool IsCorner(Number number) { return number & 1; }
+  /** Of a triangle that has the diagonal along which a cube of the fine lattice is cut in tetrahedra. */
+  static bool IsInsideOfCube(Number number)
+  {
+    return !IsCorner(number) && ((number >> 4) & 7) == 7;
+  }
 
 private:
   std::array<std::uint64_t, 2> Side;
