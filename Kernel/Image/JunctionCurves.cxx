@@ -374,8 +374,8 @@ private:
   }
 
   /**
-   * Leaves out places inside of a cube that are nobody's ends: three of four. Those next to corners stay, for where the
-   * corner is depends on them, and so does a ring about the diagonal.
+   * Leaves out places inside of a cube. Those next to corners stay, for where the corner is depends on them, and so do two
+   * of a ring about the diagonal.
    */
   static void JoinInside(std::vector<Segment>& segments)
   {

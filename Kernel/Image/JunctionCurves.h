@@ -27,6 +27,8 @@ namespace voxplex
  * lemma; a tetrahedron with three labels has exactly two such triangles, which are joined, and one with
  * four labels has four and is a corner. So curves are closed or end in corners, whatever the labels. On
  * its triangle a point is where the smoothed indicators of the three labels are equal, taken as linear there.
+ * Curves have points on the sides of cells only, but next to corners and in rings inside of one: six tetrahedra to a cell make
+ * curves zigzag that have a point in each.
  *
  * Background counts as a label. So does, behind each face where the image cuts the object, the space outside
  * of the image, a label of its own for each: so the edges of these faces are curves, on them to rounding, and corners of

@@ -227,6 +227,51 @@ TEST(JunctionCurves, AreClosedOrEndInCorners)
   }
 }
 
+// On a side of a cube of half a voxel one coordinate at least is a multiple of that.
+TEST(JunctionCurves, HavePointsInsideOfCubesAtCornersAndInRingsOnly)
+{
+  int ends = 0;
+  int atCorners = 0;
+  int rings = 0;
+  int onSides = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+  {
+    const LabelImage<3> image = Noise(seed);
+    const JunctionCurves junctions = Trace(image);
+    for (const JunctionCurves::Curve& curve : junctions.Curves())
+    {
+      std::vector<std::size_t> inside;
+      for (std::size_t k = 0; k < curve.Points.size(); ++k)
+      {
+        const Point<3> index = image.Grid().ToIndex(curve.Points[k]);
+        const bool isOnSide = std::any_of(index.begin(), index.end(),
+          [](double x) { return std::abs(2.0 * x - std::round(2.0 * x)) < 1e-9; });
+        onSides += isOnSide ? 1 : 0;
+        const bool isEnd = !curve.IsClosed && (k == 0 || k + 1 == curve.Points.size());
+        if (!isOnSide && !isEnd)
+        {
+          inside.push_back(k);
+        }
+      }
+      if (curve.IsClosed)
+      {
+        EXPECT_TRUE(inside.empty() || curve.Points.size() == 2);
+        rings += inside.empty() ? 0 : 1;
+        continue;
+      }
+      ends += 2;
+      for (const std::size_t k : inside)
+      {
+        EXPECT_TRUE(k == 1 || k + 2 == curve.Points.size()) << k << " of " << curve.Points.size();
+        atCorners += (k == 1 ? 1 : 0) + (k + 2 == curve.Points.size() ? 1 : 0);
+      }
+    }
+  }
+  EXPECT_GT(atCorners, 0.4 * ends); // two facets of four are inside; some points are on their edges
+  EXPECT_GT(onSides, 1000);
+  EXPECT_GT(rings, 0);
+}
+
 //------------------------------------------------------------------------------------------------
 // Between voxels of two labels a third one may win: a curve that passes there must not be cut off.
 // Where three labels are equal, and on the line between two where they are; by hand, with linear indicators.
