@@ -151,7 +151,7 @@ class Grading(unittest.TestCase):
         mesher.SetGradingToLocalFeatureSize()
         self.assertEqual(mesher.GetGradingAsString(), "local-feature-size")
         counts = []
-        for ratio, largest in ((0.5, 12.0), (0.5, 2.5), (1.0, 2.5)):
+        for ratio, largest in ((1.0, 12.0), (0.5, 2.5), (1.0, 2.5)):
             mesher.SetFeatureRatio(ratio)
             mesher.SetLargestFeature(largest)
             mesher.Update()
@@ -168,8 +168,8 @@ class Grading(unittest.TestCase):
             self.assertEqual(figures["grading"], {"samples": statistics.GetGradingSamples(),
                                                   "poles": statistics.GetGradingPoles()})
             counts.append(statistics.GetNumberOfElements())
-        self.assertLess(counts[0], counts[1])
-        self.assertLess(counts[2], counts[1])
+        self.assertLess(counts[0], counts[2], counts)
+        self.assertLess(counts[2], counts[1], counts)
         self.assertLess(counts[1], uniform)
 
     def test_modes_are_clamped(self):
