@@ -5,7 +5,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -34,6 +33,8 @@ constexpr double FinestVoxels = 0.2;
 constexpr double SurfaceDistance = 1.1;
 /** There sampling around what is too far begins with so many finest deltas, at most. */
 constexpr double Coarsest = 4.0;
+/** And circumballs are bounded where spacings are at most so many finest deltas. */
+constexpr double CoarsestBound = 0.5 * FirstSpacing;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
@@ -229,20 +230,7 @@ void InterfaceGuard::ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) cons
       const double y = m[1][1] * dy + m[1][2] * dz;
       const auto [first, last] =
         places(0, x[0] - (m[0][1] * dy + m[0][2] * dz) / m[0][0], left2 - y * y);
-      const auto words = voxels.Row(voxels.RowOf({ 0, j, k }));
-      for (std::int64_t w = first / 64; w <= last / 64; ++w)
-      {
-        const std::int64_t low = std::max(first - 64 * w, std::int64_t{ 0 });
-        const std::int64_t high = std::min(last - 64 * w, std::int64_t{ 63 });
-        const std::uint64_t bits =
-          low > high ? 0 : (~std::uint64_t{ 0 } >> (63 - (high - low))) << low;
-        // Relaxed: bits are only cleared, and the loop's end orders that before its readers.
-        const std::atomic_ref<std::uint64_t> word(words[static_cast<std::size_t>(w)]);
-        if ((word.load(std::memory_order_relaxed) & bits) != 0)
-        {
-          word.fetch_and(~bits, std::memory_order_relaxed);
-        }
-      }
+      voxels.ClearRun({ first, j, k }, last);
     }
   }
 }
@@ -428,7 +416,8 @@ double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 //------------------------------------------------------------------------------------------------
 // Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
 // element has its label. R1 with the same spacing makes circumballs small enough; with twice that one of AAL's faces
-// stays far, and the knee atlas takes a round more.
+// stays far, and the knee atlas takes a round more. Bounds grade into all of the label, so where delta is graded and
+// spacings begin with coarser ones no bound is set before points are nearer to each other than they are elsewhere.
 void InterfaceGuard::LowerBound(const Face& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
@@ -437,7 +426,8 @@ void InterfaceGuard::LowerBound(const Face& face)
     return;
   }
   const double spacing = this->SpacingAt(face, visits->second);
-  if (spacing >= this->FinestSpacing)
+  if (spacing >= this->FinestSpacing &&
+    (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
   {
     const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
     this->Local.SetBound(face.Voxel, 1, label, spacing);

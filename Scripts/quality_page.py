@@ -134,7 +134,7 @@ class Atlas:
             ratio = median(self.pairs, lambda pair: pair["full"]["elements"] / seconds(pair["full"]) /
                            self.plain_rate(pair, seconds))
             result.append((f"{name}: everything on at least 70 % of plain refinement's",
-                           f"{full:,.0f} and {plain:,.0f}; of each other {100 * ratio:.0f} %", ratio >= 0.7))
+                           f"{100 * ratio:.0f} % ({full:,.0f} of {plain:,.0f})", ratio >= 0.7))
         return result
 
     @staticmethod
@@ -220,7 +220,9 @@ INTRODUCTION = """\
 Made by `Scripts/measure-quality`, tables and pictures: do not edit. All figures are those of
 `voxplex.quality()` ([UserGuide.md](UserGuide.md#quality)), of the files that the programs wrote; the meshes of
 CGAL 5.5's Mesh_3 are measured by the same function. One thread each. Times are medians of {repeat}, the programs taking turns
-on {machine}; seconds of one thread on this machine, so compare them with each other only.
+on {machine}; seconds of one thread on this machine, so compare them with each other only. Machines change their pace, so
+rates are measured in {pairs} pairs: a run with everything on against the mean of one of plain refinement before and one
+after it. The percentage is the median of the pairs' ratios, the rates beside it are medians of their own.
 
 - **Voxplex**: `voxplex` without optimisation, all else at its default. **Optimised**: with it.
 - **CGAL**: `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
@@ -234,7 +236,8 @@ on {machine}; seconds of one thread on this machine, so compare them with each o
 
 
 def make_page(results):
-    parts = [INTRODUCTION.format(repeat=results["repeat"], machine=results["machine"])]
+    parts = [INTRODUCTION.format(repeat=results["repeat"], machine=results["machine"],
+                                  pairs=len(next(iter(results["atlases"].values()))["pairs"]))]
     for key, data in results["atlases"].items():
         atlas = Atlas(data)
         parts += [f"## {atlas.title}\n", atlas.asked(), "All that was measured:\n", atlas.measured(),

@@ -290,6 +290,16 @@ public:
   SimplexState& State(SimplexId s) { return this->States[s]; }
   const SimplexState& State(SimplexId s) const { return this->States[s]; }
   bool IsAlive(SimplexId s) const { return this->Marks[s] != SimplexMark::Unused; }
+  /** The smallest id of a simplex that is. There is always one: the box is filled. */
+  SimplexId FirstAlive() const
+  {
+    SimplexId s = 0;
+    while (!this->IsAlive(s))
+    {
+      ++s;
+    }
+    return s;
+  }
 
   /** All simplex ids lie below this one; test each with IsAlive(). */
   SimplexId SimplexIdEnd() const { return this->NextSimplex.load(std::memory_order_relaxed); }

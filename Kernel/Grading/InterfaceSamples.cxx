@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Grading/InterfaceSamples.h"
 
+#include "Geometry/MixBits.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -69,9 +70,7 @@ double PseudoRandom(const Index& voxel, std::uint64_t stream)
   std::uint64_t h = stream;
   for (const std::int64_t x : voxel)
   {
-    h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ull; // splitmix64
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
-    h ^= h >> 27;
+    h = MixBits((h + GoldenGamma) ^ static_cast<std::uint64_t>(x));
   }
   return static_cast<double>(h >> 11) * 0x1p-52 - 1.0;
 }

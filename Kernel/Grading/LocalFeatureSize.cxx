@@ -4,6 +4,7 @@
 
 #include "Grading/InterfaceSamples.h"
 #include "Grading/MedialAxis.h"
+#include "Grading/PointBounds.h"
 #include "Grading/SampleCurvature.h"
 #include "Image/FeatureTransform.h"
 #include "Parallel/ParallelFor.h"
@@ -20,11 +21,8 @@ namespace
 
 constexpr std::size_t PointsAtOnce = 4096;
 
-/** Voxels of the grid that poles are entered in, along an edge of a cell of the feature transform. */
+/** Voxels of the grid that poles are entered in, a bit each, along an edge of a cell of the feature transform. */
 constexpr std::uint32_t Stride = 4;
-
-/** Grids have at most about so many cells; that of poles has Stride^3 bits for each. */
-constexpr double MostCells = 16.0 * 1024.0 * 1024.0;
 
 /**
  * Delta grows by no more than this over a unit of length. Where it grows faster R2 and R6 undo each
@@ -47,31 +45,6 @@ constexpr double Roughness = 0.15;
 
 /** The scale at which the bend is seen is that of Delta, which becomes smaller by it: so many times, at most. */
 constexpr int MostBends = 4;
-
-Box<3> BoundsOf(const std::vector<Point<3>>& points)
-{
-  Box<3> box{ points.front(), points.front() };
-  for (const Point<3>& p : points)
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      box.Min[a] = std::min(box.Min[a], p[a]);
-      box.Max[a] = std::max(box.Max[a], p[a]);
-    }
-  }
-  return box;
-}
-
-/** The edge of a cell, at least that asked for, with which a grid over the box has not too many. */
-double CellEdge(const Box<3>& box, double edge)
-{
-  double volume = 1.0;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    volume *= std::max(box.Max[a] - box.Min[a], edge);
-  }
-  return std::max(edge, std::cbrt(volume / MostCells));
-}
 
 /** @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal. */
 class NearestPole

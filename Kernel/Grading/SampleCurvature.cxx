@@ -3,6 +3,8 @@
 #include "Grading/SampleCurvature.h"
 
 #include "Geometry/ExtremeEigenvalues.h"
+#include "Geometry/MixBits.h"
+#include "Grading/PointBounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,16 +32,10 @@ constexpr std::size_t SmallestLevel = 256;
 /** Edge of a cell, in spacings of its level. */
 constexpr double CellSpacings = 2.0;
 
-/** Grids have at most about so many cells. */
-constexpr double MostCells = 16.0 * 1024.0 * 1024.0;
-
 /** Whether the k-th point belongs to the next level, as good as random. */
 bool IsOfNext(std::uint64_t k)
 {
-  std::uint64_t h = (k + 1) * 0x9e3779b97f4a7c15ull; // splitmix64
-  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
-  h = (h ^ (h >> 27)) * 0x94d049bb133111ebull;
-  return (h >> 32) % PointsOfNext == 0;
+  return MixBits(k + 1) % PointsOfNext == 0;
 }
 
 /** Of points: how many, their centre, and how far they spread about it. */
@@ -97,12 +93,7 @@ SampleCurvature::Level::Level(const std::vector<Member>& members, const Box<3>& 
   : Origin(bounds.Min)
   , Members(members.size())
 {
-  double volume = 1.0;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    volume *= std::max(bounds.Max[a] - bounds.Min[a], cell);
-  }
-  this->InverseCell = 1.0 / std::max(cell, std::cbrt(volume / MostCells));
+  this->InverseCell = 1.0 / CellEdge(bounds, cell);
   std::size_t count = 1;
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -145,17 +136,12 @@ SampleCurvature::SampleCurvature(
   const std::vector<Point<3>>& points, const std::vector<Labels>& labels, double spacing)
   : Spacing(spacing)
 {
-  Box<3> bounds{ points.front(), points.front() };
+  const Box<3> bounds = BoundsOf(points);
   std::vector<Member> members;
   members.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     members.push_back({ points[k], labels[k] });
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      bounds.Min[a] = std::min(bounds.Min[a], points[k][a]);
-      bounds.Max[a] = std::max(bounds.Max[a], points[k][a]);
-    }
   }
   do
   {

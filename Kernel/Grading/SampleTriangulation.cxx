@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Grading/SampleTriangulation.h"
 
+#include "Geometry/MixBits.h"
+#include "Grading/PointBounds.h"
 #include "Mesh/HilbertOrder.h"
 #include "Parallel/ParallelFor.h"
 
@@ -23,15 +25,7 @@ constexpr std::size_t FewestForThreads = 4 * PieceSize;
 
 Box<3> MakeBox(const std::vector<Point<3>>& sample, double margin)
 {
-  Box<3> box{ sample.front(), sample.front() };
-  for (const Point<3>& p : sample)
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      box.Min[a] = std::min(box.Min[a], p[a]);
-      box.Max[a] = std::max(box.Max[a], p[a]);
-    }
-  }
+  Box<3> box = BoundsOf(sample);
   for (std::size_t a = 0; a < 3; ++a)
   {
     box.Min[a] -= margin;
@@ -40,25 +34,11 @@ Box<3> MakeBox(const std::vector<Point<3>>& sample, double margin)
   return box;
 }
 
-/** The living simplex with the smallest id. */
-SimplexId FirstLivingOf(const Triangulation<3>& mesh)
-{
-  SimplexId s = 0;
-  while (!mesh.IsAlive(s))
-  {
-    ++s;
-  }
-  return s;
-}
-
 /** The round of the k-th point: rounds are spread evenly over the sample. */
 std::size_t RoundOf(std::size_t k, std::size_t rounds)
 {
   std::size_t round = rounds - 1;
-  std::uint64_t h = static_cast<std::uint64_t>(k) * 0x9e3779b97f4a7c15ull;
-  h ^= h >> 29;
-  h *= 0xbf58476d1ce4e5b9ull;
-  h >>= 32;
+  std::uint64_t h = MixBits(k + 1);
   for (; round > 0 && h % RoundFactor == 0; --round)
   {
     h /= RoundFactor;
@@ -116,7 +96,7 @@ void SampleTriangulation::InsertAlone(
 {
   Triangulation<3>& mesh = this->Triangulated;
   Worker worker(mesh);
-  SimplexId near = FirstLivingOf(mesh);
+  SimplexId near = mesh.FirstAlive();
   for (std::size_t k = 0; k < entries.size(); ++k)
   {
     if (k % PieceSize == 0)

@@ -9,6 +9,8 @@
 
 #include "Image/GridGeometry.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -78,6 +80,30 @@ public:
   {
     const auto x = static_cast<std::size_t>(index[0]);
     this->Bits[this->RowOf(index) * this->Words + x / 64] |= std::uint64_t{ 1 } << (x % 64);
+  }
+
+  /**
+   * Clears a run of voxels along the first axis. Threads may clear what they like at the same time, but see what others
+   * have cleared only after something that orders them, as the end of ParallelFor() does.
+   *
+   * @param first the run's first voxel, inside the grid
+   * @param last the last one's index along the first axis, inside the grid; nothing is cleared if it is before the first
+   */
+  void ClearRun(const Index& first, std::int64_t last)
+  {
+    const auto words = this->Row(this->RowOf(first));
+    for (std::int64_t w = first[0] / 64; 64 * w <= last; ++w)
+    {
+      const std::int64_t low = std::max(first[0] - 64 * w, std::int64_t{ 0 });
+      const std::int64_t high = std::min(last - 64 * w, std::int64_t{ 63 });
+      const std::uint64_t bits =
+        low > high ? 0 : (~std::uint64_t{ 0 } >> (63 - (high - low))) << low;
+      const std::atomic_ref<std::uint64_t> word(words[static_cast<std::size_t>(w)]);
+      if ((word.load(std::memory_order_relaxed) & bits) != 0)
+      {
+        word.fetch_and(~bits, std::memory_order_relaxed);
+      }
+    }
   }
 
   std::size_t MemoryBytes() const { return this->Bits.size() * sizeof(std::uint64_t); }

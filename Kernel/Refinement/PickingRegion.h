@@ -7,6 +7,7 @@
 #ifndef voxplex_PickingRegion_h
 #define voxplex_PickingRegion_h
 
+#include "Geometry/MixBits.h"
 #include "Refinement/RefinementContext.h"
 
 #include <bit>
@@ -52,10 +53,8 @@ public:
 private:
   std::uint64_t Next()
   {
-    std::uint64_t z = this->State += 0x9e3779b97f4a7c15ull;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
+    this->State += GoldenGamma;
+    return MixBits(this->State);
   }
 
   std::uint64_t State;

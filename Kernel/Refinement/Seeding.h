@@ -77,18 +77,6 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
   return sample;
 }
 
-/** The living simplex with the smallest id. */
-template <int D>
-SimplexId FirstLiving(const Triangulation<D>& mesh)
-{
-  SimplexId s = 0;
-  while (!mesh.IsAlive(s))
-  {
-    ++s;
-  }
-  return s;
-}
-
 /**
  * Inserts feature points along a Hilbert curve.
  *
@@ -106,18 +94,22 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
     along.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
   }
   std::sort(along.begin(), along.end());
-  SimplexId near = FirstLiving(mesh);
+  SimplexId near = mesh.FirstAlive();
   Rules rules(context, worker);
   for (const auto& [index, i] : along)
   {
     rules.InsertSeed(seeds[i], near);
-    near = mesh.IsAlive(near) ? near : FirstLiving(mesh);
+    near = mesh.IsAlive(near) ? near : mesh.FirstAlive();
   }
   mesh.Unlock(worker.Kernel);
 }
 
 /**
  * Inserts a sample of the interfaces and the seeds that are asked for.
+ *
+ * The thesis starts all threads from the few simplices of the box and loses its first seconds to
+ * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
+ * of their own. The points are counted as insertions by R1.
  *
  * @param Rules as in Refiner
  * @param worker inserts; nobody else may operate meanwhile. Nothing is screened: most of what is made does not last.
@@ -138,10 +130,6 @@ void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worke
 /**
  * All living simplices, so that neighbours in the list are near each other in space: consecutive pieces of it are good
  * starts for threads.
- *
- * The thesis starts all threads from the few simplices of the box and loses its first seconds to
- * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
- * of their own. The points are counted as insertions by R1.
  */
 template <int D>
 std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh)

@@ -80,19 +80,6 @@ public:
 
 using BallDomain = BallDomainOf<3>;
 
-/** The box in which the mesher would refine a ball. */
-template <int D>
-Box<D> Around(const BallDomainOf<D>& ball, double delta)
-{
-  Box<D> box = ball.Bounds();
-  for (std::size_t a = 0; a < box.Min.size(); ++a)
-  {
-    box.Min[a] -= 2.0 * delta;
-    box.Max[a] += 2.0 * delta;
-  }
-  return box;
-}
-
 } // namespace voxplex::checks
 
 #endif

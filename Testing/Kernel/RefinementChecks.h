@@ -8,17 +8,45 @@
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Refinement/RefinementContext.h"
+#include "Refinement/Refiner.h"
+#include "Refinement/Rules3D.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace voxplex::checks
 {
+
+/** The box in which the mesher would refine a domain. */
+template <int D>
+Box<D> Around(const Domain<D>& domain, double delta)
+{
+  Box<D> box = domain.Bounds();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    box.Min[a] -= 2.0 * delta;
+    box.Max[a] += 2.0 * delta;
+  }
+  return box;
+}
+
+/** A refined triangulation of a domain. */
+inline std::unique_ptr<RefinementContext<3>> Refined(const Domain<3>& domain, double delta)
+{
+  RefinementSettings<3> settings;
+  settings.Delta = delta;
+  auto context =
+    std::make_unique<RefinementContext<3>>(domain, settings, Around(domain, delta), 1000);
+  Refiner<Rules3D> refiner(*context);
+  EXPECT_TRUE(refiner.Run(nullptr));
+  return context;
+}
 
 /** The mesh of the ball is sound, and its interface is a sphere. */
 inline SimplexMesh<3> ExtractSphere(const RefinementContext<3>& context, const BallDomain& ball)

@@ -353,13 +353,7 @@ TEST(FineGrainedRefinement, FourBall)
     const Watchdog watchdog("4-ball, " + std::to_string(threads) + " threads");
     RefinementSettings<4> settings;
     settings.Delta = 2.5;
-    Box<4> box = ball.Bounds();
-    for (std::size_t a = 0; a < 4; ++a)
-    {
-      box.Min[a] -= 2.0 * settings.Delta;
-      box.Max[a] += 2.0 * settings.Delta;
-    }
-    RefinementContext<4> context(ball, settings, box, 1000);
+    RefinementContext<4> context(ball, settings, Around(ball, settings.Delta), 1000);
     TeamOptions team;
     team.Threads = threads;
     team.FineGrained = true;

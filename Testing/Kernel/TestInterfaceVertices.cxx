@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // The vertices on the interfaces of a triangulation, and how they are followed.
-#include "BallDomain.h"
 #include "Error.h"
 #include "Image/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "Mesh/InterfaceVertices.h"
 #include "Mesh/MeshExtraction.h"
-#include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
+#include "RefinementChecks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -25,32 +22,11 @@ using namespace voxplex::checks;
 namespace
 {
 
-/** A refined triangulation of a domain. */
-struct Refined
-{
-  Refined(const Domain<3>& domain, double delta)
-  {
-    RefinementSettings<3> settings;
-    settings.Delta = delta;
-    Box<3> box = domain.Bounds();
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      box.Min[a] -= 2.0 * delta;
-      box.Max[a] += 2.0 * delta;
-    }
-    this->Context.emplace(domain, settings, box, 1000);
-    Refiner<Rules3D> refiner(*this->Context);
-    EXPECT_TRUE(refiner.Run(nullptr));
-  }
-
-  std::optional<RefinementContext<3>> Context;
-};
-
 /** Of the facets of the mesh. */
-std::set<Point<3>> VerticesOfFacets(const Refined& refined, const Domain<3>& domain)
+std::set<Point<3>> VerticesOfFacets(const RefinementContext<3>& refined, const Domain<3>& domain)
 {
   SimplexMesh<3> mesh;
-  ExtractMesh<3>(refined.Context->Mesh, domain, mesh);
+  ExtractMesh<3>(refined.Mesh, domain, mesh);
   std::set<Point<3>> vertices;
   for (const auto& facet : mesh.Facets)
   {
@@ -80,12 +56,12 @@ std::set<Point<3>> Difference(const std::set<Point<3>>& from, const std::set<Poi
 void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
 {
   SCOPED_TRACE(delta);
-  const Refined refined(domain, delta);
-  const std::set<Point<3>> expected = VerticesOfFacets(refined, domain);
+  const auto refined = Refined(domain, delta);
+  const std::set<Point<3>> expected = VerticesOfFacets(*refined, domain);
   EXPECT_GT(expected.size(), 3u);
   for (const unsigned threads : { 1u, 3u })
   {
-    InterfaceVertices vertices(refined.Context->Mesh, domain, threads);
+    InterfaceVertices vertices(refined->Mesh, domain, threads);
     const InterfaceVertices::Changes all = vertices.Update();
     EXPECT_EQ(AsSet(all.Added), expected);
     EXPECT_TRUE(all.Gone.empty());
@@ -95,8 +71,7 @@ void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
   }
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(
-    InterfaceVertices(refined.Context->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
+  EXPECT_THROW(InterfaceVertices(refined->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
 }
 
 } // namespace
@@ -120,8 +95,8 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
   {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(4.0, 27.0);
-    Refined refined(domain, 4.0);
-    Triangulation<3>& mesh = refined.Context->Mesh;
+    const auto refined = Refined(domain, 4.0);
+    Triangulation<3>& mesh = refined->Mesh;
     Triangulation<3>::Worker worker(mesh);
     InterfaceVertices vertices(mesh, domain, threads);
     std::set<Point<3>> before = AsSet(vertices.Update().Added);
@@ -139,11 +114,11 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
       for (std::size_t k = random() % 9; k > 0; --k)
       {
         const Point<3> p{ uniform(random), uniform(random), uniform(random) };
-        const SimplexId conflict = mesh.FindConflict(worker, p, FirstLiving(mesh));
+        const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
         ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
         inserted.push_back(worker.NewVertex);
       }
-      const std::set<Point<3>> now = VerticesOfFacets(refined, domain);
+      const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
       const InterfaceVertices::Changes changes = vertices.Update();
       EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << round;
       EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << round;

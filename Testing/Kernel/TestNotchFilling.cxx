@@ -10,8 +10,7 @@
 #include "Mesh/MeshQuality.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
-#include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
+#include "RefinementChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -28,6 +27,7 @@
 #include <vector>
 
 using namespace voxplex;
+using checks::Refined;
 
 namespace
 {
@@ -80,23 +80,6 @@ std::vector<float> CutBall(const GridGeometry<3>& grid)
     }
   }
   return values;
-}
-
-/** A refined triangulation of the box around a domain. */
-std::unique_ptr<RefinementContext<3>> Refined(const Domain<3>& domain, double delta)
-{
-  RefinementSettings<3> settings;
-  settings.Delta = delta;
-  Box<3> box = domain.Bounds();
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    box.Min[a] -= 2.0 * delta;
-    box.Max[a] += 2.0 * delta;
-  }
-  auto context = std::make_unique<RefinementContext<3>>(domain, settings, box, 1000);
-  Refiner<Rules3D> refiner(*context, TeamOptions());
-  EXPECT_TRUE(refiner.Run(nullptr));
-  return context;
 }
 
 SimplexMesh<3> Extract(

@@ -88,13 +88,7 @@ TEST(Refinement, FollowsBoundsThatWereLowered)
     settings.Local = &local;
     TeamOptions team;
     team.Threads = threads;
-    Box<3> box = domain.Bounds();
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      box.Min[a] -= 2.0 * settings.Delta;
-      box.Max[a] += 2.0 * settings.Delta;
-    }
-    RefinementContext<3> context(domain, settings, box, 1000);
+    RefinementContext<3> context(domain, settings, Around(domain, settings.Delta), 1000);
     ASSERT_TRUE(Refiner<Rules3D>(context, team).Run(nullptr));
     const std::uint32_t features = context.Features.Size();
     Refiner<Rules3D> idle(context, team, {}, RefinementStart::AtSeeds);

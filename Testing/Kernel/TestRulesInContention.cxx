@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rules step by step, while a second worker owns vertices that they need; and eager removal from the
 // lists of poor elements.
-#include "BallDomain.h"
 #include "Refinement/Rules3D.h"
+#include "RefinementChecks.h"
 #include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>

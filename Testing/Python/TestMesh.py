@@ -238,11 +238,12 @@ class Parameters(unittest.TestCase):
         _, _, statistics = voxplex.mesh(self.image, 0.7, threads=1, grading="lfs", largest_feature=2,
                                         full_output=True)
         self.assertEqual(statistics["largest_delta"], 2)
-        # Without looking at the mesh again, which would make up for a coarse start. Larger ones than 4 do not count: the ball bends.
+        # Without looking at the mesh again, which would make up for a coarse start.
+        # More than 4 voxels change nothing but chance: by then the ball's bend decides.
         counts = [voxplex.mesh(ball(), 0.7, threads=1, spacing=(1, 1, 1), grading="lfs", interface_rounds=0,
-                               largest_feature=voxels).GetNumberOfCells() for voxels in (4, 2, 1)]
-        self.assertGreater(counts[2], 10 * counts[0])
-        self.assertEqual(counts, sorted(counts))
+                               largest_feature=voxels).GetNumberOfCells() for voxels in (12, 4, 2, 1)]
+        self.assertLess(max(counts[:2]), counts[2])
+        self.assertGreater(counts[3], 10 * max(counts[:2]))
         with self.assertRaisesRegex(ValueError, "uniform, lfs.*'thin'"):
             voxplex.mesh(self.image, grading="thin")
         with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
