@@ -151,7 +151,7 @@ class Grading(unittest.TestCase):
         mesher.SetGradingToLocalFeatureSize()
         self.assertEqual(mesher.GetGradingAsString(), "local-feature-size")
         counts = []
-        for ratio, largest in ((1.0, 12.0), (0.5, 2.5), (1.0, 2.5)):
+        for ratio, largest in ((1.0, 12.0), (0.5, 2.5), (1.0, 1.5)):
             mesher.SetFeatureRatio(ratio)
             mesher.SetLargestFeature(largest)
             mesher.Update()
