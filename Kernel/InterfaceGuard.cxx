@@ -264,35 +264,18 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FilterFar(
 }
 
 //------------------------------------------------------------------------------------------------
+// There may be few vertices, but the triangles between them must be near.
 std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh<3>& mesh) const
 {
   const std::vector<Point<3>> vertices = VerticesOfInterfaces(mesh);
-  // Where delta is graded there may be few vertices, but the triangles between them must be near.
-  Interfaces interfaces(this->Reach(), vertices.size(),
-    this->Base.Graded ? TrianglesOf(mesh) : std::vector<Triangle>(), this->Threads, this->Stop);
+  Interfaces interfaces(
+    this->Reach(), vertices.size(), TrianglesOf(mesh), this->Threads, this->Stop);
   for (const Point<3>& p : vertices)
   {
     interfaces.Vertices.Add(p);
   }
-  if (this->Base.Graded)
-  {
-    const std::vector<Face> far = this->FilterFar(this->Sampled, interfaces);
-    return far.empty() ? this->FindAllFar(interfaces, vertices) : far;
-  }
-  if (!this->Known)
-  {
-    return this->FindAllFar(interfaces, vertices);
-  }
-  std::vector<Point<3>> gone;
-  this->Known->Vertices.ForEach(
-    [&](const Point<3>& p)
-    {
-      if (!interfaces.Vertices.AnyWithin(p, 1e-6 * this->VoxelDiagonal))
-      {
-        gone.push_back(p);
-      }
-    });
-  return this->FindFarAgain(gone, interfaces);
+  const std::vector<Face> far = this->FilterFar(this->Sampled, interfaces);
+  return far.empty() ? this->FindAllFar(interfaces, vertices) : far;
 }
 
 std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarAgain(
@@ -458,41 +441,52 @@ std::vector<FeatureSeed<3>> InterfaceGuard::InspectVertices(
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceGuard::Inspect(
-  const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
+std::vector<FeatureSeed<3>> InterfaceGuard::InspectLabels(
+  const std::vector<Point<3>>& gone, const std::vector<Pinch>& pinches)
 {
-  const std::vector<Face> far = this->FindFarFaces(mesh);
-  this->FarFaces = far.size();
-  this->NonManifoldEdges = edges.size();
-  // At junctions there may be some; they are no reason to go on, but are sampled along with the rest.
+  std::vector<Point<3>> removed;
+  std::copy_if(gone.begin(), gone.end(), std::back_inserter(removed),
+    [&](const Point<3>& p) { return this->Known->Vertices.Remove(p); });
+  const std::vector<Face> far = this->FindFarAgain(removed, *this->Known);
+  for (const Point<3>& p : removed)
+  {
+    this->Known->Vertices.Add(p);
+  }
+  return this->ProposeIfBad(far, pinches);
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> InterfaceGuard::InspectMesh(
+  const SimplexMesh<3>& mesh, const std::vector<Pinch>& pinches)
+{
+  return this->ProposeIfBad(this->FindFarFaces(mesh), pinches);
+}
+
+//------------------------------------------------------------------------------------------------
+// At junctions there may be pinches; they are no reason to go on, but are sampled along with the rest.
+std::vector<FeatureSeed<3>> InterfaceGuard::ProposeIfBad(
+  const std::vector<Face>& far, const std::vector<Pinch>& pinches)
+{
   const bool goOn = !far.empty() ||
     std::any_of(
-      edges.begin(), edges.end(), [](const InterfaceEdge& edge) { return !edge.IsJunction; });
-  if (!goOn)
-  {
-    return {};
-  }
-  std::vector<Point<3>> middles;
-  for (const InterfaceEdge& edge : edges)
-  {
-    middles.push_back(Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5));
-  }
-  return this->Propose(far, middles);
+      pinches.begin(), pinches.end(), [](const Pinch& pinch) { return !pinch.IsJunction; });
+  return this->Propose(far, goOn ? pinches : std::vector<Pinch>());
 }
 
 //------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> InterfaceGuard::Propose(
-  const std::vector<Face>& far, const std::vector<Point<3>>& edges)
+  const std::vector<Face>& far, const std::vector<Pinch>& pinches)
 {
+  this->FarFaces = far.size();
   std::vector<Face> faces;
   for (const Face& face : far)
   {
     ThrowIfStopped(this->Stop);
     this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->RemedyAt(face), faces);
   }
-  for (const Point<3>& middle : edges)
+  for (const Pinch& pinch : pinches)
   {
-    this->AddFacesNear(middle, RadiusAtEdge * this->DensestAt(middle), faces);
+    this->AddFacesNear(pinch.Middle, RadiusAtEdge * this->DensestAt(pinch.Middle), faces);
   }
   if (faces.empty())
   {

@@ -13,7 +13,6 @@
 #include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
 #include "Mesh/BoundingTree.h"
-#include "Mesh/InterfaceEdges.h"
 #include "Mesh/InterfaceVertices.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureGrid.h"
@@ -34,27 +33,34 @@ namespace voxplex
  *
  * R1 asks for the interface that is closest to a circumcentre, so the tip of a thin process, or a hole
  * through a sheet, may never be looked at; and where two interfaces are nearer to each other than delta,
- * tetrahedra of their labels alternate around edges. Inspect() looks at a mesh for
- * - faces between voxels of different labels that have no vertex of the mesh's interfaces within
- *   LargestDistance times delta, or a voxel's diagonal if that is more; where delta is graded and vertices may be rare,
- *   from which the mesh's triangles are farther than 1.1 times the delta that was asked for, or half a voxel's diagonal if that is more;
- * - edges that are not manifold on the boundary of some label: other than two of its facets meet there.
+ * tetrahedra of their labels alternate around edges. It looks for
+ * - faces between voxels of different labels that have no vertex of the interfaces within LargestDistance times
+ *   delta, or a voxel's diagonal if that is more; where delta is graded and vertices may be rare, from which the mesh's
+ *   triangles are farther than 1.1 times the delta that was asked for, or half a voxel's diagonal if that is more;
+ * - pinches: edges that are not manifold on the boundary of some label, where other than two of its facets meet.
  *
  * Around each of these it proposes points of the interfaces half a delta apart (a quarter, if it comes there
  * again, and so on), to be inserted before refinement goes on. Where faces are far a second time, R1 gets a
  * smaller delta besides (LocalDelta), so that circumcentres come to lie in what is thin. CGAL's Mesh_3 refines
  * facets around such edges to the same end; the thesis has no such rule.
  *
- * The first InspectVertices() looks at all faces; later ones, and Inspect() after it, at those that were sampled and at
- * those whose vertex is none of an interface any more. Where delta is graded Inspect() looks at those that were sampled,
- * and at all others only when nothing is wrong with these.
+ * The first InspectVertices() looks at all faces; later ones, and InspectLabels(), at those that were sampled and at
+ * those whose vertex is none of an interface any more. Where delta is graded InspectMesh() is called instead; it looks at
+ * those that were sampled, and at all others only when nothing is wrong with these.
  *
- * Not thread safe; uses threads of its own. Inspect() takes time linear in the image's surface voxels and
- * n log n in the mesh's interface facets.
+ * Not thread safe; uses threads of its own. A look at all faces takes time linear in the image's surface voxels, and
+ * n log n in the number of the interfaces' facets.
  */
 class InterfaceGuard
 {
 public:
+  /** Where the boundary of a label is no surface: at an edge. */
+  struct Pinch
+  {
+    Point<3> Middle;
+    bool IsJunction; ///< three labels or more meet there
+  };
+
   /** The distance that is asked for, in delta; to a vertex, so that to a facet is less. */
   static constexpr double LargestDistance = 1.4;
   /** Where delta is graded the mesh may be so far from interfaces, with the finest delta that was asked for. */
@@ -73,25 +79,32 @@ public:
     unsigned threads, const std::stop_token& stop);
 
   /**
-   * What needs no mesh: points that would bring vertices near to far faces. Not where delta is graded: there triangles count.
+   * Points that would bring vertices near to far faces. Not where delta is graded: there triangles count.
    * @param changes of the interfaces' vertices since the last call; at the first all are added
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> InspectVertices(const InterfaceVertices::Changes& changes);
 
   /**
-   * Points that would mend what is wrong with the mesh's interfaces.
-   * @param edges of the mesh: FindNonManifoldEdges()
+   * After InspectVertices(): points that would mend pinches, and what changes of labels have made far.
+   * @param gone positions of vertices that are on interfaces no more for the sake of these; counted again afterwards
    * @return nothing if all is well, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> Inspect(
-    const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges);
+  std::vector<FeatureSeed<3>> InspectLabels(
+    const std::vector<Point<3>>& gone, const std::vector<Pinch>& pinches);
 
-  /** Of the last mesh that was inspected. */
+  /**
+   * Where delta is graded: points that would mend what is wrong with a mesh's interfaces.
+   * @param pinches of the mesh
+   * @return as that of InspectLabels()
+   * @throws Cancelled if a stop was requested before the end
+   */
+  std::vector<FeatureSeed<3>> InspectMesh(
+    const SimplexMesh<3>& mesh, const std::vector<Pinch>& pinches);
+
+  /** At the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }
-  /** Of the last mesh that was inspected. */
-  std::size_t NumberOfNonManifoldEdges() const { return this->NonManifoldEdges; }
 
 private:
   using Index = GridGeometry<3>::Index;
@@ -141,9 +154,11 @@ private:
   std::vector<Face> FindFarAgain(
     const std::vector<Point<3>>& gone, const Interfaces& interfaces) const;
   std::vector<Face> FilterFar(const std::vector<Face>& faces, const Interfaces& interfaces) const;
-  /** Points around far faces and middles of edges. */
+  /** Points around far faces and pinches. */
   std::vector<FeatureSeed<3>> Propose(
-    const std::vector<Face>& far, const std::vector<Point<3>>& edges);
+    const std::vector<Face>& far, const std::vector<Pinch>& pinches);
+  std::vector<FeatureSeed<3>> ProposeIfBad(
+    const std::vector<Face>& far, const std::vector<Pinch>& pinches);
   bool IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const;
   bool IsFarFromVertices(
     const Face& face, const FeatureGrid<3>& vertices, const Point<3>*& known) const;
@@ -176,7 +191,6 @@ private:
   std::vector<Face> Sampled;        ///< in earlier inspections, ascending
   std::optional<Interfaces> Known;  ///< vertices at the last InspectVertices()
   std::size_t FarFaces = 0;
-  std::size_t NonManifoldEdges = 0;
 };
 
 } // namespace voxplex

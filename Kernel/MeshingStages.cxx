@@ -5,8 +5,6 @@
 #include "Error.h"
 #include "Image/GradedSize.h"
 #include "Image/ImageDomain.h"
-#include "Mesh/InterfaceVertices.h"
-#include "Mesh/ManifoldRepair.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
 #include "Optimisation/MeshOptimiser.h"
@@ -314,30 +312,21 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
   }
   const std::uint64_t expected = estimate.Vertices;
   bool goOn = this->Refine(context, seeds, RefinementStart::Everywhere, expected, stop);
-  std::optional<InterfaceVertices> vertices;
-  std::optional<InterfaceGuard> interfaces;
+  std::optional<InterfaceStage> interfaces;
   if constexpr (D == 3)
   {
-    if (!density.Base.Graded)
-    {
-      vertices.emplace(context.Mesh, domain, this->Options.Threads, stop);
-    }
-    interfaces.emplace(image, *this->Sites, domain, density.Base, density.Sizes(), local,
-      this->Options.Threads, stop);
+    interfaces.emplace(InterfaceStage::Subject{ context.Mesh, image, *this->Sites, domain,
+                         density.Base, density.Sizes(), size.get() },
+      this->Options, local, this->Stats.Interfaces, stop);
   }
-  const NotchBounds notches = this->BoundsInNotches(prepared);
   while (goOn)
   {
     this->Fraction = this->ProgressEnd;
     local.ForgetLowered(); // refinement has seen to it
-    seeds = this->InspectTriangulation(interfaces, vertices);
+    seeds = this->InspectTriangulation(interfaces);
     if (seeds.empty())
     {
-      Stopwatch extraction;
-      ExtractMesh<D>(context.Mesh, domain, mesh, this->Options.Threads, stop, &notches);
-      this->Stats.Times.Extraction += extraction.Seconds();
-      const std::vector<InterfaceEdge> nonManifold =
-        this->RepairInterfaces(prepared, mesh); // may take the last element of a component
+      this->Extract(context.Mesh, domain, interfaces, stop, mesh);
       if (components && this->SampleLostComponents(*components, image, mesh))
       {
         ++this->Stats.ComponentRounds;
@@ -346,7 +335,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
           context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
         continue;
       }
-      seeds = this->InspectMesh(interfaces, mesh, nonManifold);
+      seeds = this->InspectMesh(interfaces, mesh);
     }
     if (seeds.empty())
     {
@@ -591,75 +580,52 @@ bool MeshingStages<D>::SampleLostComponents(
 }
 
 //------------------------------------------------------------------------------------------------
-/** Returns the edges that are not manifold all the same. @throws Cancelled */
+/** Points to go on with before there is a mesh. @throws Cancelled */
 template <int D>
-std::vector<InterfaceEdge> MeshingStages<D>::RepairInterfaces(
-  const Prepared& prepared, SimplexMesh<D>& mesh)
-{
-  std::vector<InterfaceEdge> left;
-  if constexpr (D == 3)
-  {
-    if (this->Options.InterfaceRounds > 0)
-    {
-      Stopwatch repair;
-      ManifoldRepairOptions options;
-      options.FacetAngle = this->Options.FacetAngle;
-      options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
-      options.Cut = &prepared.Domain;
-      ManifoldRepairCounts counts = RepairManifold(mesh, options, prepared.Stop);
-      this->Stats.Interfaces.NonManifoldRepaired = counts.Before - counts.After;
-      this->Stats.Interfaces.NonManifoldLeft = counts.After;
-      left = std::move(counts.Left);
-      this->Stats.Times.Interfaces += repair.Seconds();
-    }
-  }
-  return left;
-}
-
-//------------------------------------------------------------------------------------------------
-/** Counts a round of those asked for if there are points to go on with. @param inspect returns these */
-template <int D>
-template <typename Function>
-std::vector<FeatureSeed<D>> MeshingStages<D>::InspectInterfaces(Function&& inspect)
+std::vector<FeatureSeed<D>> MeshingStages<D>::InspectTriangulation(
+  std::optional<InterfaceStage>& interfaces)
 {
   std::vector<FeatureSeed<D>> seeds;
-  InterfaceFigures& figures = this->Stats.Interfaces;
-  if (figures.Rounds < this->Options.InterfaceRounds)
+  if constexpr (D == 3)
   {
     Stopwatch inspection;
-    seeds = inspect();
-    figures.Rounds += seeds.empty() ? 0 : 1;
-    figures.Seeds += seeds.size();
+    seeds = interfaces->InspectTriangulation();
     this->Stats.Times.Interfaces += inspection.Seconds();
   }
   return seeds;
 }
 
-/** Points to go on with before there is a mesh, which takes longer than to look. @throws Cancelled */
-template <int D>
-std::vector<FeatureSeed<D>> MeshingStages<D>::InspectTriangulation(
-  std::optional<InterfaceGuard>& guard, std::optional<InterfaceVertices>& vertices)
-{
-  if constexpr (D == 3)
-  {
-    if (vertices)
-    {
-      return this->InspectInterfaces([&] { return guard->InspectVertices(vertices->Update()); });
-    }
-  }
-  return {};
-}
-
 /** Points to go on with. @throws Cancelled */
 template <int D>
-std::vector<FeatureSeed<D>> MeshingStages<D>::InspectMesh(std::optional<InterfaceGuard>& guard,
-  const SimplexMesh<D>& mesh, const std::vector<InterfaceEdge>& nonManifold)
+std::vector<FeatureSeed<D>> MeshingStages<D>::InspectMesh(
+  std::optional<InterfaceStage>& interfaces, const SimplexMesh<D>& mesh)
 {
+  std::vector<FeatureSeed<D>> seeds;
   if constexpr (D == 3)
   {
-    return this->InspectInterfaces([&] { return guard->Inspect(mesh, nonManifold); });
+    Stopwatch inspection;
+    seeds = interfaces->InspectMesh(mesh);
+    this->Stats.Times.Interfaces += inspection.Seconds();
   }
-  return {};
+  return seeds;
+}
+
+/** @throws Cancelled */
+template <int D>
+void MeshingStages<D>::Extract(const Triangulation<D>& triangulation, const Domain<D>& domain,
+  const std::optional<InterfaceStage>& interfaces, const std::stop_token& stop,
+  SimplexMesh<D>& mesh)
+{
+  Stopwatch extraction;
+  if (interfaces)
+  {
+    ExtractMesh<D>(triangulation, domain, interfaces->Labels(), mesh, this->Options.Threads, stop);
+  }
+  else
+  {
+    ExtractMesh<D>(triangulation, domain, mesh, this->Options.Threads, stop);
+  }
+  this->Stats.Times.Extraction += extraction.Seconds();
 }
 
 //------------------------------------------------------------------------------------------------

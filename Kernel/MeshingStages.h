@@ -17,14 +17,12 @@
 #include "Image/IsosurfaceImage.h"
 #include "Image/JunctionCurves.h"
 #include "Image/LocalDelta.h"
-#include "InterfaceGuard.h"
-#include "Mesh/NotchFilling.h"
+#include "InterfaceStage.h"
 #include "Mesh/SimplexMesh.h"
 #include "MeshingOptions.h"
 #include "MeshingStatistics.h"
 #include "Refinement/Refiner.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -130,20 +128,6 @@ private:
     const Prepared& prepared, const RefinementContext<D>& context);
   RefinementSettings<D> Settings(
     const Prepared& prepared, const Density& density, const LocalDelta<D>& local) const;
-  /** What refinement promises of elements; 3D. */
-  NotchBounds BoundsInNotches(const Prepared& prepared) const
-  {
-    NotchBounds bounds;
-    if constexpr (D == 3)
-    {
-      bounds.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
-      bounds.DihedralAngle = this->Options.TetSlivers.Angle;
-      bounds.FacetAngle = this->Options.FacetAngle;
-      bounds.JunctionFacetAngle = std::min(bounds.JunctionFacetAngle, bounds.FacetAngle);
-      bounds.Size = prepared.Size.get();
-    }
-    return bounds;
-  }
   Box<D> MakeBox(const Domain<D>& domain, const Density& density) const;
   TeamOptions Team() const;
   bool Refine(RefinementContext<D>& context, const std::vector<FeatureSeed<D>>& seeds,
@@ -151,13 +135,12 @@ private:
   void AddThreads(const std::vector<ThreadStatistics>& threads);
   bool SampleLostComponents(
     ComponentGuard<D>& guard, const LabelImage<D>& image, const SimplexMesh<D>& mesh);
-  std::vector<InterfaceEdge> RepairInterfaces(const Prepared& prepared, SimplexMesh<D>& mesh);
-  template <typename Function>
-  std::vector<FeatureSeed<D>> InspectInterfaces(Function&& inspect);
-  std::vector<FeatureSeed<D>> InspectTriangulation(
-    std::optional<InterfaceGuard>& guard, std::optional<InterfaceVertices>& vertices);
-  std::vector<FeatureSeed<D>> InspectMesh(std::optional<InterfaceGuard>& guard,
-    const SimplexMesh<D>& mesh, const std::vector<InterfaceEdge>& nonManifold);
+  std::vector<FeatureSeed<D>> InspectTriangulation(std::optional<InterfaceStage>& interfaces);
+  std::vector<FeatureSeed<D>> InspectMesh(
+    std::optional<InterfaceStage>& interfaces, const SimplexMesh<D>& mesh);
+  void Extract(const Triangulation<D>& triangulation, const Domain<D>& domain,
+    const std::optional<InterfaceStage>& interfaces, const std::stop_token& stop,
+    SimplexMesh<D>& mesh);
   void Optimise(const Prepared& prepared, SimplexMesh<D>& mesh);
 
   const BitMask<D>* Sites = nullptr; ///< surface voxels of the domain

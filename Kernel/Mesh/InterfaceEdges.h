@@ -10,8 +10,6 @@
 #ifndef voxplex_InterfaceEdges_h
 #define voxplex_InterfaceEdges_h
 
-#include "Mesh/SimplexMesh.h"
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,7 +20,7 @@ namespace voxplex
 {
 
 /**
- * @brief The edges of all facets of a mesh, each with the facets that share it.
+ * @brief The edges of facets, each with the facets that share it.
  *
  * O(n) for n facets of which few share a point.
  */
@@ -37,11 +35,13 @@ public:
   };
 
   /**
+   * @param facets three point numbers each
+   * @param points all numbers are below
    * @param threads used to sort; 0 means all cores
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  explicit InterfaceEdgeLists(
-    const SimplexMesh<3>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
+  InterfaceEdgeLists(std::span<const std::array<std::uint32_t, 3>> facets, std::size_t points,
+    unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
    * Calls visit(ends, uses) for each edge in the order of its ends, which are ascending point numbers; uses is a
@@ -81,15 +81,16 @@ struct LabelAtEdge
 class LabelsAtEdge
 {
 public:
-  explicit LabelsAtEdge(const SimplexMesh<3>& mesh)
-    : Mesh(mesh)
+  /** @param labels on both sides of each facet */
+  explicit LabelsAtEdge(std::span<const std::array<std::int64_t, 2>> labels)
+    : Labels(labels)
   {
   }
   /** @return valid until the next call */
   std::span<const LabelAtEdge> Count(std::span<const InterfaceEdgeLists::Use> uses);
 
 private:
-  const SimplexMesh<3>& Mesh;
+  const std::span<const std::array<std::int64_t, 2>> Labels;
   std::vector<std::int64_t> Sides;
   std::vector<LabelAtEdge> Counts;
 };
@@ -116,8 +117,17 @@ struct InterfaceEdge
 /**
  * Edges at which some label other than background has another number of boundary facets than two, in the
  * order of their ends. Takes time linear in the numbers of points and facets.
+ *
+ * @param facets three point numbers each
+ * @param labels on both sides of each
+ * @param points all numbers are below
+ * @param threads used for some of it; 0 means all cores
+ * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-std::vector<InterfaceEdge> FindNonManifoldEdges(const SimplexMesh<3>& mesh);
+std::vector<InterfaceEdge> FindNonManifoldEdges(
+  std::span<const std::array<std::uint32_t, 3>> facets,
+  std::span<const std::array<std::int64_t, 2>> labels, std::size_t points, unsigned threads = 1,
+  const std::stop_token& stop = {});
 
 } // namespace voxplex
 

@@ -44,7 +44,7 @@ InterfaceTopology MeasureTopology(
   InterfaceTopology topology;
   std::map<std::int64_t, LabelTopology> labels;
   std::vector<PointJunction> points(mesh.Points.size());
-  LabelsAtEdge around(mesh);
+  LabelsAtEdge around(mesh.FacetLabels);
   const auto addEdge = [&](const auto& ends, std::span<const InterfaceEdgeLists::Use> uses)
   {
     const std::span<const LabelAtEdge> labelsHere = around.Count(uses);
@@ -71,7 +71,7 @@ InterfaceTopology MeasureTopology(
       }
     }
   };
-  InterfaceEdgeLists(mesh, threads, stop).ForEachEdge(addEdge);
+  InterfaceEdgeLists(mesh.Facets, mesh.Points.size(), threads, stop).ForEachEdge(addEdge);
   for (const PointJunction& point : points)
   {
     const bool isCorner = point.NumberOfLabels > 3;

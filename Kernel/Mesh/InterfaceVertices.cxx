@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/InterfaceVertices.h"
 
+#include "Mesh/SimplexLabels.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include <algorithm>
 #include <atomic>
@@ -41,8 +41,7 @@ std::uint32_t InterfaceVertices::GenerationOf(SimplexId s) const
 
 LabelId InterfaceVertices::LabelOf(SimplexId s) const
 {
-  const SimplexState& state = this->Source.State(s);
-  return state.Labelled ? state.Label : this->Image.Label(this->Source.GetCircumball(s).Center);
+  return LabelAtCentre(this->Source, this->Image, s);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -50,7 +49,7 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.resize(ids);
-  UninitialisedVector<LabelId> labels(ids); // fewer bytes than states: neighbours are anywhere
+  SimplexLabels labels(ids); // fewer bytes than states: neighbours are anywhere
   ParallelFor(
     0, ids, Grain, this->Threads,
     [&](std::size_t first, std::size_t last)

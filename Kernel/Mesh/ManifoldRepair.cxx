@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -22,19 +24,58 @@ namespace
 
 using namespace repair;
 
-/** Facet i of a positively oriented tetrahedron, its normal outwards. */
-constexpr std::array<std::array<unsigned, 3>, 4> Outward{ { { 1, 2, 3 }, { 2, 0, 3 }, { 0, 1, 3 },
-  { 1, 0, 2 } } };
+using Facet = std::array<VertexId, 3>;
 
-Edge MakeEdge(std::uint32_t a, std::uint32_t b)
+Edge MakeEdge(VertexId a, VertexId b)
 {
   return { std::min(a, b), std::max(a, b) };
 }
 
-Facet Sorted(Facet facet)
+/** What the interfaces of a triangulation consist of. */
+struct InterfaceFacets
 {
-  std::sort(facet.begin(), facet.end());
-  return facet;
+  std::vector<Facet> Facets;
+  std::vector<std::array<std::int64_t, 2>> Labels; ///< on both sides of each
+};
+
+/** In the order of the ids of the simplices on the sides of the larger labels. */
+InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
+  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
+{
+  constexpr std::size_t Grain = 8192;
+  std::vector<InterfaceFacets> parts((labels.size() + Grain - 1) / Grain);
+  ParallelFor(
+    0, labels.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      InterfaceFacets& part = parts[first / Grain];
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        if (labels[s] == 0)
+        {
+          continue;
+        }
+        const auto& simplex = triangulation.GetSimplex(s);
+        for (unsigned i = 0; i < 4; ++i)
+        {
+          const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
+          if (beside < labels[s])
+          {
+            part.Facets.push_back(
+              { simplex.V[(i + 1) % 4], simplex.V[(i + 2) % 4], simplex.V[(i + 3) % 4] });
+            part.Labels.push_back({ labels[s], beside });
+          }
+        }
+      }
+    },
+    stop);
+  InterfaceFacets all;
+  for (const InterfaceFacets& part : parts)
+  {
+    all.Facets.insert(all.Facets.end(), part.Facets.begin(), part.Facets.end());
+    all.Labels.insert(all.Labels.end(), part.Labels.begin(), part.Labels.end());
+  }
+  return all;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -42,10 +83,10 @@ Facet Sorted(Facet facet)
 class Mender
 {
 public:
-  Mender(SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges,
-    const ManifoldRepairOptions& options)
-    : Mesh(mesh)
-    , Near(mesh, edges)
+  Mender(const Triangulation<3>& triangulation, std::span<LabelId> labels,
+    std::vector<std::uint8_t> onInterface, const ManifoldRepairOptions& options)
+    : Labels(labels)
+    , Near(triangulation, labels, std::move(onInterface))
     , FacetCosine(std::cos(options.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(
         std::min(options.JunctionFacetAngle, options.FacetAngle) * std::numbers::pi / 180.0))
@@ -80,9 +121,9 @@ public:
     {
       return false;
     }
-    for (const std::uint32_t t : best->Cells)
+    for (const SimplexId t : best->Cells)
     {
-      this->Mesh.Labels[t] = best->Label;
+      this->Labels[t] = best->Label;
       this->Changed.insert(t);
     }
     return true;
@@ -90,52 +131,12 @@ public:
 
   bool IsBad(const Edge& edge) const { return this->Near.CountBad(edge, nullptr) != 0; }
 
-  /**
-   * Brings the mesh's facets in line with the labels, and takes out what was dropped.
-   * @param before bad edges before any change, in the order of their ends
-   * @return those that there are now, in the same order
-   */
-  std::vector<InterfaceEdge> Finish(const std::vector<InterfaceEdge>& before)
-  {
-    std::vector<InterfaceEdge> left = this->FindLeft(before);
-    std::vector<std::uint8_t> touched(this->Mesh.Points.size());
-    std::set<Facet> around; // facets of what has changed
-    for (const std::uint32_t t : this->Changed)
-    {
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        around.insert(this->FacetOf(t, i));
-        touched[this->Mesh.Simplices[t][i]] = 1;
-      }
-    }
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < this->Mesh.Facets.size(); ++f)
-    {
-      const Facet& v = this->Mesh.Facets[f];
-      if ((touched[v[0]] & touched[v[1]] & touched[v[2]]) == 0 || !around.contains(Sorted(v)))
-      {
-        this->Mesh.Facets[kept] = this->Mesh.Facets[f];
-        this->Mesh.FacetLabels[kept++] = this->Mesh.FacetLabels[f];
-      }
-    }
-    this->Mesh.Facets.resize(kept);
-    this->Mesh.FacetLabels.resize(kept);
-    for (const std::uint32_t t : this->Changed)
-    {
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        if (around.erase(this->FacetOf(t, i)) != 0)
-        {
-          this->AddFacet(t, i);
-        }
-      }
-    }
-    this->DropBackground(left);
-    return left;
-  }
+  const std::set<SimplexId>& GetChanged() const { return this->Changed; }
 
-private:
-  /** The bad edges now: of what has changed, and what was bad elsewhere. */
+  /**
+   * The bad edges now, in the order of their ends: of what has changed, and what was bad elsewhere.
+   * @param before those before any change
+   */
   std::vector<InterfaceEdge> FindLeft(const std::vector<InterfaceEdge>& before) const
   {
     std::vector<InterfaceEdge> left;
@@ -160,32 +161,38 @@ private:
     return left;
   }
 
-  Facet FacetOf(std::uint32_t t, unsigned i) const
+private:
+  Facet FacetOf(SimplexId t, unsigned i) const
   {
-    const auto& v = this->Mesh.Simplices[t];
-    return Sorted({ v[Outward[i][0]], v[Outward[i][1]], v[Outward[i][2]] });
+    const auto& v = this->Near.VerticesOf(t);
+    return { v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4] };
   }
 
   /** Each tetrahedron around the edge, and each run of a label, to the labels beside them. */
   std::vector<Change> ChangesAt(const Edge& edge) const
   {
-    const std::vector<std::uint32_t> star = this->Near.StarOf(edge);
-    std::vector<std::vector<std::uint32_t>> groups;
-    std::set<std::uint32_t> grouped;
-    for (const std::uint32_t t : star)
+    const std::vector<SimplexId> star = this->Near.StarOf(edge);
+    std::vector<std::vector<SimplexId>> groups;
+    std::set<SimplexId> grouped;
+    for (const SimplexId t : star)
     {
+      if (this->Labels[t] == 0) // is not in the mesh
+      {
+        continue;
+      }
       groups.push_back({ t });
       if (!grouped.insert(t).second)
       {
         continue;
       }
-      std::vector<std::uint32_t> run{ t };
+      std::vector<SimplexId> run{ t };
       for (std::size_t k = 0; k < run.size(); ++k)
       {
-        for (const std::uint32_t other : star)
+        for (unsigned i = 0; i < 4; ++i)
         {
-          if (this->Mesh.Labels[other] == this->Mesh.Labels[t] &&
-            this->AreNeighbours(run[k], other) && grouped.insert(other).second)
+          const SimplexId other = this->Near.Beside(run[k], i);
+          if (std::binary_search(star.begin(), star.end(), other) &&
+            this->Labels[other] == this->Labels[t] && grouped.insert(other).second)
           {
             run.push_back(other);
           }
@@ -197,23 +204,18 @@ private:
       }
     }
     std::vector<Change> changes;
-    for (const std::vector<std::uint32_t>& group : groups)
+    for (const std::vector<SimplexId>& group : groups)
     {
-      if (this->Mesh.Labels[group.front()] == 0) // dropped already
-      {
-        continue;
-      }
-      std::set<std::int64_t> labels;
-      for (const std::uint32_t t : group)
+      std::set<LabelId> labels;
+      for (const SimplexId t : group)
       {
         for (unsigned i = 0; i < 4; ++i)
         {
-          const std::optional<std::uint32_t> beside = this->Near.Beside(t, i);
-          labels.insert(beside ? this->Mesh.Labels[*beside] : 0);
+          labels.insert(this->Near.LabelBeside(t, i));
         }
       }
-      labels.erase(this->Mesh.Labels[group.front()]);
-      for (const std::int64_t label : labels)
+      labels.erase(this->Labels[group.front()]);
+      for (const LabelId label : labels)
       {
         changes.push_back({ group, label });
       }
@@ -221,22 +223,14 @@ private:
     return changes;
   }
 
-  bool AreNeighbours(std::uint32_t t, std::uint32_t other) const
-  {
-    const auto& v = this->Mesh.Simplices[t];
-    const auto& w = this->Mesh.Simplices[other];
-    return std::count_if(v.begin(), v.end(),
-             [&](std::uint32_t p) { return std::find(w.begin(), w.end(), p) != w.end(); }) == 3;
-  }
-
   /** Those of some tetrahedra, ascending. */
   template <typename Cells>
   std::vector<Edge> EdgesOf(const Cells& cells) const
   {
     std::vector<Edge> edges;
-    for (const std::uint32_t t : cells)
+    for (const SimplexId t : cells)
     {
-      const auto& v = this->Mesh.Simplices[t];
+      const auto& v = this->Near.VerticesOf(t);
       for (unsigned i = 0; i < 4; ++i)
       {
         for (unsigned j = 0; j < i; ++j)
@@ -264,12 +258,12 @@ private:
   double VolumeOf(const Change& change) const
   {
     double volume = 0.0;
-    for (const std::uint32_t t : change.Cells)
+    for (const SimplexId t : change.Cells)
     {
       std::array<const Point<3>*, 4> points;
       for (unsigned i = 0; i < 4; ++i)
       {
-        points[i] = &this->Mesh.Points[this->Mesh.Simplices[t][i]];
+        points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
       }
       volume += std::abs(SignedVolume<3>(points.data()));
     }
@@ -279,30 +273,28 @@ private:
   bool IsAllowed(const Change& change) const
   {
     bool leavesSome = false;
-    for (const std::uint32_t t : change.Cells)
+    for (const SimplexId t : change.Cells)
     {
-      const std::int64_t own = this->Mesh.Labels[t];
-      for (const std::uint32_t v : this->Mesh.Simplices[t])
+      const LabelId own = this->Labels[t];
+      for (const VertexId v : this->Near.VerticesOf(t))
       {
         if (!this->Near.IsOnInterface(v))
         {
           return false;
         }
-        for (const std::uint32_t other : this->Near.StarOf(v))
+        for (const SimplexId other : this->Near.StarOf(v))
         {
           if (leavesSome)
           {
             break;
           }
-          leavesSome = this->Mesh.Labels[other] == own && !change.Touches(other);
+          leavesSome = this->Labels[other] == own && !change.Touches(other);
         }
       }
       for (unsigned i = 0; i < 4; ++i)
       {
-        const std::optional<std::uint32_t> beside = this->Near.Beside(t, i);
-        const bool changes = beside && change.Touches(*beside);
-        const std::int64_t other = beside ? this->Mesh.Labels[*beside] : 0;
-        const bool isNew = !changes && other == own; // it becomes an interface now
+        const bool isNew = this->Near.LabelBeside(t, i) == own &&
+          !change.Touches(this->Near.Beside(t, i)); // it becomes an interface now
         if (isNew && !this->HasGoodAngles(t, i))
         {
           return false;
@@ -319,14 +311,14 @@ private:
     {
       return false;
     }
-    for (const std::uint32_t t : change.Cells)
+    for (const SimplexId t : change.Cells)
     {
       for (unsigned i = 0; i < 4; ++i)
       {
         unsigned faces = ~0u;
-        for (const std::uint32_t v : this->FacetOf(t, i))
+        for (const VertexId v : this->FacetOf(t, i))
         {
-          faces &= this->Cut->CutFaces(this->Mesh.Points[v]);
+          faces &= this->Cut->CutFaces(this->Near.Position(v));
         }
         if (faces != 0)
         {
@@ -337,15 +329,15 @@ private:
     return false;
   }
 
-  bool HasGoodAngles(std::uint32_t t, unsigned i) const
+  bool HasGoodAngles(SimplexId t, unsigned i) const
   {
     const Facet facet = this->FacetOf(t, i);
     bool isSharp = false; // good enough at junctions only
     for (unsigned k = 0; k < 3; ++k)
     {
-      const Point<3>& p = this->Mesh.Points[facet[k]];
-      const Point<3> a = Subtract(this->Mesh.Points[facet[(k + 1) % 3]], p);
-      const Point<3> b = Subtract(this->Mesh.Points[facet[(k + 2) % 3]], p);
+      const Point<3>& p = this->Near.Position(facet[k]);
+      const Point<3> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
+      const Point<3> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
       const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
       if (Dot(a, b) > this->JunctionCosine * lengths)
       {
@@ -354,122 +346,51 @@ private:
       isSharp |= Dot(a, b) > this->FacetCosine * lengths;
     }
     return !isSharp ||
-      std::any_of(
-        facet.begin(), facet.end(), [this](std::uint32_t v) { return this->IsAtJunction(v); });
+      std::any_of(facet.begin(), facet.end(), [this](VertexId v) { return this->IsAtJunction(v); });
   }
 
-  /** Whether three labels or more meet at a vertex; background counts where the mesh ends. */
-  bool IsAtJunction(std::uint32_t v) const
+  /** Whether three labels or more meet at a vertex; background counts. */
+  bool IsAtJunction(VertexId v) const
   {
-    std::set<std::int64_t> labels;
-    for (const std::uint32_t t : this->Near.StarOf(v))
+    std::set<LabelId> labels;
+    for (const SimplexId t : this->Near.StarOf(v))
     {
-      labels.insert(this->Mesh.Labels[t]);
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        if (this->Mesh.Simplices[t][i] != v && !this->Near.Beside(t, i))
-        {
-          labels.insert(0);
-        }
-      }
+      labels.insert(this->Labels[t]);
     }
     return labels.size() > 2;
   }
 
-  /** If it is an interface, from the side of the larger label. */
-  void AddFacet(std::uint32_t t, unsigned i)
-  {
-    const std::optional<std::uint32_t> beside = this->Near.Beside(t, i);
-    const std::int64_t own = this->Mesh.Labels[t];
-    const std::int64_t other = beside ? this->Mesh.Labels[*beside] : 0;
-    if (own == other)
-    {
-      return;
-    }
-    const auto& v = this->Mesh.Simplices[t];
-    Facet facet{ v[Outward[i][0]], v[Outward[i][1]], v[Outward[i][2]] };
-    if (own < other)
-    {
-      std::swap(facet[0], facet[1]);
-    }
-    this->Mesh.Facets.push_back(facet);
-    this->Mesh.FacetLabels.push_back({ std::max(own, other), std::min(own, other) });
-  }
-
-  /** @param left edges, whose ends follow the numbers of the points */
-  void DropBackground(std::vector<InterfaceEdge>& left)
-  {
-    SimplexMesh<3>& mesh = this->Mesh;
-    if (std::find(mesh.Labels.begin(), mesh.Labels.end(), 0) == mesh.Labels.end())
-    {
-      return;
-    }
-    std::size_t kept = 0;
-    std::vector<std::uint32_t> numbers(mesh.Points.size(), 0);
-    for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
-    {
-      if (mesh.Labels[t] != 0)
-      {
-        mesh.Simplices[kept] = mesh.Simplices[t];
-        mesh.Labels[kept++] = mesh.Labels[t];
-        for (const std::uint32_t v : mesh.Simplices[t])
-        {
-          numbers[v] = 1;
-        }
-      }
-    }
-    mesh.Simplices.resize(kept);
-    mesh.Labels.resize(kept);
-    std::uint32_t points = 0;
-    for (std::size_t v = 0; v < numbers.size(); ++v)
-    {
-      if (numbers[v] != 0)
-      {
-        mesh.Points[points] = mesh.Points[v];
-        numbers[v] = points++;
-      }
-    }
-    mesh.Points.resize(points);
-    const auto renumber = [&](auto& cells)
-    {
-      for (auto& cell : cells)
-      {
-        for (std::uint32_t& v : cell)
-        {
-          v = numbers[v];
-        }
-      }
-    };
-    renumber(mesh.Simplices);
-    renumber(mesh.Facets);
-    for (InterfaceEdge& edge : left)
-    {
-      edge.Ends = { numbers[edge.Ends[0]], numbers[edge.Ends[1]] };
-    }
-  }
-
-  SimplexMesh<3>& Mesh;
+  const std::span<LabelId> Labels; ///< of each simplex id
   const Neighbourhood Near;
   const double FacetCosine;
   const double JunctionCosine; ///< not smaller
   const Domain<3>* const Cut;
-  std::set<std::uint32_t> Changed;
+  std::set<SimplexId> Changed;
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-ManifoldRepairCounts RepairManifold(
-  SimplexMesh<3>& mesh, const ManifoldRepairOptions& options, const std::stop_token& stop)
+ManifoldRepairResult RepairManifold(const Triangulation<3>& triangulation,
+  std::span<LabelId> labels, const ManifoldRepairOptions& options, unsigned threads,
+  const std::stop_token& stop)
 {
-  const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(mesh);
-  ManifoldRepairCounts counts{ edges.size(), edges.size(), edges };
+  const InterfaceFacets interfaces = FindInterfaceFacets(triangulation, labels, threads, stop);
+  const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(
+    interfaces.Facets, interfaces.Labels, triangulation.VertexIdEnd(), threads, stop);
   if (edges.empty())
   {
-    return counts;
+    return {};
   }
-  Mender mender(mesh, edges, options);
-  bool changed = false;
+  std::vector<std::uint8_t> onInterface(triangulation.VertexIdEnd());
+  for (const Facet& facet : interfaces.Facets)
+  {
+    for (const VertexId v : facet)
+    {
+      onInterface[v] = 1;
+    }
+  }
+  Mender mender(triangulation, labels, std::move(onInterface), options);
   for (bool again = true; again;)
   {
     again = false;
@@ -478,14 +399,9 @@ ManifoldRepairCounts RepairManifold(
       ThrowIfStopped(stop);
       again |= mender.IsBad(edge.Ends) && mender.Mend(edge.Ends);
     }
-    changed |= again;
   }
-  if (changed)
-  {
-    counts.Left = mender.Finish(edges);
-    counts.After = counts.Left.size();
-  }
-  return counts;
+  const std::set<SimplexId>& changed = mender.GetChanged();
+  return { edges.size(), mender.FindLeft(edges), { changed.begin(), changed.end() } };
 }
 
 } // namespace voxplex

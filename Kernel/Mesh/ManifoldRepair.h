@@ -7,11 +7,12 @@
 #ifndef voxplex_ManifoldRepair_h
 #define voxplex_ManifoldRepair_h
 
+#include "Delaunay/Triangulation.h"
 #include "Image/Domain.h"
 #include "Mesh/InterfaceEdges.h"
-#include "Mesh/SimplexMesh.h"
 
 #include <cstddef>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -23,16 +24,16 @@ struct ManifoldRepairOptions
 {
   double FacetAngle = 30.0;         ///< smallest planar angle of new facets, degrees
   double JunctionFacetAngle = 20.0; ///< the same where three labels or more meet at a vertex
-  const Domain<3>* Cut =
-    nullptr; ///< of the mesh, if its image cuts the object: these faces get no dents
+  /** What was meshed, if its image cuts the object: these faces get no dents. */
+  const Domain<3>* Cut = nullptr;
 };
 
-/** Edges that were not manifold on the boundary of some label. */
-struct ManifoldRepairCounts
+/** What was done. */
+struct ManifoldRepairResult
 {
-  std::size_t Before = 0;
-  std::size_t After = 0;
-  std::vector<InterfaceEdge> Left; ///< those after; FindNonManifoldEdges()
+  std::size_t Before = 0;            ///< edges that were not manifold on the boundary of some label
+  std::vector<InterfaceEdge> Left;   ///< those that are not now; ends are vertex ids
+  std::vector<SimplexId> Relabelled; ///< ascending
 };
 
 /**
@@ -43,12 +44,15 @@ struct ManifoldRepairCounts
  * where the image cuts the object is dropped only where nothing else helps, since that leaves a dent in the face: there
  * parts of the object meet at an edge, and the dent is at the rim of the face.
  *
- * Elements stay what they are but for their labels. The mesh is the same in every run.
- * Takes time linear in the number of tetrahedra, little where few edges are bad.
+ * The triangulation stays what it is, and nobody may change it meanwhile. The result does not depend on the number of
+ * threads. Takes time linear in the number of tetrahedra, little where few edges are bad.
  *
+ * @param labels of each simplex id; some change
+ * @param threads used to find the edges; 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-ManifoldRepairCounts RepairManifold(SimplexMesh<3>& mesh, const ManifoldRepairOptions& options = {},
+ManifoldRepairResult RepairManifold(const Triangulation<3>& triangulation,
+  std::span<LabelId> labels, const ManifoldRepairOptions& options = {}, unsigned threads = 1,
   const std::stop_token& stop = {});
 
 } // namespace voxplex

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <span>
 #include <utility>
 
 namespace voxplex
@@ -25,14 +24,14 @@ template <int D>
 class Extraction
 {
 public:
-  Extraction(const Triangulation<D>& triangulation, const Domain<D>& image, unsigned threads,
-    const std::stop_token& stop, const NotchBounds* notches)
+  Extraction(const Triangulation<D>& triangulation, const Domain<D>& image,
+    std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
     : Source(triangulation)
     , Image(image)
+    , Labels(labels)
     , Threads(threads)
     , Stop(stop)
-    , Notches(notches)
-    , Ids(triangulation.SimplexIdEnd())
+    , Ids(labels.size())
     , Vertices(triangulation.VertexIdEnd())
     , Inside(Ids)
   {
@@ -40,7 +39,7 @@ public:
 
   SimplexMesh<D> Run()
   {
-    this->LabelSimplices();
+    this->MarkVertices();
     this->NumberPoints();
     this->SortSimplices();
     this->WriteSimplices();
@@ -66,59 +65,31 @@ private:
       this->Stop);
   }
 
-  /** Labels of all simplices, 0 for what is not alive; marks the vertices of those inside. */
-  void LabelSimplices()
+  /** Those of the simplices inside; counts these. */
+  void MarkVertices()
   {
     this->Numbers.resize(this->Vertices);
     this->ForChunks(this->Vertices,
       [this](std::size_t first, std::size_t last)
       { std::fill(this->Numbers.data() + first, this->Numbers.data() + last, None); });
-
-    this->Labels.resize(this->Ids);
     this->ForChunks(this->Ids,
       [this](std::size_t first, std::size_t last)
       {
         std::size_t inside = 0;
         for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
-          const LabelId label = this->Source.IsAlive(s) ? this->LabelOf(s) : LabelId(0);
-          this->Labels[s] = label;
-          if (label != 0)
+          if (this->Labels[s] != 0)
           {
             ++inside;
-            this->MarkVertices(s);
+            this->MarkVerticesOf(s);
           }
         }
         this->Inside.OfChunk(first) = inside;
       });
-    this->FillNotches();
     this->NumberOfSimplices = this->Inside.TurnIntoPlaces();
   }
 
-  LabelId LabelOf(SimplexId s) const
-  {
-    const SimplexState& state = this->Source.State(s);
-    return state.Labelled ? state.Label : this->Image.Label(this->Source.GetCircumball(s).Center);
-  }
-
-  /** As if they had been inside from the start. */
-  void FillNotches()
-  {
-    if constexpr (D == 3)
-    {
-      if (this->Notches && this->Image.IsCut())
-      {
-        for (const SimplexId s : voxplex::FillNotches(this->Source, this->Image, *this->Notches,
-               std::span(this->Labels), this->Threads, this->Stop))
-        {
-          ++this->Inside.OfChunk(s);
-          this->MarkVertices(s);
-        }
-      }
-    }
-  }
-
-  void MarkVertices(SimplexId s)
+  void MarkVerticesOf(SimplexId s)
   {
     for (const VertexId v : this->Source.GetSimplex(s).V)
     {
@@ -310,13 +281,12 @@ private:
 
   const Triangulation<D>& Source;
   const Domain<D>& Image;
+  const std::span<const LabelId> Labels; ///< of each simplex id
   const unsigned Threads;
   const std::stop_token& Stop;
-  const NotchBounds* const Notches; ///< null: they stay
-  const std::size_t Ids;            ///< all simplex ids are below
-  const std::size_t Vertices;       ///< all vertex ids are below
+  const std::size_t Ids;      ///< all simplex ids are below
+  const std::size_t Vertices; ///< all vertex ids are below
   SimplexMesh<D> Mesh;
-  UninitialisedVector<LabelId> Labels;        ///< of each simplex id
   ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
   std::size_t NumberOfSimplices = 0;          ///< inside
   UninitialisedVector<std::uint32_t> Numbers; ///< of each vertex in the mesh, None if it has none
@@ -332,15 +302,29 @@ private:
 //------------------------------------------------------------------------------------------------
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
-  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop, const NotchBounds* notches)
+  std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads,
+  const std::stop_token& stop)
 {
   mesh = SimplexMesh<D>();
-  mesh = Extraction<D>(triangulation, image, threads, stop, notches).Run();
+  mesh = Extraction<D>(triangulation, image, labels, threads, stop).Run();
 }
 
-template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned,
-  const std::stop_token&, const NotchBounds*);
-template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned,
-  const std::stop_token&, const NotchBounds*);
+template <int D>
+void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
+  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
+{
+  mesh = SimplexMesh<D>();
+  ExtractMesh<D>(
+    triangulation, image, LabelSimplices(triangulation, image, threads, stop), mesh, threads, stop);
+}
+
+template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, std::span<const LabelId>,
+  SimplexMesh<3>&, unsigned, const std::stop_token&);
+template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, std::span<const LabelId>,
+  SimplexMesh<4>&, unsigned, const std::stop_token&);
+template void ExtractMesh<3>(
+  const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
+template void ExtractMesh<4>(
+  const Triangulation<4>&, const Domain<4>&, SimplexMesh<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -3,6 +3,7 @@
 #include "Mesh/NotchFilling.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Mesh/VertexStar.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 
@@ -219,7 +220,7 @@ private:
   /** Whether a vertex of s has interfaces whose angles only a junction excuses. */
   bool HasSharpFacets(VertexId v, SimplexId s) const
   {
-    for (const SimplexId t : this->StarOf(v, s))
+    for (const SimplexId t : StarOf(this->Source, v, s))
     {
       const auto& simplex = this->Source.GetSimplex(t);
       for (unsigned i = 0; i < 4; ++i)
@@ -242,7 +243,7 @@ private:
     std::size_t edge = 0;
     for (unsigned i = 0; i < 4; ++i)
     {
-      const std::vector<SimplexId> star = this->StarOf(v[i], s);
+      const std::vector<SimplexId> star = StarOf(this->Source, v[i], s);
       labels.clear();
       for (const SimplexId t : star)
       {
@@ -258,25 +259,6 @@ private:
       }
     }
     return around;
-  }
-
-  /** All tetrahedra with a vertex of s. */
-  std::vector<SimplexId> StarOf(VertexId v, SimplexId s) const
-  {
-    std::vector<SimplexId> star{ s };
-    for (std::size_t k = 0; k < star.size(); ++k)
-    {
-      const auto& simplex = this->Source.GetSimplex(star[k]);
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        const SimplexId n = simplex.N[i];
-        if (simplex.V[i] != v && n != None && std::find(star.begin(), star.end(), n) == star.end())
-        {
-          star.push_back(n);
-        }
-      }
-    }
-    return star;
   }
 
   /** Of the labels of the star of a, background left out. */

@@ -2,35 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RepairNeighbourhood.h
- * @brief Internal to ManifoldRepair: what is around the bad edges of a mesh, as it is or as it would be after a change.
+ * @brief Internal to ManifoldRepair: what is around the bad edges of interfaces, as it is or as it would be after a change.
  */
 #ifndef voxplex_RepairNeighbourhood_h
 #define voxplex_RepairNeighbourhood_h
 
-#include "Mesh/InterfaceEdges.h"
-#include "Mesh/SimplexMesh.h"
+#include "Delaunay/Triangulation.h"
+#include "Mesh/VertexStar.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
-#include <optional>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace voxplex::repair
 {
 
-using Edge = std::array<std::uint32_t, 2>;
-using Facet = std::array<std::uint32_t, 3>;
+using Edge = std::array<VertexId, 2>;
 
 /** Some tetrahedra get another label; 0 drops them. */
 struct Change
 {
-  std::vector<std::uint32_t> Cells;
-  std::int64_t Label;
+  std::vector<SimplexId> Cells;
+  LabelId Label;
 
-  bool Touches(std::uint32_t t) const
+  bool Touches(SimplexId t) const
   {
     return std::find(this->Cells.begin(), this->Cells.end(), t) != this->Cells.end();
   }
@@ -45,63 +44,50 @@ T& FindOrAdd(std::vector<T>& few, Predicate&& is, const T& added)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The tetrahedra near the bad edges of a mesh, by their vertices. */
+/** The tetrahedra of a triangulation with their labels, by their vertices. */
 class Neighbourhood
 {
 public:
-  Neighbourhood(const SimplexMesh<3>& mesh, const std::vector<InterfaceEdge>& edges)
-    : Mesh(mesh)
+  /** @param onInterface of each vertex, whether it is on an interface before any change */
+  Neighbourhood(const Triangulation<3>& triangulation, std::span<const LabelId> labels,
+    std::vector<std::uint8_t> onInterface)
+    : Source(triangulation)
+    , Labels(labels)
+    , OnInterface(std::move(onInterface))
   {
-    std::vector<std::uint8_t> near(mesh.Points.size());
-    for (const InterfaceEdge& edge : edges)
-    {
-      near[edge.Ends[0]] = 1;
-      near[edge.Ends[1]] = 1;
-    }
-    // A change asks for the stars of the vertices of its tetrahedra, and these for the edges of theirs.
-    for (int ring = 0; ring < 2; ++ring)
-    {
-      std::vector<std::uint8_t> next = near;
-      this->ForCellsNear(near,
-        [&](std::uint32_t t)
-        {
-          for (const std::uint32_t v : mesh.Simplices[t])
-          {
-            next[v] = 1;
-          }
-        });
-      near = std::move(next);
-    }
-    this->FillStars(near);
-    this->OnInterface.resize(mesh.Points.size());
-    for (const Facet& facet : mesh.Facets)
-    {
-      for (const std::uint32_t v : facet)
-      {
-        this->OnInterface[v] = 1;
-      }
-    }
   }
 
-  const SimplexMesh<3>& GetMesh() const { return this->Mesh; }
-  bool IsOnInterface(std::uint32_t v) const { return this->OnInterface[v] != 0; }
-  std::span<const std::uint32_t> StarOf(std::uint32_t v) const
+  const std::array<VertexId, 4>& VerticesOf(SimplexId t) const
   {
-    return std::span(this->Cells).subspan(this->Begins[v], this->Begins[v + 1] - this->Begins[v]);
+    return this->Source.GetSimplex(t).V;
+  }
+  const Point<3>& Position(VertexId v) const { return this->Source.Position(v); }
+  bool IsOnInterface(VertexId v) const { return this->OnInterface[v] != 0; }
+
+  /** Ascending, so that what is found first does not depend on where the search began. */
+  const std::vector<SimplexId>& StarOf(VertexId v) const
+  {
+    const auto [entry, isNew] = this->Stars.try_emplace(v);
+    if (isNew)
+    {
+      entry->second = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
+      std::sort(entry->second.begin(), entry->second.end());
+    }
+    return entry->second;
   }
 
-  std::int64_t LabelOf(std::uint32_t t, const Change* change) const
+  LabelId LabelOf(SimplexId t, const Change* change = nullptr) const
   {
-    return change && change->Touches(t) ? change->Label : this->Mesh.Labels[t];
+    return change && change->Touches(t) ? change->Label : this->Labels[t];
   }
 
   /** Tetrahedra with both vertices. */
-  std::vector<std::uint32_t> StarOf(const Edge& edge) const
+  std::vector<SimplexId> StarOf(const Edge& edge) const
   {
-    std::vector<std::uint32_t> star;
-    for (const std::uint32_t t : this->StarOf(edge[0]))
+    std::vector<SimplexId> star;
+    for (const SimplexId t : this->StarOf(edge[0]))
     {
-      const auto& v = this->Mesh.Simplices[t];
+      const auto& v = this->VerticesOf(t);
       if (std::find(v.begin(), v.end(), edge[1]) != v.end())
       {
         star.push_back(t);
@@ -110,20 +96,12 @@ public:
     return star;
   }
 
-  /** The tetrahedron beside facet i of t, if any. */
-  std::optional<std::uint32_t> Beside(std::uint32_t t, unsigned i) const
+  /** The tetrahedron beside facet i of t, or None. */
+  SimplexId Beside(SimplexId t, unsigned i) const { return this->Source.GetSimplex(t).N[i]; }
+  LabelId LabelBeside(SimplexId t, unsigned i) const
   {
-    const auto& v = this->Mesh.Simplices[t];
-    for (const std::uint32_t other : this->StarOf(v[(i + 1) % 4]))
-    {
-      const auto& w = this->Mesh.Simplices[other];
-      const auto has = [&](std::uint32_t p) { return std::find(w.begin(), w.end(), p) != w.end(); };
-      if (other != t && has(v[(i + 2) % 4]) && has(v[(i + 3) % 4]))
-      {
-        return other;
-      }
-    }
-    return std::nullopt;
+    const SimplexId beside = this->Beside(t, i);
+    return beside == None ? LabelId{ 0 } : this->Labels[beside];
   }
 
   /** What is wrong at an edge. */
@@ -138,12 +116,12 @@ public:
     // Few: lists that are searched from end to end. Of each facet with the edge the label on its sides.
     struct Side
     {
-      std::uint32_t Third; ///< vertex
-      std::array<std::int64_t, 2> Labels;
+      VertexId Third;
+      std::array<LabelId, 2> Labels;
     };
     struct Count
     {
-      std::int64_t Label;
+      LabelId Label;
       int Facets;
     };
     constexpr std::size_t Most = 16; // mostly
@@ -151,15 +129,15 @@ public:
     std::vector<Count> facets;
     sides.reserve(Most);
     facets.reserve(Most);
-    for (const std::uint32_t t : this->StarOf(edge[0]))
+    for (const SimplexId t : this->StarOf(edge[0]))
     {
-      const auto& corners = this->Mesh.Simplices[t];
+      const auto& corners = this->VerticesOf(t);
       if (std::find(corners.begin(), corners.end(), edge[1]) == corners.end())
       {
         continue;
       }
-      const std::int64_t label = this->LabelOf(t, change);
-      for (const std::uint32_t v : corners)
+      const LabelId label = this->LabelOf(t, change);
+      for (const VertexId v : corners)
       {
         if (v != edge[0] && v != edge[1])
         {
@@ -171,7 +149,7 @@ public:
     }
     for (const Side& side : sides)
     {
-      for (const std::int64_t label : side.Labels)
+      for (const LabelId label : side.Labels)
       {
         if (side.Labels[0] != side.Labels[1])
         {
@@ -196,51 +174,11 @@ private:
   static constexpr int AtJunction = 2;
   static constexpr int OffJunction = 3;
 
-  void FillStars(const std::vector<std::uint8_t>& near)
-  {
-    this->Begins.resize(this->Mesh.Points.size() + 1);
-    std::vector<std::uint32_t> cells;
-    this->ForCellsNear(near,
-      [&](std::uint32_t t)
-      {
-        cells.push_back(t);
-        for (const std::uint32_t v : this->Mesh.Simplices[t])
-        {
-          this->Begins[v + 1] += near[v];
-        }
-      });
-    std::partial_sum(this->Begins.begin(), this->Begins.end(), this->Begins.begin());
-    this->Cells.resize(this->Begins.back());
-    std::vector<std::uint32_t> ends = this->Begins;
-    for (const std::uint32_t t : cells)
-    {
-      for (const std::uint32_t v : this->Mesh.Simplices[t])
-      {
-        if (near[v] != 0)
-        {
-          this->Cells[ends[v]++] = t;
-        }
-      }
-    }
-  }
-
-  template <typename Function>
-  void ForCellsNear(const std::vector<std::uint8_t>& near, Function&& function) const
-  {
-    for (std::uint32_t t = 0; t < this->Mesh.Simplices.size(); ++t)
-    {
-      const auto& v = this->Mesh.Simplices[t];
-      if ((near[v[0]] | near[v[1]] | near[v[2]] | near[v[3]]) != 0)
-      {
-        function(t);
-      }
-    }
-  }
-
-  const SimplexMesh<3>& Mesh;
-  std::vector<std::uint32_t> Begins;     ///< of each vertex' star in Cells; of most an empty one
-  std::vector<std::uint32_t> Cells;      ///< of complete stars, ascending
-  std::vector<std::uint8_t> OnInterface; ///< by vertex
+  const Triangulation<3>& Source;
+  const std::span<const LabelId> Labels;       ///< of each simplex id; others change them
+  const std::vector<std::uint8_t> OnInterface; ///< by vertex
+  mutable std::unordered_map<VertexId, std::vector<SimplexId>>
+    Stars; ///< of vertices that were asked for
 };
 
 } // namespace voxplex::repair

@@ -65,8 +65,11 @@ public:
     }
   }
 
-  /** Takes a vertex out that was added with just this position. Nobody may use the grid meanwhile. */
-  void Remove(const Point<D>& p)
+  /**
+   * Takes a vertex out that was added with just this position. Nobody may use the grid meanwhile.
+   * @return false if there is none
+   */
+  bool Remove(const Point<D>& p)
   {
     std::uint32_t n = this->Heads[this->Bucket(this->CellOf(p))].load(std::memory_order_relaxed);
     while (n != End && this->Nodes[n].Position != p)
@@ -77,20 +80,7 @@ public:
     {
       this->Nodes[n].Position.fill(std::numeric_limits<double>::infinity()); // near nothing
     }
-  }
-
-  /** Calls function(position) for all vertices that are there, in the order in which they were added. */
-  template <typename Function>
-  void ForEach(Function&& function) const
-  {
-    for (std::uint32_t n = 0; n < this->Size(); ++n)
-    {
-      const Point<D>& p = this->Nodes[n].Position;
-      if (p[0] < std::numeric_limits<double>::infinity())
-      {
-        function(p);
-      }
-    }
+    return n != End;
   }
 
   /** True if a vertex is nearer to p than `distance`. */

@@ -4,15 +4,21 @@
 #ifndef voxplex_InterfaceChecks_h
 #define voxplex_InterfaceChecks_h
 
+#include "BallDomain.h"
 #include "ImageMesher.h"
+#include "Mesh/InterfaceEdges.h"
+#include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <set>
@@ -84,7 +90,7 @@ inline SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned ro
 
 struct RingShape
 {
-  double Height = 1.0;         ///< half of the edge's length
+  double Height = 0.9; ///< half of the edge's length; below 1 tetrahedra around it are Delaunay
   std::vector<double> Degrees; ///< of each tetrahedron; empty: all alike
   bool HasCaps = false;        ///< each tetrahedron has a neighbour of its label below
   /** Number of a vertex between two tetrahedra of a label, which four more of them enclose; 0: none. */
@@ -123,7 +129,7 @@ inline SimplexMesh<3> Ring(const std::vector<std::int64_t>& labels, const RingSh
     {
       const double middle = 0.5 * (angles[k] + angles[k + 1]);
       const auto apex = static_cast<std::uint32_t>(mesh.Points.size());
-      mesh.Points.push_back({ 0.5 * std::cos(middle), 0.5 * std::sin(middle), -height - 1.0 });
+      mesh.Points.push_back({ 0.2 * std::cos(middle), 0.2 * std::sin(middle), -height - 1.25 });
       mesh.Simplices.push_back({ apex, 0, first, second });
       mesh.Labels.push_back(labels[k]);
     }
@@ -219,6 +225,86 @@ inline SimplexMesh<3> SharpRing()
   shape.Degrees = { 25.0, 155.0, 25.0, 155.0 };
   shape.HasCaps = true;
   return Ring({ 1, 2, 1, 2 }, shape);
+}
+
+/** Labels are their own values. */
+class PlainLabels : public BallDomain
+{
+public:
+  PlainLabels()
+    : BallDomain(1.0)
+  {
+  }
+  std::int64_t LabelValue(LabelId id) const override { return id; }
+};
+
+/** Tetrahedra that are Delaunay, as part of a triangulation of a box around them. */
+class Triangulated
+{
+public:
+  explicit Triangulated(const SimplexMesh<3>& mesh)
+  {
+    Box<3> box{ mesh.Points[0], mesh.Points[0] };
+    for (const Point<3>& p : mesh.Points)
+    {
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        box.Min[a] = std::min(box.Min[a], p[a] - 10.0);
+        box.Max[a] = std::max(box.Max[a], p[a] + 10.0);
+      }
+    }
+    this->Source = std::make_unique<Triangulation<3>>(box);
+    Triangulation<3>::Worker worker(*this->Source);
+    for (const Point<3>& p : mesh.Points)
+    {
+      const SimplexId conflict = this->Source->FindConflict(worker, p, this->Source->FirstAlive());
+      EXPECT_EQ(
+        this->Source->Insert(worker, p, VertexKind::Feature, conflict), InsertionOutcome::Inserted);
+    }
+    std::map<std::set<Point<3>>, std::int64_t> labels;
+    for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+    {
+      std::set<Point<3>> corners;
+      for (const std::uint32_t v : mesh.Simplices[t])
+      {
+        corners.insert(mesh.Points[v]);
+      }
+      labels[corners] = mesh.Labels[t];
+    }
+    std::size_t found = 0;
+    this->Labels.assign(this->Source->SimplexIdEnd(), 0);
+    for (SimplexId s = 0; s < this->Labels.size(); ++s)
+    {
+      std::set<Point<3>> corners;
+      for (unsigned i = 0; i < 4 && this->Source->IsAlive(s); ++i)
+      {
+        corners.insert(this->Source->Position(this->Source->GetSimplex(s).V[i]));
+      }
+      const auto label = labels.find(corners);
+      if (label != labels.end())
+      {
+        this->Labels[s] = static_cast<LabelId>(label->second);
+        ++found;
+      }
+    }
+    EXPECT_EQ(found, mesh.Simplices.size()) << "not Delaunay";
+  }
+
+  SimplexMesh<3> Extract() const
+  {
+    SimplexMesh<3> mesh;
+    ExtractMesh<3>(*this->Source, PlainLabels(), this->Labels, mesh);
+    return mesh;
+  }
+
+  std::unique_ptr<Triangulation<3>> Source;
+  SimplexLabels Labels; ///< of each simplex id
+};
+
+/** Those of a mesh. */
+inline std::vector<InterfaceEdge> NonManifoldEdges(const SimplexMesh<3>& mesh)
+{
+  return FindNonManifoldEdges(mesh.Facets, mesh.FacetLabels, mesh.Points.size());
 }
 
 } // namespace voxplex::checks

@@ -7,7 +7,6 @@
 #include "InterfaceChecks.h"
 #include "InterfaceGuard.h"
 #include "Mesh/InterfaceDistance.h"
-#include "Mesh/InterfaceEdges.h"
 #include "Mesh/InterfaceVertices.h"
 
 #include <algorithm>
@@ -49,23 +48,34 @@ void ForEachFace(const LabelImage<3>& image, Function&& function)
   }
 }
 
-/** From the faces between voxels of different labels to the vertices of the mesh's interfaces, at most. */
-double LargestDistance(const LabelImage<3>& image, const SimplexMesh<3>& mesh)
+std::vector<Point<3>> InterfaceVerticesOf(const SimplexMesh<3>& mesh)
 {
   std::set<std::uint32_t> used;
   for (const auto& facet : mesh.Facets)
   {
     used.insert(facet.begin(), facet.end());
   }
+  std::vector<Point<3>> vertices;
+  for (const std::uint32_t v : used)
+  {
+    vertices.push_back(mesh.Points[v]);
+  }
+  return vertices;
+}
+
+/** From the faces between voxels of different labels to the vertices of the mesh's interfaces, at most. */
+double LargestDistance(const LabelImage<3>& image, const SimplexMesh<3>& mesh)
+{
+  const std::vector<Point<3>> vertices = InterfaceVerticesOf(mesh);
   double largest = 0.0;
   ForEachFace(image,
     [&](const GridGeometry<3>::Index& voxel, const GridGeometry<3>::Index& next)
     {
       const Point<3> centre = Interpolate(image.CentreOf(voxel), image.CentreOf(next), 0.5);
       double nearest = std::numeric_limits<double>::infinity();
-      for (const std::uint32_t p : used)
+      for (const Point<3>& p : vertices)
       {
-        nearest = std::min(nearest, Distance(mesh.Points[p], centre));
+        nearest = std::min(nearest, Distance(p, centre));
       }
       largest = std::max(largest, nearest);
     });
@@ -240,12 +250,11 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
   InterfaceGuard guard(image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, {});
-  SimplexMesh<3> nothing;
   double spacing = 4.0;
   int visits = 0;
   for (;;)
   {
-    const std::vector<FeatureSeed<3>> seeds = guard.Inspect(nothing, {});
+    const std::vector<FeatureSeed<3>> seeds = guard.InspectVertices({});
     if (seeds.empty())
     {
       break;
@@ -274,21 +283,21 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
 TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(14);
-  const double delta = 2.0;
   const ImageDomain<3> domain(image, 1.0);
-  const SimplexMesh<3> good = Mesh(image, delta, 5);
+  const double delta = 2.0;
+  const std::vector<Point<3>> vertices = InterfaceVerticesOf(Mesh(image, delta, 5));
   for (const bool atJunction : { false, true })
   {
-    // Four tetrahedra more around an edge, on the interface of the two labels.
-    SimplexMesh<3> mesh = good;
-    Append(Ring({ 1, 2, 1, atJunction ? 3 : 2 }), 10.5, mesh);
     LocalDelta<3> local(image);
     InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
-    EXPECT_TRUE(guard.Inspect(good, FindNonManifoldEdges(good)).empty());
-    EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 0u);
-    EXPECT_EQ(guard.Inspect(mesh, FindNonManifoldEdges(mesh)).empty(), atJunction);
-    EXPECT_EQ(guard.NumberOfNonManifoldEdges(), 1u);
+    EXPECT_TRUE(guard.InspectVertices({ vertices, {} }).empty());
+    EXPECT_TRUE(guard.InspectLabels({}, {}).empty());
+    EXPECT_EQ(guard.InspectLabels({}, { { vertices[0], atJunction } }).empty(), atJunction);
     EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
+    // Along with one that is a reason, those at junctions are sampled, too.
+    const std::size_t one = guard.InspectLabels({}, { { vertices[0], false } }).size();
+    EXPECT_GT(
+      guard.InspectLabels({}, { { vertices[0], false }, { vertices.back(), true } }).size(), one);
   }
 }
 
@@ -301,7 +310,7 @@ TEST(InterfaceGuard, CanBeCancelled)
   InterfaceGuard guard(
     image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, stop.get_token());
   stop.request_stop();
-  EXPECT_THROW(guard.Inspect({}, {}), Cancelled);
+  EXPECT_THROW(guard.InspectVertices({}), Cancelled);
 }
 
 // Around an edge it samples all that is near, also where the axes of the image are oblique and voxels long.
@@ -323,16 +332,17 @@ TEST(InterfaceGuard, ReachesAsFarInShearedImages)
     options.Delta = delta;
     SimplexMesh<3> mesh;
     ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
+    const std::vector<Point<3>> vertices = InterfaceVerticesOf(mesh);
     for (std::size_t f = 0; f < mesh.Facets.size(); f += 7)
     {
-      const InterfaceEdge edge{ { mesh.Facets[f][0], mesh.Facets[f][1] }, false };
       const Point<3> middle =
-        Interpolate(mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]], 0.5);
+        Interpolate(mesh.Points[mesh.Facets[f][0]], mesh.Points[mesh.Facets[f][1]], 0.5);
       const std::set<Point<3>> expected = CrossingsNear(image, domain, middle, 0.5 * delta);
       LocalDelta<3> local(image);
       InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
+      guard.InspectVertices({ vertices, {} });
       std::set<Point<3>> found;
-      for (const FeatureSeed<3>& seed : guard.Inspect(mesh, { edge }))
+      for (const FeatureSeed<3>& seed : guard.InspectLabels({}, { { middle, false } }))
       {
         found.insert(seed.Position);
       }
@@ -344,19 +354,6 @@ TEST(InterfaceGuard, ReachesAsFarInShearedImages)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Triangles with these vertices, each by itself. */
-SimplexMesh<3> TrianglesWith(std::vector<Point<3>> vertices)
-{
-  SimplexMesh<3> mesh;
-  vertices.resize(vertices.size() / 3 * 3);
-  for (std::uint32_t v = 0; v + 2 < vertices.size(); v += 3)
-  {
-    mesh.Facets.push_back({ v, v + 1, v + 2 });
-  }
-  mesh.Points.assign(vertices.begin(), vertices.end());
-  return mesh;
-}
-
 TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
 {
   GridGeometry<3> sheared = GridGeometry<3>::Orthogonal({ 90, 22, 20 }, { 0.7, 1.1, 1.6 });
@@ -395,11 +392,10 @@ TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
           x += scale * off(random);
         }
       }
-      const SimplexMesh<3> mesh = TrianglesWith(vertices);
       const auto expected = std::count_if(centres.begin(), centres.end(),
         [&](const Point<3>& face)
         {
-          return std::none_of(mesh.Points.begin(), mesh.Points.end(),
+          return std::none_of(vertices.begin(), vertices.end(),
             [&](const Point<3>& p) { return Distance(p, face) < limit; });
         });
       EXPECT_GT(expected, 0);
@@ -409,7 +405,7 @@ TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
         LocalDelta<3> local(image);
         InterfaceGuard guard(
           image, domain.GetSites(), domain, { delta }, nullptr, local, threads, {});
-        guard.Inspect(mesh, {});
+        guard.InspectVertices({ vertices, {} });
         EXPECT_EQ(guard.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
       }
     }
@@ -478,21 +474,16 @@ TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
       {
         EXPECT_EQ(found[i].Position, expected[i].Position);
       }
-      // A mesh without the vertex, too; and all is near again once there is another one.
+      // The same if labels take the vertex off interfaces, but for that one look only.
       LocalDelta<3> third(image);
       InterfaceGuard before = makeGuard(third);
       vertices.push_back(*inside);
       EXPECT_TRUE(before.InspectVertices({ vertices, {} }).empty());
-      const auto isElsewhere = [&](const Point<3>& p) { return p != *inside; };
-      const auto kept = std::partition(vertices.begin(), vertices.end(), isElsewhere);
-      vertices.erase(kept, vertices.end());
-      while (vertices.size() % 3 != 0)
-      {
-        vertices.push_back(vertices.front());
-      }
-      EXPECT_EQ(before.Inspect(TrianglesWith(vertices), {}).size(), expected.size());
+      EXPECT_TRUE(before.InspectLabels({}, {}).empty());
+      const Point<3> nowhere{ -100.0, 0.0, 0.0 };
+      EXPECT_EQ(before.InspectLabels({ *inside, nowhere }, {}).size(), expected.size());
       EXPECT_GT(before.NumberOfFarFaces(), 0u);
-      EXPECT_TRUE(before.InspectVertices({ { *inside }, { *inside } }).empty());
+      EXPECT_TRUE(before.InspectVertices({}).empty());
     }
     EXPECT_GT(holes, 3u) << withSizes;
   }

@@ -1,37 +1,75 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of interfaces that are not manifold: found, and mended.
+#include "Error.h"
 #include "Image/ImageDomain.h"
 #include "InterfaceChecks.h"
-#include "Mesh/InterfaceEdges.h"
 #include "Mesh/ManifoldRepair.h"
+#include "RefinementChecks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
+#include <numbers>
 
 using namespace voxplex;
 using namespace voxplex::checks;
 
+namespace
+{
+
+/** A refined triangulation of blobs, with labels that may be repaired. */
+struct RefinedBlobs
+{
+  explicit RefinedBlobs(unsigned seed)
+    : Image(Blobs(seed))
+    , Surfaces(this->Image, 1.0)
+    , Context(Refined(this->Surfaces, 3.0))
+    , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
+  {
+  }
+  ManifoldRepairResult Repair(
+    const ManifoldRepairOptions& options, unsigned threads = 1, const std::stop_token& stop = {})
+  {
+    return RepairManifold(this->Context->Mesh, this->Labels, options, threads, stop);
+  }
+  SimplexMesh<3> Extract() const
+  {
+    SimplexMesh<3> mesh;
+    ExtractMesh<3>(this->Context->Mesh, this->Surfaces, this->Labels, mesh);
+    return mesh;
+  }
+  const Point<3>& Position(VertexId v) const { return this->Context->Mesh.Position(v); }
+
+  const LabelImage<3> Image;
+  const ImageDomain<3> Surfaces;
+  const std::unique_ptr<const RefinementContext<3>> Context;
+  SimplexLabels Labels;
+};
+
+} // namespace
+
 TEST(InterfaceEdges, AreFoundByTheirLabels)
 {
-  EXPECT_TRUE(FindNonManifoldEdges(Ring({ 1, 1, 2, 2 })).empty());
-  const auto alternating = FindNonManifoldEdges(Ring({ 1, 2, 1, 2 }));
+  EXPECT_TRUE(NonManifoldEdges(Ring({ 1, 1, 2, 2 })).empty());
+  const auto alternating = NonManifoldEdges(Ring({ 1, 2, 1, 2 }));
   ASSERT_EQ(alternating.size(), 1u);
   EXPECT_EQ(alternating[0].Ends, (std::array<std::uint32_t, 2>{ 0, 1 }));
   EXPECT_FALSE(alternating[0].IsJunction);
-  const auto junction = FindNonManifoldEdges(Ring({ 1, 2, 1, 3 }));
+  const auto junction = NonManifoldEdges(Ring({ 1, 2, 1, 3 }));
   ASSERT_EQ(junction.size(), 1u);
   EXPECT_TRUE(junction[0].IsJunction);
   // Background may be there in as many pieces as it likes, if no label is.
-  EXPECT_TRUE(FindNonManifoldEdges(Ring({ 1, 0, 2, 0 })).empty());
-  EXPECT_EQ(FindNonManifoldEdges(Ring({ 1, 0, 1, 0 })).size(), 1u);
+  EXPECT_TRUE(NonManifoldEdges(Ring({ 1, 0, 2, 0 })).empty());
+  EXPECT_EQ(NonManifoldEdges(Ring({ 1, 0, 1, 0 })).size(), 1u);
 }
 
 TEST(InterfaceEdges, AgreeWithCountingByLabel)
 {
   const SimplexMesh<3> mesh = Mesh(Blobs(1), 3.0, 0);
   std::set<std::array<std::uint32_t, 2>> found;
-  for (const InterfaceEdge& edge : FindNonManifoldEdges(mesh))
+  for (const InterfaceEdge& edge : NonManifoldEdges(mesh))
   {
     found.insert(edge.Ends);
   }
@@ -42,24 +80,31 @@ TEST(InterfaceEdges, AgreeWithCountingByLabel)
 //------------------------------------------------------------------------------------------------
 TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
 {
-  SimplexMesh<3> mesh = Ring({ 1, 2, 1, 2 });
-  ASSERT_TRUE(checks::Complaints(mesh).empty());
-  const ManifoldRepairCounts counts = RepairManifold(mesh);
-  EXPECT_EQ(counts.Before, 1u);
-  EXPECT_EQ(counts.After, 0u);
-  EXPECT_TRUE(counts.Left.empty());
+  Triangulated ring(Ring({ 1, 2, 1, 2 }));
+  const SimplexLabels before = ring.Labels;
+  ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
+  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  EXPECT_EQ(result.Before, 1u);
+  EXPECT_TRUE(result.Left.empty());
+  ASSERT_EQ(result.Relabelled.size(), 1u);
+  const SimplexMesh<3> mesh = ring.Extract();
   EXPECT_TRUE(BadEdges(mesh).empty());
   EXPECT_TRUE(checks::Complaints(mesh).empty());
   EXPECT_EQ(mesh.Simplices.size(), 4u);
-  EXPECT_EQ(std::count(mesh.Labels.begin(), mesh.Labels.end(), 1) % 2, 1); // one has changed
+  for (SimplexId s = 0; s < before.size(); ++s)
+  {
+    EXPECT_EQ(ring.Labels[s] != before[s], s == result.Relabelled[0]);
+  }
 }
 
 // A tetrahedron that hangs on an edge only goes, and its points with it.
 TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
 {
-  SimplexMesh<3> mesh = Ring({ 1, 1, 0, 1, 0 });
-  ASSERT_EQ(FindNonManifoldEdges(mesh).size(), 1u);
-  EXPECT_EQ(RepairManifold(mesh).After, 0u);
+  Triangulated ring(Ring({ 1, 1, 0, 1, 0 }));
+  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  EXPECT_EQ(result.Before, 1u);
+  EXPECT_TRUE(result.Left.empty());
+  const SimplexMesh<3> mesh = ring.Extract();
   EXPECT_EQ(mesh.Simplices.size(), 2u);
   EXPECT_EQ(mesh.Points.size(), 5u);
   EXPECT_TRUE(checks::Complaints(mesh).empty());
@@ -69,22 +114,23 @@ TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
 // tetrahedra and of 12 in the wide ones.
 TEST(ManifoldRepair, MakesNoSharpFacets)
 {
-  const SimplexMesh<3> ring = SharpRing();
-  ASSERT_TRUE(checks::Complaints(ring).empty());
-  SimplexMesh<3> mesh = ring;
+  Triangulated ring(SharpRing());
+  ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
+  const SimplexLabels before = ring.Labels;
   ManifoldRepairOptions options;
   options.FacetAngle = 26.0;
   options.JunctionFacetAngle = 26.0;
-  const ManifoldRepairCounts counts = RepairManifold(mesh, options);
-  EXPECT_EQ(counts.After, 1u);
-  ASSERT_EQ(counts.Left.size(), 1u);
-  EXPECT_EQ(counts.Left[0].Ends, FindNonManifoldEdges(mesh)[0].Ends);
-  EXPECT_EQ(mesh.Labels, ring.Labels);
+  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+  EXPECT_EQ(result.Left.size(), 1u);
+  EXPECT_TRUE(result.Relabelled.empty());
+  EXPECT_EQ(ring.Labels, before);
   options.FacetAngle = 20.0;
   options.JunctionFacetAngle = 20.0;
-  EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
-  EXPECT_EQ(mesh.Labels[2], 2); // a wide one stays
-  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  const ManifoldRepairResult other = RepairManifold(*ring.Source, ring.Labels, options);
+  EXPECT_TRUE(other.Left.empty());
+  ASSERT_EQ(other.Relabelled.size(), 1u);
+  EXPECT_EQ(before[other.Relabelled[0]], 1); // a wide one stays
+  EXPECT_TRUE(checks::Complaints(ring.Extract()).empty());
 }
 
 // Off junctions new facets have larger angles than at them.
@@ -97,16 +143,18 @@ TEST(ManifoldRepair, MakesSharpFacetsAtJunctionsOnly)
   std::size_t other = 0;
   for (unsigned seed = 1; seed < 9; ++seed)
   {
-    SimplexMesh<3> mesh = Mesh(Blobs(seed), 3.0, 0);
+    RefinedBlobs blobs(seed);
     std::set<std::set<Point<3>>> before;
-    const auto cornersOf = [&](const auto& facet) {
+    const auto cornersOf = [](const SimplexMesh<3>& mesh, const auto& facet) {
       return std::set{ mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]] };
     };
-    for (const auto& facet : mesh.Facets)
+    const SimplexMesh<3> first = blobs.Extract();
+    for (const auto& facet : first.Facets)
     {
-      before.insert(cornersOf(facet));
+      before.insert(cornersOf(first, facet));
     }
-    RepairManifold(mesh, options);
+    blobs.Repair(options);
+    const SimplexMesh<3> mesh = blobs.Extract();
     std::vector<std::set<std::int64_t>> labels(mesh.Points.size());
     for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
     {
@@ -119,7 +167,7 @@ TEST(ManifoldRepair, MakesSharpFacetsAtJunctionsOnly)
     {
       const bool isAtJunction = std::any_of(
         facet.begin(), facet.end(), [&](std::uint32_t v) { return labels[v].size() > 2; });
-      if (!before.contains(cornersOf(facet)))
+      if (!before.contains(cornersOf(mesh, facet)))
       {
         const double angle = SmallestAngle(mesh, facet);
         EXPECT_GE(angle, isAtJunction ? 20.0 : 45.0) << seed;
@@ -137,11 +185,12 @@ TEST(ManifoldRepair, LosesNoLabel)
 {
   RingShape shape;
   shape.Degrees = { 110.0, 30.0, 110.0, 110.0 };
-  SimplexMesh<3> mesh = Ring({ 1, 2, 1, 3 }, shape);
+  Triangulated ring(Ring({ 1, 2, 1, 3 }, shape));
   ManifoldRepairOptions options; // no angle stands in the way
   options.FacetAngle = 0.0;
   options.JunctionFacetAngle = 0.0;
-  EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
+  EXPECT_TRUE(RepairManifold(*ring.Source, ring.Labels, options).Left.empty());
+  const SimplexMesh<3> mesh = ring.Extract();
   EXPECT_TRUE(checks::Complaints(mesh).empty());
   const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
   EXPECT_EQ(labels, (std::set<std::int64_t>{ 1, 2, 3 }));
@@ -159,22 +208,31 @@ TEST(ManifoldRepair, BringsNoInterfaceToInnerVertices)
   for (const bool enclosed : { false, true })
   {
     shape.Inner = enclosed ? 1 : 0;
-    SimplexMesh<3> mesh = Ring({ 1, 1, 2, 1, 2 }, shape);
-    ASSERT_TRUE(checks::Complaints(mesh).empty());
-    EXPECT_EQ(RepairManifold(mesh, options).After, 0u);
-    EXPECT_TRUE(checks::Complaints(mesh).empty());
-    EXPECT_EQ(mesh.Labels[0], enclosed ? 1 : 2);
-    EXPECT_EQ(mesh.Labels[1], enclosed ? 1 : 2);
+    Triangulated ring(Ring({ 1, 1, 2, 1, 2 }, shape));
+    ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
+    const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+    EXPECT_TRUE(result.Left.empty());
+    EXPECT_TRUE(checks::Complaints(ring.Extract()).empty());
+    EXPECT_EQ(result.Relabelled.size(), enclosed ? 1u : 2u);
+    for (const SimplexId s : result.Relabelled)
+    {
+      const auto& v = ring.Source->GetSimplex(s).V;
+      EXPECT_EQ(std::any_of(v.begin(), v.end(),
+                  [&](VertexId p)
+                  { return ring.Source->Position(p)[0] == std::cos(std::numbers::pi / 12.0); }),
+        !enclosed);
+    }
   }
 }
 
 TEST(ManifoldRepair, LeavesAGoodMeshAlone)
 {
-  SimplexMesh<3> mesh = Ring({ 1, 1, 2, 3 });
-  const SimplexMesh<3> before = mesh;
-  EXPECT_EQ(RepairManifold(mesh).Before, 0u);
-  EXPECT_EQ(mesh.Labels, before.Labels);
-  EXPECT_EQ(mesh.Facets, before.Facets);
+  Triangulated ring(Ring({ 1, 1, 2, 3 }));
+  const SimplexLabels before = ring.Labels;
+  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  EXPECT_EQ(result.Before, 0u);
+  EXPECT_TRUE(result.Relabelled.empty());
+  EXPECT_EQ(ring.Labels, before);
 }
 
 // A face where the image cuts the object lies in the plane of the edge and of the outer facets of the first and the
@@ -197,11 +255,13 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
       {
         p = { p[2] + 14.0, p[0] + 14.0, p[1] - 0.5 }; // the image's lower face along z is at -0.5
       }
-      ASSERT_TRUE(checks::Complaints(mesh).empty());
       const std::size_t tetrahedra = mesh.Simplices.size();
-      const ManifoldRepairCounts counts = RepairManifold(mesh, options);
-      EXPECT_EQ(counts.Before, 1u);
-      EXPECT_EQ(counts.After, 0u);
+      Triangulated ring(mesh);
+      ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
+      const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+      EXPECT_EQ(result.Before, 1u);
+      EXPECT_TRUE(result.Left.empty());
+      mesh = ring.Extract();
       EXPECT_TRUE(checks::Complaints(mesh).empty());
       EXPECT_EQ(mesh.Simplices.size(), tetrahedra - (cut && labels[1] == 2 ? 0 : 1));
     }
@@ -212,14 +272,16 @@ TEST(ManifoldRepair, MendsRealMeshes)
 {
   for (const unsigned seed : { 1u, 2u })
   {
-    SimplexMesh<3> mesh = Mesh(Blobs(seed), 3.0, 0);
-    const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
-    const std::size_t before = BadEdges(mesh).size();
+    RefinedBlobs blobs(seed);
+    const SimplexMesh<3> first = blobs.Extract();
+    const std::map<std::int64_t, double> volumes = checks::Volumes(first);
+    const std::size_t before = BadEdges(first).size();
     double smallest = 180.0;
-    const ManifoldRepairCounts counts = RepairManifold(mesh);
-    EXPECT_EQ(counts.Before, before);
-    EXPECT_EQ(counts.After, BadEdges(mesh).size());
-    EXPECT_LT(counts.After, before / 3 + 1);
+    const ManifoldRepairResult result = blobs.Repair({});
+    const SimplexMesh<3> mesh = blobs.Extract();
+    EXPECT_EQ(result.Before, before);
+    EXPECT_EQ(result.Left.size(), BadEdges(mesh).size());
+    EXPECT_LT(result.Left.size(), before / 3 + 1);
     const std::vector<std::string> complaints = checks::Complaints(mesh);
     EXPECT_TRUE(complaints.empty()) << complaints.front();
     for (const auto& facet : mesh.Facets)
@@ -231,40 +293,49 @@ TEST(ManifoldRepair, MendsRealMeshes)
   }
 }
 
-void ExpectTellsWhatIsLeft(const SimplexMesh<3>& mesh, const ManifoldRepairCounts& counts)
-{
-  const std::vector<InterfaceEdge> expected = FindNonManifoldEdges(mesh);
-  EXPECT_EQ(counts.After, expected.size());
-  ASSERT_EQ(counts.Left.size(), expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k)
-  {
-    EXPECT_EQ(counts.Left[k].Ends, expected[k].Ends) << k;
-    EXPECT_EQ(counts.Left[k].IsJunction, expected[k].IsJunction) << k;
-  }
-}
-
 TEST(ManifoldRepair, TellsWhatIsLeft)
 {
+  using Ends = std::set<Point<3>>;
   std::size_t left = 0;
   for (const unsigned seed : { 1u, 2u, 3u, 4u })
   {
     for (const double angle : { 20.0, 38.0, 55.0 })
     {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", angle " << angle);
-      SimplexMesh<3> mesh = Mesh(Blobs(seed), 3.0, 0);
-      const ManifoldRepairCounts counts = RepairManifold(mesh, { angle, angle });
-      ExpectTellsWhatIsLeft(mesh, counts);
-      left += counts.Before > counts.After ? counts.After : 0;
+      RefinedBlobs blobs(seed);
+      const ManifoldRepairResult result = blobs.Repair({ angle, angle });
+      std::map<Ends, bool> found;
+      for (const InterfaceEdge& edge : result.Left)
+      {
+        found[{ blobs.Position(edge.Ends[0]), blobs.Position(edge.Ends[1]) }] = edge.IsJunction;
+      }
+      EXPECT_EQ(found.size(), result.Left.size());
+      const SimplexMesh<3> mesh = blobs.Extract();
+      std::map<Ends, bool> expected;
+      for (const InterfaceEdge& edge : NonManifoldEdges(mesh))
+      {
+        expected[{ mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]] }] = edge.IsJunction;
+      }
+      EXPECT_EQ(found, expected);
+      left += result.Before > result.Left.size() ? result.Left.size() : 0;
     }
   }
   EXPECT_GT(left, 5u); // where some were mended, but not all
+}
 
-  // By the numbers that points have when others have gone with their tetrahedron.
-  SimplexMesh<3> mesh = Ring({ 1, 1, 0, 1, 0 });
-  Append(SharpRing(), 10.0, mesh);
-  const ManifoldRepairCounts counts = RepairManifold(mesh, { 26.0, 26.0 });
-  ExpectTellsWhatIsLeft(mesh, counts);
-  EXPECT_EQ(counts.Before, 2u);
-  ASSERT_EQ(counts.Left.size(), 1u);
-  EXPECT_EQ(counts.Left[0].Ends, (std::array<std::uint32_t, 2>{ 5, 6 })); // two points have gone
+TEST(ManifoldRepair, DoesNotDependOnThreads)
+{
+  RefinedBlobs one(1);
+  RefinedBlobs three(1);
+  EXPECT_GT(one.Repair({}).Relabelled.size(), 3u);
+  three.Repair({}, 3);
+  EXPECT_EQ(one.Labels, three.Labels);
+}
+
+TEST(ManifoldRepair, CanBeCancelled)
+{
+  RefinedBlobs blobs(1);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(blobs.Repair({}, 1, stop.get_token()), Cancelled);
 }

@@ -4,12 +4,9 @@
 #include "Geometry/SimplexQuality.h"
 #include "Image/ImageDomain.h"
 #include "Image/IsosurfaceImage.h"
-#include "ImageMesher.h"
-#include "Mesh/InterfaceEdges.h"
-#include "Mesh/MeshExtraction.h"
+#include "InterfaceChecks.h"
 #include "Mesh/MeshQuality.h"
-#include "MeshChecks.h"
-#include "Phantoms.h"
+#include "Mesh/NotchFilling.h"
 #include "RefinementChecks.h"
 
 #include <gtest/gtest.h>
@@ -27,6 +24,7 @@
 #include <vector>
 
 using namespace voxplex;
+using checks::NonManifoldEdges;
 using checks::Refined;
 
 namespace
@@ -85,8 +83,13 @@ std::vector<float> CutBall(const GridGeometry<3>& grid)
 SimplexMesh<3> Extract(
   const RefinementContext<3>& context, const NotchBounds* notches, unsigned threads = 1)
 {
+  SimplexLabels labels = LabelSimplices(context.Mesh, context.Image, threads);
+  if (notches)
+  {
+    FillNotches(context.Mesh, context.Image, *notches, labels, threads, {});
+  }
   SimplexMesh<3> mesh;
-  ExtractMesh<3>(context.Mesh, context.Image, mesh, threads, {}, notches);
+  ExtractMesh<3>(context.Mesh, context.Image, labels, mesh, threads);
   return mesh;
 }
 
@@ -155,7 +158,7 @@ Tetrahedra TetrahedraOf(const SimplexMesh<3>& mesh)
 std::set<Corners<2>> NonManifoldEdgesOf(const SimplexMesh<3>& mesh)
 {
   std::set<Corners<2>> edges;
-  for (const InterfaceEdge& edge : FindNonManifoldEdges(mesh))
+  for (const InterfaceEdge& edge : NonManifoldEdges(mesh))
   {
     edges.insert(CornersOf(mesh, edge.Ends));
   }
@@ -446,7 +449,7 @@ TEST(NotchFilling, LeavesLittleOfNotchesInShearedBlocks)
       SimplexMesh<3> mesh;
       ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
       EXPECT_TRUE(checks::Complaints(mesh).empty());
-      EXPECT_TRUE(FindNonManifoldEdges(mesh).empty());
+      EXPECT_TRUE(NonManifoldEdges(mesh).empty());
       EXPECT_GT(Volume(mesh), (1.0 - limit.MissingVolume) * volume);
       EXPECT_LT(Volume(mesh), (1.0 + 1e-9) * volume);
       EXPECT_GT(FlatArea(mesh, domain), (1.0 - limit.MissingArea) * area);

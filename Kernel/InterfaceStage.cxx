@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InterfaceStage.h"
+
+#include "Mesh/VertexStar.h"
+
+#include <algorithm>
+
+namespace voxplex
+{
+
+InterfaceStage::InterfaceStage(const Subject& subject, const MeshingOptions<3>& options,
+  LocalDelta<3>& local, InterfaceFigures& figures, const std::stop_token& stop)
+  : Of(subject)
+  , Options(options)
+  , Figures(figures)
+  , Stop(stop)
+  , Vertices(subject.Mesh, subject.Surfaces, options.Threads, stop)
+  , Guard(subject.Image, subject.Sites, subject.Surfaces, subject.Base, subject.Sizes, local,
+      options.Threads, stop)
+{
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> InterfaceStage::InspectTriangulation()
+{
+  const bool looks = this->MayGoOn() && !this->Of.Base.Graded;
+  std::vector<FeatureSeed<3>> seeds;
+  if (looks)
+  {
+    seeds = this->Counted(this->Guard.InspectVertices(this->Vertices.Update()));
+  }
+  if (seeds.empty())
+  {
+    this->MakeLabels();
+    if (looks)
+    {
+      seeds = this->Counted(this->Guard.InspectLabels(this->Gone, this->Pinches));
+    }
+  }
+  return seeds;
+}
+
+std::vector<FeatureSeed<3>> InterfaceStage::InspectMesh(const SimplexMesh<3>& mesh)
+{
+  return this->MayGoOn() && this->Of.Base.Graded
+    ? this->Counted(this->Guard.InspectMesh(mesh, this->Pinches))
+    : std::vector<FeatureSeed<3>>();
+}
+
+/** A round of those asked for, if there are points to go on with. */
+std::vector<FeatureSeed<3>> InterfaceStage::Counted(std::vector<FeatureSeed<3>> seeds)
+{
+  this->Figures.Rounds += seeds.empty() ? 0 : 1;
+  this->Figures.Seeds += seeds.size();
+  return seeds;
+}
+
+//------------------------------------------------------------------------------------------------
+void InterfaceStage::MakeLabels()
+{
+  const Triangulation<3>& mesh = this->Of.Mesh;
+  const unsigned threads = this->Options.Threads;
+  this->LabelOf = LabelSimplices(mesh, this->Of.Surfaces, threads, this->Stop);
+  std::vector<SimplexId> relabelled;
+  if (this->Of.Surfaces.IsCut())
+  {
+    NotchBounds bounds;
+    bounds.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
+    bounds.DihedralAngle = this->Options.TetSlivers.Angle;
+    bounds.FacetAngle = this->Options.FacetAngle;
+    bounds.JunctionFacetAngle = std::min(bounds.JunctionFacetAngle, bounds.FacetAngle);
+    bounds.Size = this->Of.Size;
+    relabelled = FillNotches(mesh, this->Of.Surfaces, bounds, this->LabelOf, threads, this->Stop);
+  }
+  if (this->Options.InterfaceRounds > 0)
+  {
+    this->Repair(relabelled);
+  }
+  this->Gone = this->VerticesWithin(relabelled);
+}
+
+/** Adds to what was relabelled. */
+void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
+{
+  const Triangulation<3>& mesh = this->Of.Mesh;
+  ManifoldRepairOptions options;
+  options.FacetAngle = this->Options.FacetAngle;
+  options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
+  options.Cut = &this->Of.Surfaces;
+  const ManifoldRepairResult result =
+    RepairManifold(mesh, this->LabelOf, options, this->Options.Threads, this->Stop);
+  this->Figures.NonManifoldRepaired = result.Before - result.Left.size();
+  this->Figures.NonManifoldLeft = result.Left.size();
+  relabelled.insert(relabelled.end(), result.Relabelled.begin(), result.Relabelled.end());
+  this->Pinches.clear();
+  for (const InterfaceEdge& edge : result.Left)
+  {
+    this->Pinches.push_back(
+      { Interpolate(mesh.Position(edge.Ends[0]), mesh.Position(edge.Ends[1]), 0.5),
+        edge.IsJunction });
+  }
+}
+
+/** Vertices of these tetrahedra that are inside of a label. */
+std::vector<Point<3>> InterfaceStage::VerticesWithin(const std::vector<SimplexId>& relabelled) const
+{
+  const Triangulation<3>& mesh = this->Of.Mesh;
+  std::vector<VertexId> vertices;
+  for (const SimplexId s : relabelled)
+  {
+    const auto& v = mesh.GetSimplex(s).V;
+    vertices.insert(vertices.end(), v.begin(), v.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<Point<3>> within;
+  for (const VertexId v : vertices)
+  {
+    const std::vector<SimplexId> star = StarOf(mesh, v, mesh.GetVertex(v).Incident);
+    if (std::all_of(star.begin(), star.end(),
+          [&](SimplexId s) { return this->LabelOf[s] == this->LabelOf[star.front()]; }))
+    {
+      within.push_back(mesh.Position(v));
+    }
+  }
+  return within;
+}
+
+} // namespace voxplex

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file InterfaceStage.h
+ * @brief What becomes of the interfaces of a refined triangulation before it is a mesh (3D).
+ */
+#ifndef voxplex_InterfaceStage_h
+#define voxplex_InterfaceStage_h
+
+#include "Delaunay/Triangulation.h"
+#include "InterfaceGuard.h"
+#include "Mesh/InterfaceVertices.h"
+#include "Mesh/ManifoldRepair.h"
+#include "Mesh/NotchFilling.h"
+#include "Mesh/SimplexLabels.h"
+#include "MeshingOptions.h"
+#include "MeshingStatistics.h"
+
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Gives tetrahedra their labels, and says where refinement has to go on for the sake of interfaces.
+ *
+ * InspectTriangulation() is called after each refinement, until it returns no points; then Labels() are those of the
+ * mesh. It first looks for faces of voxels that are far from all vertices of interfaces. If there are none each tetrahedron gets
+ * the label at its circumcentre, or another one where that fills a notch in a face where the image cuts the object
+ * (FillNotches) or makes the boundary of a label manifold (RepairManifold); and InterfaceGuard looks at what that has
+ * left or made. Where delta is graded triangles count instead of vertices: then only InspectMesh() has points.
+ *
+ * Everything happens in the triangulation, so that a mesh is extracted once, when all is well.
+ *
+ * Not thread safe; uses threads of its own. Nobody may change the triangulation meanwhile.
+ */
+class InterfaceStage
+{
+public:
+  /** What there is to look at; the references must live as long as the stage. */
+  struct Subject
+  {
+    const Triangulation<3>& Mesh;
+    const LabelImage<3>& Image;
+    const BitMask<3>& Sites; ///< surface voxels of the image
+    const Domain<3>& Surfaces;
+    const BaseDensity<3>& Base;
+    const InterfaceSizes<3>* Sizes; ///< of single interfaces; may be null
+    const SizeFunction<3>* Size;    ///< of elements; may be null
+  };
+
+  /**
+   * All references must live as long as this.
+   * @param local receives the spacing of what is to be inserted, and bounds
+   * @param figures counts rounds, points and edges
+   */
+  InterfaceStage(const Subject& subject, const MeshingOptions<3>& options, LocalDelta<3>& local,
+    InterfaceFigures& figures, const std::stop_token& stop);
+
+  /**
+   * Points to go on with; none if all is well, or InterfaceRounds were made.
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  std::vector<FeatureSeed<3>> InspectTriangulation();
+
+  /** Of each simplex id, when InspectTriangulation() has returned nothing. */
+  std::span<const LabelId> Labels() const { return this->LabelOf; }
+
+  /**
+   * The same for a mesh with these labels, where delta is graded; elsewhere nothing.
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  std::vector<FeatureSeed<3>> InspectMesh(const SimplexMesh<3>& mesh);
+
+private:
+  bool MayGoOn() const { return this->Figures.Rounds < this->Options.InterfaceRounds; }
+  std::vector<FeatureSeed<3>> Counted(std::vector<FeatureSeed<3>> seeds);
+  void MakeLabels();
+  void Repair(std::vector<SimplexId>& relabelled);
+  std::vector<Point<3>> VerticesWithin(const std::vector<SimplexId>& relabelled) const;
+
+  const Subject Of;
+  const MeshingOptions<3>& Options;
+  InterfaceFigures& Figures;
+  const std::stop_token Stop;
+  InterfaceVertices Vertices;
+  InterfaceGuard Guard;
+  SimplexLabels LabelOf;
+  std::vector<Point<3>>
+    Gone; ///< vertices that other labels than those at circumcentres take off interfaces
+  std::vector<InterfaceGuard::Pinch> Pinches; ///< with these labels
+};
+
+} // namespace voxplex
+
+#endif

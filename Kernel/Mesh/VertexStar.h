@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VertexStar.h
+ * @brief The tetrahedra at a vertex of a triangulation that nobody changes.
+ */
+#ifndef voxplex_VertexStar_h
+#define voxplex_VertexStar_h
+
+#include "Delaunay/Triangulation.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * All tetrahedra with a vertex, that of the start first; takes time quadratic in their number, which is about 24.
+ *
+ * @param from one of them
+ */
+inline std::vector<SimplexId> StarOf(
+  const Triangulation<3>& triangulation, VertexId v, SimplexId from)
+{
+  std::vector<SimplexId> star{ from };
+  for (std::size_t k = 0; k < star.size(); ++k)
+  {
+    const auto& simplex = triangulation.GetSimplex(star[k]);
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      const SimplexId n = simplex.N[i];
+      if (simplex.V[i] != v && n != None && std::find(star.begin(), star.end(), n) == star.end())
+      {
+        star.push_back(n);
+      }
+    }
+  }
+  return star;
+}
+
+} // namespace voxplex
+
+#endif
