@@ -22,32 +22,6 @@ using namespace voxplex::checks;
 namespace
 {
 
-/** Calls function(voxel, next) for both sides of all faces between voxels of different labels. */
-template <typename Function>
-void ForEachFace(const LabelImage<3>& image, Function&& function)
-{
-  const auto& n = image.CropDimensions();
-  GridGeometry<3>::Index voxel;
-  for (voxel[2] = -1; voxel[2] < n[2]; ++voxel[2])
-  {
-    for (voxel[1] = -1; voxel[1] < n[1]; ++voxel[1])
-    {
-      for (voxel[0] = -1; voxel[0] < n[0]; ++voxel[0])
-      {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          GridGeometry<3>::Index next = voxel;
-          ++next[a];
-          if (image.At(voxel) != image.At(next))
-          {
-            function(voxel, next);
-          }
-        }
-      }
-    }
-  }
-}
-
 std::vector<Point<3>> InterfaceVerticesOf(const SimplexMesh<3>& mesh)
 {
   std::set<std::uint32_t> used;
