@@ -11,6 +11,7 @@
 #define voxplex_InterfaceEdges_h
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stop_token>

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/BitMask.h"
+#include "Parallel/ParallelFor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+using namespace voxplex;
+
+// Runs of any length that begin and end anywhere in words; overlapping ones by several threads at once.
+TEST(BitMask, ClearsRuns)
+{
+  using Index = BitMask<3>::Index;
+  std::mt19937 random(2);
+  const Index n{ 200, 3, 2 };
+  for (const unsigned threads : { 1u, 4u })
+  {
+    BitMask<3> mask(n);
+    std::vector<bool> expected(1200);
+    const auto place = [&](const Index& p)
+    { return static_cast<std::size_t>(p[0] + n[0] * (p[1] + n[1] * p[2])); };
+    struct Run
+    {
+      Index First;
+      std::int64_t Last;
+    };
+    std::vector<Run> runs{ { { 64, 0, 0 }, 127 }, { { 0, 1, 0 }, 199 }, { { 5, 2, 1 }, 4 } };
+    const auto any = [&](std::int64_t end)
+    { return static_cast<std::int64_t>(random() % static_cast<unsigned>(end)); };
+    for (int i = 0; i < 60; ++i)
+    {
+      const std::int64_t first = any(n[0]);
+      runs.push_back({ { first, any(n[1]), any(n[2]) }, std::min(first + any(9), n[0] - 1) });
+    }
+    for (Index p{}; p[2] < n[2]; ++p[2])
+    {
+      for (p[1] = 0; p[1] < n[1]; ++p[1])
+      {
+        for (p[0] = 0; p[0] < n[0]; ++p[0])
+        {
+          if (random() % 8 != 0)
+          {
+            mask.Set(p);
+            expected[place(p)] = true;
+          }
+        }
+      }
+    }
+    for (const Run& run : runs)
+    {
+      for (Index p = run.First; p[0] <= run.Last; ++p[0])
+      {
+        expected[place(p)] = false;
+      }
+    }
+    ParallelFor(0, runs.size(), 1, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t k = first; k < last; ++k)
+        {
+          mask.ClearRun(runs[k].First, runs[k].Last);
+        }
+      });
+    for (Index p{}; p[2] < n[2]; ++p[2])
+    {
+      for (p[1] = 0; p[1] < n[1]; ++p[1])
+      {
+        for (p[0] = 0; p[0] < n[0]; ++p[0])
+        {
+          ASSERT_EQ(mask.Test(p), expected[place(p)]) << p[0] << " " << p[1] << " " << p[2];
+        }
+      }
+    }
+    EXPECT_GT(std::count(expected.begin(), expected.end(), true), 300);
+  }
+}
