@@ -27,12 +27,12 @@ namespace voxplex
  * @brief Gives tetrahedra their labels, and says where refinement has to go on for the sake of interfaces.
  *
  * InspectTriangulation() is called after each refinement, until it returns no points; then Labels() are those of the
- * mesh. It first looks for faces of voxels that are far from all vertices of interfaces. If there are none each tetrahedron gets
- * the label at its circumcentre, or another one where that fills a notch in a face where the image cuts the object
- * (FillNotches) or makes the boundary of a label manifold (RepairManifold); and InterfaceGuard looks at what that has
- * left or made. Where delta is graded triangles count instead of vertices: then only InspectMesh() has points.
+ * mesh. It first looks for faces of voxels that are far from all vertices of interfaces. If there are none each
+ * tetrahedron gets the label at its circumcentre, or another one where that fills a notch in a face where the image cuts
+ * the object (FillNotches) or makes the boundary of a label manifold (RepairManifold); and InterfaceGuard looks at what
+ * that has left or made. All that happens in the triangulation, so that no mesh is extracted before all is well.
  *
- * Everything happens in the triangulation, so that a mesh is extracted once, when all is well.
+ * Where delta is graded triangles count instead of vertices: then only InspectMesh() has points.
  *
  * Not thread safe; uses threads of its own. Nobody may change the triangulation meanwhile.
  */
@@ -60,7 +60,7 @@ public:
     InterfaceFigures& figures, const std::stop_token& stop);
 
   /**
-   * Points to go on with; none if all is well, or InterfaceRounds were made.
+   * Points to go on with; none if all is well, InterfaceRounds were made, or the image has no finer features to show.
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   std::vector<FeatureSeed<3>> InspectTriangulation();
@@ -88,8 +88,7 @@ private:
   InterfaceVertices Vertices;
   InterfaceGuard Guard;
   SimplexLabels LabelOf;
-  std::vector<Point<3>>
-    Gone; ///< vertices that other labels than those at circumcentres take off interfaces
+  std::vector<Point<3>> Gone; ///< vertices that are inside of a label since others were given
   std::vector<InterfaceGuard::Pinch> Pinches; ///< with these labels
 };
 

@@ -11,13 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <span>
 
 namespace voxplex
 {
 
 /** @param points not none */
-inline Box<3> BoundsOf(const std::vector<Point<3>>& points)
+inline Box<3> BoundsOf(std::span<const Point<3>> points)
 {
   Box<3> box{ points.front(), points.front() };
   for (const Point<3>& p : points)

@@ -76,7 +76,7 @@ public:
     return entry->second;
   }
 
-  LabelId LabelOf(SimplexId t, const Change* change = nullptr) const
+  LabelId LabelOf(SimplexId t, const Change* change) const
   {
     return change && change->Touches(t) ? change->Label : this->Labels[t];
   }

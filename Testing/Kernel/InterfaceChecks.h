@@ -5,6 +5,7 @@
 #define voxplex_InterfaceChecks_h
 
 #include "BallDomain.h"
+#include "Grading/PointBounds.h"
 #include "ImageMesher.h"
 #include "Mesh/InterfaceEdges.h"
 #include "Mesh/MeshExtraction.h"
@@ -270,14 +271,11 @@ class Triangulated
 public:
   explicit Triangulated(const SimplexMesh<3>& mesh)
   {
-    Box<3> box{ mesh.Points[0], mesh.Points[0] };
-    for (const Point<3>& p : mesh.Points)
+    Box<3> box = BoundsOf(mesh.Points);
+    for (std::size_t a = 0; a < 3; ++a)
     {
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        box.Min[a] = std::min(box.Min[a], p[a] - 10.0);
-        box.Max[a] = std::max(box.Max[a], p[a] + 10.0);
-      }
+      box.Min[a] -= 10.0;
+      box.Max[a] += 10.0;
     }
     this->Source = std::make_unique<Triangulation<3>>(box);
     Triangulation<3>::Worker worker(*this->Source);
