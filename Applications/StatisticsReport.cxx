@@ -202,6 +202,26 @@ std::string SummarizeDropped(const ordered_json& components)
     (components.size() == 1 ? " component" : " components") + " (voxels: " + text + "). ";
 }
 
+/** Where refinement gave way: the first few places, and how many there are. */
+std::string DescribeYielding(const ordered_json& regions)
+{
+  constexpr int most = 3;
+  std::string places;
+  int count = 0;
+  for (const ordered_json& region : regions)
+  {
+    if (region["step"] == 1 && ++count <= most)
+    {
+      places += (places.empty() ? "" : ", ") + region["voxel"].dump();
+    }
+  }
+  return "in " + std::to_string(count) + (count == 1 ? " region" : " regions") +
+    " refinement took many times the work that it should need, and stopped improving shapes there: "
+    "at " +
+    (count == 1 ? "voxel " : "voxels ") + places + (count > most ? ", ..." : "") +
+    "; a smaller --delta helps where the image is rougher than delta";
+}
+
 } // namespace
 
 ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
@@ -254,6 +274,10 @@ std::vector<std::string> Warnings(const ordered_json& report)
   {
     warnings.push_back("some element sizes are below a tenth of delta and were raised to " +
       Significant(report["sizes_raised_to"]) + "; use a smaller --delta for smaller elements");
+  }
+  if (!report["yielding_regions"].empty())
+  {
+    warnings.push_back(DescribeYielding(report["yielding_regions"]));
   }
   if (report["switched_to_local"].get<bool>())
   {

@@ -98,15 +98,37 @@ std::string ListLabels(std::span<const std::int64_t> labels)
   return text;
 }
 
-std::string Describe(const ComponentReport& component)
+std::string DescribeVoxel(const std::vector<std::int64_t>& voxel)
 {
-  std::string text = std::to_string(component.Voxels) + " voxels of label " +
-    std::to_string(component.Label) + " at (";
-  for (std::size_t a = 0; a < component.Voxel.size(); ++a)
+  std::string text;
+  for (const std::int64_t i : voxel)
   {
-    text += (a == 0 ? "" : ", ") + std::to_string(component.Voxel[a]);
+    text += (text.empty() ? "(" : ", ") + std::to_string(i);
   }
   return text + ")";
+}
+
+std::string Describe(const ComponentReport& component)
+{
+  return std::to_string(component.Voxels) + " voxels of label " + std::to_string(component.Label) +
+    " at " + DescribeVoxel(component.Voxel);
+}
+
+/** The places of the first few, and how many there are. */
+std::string Describe(const std::vector<YieldingReport>& regions)
+{
+  constexpr std::size_t Most = 5;
+  std::string text;
+  std::size_t count = 0;
+  for (const YieldingReport& region : regions)
+  {
+    if (region.Step == 1 && ++count <= Most)
+    {
+      text += (text.empty() ? "" : ", ") + DescribeVoxel(region.Voxel);
+    }
+  }
+  return std::to_string(count) + (count == 1 ? " region (at voxel " : " regions (at voxels ") +
+    text + (count > Most ? ", ...)" : ")");
 }
 
 std::vector<std::int64_t> FindLostLabels(
@@ -565,6 +587,15 @@ void vtkImageToSimplexMeshFilter::WarnOfDeviations()
       text += (text.empty() ? "" : ", ") + voxplex::Describe(component);
     }
     vtkWarningMacro(<< "The mesh lacks these connected components of the image: " << text << ".");
+  }
+  if (!figures.Run.Yielding.empty())
+  {
+    vtkWarningMacro(
+      << "In " << voxplex::Describe(figures.Run.Yielding)
+      << " refinement took many times the work that it should need, and stopped "
+         "improving shapes there: elements and interface triangles may be out of bounds. "
+         "A smaller Delta, or more smoothing of the labels, helps where the image is "
+         "rougher than Delta.");
   }
   if (figures.Run.SwitchedToLocal)
   {

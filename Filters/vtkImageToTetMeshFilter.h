@@ -237,7 +237,7 @@ public:
    * How often, at most, the mesh is compared with the image and refined where an interface of the image is farther
    * from those of the mesh than about 1.5 Delta (tips of thin processes, holes), or where the boundary of a
    * label is not manifold. Where an edge is not, tetrahedra around it go to a neighbouring label, too.
-   * Default 5, of which mostly 2 to 4 are needed; 0 leaves both as they come.
+   * Default 8, of which mostly 3 to 6 are needed; 0 leaves both as they come.
    */
   vtkSetClampMacro(InterfaceRounds, int, 0, 100);
   vtkGetMacro(InterfaceRounds, int);
@@ -309,7 +309,7 @@ protected:
   bool Optimise = true;
   double OptimisationTimeLimit = 0.0;
   bool SampleJunctions = true;
-  int InterfaceRounds = 5;
+  int InterfaceRounds = 8;
   int SmallestComponent = 8;
   double MinimumComponentVolume = 0.0;
 

@@ -59,6 +59,20 @@ void AddRuns(voxplex::JsonWriter& json, const voxplex::MeshingStatistics& run)
   json.EndList();
 }
 
+void AddYielding(voxplex::JsonWriter& json, const voxplex::MeshingStatistics& run)
+{
+  json.Add("largest_regional_work", run.Rules.LargestRegionalWork);
+  json.BeginList("yielding_regions");
+  for (const voxplex::YieldingReport& region : run.Yielding)
+  {
+    json.BeginItem();
+    json.Add("step", static_cast<std::int64_t>(region.Step));
+    json.Add<std::int64_t>("voxel", region.Voxel);
+    json.End();
+  }
+  json.EndList();
+}
+
 void AddRules(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
 {
   json.Begin("rules");
@@ -442,6 +456,13 @@ vtkTypeInt64 vtkMeshingStatistics::GetRuleFired(int rule) const
     : 0;
 }
 
+int vtkMeshingStatistics::GetNumberOfYieldingRegions() const
+{
+  const auto& steps = this->Values->Run.Yielding;
+  return static_cast<int>(std::count_if(steps.begin(), steps.end(),
+    [](const voxplex::YieldingReport& region) { return region.Step == 1; }));
+}
+
 std::string vtkMeshingStatistics::ToJSON() const
 {
   const Figures& v = *this->Values;
@@ -471,6 +492,7 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("components", v.Run.Components);
   voxplex::AddComponents(json, "lost_components", v.Run.LostComponents);
   voxplex::AddComponents(json, "dropped_components", v.DroppedComponents);
+  AddYielding(json, v.Run);
   AddInterfaces(json, v.Run.Interfaces);
   AddOptimisation(json, v.Run.Optimisation);
   if (v.HasQuality)

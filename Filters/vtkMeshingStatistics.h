@@ -281,6 +281,12 @@ public:
   double GetSeedingTime() const;
 
   /**
+   * Regions in which refinement took many times the work that it should need, and stopped improving shapes. The filter
+   * warns of them; ToJSON() says where they are.
+   */
+  int GetNumberOfYieldingRegions() const;
+
+  /**
    * Whether the filter's ContentionManager (aggressive or random) made no progress and was replaced
    * by the local one. The filter warns of it.
    */

@@ -23,8 +23,16 @@ namespace
 constexpr double RadiusAtFace = 1.0;
 constexpr double RadiusAtEdge = 0.5;
 
-/** Spacing at the first visit, in delta. */
-constexpr double FirstSpacing = 0.5;
+/**
+ * Spacing at the first visit, in delta. With 0.5 there is one round less, but meshes of atlases with thin labels have up to
+ * a sixth more elements.
+ */
+constexpr double FirstSpacing = 0.8;
+constexpr double FirstGradedSpacing =
+  0.6; // of RemedyAt(), which is several times the delta that was asked for
+
+/** Bounds of circumballs are this times the spacing of points, but for the finest. */
+constexpr double BoundFactor = 2.0;
 
 /** Nothing is sampled more finely than this, in smallest voxel spacings. */
 constexpr double FinestVoxels = 0.2;
@@ -34,12 +42,9 @@ constexpr double SurfaceDistance = 1.1;
 /** There sampling around what is too far begins with so many finest deltas, at most. */
 constexpr double Coarsest = 4.0;
 /** And circumballs are bounded where spacings are at most so many finest deltas. */
-constexpr double CoarsestBound = 0.5 * FirstSpacing;
+constexpr double CoarsestBound = 0.25;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
-
-/** The rules take half the spacing of the points for that of vertices nearby. */
-constexpr double SpacingFactor = 0.5;
 
 template <typename T>
 void SortUnique(std::vector<T>& values)
@@ -391,16 +396,24 @@ InterfaceGuard::Index InterfaceGuard::CellOf(const Face& face)
   return cell;
 }
 
+/** Halved from visit to visit; the last is at the finest spacing, after it 0. */
 double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 {
-  return std::ldexp(FirstSpacing * this->RemedyAt(face), -static_cast<int>(visit));
+  const double first =
+    (this->Base.Graded ? FirstGradedSpacing : FirstSpacing) * this->RemedyAt(face);
+  const double spacing = std::ldexp(first, -static_cast<int>(visit));
+  if (spacing >= this->FinestSpacing)
+  {
+    return spacing;
+  }
+  return 2.0 * spacing > this->FinestSpacing || visit == 0 ? this->FinestSpacing : 0.0;
 }
 
 //------------------------------------------------------------------------------------------------
 // Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
-// element has its label. R1 with the same spacing makes circumballs small enough; with twice that one of AAL's faces
-// stays far, and the knee atlas takes a round more. Bounds grade into all of the label, so where delta is graded and
-// spacings begin with coarser ones no bound is set before points are nearer to each other than they are elsewhere.
+// element has its label. R1 with a smaller delta makes circumballs small enough. Bounds grade into all of the label, so
+// where delta is graded and spacings begin with coarser ones no bound is set before points are nearer to each other than
+// they are elsewhere.
 void InterfaceGuard::LowerBound(const Face& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
@@ -409,11 +422,11 @@ void InterfaceGuard::LowerBound(const Face& face)
     return;
   }
   const double spacing = this->SpacingAt(face, visits->second);
-  if (spacing >= this->FinestSpacing &&
-    (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
+  if (spacing > 0.0 && (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
   {
     const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
-    this->Local.SetBound(face.Voxel, 1, label, spacing);
+    const bool isFinest = spacing <= this->FinestSpacing;
+    this->Local.SetBound(face.Voxel, 1, label, isFinest ? spacing : BoundFactor * spacing);
   }
 }
 
@@ -512,12 +525,12 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Propose(
       spacing = spacings.emplace(cell, this->SpacingAt(face, visit)).first;
     }
     Point<3> z;
-    if (spacing->second >= this->FinestSpacing &&
+    if (spacing->second > 0.0 &&
       this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
         this->Image.CentreOf(face.Next()), z))
     {
       seeds.push_back({ z, spacing->second });
-      this->Local.SetSpacing(face.Voxel, 1, SpacingFactor * spacing->second);
+      this->Local.SetSpacing(face.Voxel, 1, spacing->second);
     }
   }
   this->Local.Grade();

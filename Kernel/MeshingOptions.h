@@ -59,7 +59,7 @@ struct MeshingOptions
    * How often refinement goes on, at most, because interfaces of the image are farther from those of the mesh than
    * 1.5 delta, or because those of the mesh are not manifold; 0: never. 3D only.
    */
-  unsigned InterfaceRounds = 5;
+  unsigned InterfaceRounds = 8;
   /**
    * Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. Of label images
    * only: see Isosurface::SmoothingSigma.

@@ -311,7 +311,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     seeds.insert(seeds.end(), components->GetSeeds().begin(), components->GetSeeds().end());
   }
   const std::uint64_t expected = estimate.Vertices;
-  bool goOn = this->Refine(context, seeds, RefinementStart::Everywhere, expected, stop);
+  bool goOn = this->Refine(prepared, context, seeds, RefinementStart::Everywhere, expected);
   std::optional<InterfaceStage> interfaces;
   if constexpr (D == 3)
   {
@@ -332,7 +332,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
         ++this->Stats.ComponentRounds;
         context.FollowLocalDelta();
         goOn = this->Refine(
-          context, components->GetSeeds(), RefinementStart::Everywhere, expected, stop);
+          prepared, context, components->GetSeeds(), RefinementStart::Everywhere, expected);
         continue;
       }
       seeds = this->InspectMesh(interfaces, mesh);
@@ -346,7 +346,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
       return !stop.stop_requested();
     }
     context.FollowLocalDelta();
-    goOn = this->Refine(context, seeds, RefinementStart::AtSeeds, expected, stop);
+    goOn = this->Refine(prepared, context, seeds, RefinementStart::AtSeeds, expected);
   }
   return false;
 }
@@ -517,9 +517,8 @@ TeamOptions MeshingStages<D>::Team() const
 //------------------------------------------------------------------------------------------------
 /** False if stopped. */
 template <int D>
-bool MeshingStages<D>::Refine(RefinementContext<D>& context,
-  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices,
-  const std::stop_token& stop)
+bool MeshingStages<D>::Refine(const Prepared& prepared, RefinementContext<D>& context,
+  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices)
 {
   using Rules = std::conditional_t<D == 3, Rules3D, Rules4D>;
   Stopwatch refinement;
@@ -530,12 +529,13 @@ bool MeshingStages<D>::Refine(RefinementContext<D>& context,
     {
       const double part = std::min(0.98, static_cast<double>(vertices) / expected);
       this->Fraction = this->ProgressStart + (this->ProgressEnd - this->ProgressStart) * part;
-      return !stop.stop_requested();
+      return !prepared.Stop.stop_requested();
     });
   this->Stats.Times.Refinement += refinement.Seconds();
   this->Stats.Rules += refiner.GetRuleStatistics();
   this->Stats.Predicates += refiner.GetPredicateStatistics();
   this->AddThreads(refiner.GetThreadStatistics());
+  this->AddYielded(prepared.Image.Grid(), refiner.GetYielded());
   this->Stats.SeedingSeconds += refiner.GetSecondsToSeed();
   this->Stats.SwitchedToLocal |= refiner.SwitchedToLocal();
   return done;
@@ -548,6 +548,23 @@ void MeshingStages<D>::AddThreads(const std::vector<ThreadStatistics>& threads)
   for (std::size_t t = 0; t < threads.size(); ++t)
   {
     this->Stats.Threads[t] += threads[t];
+  }
+}
+
+template <int D>
+void MeshingStages<D>::AddYielded(
+  const GridGeometry<D>& grid, const std::vector<YieldingRegion<D>>& regions)
+{
+  for (const YieldingRegion<D>& region : regions)
+  {
+    const Point<D> index = grid.ToIndex(region.Place);
+    YieldingReport report{ static_cast<unsigned>(region.Step), {} };
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto last = static_cast<double>(grid.Dimensions[a] - 1);
+      report.Voxel.push_back(std::llround(std::clamp(index[a], 0.0, last)));
+    }
+    this->Stats.Yielding.push_back(std::move(report));
   }
 }
 

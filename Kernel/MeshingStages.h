@@ -130,9 +130,11 @@ private:
     const Prepared& prepared, const Density& density, const LocalDelta<D>& local) const;
   Box<D> MakeBox(const Domain<D>& domain, const Density& density) const;
   TeamOptions Team() const;
-  bool Refine(RefinementContext<D>& context, const std::vector<FeatureSeed<D>>& seeds,
-    RefinementStart start, std::uint64_t expectedVertices, const std::stop_token& stop);
+  bool Refine(const Prepared& prepared, RefinementContext<D>& context,
+    const std::vector<FeatureSeed<D>>& seeds, RefinementStart start,
+    std::uint64_t expectedVertices);
   void AddThreads(const std::vector<ThreadStatistics>& threads);
+  void AddYielded(const GridGeometry<D>& grid, const std::vector<YieldingRegion<D>>& regions);
   bool SampleLostComponents(
     ComponentGuard<D>& guard, const LabelImage<D>& image, const SimplexMesh<D>& mesh);
   std::vector<FeatureSeed<D>> InspectTriangulation(std::optional<InterfaceStage>& interfaces);

@@ -33,13 +33,14 @@ struct RuleStatistics
   std::uint64_t RefusedDuplicate = 0;   ///< points equal to a vertex
   std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
   std::uint64_t ClosestSurfacePointCalls = 0;
-  std::uint64_t Evaluated = 0;       ///< simplices whose rules were evaluated
-  std::uint64_t Created = 0;         ///< simplices created, those that died included
-  std::uint64_t CavitySimplices = 0; ///< simplices that insertions deleted
-  std::uint64_t LargestCavity = 0;   ///< most simplices that one insertion deleted
-  std::uint64_t SliversFound = 0;    ///< pentatopes below the bound of normalized volume, 4D
-  std::uint64_t PicksTried = 0;      ///< points of picking regions that were tried
-  std::uint64_t SliversKept = 0;     ///< slivers for which no point could be inserted
+  std::uint64_t Evaluated = 0;           ///< simplices whose rules were evaluated
+  std::uint64_t Created = 0;             ///< simplices created, those that died included
+  std::uint64_t CavitySimplices = 0;     ///< simplices that insertions deleted
+  std::uint64_t LargestCavity = 0;       ///< most simplices that one insertion deleted
+  std::uint64_t SliversFound = 0;        ///< pentatopes below the bound of normalized volume, 4D
+  std::uint64_t PicksTried = 0;          ///< points of picking regions that were tried
+  std::uint64_t SliversKept = 0;         ///< slivers for which no point could be inserted
+  std::uint64_t LargestRegionalWork = 0; ///< most insertions of a region (RegionalWork)
 
   /** Of all rules. */
   std::uint64_t Insertions() const
@@ -75,6 +76,7 @@ struct RuleStatistics
     this->SliversFound += other.SliversFound;
     this->PicksTried += other.PicksTried;
     this->SliversKept += other.SliversKept;
+    this->LargestRegionalWork = std::max(this->LargestRegionalWork, other.LargestRegionalWork);
     return *this;
   }
 };
@@ -189,6 +191,16 @@ struct MeshingRun
   std::uint64_t Elements = 0;
 };
 
+/**
+ * Where refinement took many times the work that regions need and rules gave way (RegionalWork): 1: slivers stay, 2: also
+ * facets of interfaces may be out of bounds, 3: also ratios and sizes of elements.
+ */
+struct YieldingReport
+{
+  unsigned Step = 0;
+  std::vector<std::int64_t> Voxel; ///< the index of a voxel there, in the whole image
+};
+
 struct MeshingStatistics
 {
   RuleStatistics Rules;
@@ -216,7 +228,9 @@ struct MeshingStatistics
   InterfaceFigures Interfaces;
   OptimisationFigures Optimisation;
   std::vector<ComponentReport> LostComponents; ///< connected components that have no element
-  double SizesRaisedTo = 0.0;        ///< the floor of sizes, if some were below it; else 0
+  std::vector<YieldingReport>
+    Yielding;                 ///< the steps of each region, in the order in which they were taken
+  double SizesRaisedTo = 0.0; ///< the floor of sizes, if some were below it; else 0
   std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
   std::uint64_t DistanceBytes = 0;   ///< feature transform
 };

@@ -10,6 +10,7 @@
 #include "Image/LabelImage.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <vector>
@@ -21,7 +22,7 @@ namespace voxplex
  * @brief An upper bound of the sampling density of one label's interfaces in each cell of a few voxels;
  * infinite at first.
  *
- * A query is one look-up. The memory is taken when the first bound is set: 1/8 byte a voxel in 3D. Where
+ * A query is one look-up. The memory is taken when the first bound is set: two bytes a voxel in 3D. Where
  * two labels have a bound in one cell the smaller one counts.
  * Queries may run in any number of threads; SetBound() must not run beside anything else.
  */
@@ -32,7 +33,7 @@ public:
   using Index = typename GridGeometry<D>::Index;
 
   /** Edge of a cell in voxels. */
-  static constexpr std::int64_t Cell = 4;
+  static constexpr std::int64_t Cell = 2;
 
   explicit LocalDelta(const LabelImage<D>& image)
     : Grid(image.Grid())
@@ -85,12 +86,45 @@ public:
 
   /**
    * The least that any bound asks for at a point when bounds grow with the distance from where they were
-   * set, by `Slope` times the distance along the axes; as of the last Grade().
+   * set, by `Slope` times the distance along the axes; as of the last Grade(). Continuous, and nowhere in a cell above the
+   * cell's own bound.
    */
   double GradedAt(const Point<D>& p) const
   {
-    return this->Graded.empty() ? std::numeric_limits<double>::infinity()
-                                : this->Graded[this->CellOf(p)];
+    if (this->Graded.empty())
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Point<D> index = this->Grid.ToIndex(p);
+    std::array<std::size_t, D> offset; // of the lower cell along each axis, in values
+    std::array<std::size_t, D> step;   // to the upper one
+    Point<D> fraction;
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto last = static_cast<double>(this->Cells[a] - 1);
+      const double x =
+        std::clamp((index[a] - static_cast<double>(this->Origin[a]) + 0.5) / Cell - 0.5, 0.0, last);
+      const auto lower = static_cast<std::size_t>(x);
+      fraction[a] = x - static_cast<double>(lower);
+      offset[a] = lower * stride;
+      step[a] = fraction[a] > 0.0 ? stride : 0;
+      stride *= static_cast<std::size_t>(this->Cells[a]);
+    }
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < (1u << D); ++corner)
+    {
+      double weight = 1.0;
+      std::size_t cell = 0;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        const bool upper = ((corner >> a) & 1u) != 0;
+        weight *= upper ? fraction[a] : 1.0 - fraction[a];
+        cell += offset[a] + (upper ? step[a] : 0);
+      }
+      sum += weight * static_cast<double>(this->Graded[cell]);
+    }
+    return sum;
   }
 
   /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
@@ -138,14 +172,15 @@ public:
   /** How much bounds grow over a unit of length. */
   static constexpr double Slope = 0.25;
 
-  /** Prepares GradedAt(). Linear in the number of cells. */
+  /**
+   * Prepares GradedAt(). Linear in the number of cells.
+   *
+   * A cell first takes the least value of its neighbours, too: GradedAt() interpolates between the centres of cells, and so
+   * stays below a cell's value up to its border.
+   */
   void Grade()
   {
-    this->Graded.resize(this->Values.size());
-    for (std::size_t c = 0; c < this->Values.size(); ++c)
-    {
-      this->Graded[c] = this->Spacings[c];
-    }
+    this->Graded = this->Spacings;
     std::size_t stride = 1;
     for (std::size_t a = 0; a < D && !this->Graded.empty(); ++a)
     {
@@ -161,6 +196,7 @@ public:
       };
       for (std::size_t first = 0; first < this->Graded.size(); first += stride * n)
       {
+        this->TakeLeastOfNeighbours(first, stride, n);
         for (std::size_t k = 1; k < n; ++k)
         {
           spread(first + (k - 1) * stride, first + k * stride);
@@ -234,6 +270,23 @@ private:
         std::uint8_t& known = this->CellsToLowered[this->Offset(cell)];
         known = std::min(known, static_cast<std::uint8_t>(cells));
       });
+  }
+
+  /** Of the rows before and behind along an axis, for n rows of cells from the first on. */
+  void TakeLeastOfNeighbours(std::size_t first, std::size_t stride, std::size_t n)
+  {
+    for (std::size_t c = first; c < first + stride; ++c)
+    {
+      float before = this->Graded[c];
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        float& value = this->Graded[c + k * stride];
+        const float own = value;
+        const float behind = k + 1 < n ? this->Graded[c + (k + 1) * stride] : own;
+        value = std::min({ before, own, behind });
+        before = own;
+      }
+    }
   }
 
   /** Calls function(cell) for a block of cells. */

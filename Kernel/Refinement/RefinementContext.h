@@ -18,6 +18,7 @@
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 #include "Refinement/PoorElementList.h"
+#include "Refinement/RegionalWork.h"
 #include "Refinement/RuleOptions.h"
 
 #include <algorithm>
@@ -28,8 +29,11 @@
 namespace voxplex
 {
 
-/** Points closer than this fraction of the smallest delta to a vertex are never inserted. */
+/** Points closer to a vertex than this fraction of the spacing at their place are never inserted. */
 inline constexpr double SpacingFloorFraction = 0.1;
+
+/** Where a region has taken too much work, points for the sake of facets keep this fraction instead. */
+inline constexpr double YieldingFraction = 0.5;
 
 /** Feature points nearer to a flat end than this, in delta, are moved onto it. */
 inline constexpr double EndMargin = 0.8;
@@ -71,6 +75,7 @@ struct RefinementContext
     , IsCut(image.IsCut())
     , Mesh(box)
     , Features(box.Min, std::sqrt(FinestDelta(settings) * settings.Delta), expectedFeatures)
+    , Work(expectedFeatures)
   {
     this->FollowLocalDelta();
   }
@@ -158,28 +163,24 @@ struct RefinementContext
       : this->Settings.Delta;
   }
 
-  /** What the densest interfaces ask for at any point, without local bounds and sizes. */
-  double DensestAt(const Point<D>& p) const
-  {
-    return this->Settings.Interfaces ? this->Settings.Interfaces->GradedAt(p)
-                                     : this->GradedDeltaAt(p);
-  }
-
-  /** How near vertices are to each other at least, about: the finest delta, or less near what is sampled more finely. */
+  /**
+   * The spacing of the mesh at p: the least that any interface nearby asks for, growing slowly with the distance from
+   * it. All rules that keep points apart, or take points away, ask for it here: a rule that keeps less than another
+   * makes what the other takes away again.
+   */
   double SpacingAt(const Point<D>& p) const
   {
-    double spacing = FinestDelta(this->Settings);
-    if (this->Settings.Interfaces)
-    {
-      spacing = std::min(spacing, this->Settings.Interfaces->GradedAt(p));
-    }
+    const double spacing = this->Settings.Interfaces
+      ? std::min(this->LargestDelta(), this->Settings.Interfaces->GradedAt(p))
+      : this->GradedDeltaAt(p);
     return this->Settings.Local ? std::min(spacing, this->Settings.Local->GradedAt(p)) : spacing;
   }
 
   /** The same inside of a label: no more than the size that is asked for there. */
   double Spacing(const Point<D>& p, LabelId label) const
   {
-    return std::min(this->SpacingAt(p), this->Size(p, label));
+    const double spacing = this->SpacingAt(p);
+    return label != 0 ? std::min(spacing, this->Size(p, label)) : spacing;
   }
 
   /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */
@@ -212,6 +213,7 @@ struct RefinementContext
   const bool IsCut;                    ///< Domain::IsCut
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
+  RegionalWork<D> Work;
 };
 
 /** What came of an element's evaluation, or of another task of a worker. */
@@ -228,6 +230,14 @@ struct PendingRemoval
   VertexId Vertex;
   VertexId Feature; ///< the vertex goes if it is a free one nearer than ...
   double Radius;    ///< ... this to the feature vertex
+};
+
+/** A region where rules give way, by a place of it. */
+template <int D>
+struct YieldingRegion
+{
+  Point<D> Place;
+  Yielding Step;
 };
 
 /** Whose list of poor elements an entry may be taken out of when its simplex dies. */
@@ -275,6 +285,7 @@ struct alignas(CacheLineSize) RefinementWorker
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval> PendingRemovals;
+  std::vector<YieldingRegion<D>> Yielded; ///< where rules began to give way
   bool ScreensLater = false; ///< what is made is not screened: whoever sets it does so at the end
   RuleStatistics Statistics;
 };

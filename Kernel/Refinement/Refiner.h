@@ -113,6 +113,16 @@ public:
     }
     return sum;
   }
+  /** Where rules began to give way, of all threads. */
+  std::vector<YieldingRegion<D>> GetYielded() const
+  {
+    std::vector<YieldingRegion<D>> regions;
+    for (const auto& worker : this->Workers)
+    {
+      regions.insert(regions.end(), worker->Yielded.begin(), worker->Yielded.end());
+    }
+    return regions;
+  }
   PredicateStatistics GetPredicateStatistics() const
   {
     PredicateStatistics sum;

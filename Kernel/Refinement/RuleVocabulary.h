@@ -33,6 +33,11 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * - a point moved onto the end near an interface gives way to a feature point on both.
  *
  * Points on the end that would crowd feature vertices are refused.
+ *
+ * **Bounded work.** Every insertion is counted in the region of the place that asked for it: c(t), or the feature point.
+ * No region needs more than some dozen; `Rules::WorkLimit` is several times what was ever seen where refinement
+ * goes well. Beyond it rules give way step by step (Yielding). So a region takes at most 4 WorkLimit insertions, and
+ * those of R1, which keep Delta(z) from each other. There is no input on which refinement does not end.
  */
 template <int D, typename Rules>
 class RuleVocabulary
@@ -270,8 +275,9 @@ protected:
 
   Verdict R2(const Element& t, double delta)
   {
-    return t.Radius >= 2.0 * delta ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[1])
-                                   : Verdict::Good;
+    return t.Radius >= 2.0 * delta
+      ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[1], delta)
+      : Verdict::Good;
   }
 
   bool HasBadRatio(const Element& t) const
@@ -344,8 +350,12 @@ protected:
     return place;
   }
 
-  /** Inserts c(t), or its projection onto the box or onto a flat end that is near. */
-  Verdict InsertCircumcentre(const Element& t, std::uint64_t& fired)
+  /**
+   * Inserts c(t), or its projection onto the box or onto a flat end that is near.
+   * @param deltaBeside Delta(z) of the interface for whose sake it is inserted: that is how near points may be needed
+   */
+  Verdict InsertCircumcentre(const Element& t, std::uint64_t& fired,
+    double deltaBeside = std::numeric_limits<double>::infinity())
   {
     const Place place = this->PlaceOf(t.Ball.Center, CentreMargin * t.Radius);
     Point<D> z;
@@ -353,17 +363,25 @@ protected:
       place.OnEnd && (this->Context.Settings.Size || this->Context.Settings.Interfaces)
       ? this->Context.Delta(place.Position, t.Label, this->Context.Image.Label(place.Position))
       : this->Context.Settings.Delta;
+    const double spacing = std::min(deltaBeside, this->Context.Spacing(t.Ball.Center, t.Label));
+    if (this->YieldingAt(t.Ball.Center, spacing) == Yielding::All)
+    {
+      return Verdict::Good;
+    }
     if (place.OnEnd && this->Context.Image.ClosestSurfacePointOnEnd(place.Position, z) &&
       Distance2(z, place.Position) < InterfaceMargin * InterfaceMargin * delta * delta)
     {
       return this->InsertFeatureOnEnd(z, delta, t, None, fired);
     }
     // The circumball is empty: only a point that was moved can be near a vertex.
-    const InsertionOutcome outcome = this->Context.Mesh.Insert(this->Worker.Kernel, place.Position,
-      place.Kind, t.Id, place.Moved ? this->Context.SpacingFloor : 0.0);
+    const double clearance =
+      place.Moved ? SpacingFloorFraction * this->Context.SpacingAt(place.Position) : 0.0;
+    const InsertionOutcome outcome =
+      this->Context.Mesh.Insert(this->Worker.Kernel, place.Position, place.Kind, t.Id, clearance);
     const Verdict verdict = this->CountOutcome(outcome, fired);
     if (verdict == Verdict::Changed)
     {
+      this->CountWork(t.Ball.Center, spacing);
       this->Worker.Statistics.Projected += place.Moved ? 1 : 0;
       this->ScreenCreated();
     }
@@ -389,9 +407,14 @@ protected:
     const Verdict verdict = this->CountOutcome(outcome, fired);
     if (verdict == Verdict::Changed)
     {
+      const double spacing = std::min(delta, this->Context.SpacingAt(z));
+      this->CountWork(z, spacing);
       this->Context.Features.Add(z);
       this->ScreenCreated();
-      this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * delta);
+      if (this->YieldingAt(z, spacing) != Yielding::All)
+      {
+        this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * delta);
+      }
     }
     return verdict;
   }
@@ -477,10 +500,7 @@ private:
     {
       return false;
     }
-    const LocalDelta<D>* local = this->Context.Settings.Local;
-    const double own = Rules::RemovalRadius *
-      std::min(local ? local->GradedAt(vertex) : std::numeric_limits<double>::infinity(),
-        this->Context.DensestAt(vertex));
+    const double own = Rules::RemovalRadius * this->Context.SpacingAt(vertex);
     return distance2 < own * own;
   }
 
@@ -519,6 +539,31 @@ private:
   }
 
 protected:
+  /** How far rules give way in the region of a place. */
+  Yielding YieldingAt(const Point<D>& place, double spacing) const
+  {
+    return YieldingOf(this->Context.Work.At(place, spacing), Rules::WorkLimit);
+  }
+
+  /** How near to others a feature point for the sake of facets may be. */
+  double FacetClearance(double spacing, Yielding step) const
+  {
+    return (step < Yielding::Spacing ? SpacingFloorFraction : YieldingFraction) * spacing;
+  }
+
+  /** Counts an insertion that was asked for at a place. */
+  void CountWork(const Point<D>& place, double spacing)
+  {
+    const std::uint32_t work = this->Context.Work.Add(place, spacing) + 1;
+    std::uint64_t& most = this->Worker.Statistics.LargestRegionalWork;
+    most = std::max<std::uint64_t>(most, work);
+    const Yielding step = YieldingOf(work, Rules::WorkLimit);
+    if (step != YieldingOf(work - 1, Rules::WorkLimit))
+    {
+      this->Worker.Yielded.push_back({ place, step });
+    }
+  }
+
   Verdict CountOutcome(InsertionOutcome outcome, std::uint64_t& fired)
   {
     RuleStatistics& statistics = this->Worker.Statistics;

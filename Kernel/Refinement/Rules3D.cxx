@@ -185,7 +185,12 @@ Verdict Rules3D::R7(const Element& t)
 Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
-  const double clearance = SliverSpacing * this->Context.Spacing(t.Ball.Center, t.Label);
+  const double spacing = this->Context.Spacing(t.Ball.Center, t.Label);
+  if (this->YieldingAt(t.Ball.Center, spacing) != Yielding::Nothing)
+  {
+    return Verdict::Good;
+  }
+  const double clearance = SliverSpacing * spacing;
   PseudoRandom<3> random(options.Seed, t.Ball.Center);
   BetterStar judge(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
   return InsertPick(
@@ -202,6 +207,7 @@ Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
         this->Worker.Statistics.SliversSplit);
       if (inserted == Verdict::Changed)
       {
+        this->CountWork(t.Ball.Center, spacing);
         this->ScreenCreated();
       }
       return inserted;
@@ -278,7 +284,12 @@ Verdict Rules3D::SampleNear(
   const Point<3>& z, double radius, double delta, const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
-  const double clearance = SliverSpacing * std::min(delta, this->Context.SpacingAt(z));
+  const double spacing = std::min(delta, this->Context.SpacingAt(z));
+  if (this->YieldingAt(z, spacing) != Yielding::Nothing)
+  {
+    return Verdict::Good;
+  }
+  const double clearance = SliverSpacing * spacing;
   PseudoRandom<3> random(options.Seed, z);
   BetterStar judge(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
   return InsertPick(
@@ -329,7 +340,13 @@ Verdict Rules3D::R3(const Element& t)
       continue;
     }
     const double delta = this->Context.Delta(z, t.Label, other);
-    double clearance = this->Context.SpacingFloor;
+    const double spacing = std::min(delta, this->Context.SpacingAt(z));
+    const Yielding step = this->YieldingAt(z, spacing);
+    if (step == Yielding::All)
+    {
+      continue;
+    }
+    double clearance = this->FacetClearance(spacing, step);
     if (shapely)
     {
       clearance = std::max(clearance, CutClearance * delta);

@@ -63,6 +63,9 @@ public:
    */
   Verdict Refine(SimplexId t);
 
+  /** Insertions of a region before rules give way there. */
+  static constexpr std::uint32_t WorkLimit = 400;
+
 private:
   friend RuleVocabulary;
   /** R6 removes free vertices nearer than this times Delta(z). */

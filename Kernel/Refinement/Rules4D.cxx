@@ -151,7 +151,13 @@ Verdict Rules4D::R4(const Element& s)
   RuleStatistics& statistics = this->Worker.Statistics;
   const SliverOptions& options = this->Context.Settings.Slivers;
   ++statistics.SliversFound;
-  const double clearance = SliverSpacing * this->Context.Spacing(s.Ball.Center, s.Label);
+  const double spacing = this->Context.Spacing(s.Ball.Center, s.Label);
+  if (this->YieldingAt(s.Ball.Center, spacing) != Yielding::Nothing)
+  {
+    ++statistics.SliversKept;
+    return Verdict::Good;
+  }
+  const double clearance = SliverSpacing * spacing;
   PseudoRandom<4> random(options.Seed, s.Ball.Center);
   BestPick judge(this->Context, s.Radius, s.Ball.Center);
   const Verdict verdict = InsertPick(
@@ -170,6 +176,7 @@ Verdict Rules4D::R4(const Element& s)
         statistics.Fired[3]);
       if (inserted == Verdict::Changed)
       {
+        this->CountWork(s.Ball.Center, spacing);
         this->ScreenCreated();
       }
       return inserted;
@@ -216,27 +223,34 @@ Verdict Rules4D::InsertFeatureAt(
   const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
 {
   const double delta = this->Context.Delta(z, s.Label, labelOfOther);
+  const double spacing = std::min(delta, this->Context.SpacingAt(z));
+  const Yielding step = this->YieldingAt(z, spacing);
+  if (step == Yielding::All)
+  {
+    return Verdict::Good;
+  }
+  const double clearance = this->FacetClearance(spacing, step);
   std::uint64_t& fired = this->Worker.Statistics.Fired[4];
   Point<4> snapped;
   if (this->SnapToEnd(z, delta, snapped))
   {
     return this->InsertFeatureOnEnd(snapped, delta, s, other, fired);
   }
-  if (this->Context.Features.AnyWithin(z, this->Context.SpacingFloor))
+  if (this->Context.Features.AnyWithin(z, clearance))
   {
     ++this->Worker.Statistics.RefusedTooClose;
     return Verdict::Good;
   }
   return this->Context.Settings.Slivers.Fight
-    ? this->InsertFeaturePick(z, delta, s, other)
-    : this->InsertFeature(z, delta, this->Context.SpacingFloor, s.Id, other, fired);
+    ? this->InsertFeaturePick(z, delta, clearance, s, other)
+    : this->InsertFeature(z, delta, clearance, s.Id, other, fired);
 }
 
 //------------------------------------------------------------------------------------------------
 // The picking region of a restricted facet: what the interface has in common with a ball around the
 // centre z of its surface ball.
 Verdict Rules4D::InsertFeaturePick(
-  const Point<4>& z, double delta, const Element& s, SimplexId other)
+  const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other)
 {
   const SliverOptions& options = this->Context.Settings.Slivers;
   const Triangulation<4>& mesh = this->Context.Mesh;
@@ -257,12 +271,12 @@ Verdict Rules4D::InsertFeaturePick(
       return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p) &&
         Distance(p, z) < options.PickingRadius * radius &&
         !this->Context.IsNearEnd(p, delta, onEnd) &&
-        !this->Context.Features.AnyWithin(p, this->Context.SpacingFloor);
+        !this->Context.Features.AnyWithin(p, clearance);
     },
     [&](const Point<4>& p)
     {
-      return this->InsertFeature(p, delta, this->Context.SpacingFloor, s.Id, other,
-        this->Worker.Statistics.Fired[4], &judge);
+      return this->InsertFeature(
+        p, delta, clearance, s.Id, other, this->Worker.Statistics.Fired[4], &judge);
     });
 }
 

@@ -59,6 +59,9 @@ public:
    */
   Verdict Refine(SimplexId s);
 
+  /** Insertions of a region before rules give way there. */
+  static constexpr std::uint32_t WorkLimit = 250;
+
 private:
   friend RuleVocabulary;
   class BestPick;
@@ -75,7 +78,8 @@ private:
   Verdict R5(const Element& s);
   Verdict InsertFeatureAt(
     const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther);
-  Verdict InsertFeaturePick(const Point<4>& z, double delta, const Element& s, SimplexId other);
+  Verdict InsertFeaturePick(
+    const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other);
   bool FacetIsGood(const std::array<VertexId, 5>& v, unsigned facet) const;
 };
 

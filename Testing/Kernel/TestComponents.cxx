@@ -449,7 +449,8 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
   EXPECT_TRUE(local.HasLoweredWithin(middle, 0.0));
   EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 10.0));
   EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 7.0));
-  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
+  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.5));
+  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
   EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 40.0, 20.0 }), 9.0));
   EXPECT_TRUE(local.HasLoweredWithin({ -1000.0, 0.0, 0.0 }, 2000.0));
   // The cells along the first axis end half a voxel behind voxel 31, however far the point and large the ball.
@@ -469,10 +470,10 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
   local.SetBound({ 60, 60, 60 }, 1, 3, 0.5);
   EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 60.0, 60.0, 60.0 }), 0.0));
   EXPECT_FALSE(local.HasLoweredWithin(middle, 0.0));
-  // As of Grade(): from cells 4 to 7 and 4 to 5 to all others.
+  // As of Grade(): cells 9 to 15 and 9 to 10, and those next to them, have the bound; from these it grows.
   constexpr double cell = LocalDelta<3>::Cell;
   const auto cells = [](double c, double first, double last) {
-    return std::max({ first - c, c - last, 0.0 });
+    return std::max({ first - 1.0 - c, c - last - 1.0, 0.0 });
   };
   for (double z = 0.0; z < 16.0; ++z)
   {
@@ -480,11 +481,42 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
     {
       for (double x = 0.0; x < 16.0; ++x)
       {
-        const Point<3> p = grid.ToFrame({ cell * x + 1.5, cell * y + 1.5, cell * z + 1.5 });
+        const Point<3> p = grid.ToFrame({ cell * x + 0.5, cell * y + 0.5, cell * z + 0.5 });
         const double away =
-          cell * (cells(x, 4.0, 7.0) + 2.0 * cells(y, 4.0, 5.0) + 0.5 * cells(z, 4.0, 5.0));
+          cell * (cells(x, 9.0, 15.0) + 2.0 * cells(y, 9.0, 10.0) + 0.5 * cells(z, 9.0, 10.0));
         ASSERT_NEAR(local.GradedAt(p), 0.25 + LocalDelta<3>::Slope * away, 1e-4);
       }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// What is made for a fine place must not be too near by the measure of a place just beside it.
+TEST(LocalDelta, GrowsSteadilyFromTheBordersOfCells)
+{
+  const auto grid = GridGeometry<3>::Orthogonal({ 40, 40, 40 }, { 1.0, 2.0, 0.5 });
+  const LabelImage<3> image =
+    LabelImage<3>::FromScalars<std::uint8_t>(std::vector<std::uint8_t>(40 * 40 * 40, 1), grid);
+  LocalDelta<3> local(image);
+  local.SetBound({ 20, 20, 20 }, 3, 3, 0.25);
+  local.SetSpacing({ 33, 21, 20 }, 1, 0.5);
+  local.Grade();
+  for (const std::size_t axis : { 0, 1, 2 })
+  {
+    constexpr double Step = 0.01; // voxels
+    const double most = LocalDelta<3>::Slope * Step * grid.Spacing(static_cast<int>(axis)) + 1e-6;
+    Point<3> index{ 21.0, 20.5, 19.7 };
+    double before = 0.0;
+    for (index[axis] = -3.0; index[axis] < 45.0; index[axis] += Step)
+    {
+      const Point<3> p = grid.ToFrame(index);
+      const double here = local.GradedAt(p);
+      if (index[axis] > -3.0)
+      {
+        ASSERT_LE(std::abs(here - before), most) << axis << " " << index[axis];
+      }
+      ASSERT_LE(here, static_cast<double>(local.At(p).Delta) + 1e-9) << axis << " " << index[axis];
+      before = here;
     }
   }
 }

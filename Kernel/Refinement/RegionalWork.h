@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file RegionalWork.h
+ * @brief Counts the insertions of each region, so that no region takes work without end.
+ */
+#ifndef voxplex_RegionalWork_h
+#define voxplex_RegionalWork_h
+
+#include "Geometry/MixBits.h"
+#include "Geometry/Point.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+namespace voxplex
+{
+
+/**
+ * How far the rules give way in a region that has taken many times the work that regions need; each step includes
+ * those before.
+ */
+enum class Yielding : unsigned
+{
+  Nothing,
+  Slivers, ///< slivers stay
+  Spacing, ///< points that are inserted for the sake of facets keep half the spacing instead of a tenth
+  All      ///< only R1 inserts points, and nothing is removed
+};
+
+/** Of the number of insertions that was counted in a region; `limit` is what no region should need. */
+constexpr Yielding YieldingOf(std::uint32_t work, std::uint32_t limit)
+{
+  return work < limit  ? Yielding::Nothing
+    : work < 2 * limit ? Yielding::Slivers
+    : work < 4 * limit ? Yielding::Spacing
+                       : Yielding::All;
+}
+
+/**
+ * @brief How many points were inserted in each region since the start of refinement.
+ *
+ * The region of a place with spacing S (RefinementContext::Spacing) is a cell of a grid whose cells have a side above
+ * 2.5 S and at most 3 S, which is 3 times a power of 2^(1/4). So a region has room for a bounded number of vertices that
+ * keep S, and where S is the same everywhere a mesh has regions for (2.5 S)^-D times the volume of its box.
+ *
+ * Counts are kept in a table without keys. A region has two entries in it and the smaller one counts. Two regions that
+ * share both entries are counted as one: the count of a region is never too small, and rarely too large.
+ *
+ * All methods may be called by any number of threads at once. Each takes constant time.
+ */
+template <int D>
+class RegionalWork
+{
+public:
+  /** @param expected about how many vertices there will be; if there are more, counts are too large more often */
+  explicit RegionalWork(std::uint64_t expected)
+  {
+    constexpr std::uint64_t Fewest = std::uint64_t{ 1 } << 14;
+    constexpr std::uint64_t Most = std::uint64_t{ 1 } << 22;
+    const std::uint64_t entries = std::bit_ceil(std::clamp(expected, Fewest, Most));
+    this->Mask = entries - 1;
+    this->Counts = std::make_unique<std::atomic<std::uint32_t>[]>(entries); // zeros
+  }
+
+  /** Counts an insertion; returns the number of those that were counted before in the region. */
+  std::uint32_t Add(const Point<D>& place, double spacing)
+  {
+    const std::uint64_t hash = this->Hash(place, spacing);
+    const std::uint32_t a = this->Entry(hash).fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t b = this->Entry(hash >> 32).fetch_add(1, std::memory_order_relaxed);
+    return std::min(a, b);
+  }
+
+  /** The number of insertions that were counted in the region of a place. */
+  std::uint32_t At(const Point<D>& place, double spacing) const
+  {
+    const std::uint64_t hash = this->Hash(place, spacing);
+    return std::min(this->Entry(hash).load(std::memory_order_relaxed),
+      this->Entry(hash >> 32).load(std::memory_order_relaxed));
+  }
+
+private:
+  std::atomic<std::uint32_t>& Entry(std::uint64_t hash) const
+  {
+    return this->Counts[(hash & 0xffffffffu) & this->Mask];
+  }
+
+  std::uint64_t Hash(const Point<D>& place, double spacing) const
+  {
+    const double step = std::floor(4.0 * std::log2(spacing));
+    const double cells = std::exp2(-0.25 * step) / 3.0; // for a unit of length
+    std::uint64_t hash =
+      MixBits(GoldenGamma + static_cast<std::uint64_t>(static_cast<std::int64_t>(step)));
+    for (const double x : place)
+    {
+      const auto cell = static_cast<std::int64_t>(std::floor(x * cells));
+      hash = MixBits(hash + static_cast<std::uint64_t>(cell));
+    }
+    return hash;
+  }
+
+  std::uint64_t Mask = 0;
+  std::unique_ptr<std::atomic<std::uint32_t>[]> Counts;
+};
+
+} // namespace voxplex
+
+#endif
