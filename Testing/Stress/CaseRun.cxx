@@ -173,7 +173,7 @@ template <int D>
 double TimeLimit(const StressCase<D>& of, const RunLimits& limits)
 {
   // Ten to a hundred times what meshing takes.
-  const double perElement = D == 3 ? 3e-4 : 3e-3;
+  const double perElement = D == 3 ? 3e-4 : 1e-2;
   const double runs = of.Options.Elements > 0 ? 12.0 : 1.0;
   return limits.Seconds > 0.0
     ? limits.Seconds

@@ -116,8 +116,8 @@ double StressCase<D>::ExpectedElements() const
     delta = std::min(delta, size.Size);
   }
   const double sampling = D == 3 ? std::min(delta, 2.0 * voxel) : delta;
-  double elements = (D == 3 ? 8.0 : 40.0) * this->InterfaceArea / std::pow(sampling, D - 1);
-  elements += (D == 3 ? 2.0 : 10.0) * this->ObjectVolume / std::pow(2.0 * delta, D);
+  double elements = (D == 3 ? 8.0 : 4.0) * this->InterfaceArea / std::pow(sampling, D - 1);
+  elements += (D == 3 ? 2.0 : 1.0) * this->ObjectVolume / std::pow(2.0 * delta, D);
   const double size = std::min(this->Size.Everywhere > 0.0 ? this->Size.Everywhere : 1e30,
     this->Size.OfLabel > 0.0 ? this->Size.OfLabel : 1e30);
   elements += (D == 3 ? 8.0 : 40.0) * this->ObjectVolume / std::pow(size, D);

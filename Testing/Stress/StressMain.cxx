@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // voxplexStress: random images, random options, every invariant of the mesh.
+#include "NrrdFile.h"
+#include "Reduction.h"
 #include "Report.h"
 #include "StressOptions.h"
 #include "Workers.h"
@@ -14,30 +16,59 @@ namespace
 {
 
 template <int D>
-void PrintCase(const CaseId& id, const RunLimits& limits)
+void PrintCase(const StressCase<D>& of, const StressOptions& options)
 {
-  const StressCase<D> made = MakeCase<D>(id);
-  std::printf("%s\n  limit of time: %.3g s\n", Describe(made).c_str(), TimeLimit(made, limits));
+  std::printf("%s\n  limit of time: %.3g s\n", Describe(of).c_str(), TimeLimit(of, options.Limits));
+  std::fflush(stdout);
+}
+
+/** Describes a smaller case that fails for the first cause of failure, too, and writes its image. */
+template <int D>
+void PrintReduced(const StressCase<D>& of, const CaseResult& result, const StressOptions& options)
+{
+  const std::string cause = result.Failures.front().Cause;
+  ReductionLimits limits;
+  limits.Seconds = options.ReductionSeconds;
+  const StressCase<D> smaller = Reduce(of, cause, options.Limits, limits);
+  const std::string file = options.Image.empty() ? "reduced.nrrd" : options.Image;
+  WriteNrrd(smaller.Image, file);
+  std::vector<std::string> missing;
+  std::printf("\nReduced (%s):\n", cause.c_str());
+  PrintCase(smaller, options);
+  std::printf(
+    "Image written to %s:\n  %s\n", file.c_str(), ShellCommand(smaller, file, missing).c_str());
 }
 
 /** One case, in words and with its figures. */
-int RunOne(const StressOptions& options)
+template <int D>
+int RunOne(const CaseId& id, const StressOptions& options)
 {
-  const CaseId id{ options.Families.front(), options.Seed, *options.Case };
-  IsSpaceTime(id) ? PrintCase<4>(id, options.Limits) : PrintCase<3>(id, options.Limits);
-  std::fflush(stdout);
+  const StressCase<D> of = MakeCase<D>(id);
+  PrintCase(of, options);
+  if (!options.Image.empty())
+  {
+    WriteNrrd(of.Image, options.Image);
+  }
   Report report;
+  CaseResult result;
+  const auto take = [&](const CaseId& which, const CaseResult& outcome)
+  {
+    report.Add(which, outcome);
+    result = outcome;
+  };
   if (options.InProcess)
   {
-    report.Add(id, RunById(id, options.Limits));
+    take(id, RunCase(of, options.Limits));
   }
   else
   {
-    CaseRange range{ id.Kind, id.Seed, id.Number, 1, 0.0 };
-    RunInWorkers(range, 1, options.Limits,
-      [&](const CaseId& which, const CaseResult& result) { report.Add(which, result); });
+    RunInWorkers({ id.Kind, id.Seed, id.Number, 1, 0.0 }, 1, options.Limits, take);
   }
   report.Print();
+  if (options.IsReduced && result.Status == CaseStatus::Failed)
+  {
+    PrintReduced(of, result, options);
+  }
   return report.Failed() > 0 ? 1 : 0;
 }
 
@@ -73,7 +104,12 @@ int main(int argc, char** argv)
       std::printf("%s", StressHelp);
       return 0;
     }
-    return options.Case ? RunOne(options) : RunAll(options);
+    if (!options.Case)
+    {
+      return RunAll(options);
+    }
+    const CaseId id{ options.Families.front(), options.Seed, *options.Case };
+    return IsSpaceTime(id) ? RunOne<4>(id, options) : RunOne<3>(id, options);
   }
   catch (const std::exception& error)
   {

@@ -25,6 +25,9 @@ nothing with the kernel. A case is made of a dimension, a seed and a number: the
   --seconds SECONDS       no case begins later than this, in all
   --jobs NUMBER           processes that work at the same time (default 1)
   --case NUMBER           this case only, with a description
+  --image FILE            with --case: writes the image (NRRD)
+  --reduce                with --case: makes it smaller as long as it fails for the same cause, and describes that
+  --reduce-seconds NUMBER for that (default 300)
   --in-process            with --case: not in a process of its own, for a debugger
   --allow-non-manifold    edges that are not manifold are counted but do not fail a case
   --work-limit NUMBER     more insertions and removals for each vertex of the mesh fail a case
@@ -94,12 +97,15 @@ StressOptions ReadStressOptions(int argc, char** argv)
     { "--seconds", [&](const std::string& v) { o.Seconds = Number(v); } },
     { "--jobs", [&](const std::string& v) { o.Jobs = static_cast<unsigned>(Whole(v)); } },
     { "--case", [&](const std::string& v) { o.Case = Whole(v); } },
+    { "--image", [&](const std::string& v) { o.Image = v; } },
+    { "--reduce-seconds", [&](const std::string& v) { o.ReductionSeconds = Number(v); } },
     { "--work-limit", [&](const std::string& v) { o.Limits.OperationsPerVertex = Number(v); } },
     { "--time-limit", [&](const std::string& v) { o.Limits.Seconds = Number(v); } },
     { "--time-factor", [&](const std::string& v) { o.Limits.TimeFactor = Number(v); } },
   };
   const std::map<std::string, std::function<void()>> flags = {
     { "--fresh", [&] { o.Seed = std::random_device{}(); } },
+    { "--reduce", [&] { o.IsReduced = true; } },
     { "--in-process", [&] { o.InProcess = true; } },
     { "--allow-non-manifold", [&] { o.Limits.AllowNonManifold = true; } },
     { "--help", [&] { o.Help = true; } },

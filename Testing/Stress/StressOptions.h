@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace voxplex::stress
@@ -26,6 +27,9 @@ struct StressOptions
   unsigned Jobs = 1;
   std::optional<std::uint64_t> Case; ///< only this
   bool InProcess = false;            ///< for a debugger
+  bool IsReduced = false;            ///< with Case: to a smaller one
+  double ReductionSeconds = 300.0;
+  std::string Image; ///< with Case: a file that receives the image
   bool Help = false;
   RunLimits Limits;
 };

@@ -304,12 +304,6 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-CaseResult RunById(const CaseId& id, const RunLimits& limits)
-{
-  return IsSpaceTime(id) ? RunCase(MakeCase<4>(id), limits) : RunCase(MakeCase<3>(id), limits);
-}
-
-//------------------------------------------------------------------------------------------------
 void RunInWorkers(const CaseRange& range, unsigned jobs, const RunLimits& limits,
   const std::function<void(const CaseId&, const CaseResult&)>& take)
 {

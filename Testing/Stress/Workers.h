@@ -26,9 +26,6 @@ struct CaseRange
   double Seconds = 0.0;    ///< no case begins later than this; 0: no limit
 };
 
-/** Makes the case of an id, runs and checks it, in this process. */
-CaseResult RunById(const CaseId& id, const RunLimits& limits);
-
 /**
  * Runs cases in `jobs` worker processes, each case after case. Where one dies, its case has failed (cause crash, with
  * the signal), and another goes on. A case that neither ends nor can be cancelled is killed (cause hang). Call it while
