@@ -20,9 +20,9 @@ namespace voxplex::stress
 /** What counts as a failure, and when a run is ended. */
 struct RunLimits
 {
-  double TimeFactor = 1.0;          ///< of the limits by size
-  double Seconds = 0.0;             ///< of processor time, instead of those by size; 0: by size
-  double OperationsPerVertex = 0.0; ///< more are a failure; 0: no limit
+  double TimeFactor = 1.0;           ///< of the limits by size
+  double Seconds = 0.0;              ///< of processor time, instead of those by size; 0: by size
+  double OperationsPerVertex = 40.0; ///< more are a failure; 0: no limit
   bool AllowNonManifold = false;
 };
 

@@ -102,6 +102,14 @@ private:
       this->Try([&](StressCase<D>& c) { member(c) = value; });
   }
 
+  /** The one that leaves a stage out, else the default. */
+  template <typename T>
+  bool TryToSet(T& (*member)(StressCase<D>&), const T& without, const T& usual)
+  {
+    return !(member(this->Best) == without) &&
+      (this->TryToSet(member, without) || this->TryToSet(member, usual));
+  }
+
   bool ResetOptions();
   bool ResetOptionsOfDimension();
   bool Crop();
@@ -137,7 +145,7 @@ bool Reducer<D>::ResetOptions()
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SeedsPerThread), usual.SeedsPerThread);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.RadiusEdgeRatio), usual.RadiusEdgeRatio);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Force), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), usual.SmoothingSigma);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), 0.0, usual.SmoothingSigma);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Gradation), usual.Gradation);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Everywhere), 0.0);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Size.OfLabel), 0.0);
@@ -163,20 +171,18 @@ bool Reducer<D>::ResetOptionsOfDimension()
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimise), false);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.OptimisationSeconds), 0.0);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FacetAngle), usual.FacetAngle);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Angle), usual.TetSlivers.Angle);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Angle), 0.0, usual.TetSlivers.Angle);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Seed), usual.TetSlivers.Seed);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Picks), usual.TetSlivers.Picks);
     changed |= this->TryToSet(
       VOXPLEX_MEMBER(Options.TetSlivers.PickingRadius), usual.TetSlivers.PickingRadius);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmallestComponent), usual.SmallestComponent);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), usual.SampleJunctions);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), usual.InterfaceRounds);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.SmallestComponent), std::int64_t{ 0 }, usual.SmallestComponent);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), 0u, usual.InterfaceRounds);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Elements), usual.Elements);
-    // Fewer stages.
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), 0u);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Angle), 0.0);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmallestComponent), std::int64_t{ 0 });
   }
   else
   {
@@ -191,7 +197,6 @@ bool Reducer<D>::ResetOptionsOfDimension()
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.PickingRadius), usual.Slivers.PickingRadius);
   }
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), 0.0);
   return changed;
 }
 
