@@ -51,13 +51,16 @@ def read_nrrd(path):
 
 
 def read_nifti(path):
-    """The same. VTK's reader turns no axes; its matrices are of RAS space."""
+    """The same. VTK's reader turns no axes; its matrices are of RAS space. Where they differ, it is as in ITK's."""
     reader = vtkNIFTIImageReader()
     reader.SetFileName(str(path))
     reader.Update()
     image = reader.GetOutput()
     voxels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[::-1])
-    form = reader.GetQFormMatrix() or reader.GetSFormMatrix()
+    header = reader.GetNIFTIHeader()
+    scanner = 1  # code of coordinates of the scanner
+    uses_rows = header.GetSFormCode() == scanner or header.GetQFormCode() == 0
+    form = reader.GetSFormMatrix() if uses_rows else reader.GetQFormMatrix()
     matrix = np.array([[form.GetElement(r, c) for c in range(4)] for r in range(4)])
     matrix[:, :3] = matrix[:, :3] @ np.diag(image.GetSpacing())
     matrix[:2] *= -1

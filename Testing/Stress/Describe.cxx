@@ -5,6 +5,7 @@
 #include "StressCase.h"
 
 #include <sstream>
+#include <type_traits>
 
 namespace voxplex::stress
 {
@@ -27,7 +28,7 @@ public:
   {
     if (value != usual)
     {
-      this->Text << ' ' << flag << ' ' << stress::Text(static_cast<double>(value), 17);
+      this->Text << ' ' << flag << ' ' << Exactly(value);
     }
   }
   void Word(const std::string& words) { this->Text << ' ' << words; }
@@ -43,12 +44,25 @@ public:
   {
     if (value != usual)
     {
-      this->Missing.push_back(name + " " + stress::Text(static_cast<double>(value), 17));
+      this->Missing.push_back(name + " " + Exactly(value));
     }
   }
   std::string Result() const { return this->Text.str(); }
 
 private:
+  template <typename T>
+  static std::string Exactly(T value)
+  {
+    if constexpr (std::is_integral_v<T>)
+    {
+      return std::to_string(value);
+    }
+    else
+    {
+      return stress::Text(value, 17);
+    }
+  }
+
   std::ostringstream Text;
   std::vector<std::string>& Missing;
 };

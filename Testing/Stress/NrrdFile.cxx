@@ -13,28 +13,22 @@ namespace voxplex::stress
 namespace
 {
 
+/** One vector for each axis. */
 template <int D>
 void WriteAxes(const Volume<D>& image, std::ostream& to)
 {
   to.precision(17);
-  if constexpr (D == 3)
+  to << "space: left-posterior-superior" << (D == 4 ? "-time" : "") << "\nspace directions:";
+  for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c)
   {
-    to << "space: left-posterior-superior\nspace directions:";
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
     {
-      to << " (" << image.Axes[0][c] << ',' << image.Axes[1][c] << ',' << image.Axes[2][c] << ')';
+      const bool isStep = r == 3 && c == 3;
+      to << (r == 0 ? " (" : ",") << (isStep ? 1.0 : image.Axes[r][c]);
     }
-    to << "\nspace origin: (0,0,0)\n";
+    to << ')';
   }
-  else
-  {
-    to << "spacings:";
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      to << ' ' << image.Spacing(a);
-    }
-    to << " 1\n";
-  }
+  to << "\nspace origin: (0,0,0" << (D == 4 ? ",0" : "") << ")\n";
 }
 
 template <typename T>
@@ -52,7 +46,7 @@ void WriteNrrd(const Volume<D>& image, const std::string& path)
 {
   std::ofstream to(path, std::ios::binary);
   to << "NRRD0004\ntype: " << (image.Surface ? "float" : "int32") << "\ndimension: " << D << '\n';
-  to << (D == 3 ? "" : "kinds: domain domain domain time\n");
+  to << "kinds: domain domain domain" << (D == 4 ? " domain" : "") << '\n';
   to << "sizes:";
   for (const std::int64_t n : image.Dimensions)
   {

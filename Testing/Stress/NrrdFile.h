@@ -15,8 +15,8 @@ namespace voxplex::stress
 {
 
 /**
- * NRRD, raw: labels as int32, grey values as float. Axes are the file's space directions; in 4D, where there are none,
- * spacings, and the time step is 1, so that the length of a frame is voxplex's --time-scale.
+ * NRRD, raw: labels as int32, grey values as float. In 4D the time step is 1, so that the length of a frame is
+ * voxplex's --time-scale.
  * @throws std::runtime_error
  */
 template <int D>

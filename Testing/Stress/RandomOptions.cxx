@@ -148,7 +148,7 @@ void DrawSpaceOptions(StressCase<3>& of, Random& random)
     options.TetSlivers.PickingRadius = random.Uniform(0.05, 0.95);
     options.TetSlivers.Picks = static_cast<unsigned>(random.Integer(1, 40));
   }
-  options.TetSlivers.Seed = random.Chance(0.5) ? 0 : random.Next();
+  options.TetSlivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
   options.SmallestComponent = random.Chance(0.6) ? 8
     : random.Chance(0.5)                         ? random.Integer(0, 1)
                                                  : random.Integer(2, 60);
@@ -183,7 +183,7 @@ void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
     options.Slivers.VolumeBound = random.Uniform(0.0, LargestSliverBound);
     options.Slivers.Picks = static_cast<unsigned>(random.Integer(1, 30));
   }
-  options.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next();
+  options.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
 }
 
 } // namespace
