@@ -103,7 +103,8 @@ std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const Media
   unsigned threads, const std::stop_token& stop)
 {
   std::vector<Point<3>> poles;
-  if (sample.empty())
+  // A sample of one point has no extent, and no ball: its box would be flat.
+  if (sample.empty() || !(which.LargestRadius > 0.0))
   {
     return poles;
   }

@@ -259,6 +259,21 @@ TEST(GradedMeshing, LosesNoLabelAndNoComponent)
   }
 }
 
+// Where the border cuts nearly all of an object its interfaces have one sample or none.
+TEST(GradedMeshing, OfImagesWithHardlyAnyInterface)
+{
+  for (const int free : { 0, 1 }) // voxels of background
+  {
+    const LabelImage<3> image = phantoms::Make(phantoms::Cube(2),
+      [free](const Point<3>& p) -> std::int16_t
+      { return free == 1 && p[0] + p[1] + p[2] == 0.0 ? 0 : 1; });
+    const SimplexMesh<3> mesh = Mesh(image, Graded(4.6));
+    const std::vector<std::string> complaints = checks::Complaints(mesh);
+    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    EXPECT_FALSE(mesh.Simplices.empty());
+  }
+}
+
 TEST(GradedMeshing, IsReproducible)
 {
   const LabelImage<3> image = SmallAndLarge();

@@ -386,6 +386,13 @@ TEST(MedialAxis, IsTheSameForAnyNumberOfThreads)
   EXPECT_TRUE(FindPoles({}, balls, 2, {}).empty());
 }
 
+TEST(MedialAxis, OfOnePointIsEmpty)
+{
+  MedialBalls balls;
+  balls.LargestRadius = 0.0; // the extent of the sample
+  EXPECT_TRUE(FindPoles({ { 1.0, 2.0, 3.0 } }, balls, 1, {}).empty());
+}
+
 TEST(GradedDelta, SpreadsTheSmallestValues)
 {
   const Box<3> box{ { 0.0, 0.0, 0.0 }, { 11.5, 7.5, 9.5 } };

@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh beside its image: interfaces, extent, volumes, connected components.
+#include "Checks.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+
+namespace voxplex::stress
+{
+
+namespace
+{
+
+template <int D>
+using Index = typename Volume<D>::Index;
+
+/** Interfaces are found to this, in voxels. */
+constexpr double SearchPrecision = 0.02;
+/** By how much optimisation moves vertices off interfaces, in the smallest spacing. */
+constexpr double OptimisationTolerance = 0.1;
+
+/** Calls f for each index of a box, ends included, until it returns false. @return whether it never did */
+template <int D, typename Function>
+bool AllInBox(const Index<D>& low, const Index<D>& high, Function f)
+{
+  Index<D> voxel = low;
+  for (bool more = true; more;)
+  {
+    if (!f(voxel))
+    {
+      return false;
+    }
+    more = false;
+    for (std::size_t a = 0; a < voxel.size() && !more; ++a)
+    {
+      more = ++voxel[a] <= high[a];
+      voxel[a] = more ? voxel[a] : low[a];
+    }
+  }
+  return true;
+}
+
+/** Whether labels are known voxel by voxel: not if grey values were smoothed. */
+template <int D>
+bool KnowsLabels(const Volume<D>& image)
+{
+  return !image.Surface || image.Surface->SmoothingSigma == 0.0;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Whether the voxels around a point have different labels: else no interface can be there. */
+template <int D>
+bool MayBeOnInterface(const Volume<D>& image, const Vector<D>& p, double tolerance)
+{
+  const Vector<D> at = image.ToIndex(p);
+  Index<D> low;
+  Index<D> high;
+  for (std::size_t a = 0; a < low.size(); ++a)
+  {
+    const double reach = SearchPrecision + tolerance / image.LayerDistance(a);
+    low[a] = static_cast<std::int64_t>(std::floor(at[a] - reach));
+    high[a] = static_cast<std::int64_t>(std::floor(at[a] + reach)) + 1;
+  }
+  const std::int32_t first = image.LabelAt(low);
+  return !AllInBox<D>(
+    low, high, [&](const Index<D>& voxel) { return image.LabelAt(voxel) == first; });
+}
+
+template <int D>
+double SmallestSpacing(const Volume<D>& image)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    least = std::min(least, image.Spacing(a));
+  }
+  return least;
+}
+
+template <int D>
+void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
+{
+  const SimplexMesh<D>& mesh = subject.Mesh;
+  const Volume<D>& image = subject.Of.Image;
+  std::vector<char> onFacet(mesh.Points.size(), 0);
+  for (const auto& facet : mesh.Facets)
+  {
+    for (const std::uint32_t v : facet)
+    {
+      onFacet[v] = 1;
+    }
+  }
+  const double tolerance =
+    D == 3 && subject.Of.Options.Optimise ? OptimisationTolerance * SmallestSpacing(image) : 0.0;
+  std::uint64_t off = 0;
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < mesh.Points.size(); ++v)
+  {
+    if (onFacet[v] && !MayBeOnInterface<D>(image, mesh.Points[v], tolerance))
+    {
+      first = off++ == 0 ? v : first;
+    }
+  }
+  if (off > subject.Excused())
+  {
+    findings.Add("off-interface",
+      std::to_string(off) + " vertices of facets (" + std::to_string(subject.Excused()) +
+        " excused) are where the image has one label, the first is point " + std::to_string(first));
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+/** The mesh is where the object is, to a voxel; its ends in time are those of the image. */
+template <int D>
+void CheckExtent(const Subject<D>& subject, Findings& findings)
+{
+  const Volume<D>& image = subject.Of.Image;
+  Index<D> low;
+  Index<D> high;
+  low.fill(std::numeric_limits<std::int64_t>::max());
+  high.fill(std::numeric_limits<std::int64_t>::min());
+  image.ForEach(
+    [&](const Index<D>& voxel, std::size_t i)
+    {
+      for (std::size_t a = 0; image.Labels[i] != 0 && a < low.size(); ++a)
+      {
+        low[a] = std::min(low[a], voxel[a]);
+        high[a] = std::max(high[a], voxel[a]);
+      }
+    });
+  std::uint64_t outside = 0;
+  for (const Vector<D>& p : subject.Mesh.Points)
+  {
+    const Vector<D> at = image.ToIndex(p);
+    for (std::size_t a = 0; a < low.size(); ++a)
+    {
+      const bool isTime = a == 3;
+      const double before = isTime && low[a] == 0 ? 1e-9 : 1.0 + SearchPrecision;
+      const double after =
+        isTime && high[a] + 1 == image.Dimensions[a] ? 1e-9 : 1.0 + SearchPrecision;
+      if (at[a] < static_cast<double>(low[a]) - before ||
+        at[a] > static_cast<double>(high[a]) + after)
+      {
+        ++outside;
+        break;
+      }
+    }
+  }
+  if (outside > subject.Excused())
+  {
+    findings.Add(
+      "outside", std::to_string(outside) + " points are more than a voxel off the object");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+/** Volumes of labels differ by no more than their boundary times its likely error. */
+template <int D>
+void CheckVolumes(const Subject<D>& subject, Findings& findings)
+{
+  const Volume<D>& image = subject.Of.Image;
+  std::map<std::int64_t, Real> volume; // of the mesh, less that of the image
+  for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
+  {
+    volume[subject.Mesh.Labels[s]] += VolumeOf<D>(subject.Corners(s));
+  }
+  std::map<std::int64_t, Real> area; // of voxel faces
+  image.ForEach(
+    [&](const Index<D>& voxel, std::size_t i)
+    {
+      const std::int32_t label = image.Labels[i];
+      if (label == 0)
+      {
+        return;
+      }
+      volume[label] -= image.VoxelVolume();
+      for (std::size_t a = 0; a < voxel.size(); ++a)
+      {
+        for (const std::int64_t step : { -1, 1 })
+        {
+          Index<D> other = voxel;
+          other[a] += step;
+          area[label] += image.LabelAt(other) != label ? image.FaceArea(a) : 0.0;
+        }
+      }
+    });
+  const double delta = std::max(subject.Stats.Delta, subject.Stats.LargestDelta);
+  for (const auto& [label, difference] : volume)
+  {
+    const Real most = area[label] * (image.LargestSpacing() + 0.5 * delta);
+    if (std::abs(difference) > most)
+    {
+      findings.Add("volume",
+        "label " + std::to_string(label) + " has " + Text(static_cast<double>(difference)) +
+          " more than in the image, where " + Text(static_cast<double>(most)) + " is plausible");
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void CheckAgainstImage(const Subject<D>& subject, Findings& findings)
+{
+  if (KnowsLabels(subject.Of.Image))
+  {
+    CheckInterfaceVertices(subject, findings);
+    CheckExtent(subject, findings);
+    CheckVolumes(subject, findings);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+namespace
+{
+
+/** Connected components through faces. */
+template <int D>
+class VoxelComponents
+{
+public:
+  explicit VoxelComponents(const Volume<D>& image)
+    : Of(image)
+    , Parent(image.Size())
+    , Voxels(image.Size(), 0)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), std::size_t{ 0 });
+    image.ForEach(
+      [&](Index<D> voxel, std::size_t i)
+      {
+        for (std::size_t a = 0; a < voxel.size(); ++a)
+        {
+          --voxel[a];
+          if (image.Contains(voxel) && image.LabelAt(voxel) == image.Labels[i])
+          {
+            this->Parent[this->Find(i)] = this->Find(image.At(voxel));
+          }
+          ++voxel[a];
+        }
+      });
+    for (std::size_t i = 0; i < this->Parent.size(); ++i)
+    {
+      ++this->Voxels[this->Find(i)];
+    }
+  }
+
+  /** The component of a voxel: the number of one of its voxels. */
+  std::size_t Find(std::size_t i)
+  {
+    while (this->Parent[i] != i)
+    {
+      i = this->Parent[i] = this->Parent[this->Parent[i]];
+    }
+    return i;
+  }
+
+  /** How many voxels a component has. */
+  std::int64_t SizeOf(std::size_t component) const { return this->Voxels[component]; }
+
+private:
+  const Volume<D>& Of;
+  std::vector<std::size_t> Parent;
+  std::vector<std::int64_t> Voxels;
+};
+
+/** Components with an element of their label of which the centroid is within about a voxel. */
+template <int D>
+std::vector<char> FindPresent(const Subject<D>& subject, VoxelComponents<D>& components)
+{
+  const Volume<D>& image = subject.Of.Image;
+  std::vector<char> present(image.Size(), 0);
+  for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
+  {
+    Vector<D> centroid{};
+    for (const Vector<D>& corner : subject.Corners(s))
+    {
+      for (std::size_t a = 0; a < centroid.size(); ++a)
+      {
+        centroid[a] += corner[a] / (D + 1);
+      }
+    }
+    const Vector<D> at = image.ToIndex(centroid);
+    Index<D> low;
+    Index<D> high;
+    for (std::size_t a = 0; a < low.size(); ++a)
+    {
+      low[a] = std::lround(at[a] - 1e-6) - 1;
+      high[a] = std::lround(at[a] + 1e-6) + 1;
+    }
+    AllInBox<D>(low, high,
+      [&](const Index<D>& voxel)
+      {
+        if (image.LabelAt(voxel) == subject.Mesh.Labels[s] && image.Contains(voxel))
+        {
+          present[components.Find(image.At(voxel))] = 1;
+        }
+        return true;
+      });
+  }
+  return present;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
+{
+  figures.Lost = subject.Stats.LostComponents.size();
+  const std::int64_t smallest = subject.Of.Options.SmallestComponent;
+  const Volume<D>& image = subject.Of.Image;
+  if (D != 3 || smallest == 0 || !KnowsLabels(image))
+  {
+    return;
+  }
+  VoxelComponents<D> components(image);
+  const std::vector<char> present = FindPresent(subject, components);
+  std::vector<char> listed(image.Size(), 0);
+  for (const ComponentReport& report : subject.Stats.LostComponents)
+  {
+    Index<D> voxel{};
+    std::copy_n(report.Voxel.begin(), std::min(report.Voxel.size(), voxel.size()), voxel.begin());
+    const std::size_t at = image.Contains(voxel) ? image.At(voxel) : 0;
+    const std::size_t component = components.Find(at);
+    if (image.LabelAt(voxel) != report.Label || components.SizeOf(component) != report.Voxels)
+    {
+      findings.Add("lost-list", "a component is listed as lost that the image has not");
+      continue;
+    }
+    listed[component] = 1;
+  }
+  for (std::size_t i = 0; i < image.Size(); ++i)
+  {
+    const bool counts =
+      components.Find(i) == i && image.Labels[i] != 0 && components.SizeOf(i) >= smallest;
+    if (counts && !present[i] && !listed[i])
+    {
+      findings.Add("lost",
+        "a component of label " + std::to_string(image.Labels[i]) + " with " +
+          std::to_string(components.SizeOf(i)) + " voxels is neither there nor listed");
+    }
+  }
+}
+
+template void CheckAgainstImage<3>(const Subject<3>&, Findings&);
+template void CheckAgainstImage<4>(const Subject<4>&, Findings&);
+template void CheckComponents<3>(const Subject<3>&, MeshFigures&, Findings&);
+template void CheckComponents<4>(const Subject<4>&, MeshFigures&, Findings&);
+
+} // namespace voxplex::stress

@@ -1,0 +1,406 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reduction.h"
+
+#include "RandomImages.h"
+#include "Workers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace voxplex::stress
+{
+
+namespace
+{
+
+double WallSeconds()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/** Wall-clock seconds after which an attempt counts as hanging, beyond its own limit. */
+constexpr double Grace = 30.0;
+
+/** Single voxels are tried one by one in images of at most so many. */
+constexpr std::size_t FewVoxels = 600;
+
+template <int D>
+class Reducer
+{
+public:
+  Reducer(
+    StressCase<D> of, std::string cause, const RunLimits& limits, const ReductionLimits& reduction)
+    : Best(std::move(of))
+    , Cause(std::move(cause))
+    , Limits(limits)
+    , Reduction(reduction)
+    , End(WallSeconds() + reduction.Seconds)
+  {
+  }
+
+  StressCase<D> Run()
+  {
+    for (bool smaller = true; smaller && !this->IsOver();)
+    {
+      smaller = this->ResetOptions();
+      smaller = this->Crop() || smaller;
+      smaller = this->MergeLabels() || smaller;
+      smaller = this->SimplifyGrid() || smaller;
+      smaller = this->RoundNumbers() || smaller;
+      smaller = this->ClearVoxels() || smaller;
+    }
+    return this->Best;
+  }
+
+private:
+  using Change = std::function<void(StressCase<D>&)>;
+
+  bool IsOver() const { return WallSeconds() > this->End; }
+
+  /** Whether a case fails for the same cause. */
+  bool Fails(const StressCase<D>& candidate) const
+  {
+    const double wall = 8.0 * TimeLimit(candidate, this->Limits) + Grace;
+    const unsigned repeats = candidate.Options.Threads > 1 ? this->Reduction.Repeats : 1;
+    for (unsigned k = 0; k < repeats; ++k)
+    {
+      const CaseResult result = RunInChild([&] { return RunCase(candidate, this->Limits); }, wall);
+      if (result.Has(this->Cause))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /** Keeps a change if the case still fails. */
+  bool Try(const Change& change)
+  {
+    if (this->IsOver())
+    {
+      return false;
+    }
+    StressCase<D> candidate = this->Best;
+    change(candidate);
+    candidate.Measure();
+    if (!this->Fails(candidate))
+    {
+      return false;
+    }
+    this->Best = std::move(candidate);
+    return true;
+  }
+
+  /** The same for what may be changed already: then nothing is tried. */
+  template <typename T>
+  bool TryToSet(T& (*member)(StressCase<D>&), const T& value)
+  {
+    return !(member(this->Best) == value) &&
+      this->Try([&](StressCase<D>& c) { member(c) = value; });
+  }
+
+  /** The one that leaves a stage out, else the default. */
+  template <typename T>
+  bool TryToSet(T& (*member)(StressCase<D>&), const T& without, const T& usual)
+  {
+    return !(member(this->Best) == without) &&
+      (this->TryToSet(member, without) || this->TryToSet(member, usual));
+  }
+
+  bool ResetOptions();
+  bool ResetOptionsOfDimension();
+  bool Crop();
+  bool CropTo(std::size_t axis, std::int64_t first, std::int64_t count);
+  bool MergeLabels();
+  bool SimplifyGrid();
+  bool RoundNumbers();
+  bool ClearVoxels();
+
+  StressCase<D> Best;
+  std::string Cause;
+  RunLimits Limits;
+  ReductionLimits Reduction;
+  double End;
+};
+
+//------------------------------------------------------------------------------------------------
+// A pointer to a function that returns one member of a case.
+#define VOXPLEX_MEMBER(path) (+[](StressCase<D>& c) -> decltype(auto) { return (c.path); })
+
+template <int D>
+bool Reducer<D>::ResetOptions()
+{
+  const MeshingOptions<D> usual;
+  bool changed = this->TryToSet(VOXPLEX_MEMBER(Options.Threads), 1u);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Twice), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Contention), usual.Contention);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Balance), usual.Balance);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.PinThreads), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Synchronise), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.RemoveEagerly), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FineGrained), usual.FineGrained);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SeedsPerThread), usual.SeedsPerThread);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.RadiusEdgeRatio), usual.RadiusEdgeRatio);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Force), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), 0.0, usual.SmoothingSigma);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Gradation), usual.Gradation);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Everywhere), 0.0);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.OfLabel), 0.0);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Slope), 0.0);
+  while (!this->Best.Options.InterfaceSizes.empty() &&
+    this->Try([](StressCase<D>& c) { c.Options.InterfaceSizes.pop_back(); }))
+  {
+    changed = true;
+  }
+  return this->ResetOptionsOfDimension() || changed;
+}
+
+template <int D>
+bool Reducer<D>::ResetOptionsOfDimension()
+{
+  const MeshingOptions<D> usual;
+  bool changed = false;
+  if constexpr (D == 3)
+  {
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Mode), usual.Grading.Mode);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Ratio), usual.Grading.Ratio);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Lambda), usual.Grading.Lambda);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimise), false);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.OptimisationSeconds), 0.0);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FacetAngle), usual.FacetAngle);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Angle), 0.0, usual.TetSlivers.Angle);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Seed), usual.TetSlivers.Seed);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Picks), usual.TetSlivers.Picks);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.TetSlivers.PickingRadius), usual.TetSlivers.PickingRadius);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.SmallestComponent), std::int64_t{ 0 }, usual.SmallestComponent);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), 0u, usual.InterfaceRounds);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Elements), usual.Elements);
+  }
+  else
+  {
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Fight), false);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Order), usual.Order);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Seed), usual.Slivers.Seed);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Picks), usual.Slivers.Picks);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.VolumeBound), usual.Slivers.VolumeBound);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.RadiusFactor), usual.Slivers.RadiusFactor);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.PickingRadius), usual.Slivers.PickingRadius);
+  }
+  return changed;
+}
+
+#undef VOXPLEX_MEMBER
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool Reducer<D>::CropTo(std::size_t axis, std::int64_t first, std::int64_t count)
+{
+  return this->Try(
+    [&](StressCase<D>& c)
+    {
+      Volume<D> old = c.Image;
+      Volume<D>& image = c.Image;
+      image.Dimensions[axis] = count;
+      image.Labels.resize(image.Size());
+      image.Grey.resize(old.Grey.empty() ? 0 : image.Size());
+      image.ForEach(
+        [&](typename Volume<D>::Index voxel, std::size_t i)
+        {
+          voxel[axis] += first;
+          const std::size_t from = old.At(voxel);
+          image.Labels[i] = old.Labels[from];
+          if (!old.Grey.empty())
+          {
+            image.Grey[i] = old.Grey[from];
+          }
+        });
+    });
+}
+
+/** Halves, quarters, down to single layers at both ends of each axis. */
+template <int D>
+bool Reducer<D>::Crop()
+{
+  bool changed = false;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(D); ++axis)
+  {
+    for (std::int64_t part = this->Best.Image.Dimensions[axis] / 2; part >= 1; part /= 2)
+    {
+      for (bool more = true; more;)
+      {
+        const std::int64_t left = this->Best.Image.Dimensions[axis] - part;
+        more = left >= 2 && (this->CropTo(axis, part, left) || this->CropTo(axis, 0, left));
+        changed |= more;
+      }
+    }
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Each label becomes background, or the one before. */
+template <int D>
+bool Reducer<D>::MergeLabels()
+{
+  if (this->Best.Image.Surface)
+  {
+    return false;
+  }
+  bool changed = false;
+  std::int32_t before = 0;
+  for (const std::int32_t label : this->Best.Image.LabelValues())
+  {
+    const auto become = [&](std::int32_t other)
+    {
+      return this->Try([&](StressCase<D>& c)
+        { std::replace(c.Image.Labels.begin(), c.Image.Labels.end(), label, other); });
+    };
+    const bool gone = become(0) || (before != 0 && become(before));
+    before = gone ? before : label;
+    changed |= gone;
+  }
+  // Numbered from 1 on.
+  const std::vector<std::int32_t> values = this->Best.Image.LabelValues();
+  if (!values.empty() && values.back() != static_cast<std::int32_t>(values.size()))
+  {
+    changed |= this->Try(
+      [&](StressCase<D>& c)
+      {
+        for (std::int32_t& label : c.Image.Labels)
+        {
+          label = label == 0
+            ? 0
+            : static_cast<std::int32_t>(
+                std::lower_bound(values.begin(), values.end(), label) - values.begin() + 1);
+        }
+        c.Size.OfLabel = 0.0;
+      });
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Unit voxels, else orthogonal axes. */
+template <int D>
+bool Reducer<D>::SimplifyGrid()
+{
+  const auto isUnit = [&](const Volume<D>& image)
+  {
+    for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
+    {
+      for (std::size_t c = r; c < static_cast<std::size_t>(D); ++c)
+      {
+        if (image.Axes[r][c] != (r == c ? 1.0 : 0.0))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  };
+  if (isUnit(this->Best.Image))
+  {
+    return false;
+  }
+  const double voxel = std::pow(this->Best.Image.VoxelVolume(), 1.0 / D);
+  const auto unit = [&](StressCase<D>& c)
+  {
+    for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
+    {
+      c.Image.Axes[r].fill(0.0);
+      c.Image.Axes[r][r] = 1.0;
+    }
+    c.Options.Delta = this->Best.Delta() / voxel;
+    c.Size.Everywhere /= voxel;
+    c.Size.OfLabel /= voxel;
+    for (InterfaceSize& size : c.Options.InterfaceSizes)
+    {
+      size.Size /= voxel;
+    }
+  };
+  bool sheared = false;
+  for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
+  {
+    for (std::size_t c = r + 1; c < static_cast<std::size_t>(D); ++c)
+    {
+      sheared |= this->Best.Image.Axes[r][c] != 0.0;
+    }
+  }
+  const auto orthogonal = [&](StressCase<D>& c)
+  {
+    for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
+    {
+      const double diagonal = c.Image.Axes[r][r];
+      c.Image.Axes[r].fill(0.0);
+      c.Image.Axes[r][r] = diagonal;
+    }
+  };
+  return this->Try(unit) || (sheared && this->Try(orthogonal));
+}
+
+//------------------------------------------------------------------------------------------------
+/** Lengths with few digits. */
+template <int D>
+bool Reducer<D>::RoundNumbers()
+{
+  const auto rounded = [](double x, int digits) { return std::stod(Text(x, digits)); };
+  for (const int digits : { 2, 3, 4 })
+  {
+    const double delta = rounded(this->Best.Options.Delta, digits);
+    if (delta == this->Best.Options.Delta)
+    {
+      return false;
+    }
+    if (this->Try([&](StressCase<D>& c) { c.Options.Delta = delta; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Voxels become background one by one. */
+template <int D>
+bool Reducer<D>::ClearVoxels()
+{
+  if (this->Best.Image.Surface || this->Best.Image.Size() > FewVoxels)
+  {
+    return false;
+  }
+  bool changed = false;
+  for (std::size_t i = 0; i < this->Best.Image.Labels.size(); ++i)
+  {
+    changed |= this->Best.Image.Labels[i] != 0 &&
+      this->Try([&](StressCase<D>& c) { c.Image.Labels[i] = 0; });
+  }
+  return changed;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+StressCase<D> Reduce(const StressCase<D>& of, const std::string& cause, const RunLimits& limits,
+  const ReductionLimits& reduction)
+{
+  return Reducer<D>(of, cause, limits, reduction).Run();
+}
+
+template StressCase<3> Reduce<3>(
+  const StressCase<3>&, const std::string&, const RunLimits&, const ReductionLimits&);
+template StressCase<4> Reduce<4>(
+  const StressCase<4>&, const std::string&, const RunLimits&, const ReductionLimits&);
+
+} // namespace voxplex::stress

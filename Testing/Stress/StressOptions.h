@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file StressOptions.h
+ * @brief The command line of voxplexStress.
+ */
+#ifndef voxplex_stress_StressOptions_h
+#define voxplex_stress_StressOptions_h
+
+#include "CaseRun.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxplex::stress
+{
+
+struct StressOptions
+{
+  std::vector<Family> Families{ Family::Space };
+  std::uint64_t Seed = 1;
+  std::uint64_t First = 0;
+  std::uint64_t Cases = 1000; ///< of each family; 0: no end
+  double Seconds = 0.0;       ///< for all families together; 0: no limit
+  unsigned Jobs = 1;
+  std::optional<std::uint64_t> Case; ///< only this
+  bool InProcess = false;            ///< for a debugger
+  bool IsReduced = false;            ///< with Case: to a smaller one
+  double ReductionSeconds = 300.0;
+  std::string Image; ///< with Case: a file that receives the image
+  bool Help = false;
+  RunLimits Limits;
+};
+
+extern const char* const StressHelp;
+
+/** @throws std::invalid_argument */
+StressOptions ReadStressOptions(int argc, char** argv);
+
+} // namespace voxplex::stress
+
+#endif

@@ -1,0 +1,383 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The checks of the stress program find what they are for: good meshes are spoilt in one way after the other.
+#include "CaseRun.h"
+#include "Checks.h"
+#include "ImageMesher.h"
+#include "RandomImages.h"
+#include "Reduction.h"
+#include "Workers.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <span>
+#include <unistd.h>
+
+using namespace voxplex;
+using namespace voxplex::stress;
+
+namespace
+{
+
+/** Two boxes of different labels that share a face, and a third one apart; in 4D for all times. */
+template <int D>
+StressCase<D> Boxes()
+{
+  StressCase<D> of;
+  of.Kind = "boxes";
+  for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
+  {
+    of.Image.Dimensions[a] = a == 0 ? 14 : a == 3 ? 4 : 8;
+    of.Image.Axes[a][a] = 1.0;
+  }
+  of.Image.Labels.resize(of.Image.Size());
+  of.Image.ForEach(
+    [&](const typename Volume<D>::Index& v, std::size_t i)
+    {
+      const bool inside = v[1] > 0 && v[1] < 7 && v[2] > 0 && v[2] < 7;
+      of.Image.Labels[i] = !inside || v[0] == 0 || v[0] > 12 ? 0 : v[0] < 5 ? 3 : v[0] < 9 ? 7 : 0;
+      of.Image.Labels[i] = inside && v[0] > 10 && v[0] < 13 ? 9 : of.Image.Labels[i];
+    });
+  of.Options.Delta = 1.5;
+  of.Measure();
+  return of;
+}
+
+template <int D>
+struct Meshed
+{
+  StressCase<D> Of = Boxes<D>();
+  SimplexMesh<D> Mesh;
+  MeshingStatistics Stats;
+
+  explicit Meshed(const std::function<void(StressCase<D>&)>& change = {})
+  {
+    if (change)
+    {
+      change(this->Of);
+    }
+    GridGeometry<D> grid;
+    grid.Dimensions = this->Of.Image.Dimensions;
+    grid.IndexToFrame = this->Of.Image.Axes;
+    ImageMesher<D> mesher(this->Of.AllOptions());
+    EXPECT_EQ(mesher.Run(LabelImage<D>::FromScalars(
+                           std::span<const std::int32_t>(this->Of.Image.Labels), grid),
+                this->Mesh),
+      MeshingOutcome::Done);
+    this->Stats = mesher.Statistics();
+  }
+
+  Findings Check() const
+  {
+    Findings findings;
+    CheckMesh<D>({ this->Of, this->Mesh, this->Stats }, findings);
+    return findings;
+  }
+};
+
+template <int D>
+void ExpectNothing(const Meshed<D>& meshed)
+{
+  const Findings findings = meshed.Check();
+  ASSERT_TRUE(findings.IsEmpty()) << findings.All()[0].Cause << ": " << findings.All()[0].Message;
+  ASSERT_GT(meshed.Mesh.Simplices.size(), 100u);
+}
+
+/** A change of a good mesh is found. */
+template <int D>
+void ExpectFound(const std::string& cause, const std::function<void(Meshed<D>&)>& spoil)
+{
+  static const Meshed<D> good;
+  Meshed<D> bad = good;
+  spoil(bad);
+  EXPECT_TRUE(bad.Check().Has(cause)) << cause;
+}
+
+} // namespace
+
+TEST(StressChecks, FindNothingInGoodMeshes)
+{
+  ExpectNothing(Meshed<3>());
+  ExpectNothing(Meshed<3>([](StressCase<3>& c) { c.Options.Optimise = true; }));
+  ExpectNothing(Meshed<4>());
+}
+
+TEST(StressChecks, FindWrongArrays)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ExpectFound<3>("arrays", [](Meshed<3>& m) { m.Mesh.Labels.pop_back(); });
+  ExpectFound<3>("arrays", [](Meshed<3>& m) { m.Mesh.Simplices[5][2] = 1u << 30; });
+  ExpectFound<3>("not-finite", [nan](Meshed<3>& m) { m.Mesh.Points[7][1] = nan; });
+  ExpectFound<3>("unused-point", [](Meshed<3>& m) { m.Mesh.Points.push_back({ 4.0, 4.0, 4.0 }); });
+  ExpectFound<3>("duplicate-point", [](Meshed<3>& m) { m.Mesh.Points[3] = m.Mesh.Points[9]; });
+  ExpectFound<3>("label", [](Meshed<3>& m) { m.Mesh.Labels[4] = 5; });
+}
+
+TEST(StressChecks, FindWrongOrientations)
+{
+  const auto swap = [](auto& m) { std::swap(m.Mesh.Simplices[8][0], m.Mesh.Simplices[8][1]); };
+  ExpectFound<3>("orientation", swap);
+  ExpectFound<4>("orientation", swap);
+  ExpectFound<3>("conforming", swap);
+}
+
+TEST(StressChecks, FindWrongFacets)
+{
+  const auto lose = [](auto& m)
+  {
+    m.Mesh.Facets.pop_back();
+    m.Mesh.FacetLabels.pop_back();
+  };
+  ExpectFound<3>("facets", lose);
+  ExpectFound<4>("facets", lose);
+  ExpectFound<3>("open-boundary", lose);
+  ExpectFound<4>("open-boundary", lose);
+  const auto turn = [](auto& m) { std::swap(m.Mesh.Facets[3][0], m.Mesh.Facets[3][1]); };
+  ExpectFound<3>("facets", turn);
+  ExpectFound<4>("facets", turn);
+  ExpectFound<3>(
+    "facets", [](Meshed<3>& m) { std::swap(m.Mesh.FacetLabels[3][0], m.Mesh.FacetLabels[3][1]); });
+  ExpectFound<3>("facets", [](Meshed<3>& m) { m.Mesh.Labels[0] = m.Mesh.Labels[0] == 3 ? 7 : 3; });
+}
+
+TEST(StressChecks, FindOverlaps)
+{
+  ExpectFound<3>("conforming",
+    [](Meshed<3>& m)
+    {
+      m.Mesh.Simplices.push_back(m.Mesh.Simplices[11]);
+      m.Mesh.Labels.push_back(m.Mesh.Labels[11]);
+    });
+  ExpectFound<3>("overlap",
+    [](Meshed<3>& m)
+    {
+      // The mesh once more, a little beside itself.
+      const auto points = static_cast<std::uint32_t>(m.Mesh.Points.size());
+      const std::size_t simplices = m.Mesh.Simplices.size();
+      for (std::uint32_t v = 0; v < points; ++v)
+      {
+        m.Mesh.Points.push_back(m.Mesh.Points[v]);
+        m.Mesh.Points.back()[0] += 0.01;
+      }
+      for (std::size_t s = 0; s < simplices; ++s)
+      {
+        m.Mesh.Simplices.push_back(m.Mesh.Simplices[s]);
+        for (std::uint32_t& v : m.Mesh.Simplices.back())
+        {
+          v += points;
+        }
+        m.Mesh.Labels.push_back(m.Mesh.Labels[s]);
+      }
+    });
+}
+
+TEST(StressChecks, FindWhatIsNotDelaunay)
+{
+  Meshed<3> optimised([](StressCase<3>& c) { c.Options.Optimise = true; });
+  optimised.Of.Options.Optimise = false;
+  EXPECT_TRUE(optimised.Check().Has("delaunay"));
+  // A vertex that moves a little changes balls, not orientations.
+  ExpectFound<4>("delaunay",
+    [](Meshed<4>& m)
+    {
+      for (std::size_t v = 0; v < m.Mesh.Points.size(); v += 10)
+      {
+        m.Mesh.Points[v][0] += 0.1;
+      }
+    });
+}
+
+TEST(StressChecks, FindPoorShapes)
+{
+  ExpectFound<3>("ratio", [](Meshed<3>& m) { m.Of.Options.RadiusEdgeRatio = 1.2; });
+  ExpectFound<4>("ratio", [](Meshed<4>& m) { m.Of.Options.RadiusEdgeRatio = 1.0; });
+  ExpectFound<3>("size", [](Meshed<3>& m) { m.Of.Size.Everywhere = 0.7; });
+  ExpectFound<4>("size",
+    [](Meshed<4>& m)
+    {
+      m.Of.Size.Label = 7;
+      m.Of.Size.OfLabel = 0.7;
+    });
+  ExpectFound<3>("sliver", [](Meshed<3>& m) { m.Of.Options.TetSlivers.Angle = 25.0; });
+  ExpectFound<3>("facet-angle", [](Meshed<3>& m) { m.Of.Options.FacetAngle = 40.0; });
+}
+
+TEST(StressChecks, FindWhatIsNotOfTheImage)
+{
+  ExpectFound<3>("lost",
+    [](Meshed<3>& m) { // the third box is not meshed
+      for (std::int64_t& label : m.Mesh.Labels)
+      {
+        label = label == 9 ? 7 : label;
+      }
+    });
+  ExpectFound<3>("lost-list",
+    [](Meshed<3>& m) {
+      m.Stats.LostComponents.push_back({ 3, 5, { 2, 2, 2 } });
+    });
+  const auto move = [](auto& m)
+  {
+    for (auto& p : m.Mesh.Points)
+    {
+      p[1] += 3.0;
+    }
+  };
+  ExpectFound<3>("off-interface", move);
+  ExpectFound<3>("outside", move);
+  ExpectFound<4>("off-interface", move);
+  ExpectFound<3>("volume",
+    [](Meshed<3>& m)
+    {
+      for (auto& p : m.Mesh.Points)
+      {
+        p[0] *= 4.0;
+      }
+    });
+  ExpectFound<4>("outside", // an end in time is that of the image
+    [](Meshed<4>& m)
+    {
+      for (auto& p : m.Mesh.Points)
+      {
+        p[3] += 0.01;
+      }
+    });
+}
+
+TEST(StressChecks, FindEdgesThatAreNotManifold)
+{
+  ExpectFound<3>("non-manifold",
+    [](Meshed<3>& m)
+    {
+      // Two tetrahedra of a label that share an edge only.
+      m.Mesh = {};
+      for (const Point<3>& p : { Point<3>{ 0, 0, 0 }, Point<3>{ 0, 0, 1 }, Point<3>{ 1, 0, 0 },
+             Point<3>{ 0, 1, 0 }, Point<3>{ -1, 0, 0 }, Point<3>{ 0, -1, 0 } })
+      {
+        m.Mesh.Points.push_back(p);
+      }
+      m.Mesh.Simplices = { { 0, 2, 3, 1 }, { 0, 4, 5, 1 } };
+      m.Mesh.Labels = { 3, 3 };
+      for (const auto& t : m.Mesh.Simplices)
+      {
+        for (const auto& f : { std::array{ t[1], t[2], t[3] }, std::array{ t[0], t[3], t[2] },
+               std::array{ t[0], t[1], t[3] }, std::array{ t[0], t[2], t[1] } })
+        {
+          m.Mesh.Facets.push_back(f);
+          m.Mesh.FacetLabels.push_back({ 3, 0 });
+        }
+      }
+      EXPECT_FALSE(m.Check().Has("facets"));
+      EXPECT_FALSE(m.Check().Has("orientation"));
+    });
+}
+
+TEST(StressChecks, FindWrongStatistics)
+{
+  ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Delta = 2.0; });
+  ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Rules.Fired = {}; });
+  ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Interfaces.NonManifoldLeft = 1; });
+  ExpectFound<3>("elements", [](Meshed<3>& m) { m.Of.Options.Elements = 10; });
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(StressGeometry, SignsAreExact)
+{
+  const std::array<Vector<3>, 4> tetrahedron = { { { 0.1, 0.1, 0.1 }, { 1.1, 0.1, 0.1 },
+    { 0.1, 1.1, 0.1 }, { 0.1, 0.1, 1.1 } } };
+  EXPECT_EQ(Orientation<3>(tetrahedron), 1);
+  EXPECT_EQ(InSphere<3>(tetrahedron, { 0.3, 0.3, 0.3 }), 1);
+  EXPECT_EQ(InSphere<3>(tetrahedron, { 3.0, 0.3, 0.3 }), -1);
+  const std::array<Vector<3>, 4> whole = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+  EXPECT_EQ(InSphere<3>(whole, { 1, 1, 1 }), 0);
+  EXPECT_EQ(InSphere<3>(whole, { 1, 1, std::nextafter(1.0, 0.0) }), 1);
+  EXPECT_EQ(InSphere<3>(whole, { 1, 1, std::nextafter(1.0, 2.0) }), -1);
+  EXPECT_EQ(Orientation<3>({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.3, 0.4, 1e-300 } } }), 1);
+  EXPECT_EQ(Orientation<3>({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.3, 0.4, 0 } } }), 0);
+  const std::array<Vector<4>, 5> pentatope = { { { 0, 0, 0, 0 }, { 1, 0, 0, 0 }, { 0, 1, 0, 0 },
+    { 0, 0, 1, 0 }, { 0, 0, 0, 1 } } };
+  EXPECT_EQ(Orientation<4>(pentatope), 1);
+  EXPECT_EQ(InSphere<4>(pentatope, { 1, 1, 1, 1 }), 0);
+  EXPECT_EQ(InSphere<4>(pentatope, { 1, 1, 1, std::nextafter(1.0, 0.0) }), 1);
+  EXPECT_EQ(InSphere<4>(pentatope, { 1, 1, 1, std::nextafter(1.0, 2.0) }), -1);
+}
+
+TEST(StressGeometry, MeasuresOfTheRegularTetrahedron)
+{
+  const std::array<Vector<3>, 4> p = { { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 },
+    { -1, -1, 1 } } };
+  const auto angles = DihedralAnglesOf(p);
+  EXPECT_NEAR(static_cast<double>(angles[0]), 70.528779, 1e-5);
+  EXPECT_NEAR(static_cast<double>(angles[1]), 70.528779, 1e-5);
+  EXPECT_NEAR(static_cast<double>(SmallestAngleOf(p[0], p[1], p[2])), 60.0, 1e-9);
+  std::array<Real, 3> centre;
+  EXPECT_NEAR(static_cast<double>(CircumcentreOf<3>(p, centre)), std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(static_cast<double>(ShortestEdgeOf<3>(p)), std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(std::abs(static_cast<double>(VolumeOf<3>(p))), 8.0 / 3.0, 1e-12);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(StressCases, ASeedRepeatsACase)
+{
+  for (std::uint64_t number = 0; number < 40; ++number)
+  {
+    const CaseId id{ Family::Space, 5, number };
+    const StressCase<3> a = MakeCase<3>(id);
+    const StressCase<3> b = MakeCase<3>(id);
+    EXPECT_EQ(a.Image.Labels, b.Image.Labels);
+    EXPECT_EQ(Describe(a), Describe(b));
+    EXPECT_NE(Describe(a), Describe(MakeCase<3>({ Family::Space, 6, number })));
+  }
+}
+
+TEST(StressCases, EndlessRunsAreEnded)
+{
+  StressCase<3> of = Boxes<3>();
+  of.Options.Delta = 0.02; // millions of elements
+  of.Options.Force = true;
+  RunLimits limits;
+  limits.Seconds = 0.2;
+  EXPECT_TRUE(RunCase(of, limits).Has("endless"));
+}
+
+TEST(StressCases, RefusalsAreNoFailures)
+{
+  StressCase<3> of = Boxes<3>();
+  of.Options.RadiusEdgeRatio = 1.5;
+  EXPECT_EQ(RunCase(of, {}).Status, CaseStatus::Refused);
+}
+
+TEST(StressCases, CrashesAndHangsAreResults)
+{
+  const CaseResult good = RunInChild([] { return RunCase(Boxes<3>(), {}); }, 100.0);
+  EXPECT_EQ(good.Status, CaseStatus::Passed);
+  EXPECT_EQ(good.Elements, RunCase(Boxes<3>(), {}).Elements);
+  EXPECT_TRUE(RunInChild([]() -> CaseResult { std::abort(); }, 100.0).Has("crash"));
+  EXPECT_TRUE(RunInChild(
+    []() -> CaseResult
+    {
+      for (;;)
+      {
+        sleep(1);
+      }
+    },
+    0.1)
+                .Has("hang"));
+}
+
+TEST(StressCases, ReductionKeepsTheCause)
+{
+  StressCase<3> of = Boxes<3>();
+  of.Options.Threads = 2;
+  of.Options.Gradation = 1.0;
+  RunLimits limits;
+  limits.OperationsPerVertex = 0.01; // whatever it does is too much
+  ASSERT_TRUE(RunCase(of, limits).Has("work"));
+  const StressCase<3> smaller = Reduce(of, "work", limits, {});
+  EXPECT_TRUE(RunCase(smaller, limits).Has("work"));
+  EXPECT_EQ(smaller.Options.Threads, 1u);
+  EXPECT_EQ(smaller.Options.Gradation, MeshingOptions<3>().Gradation);
+  EXPECT_LT(smaller.Image.Size(), of.Image.Size() / 8);
+}
