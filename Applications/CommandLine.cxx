@@ -232,10 +232,10 @@ OptionGroups DeclareOptions()
     ("memory-limit", text("BYTES"),
       "refuse meshes estimated to need more, such as 8G (default: the machine's memory)") //
     ("force",
-      "go on although the mesh is estimated not to fit, or --radius-edge is too low, "
-      "or --sliver-angle or --sliver-bound too high")                    //
-    ("progress", "show a progress bar, if standard error is a terminal") //
-    ("help", "print this text")                                          //
+      "go on although the mesh is estimated not to fit, the labels look like grey values, "
+      "--radius-edge is too low, or --sliver-angle or --sliver-bound too high") //
+    ("progress", "show a progress bar, if standard error is a terminal")        //
+    ("help", "print this text")                                                 //
     ("version", "print the version");
   return groups;
 }

@@ -361,8 +361,8 @@ public:
 
   ///@{
   /**
-   * Go on although the mesh is estimated not to fit in memory, or RadiusEdgeRatio is below the
-   * proved bound. Default off.
+   * Go on although the mesh is estimated not to fit in memory, the labels look like grey values (many, and most
+   * neighbouring voxels differ), or RadiusEdgeRatio is below the proved bound. Default off.
    */
   vtkSetMacro(Force, bool);
   vtkGetMacro(Force, bool);

@@ -3,6 +3,7 @@
 #include "vtkImageToTetMeshFilter.h"
 
 #include "Image/DropComponents.h"
+#include "Image/GreyValues.h"
 #include "Image/IsosurfaceImage.h"
 #include "Private/ImageLabels.h"
 #include "Private/MeshOutput.h"
@@ -159,6 +160,11 @@ void vtkImageToTetMeshFilter::Mesh(
   voxplex::SimplexMesh<3> mesh;
   const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
   {
+    // Noise is dropped before the kernel can see it.
+    if (this->InputMode == INPUT_LABELS && this->MinimumComponentVolume > 0.0 && !this->Force)
+    {
+      voxplex::CheckSegmented(labels, run.Options.Threads);
+    }
     std::vector<voxplex::ComponentReport> dropped =
       voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Threads);
     const bool done = run.Mesh(image, labels, mesh);

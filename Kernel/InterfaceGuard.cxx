@@ -46,11 +46,15 @@ constexpr double CoarsestBound = 0.25;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
-template <typename T>
-void SortUnique(std::vector<T>& values)
+/** Of vertices that are nearer to each other than this times NearVoxel one is enough to clear voxels around. */
+constexpr double ClearingDistance = 0.25;
+
+/** Of both, which are ascending. */
+std::vector<VoxelFace> UnionOf(const std::vector<VoxelFace>& a, const std::vector<VoxelFace>& b)
 {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::vector<VoxelFace> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
 }
 
 std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
@@ -69,6 +73,22 @@ std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
     }
   }
   return vertices;
+}
+
+/** Some of the points, none nearer to another than `distance`; each of the others is nearer to one of them. */
+std::vector<Point<3>> ThinOut(const std::vector<Point<3>>& points, double distance)
+{
+  FeatureGrid<3> kept({ 0.0, 0.0, 0.0 }, distance, points.size());
+  std::vector<Point<3>> some;
+  for (const Point<3>& p : points)
+  {
+    if (!kept.AnyWithin(p, distance))
+    {
+      kept.Add(p);
+      some.push_back(p);
+    }
+  }
+  return some;
 }
 
 double DiagonalOf(const GridGeometry<3>& grid)
@@ -200,7 +220,7 @@ void InterfaceGuard::FindFarFacesOf(
 
 Point<3> InterfaceGuard::CentreOf(const Face& face) const
 {
-  return Interpolate(this->Image.CentreOf(face.Voxel), this->Image.CentreOf(face.Next()), 0.5);
+  return voxplex::CentreOf(face, this->Image);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -286,13 +306,13 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarFaces(const SimplexMesh
 std::vector<InterfaceGuard::Face> InterfaceGuard::FindFarAgain(
   const std::vector<Point<3>>& gone, const Interfaces& interfaces) const
 {
-  std::vector<Face> faces = this->Sampled;
+  std::vector<SearchBall> balls;
   for (const Point<3>& p : gone)
   {
-    this->AddFacesNear(p, this->Reach() + 1e-6 * this->VoxelDiagonal, faces); // for rounding
+    balls.push_back({ p, this->Reach() + 1e-6 * this->VoxelDiagonal }); // for rounding
   }
-  SortUnique(faces);
-  return this->FilterFar(faces, interfaces);
+  const std::vector<Face> near = FindFacesNear(this->Image, this->Sites, balls, this->Stop);
+  return this->FilterFar(UnionOf(this->Sampled, near), interfaces);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -305,13 +325,15 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindAllFar(
   BitMask<3> voxels = this->Sites;
   if (this->NearVoxel > 0.0)
   {
+    // Vertices may be much denser than delta asks for. What only the others are near to is tested below.
+    const std::vector<Point<3>> some = ThinOut(vertices, ClearingDistance * this->NearVoxel);
     ParallelFor(
-      0, vertices.size(), Grain, this->Threads,
+      0, some.size(), Grain, this->Threads,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t i = first; i < last; ++i)
         {
-          this->ClearVoxelsNear(vertices[i], voxels);
+          this->ClearVoxelsNear(some[i], voxels);
         }
       },
       this->Stop);
@@ -347,42 +369,6 @@ std::vector<InterfaceGuard::Face> InterfaceGuard::FindAllFar(
     far.insert(far.end(), part.begin(), part.end());
   }
   return far;
-}
-
-//------------------------------------------------------------------------------------------------
-void InterfaceGuard::AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const
-{
-  const Point<3> at = this->Image.Grid().ToIndex(p);
-  const Point<3> voxelsPerLength = this->Image.Grid().VoxelsPerLength();
-  Index low;
-  Index high;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const double reach = radius * voxelsPerLength[a];
-    const double x = at[a] - static_cast<double>(this->Image.CropOrigin()[a]);
-    low[a] = std::max<std::int64_t>(static_cast<std::int64_t>(std::floor(x - reach)), -1);
-    high[a] = std::min(
-      static_cast<std::int64_t>(std::ceil(x + reach)), this->Image.CropDimensions()[a] - 1);
-  }
-  Face face;
-  Index& v = face.Voxel;
-  for (v[2] = low[2]; v[2] <= high[2]; ++v[2])
-  {
-    for (v[1] = low[1]; v[1] <= high[1]; ++v[1])
-    {
-      for (v[0] = low[0]; v[0] <= high[0]; ++v[0])
-      {
-        for (face.Axis = 0; face.Axis < 3; ++face.Axis)
-        {
-          if (this->Image.At(v) != this->Image.At(face.Next()) &&
-            Distance2(this->CentreOf(face), p) <= radius * radius)
-          {
-            faces.push_back(face);
-          }
-        }
-      }
-    }
-  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -491,23 +477,21 @@ std::vector<FeatureSeed<3>> InterfaceGuard::Propose(
   const std::vector<Face>& far, const std::vector<Pinch>& pinches)
 {
   this->FarFaces = far.size();
-  std::vector<Face> faces;
+  std::vector<SearchBall> balls;
   for (const Face& face : far)
   {
-    ThrowIfStopped(this->Stop);
-    this->AddFacesNear(this->CentreOf(face), RadiusAtFace * this->RemedyAt(face), faces);
+    balls.push_back({ this->CentreOf(face), RadiusAtFace * this->RemedyAt(face) });
   }
   for (const Pinch& pinch : pinches)
   {
-    this->AddFacesNear(pinch.Middle, RadiusAtEdge * this->DensestAt(pinch.Middle), faces);
+    balls.push_back({ pinch.Middle, RadiusAtEdge * this->DensestAt(pinch.Middle) });
   }
+  const std::vector<Face> faces = FindFacesNear(this->Image, this->Sites, balls, this->Stop);
   if (faces.empty())
   {
     return {};
   }
-  SortUnique(faces);
-  this->Sampled.insert(this->Sampled.end(), faces.begin(), faces.end());
-  SortUnique(this->Sampled);
+  this->Sampled = UnionOf(this->Sampled, faces);
 
   for (const Face& face : far)
   {

@@ -10,6 +10,7 @@
 #include "Grading/BaseDensity.h"
 #include "Image/BitMask.h"
 #include "Image/Domain.h"
+#include "Image/FacesNear.h"
 #include "Image/InterfaceSizes.h"
 #include "Image/LocalDelta.h"
 #include "Mesh/BoundingTree.h"
@@ -108,23 +109,8 @@ public:
 
 private:
   using Index = GridGeometry<3>::Index;
+  using Face = VoxelFace;
 
-  /** Between a voxel of the crop, or one beside it, and the next along an axis. */
-  struct Face
-  {
-    Index Voxel;
-    unsigned Axis;
-
-    auto operator<=>(const Face&) const = default;
-    Index Next() const
-    {
-      Index next = this->Voxel;
-      ++next[this->Axis];
-      return next;
-    }
-  };
-
-  void AddFacesNear(const Point<3>& p, double radius, std::vector<Face>& faces) const;
   /** What interfaces consist of. */
   struct Interfaces
   {

@@ -98,7 +98,8 @@ struct MeshingOptions
   /** Several threads: interface points a thread, about, that are inserted before the threads start, so
    * that all have work from the first moment; 0 for none, as in the thesis. */
   unsigned SeedsPerThread = 128;
-  /** Go on although the mesh is estimated not to fit in memory, or the ratio is below the proved bound. */
+  /** Go on although the mesh is estimated not to fit in memory, the labels look like grey values (CheckSegmented), or
+   * the ratio is below the proved bound. */
   bool Force = false;
   /** Bytes that the mesher may plan with; 0 means the machine's physical memory. */
   std::uint64_t MemoryLimit = 0;

@@ -4,6 +4,7 @@
 
 #include "Error.h"
 #include "Image/GradedSize.h"
+#include "Image/GreyValues.h"
 #include "Image/ImageDomain.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshSizeEstimate.h"
@@ -79,11 +80,15 @@ bool MeshingStages<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
 }
 
 //------------------------------------------------------------------------------------------------
-/** @throws Cancelled if stopped while preparing; false if stopped later */
+/** @throws Cancelled if stopped while preparing; false if stopped later; InputError of grey values */
 template <int D>
 bool MeshingStages<D>::RunUnlessStopped(const LabelImage<D>& image, SimplexMesh<D>& mesh)
 {
   const std::stop_token stop = this->Stop.get_token();
+  if (!this->Isosurface && !this->Options.Force)
+  {
+    CheckSegmented(image, this->Options.Threads, stop);
+  }
   const std::unique_ptr<const Domain<D>> domain = this->MakeDomain(image, stop);
   this->Fraction = PreparationShare;
   ThrowIfStopped(stop);

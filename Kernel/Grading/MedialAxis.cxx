@@ -103,8 +103,9 @@ std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const Media
   unsigned threads, const std::stop_token& stop)
 {
   std::vector<Point<3>> poles;
-  // A sample of one point has no extent, and no ball: its box would be flat.
-  if (sample.empty() || !(which.LargestRadius > 0.0))
+  // A ball that counts touches four points, so there is none around fewer, nor around points in one place. Then
+  // there may be no box to triangulate, either: LargestRadius is its margin, and 0 if it is the points' extent.
+  if (sample.size() < 4 || !(which.LargestRadius > 0.0))
   {
     return poles;
   }

@@ -18,7 +18,7 @@ namespace voxplex
 /** Which balls count as medial. Lengths are in units of the sample. */
 struct MedialBalls
 {
-  /** Larger ones are left out: nobody asks for so large a local feature size. */
+  /** Larger ones are left out: nobody asks for so large a local feature size. 0: all are. */
   double LargestRadius = 1.0;
   /**
    * Where the planes that touch the ball at its points of contact meet is so far above the ball, at least:
@@ -43,7 +43,7 @@ struct MedialBalls
  *
  * Cost: that of the triangulation, by all threads; about six simplices a point.
  *
- * @param sample distinct points, in any order
+ * @param sample points in any order, as few as there may be; one that is there twice counts once
  * @param threads 0 means all cores; the result does not depend on it
  * @return centres, in lexicographic order, none twice
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc

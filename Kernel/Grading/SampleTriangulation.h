@@ -32,8 +32,8 @@ class SampleTriangulation
 {
 public:
   /**
-   * @param sample distinct points, at least one
-   * @param margin how far the corners of the box are from the points' bounding box along each axis, at least
+   * @param sample points, at least one; one that is there twice becomes one vertex
+   * @param margin how far the corners of the box are from the points' bounding box along each axis, at least; positive
    * @param threads 0 means all cores
    * @throws Cancelled, std::bad_alloc
    */

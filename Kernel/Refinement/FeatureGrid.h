@@ -10,8 +10,11 @@
 #include "Delaunay/ChunkedArray.h"
 #include "Geometry/Point.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,11 +23,13 @@ namespace voxplex
 {
 
 /**
- * @brief Feature vertices hashed by the cell of a uniform grid; refinement adds them and never removes one.
+ * @brief Feature vertices hashed by the cells of uniform grids; refinement adds them and never removes one.
  *
- * Cells have twice the side of the usual query radius, so a query visits at most 2^D of them, and more only
- * if its radius is larger. Every
- * cell is a list whose head sits in a table of fixed size.
+ * There are grids of several levels, each finer than the one before, and every vertex is in all of them. A query takes
+ * the finest one whose cells have at least twice the side of its radius, so that it visits at most 2^D cells, and more
+ * only if its radius is larger than that of the first level. So it is quick, too, where vertices are much nearer to
+ * each other than elsewhere, as around what is small beside delta. Every cell is a list whose head sits in a table of
+ * fixed size.
  *
  * All methods but Remove() may be called by any number of threads at once; a query sees what was added before it
  * began. No thread ever waits for another.
@@ -39,14 +44,18 @@ public:
    */
   FeatureGrid(const Point<D>& origin, double radius, std::uint64_t expected)
     : Origin(origin)
-    , Radius(radius)
-    , InverseCell(0.5 / radius)
   {
+    for (std::size_t level = 0; level < Levels; ++level)
+    {
+      this->Radius[level] = radius;
+      this->InverseCell[level] = 0.5 / radius;
+      radius /= LevelFactor;
+    }
     const std::uint64_t buckets =
-      std::bit_ceil(std::min<std::uint64_t>(std::max<std::uint64_t>(expected, 1024), 1u << 24));
+      std::bit_ceil(std::clamp<std::uint64_t>(expected / 2, FewestBuckets, MostBuckets));
     this->Mask = static_cast<std::uint32_t>(buckets - 1);
-    this->Heads.reset(new std::atomic<std::uint32_t>[buckets]);
-    for (std::uint64_t b = 0; b < buckets; ++b)
+    this->Heads.reset(new std::atomic<std::uint32_t>[Levels * buckets]);
+    for (std::uint64_t b = 0; b < Levels * buckets; ++b)
     {
       this->Heads[b].store(End, std::memory_order_relaxed);
     }
@@ -56,12 +65,16 @@ public:
   {
     const std::uint32_t n = this->Count.fetch_add(1, std::memory_order_relaxed);
     this->Nodes.Grow(n + 1);
-    std::atomic<std::uint32_t>& head = this->Heads[this->Bucket(this->CellOf(p))];
     Node& node = this->Nodes[n];
-    node = Node{ p, head.load(std::memory_order_relaxed) };
-    while (!head.compare_exchange_weak(
-      node.Next, n, std::memory_order_release, std::memory_order_relaxed))
+    node.Position = p;
+    for (std::size_t level = 0; level < Levels; ++level)
     {
+      std::atomic<std::uint32_t>& head = this->HeadOf(this->CellOf(p, level), level);
+      node.Next[level] = head.load(std::memory_order_relaxed);
+      while (!head.compare_exchange_weak(
+        node.Next[level], n, std::memory_order_release, std::memory_order_relaxed))
+      {
+      }
     }
   }
 
@@ -71,10 +84,11 @@ public:
    */
   bool Remove(const Point<D>& p)
   {
-    std::uint32_t n = this->Heads[this->Bucket(this->CellOf(p))].load(std::memory_order_relaxed);
+    constexpr std::size_t finest = Levels - 1;
+    std::uint32_t n = this->HeadOf(this->CellOf(p, finest), finest).load(std::memory_order_relaxed);
     while (n != End && this->Nodes[n].Position != p)
     {
-      n = this->Nodes[n].Next;
+      n = this->Nodes[n].Next[finest];
     }
     if (n != End)
     {
@@ -92,13 +106,18 @@ public:
   /** A vertex nearer to p than `distance`, null if there is none; it stays where it is. */
   const Point<D>* FindWithin(const Point<D>& p, double distance) const
   {
+    std::size_t level = Levels - 1;
+    while (level > 0 && distance > this->Radius[level])
+    {
+      --level;
+    }
     const double distance2 = distance * distance;
-    const Cell centre = this->CellOf(p);
-    if (const Point<D>* const found = this->FindInCell(centre, p, distance2))
+    const Cell centre = this->CellOf(p, level);
+    if (const Point<D>* const found = this->FindInCell(centre, level, p, distance2))
     {
       return found;
     }
-    if (distance > this->Radius)
+    if (distance > this->Radius[level])
     {
       return this->FindInCells(p, distance);
     }
@@ -106,8 +125,8 @@ public:
     std::array<std::int64_t, static_cast<std::size_t>(D)> step;
     for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
     {
-      const double low = std::floor((p[a] - distance - this->Origin[a]) * this->InverseCell);
-      const double high = std::floor((p[a] + distance - this->Origin[a]) * this->InverseCell);
+      const double low = this->CellAlong(a, p[a] - distance, level);
+      const double high = this->CellAlong(a, p[a] + distance, level);
       step[a] = low < static_cast<double>(centre[a]) ? -1
         : high > static_cast<double>(centre[a])      ? 1
                                                      : 0;
@@ -128,7 +147,7 @@ public:
       {
         continue;
       }
-      if (const Point<D>* const found = this->FindInCell(cell, p, distance2))
+      if (const Point<D>* const found = this->FindInCell(cell, level, p, distance2))
       {
         return found;
       }
@@ -141,25 +160,35 @@ public:
 
 private:
   static constexpr std::uint32_t End = 0xffffffffu;
+  static constexpr std::size_t Levels = 4;
+  /** Between the radii of levels. */
+  static constexpr double LevelFactor = 5.0;
+  static constexpr std::uint64_t FewestBuckets = 1u << 14; ///< of a level
+  static constexpr std::uint64_t MostBuckets = 1u << 22;
   using Cell = std::array<std::int64_t, static_cast<std::size_t>(D)>;
   struct Node
   {
     Point<D> Position;
-    std::uint32_t Next;
+    std::array<std::uint32_t, Levels> Next;
   };
 
-  Cell CellOf(const Point<D>& p) const
+  double CellAlong(unsigned axis, double x, std::size_t level) const
+  {
+    return std::floor((x - this->Origin[axis]) * this->InverseCell[level]);
+  }
+
+  Cell CellOf(const Point<D>& p, std::size_t level) const
   {
     Cell cell;
     for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
     {
-      cell[a] = static_cast<std::int64_t>(std::floor((p[a] - this->Origin[a]) * this->InverseCell));
+      cell[a] = static_cast<std::int64_t>(this->CellAlong(a, p[a], level));
     }
     return cell;
   }
 
   // Neighbouring cells of a row share cache lines.
-  std::uint32_t Bucket(const Cell& cell) const
+  std::atomic<std::uint32_t>& HeadOf(const Cell& cell, std::size_t level) const
   {
     std::uint64_t h = static_cast<std::uint64_t>(cell[0]);
     std::uint64_t k = 0x9e3779b97f4a7c15ull;
@@ -168,24 +197,22 @@ private:
       h += (static_cast<std::uint64_t>(cell[a]) * k) >> 20;
       k *= 0xc2b2ae3d27d4eb4full;
     }
-    return static_cast<std::uint32_t>(h) & this->Mask;
+    return this->Heads[level * (this->Mask + std::size_t{ 1 }) + (h & this->Mask)];
   }
 
-  /** All cells that the ball may reach. */
+  /** All cells of the first level that the ball may reach. */
   const Point<D>* FindInCells(const Point<D>& p, double distance) const
   {
     Cell low;
     Cell high;
     for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
     {
-      low[a] = static_cast<std::int64_t>(
-        std::floor((p[a] - distance - this->Origin[a]) * this->InverseCell));
-      high[a] = static_cast<std::int64_t>(
-        std::floor((p[a] + distance - this->Origin[a]) * this->InverseCell));
+      low[a] = static_cast<std::int64_t>(this->CellAlong(a, p[a] - distance, 0));
+      high[a] = static_cast<std::int64_t>(this->CellAlong(a, p[a] + distance, 0));
     }
     for (Cell cell = low; cell[D - 1] <= high[D - 1];)
     {
-      if (const Point<D>* const found = this->FindInCell(cell, p, distance * distance))
+      if (const Point<D>* const found = this->FindInCell(cell, 0, p, distance * distance))
       {
         return found;
       }
@@ -197,10 +224,11 @@ private:
     return nullptr;
   }
 
-  const Point<D>* FindInCell(const Cell& cell, const Point<D>& p, double distance2) const
+  const Point<D>* FindInCell(
+    const Cell& cell, std::size_t level, const Point<D>& p, double distance2) const
   {
-    for (std::uint32_t n = this->Heads[this->Bucket(cell)].load(std::memory_order_acquire);
-         n != End; n = this->Nodes[n].Next)
+    for (std::uint32_t n = this->HeadOf(cell, level).load(std::memory_order_acquire); n != End;
+         n = this->Nodes[n].Next[level])
     {
       if (Distance2(this->Nodes[n].Position, p) < distance2)
       {
@@ -211,8 +239,8 @@ private:
   }
 
   Point<D> Origin;
-  double Radius;
-  double InverseCell;
+  std::array<double, Levels> Radius;
+  std::array<double, Levels> InverseCell;
   std::uint32_t Mask = 0;
   std::unique_ptr<std::atomic<std::uint32_t>[]> Heads;
   ChunkedArray<Node> Nodes;

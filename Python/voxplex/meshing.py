@@ -201,8 +201,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     seed
         Pentatopes only: of the random points tried against slivers. Default 0. Not with pick_slivers=False.
     force
-        Go on although the mesh is estimated not to fit in memory, or radius_edge is below 1.93,
-        or sliver_angle above 15.
+        Go on although the mesh is estimated not to fit in memory, the labels look like grey values, radius_edge is
+        below 1.93, or sliver_angle above 15.
     memory_limit
         Bytes to plan with; 0 means the machine's memory.
     progress

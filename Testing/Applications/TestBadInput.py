@@ -293,6 +293,11 @@ class Labels(ProgramTestCase):
     def test_thousands_of_labels(self):
         self.refuse("grey-value", np.arange(20**3, dtype=np.uint16).reshape(20, 20, 20))
 
+    def test_grey_values(self):
+        noise = np.random.default_rng(3).integers(1, 256, (30, 30, 30), dtype=np.uint8)
+        for flags in ((), ("--min-component-volume", "3")):
+            self.refuse("255 labels look like grey values.*isosurface of it with --isovalue, or go on with --force", noise, *flags)
+
     def test_unknown_labels(self):
         self.refuse("--label-size.* label 5", images.ball(12, 4.0), "--label-size", "5=1")
         self.refuse("--interface-size.* label 5", images.ball(12, 4.0), "--interface-size", "5,1=1")

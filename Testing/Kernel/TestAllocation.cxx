@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whichever allocation of a run fails: Run() throws std::bad_alloc, or gets by without it; it does not
 // hang, crash or leak, and the next run works. A program of its own, since it replaces operator new.
+#include "Image/FacesNear.h"
+#include "Image/SurfaceVoxels.h"
 #include "ImageMesher.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
@@ -29,12 +31,14 @@ constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::max();
 /** Allocations until the one that fails. */
 std::atomic<std::int64_t> Countdown{ Never };
 std::atomic<std::int64_t> Allocations{ 0 };
+std::atomic<std::uint64_t> AllocatedBytes{ 0 };
 /** This thread's allocations neither fail nor count down. */
 thread_local bool Spared = false;
 
 void* Allocate(std::size_t size, std::size_t alignment)
 {
   Allocations.fetch_add(1, std::memory_order_relaxed);
+  AllocatedBytes.fetch_add(size, std::memory_order_relaxed);
   if (!Spared && Countdown.load(std::memory_order_relaxed) != Never &&
     Countdown.fetch_sub(1, std::memory_order_relaxed) == 1)
   {
@@ -182,6 +186,25 @@ TEST(Allocation, AnyMayFailInFourPinnedThreads)
   options.PinThreads = true;
   options.RemoveEagerly = true;
   FailEverywhere(options);
+}
+
+// Balls that all contain the same faces must not list them once each: memory grows with balls and faces, not with
+// their product.
+TEST(Allocation, OverlappingBallsShareTheirFaces)
+{
+  const LabelImage<3> image = phantoms::Ball(12.0);
+  const BitMask<3> sites = FindSurfaceVoxels(image, 1, {});
+  const Point<3> middle = { 16.0, 16.0, 16.0 };
+  const std::size_t faces =
+    FindFacesNear(image, sites, std::vector<SearchBall>{ { middle, 100.0 } }, {}).size();
+  ASSERT_GT(faces, 2000u);
+  for (const double radius : { 12.0, 30.0, 1000.0 })
+  {
+    const std::vector<SearchBall> balls(5000, { middle, radius });
+    const std::uint64_t before = AllocatedBytes;
+    EXPECT_LE(FindFacesNear(image, sites, balls, {}).size(), faces);
+    EXPECT_LT(AllocatedBytes - before, 100 * sizeof(VoxelFace) * (faces + balls.size()));
+  }
 }
 
 // What Insert() and Remove() promise. Fresh workers allocate most, and use up ids fastest.

@@ -14,6 +14,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -111,6 +115,42 @@ TEST(FeatureGrid, FindsVerticesFartherThanItsRadius)
       points.begin(), points.end(), [&](const Point<3>& q) { return Distance(p, q) < distance; });
     ASSERT_EQ(grid.AnyWithin(p, distance), expected) << distance;
   }
+}
+
+// Vertices that crowd together are in lists of fine cells, which serve short queries.
+TEST(FeatureGrid, FindsVerticesAtAllDistances)
+{
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> x(-3.0, 3.0);
+  FeatureGrid<4> grid({ -3.1, -3.1, -3.1, -3.1 }, 5.0, 10);
+  std::vector<Point<4>> points;
+  for (int k = 0; k < 900; ++k)
+  {
+    const double scale = std::pow(10.0, x(random) - 3.0);
+    points.push_back({ 1.0 + scale * x(random), scale * x(random), scale * x(random), 0.5 });
+    grid.Add(points.back());
+  }
+  const auto expectRight = [&]
+  {
+    for (int k = 0; k < 3000; ++k)
+    {
+      const double scale = std::pow(10.0, x(random) - 3.0);
+      const Point<4> p = { 1.0 + scale * x(random), scale * x(random), scale * x(random), 0.5 };
+      const double distance = std::pow(10.0, x(random) - 2.0) * scale;
+      const auto isNear = [&](const Point<4>& q) { return Distance(p, q) < distance; };
+      const Point<4>* const found = grid.FindWithin(p, distance);
+      ASSERT_EQ(found != nullptr, std::any_of(points.begin(), points.end(), isNear)) << distance;
+      ASSERT_TRUE(!found || isNear(*found));
+    }
+  };
+  expectRight();
+  for (int k = 0; k < 400; ++k)
+  {
+    EXPECT_TRUE(grid.Remove(points.back()));
+    EXPECT_FALSE(grid.Remove(points.back()));
+    points.pop_back();
+  }
+  expectRight();
 }
 
 TEST(GradedMeshing, NoRuleAppliesAfterwards)
@@ -313,6 +353,31 @@ TEST(GradedMeshing, RefusesWrongOptions)
     options = Graded(2.0);
     options.Grading.Lambda = wrong;
     EXPECT_THROW(ImageMesher<3>(options).Run(image, mesh), InputError) << wrong;
+  }
+}
+
+// A point or two of the interfaces are all that there is to measure local feature sizes by.
+TEST(GradedMeshing, OfImagesThatAreSmallBesideDelta)
+{
+  const std::array<std::function<std::int16_t(const Point<3>&)>, 3> labels = {
+    [](const Point<3>& p) -> std::int16_t {
+      return Distance(p, { 2, 2, 2 }) < 0.5 ? 1 : 0;
+    },
+    [](const Point<3>& p) -> std::int16_t { return p[2] == 2 ? 1 : 0; },
+    [](const Point<3>& p) -> std::int16_t { return p[2] < 3 ? 1 : 2; },
+  };
+  for (const auto& label : labels)
+  {
+    const LabelImage<3> image =
+      phantoms::Make(GridGeometry<3>::Orthogonal({ 5, 6, 7 }, { 1.0, 1.0, 1.0 }), label);
+    for (const double delta : { 4.0, 26.0, 500.0 })
+    {
+      MeshingStatistics statistics;
+      const SimplexMesh<3> mesh = Mesh(image, Graded(delta), &statistics);
+      const std::vector<std::string> complaints = checks::Complaints(mesh);
+      ASSERT_TRUE(complaints.empty()) << complaints.front();
+      EXPECT_LE(statistics.GradingSamples, 12u);
+    }
   }
 }
 

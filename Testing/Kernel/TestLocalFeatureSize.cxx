@@ -6,6 +6,7 @@
 #include "Grading/InterfaceSamples.h"
 #include "Grading/LocalFeatureSize.h"
 #include "Grading/MedialAxis.h"
+#include "Grading/PointBounds.h"
 #include "Grading/SampleTriangulation.h"
 #include "Image/ImageDomain.h"
 #include "Phantoms.h"
@@ -15,8 +16,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <set>
+#include <span>
 
 using namespace voxplex;
 
@@ -281,6 +284,68 @@ TEST(MedialAxis, OfASphereIsItsCentre)
   }
   balls.LargestRadius = 6.9;
   EXPECT_TRUE(FindPoles(Sphere(centre, 7.0, 2000), balls, 1, {}).empty()) << "lambda";
+}
+
+// Where delta is large beside the image one cell holds it all, and there is a point or two.
+TEST(MedialAxis, OfFewOrFlatPointsIsEmpty)
+{
+  const Point<3> p = { 3.0, 1.0, 2.0 };
+  std::vector<std::vector<Point<3>>> samples = { {}, { p }, std::vector<Point<3>>(7, p) };
+  for (const int count : { 2, 3, 4, 5, 40 })
+  {
+    std::vector<Point<3>> line;
+    std::vector<Point<3>> plane;
+    for (int k = 0; k < count; ++k)
+    {
+      line.push_back({ 3.0 + k, 1.0 + 2.0 * k, 2.0 - k });
+      plane.push_back({ 3.0 + k % 3, 1.0, 2.0 + k / 3 }); // corners of squares lie on a circle
+    }
+    samples.push_back(line);
+    samples.push_back(plane);
+    plane.insert(plane.end(), plane.begin(), plane.end());
+    samples.push_back(plane);
+  }
+  for (const std::vector<Point<3>>& sample : samples)
+  {
+    const Box<3> bounds =
+      sample.empty() ? Box<3>{ p, p } : BoundsOf(std::span<const Point<3>>(sample));
+    for (const double radius : { Distance(bounds.Min, bounds.Max), 0.1, 5.0 })
+    {
+      MedialBalls balls;
+      balls.LargestRadius = radius;
+      EXPECT_TRUE(FindPoles(sample, balls, 1, {}).empty()) << sample.size() << ", " << radius;
+    }
+  }
+}
+
+TEST(LocalFeatureSize, OfFewSamplesIsWhatIsAskedFor)
+{
+  const auto make = [](const std::function<std::int16_t(const Point<3>&)>& label)
+  { return phantoms::Make(phantoms::Cube(7), label); };
+  const std::array images = {
+    make(
+      [](const Point<3>& p) -> std::int16_t {
+        return Distance(p, { 3, 3, 3 }) < 0.5;
+      }),
+    make([](const Point<3>& p) -> std::int16_t { return p[1] == 3 && p[2] == 3 ? 1 : 0; }),
+    make([](const Point<3>& p) -> std::int16_t { return p[2] == 3 ? 1 : 0; }),
+    make([](const Point<3>& p) -> std::int16_t { return p[2] < 3 ? 1 : 2; }),
+    make([](const Point<3>&) -> std::int16_t { return 1; }),
+  };
+  for (const LabelImage<3>& image : images)
+  {
+    for (const double finest : { 0.3, 3.0, 10.0, 1000.0 })
+    {
+      const LocalFeatureSize lfs = Measure(image, Parameters(finest, 12.0));
+      for (const Point<3>& p : lfs.Sample())
+      {
+        EXPECT_GE(lfs.Delta().At(p), finest * (1.0 - 1e-6));
+        EXPECT_LE(lfs.Delta().At(p), std::max(12.0, finest) * (1.0 + 1e-6));
+      }
+      EXPECT_GE(lfs.Largest(), finest);
+      EXPECT_GT(lfs.Equivalent(), 0.99 * finest);
+    }
+  }
 }
 
 namespace

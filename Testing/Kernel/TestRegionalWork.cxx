@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -114,7 +115,8 @@ TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
     EXPECT_GE(statistics.Rules.LargestRegionalWork, Rules3D::WorkLimit);
     EXPECT_LE(statistics.Rules.LargestRegionalWork, 4 * Rules3D::WorkLimit + MostSampled);
     ASSERT_FALSE(statistics.Yielding.empty());
-    EXPECT_EQ(statistics.Yielding.front().Step, 1u);
+    EXPECT_TRUE(std::any_of(statistics.Yielding.begin(), statistics.Yielding.end(),
+      [](const YieldingReport& region) { return region.Step == 1; }));
     EXPECT_EQ(statistics.Yielding.front().Voxel.size(), 3u);
     const std::vector<std::string> wrong = checks::Complaints(mesh);
     EXPECT_TRUE(wrong.empty()) << wrong.front();

@@ -316,8 +316,8 @@ ParameterGroup Running()
       { .Type = Kind::Boolean,
         .Name = "force",
         .Label = "Force",
-        .Description = "Go on although the mesh is estimated not to fit into memory, or the "
-                       "radius-edge ratio is too low.",
+        .Description = "Go on although the mesh is estimated not to fit into memory, the labels "
+                       "look like grey values, or the radius-edge ratio is too low.",
         .LongFlag = "force",
         .Default = "false" },
       { .Type = Kind::StringEnumeration,

@@ -146,8 +146,9 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.buildInterfaces(form)
         self.buildBounds(form)
         self.threadsSpinBox = self.makeWholeSpinBox(1024, 1, "all cores", "With 1 the mesh is the same in every run")
-        self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, or the radius-edge "
-                                               "ratio is too low, or the sliver angle too large")
+        self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, the labels look "
+                                               "like grey values, the radius-edge ratio is too low, or the sliver angle too "
+                                               "large")
         form.addRow("Threads:", self.threadsSpinBox)
         form.addRow("Force:", self.forceCheckBox)
 
