@@ -11,7 +11,8 @@ import meshfiles
 from program import ProgramTestCase, main
 
 AAL = Path("/usr/share/mricron/templates/aal.nii.gz")  # Debian: mricron-data
-KNEE = Path(__file__).resolve().parents[3] / "shared" / "data" / "spl-knee-atlas.nrrd"
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+KNEE = DATA / "spl-knee-atlas.nrrd"
 
 
 class Atlases(ProgramTestCase):
@@ -33,6 +34,18 @@ class Atlases(ProgramTestCase):
         self.assertEqual(len(set(mesh.labels)), 49)
         self.assertGreater(mesh.volumes().min(), 0.0)
         self.assertLessEqual(report["quality"]["max_radius_edge"], 2.5)
+
+    @unittest.skipUnless((DATA / "cases").exists(), "the cases are not beside the checkout")
+    def test_no_edge_that_is_not_manifold(self):
+        opened = 0
+        for name, delta in (("random", 1.805), ("sheets", 1.7365), ("one-edge", 5.43)):
+            for flags in (("--threads", 1), ("--threads", 2), ("--threads", 1, "--interface-rounds", 0), ("--threads", 1, "--no-optimise")):
+                with self.subTest(name=name, flags=flags):
+                    report = self.statistics("--input", DATA / "cases" / f"nonmanifold-{name}.nrrd", "--delta", delta, "--quality", *flags)
+                    self.assertEqual(report["topology"]["non_manifold_edges"], 0)
+                    self.assertEqual(report["interfaces"]["nonmanifold_edges_left"], 0)
+                    opened += report["interfaces"]["nonmanifold_edges_opened"]
+        self.assertGreater(opened, 0)
 
 
 if __name__ == "__main__":
