@@ -161,8 +161,10 @@ class Options(ProgramTestCase):
         images.write_nrrd(self.input, self.array)
         figures, edges = [], []
         for arguments in ((), ("--no-manifold",)):
-            report = self.statistics("--input", self.input, "--threads", 1, "--delta", 3, "--smoothing", 0,
-                                     "--interface-rounds", 0, "--quality", *arguments)
+            done = self.call("--input", self.input, "--threads", 1, "--delta", 3, "--smoothing", 0, "--interface-rounds", 0,
+                             "--quality", "--stats", "statistics.json", *arguments)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            report = json.loads((self.folder / "statistics.json").read_text())
             self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
             figures.append(report["interfaces"])
             edges.append(report["topology"]["non_manifold_edges"])
