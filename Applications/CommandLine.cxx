@@ -177,6 +177,9 @@ OptionGroups DeclareOptions()
     ("interface-rounds", text("NUMBER"),
       "how often, at most, to refine again where an interface of the image is farther than 1.5 "
       "delta from the mesh's, or a label's boundary is not manifold (default 5; 0: never)") //
+    ("no-manifold",
+      "leave edges where more than two triangles of a label's boundary meet; otherwise there are "
+      "none") //
     ("smallest-component", text("VOXELS"),
       "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
       "0: "
@@ -472,6 +475,7 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.InterfaceRounds = ParseWhole("interface-rounds", *text, 0, 100);
   }
+  p.NoManifold = values.count("no-manifold") > 0;
   if (const auto* text = given("smallest-component"))
   {
     p.SmallestComponent =

@@ -150,6 +150,7 @@ vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
   {
     filter->SetInterfaceRounds(*p.InterfaceRounds);
   }
+  filter->SetManifold(!p.NoManifold);
   if (p.SmallestComponent)
   {
     filter->SetSmallestComponent(*p.SmallestComponent);

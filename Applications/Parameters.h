@@ -88,6 +88,7 @@ struct Parameters
   std::optional<double> OptimiseSeconds;
   bool NoJunctions = false;
   std::optional<int> InterfaceRounds;
+  bool NoManifold = false;
   std::optional<int> SmallestComponent;
   std::optional<double> MinimumComponentVolume;
   std::optional<double> SmoothingSigma;

@@ -73,7 +73,7 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
     { "sliver_angle", OrNull(p.SliverAngle) }, { "no_optimise", p.NoOptimise },
     { "optimise_seconds", OrNull(p.OptimiseSeconds) }, { "no_junctions", p.NoJunctions },
-    { "interface_rounds", OrNull(p.InterfaceRounds) },
+    { "interface_rounds", OrNull(p.InterfaceRounds) }, { "no_manifold", p.NoManifold },
     { "smallest_component", OrNull(p.SmallestComponent) },
     { "min_component_volume", OrNull(p.MinimumComponentVolume) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },

@@ -41,6 +41,7 @@ MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads, Care 
     options.SmallestComponent = 0;
     options.SampleJunctions = false;
     options.InterfaceRounds = 0;
+    options.Manifold = false;
   }
   return RunVoxplex(std::move(volume), options).Run;
 }

@@ -155,6 +155,7 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.OptimisationSeconds = this->OptimisationTimeLimit;
   run.Options.SampleJunctions = this->SampleJunctions;
   run.Options.InterfaceRounds = static_cast<unsigned>(this->InterfaceRounds);
+  run.Options.Manifold = this->Manifold;
   run.Options.SmallestComponent = this->SmallestComponent;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
@@ -221,6 +222,7 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";
   os << indent << "SampleJunctions: " << this->SampleJunctions << "\n";
   os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
+  os << indent << "Manifold: " << this->Manifold << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";

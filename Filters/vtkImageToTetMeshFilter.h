@@ -236,11 +236,20 @@ public:
   /**
    * How often, at most, the mesh is compared with the image and refined where an interface of the image is farther
    * from those of the mesh than about 1.5 Delta (tips of thin processes, holes), or where the boundary of a
-   * label is not manifold. Where an edge is not, tetrahedra around it go to a neighbouring label, too.
-   * Default 8, of which mostly 3 to 6 are needed; 0 leaves both as they come.
+   * label is not manifold. Default 8, of which mostly 3 to 6 are needed; 0: never.
    */
   vtkSetClampMacro(InterfaceRounds, int, 0, 100);
   vtkGetMacro(InterfaceRounds, int);
+  ///@}
+
+  ///@{
+  /**
+   * Make the boundary of every label manifold: two of its triangles meet at each edge. Where more do, tetrahedra around the
+   * edge go to a neighbouring label, or parts of them where whole ones cannot; these parts are not Delaunay. Default on.
+   */
+  vtkSetMacro(Manifold, bool);
+  vtkGetMacro(Manifold, bool);
+  vtkBooleanMacro(Manifold, bool);
   ///@}
 
   ///@{
@@ -310,6 +319,7 @@ protected:
   double OptimisationTimeLimit = 0.0;
   bool SampleJunctions = true;
   int InterfaceRounds = 8;
+  bool Manifold = true;
   int SmallestComponent = 8;
   double MinimumComponentVolume = 0.0;
 

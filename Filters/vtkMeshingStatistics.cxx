@@ -119,6 +119,7 @@ void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceFigures& f
   json.Add("rounds", static_cast<std::uint64_t>(figures.Rounds));
   json.Add("points", figures.Seeds);
   json.Add("nonmanifold_edges_repaired", figures.NonManifoldRepaired);
+  json.Add("nonmanifold_edges_opened", figures.NonManifoldOpened);
   json.Add("nonmanifold_edges_left", figures.NonManifoldLeft);
   json.End();
 }
@@ -283,6 +284,7 @@ VOXPLEX_FIGURE(vtkTypeInt64, NumberOfJunctionCorners, Run.Interfaces.Corners)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfJunctionPoints, Run.Interfaces.JunctionSeeds)
 VOXPLEX_FIGURE(int, InterfaceRounds, Run.Interfaces.Rounds)
 VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdgesRepaired, Run.Interfaces.NonManifoldRepaired)
+VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdgesOpened, Run.Interfaces.NonManifoldOpened)
 VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdgesLeft, Run.Interfaces.NonManifoldLeft)
 VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
 VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)

@@ -220,14 +220,15 @@ public:
   /**
    * Junctions and interfaces (vtkImageToTetMeshFilter::SetSampleJunctions() and SetInterfaceRounds()): curves
    * where three labels meet, corners where four do, points that were inserted on them; times that refinement
-   * went on for the sake of interfaces; edges that were not manifold on the boundary of some label, made so by giving
-   * tetrahedra to a neighbour, and those left.
+   * went on for the sake of interfaces; edges that were not manifold on the boundary of some label and were made so, of
+   * these the ones around which tetrahedra were cut in pieces, and those left.
    */
   vtkTypeInt64 GetNumberOfJunctionCurves() const;
   vtkTypeInt64 GetNumberOfJunctionCorners() const;
   vtkTypeInt64 GetNumberOfJunctionPoints() const;
   int GetInterfaceRounds() const;
   vtkTypeInt64 GetNonManifoldEdgesRepaired() const;
+  vtkTypeInt64 GetNonManifoldEdgesOpened() const;
   vtkTypeInt64 GetNonManifoldEdgesLeft() const;
   ///@}
 

@@ -5,6 +5,7 @@
 #include "Mesh/VertexStar.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxplex
 {
@@ -37,6 +38,10 @@ std::vector<FeatureSeed<3>> InterfaceStage::InspectTriangulation()
     {
       seeds = this->Counted(this->Guard.InspectLabels(this->Gone, this->Pinches));
     }
+  }
+  if (seeds.empty())
+  {
+    this->OpenEdges();
   }
   return seeds;
 }
@@ -73,7 +78,7 @@ void InterfaceStage::MakeLabels()
     bounds.Size = this->Of.Size;
     relabelled = FillNotches(mesh, this->Of.Surfaces, bounds, this->LabelOf, threads, this->Stop);
   }
-  if (this->Options.InterfaceRounds > 0)
+  if (this->Options.Manifold)
   {
     this->Repair(relabelled);
   }
@@ -93,13 +98,26 @@ void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
   this->Figures.NonManifoldRepaired = result.Before - result.Left.size();
   this->Figures.NonManifoldLeft = result.Left.size();
   relabelled.insert(relabelled.end(), result.Relabelled.begin(), result.Relabelled.end());
+  this->NonManifold = result.Left;
   this->Pinches.clear();
-  for (const InterfaceEdge& edge : result.Left)
+  for (const InterfaceEdge& edge : this->NonManifold)
   {
     this->Pinches.push_back(
       { Interpolate(mesh.Position(edge.Ends[0]), mesh.Position(edge.Ends[1]), 0.5),
         edge.IsJunction });
   }
+}
+
+/** What whole tetrahedra did not mend. */
+void InterfaceStage::OpenEdges()
+{
+  SpindleResult result =
+    MakeSpindles(this->Of.Mesh, this->Of.Surfaces, this->LabelOf, this->NonManifold, this->Stop);
+  const std::size_t opened = this->NonManifold.size() - result.Left.size();
+  this->Figures.NonManifoldOpened = opened;
+  this->Figures.NonManifoldRepaired += opened;
+  this->Figures.NonManifoldLeft = result.Left.size();
+  this->Spindles = std::move(result.Parts);
 }
 
 /** Vertices of these tetrahedra that are inside of a label. */

@@ -9,10 +9,13 @@
 
 #include "Delaunay/Triangulation.h"
 #include "InterfaceGuard.h"
+#include "Mesh/EdgeSpindles.h"
 #include "Mesh/InterfaceVertices.h"
 #include "Mesh/ManifoldRepair.h"
 #include "Mesh/NotchFilling.h"
 #include "Mesh/SimplexLabels.h"
+#include "Mesh/SimplexMesh.h"
+#include "Mesh/Subdivision.h"
 #include "MeshingOptions.h"
 #include "MeshingStatistics.h"
 
@@ -30,7 +33,8 @@ namespace voxplex
  * mesh. It first looks for faces of voxels that are far from all vertices of interfaces. If there are none each
  * tetrahedron gets the label at its circumcentre, or another one where that fills a notch in a face where the image cuts
  * the object (FillNotches) or makes the boundary of a label manifold (RepairManifold); and InterfaceGuard looks at what
- * that has left or made. All that happens in the triangulation, so that no mesh is extracted before all is well.
+ * that has left or made. All that happens in the triangulation, so that no mesh is extracted before all is well. At edges that
+ * are not manifold yet when there are no more points, the mesh has tetrahedra in pieces (MakeSpindles).
  *
  * Where delta is graded triangles count instead of vertices: then only InspectMesh() has points.
  *
@@ -68,8 +72,11 @@ public:
   /** Of each simplex id, when InspectTriangulation() has returned nothing. */
   std::span<const LabelId> Labels() const { return this->LabelOf; }
 
+  /** Which tetrahedra the mesh has in pieces, when InspectTriangulation() has returned nothing. */
+  const Subdivision& Parts() const { return this->Spindles; }
+
   /**
-   * The same for a mesh with these labels, where delta is graded; elsewhere nothing.
+   * What InspectTriangulation() does, for a mesh with these labels where delta is graded; elsewhere nothing.
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   std::vector<FeatureSeed<3>> InspectMesh(const SimplexMesh<3>& mesh);
@@ -79,6 +86,7 @@ private:
   std::vector<FeatureSeed<3>> Counted(std::vector<FeatureSeed<3>> seeds);
   void MakeLabels();
   void Repair(std::vector<SimplexId>& relabelled);
+  void OpenEdges();
   std::vector<Point<3>> VerticesWithin(const std::vector<SimplexId>& relabelled) const;
 
   const Subject Of;
@@ -89,7 +97,9 @@ private:
   InterfaceGuard Guard;
   SimplexLabels LabelOf;
   std::vector<Point<3>> Gone; ///< vertices that are inside of a label since others were given
-  std::vector<InterfaceGuard::Pinch> Pinches; ///< with these labels
+  std::vector<InterfaceEdge> NonManifold;     ///< with these labels
+  std::vector<InterfaceGuard::Pinch> Pinches; ///< there
+  Subdivision Spindles;
 };
 
 } // namespace voxplex

@@ -61,6 +61,11 @@ struct MeshingOptions
    */
   unsigned InterfaceRounds = 8;
   /**
+   * Make the boundary of every label manifold: two of its facets meet at each edge. Where that takes pieces of tetrahedra,
+   * these are not Delaunay (MakeSpindles). Does not depend on InterfaceRounds. 3D only.
+   */
+  bool Manifold = true;
+  /**
    * Standard deviation of the label smoothing, voxels along each axis; 0 switches it off. Of label images
    * only: see Isosurface::SmoothingSigma.
    */

@@ -642,6 +642,10 @@ void MeshingStages<D>::Extract(const Triangulation<D>& triangulation, const Doma
   if (interfaces)
   {
     ExtractMesh<D>(triangulation, domain, interfaces->Labels(), mesh, this->Options.Threads, stop);
+    if constexpr (D == 3)
+    {
+      Subdivide(triangulation, domain, interfaces->Parts(), mesh, this->Options.Threads, stop);
+    }
   }
   else
   {

@@ -181,7 +181,8 @@ struct InterfaceFigures
   unsigned Rounds = 0;              ///< times that refinement went on for the sake of interfaces
   std::uint64_t Seeds = 0;          ///< feature points inserted then, at most
   std::uint64_t NonManifoldRepaired = 0; ///< edges that were not manifold on a label's boundary
-  std::uint64_t NonManifoldLeft = 0;     ///< that still are not; counted if Rounds were allowed
+  std::uint64_t NonManifoldOpened = 0;   ///< of these, edges around which tetrahedra were cut in pieces
+  std::uint64_t NonManifoldLeft = 0;     ///< that still are not; none if they were not looked for (MeshingOptions::Manifold)
 };
 
 /** One refinement in the search for a delta that makes a number of elements. */

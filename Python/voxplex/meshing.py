@@ -60,7 +60,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
-         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -81,7 +81,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
-         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -101,7 +101,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          grading: Optional[str] = None, feature_ratio: Optional[float] = None, largest_feature: Optional[float] = None,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
-         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None,
+         sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
          smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
          spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
@@ -184,6 +184,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     interface_rounds
         Tetrahedra only: how often, at most, to refine again where an interface of the image is farther than
         1.5 delta from those of the mesh, or the boundary of a label is not manifold. Default 5; 0 is never.
+    manifold
+        Tetrahedra only: leave no edge where more than two triangles of a label's boundary meet. Default True.
     smallest_component
         Tetrahedra only: connected components of at least so many voxels get elements whatever delta.
         Default 8; 0 leaves it to chance.
@@ -261,7 +263,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         _refuse("only for images without time frames", isovalue=isovalue, grading=grading, feature_ratio=feature_ratio,
                 largest_feature=largest_feature, facet_angle=facet_angle, sliver_angle=sliver_angle,
                 optimise=optimise, optimise_seconds=optimise_seconds, sample_junctions=sample_junctions,
-                interface_rounds=interface_rounds, smallest_component=smallest_component, min_component_volume=min_component_volume)
+                interface_rounds=interface_rounds, manifold=manifold, smallest_component=smallest_component, min_component_volume=min_component_volume)
         if pick_slivers is not None and not pick_slivers:
             _refuse("of the points that pick_slivers=False does without; leave one of the two out", seed=seed)
         _set(mesher, TimeScale=time_scale, PickingRegions=pick_slivers, RandomSeed=seed)
@@ -279,7 +281,7 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         _set(mesher, Grading=None if grading is None else _GRADING[grading], FeatureRatio=feature_ratio, LargestFeature=largest_feature)
         _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle, Optimise=optimise,
              OptimisationTimeLimit=optimise_seconds, SampleJunctions=sample_junctions, InterfaceRounds=interface_rounds,
-             SmallestComponent=smallest_component, MinimumComponentVolume=min_component_volume)
+             Manifold=manifold, SmallestComponent=smallest_component, MinimumComponentVolume=min_component_volume)
     if isovalue is None:
         _refuse("only with isovalue", inside=inside, inside_label=inside_label)
         _set(mesher, SmoothingSigma=smoothing)

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Real segmentations. Each is used where it is found and skipped, with a message, where not."""
+import json
 import unittest
 from pathlib import Path
 
@@ -63,6 +64,22 @@ class Atlases(ProgramTestCase):
                                          "--output", "short.vtu", warning="many times the work")
                 self.assertGreater(len(report["yielding_regions"]), 0)
                 self.assertLessEqual(report["largest_regional_work"], MOST_WORK)
+
+    @unittest.skipUnless(CASES.exists(), "the cases are not beside the checkout")
+    def test_no_edge_that_is_not_manifold(self):
+        opened = 0
+        for name, delta in (("random", 1.805), ("sheets", 1.7365), ("one-edge", 5.43)):
+            for flags in (("--threads", 1), ("--threads", 2), ("--threads", 1, "--interface-rounds", 0),
+                          ("--threads", 1, "--no-optimise")):
+                with self.subTest(name=name, flags=flags):
+                    done = self.call("--input", CASES / f"nonmanifold-{name}.nrrd", "--delta", delta, "--quality",
+                                     "--stats", "statistics.json", *flags)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+                    report = json.loads((self.folder / "statistics.json").read_text())
+                    self.assertEqual(report["topology"]["non_manifold_edges"], 0)
+                    self.assertEqual(report["interfaces"]["nonmanifold_edges_left"], 0)
+                    opened += report["interfaces"]["nonmanifold_edges_opened"]
+        self.assertGreater(opened, 0)
 
 
 if __name__ == "__main__":

@@ -156,6 +156,24 @@ class Options(ProgramTestCase):
         self.assertEqual(run("--no-junctions")["junction_points"], 0)
         self.assertEqual(run("--interface-rounds", 0)["rounds"], 0)
 
+    def test_manifold(self):
+        self.array[:] = np.random.RandomState(1).randint(0, 3, self.array.shape)
+        images.write_nrrd(self.input, self.array)
+        figures, edges = [], []
+        for arguments in ((), ("--no-manifold",)):
+            done = self.call("--input", self.input, "--threads", 1, "--delta", 3, "--smoothing", 0, "--interface-rounds", 0,
+                             "--quality", "--stats", "statistics.json", *arguments)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            report = json.loads((self.folder / "statistics.json").read_text())
+            self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
+            figures.append(report["interfaces"])
+            edges.append(report["topology"]["non_manifold_edges"])
+        self.assertEqual((edges[0], figures[0]["nonmanifold_edges_left"]), (0, 0))
+        self.assertGreater(figures[0]["nonmanifold_edges_opened"], 0)
+        self.assertGreater(figures[0]["nonmanifold_edges_repaired"], figures[0]["nonmanifold_edges_opened"])
+        self.assertGreater(edges[1], 0)
+        self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
+
     def test_relative_and_absolute_names(self):
         (self.folder / "sub").mkdir()
         self.mesh("--input", "two.nrrd", "--delta", 3, "--output", "sub/mesh.vtu",
@@ -469,7 +487,7 @@ class Talk(ProgramTestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
-                     "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--grading", "--feature-ratio", "--largest-feature",
+                     "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
                      "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
                      "--sliver-bound", "--seed", "--no-fine-grained"):

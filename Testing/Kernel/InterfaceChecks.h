@@ -102,6 +102,7 @@ inline SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned ro
   MeshingOptions<3> options;
   options.Delta = delta;
   options.InterfaceRounds = rounds;
+  options.Manifold = rounds > 0; // without rounds all is as it comes
   options.Threads = threads;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;

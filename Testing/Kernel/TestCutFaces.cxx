@@ -523,6 +523,7 @@ TEST(CutFaces, GetNoDentsInRepair)
   {
     MeshingOptions<3> options = WithDelta(delta);
     options.InterfaceRounds = 0;
+    options.Manifold = false;
     const SimplexMesh<3> before = Mesh(image, options);
     const auto lostArea = [&](const SimplexMesh<3>& whole, const SimplexMesh<3>& mesh)
     {
@@ -556,6 +557,7 @@ TEST(CutFaces, GetNoDentsInRepair)
     }
     // A run asks for that, and then has nothing more to do.
     options.InterfaceRounds = 1;
+    options.Manifold = true;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

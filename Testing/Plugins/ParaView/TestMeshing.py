@@ -128,7 +128,7 @@ def test_density_and_shapes():
     finer = count(InterfaceTable=[3, 0, 0.5])
     check(finer > 1.3 * plain, "interface between two", finer, plain)
     check(count(InterfaceTable=[3, -1, 0.5, 7, -1, 0.5]) > 1.3 * finer, "of labels")
-    for properties in (dict(Optimise=0), dict(SliverAngle=0.0), dict(InterfaceRounds=0, SampleJunctions=0),
+    for properties in (dict(Optimise=0), dict(SliverAngle=0.0), dict(InterfaceRounds=0, Manifold=0, SampleJunctions=0),
                        dict(FacetAngle=10.0)):
         check(count(**properties) != plain, properties)
     check(count(InterfaceTable=[3, 0, 0.5], Gradation=0.1) > finer, "gradation")

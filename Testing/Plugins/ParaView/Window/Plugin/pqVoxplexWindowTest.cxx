@@ -342,7 +342,7 @@ void pqVoxplexWindowTest::testPanel()
     this->checkShown(
       { "LabelArray", "InputMode", "LabelTable", "SmallestComponent", "MinimumComponentVolume",
         "Delta", "NumberOfElements", "Grading", "SmoothingSigma", "InterfaceTable", "FacetAngle",
-        "SampleJunctions", "InterfaceRounds", "ElementSize", "SizeImage", "SizeArray", "Gradation",
+        "SampleJunctions", "InterfaceRounds", "Manifold", "ElementSize", "SizeImage", "SizeArray", "Gradation",
         "Optimise", "OptimisationTimeLimit", "RadiusEdgeRatio", "SliverAngle", "Force",
         "NumberOfThreads", "ContentionManager", "LoadBalancer", "PinThreads" },
       true);
