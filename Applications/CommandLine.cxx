@@ -178,9 +178,8 @@ OptionGroups DeclareOptions()
       "how often, at most, to refine again where an interface of the image is farther than 1.5 "
       "delta from the mesh's, or a label's boundary is not manifold (default 5; 0: never)") //
     ("smallest-component", text("VOXELS"),
-      "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
-      "0: "
-      "as it comes)") //
+      "connected components of at least so many voxels, and the largest of each label, get "
+      "tetrahedra whatever delta (default 8; 0: as it comes)") //
     ("min-component-volume", text("VOLUME"),
       "leave out connected components that are smaller, such as specks: they become what is around "
       "them") //

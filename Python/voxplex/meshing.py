@@ -185,8 +185,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         Tetrahedra only: how often, at most, to refine again where an interface of the image is farther than
         1.5 delta from those of the mesh, or the boundary of a label is not manifold. Default 5; 0 is never.
     smallest_component
-        Tetrahedra only: connected components of at least so many voxels get elements whatever delta.
-        Default 8; 0 leaves it to chance.
+        Tetrahedra only: connected components of at least so many voxels, and the largest of each label, get elements
+        whatever delta. Default 8; 0 leaves it to chance.
     min_component_volume
         Tetrahedra only: connected components with less volume are left out; they become what is around
         them. Default 0.
