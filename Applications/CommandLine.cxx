@@ -181,9 +181,8 @@ OptionGroups DeclareOptions()
       "leave edges where more than two triangles of a label's boundary meet; otherwise there are "
       "none") //
     ("smallest-component", text("VOXELS"),
-      "connected components of at least so many voxels get tetrahedra whatever delta (default 8; "
-      "0: "
-      "as it comes)") //
+      "connected components of at least so many voxels, and the largest of each label, get "
+      "tetrahedra whatever delta (default 8; 0: as it comes)") //
     ("min-component-volume", text("VOLUME"),
       "leave out connected components that are smaller, such as specks: they become what is around "
       "them") //

@@ -256,7 +256,8 @@ public:
   /**
    * Every connected component (through voxel faces) of a label that has at least so many voxels gets
    * tetrahedra, however small or thin it is beside Delta: its interfaces are sampled as finely as that
-   * takes. Default 8; 1 keeps single voxels, too; 0 leaves small components to chance. What has no
+   * takes. So does the largest component of each label, however few voxels it has. Default 8; 1 keeps all
+   * single voxels, too; 0 leaves all components to chance. What has no
    * tetrahedron all the same is named with vtkWarningMacro and in the statistics
    * (vtkMeshingStatistics::GetNumberOfLostComponents()).
    */

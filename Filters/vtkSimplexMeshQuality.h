@@ -120,8 +120,8 @@ public:
 
   ///@{
   /**
-   * Connected components of the image with at least so many voxels are looked for in the mesh: an element
-   * of their label must have its centroid within a voxel of them. Default 8.
+   * Connected components of the image with at least so many voxels, and the largest of each label, are looked for in
+   * the mesh: an element of their label must have its centroid within a voxel of them. Default 8.
    */
   vtkSetMacro(SmallestComponent, vtkIdType);
   vtkGetMacro(SmallestComponent, vtkIdType);

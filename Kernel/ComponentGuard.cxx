@@ -43,7 +43,7 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
   : Image(image)
   , Surfaces(domain)
   , All(components)
-  , FewestVoxels(fewestVoxels)
+  , Wanted(components.FindWanted(fewestVoxels))
   , Threads(threads)
   , Stop(stop)
   , Local(local)
@@ -63,7 +63,7 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
     this->Delta[c] = delta[component.Label];
     const double own =
       SamplesPerThickness * static_cast<double>(component.Voxels) * voxelVolume / component.Surface;
-    if (component.Voxels >= fewestVoxels && own < delta[component.Label])
+    if (this->Wanted[c] && own < delta[component.Label])
     {
       ThrowIfStopped(stop);
       this->Sample(c, std::max(own, this->FinestDelta));
@@ -114,8 +114,7 @@ void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
 template <int D>
 std::vector<std::uint32_t> ComponentGuard<D>::FindLost(const SimplexMesh<D>& mesh) const
 {
-  return FindLostComponents(
-    this->All, this->Image, mesh, this->FewestVoxels, this->Threads, this->Stop);
+  return FindLostComponents(this->All, this->Image, mesh, this->Wanted, this->Threads, this->Stop);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -30,7 +30,8 @@ namespace voxplex
  * rod. Where that is small beside delta, its surroundings get a smaller delta (LocalDelta), and points on
  * all of its faces are inserted before refinement (FeatureSeed), since R1 looks only at the interface
  * closest to a circumcentre and may never see a small component. If a component has no element all the
- * same, FindLost() says so, and SampleFiner() halves its delta.
+ * same, FindLost() says so, and SampleFiner() halves its delta. The largest component of each label is looked
+ * after however small it is, so that a mesh has all labels of its image.
  *
  * Beyond the thesis, which samples uniformly or by the local feature size and gives no guarantee for
  * objects that are small beside delta.
@@ -42,7 +43,7 @@ public:
   /**
    * @param image, domain, components must live as long as this
    * @param delta the sampling density elsewhere, by dense id of the label
-   * @param fewestVoxels smaller components are not looked after
+   * @param fewestVoxels smaller components are not looked after, but for the largest of each label
    * @param local where to sample more finely; receives bounds
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
@@ -75,7 +76,7 @@ private:
   const Components<D>& All;
   std::vector<double> Delta; ///< by component
   double FinestDelta;        ///< no component is sampled more finely
-  std::int64_t FewestVoxels;
+  std::vector<bool> Wanted;  ///< by component
   unsigned Threads;
   std::stop_token Stop;
   LocalDelta<D>& Local;

@@ -16,7 +16,7 @@ namespace voxplex
 
 template <int D>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
-  const LabelImage<D>& image, const SimplexMesh<D>& mesh, std::int64_t fewestVoxels,
+  const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop)
 {
   using Index = typename GridGeometry<D>::Index;
@@ -43,9 +43,9 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   // Most elements belong to labels of which nothing is missing any more.
   const std::span<const std::int64_t> values = image.Values();
   const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(values.size());
-  for (const Component<D>& component : all)
+  for (std::size_t c = 0; c < all.size(); ++c)
   {
-    missing[component.Label] += component.Voxels >= fewestVoxels ? 1u : 0u;
+    missing[all[c].Label] += wanted[c] ? 1u : 0u;
   }
   const auto idOf = [&](std::int64_t value)
   {
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
     const std::uint32_t c = components.At(voxel);
     if (c != Components<D>::None && all[c].Label == label &&
       !found[c].load(std::memory_order_relaxed) &&
-      !found[c].exchange(true, std::memory_order_relaxed) && all[c].Voxels >= fewestVoxels)
+      !found[c].exchange(true, std::memory_order_relaxed) && wanted[c])
     {
       missing[label].fetch_sub(1, std::memory_order_relaxed);
     }
@@ -118,7 +118,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   std::vector<std::uint32_t> lost;
   for (std::size_t c = 0; c < all.size(); ++c)
   {
-    if (all[c].Voxels >= fewestVoxels && !found[c].load(std::memory_order_relaxed))
+    if (wanted[c] && !found[c].load(std::memory_order_relaxed))
     {
       lost.push_back(static_cast<std::uint32_t>(c));
     }
@@ -127,8 +127,10 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
 }
 
 template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
-  const LabelImage<3>&, const SimplexMesh<3>&, std::int64_t, unsigned, const std::stop_token&);
+  const LabelImage<3>&, const SimplexMesh<3>&, const std::vector<bool>&, unsigned,
+  const std::stop_token&);
 template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
-  const LabelImage<4>&, const SimplexMesh<4>&, std::int64_t, unsigned, const std::stop_token&);
+  const LabelImage<4>&, const SimplexMesh<4>&, const std::vector<bool>&, unsigned,
+  const std::stop_token&);
 
 } // namespace voxplex

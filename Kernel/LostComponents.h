@@ -24,14 +24,14 @@ namespace voxplex
  *
  * @param components of `image`
  * @param mesh in the frame of the image
- * @param fewestVoxels smaller components are not looked at
+ * @param wanted which components are looked for (Components::FindWanted)
  * @param threads 0 means all cores; the result does not depend on it
  * @return numbers of components, increasing
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
-  const LabelImage<D>& image, const SimplexMesh<D>& mesh, std::int64_t fewestVoxels,
+  const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop = {});
 
 } // namespace voxplex

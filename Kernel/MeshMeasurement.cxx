@@ -62,12 +62,11 @@ void CompareComponents(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
   const MeasurementOptions& options, const std::stop_token& stop, ImageComparison& comparison)
 {
   const Components<3> components(image, options.Threads, stop);
-  for (const Component<3>& component : components.All())
-  {
-    comparison.Components += component.Voxels >= options.SmallestComponent;
-  }
+  const std::vector<bool> wanted = components.FindWanted(options.SmallestComponent);
+  comparison.Components =
+    static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
   for (const std::uint32_t c :
-    FindLostComponents(components, image, mesh, options.SmallestComponent, options.Threads, stop))
+    FindLostComponents(components, image, mesh, wanted, options.Threads, stop))
   {
     const Component<3>& component = components.All()[c];
     ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };

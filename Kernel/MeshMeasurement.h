@@ -25,10 +25,11 @@ namespace voxplex
 /** What to measure. */
 struct MeasurementOptions
 {
-  double RadiusEdgeBound = 2.0;       ///< elements at or above it are counted
-  double FacetAngleBound = 30.0;      ///< facets with an angle below it are counted; degrees
-  std::int64_t SmallestComponent = 8; ///< voxels; smaller connected components are not looked for
-  bool Distances = true;              ///< from the interfaces between voxels
+  double RadiusEdgeBound = 2.0;  ///< elements at or above it are counted
+  double FacetAngleBound = 30.0; ///< facets with an angle below it are counted; degrees
+  /** Voxels; smaller connected components are not looked for, but for the largest of each label. */
+  std::int64_t SmallestComponent = 8;
+  bool Distances = true;       ///< from the interfaces between voxels
   bool SmoothDistances = true; ///< from the interfaces of the label field; only with Distances
   double SmoothingSigma = 1.0; ///< of the label field, voxels
   unsigned Threads = 1;        ///< 0 means all cores
@@ -55,7 +56,7 @@ struct ImageComparison
   /** Sum over labels of |volume in the mesh - volume in the image| over the volume in the image. */
   double VolumeError = 0.0;
 
-  std::uint64_t Components = 0; ///< connected through faces, of SmallestComponent voxels or more
+  std::uint64_t Components = 0; ///< connected through faces, those that are looked for
   std::vector<ComponentReport> LostComponents; ///< FindLostComponents()
 
   HausdorffFigures Voxels; ///< from the centres of the faces between voxels of different labels

@@ -48,8 +48,9 @@ struct MeshingOptions
   /** How slivers are fought; 3D only. */
   TetSliverOptions TetSlivers;
   /**
-   * Connected components (through faces) of at least so many voxels get elements whatever delta; 0: as it
-   * comes. Those that got none all the same are in MeshingStatistics::LostComponents. 3D only.
+   * Connected components (through faces) of at least so many voxels get elements whatever delta, and so does the
+   * largest of each label however small; 0: as it comes. Those that got none all the same are in
+   * MeshingStatistics::LostComponents. 3D only.
    */
   std::int64_t SmallestComponent = 8;
   /** Begin with points on the curves where three labels or more meet, so that the mesh's edges follow them.

@@ -114,6 +114,33 @@ std::uint32_t Components<D>::RunEnd(std::size_t run) const
 
 //------------------------------------------------------------------------------------------------
 template <int D>
+std::vector<bool> Components<D>::FindWanted(std::int64_t fewestVoxels) const
+{
+  std::vector<bool> wanted(this->List.size());
+  std::vector<std::uint32_t> largest; // by label
+  for (std::uint32_t c = 0; c < this->List.size(); ++c)
+  {
+    const Component<D>& component = this->List[c];
+    wanted[c] = component.Voxels >= fewestVoxels;
+    if (component.Label >= largest.size())
+    {
+      largest.resize(component.Label + std::size_t{ 1 }, None);
+    }
+    std::uint32_t& known = largest[component.Label];
+    known = known == None || component.Voxels > this->List[known].Voxels ? c : known;
+  }
+  for (const std::uint32_t c : largest)
+  {
+    if (c != None)
+    {
+      wanted[c] = true;
+    }
+  }
+  return wanted;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
 std::uint32_t Components<D>::At(const Index& voxel) const
 {
   for (std::size_t a = 0; a < D; ++a)

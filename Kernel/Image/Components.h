@@ -55,6 +55,13 @@ public:
 
   const std::vector<Component<D>>& All() const { return this->List; }
 
+  /**
+   * Those that a mesh must not lose: of at least so many voxels, or the largest of their label, the first of several,
+   * so that no label is left without one.
+   * @return by component
+   */
+  std::vector<bool> FindWanted(std::int64_t fewestVoxels) const;
+
   /** The component of a voxel of the crop; None for background and beyond the crop. */
   std::uint32_t At(const Index& voxel) const;
 

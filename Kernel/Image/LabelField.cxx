@@ -6,6 +6,8 @@
 #include "Image/LabelSmoothing.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <sstream>
@@ -224,7 +226,9 @@ private:
 
   /**
    * Whether a voxel between two others along some axis belongs to something one voxel thin, not to
-   * a bump on something thicker: no face neighbour with its label is thick itself.
+   * a bump on something thicker: no face neighbour with its label is thick itself. What is too small to
+   * contain a block of two voxels along each axis is thin all over, also where legs of it meet; but of
+   * background, which need not be in the mesh.
    */
   bool IsThinObject(const LabelId* voxel) const
   {
@@ -239,7 +243,50 @@ private:
       {
         if (*neighbour == *voxel && !this->IsBetweenOthers(neighbour))
         {
-          return false;
+          return *voxel != 0 && this->IsSpeck(voxel);
+        }
+      }
+    }
+    return true;
+  }
+
+  /** Whether fewer voxels than a block has are connected with one, itself included, within the reach of the kernel. */
+  bool IsSpeck(const LabelId* voxel) const
+  {
+    struct Member
+    {
+      const LabelId* Voxel;
+      std::array<int, static_cast<std::size_t>(D)> Offset; ///< from the one that is asked about
+    };
+    std::array<Member, std::size_t{ 1 } << D> members;
+    std::size_t count = 0;
+    members[count++] = { voxel, {} };
+    for (std::size_t next = 0; next < count; ++next)
+    {
+      const Member from = members[next];
+      std::ptrdiff_t stride = 1;
+      for (std::size_t a = 0; a < D; ++a, stride *= static_cast<std::ptrdiff_t>(this->Width))
+      {
+        for (const int step : { -1, 1 })
+        {
+          Member to = from;
+          to.Offset[a] += step;
+          if (static_cast<std::size_t>(std::abs(to.Offset[a])) > this->Radius)
+          {
+            continue;
+          }
+          to.Voxel += step * stride;
+          if (*to.Voxel != *voxel ||
+            std::any_of(members.begin(), members.begin() + count,
+              [&](const Member& known) { return known.Voxel == to.Voxel; }))
+          {
+            continue;
+          }
+          members[count++] = to;
+          if (count == members.size())
+          {
+            return false;
+          }
         }
       }
     }

@@ -187,8 +187,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     manifold
         Tetrahedra only: leave no edge where more than two triangles of a label's boundary meet. Default True.
     smallest_component
-        Tetrahedra only: connected components of at least so many voxels get elements whatever delta.
-        Default 8; 0 leaves it to chance.
+        Tetrahedra only: connected components of at least so many voxels, and the largest of each label, get elements
+        whatever delta. Default 8; 0 leaves it to chance.
     min_component_volume
         Tetrahedra only: connected components with less volume are left out; they become what is around
         them. Default 0.

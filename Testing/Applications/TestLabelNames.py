@@ -161,7 +161,7 @@ class Output(NamesTestCase):
         path = images.write_nrrd(self.folder / "lost.nrrd", array)
         (self.folder / "names.txt").write_text(self.TABLE + "9 Speck\n")
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 3, "--stats", "s.json",
-                  warning=r"not in the mesh: label 9 \(Speck\); use a smaller")
+                  "--smallest-component", 0, warning=r"not in the mesh: label 9 \(Speck\); use a smaller")
         report = json.loads((self.folder / "s.json").read_text())
         self.assertEqual({label: list(figures)[0] for label, figures in report["labels"].items()},
                          {"3": "name", "7": "name"})

@@ -53,10 +53,11 @@ class Options(ProgramTestCase):
         n = self.array.shape[0] // 2
         self.array[n, n, n] = 5  # one voxel beside an interface
         images.write_nrrd(self.input, self.array)
-        done = self.call("--input", self.input, "--delta", 4, "--stats", "s.json")
+        done = self.call("--input", self.input, "--delta", 4, "--smallest-component", 0, "--stats", "s.json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stderr, "^voxplex: warning: .*not in the mesh: label 5;.*--delta.*\n$")
         self.assertEqual(json.loads((self.folder / "s.json").read_text())["lost_labels"], [5])
+        self.assertEqual(self.statistics("--input", self.input, "--delta", 4)["lost_labels"], [])
 
     def facets(self, *arguments):
         # Points along a fine rim would make the facets beside it smaller.

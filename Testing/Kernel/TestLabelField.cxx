@@ -405,3 +405,38 @@ TEST(LabelField, KeepsGapsOpen)
     }
   }
 }
+
+// Where legs of one voxel meet that voxel is not between two others, but nothing is thick: legs are as wide as they are.
+TEST(LabelField, KeepsTheWidthOfLegsThatMeet)
+{
+  constexpr std::int64_t n = 12;
+  for (const bool isFour : { true, false })
+  {
+    std::vector<short> scalars;
+    for (std::int64_t k = 0; k < n * n * n; ++k)
+    {
+      const std::array<std::int64_t, 3> d{ k % n - 5, k / n % n - 5, k / (n * n) - 5 };
+      const bool isLeg =
+        std::all_of(d.begin(), d.end(), [](auto x) { return x >= 0; }) && d[0] + d[1] + d[2] <= 1;
+      const bool isFifth = !isFour && d == std::array<std::int64_t, 3>{ 1, 1, 0 };
+      scalars.push_back(isLeg || isFifth ? 1 : 0);
+    }
+    const LabelImage<3> image = MakeImage<3>(scalars, UnitGrid<3>(n));
+    ASSERT_EQ(image.Counts()[1], isFour ? 4 : 5);
+    const LabelField<3> field(image, 1.0);
+    ForEachVoxel<3>(image,
+      [&](const Point<3>& centre, LabelId id)
+      {
+        const bool isMeetingPoint = centre == Point<3>{ 5.0, 5.0, 5.0 };
+        for (std::size_t a = 0; a < 3 && id == 1 && !isMeetingPoint; ++a)
+        {
+          for (const double step : { -0.25, 0.25 })
+          {
+            Point<3> p = centre;
+            p[a] += step;
+            EXPECT_EQ(field.Label(p), 1) << p[0] << ' ' << p[1] << ' ' << p[2];
+          }
+        }
+      });
+  }
+}

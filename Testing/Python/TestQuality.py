@@ -170,8 +170,13 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures["image"]["lost_labels"], [7])
         self.assertEqual(figures["image"]["lost_components"], [{"label": 7, "voxels": 8, "voxel": [0, 0, 0]}])
         self.assertEqual(figures["labels"]["7"]["elements"], 0)
-        figures = voxplex.quality(self.mesh, labels, hausdorff=False, smallest_component=9)
-        self.assertEqual(figures["image"]["lost_components"], [])
+        other = labels.copy()
+        other[-2:, -2:, -2:] = 1  # not the largest of its label
+        lost = [{"label": 7, "voxels": 8, "voxel": [0, 0, 0]}]
+        figures = voxplex.quality(self.mesh, other, hausdorff=False, smallest_component=9)
+        self.assertEqual(figures["image"]["lost_components"], lost)
+        figures = voxplex.quality(self.mesh, other, hausdorff=False)
+        self.assertEqual([c["label"] for c in figures["image"]["lost_components"]], [7, 1])
         figures = voxplex.quality(self.mesh, labels, labels=[1, 2])
         self.assertEqual(figures["image"]["lost_labels"], [])
         self.assertEqual(figures["hausdorff"], self.figures["hausdorff"])

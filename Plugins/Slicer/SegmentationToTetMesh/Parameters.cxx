@@ -166,9 +166,9 @@ ParameterGroup Shapes()
         .Name = "smallestComponent",
         .Label = "Smallest component",
         .Description =
-          "Connected components of a label with at least so many voxels get tetrahedra, "
-          "however small they are beside delta. 1 keeps single voxels, 0 leaves it to "
-          "chance.",
+          "Connected components of a label with at least so many voxels, and its largest one, get "
+          "tetrahedra, however small they are beside delta. 1 keeps all single voxels, 0 leaves it "
+          "to chance.",
         .LongFlag = "smallestcomponent",
         .Default = "8" },
       { .Type = Kind::Double,

@@ -183,9 +183,11 @@ void TestLabels()
   {
     c.Image->SetScalarComponentFromDouble(i, 0, 0, 0, 9);
   }
+  c.Image->SetScalarComponentFromDouble(6, 7, 7, 0, 9); // and one of two
+  c.Image->SetScalarComponentFromDouble(7, 7, 7, 0, 9);
   c.Filter->Update();
   CHECK(c.Filter->GetNumberOfLostLabels() == 1);
-  CHECK(c.Filter->GetNumberOfLostComponents() == 0); // too small to be looked for
+  CHECK(c.Filter->GetNumberOfLostComponents() == 1); // the largest of its label, however small
   CHECK(c.Filter->GetLabelTable()->GetNumberOfRows() == 2);
   CHECK(Value(c.Filter->GetLabelTable(), "Elements", 1) == 0);
   CHECK(Near(Value(c.Filter->GetLabelTable(), "VolumeError", 1), -1.0));
@@ -198,6 +200,9 @@ void TestLabels()
           "\"lost_components\": [{\"label\": 9, \"voxels\": 3, \"voxel\": [0, 0, 0]}]") !=
       std::string::npos,
     c.Filter->ToJSON());
+  c.Filter->SetSmallestComponent(2);
+  c.Filter->Update();
+  CHECK(c.Filter->GetNumberOfLostComponents() == 2);
   c.Filter->AddLabel(3);
   c.Filter->Update();
   CHECK(c.Filter->GetNumberOfLostLabels() == 0);

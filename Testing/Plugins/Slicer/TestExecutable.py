@@ -246,7 +246,8 @@ class Runs(ModuleTestCase):
         n = self.array.shape[0] // 2
         self.array[n, n, n] = 9  # one voxel beside an interface
         images.write_nrrd(self.input, self.array, self.geometry)
-        done = self.call("--delta", 3, "--returnparameterfile", "results.params", self.input, "mesh.vtu")
+        done = self.call("--delta", 3, "--smallestcomponent", 0, "--returnparameterfile", "results.params", self.input,
+                         "mesh.vtu")
         self.assertEqual(done.returncode, 0)
         self.assertEqual(parse_parameter_file(self.folder / "results.params")["missingLabels"], "9")
         self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: the mesh lacks labels .*: 9\n$")

@@ -267,7 +267,7 @@ class Runs(ModuleTestCase):
         n = self.array.shape[0] // 2
         self.array[n, n, n] = 3  # one voxel beside an interface
         images.write_nrrd(self.folder / "labels.nrrd", self.array)
-        self.logic.start(SEGMENTS, Settings(delta=3.0))
+        self.logic.start(SEGMENTS, Settings(delta=3.0, smallestComponent=0))
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)
         self.assertTrue(any("the mesh lacks labels" in line for line in self.lines), self.lines)
         self.assertIn("  Muscle, left: none; it is too small for this delta",

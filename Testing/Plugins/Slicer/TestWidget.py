@@ -364,9 +364,10 @@ class Runs(PanelTestCase):
         segmentation.add("c", "Speck", (0, 0, 1), speck)
         self.widget.deltaSpinBox.value = 3.0
         lost, found = "\n  Speck: none; it is too small for this delta", "\n  Speck: [1-9]"
+        self.widget.smallestComponentSpinBox.value = 0
         self.apply()
         self.assertRegex("\n".join(self.log()), lost)
-        self.widget.smallestComponentSpinBox.value = 1
+        self.widget.smallestComponentSpinBox.value = 8  # but a segment's largest one counts whatever its size
         self.apply()
         self.assertRegex("\n".join(self.log()), found)
         self.widget.minimumVolumeSpinBox.value = 2.0  # a voxel has 1

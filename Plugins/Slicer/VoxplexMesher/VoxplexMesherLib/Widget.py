@@ -133,8 +133,8 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
                                                   "radius-edge ratios up to 2.5")
         self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "left to chance", "Connected components of a segment "
-                                                              "with at least so many voxels get tetrahedra, however small they are "
-                                                              "beside delta")
+                                                              "with at least so many voxels, and its largest one, get tetrahedra, "
+                                                              "however small they are beside delta")
         self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
                                                  "non-manifold edges. The log has the figures")
         form.addRow("Optimise:", self.optimiseCheckBox)
