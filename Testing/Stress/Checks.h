@@ -41,12 +41,20 @@ struct Subject
     return corners;
   }
 
-  /** Operations that refinement did not do: so many elements may break a bound. */
+  /** Around an edge that was opened so many pieces of tetrahedra, or new vertices, may break a bound. */
+  static constexpr std::uint64_t PiecesOfAnEdge = 40;
+
+  /**
+   * Operations that refinement did not do, and pieces around edges that were opened: so many elements may break a bound.
+   * All may where rules gave way.
+   */
   std::uint64_t Excused() const
   {
     const RuleStatistics& rules = this->Stats.Rules;
-    return rules.RefusedTooClose + rules.RefusedNoConflict + rules.RefusedDuplicate +
-      rules.RemovalsFailed;
+    return this->Stats.Yielding.empty()
+      ? rules.RefusedTooClose + rules.RefusedNoConflict + rules.RefusedDuplicate +
+        rules.RemovalsFailed + PiecesOfAnEdge * this->Stats.Interfaces.NonManifoldOpened
+      : this->Mesh.Simplices.size() * (D + 1);
   }
 };
 
