@@ -165,7 +165,8 @@ OptionGroups DeclareOptions()
       "space-time images") //
     ("sliver-angle", text("DEGREES"),
       "dihedral angle below which, or above 180 less which, a tetrahedron is a sliver and split "
-      "(default 9; 0: leave slivers; above 15 only with --force)") //
+      "(default 9; 0: leave slivers; above 15 only with --force); most above 3 degrees are left to "
+      "optimisation") //
     ("no-optimise",
       "leave shapes as refinement makes them: Delaunay, radius-edge ratios below 2; otherwise "
       "they are improved to dihedral angles of 15 to 155 degrees but for a few, with ratios up to "
@@ -176,13 +177,17 @@ OptionGroups DeclareOptions()
       "do not sample the curves where three labels or more meet before all else: they zigzag") //
     ("interface-rounds", text("NUMBER"),
       "how often, at most, to refine again where an interface of the image is farther than 1.5 "
-      "delta from the mesh's, or a label's boundary is not manifold (default 5; 0: never)") //
+      "delta from the mesh's, or a label's boundary is not manifold (default 8; 0: never)") //
     ("no-manifold",
       "leave edges where more than two triangles of a label's boundary meet; otherwise there are "
-      "none") //
+      "none, and where it took pieces of tetrahedra the mesh is not Delaunay") //
     ("smallest-component", text("VOXELS"),
       "connected components of at least so many voxels, and the largest of each label, get "
       "tetrahedra whatever delta (default 8; 0: as it comes)") //
+    ("exact-components",
+      "sample these components as finely as they are thin, whatever delta; otherwise those that "
+      "are "
+      "thin beside delta have a few tetrahedra") //
     ("min-component-volume", text("VOLUME"),
       "leave out connected components that are smaller, such as specks: they become what is around "
       "them") //
@@ -475,6 +480,7 @@ Parameters ToParameters(const po::variables_map& values)
     p.InterfaceRounds = ParseWhole("interface-rounds", *text, 0, 100);
   }
   p.NoManifold = values.count("no-manifold") > 0;
+  p.ExactComponents = values.count("exact-components") > 0;
   if (const auto* text = given("smallest-component"))
   {
     p.SmallestComponent =

@@ -155,6 +155,7 @@ vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
   {
     filter->SetSmallestComponent(*p.SmallestComponent);
   }
+  filter->SetExactComponents(p.ExactComponents);
   if (p.MinimumComponentVolume)
   {
     filter->SetMinimumComponentVolume(*p.MinimumComponentVolume);

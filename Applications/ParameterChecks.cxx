@@ -179,7 +179,7 @@ void CheckDimension(const Parameters& p, int dimension)
       ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image");
   }
-  const std::array<std::pair<const char*, bool>, 15> tetOptions{ {
+  const std::array<std::pair<const char*, bool>, 16> tetOptions{ {
     { "--hausdorff", p.Hausdorff },
     { "--quality", p.Quality },
     { "--grading", !p.Grading.empty() },
@@ -194,6 +194,7 @@ void CheckDimension(const Parameters& p, int dimension)
     { "--interface-rounds", p.InterfaceRounds.has_value() },
     { "--no-manifold", p.NoManifold },
     { "--smallest-component", p.SmallestComponent.has_value() },
+    { "--exact-components", p.ExactComponents },
     { "--min-component-volume", p.MinimumComponentVolume.has_value() },
   } };
   for (const auto& [name, isGiven] : tetOptions)

@@ -90,6 +90,7 @@ struct Parameters
   std::optional<int> InterfaceRounds;
   bool NoManifold = false;
   std::optional<int> SmallestComponent;
+  bool ExactComponents = false;
   std::optional<double> MinimumComponentVolume;
   std::optional<double> SmoothingSigma;
   std::optional<double> Size;

@@ -75,6 +75,7 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     { "optimise_seconds", OrNull(p.OptimiseSeconds) }, { "no_junctions", p.NoJunctions },
     { "interface_rounds", OrNull(p.InterfaceRounds) }, { "no_manifold", p.NoManifold },
     { "smallest_component", OrNull(p.SmallestComponent) },
+    { "exact_components", p.ExactComponents },
     { "min_component_volume", OrNull(p.MinimumComponentVolume) },
     { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
     { "label_table", OrNull(p.LabelTable) }, { "space", ToString(p.OutputSpace) },

@@ -157,6 +157,7 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.InterfaceRounds = static_cast<unsigned>(this->InterfaceRounds);
   run.Options.Manifold = this->Manifold;
   run.Options.SmallestComponent = this->SmallestComponent;
+  run.Options.ExactComponents = this->ExactComponents;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
   const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
@@ -224,6 +225,7 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
   os << indent << "Manifold: " << this->Manifold << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
+  os << indent << "ExactComponents: " << this->ExactComponents << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";
   if (this->SizeImplicitFunction)

@@ -41,7 +41,7 @@
  *
  * @par Parameters
  * Those of vtkImageToSimplexMeshFilter, where element sizes, errors, progress, abort, threads and
- * pieces are explained, Grading, FacetAngle, SliverAngle, SmallestComponent and MinimumComponentVolume; InputMode and
+ * pieces are explained, Grading, FacetAngle, SliverAngle, SmallestComponent, ExactComponents and MinimumComponentVolume; InputMode and
  * what belongs to it. Two more things bound element sizes: SizeImplicitFunction, and the image at input port 1.
  *
  * @par Errors
@@ -191,8 +191,9 @@ public:
   /**
    * Tetrahedra with a dihedral angle below this, or above 180 degrees less this, are slivers: they are
    * split, or the interface near them is sampled more densely (thesis, section 2.6.2). Where no point
-   * helps, which is rare, a sliver stays (vtkMeshingStatistics::GetSliversKept()). Degrees, 0 to 60;
-   * default 9, which makes about a tenth more elements; 0 leaves slivers alone. Above 15 meshes can become
+   * helps, which is rare, a sliver stays (vtkMeshingStatistics::GetSliversKept()). While Optimise is on without a time
+   * limit, slivers above 3 degrees are left to it, which takes fewer elements, unless they are wedged between interfaces.
+   * Degrees, 0 to 60; default 9, which without Optimise makes about a tenth more elements; 0 leaves slivers alone. Above 15 meshes can become
    * very large, and the value is refused unless Force is on.
    */
   vtkSetMacro(SliverAngle, double);
@@ -255,14 +256,23 @@ public:
   ///@{
   /**
    * Every connected component (through voxel faces) of a label that has at least so many voxels gets
-   * tetrahedra, however small or thin it is beside Delta: its interfaces are sampled as finely as that
-   * takes. So does the largest component of each label, however few voxels it has. Default 8; 1 keeps all
+   * tetrahedra, however small or thin it is beside Delta: if it has none, a few points are added where it is thickest. So does the largest component of each label, however few voxels it has. Default 8; 1 keeps all
    * single voxels, too; 0 leaves all components to chance. What has no
    * tetrahedron all the same is named with vtkWarningMacro and in the statistics
    * (vtkMeshingStatistics::GetNumberOfLostComponents()).
    */
   vtkSetClampMacro(SmallestComponent, int, 0, VTK_INT_MAX);
   vtkGetMacro(SmallestComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sample the components that SmallestComponent looks after as finely as they are thin, whatever Delta. Default off:
+   * those that are thin beside Delta are as exact as Delta makes them, and the number of tetrahedra falls as Delta grows.
+   */
+  vtkSetMacro(ExactComponents, bool);
+  vtkGetMacro(ExactComponents, bool);
+  vtkBooleanMacro(ExactComponents, bool);
   ///@}
 
   ///@{
@@ -322,6 +332,7 @@ protected:
   int InterfaceRounds = 8;
   bool Manifold = true;
   int SmallestComponent = 8;
+  bool ExactComponents = false;
   double MinimumComponentVolume = 0.0;
 
 private:

@@ -53,6 +53,11 @@ struct MeshingOptions
    * MeshingStatistics::LostComponents. 3D only.
    */
   std::int64_t SmallestComponent = 8;
+  /**
+   * Sample what SmallestComponent looks after as finely as it is thin from the start, whatever delta. Otherwise a component
+   * that is thin beside delta is as exact as delta makes it, but has an element at least. 3D only.
+   */
+  bool ExactComponents = false;
   /** Begin with points on the curves where three labels or more meet, so that the mesh's edges follow them.
    * 3D only. */
   bool SampleJunctions = true;

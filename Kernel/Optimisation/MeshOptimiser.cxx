@@ -34,6 +34,16 @@ constexpr std::size_t MostBlocks = 256;
 constexpr unsigned PassesOfBlock = 4;
 /** Passes with each effort over the whole, at most. */
 constexpr unsigned MostPasses = 12;
+/** How often room is made around what is left; and how many tetrahedra away. */
+constexpr unsigned RoundsOfRoom = 3;
+constexpr unsigned RingsOfRoom = 3;
+/** By how much bounds of angles are tightened there, and by how much more each time. */
+constexpr double TighterBounds = 1.2;
+constexpr double TighterEachRound = 0.1;
+
+/** What ShapeScore takes. */
+constexpr double LargestLowerBound = 59.0;
+constexpr double SmallestUpperBound = 91.0;
 
 void CheckOptions(const OptimisationOptions& options)
 {
@@ -222,7 +232,7 @@ private:
   }
 
   //----------------------------------------------------------------------------------------------
-  /** One thread, with growing effort. */
+  /** One thread, with growing effort; then with room around what is left. */
   void WorkOnAll()
   {
     const std::size_t points = this->Mesh.Points.size();
@@ -242,25 +252,103 @@ private:
     }
     for (const Effort effort : { Effort::Plain, Effort::Insertions, Effort::Nudges })
     {
-      if (effort == Effort::Nudges && !(this->Options.InterfaceTolerance > 0.0))
+      this->WorkWith(effort, worker);
+    }
+    for (unsigned round = 0; round < RoundsOfRoom; ++round)
+    {
+      if (worker.Left().empty() || this->Limits.OutOfTime())
       {
         break;
       }
-      worker.ForgetTries();
-      for (unsigned pass = 0; pass < MostPasses; ++pass)
+      this->MakeRoom(worker, TighterBounds + TighterEachRound * round);
+      this->WorkWith(Effort::Insertions, worker);
+      this->WorkWith(Effort::Nudges, worker);
+    }
+    this->Count(worker);
+  }
+
+  /** Passes until nothing gets better. */
+  void WorkWith(Effort effort, PatchWorker& worker)
+  {
+    if (effort == Effort::Nudges && !(this->Options.InterfaceTolerance > 0.0))
+    {
+      return;
+    }
+    worker.ForgetTries();
+    for (unsigned pass = 0; pass < MostPasses; ++pass)
+    {
+      if (effort != Effort::Plain)
       {
-        if (effort != Effort::Plain)
+        this->FindStarsOf(worker);
+      }
+      ++this->Statistics.Passes;
+      if (worker.Pass(effort) == 0 || this->Limits.OutOfTime())
+      {
+        break;
+      }
+    }
+  }
+
+  /** Improves tetrahedra around poor ones beyond their bounds, so that these can change. */
+  void MakeRoom(PatchWorker& worker, double tighter)
+  {
+    const ShapeScore usual = this->Mesh.Shape;
+    this->Mesh.Shape = ShapeScore(
+      std::min(tighter * this->Options.SmallestDihedralAngle, LargestLowerBound),
+      std::max(180.0 - tighter * (180.0 - this->Options.LargestDihedralAngle), SmallestUpperBound),
+      this->Options.RadiusEdgeRatio);
+    this->Rescore();
+    for (const std::uint32_t t : this->CellsAround(worker.Left()))
+    {
+      worker.Add(t);
+    }
+    this->WorkWith(Effort::Plain, worker);
+    this->Mesh.Shape = usual;
+    this->Rescore();
+  }
+
+  void Rescore()
+  {
+    ParallelFor(
+      0, this->Mesh.Cells.size(), SurveyGrain, this->Threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
         {
-          this->FindStarsOf(worker);
+          if (this->Mesh.IsAlive(t))
+          {
+            this->Mesh.Scores[t] = static_cast<float>(this->Mesh.Score(this->Mesh.Cells[t].V));
+          }
         }
-        ++this->Statistics.Passes;
-        if (worker.Pass(effort) == 0 || this->Limits.OutOfTime())
+      },
+      this->Limits.Stop);
+  }
+
+  /** These, and those with a vertex of one of them, and so on. */
+  std::vector<std::uint32_t> CellsAround(std::vector<std::uint32_t> cells) const
+  {
+    std::vector<bool> reached(this->Mesh.Points.size());
+    for (unsigned ring = 0; ring < RingsOfRoom; ++ring)
+    {
+      for (const std::uint32_t t : cells)
+      {
+        for (const std::uint32_t v : this->Mesh.Cells[t].V)
         {
-          break;
+          reached[v] = true;
+        }
+      }
+      cells.clear();
+      for (std::uint32_t t = 0; t < this->Mesh.Cells.size(); ++t)
+      {
+        const auto& v = this->Mesh.Cells[t].V;
+        if (this->Mesh.IsAlive(t) &&
+          (reached[v[0]] || reached[v[1]] || reached[v[2]] || reached[v[3]]))
+        {
+          cells.push_back(t);
         }
       }
     }
-    this->Count(worker);
+    return cells;
   }
 
   void FindStarsOf(PatchWorker& worker) const

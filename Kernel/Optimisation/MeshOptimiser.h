@@ -71,7 +71,8 @@ struct OptimisationStatistics
 /**
  * Brings all tetrahedra within the bounds of shape where it can: flips (Flips), smoothing (Smoother), and,
  * for what is left, changes of labels of slivers between labels, insertion of vertices inside labels, and
- * small moves of vertices on interfaces.
+ * small moves of vertices on interfaces. Where that does not do, tetrahedra around are first improved beyond the bounds,
+ * which makes room.
  *
  * Only poor tetrahedra are worked on, and a change is made only if the smallest score (ShapeScore) of
  * what it touches grows, so the worst shape of the mesh never gets worse. Kept are: conformity, positive

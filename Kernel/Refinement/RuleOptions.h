@@ -31,6 +31,11 @@ struct TetSliverOptions
    * a square lying flat reaches at 0.9 degrees.
    */
   double Angle = 9.0;
+  /**
+   * If less than Angle: slivers that are better than this are left alone, for optimisation to mend, but for those wedged
+   * between interfaces, which it cannot.
+   */
+  double AngleInside = 90.0;
   /** Radius of picking regions over that of the ball, 0 to 1. */
   double PickingRadius = 0.5;
   /** Points that are tried in a picking region, at most. */

@@ -17,6 +17,8 @@ Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
   , CosineOfFacetAngle(
       std::cos(context.Settings.FacetAngle * std::numbers::pi / 180.0) * BoundSafety)
   , SineOfSliverAngle(std::sin(context.Settings.TetSlivers.Angle * std::numbers::pi / 180.0))
+  , SineInside(std::min(SineOfSliverAngle,
+      std::sin(context.Settings.TetSlivers.AngleInside * std::numbers::pi / 180.0)))
 {
 }
 
@@ -58,7 +60,7 @@ Verdict Rules3D::Refine(SimplexId id)
   {
     verdict = this->InsertCircumcentre(t, this->Worker.Statistics.Fired[4]);
   }
-  if (verdict == Verdict::Good && t.Label != 0 && this->IsSliver(id))
+  if (verdict == Verdict::Good && t.Label != 0 && this->IsToSplit(t))
   {
     if (this->Worker.Poor.OnlyLast())
     {
@@ -70,19 +72,47 @@ Verdict Rules3D::Refine(SimplexId id)
 }
 
 //------------------------------------------------------------------------------------------------
+/** Whether R7 applies: of what optimisation mends as well, only the worst is split. */
+bool Rules3D::IsToSplit(const Element& t)
+{
+  if (this->SineOfSliverAngle <= 0.0)
+  {
+    return false;
+  }
+  const double sine = this->DihedralSine(t.Id);
+  return !(sine >= this->SineOfSliverAngle) && (!(sine >= this->SineInside) || this->IsWedged(t));
+}
+
+/** Whether at most one facet of t is inside of its label: where all its vertices are on interfaces nothing can move. */
+bool Rules3D::IsWedged(const Element& t)
+{
+  const auto& simplex = this->Context.Mesh.GetSimplex(t.Id);
+  unsigned inside = 0;
+  for (const SimplexId n : simplex.N)
+  {
+    inside += n != None && this->LabelOf(n) == t.Label ? 1 : 0;
+  }
+  return inside <= 1;
+}
+
 bool Rules3D::IsSliver(SimplexId t) const
 {
   if (this->SineOfSliverAngle <= 0.0)
   {
     return false;
   }
+  return !(this->DihedralSine(t) >= this->SineOfSliverAngle);
+}
+
+double Rules3D::DihedralSine(SimplexId t) const
+{
   const auto& v = this->Context.Mesh.GetSimplex(t).V;
   std::array<const Point<3>*, 4> points;
   for (unsigned i = 0; i < 4; ++i)
   {
     points[i] = &this->Context.Mesh.Position(v[i]);
   }
-  return !(SmallestDihedralSine(points.data()) >= this->SineOfSliverAngle);
+  return SmallestDihedralSine(points.data());
 }
 
 //------------------------------------------------------------------------------------------------

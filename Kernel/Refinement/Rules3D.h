@@ -87,6 +87,9 @@ private:
   Verdict SampleBeside(const Element& t, double tolerance);
   Verdict SampleNear(
     const Point<3>& z, double radius, double delta, const Element& t, double tolerance);
+  double DihedralSine(SimplexId t) const;
+  bool IsToSplit(const Element& t);
+  bool IsWedged(const Element& t);
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
   bool MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const;
   bool FacetIsFlat(
@@ -95,6 +98,7 @@ private:
 
   const double CosineOfFacetAngle;
   const double SineOfSliverAngle; ///< 0: slivers are left alone
+  const double SineInside;        ///< the same for those that are not wedged between interfaces
 };
 
 } // namespace voxplex

@@ -61,8 +61,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
          sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
-         smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
-         spacing: Optional[Sequence[float]] = None,
+         smallest_component: Optional[int] = None, exact_components: Optional[bool] = None,
+         min_component_volume: Optional[float] = None, spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
          times: Optional[Sequence[float]] = None, time_scale: Optional[float] = None,
          pick_slivers: Optional[bool] = None, seed: Optional[int] = None, force: bool = False,
@@ -82,8 +82,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
          sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
-         smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
-         spacing: Optional[Sequence[float]] = None,
+         smallest_component: Optional[int] = None, exact_components: Optional[bool] = None,
+         min_component_volume: Optional[float] = None, spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
          times: Optional[Sequence[float]] = None, time_scale: Optional[float] = None,
          pick_slivers: Optional[bool] = None, seed: Optional[int] = None, force: bool = False,
@@ -102,8 +102,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
          facet_angle: Optional[float] = None, sliver_angle: Optional[float] = None,
          optimise: Optional[bool] = None, optimise_seconds: Optional[float] = None,
          sample_junctions: Optional[bool] = None, interface_rounds: Optional[int] = None, manifold: Optional[bool] = None,
-         smallest_component: Optional[int] = None, min_component_volume: Optional[float] = None,
-         spacing: Optional[Sequence[float]] = None,
+         smallest_component: Optional[int] = None, exact_components: Optional[bool] = None,
+         min_component_volume: Optional[float] = None, spacing: Optional[Sequence[float]] = None,
          origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
          times: Optional[Sequence[float]] = None, time_scale: Optional[float] = None,
          pick_slivers: Optional[bool] = None, seed: Optional[int] = None, force: bool = False,
@@ -171,8 +171,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
     facet_angle
         Tetrahedra only: lower bound of the angles of triangles on interfaces, in degrees. Default 30.
     sliver_angle
-        Tetrahedra only: those with a dihedral angle below this, or above 180 less this, are split. In
-        degrees, default 9; 0 leaves them, above 15 needs force.
+        Tetrahedra only: those with a dihedral angle below this, or above 180 less this, are split; most above 3
+        degrees are left to optimisation. In degrees, default 9; 0 leaves them, above 15 needs force.
     optimise
         Tetrahedra only: improve shapes after refinement; dihedral angles of 15 to 155 degrees but for a few,
         radius-edge ratios up to 2.5. Default True.
@@ -183,12 +183,15 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         them. Default True.
     interface_rounds
         Tetrahedra only: how often, at most, to refine again where an interface of the image is farther than
-        1.5 delta from those of the mesh, or the boundary of a label is not manifold. Default 5; 0 is never.
+        1.5 delta from those of the mesh, or the boundary of a label is not manifold. Default 8; 0 is never.
     manifold
         Tetrahedra only: leave no edge where more than two triangles of a label's boundary meet. Default True.
     smallest_component
         Tetrahedra only: connected components of at least so many voxels, and the largest of each label, get elements
         whatever delta. Default 8; 0 leaves it to chance.
+    exact_components
+        Tetrahedra only: sample these components as finely as they are thin, whatever delta. Default False: those that
+        are thin beside delta have a few elements.
     min_component_volume
         Tetrahedra only: connected components with less volume are left out; they become what is around
         them. Default 0.
@@ -263,7 +266,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         _refuse("only for images without time frames", isovalue=isovalue, grading=grading, feature_ratio=feature_ratio,
                 largest_feature=largest_feature, facet_angle=facet_angle, sliver_angle=sliver_angle,
                 optimise=optimise, optimise_seconds=optimise_seconds, sample_junctions=sample_junctions,
-                interface_rounds=interface_rounds, manifold=manifold, smallest_component=smallest_component, min_component_volume=min_component_volume)
+                interface_rounds=interface_rounds, manifold=manifold, smallest_component=smallest_component,
+                exact_components=exact_components, min_component_volume=min_component_volume)
         if pick_slivers is not None and not pick_slivers:
             _refuse("of the points that pick_slivers=False does without; leave one of the two out", seed=seed)
         _set(mesher, TimeScale=time_scale, PickingRegions=pick_slivers, RandomSeed=seed)
@@ -281,7 +285,8 @@ def mesh(image: Image, delta: Optional[float] = None, *, threads: int = 0,
         _set(mesher, Grading=None if grading is None else _GRADING[grading], FeatureRatio=feature_ratio, LargestFeature=largest_feature)
         _set(mesher, FacetAngle=facet_angle, SliverAngle=sliver_angle, Optimise=optimise,
              OptimisationTimeLimit=optimise_seconds, SampleJunctions=sample_junctions, InterfaceRounds=interface_rounds,
-             Manifold=manifold, SmallestComponent=smallest_component, MinimumComponentVolume=min_component_volume)
+             Manifold=manifold, SmallestComponent=smallest_component, ExactComponents=exact_components,
+             MinimumComponentVolume=min_component_volume)
     if isovalue is None:
         _refuse("only with isovalue", inside=inside, inside_label=inside_label)
         _set(mesher, SmoothingSigma=smoothing)

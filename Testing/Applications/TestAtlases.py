@@ -11,7 +11,8 @@ import numpy as np
 import meshfiles
 from program import ProgramTestCase, main
 
-AAL = Path("/usr/share/mricron/templates/aal.nii.gz")  # Debian: mricron-data
+TEMPLATES = Path("/usr/share/mricron/templates")  # Debian: mricron-data
+AAL = TEMPLATES / "aal.nii.gz"
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 KNEE = DATA / "spl-knee-atlas.nrrd"
 HEAD_NECK = DATA / "spl-head-neck-atlas.nrrd"
@@ -50,7 +51,44 @@ class Atlases(ProgramTestCase):
         self.assertLess(report["largest_regional_work"], 250)
         self.assertEqual(report["lost_components"], [])
 
-    # Nor here, where a life is hardly longer than delta. What is left there is out of bounds, and the user is told.
+    # Components that are thin beside delta have a few elements, so that coarse meshes are coarse; none is lost.
+    @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
+    def test_coarse_meshes_are_coarse(self):
+        for name, most in (("natbrainlab", 60000), ("inia19-NeuroMaps", 150000)):
+            with self.subTest(name):
+                report = self.statistics("--input", TEMPLATES / (name + ".nii.gz"), "--delta", 6, "--threads", 1,
+                                         "--output", "coarse.vtu")
+                self.assertLess(report["elements"], most)
+                self.assertEqual((report["lost_components"], report["lost_labels"]), ([], []))
+
+    # What is promised costs few elements. Slivers wedged between interfaces would be left over if refinement left them.
+    @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
+    def test_promises_cost_few_elements(self):
+        for name in ("HarvardOxford-cort-maxprob-thr0-1mm", "jhu189"):
+            with self.subTest(name):
+                image = ("--input", TEMPLATES / (name + ".nii.gz"), "--delta", 2, "--threads", 1, "--output", "mesh.vtu")
+                promised = self.statistics(*image)
+                plain = self.statistics(*image, "--no-optimise", "--sliver-angle", 0, "--smallest-component", 0,
+                                        "--no-junctions", "--interface-rounds", 0, "--no-manifold")
+                self.assertLess(promised["elements"], 1.1 * plain["elements"])
+                self.assertEqual(promised["optimisation"]["poor_after"], 0)
+
+    @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
+    def test_exact_components_whatever_delta(self):
+        errors, elements = [], []
+        for flags in ((), ("--exact-components",)):
+            done = self.call("--input", TEMPLATES / "natbrainlab.nii.gz", "--delta", 4, "--threads", 1, "--quality",
+                             "--stats", "statistics.json", *flags)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            report = json.loads((self.folder / "statistics.json").read_text())
+            self.assertEqual(report["parameters"]["exact_components"], bool(flags))
+            self.assertEqual(report["lost_components"], [])
+            errors.append(report["image"]["label_volume_error"])
+            elements.append(report["elements"])
+        self.assertLess(errors[1], 0.7 * errors[0])
+        self.assertGreater(elements[1], 2 * elements[0])
+
+    # Refinement did not end here either, where a life is hardly longer than delta. What is left there is out of bounds, and the user is told.
     @unittest.skipUnless(CASES.exists(), "the small cases are not beside the checkout")
     def test_short_lives_end(self):
         for name, options in (

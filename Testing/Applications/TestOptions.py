@@ -489,7 +489,7 @@ class Talk(ProgramTestCase):
         for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
-                      "--smallest-component", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
+                      "--smallest-component", "--exact-components", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
                      "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
                      "--sliver-bound", "--seed", "--no-fine-grained"):
             self.assertIn(flag, done.stdout)

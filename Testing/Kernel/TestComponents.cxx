@@ -431,13 +431,25 @@ TEST(ComponentGuard, KeepsIslandsThatAreSmallBesideDelta)
     MeshingOptions<3> options;
     options.Delta = 5.0;
     options.Threads = threads;
+    options.SmallestComponent = 0;
     MeshingStatistics statistics;
-    const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
-    EXPECT_EQ(CountFound(mesh, islands.Centres, 2, 1.5), 27u);
+    EXPECT_LT(CountFound(Mesh(islands.Image, options, statistics), islands.Centres, 2, 1.5), 27u);
+
+    options.SmallestComponent = 8;
+    const SimplexMesh<3> few = Mesh(islands.Image, options, statistics);
+    EXPECT_EQ(CountFound(few, islands.Centres, 2, 1.5), 27u);
     EXPECT_EQ(statistics.Components, 28u);
+    EXPECT_LE(statistics.ComponentSeeds, 27u * 6u);
+    EXPECT_GE(statistics.ComponentRounds, 1u);
+    EXPECT_TRUE(statistics.LostComponents.empty());
+
+    options.ExactComponents = true;
+    const SimplexMesh<3> exact = Mesh(islands.Image, options, statistics);
+    EXPECT_EQ(CountFound(exact, islands.Centres, 2, 1.5), 27u);
     EXPECT_GT(statistics.ComponentSeeds, 27u * 8u);
     EXPECT_EQ(statistics.ComponentRounds, 0u);
     EXPECT_TRUE(statistics.LostComponents.empty());
+    EXPECT_LT(few.Simplices.size(), exact.Simplices.size());
   }
 }
 
@@ -448,6 +460,7 @@ TEST(ComponentGuard, LeavesSmallerOnesAlone)
   MeshingOptions<3> options;
   options.Delta = 5.0;
   options.SmallestComponent = 9;
+  options.ExactComponents = true;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_LT(CountFound(mesh, islands.Centres, 2, 1.5), 27u);
@@ -513,7 +526,7 @@ TEST(ComponentGuard, GoesOnUntilNothingIsLost)
     const Components<3> components(image);
     const std::vector<double> delta(image.Values().size(), 3.0);
     LocalDelta<3> local(image);
-    const ComponentGuard<3> guard(image, domain, components, delta, 1, local, 1, {});
+    const ComponentGuard<3> guard(image, domain, components, delta, 1, false, local, 1, {});
     EXPECT_GT(guard.GetComponents().All().size(), 100u);
     EXPECT_TRUE(guard.FindLost(mesh).empty());
   }
@@ -549,7 +562,7 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
   const Components<3> components(islands.Image);
   const std::vector<double> delta(islands.Image.Values().size(), 5.0);
   LocalDelta<3> local(islands.Image);
-  ComponentGuard<3> guard(islands.Image, domain, components, delta, 8, local, 2, {});
+  ComponentGuard<3> guard(islands.Image, domain, components, delta, 8, false, local, 2, {});
   MeshingOptions<3> options;
   options.Delta = 5.0;
   MeshingStatistics statistics;
@@ -574,19 +587,22 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
     EXPECT_EQ(all[lost[0]].First[a] + islands.Image.CropOrigin()[a], 18);
   }
 
-  // More seeds, and a smaller bound, as often as there is room for them.
-  std::size_t seeds = guard.GetSeeds().size();
+  // Twice the six points around the middle, then those on all faces, again and again, with smaller bounds.
+  EXPECT_EQ(guard.NumberOfSeeds(), 0u);
   double smallest = local.Smallest();
+  std::size_t before = 0;
   int rounds = 0;
   while (guard.SampleFiner(lost))
   {
-    EXPECT_EQ(guard.GetSeeds().size(), seeds + 24);
-    EXPECT_LT(local.Smallest(), smallest);
-    seeds = guard.GetSeeds().size();
+    const std::vector<FeatureSeed<3>> seeds = guard.TakeSeeds();
+    EXPECT_EQ(seeds.size(), rounds < 2 ? 6u : 24u) << rounds;
+    EXPECT_EQ(guard.NumberOfSeeds(), before += seeds.size());
+    EXPECT_LE(local.Smallest(), smallest);
     smallest = local.Smallest();
     ASSERT_LT(++rounds, 10);
   }
-  EXPECT_GE(rounds, 2);
+  EXPECT_GE(rounds, 4);
+  EXPECT_LT(local.Smallest(), 0.5) << "of a cube of two voxels";
   EXPECT_FALSE(guard.SampleFiner({}));
 }
 

@@ -149,6 +149,7 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
   // A run that is far off is not optimised.
   options.Delta = statistics.Runs.front().Delta;
   options.Optimise = false;
+  options.TetSlivers.AngleInside = 3.0; // as with optimisation
   const auto elements = static_cast<double>(Mesh<3>(image, options).Simplices.size());
   EXPECT_NEAR(static_cast<double>(statistics.Runs.front().Elements), 0.96 * elements, 1.0);
 }
@@ -172,6 +173,7 @@ TEST(ElementTarget, KeepsTheNearestRunNotTheLast)
   {
     MeshingOptions<3> options;
     options.Elements = target;
+    options.ExactComponents = true;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     try

@@ -3,6 +3,7 @@
 // Whole meshes of phantoms: invariants, accuracy, sizes, options, cancelling.
 #include "CallableSize.h"
 #include "Error.h"
+#include "Geometry/SimplexQuality.h"
 #include "Image/LabelField.h"
 #include "ImageMesher.h"
 #include "Mesh/MeshQuality.h"
@@ -11,9 +12,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <thread>
 
@@ -242,6 +247,53 @@ TEST(ImageMesher, SliversAreSplit)
       EXPECT_NEAR(MeshVolume(without), MeshVolume(with), 0.01 * MeshVolume(with));
     }
   }
+}
+
+namespace
+{
+
+/** How many elements have their smallest dihedral angle between two bounds, in degrees. */
+std::size_t CountSlivers(const SimplexMesh<3>& mesh, double low, double high)
+{
+  return static_cast<std::size_t>(std::count_if(mesh.Simplices.begin(), mesh.Simplices.end(),
+    [&](const auto& simplex)
+    {
+      std::array<const Point<3>*, 4> points;
+      std::transform(simplex.begin(), simplex.end(), points.begin(),
+        [&](std::uint32_t v) { return &mesh.Points[v]; });
+      const double sine = SmallestDihedralSine(points.data());
+      const double angle = std::asin(sine) * 180.0 / std::numbers::pi;
+      return angle >= low && angle < high;
+    }));
+}
+
+} // namespace
+
+// Blocks of labels at random.
+TEST(ImageMesher, SliversInsideAreLeftToOptimisation)
+{
+  std::mt19937 random(3);
+  std::array<std::int16_t, 1000> labels;
+  for (std::int16_t& label : labels)
+  {
+    label = static_cast<std::int16_t>(random() % 8);
+  }
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(40),
+    [&](const Point<3>& p)
+    {
+      const auto block = [&](std::size_t a)
+      { return static_cast<std::size_t>(std::clamp(p[a] / 4.0, 0.0, 9.0)); };
+      return labels[block(0) + 10 * (block(1) + 10 * block(2))];
+    });
+  MeshingOptions<3> options;
+  options.Delta = 3.0;
+  const SimplexMesh<3> all = Mesh(image, options);
+  options.TetSlivers.AngleInside = 3.0;
+  const SimplexMesh<3> some = Mesh(image, options);
+  EXPECT_LT(some.Simplices.size(), 0.95 * static_cast<double>(all.Simplices.size()));
+  EXPECT_LE(CountSlivers(all, 0.0, 9.0), 20u);
+  EXPECT_LE(CountSlivers(some, 0.0, 3.0), 20u);
+  EXPECT_GT(CountSlivers(some, 3.0, 9.0), 100u);
 }
 
 // Thin wavy sheets in balls: slivers with all vertices on the two sides of the sheet, none of whose facets nor of

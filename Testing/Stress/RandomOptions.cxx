@@ -169,6 +169,7 @@ void DrawSpaceOptions(StressCase<3>& of, Random& random)
       1;
     options.Delta = 0.0;
   }
+  options.ExactComponents = random.Chance(0.2);
 }
 
 void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)

@@ -179,6 +179,7 @@ bool Reducer<D>::ResetOptionsOfDimension()
       VOXPLEX_MEMBER(Options.TetSlivers.PickingRadius), usual.TetSlivers.PickingRadius);
     changed |= this->TryToSet(
       VOXPLEX_MEMBER(Options.SmallestComponent), std::int64_t{ 0 }, usual.SmallestComponent);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.ExactComponents), usual.ExactComponents);
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), 0u, usual.InterfaceRounds);

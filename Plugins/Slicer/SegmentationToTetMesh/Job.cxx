@@ -122,6 +122,7 @@ void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
   filter->SetSampleJunctions(arguments.Text("junctions") == "on");
   filter->SetInterfaceRounds(arguments.Whole("interfaceRounds"));
   filter->SetSmallestComponent(arguments.Whole("smallestComponent"));
+  filter->SetExactComponents(arguments.IsSet("exactComponents"));
   filter->SetMinimumComponentVolume(arguments.Number("minimumVolume"));
   filter->ComputeQualityOn();
   filter->SetNumberOfThreads(arguments.Whole("threads"));

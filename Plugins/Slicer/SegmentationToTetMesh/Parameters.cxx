@@ -171,6 +171,14 @@ ParameterGroup Shapes()
           "to chance.",
         .LongFlag = "smallestcomponent",
         .Default = "8" },
+      { .Type = Kind::Boolean,
+        .Name = "exactComponents",
+        .Label = "Exact components",
+        .Description = "Sample these components as finely as they are thin, whatever delta. "
+                       "Otherwise those that "
+                       "are thin beside delta have a few tetrahedra.",
+        .LongFlag = "exactcomponents",
+        .Default = "false" },
       { .Type = Kind::Double,
         .Name = "minimumVolume",
         .Label = "Smallest volume",
@@ -293,7 +301,7 @@ ParameterGroup Quality()
           "delta from those of the mesh, or where the boundary of a label is not manifold. 0: "
           "never.",
         .LongFlag = "interfacerounds",
-        .Default = "5",
+        .Default = "8",
         .Limits = Constraints{ 0.0, 100.0, 1.0 } },
     } };
 }

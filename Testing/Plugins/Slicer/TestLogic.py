@@ -93,7 +93,7 @@ class FilterRunner:
                  "radiusEdge": "RadiusEdgeRatio", "facetAngle": "FacetAngle", "sliverAngle": "SliverAngle",
                  "gradation": "Gradation", "featureRatio": "FeatureRatio", "largestFeature": "LargestFeature",
                  "optimiseSeconds": "OptimisationTimeLimit", "interfaceRounds": "InterfaceRounds",
-                 "smallestComponent": "SmallestComponent", "minimumVolume": "MinimumComponentVolume",
+                 "smallestComponent": "SmallestComponent", "exactComponents": "ExactComponents", "minimumVolume": "MinimumComponentVolume",
                  "threads": "NumberOfThreads", "force": "Force"}
         for name, value in parameters.items():
             if name in names:

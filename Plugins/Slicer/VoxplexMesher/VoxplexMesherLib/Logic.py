@@ -45,6 +45,7 @@ class Settings:
     size: float = 0.0  # 0: no bound
     optimise: str = "on"  # or off
     smallestComponent: int = 8  # in voxels; 0: left to chance
+    exactComponents: bool = False  # whatever delta
     quality: bool = False  # compare with the label map
     interfaceSizes: str = ""  # see parseInterfaceSizes()
     gradation: float = 0.3  # 0: no limit
@@ -56,7 +57,7 @@ class Settings:
     sliverAngle: float = 9.0  # degrees; 0: slivers stay
     optimiseSeconds: float = 0.0  # 0: no limit
     junctions: str = "on"  # or off
-    interfaceRounds: int = 5
+    interfaceRounds: int = 8
     minimumVolume: float = 0.0  # of components, in cubic millimetres; 0: none is left out
     isovalue: float = 0.0  # of a volume, as the next two
     inside: str = "above"  # or below

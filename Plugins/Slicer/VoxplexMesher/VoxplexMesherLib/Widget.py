@@ -22,7 +22,7 @@ SPIN_BOXES = ("delta", "elements", "size", "smallestComponent", "gradation", "fe
               "greySmoothing", "threads")
 COMBO_BOXES = ("grading", "inside")
 SWITCHES = ("optimise", "junctions")  # check boxes of settings that are on or off
-FLAGS = ("quality", "force")  # check boxes of settings that are true or false
+FLAGS = ("exactComponents", "quality", "force")  # check boxes of settings that are true or false
 
 
 class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
@@ -135,10 +135,13 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "left to chance", "Connected components of a segment "
                                                               "with at least so many voxels, and its largest one, get tetrahedra, "
                                                               "however small they are beside delta")
+        self.exactComponentsCheckBox = self.makeCheckBox("Sample these components as finely as they are thin. Otherwise "
+                                                         "those that are thin beside delta have a few tetrahedra")
         self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
                                                  "non-manifold edges. The log has the figures")
         form.addRow("Optimise:", self.optimiseCheckBox)
         form.addRow("Smallest component (voxels):", self.smallestComponentSpinBox)
+        form.addRow("Exact whatever delta:", self.exactComponentsCheckBox)
         form.addRow("Compare with the segments:", self.qualityCheckBox)
 
     def buildAdvanced(self):
