@@ -28,8 +28,6 @@ constexpr double RadiusAtEdge = 0.5;
  * a sixth more elements.
  */
 constexpr double FirstSpacing = 0.8;
-constexpr double FirstGradedSpacing =
-  0.6; // of RemedyAt(), which is several times the delta that was asked for
 
 /** Bounds of circumballs are this times the spacing of points, but for the finest. */
 constexpr double BoundFactor = 2.0;
@@ -38,11 +36,7 @@ constexpr double BoundFactor = 2.0;
 constexpr double FinestVoxels = 0.2;
 
 /** Where delta is graded the mesh may be so many finest deltas away from interfaces; uniform meshes are about as far. */
-constexpr double SurfaceDistance = 1.1;
-/** There sampling around what is too far begins with so many finest deltas, at most. */
-constexpr double Coarsest = 4.0;
-/** And circumballs are bounded where spacings are at most so many finest deltas. */
-constexpr double CoarsestBound = 0.25;
+constexpr double SurfaceDistance = 1.22;
 /** From faces of voxels it may be so many times as far, for their stairs. */
 constexpr double StairFactor = 1.15;
 
@@ -155,7 +149,7 @@ double InterfaceGuard::DensestAt(const Point<3>& p) const
 double InterfaceGuard::RemedyAt(const Face& face) const
 {
   const double delta = this->DeltaAt(face);
-  return this->Base.Graded ? std::min(delta, Coarsest * this->Base.Asked) : delta;
+  return this->Base.Graded ? std::min(delta, this->Base.Asked) : delta;
 }
 
 bool InterfaceGuard::IsFar(const Face& face, const Interfaces& mesh, Hint& hint) const
@@ -385,8 +379,7 @@ InterfaceGuard::Index InterfaceGuard::CellOf(const Face& face)
 /** Halved from visit to visit; the last is at the finest spacing, after it 0. */
 double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 {
-  const double first =
-    (this->Base.Graded ? FirstGradedSpacing : FirstSpacing) * this->RemedyAt(face);
+  const double first = FirstSpacing * this->RemedyAt(face);
   const double spacing = std::ldexp(first, -static_cast<int>(visit));
   if (spacing >= this->FinestSpacing)
   {
@@ -397,9 +390,7 @@ double InterfaceGuard::SpacingAt(const Face& face, unsigned visit) const
 
 //------------------------------------------------------------------------------------------------
 // Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
-// element has its label. R1 with a smaller delta makes circumballs small enough. Bounds grade into all of the label, so
-// where delta is graded and spacings begin with coarser ones no bound is set before points are nearer to each other than
-// they are elsewhere.
+// element has its label. R1 with a smaller delta makes circumballs small enough.
 void InterfaceGuard::LowerBound(const Face& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
@@ -408,7 +399,7 @@ void InterfaceGuard::LowerBound(const Face& face)
     return;
   }
   const double spacing = this->SpacingAt(face, visits->second);
-  if (spacing > 0.0 && (!this->Base.Graded || spacing <= CoarsestBound * this->Base.Asked))
+  if (spacing > 0.0)
   {
     const LabelId label = std::max(this->Image.At(face.Voxel), this->Image.At(face.Next()));
     const bool isFinest = spacing <= this->FinestSpacing;

@@ -37,7 +37,7 @@ namespace voxplex
  * tetrahedra of their labels alternate around edges. It looks for
  * - faces between voxels of different labels that have no vertex of the interfaces within LargestDistance times
  *   delta, or a voxel's diagonal if that is more; where delta is graded and vertices may be rare, from which the mesh's
- *   triangles are farther than 1.1 times the delta that was asked for, or half a voxel's diagonal if that is more;
+ *   triangles are farther than 1.22 times the delta that was asked for, or half a voxel's diagonal if that is more;
  * - pinches: edges that are not manifold on the boundary of some label, where other than two of its facets meet.
  *
  * Around each of these it proposes points of the interfaces half a delta apart (a quarter, if it comes there
@@ -155,7 +155,7 @@ private:
   double SpacingAt(const Face& face, unsigned visit) const;
   double DeltaAt(const Face& face) const;
   double DeltaAt(const Face& face, const Point<3>& centre) const;
-  /** What sampling around a far face begins with: delta, but not much more than was asked for. */
+  /** What sampling around a far face begins with: delta, but where that is graded no more than was asked for. */
   double RemedyAt(const Face& face) const;
   double DensestAt(const Point<3>& p) const;
   Point<3> CentreOf(const Face& face) const;

@@ -70,6 +70,9 @@ constexpr double SliversLeftToOptimisation = 3.0;
 /** Spacing of the points by which local feature sizes are measured, in delta. */
 constexpr double GradingSampleSpacing = 0.75;
 
+/** Of the distance from interfaces that is asked for: too coarse a start takes more elements in the end. */
+constexpr double GradingTolerance = 0.9;
+
 /** How far optimisation may move vertices off interfaces as a last means, in smallest voxel spacings. */
 constexpr double OptimisationTolerance = 0.1;
 
@@ -418,7 +421,8 @@ std::unique_ptr<const LocalFeatureSize> MeshingStages<D>::Grade(const Prepared& 
       parameters.SampleSpacing = GradingSampleSpacing * this->Stats.Delta;
       parameters.Salience =
         std::max({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2), parameters.SampleSpacing });
-      parameters.Tolerance = InterfaceGuard::LargestSurfaceDistance(grid, this->Stats.Delta);
+      parameters.Tolerance =
+        GradingTolerance * InterfaceGuard::LargestSurfaceDistance(grid, this->Stats.Delta);
       grading = std::make_unique<const LocalFeatureSize>(
         prepared.Image, prepared.Domain, parameters, this->Options.Threads, prepared.Stop);
       this->Stats.GradingSamples = grading->Sample().size();
