@@ -35,7 +35,7 @@ inline std::string NameOf(ContentionPolicy policy)
 class Watchdog
 {
 public:
-  explicit Watchdog(std::string what, std::chrono::seconds patience = std::chrono::seconds(100))
+  explicit Watchdog(std::string what, std::chrono::seconds patience = std::chrono::seconds(550))
     : Thread([this, what = std::move(what), patience]() { this->Watch(what, patience); })
   {
   }
