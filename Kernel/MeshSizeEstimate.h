@@ -29,9 +29,9 @@ struct MeshSizeEstimate
 };
 
 /**
- * Right to about a factor of two. A size function is sampled at some ten thousand voxels.
- * Cost: one pass over the image's bounding box. The result
- * does not depend on the number of threads.
+ * Right to about a factor of two; far too low for layers thinner than delta, which are refined far below it. A size
+ * function is sampled at some ten thousand voxels.
+ * Cost: one pass over the image's bounding box. The result does not depend on the number of threads.
  *
  * @param sizeFloor sizes below this are raised to it
  * @param size may be null

@@ -62,6 +62,7 @@ bool Triangulation<D>::ExpandLevel(
     {
       if (n != None && this->Marks[n] == SimplexMark::Alive)
       {
+        assert(this->OwnsFacet(worker, n));
         this->Marks[n] = SimplexMark::Outside;
         worker.Touched.Push(n);
         worker.Candidates.Push({ n, s, 0, false });
@@ -142,7 +143,7 @@ void Triangulation<D>::FillWithHelp(Worker& worker, VertexId apex)
   {
     const SimplexId s = this->NewSimplex(worker);
     worker.Created[k] = s;
-    this->PlaceSimplex(s, this->Simplices[s], worker.Boundary[k], apex);
+    this->PlaceSimplex(worker, s, this->Simplices[s], worker.Boundary[k], apex);
   }
   this->Vertices[apex].Incident = worker.Created[0];
   const Point<D> p = this->Position(apex);

@@ -17,6 +17,7 @@ template <int D>
 InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, VertexKind kind,
   SimplexId seed, double clearance, Judge* judge)
 {
+  assert(this->OwnsFacet(worker, seed));
   if (!this->InConflict(worker, seed, p))
   {
     for (VertexId v : this->Simplices[seed].V)
@@ -117,6 +118,7 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
       std::uint32_t back = 0;
       if (n != None)
       {
+        assert(this->OwnsFacet(worker, n));
         SimplexMark& mark = this->Marks[n];
         if (mark == SimplexMark::Cavity)
         {
@@ -167,6 +169,7 @@ inline void Triangulation<D>::NumberLink(Worker& worker, const Point<D>& apex)
   std::uint32_t count = 0;
   for (const VertexId v : worker.Joined)
   {
+    assert(this->Owns(worker, v));
     Vertex& vertex = this->Vertices[v];
     const bool isNew = vertex.Local >= count || worker.Link[vertex.Local] != v;
     vertex.Local = isNew ? count : vertex.Local;
@@ -228,6 +231,7 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
   }
   for (SimplexId s : worker.Touched)
   {
+    assert(this->OwnsFacet(worker, s));
     this->Marks[s] = SimplexMark::Alive;
   }
 
@@ -244,7 +248,7 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
     const SimplexId s = this->NewSimplex(worker);
     worker.Created[k] = s;
     Simplex& simplex = this->Simplices[s];
-    this->PlaceSimplex(s, simplex, facet, apex);
+    this->PlaceSimplex(worker, s, simplex, facet, apex);
     this->SetBall(worker, simplex, facet, p);
   }
   this->Vertices[apex].Incident = worker.Created[0];
@@ -255,10 +259,11 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 //------------------------------------------------------------------------------------------------
 // The new simplex on a facet of the boundary, with all but its ball and its new neighbours.
 template <int D>
-inline void Triangulation<D>::PlaceSimplex(
-  SimplexId s, Simplex& simplex, BoundaryFacet& facet, VertexId apex)
+inline void Triangulation<D>::PlaceSimplex([[maybe_unused]] const Worker& worker, SimplexId s,
+  Simplex& simplex, BoundaryFacet& facet, VertexId apex)
 {
   facet.V[facet.Apex] = apex;
+  assert(this->OwnsAll(worker, facet.V));
   this->SetVertices(simplex, facet.V);
   for (unsigned m = 0; m < static_cast<unsigned>(D); ++m)
   {
@@ -270,6 +275,7 @@ inline void Triangulation<D>::PlaceSimplex(
   simplex.N[facet.Apex] = facet.Outer;
   if (facet.Outer != None)
   {
+    assert(this->OwnsFacet(worker, facet.Outer));
     this->Simplices[facet.Outer].N[facet.OuterIndex] = s;
   }
 }
@@ -409,10 +415,12 @@ void Triangulation<D>::RestoreMarks(Worker& worker)
 {
   for (SimplexId s : worker.Deleted)
   {
+    assert(this->OwnsFacet(worker, s));
     this->Marks[s] = SimplexMark::Alive;
   }
   for (SimplexId s : worker.Touched)
   {
+    assert(this->OwnsFacet(worker, s));
     this->Marks[s] = SimplexMark::Alive;
   }
 }

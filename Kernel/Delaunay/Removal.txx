@@ -21,6 +21,7 @@ namespace voxplex
 template <int D>
 RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
 {
+  assert(this->Owns(worker, v));
   if (this->Vertices[v].Kind == VertexKind::Box)
   {
     return RemovalOutcome::OnBox;
@@ -87,6 +88,7 @@ bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
       {
         if (n != None && this->Marks[n] == SimplexMark::Alive)
         {
+          assert(this->OwnsFacet(worker, n));
           this->Marks[n] = SimplexMark::Cavity;
           worker.Deleted.Push(n);
         }
@@ -273,13 +275,14 @@ void Triangulation<D>::CommitFilling(Worker& worker)
   {
     const FillingSimplex& filling = worker.Filling[k];
     const SimplexId s = worker.Created[k];
-    this->WriteSimplex(s, filling.V);
+    this->WriteSimplex(worker, s, filling.V);
     for (unsigned i = 0; i < N; ++i)
     {
       const typename FillingSimplex::Neighbour& n = filling.Neighbours[i];
       this->Simplices[s].N[i] = n.InFilling ? worker.Created[n.Id] : n.Id;
       if (!n.InFilling && n.Id != None)
       {
+        assert(this->OwnsFacet(worker, n.Id));
         this->Simplices[n.Id].N[n.Index] = s;
       }
     }

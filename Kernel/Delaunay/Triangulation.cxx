@@ -96,7 +96,7 @@ void Triangulation<D>::BuildCorners()
     }
     this->ReserveSimplices(worker, 1);
     const SimplexId s = this->NewSimplex(worker);
-    this->WriteSimplex(s, simplex);
+    this->WriteSimplex(worker, s, simplex);
     const std::uint32_t number = static_cast<std::uint32_t>(made.size());
     made.push_back(s);
     for (unsigned i = 0; i < N; ++i)

@@ -15,6 +15,7 @@
 #include "Parallel/HelpDesk.h"
 
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -233,6 +234,13 @@ public:
   /** Gives back all vertices that the worker owns. */
   void Unlock(Worker& worker);
 
+  /** Whether the worker may change the star of a vertex. A worker that is alone owns everything. */
+  bool Owns(const Worker& worker, VertexId v) const;
+  /** Whether it owns all vertices of a simplex: it may delete it. */
+  bool OwnsAll(const Worker& worker, const std::array<VertexId, N>& v) const;
+  /** Whether it owns all but one: it may mark the simplex, and write its state and its neighbours. */
+  bool OwnsFacet(const Worker& worker, SimplexId s) const;
+
   /**
    * Inserts a point.
    * @param p inside or on the box
@@ -337,7 +345,7 @@ private:
   void ReserveVertex(Worker& worker);
   SimplexId NewSimplex(Worker& worker);
   VertexId NewVertex(Worker& worker, const Point<D>& p, VertexKind kind);
-  void WriteSimplex(SimplexId s, const std::array<VertexId, N>& v);
+  void WriteSimplex(const Worker& worker, SimplexId s, const std::array<VertexId, N>& v);
   void Kill(Worker& worker, SimplexId s);
   void RestoreMarks(Worker& worker);
 
@@ -349,7 +357,7 @@ private:
   void TestCandidates(Worker& worker, const Point<D>& p, std::size_t level);
   void FillWithHelp(Worker& worker, VertexId apex);
   [[gnu::always_inline]] inline void PlaceSimplex(
-    SimplexId s, Simplex& simplex, BoundaryFacet& facet, VertexId apex);
+    const Worker& worker, SimplexId s, Simplex& simplex, BoundaryFacet& facet, VertexId apex);
   void FillCavity(Worker& worker, VertexId apex);
   void NumberLink(Worker& worker, const Point<D>& apex);
   inline void SetBall(
@@ -396,6 +404,7 @@ inline std::array<const Point<D>*, Triangulation<D>::N> Triangulation<D>::Points
 template <int D>
 inline std::uint32_t Triangulation<D>::NumberVertex(Worker& worker, VertexId v)
 {
+  assert(this->Owns(worker, v));
   std::uint32_t& local = this->Vertices[v].Local;
   if (local >= worker.Link.Size() || worker.Link[local] != v)
   {
@@ -432,6 +441,7 @@ template <int D>
 inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, VertexKind kind)
 {
   const VertexId v = worker.FreeVertices.Pop();
+  assert(this->Owns(worker, v));
   Vertex& vertex = this->Vertices[v];
   vertex.Position = p;
   vertex.Incident = None;
@@ -465,6 +475,40 @@ inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
   }
   worker.Winner = current;
   return false;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline bool Triangulation<D>::Owns(const Worker& worker, VertexId v) const
+{
+  // const_cast: atomic_ref to const is not in C++20; only read here
+  return worker.Id == 0 ||
+    std::atomic_ref<WorkerId>(const_cast<WorkerId&>(this->Vertices[v].Owner))
+      .load(std::memory_order_relaxed) == worker.Id;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline bool Triangulation<D>::OwnsAll(const Worker& worker, const std::array<VertexId, N>& v) const
+{
+  bool all = true;
+  for (const VertexId w : v)
+  {
+    all = all && this->Owns(worker, w);
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+inline bool Triangulation<D>::OwnsFacet(const Worker& worker, SimplexId s) const
+{
+  unsigned others = 0;
+  for (const VertexId v : this->Simplices[s].V)
+  {
+    others += this->Owns(worker, v) ? 0 : 1;
+  }
+  return others <= 1;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -525,6 +569,7 @@ inline void Triangulation<D>::Unlock(Worker& worker)
 {
   for (const VertexId v : worker.Owned)
   {
+    assert(this->Owns(worker, v));
     std::atomic_ref<WorkerId>(this->Vertices[v].Owner).store(0, std::memory_order_release);
   }
   worker.Owned.Clear();
@@ -543,8 +588,10 @@ inline void Triangulation<D>::SetVertices(Simplex& simplex, const std::array<Ver
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-inline void Triangulation<D>::WriteSimplex(SimplexId s, const std::array<VertexId, N>& v)
+inline void Triangulation<D>::WriteSimplex(
+  [[maybe_unused]] const Worker& worker, SimplexId s, const std::array<VertexId, N>& v)
 {
+  assert(this->OwnsAll(worker, v));
   Simplex& simplex = this->Simplices[s];
   this->SetVertices(simplex, v);
   std::array<const Point<D>*, N> points;
@@ -564,6 +611,7 @@ inline void Triangulation<D>::WriteSimplex(SimplexId s, const std::array<VertexI
 template <int D>
 inline void Triangulation<D>::Kill(Worker& worker, SimplexId s)
 {
+  assert(this->OwnsAll(worker, this->Simplices[s].V));
   this->Marks[s] = SimplexMark::Unused;
   SimplexState& state = this->States[s];
   std::atomic_ref<std::uint32_t>(state.Generation)

@@ -85,9 +85,9 @@ public:
   bool NearSurfacePoint(
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**
-   * The point found lies on an interface of `label` to FieldType::RootTolerance voxels (0.005, or 0.001 for
-   * isosurfaces) and is on average a few hundredths of a voxel farther from p than the nearest one.
-   * False only if p does not have `label`.
+   * The point found lies on an interface of `label` to FieldType::RootTolerance voxels (0.005, or 0.001 for isosurfaces)
+   * and is on average a few hundredths of a voxel farther from p than the nearest one. Outside of the lattice it is near
+   * the voxel nearest to the lattice's nearest point, not to p. False only if p does not have `label`.
    */
   bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
   /** Steps of half a voxel, longer ones where the distance bounds allow it. */

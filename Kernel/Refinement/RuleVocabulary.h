@@ -10,6 +10,7 @@
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace voxplex
@@ -84,6 +85,8 @@ public:
       this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
     if (conflict != None)
     {
+      this->Context.Mesh.Lock( // nobody else operates, so it succeeds
+        this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
       this->InsertFeature(
         seed.Position, seed.Delta, 0.0, conflict, None, this->Worker.Statistics.Fired[0]);
       near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
@@ -142,6 +145,7 @@ protected:
 
   Element MakeElement(SimplexId id)
   {
+    assert(this->Context.Mesh.OwnsAll(this->Worker.Kernel, this->Context.Mesh.GetSimplex(id).V));
     Element t;
     t.Id = id;
     t.Ball = this->Context.Mesh.GetCircumball(id);
@@ -152,6 +156,7 @@ protected:
 
   LabelId LabelOf(SimplexId t)
   {
+    assert(this->Context.Mesh.OwnsFacet(this->Worker.Kernel, t));
     const SimplexState& state = this->Context.Mesh.State(t);
     return state.Labelled ? state.Label
                           : this->LabelOf(t, this->Context.Mesh.GetCircumball(t).Center);

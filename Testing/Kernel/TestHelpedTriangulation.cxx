@@ -131,6 +131,8 @@ bool InsertAndCompare(
       continue; // a vertex already
     }
     const VertexKind kind = KindOf<D>(p, size);
+    EXPECT_EQ(helped.Lock(team.Worker, seed, helped.State(seed).Generation), LockOutcome::Locked);
+    EXPECT_EQ(alone.Lock(sequential, seed, alone.State(seed).Generation), LockOutcome::Locked);
     EXPECT_EQ(helped.Insert(team.Worker, p, kind, seed), InsertionOutcome::Inserted);
     EXPECT_EQ(alone.Insert(sequential, p, kind, seed), InsertionOutcome::Inserted);
     EXPECT_EQ(team.Worker.Deleted.Size(), sequential.Deleted.Size());

@@ -427,7 +427,9 @@ TEST(IsosurfaceMeshing, SpaceTime)
   }
   const auto integral = [](double r) { return std::numbers::pi / 3.0 * r * r * r * r; };
   const double expected = (integral(5.0) - integral(4.0)) / 0.25;
-  EXPECT_NEAR(volume, expected, 0.15 * expected);
+  // Its vertices lie on a surface that is convex at every time: the mesh is inside, by what chords of 1.5 cut off.
+  EXPECT_LT(volume, expected);
+  EXPECT_GT(volume, 0.87 * expected);
   for (const Point<4>& p : mesh.Points)
   {
     ASSERT_GE(p[3], 0.0);

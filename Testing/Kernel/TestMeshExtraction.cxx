@@ -24,7 +24,7 @@ using namespace voxplex;
 namespace
 {
 
-/** Whoever comes first waits until another thread comes, or for ten seconds. */
+/** Whoever comes first waits until another thread comes, or for longer than any machine is that busy. */
 class Meeting
 {
 public:
@@ -34,7 +34,7 @@ public:
     this->Threads.insert(std::this_thread::get_id());
     this->Changed.notify_all();
     const auto isOver = [this] { return this->Threads.size() > 1 || this->Failed; };
-    this->Failed = !this->Changed.wait_for(lock, std::chrono::seconds(10), isOver) || this->Failed;
+    this->Failed = !this->Changed.wait_for(lock, std::chrono::seconds(100), isOver) || this->Failed;
   }
   bool TookPlace() const { return this->Threads.size() > 1; }
 

@@ -8,7 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <numbers>
 
 using namespace voxplex;
 
@@ -33,20 +36,48 @@ public:
   mutable std::stop_source Stop;
 };
 
+constexpr double Radius =
+  40.0; ///< of the outer of three nested balls: more rows and samples than one chunk
+
+/** 1 / size^3 summed over all voxels of the balls; no size is below the floor. */
+double BallsInBalls(const Sizes& sizes, double floor)
+{
+  const double c = Radius + 3.5; // as phantoms::NestedBalls has it
+  double sum = 0.0;
+  for (double z = 0.0; z <= 2.0 * c; ++z)
+  {
+    for (double y = 0.0; y <= 2.0 * c; ++y)
+    {
+      for (double x = 0.0; x <= 2.0 * c; ++x)
+      {
+        if (Distance<3>({ x, y, z }, { c, c, c }) < Radius)
+        {
+          sum += std::pow(std::max(sizes.Evaluate({ x, y, z }, 1), floor), -3.0);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
 } // namespace
 
 TEST(MeshSizeEstimate, DoesNotDependOnThreads)
 {
-  const LabelImage<3> image = phantoms::NestedBalls(40.0); // more rows and samples than one chunk
+  const LabelImage<3> image = phantoms::NestedBalls(Radius);
+  // Three spheres, the inner two with a third and two thirds of the radius; delta is 1.
+  const double area = 4.0 * std::numbers::pi * Radius * Radius * (1.0 + 4.0 / 9.0 + 1.0 / 9.0);
+  const double interfaceElements = 4.7 * 0.65 * area;
   const Sizes sizes;
   for (const double floor : { 0.01, 0.105, 0.2 })
   {
     const MeshSizeEstimate one = EstimateMeshSize<3>(image, 1.0, floor, &sizes, 1);
     EXPECT_EQ(one.SizesBelowFloor, floor > 0.1);
-    // Sizes are between 0.1 and 0.11 but for the floor; five elements per size^3.
-    const double volume = 4.0 / 3.0 * 3.14159265 * 40.0 * 40.0 * 40.0;
-    EXPECT_GT(static_cast<double>(one.Elements), 0.95 * 5.0 * volume / std::pow(0.2, 3));
-    EXPECT_LT(static_cast<double>(one.Elements), 1.10 * 5.0 * volume / std::pow(0.1, 3));
+    // Five elements per size^3, beside those of the interfaces. The estimate looks at one voxel in ten.
+    const double elements = 5.0 * BallsInBalls(sizes, floor) + interfaceElements;
+    EXPECT_NEAR(
+      static_cast<double>(one.InterfaceElements), interfaceElements, 0.02 * interfaceElements);
+    EXPECT_NEAR(static_cast<double>(one.Elements), elements, 0.01 * elements);
     for (const unsigned threads : { 0u, 2u, 3u, 8u })
     {
       const MeshSizeEstimate other = EstimateMeshSize<3>(image, 1.0, floor, &sizes, threads);

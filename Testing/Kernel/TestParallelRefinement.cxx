@@ -5,6 +5,7 @@
 #include "BallDomain.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
+#include "Parallel/CycleClock.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 #include "RefinementChecks.h"
@@ -160,10 +161,14 @@ std::uint64_t CountSimplices(const Triangulation<3>& mesh)
   return count;
 }
 
-/** What the counts say must be what there is. */
-void ExpectConsistentStatistics(
-  const RefinementContext<3>& context, Refiner<Rules3D>& refiner, unsigned threads)
+/**
+ * What the counts say must be what there is.
+ * @param clock made before the run
+ */
+void ExpectConsistentStatistics(const RefinementContext<3>& context, Refiner<Rules3D>& refiner,
+  unsigned threads, const CycleClock& clock)
 {
+  const double seconds = clock.Seconds();
   const RuleStatistics rules = refiner.GetRuleStatistics();
   const std::vector<ThreadStatistics> each = refiner.GetThreadStatistics();
   ASSERT_EQ(each.size(), threads);
@@ -178,12 +183,12 @@ void ExpectConsistentStatistics(
       std::accumulate(thread.Received.begin(), thread.Received.end(), std::uint64_t{ 0 });
     EXPECT_LE(gifts, thread.ReceivedElements) << "an empty gift was counted";
     EXPECT_EQ(gifts == 0, thread.ReceivedElements == 0);
-    for (const double seconds :
-      { thread.ContentionSeconds, thread.LoadBalanceSeconds, thread.RollbackSeconds })
-    {
-      EXPECT_GE(seconds, 0.0);
-      EXPECT_LT(seconds, 600.0);
-    }
+    // A thread loses time once only, to rollbacks if there were any. At the end one of several begs.
+    EXPECT_EQ(thread.RollbackSeconds > 0.0, thread.Rollbacks > 0);
+    EXPECT_EQ(thread.ContentionSeconds > 0.0, thread.Rollbacks > 0);
+    EXPECT_TRUE(threads == 1 || thread.LoadBalanceSeconds > 0.0);
+    EXPECT_LE(
+      thread.ContentionSeconds + thread.LoadBalanceSeconds + thread.RollbackSeconds, seconds);
   }
   EXPECT_EQ(insertions,
     std::accumulate(rules.Fired.begin(), rules.Fired.end(), std::uint64_t{ 0 }) +
@@ -237,12 +242,14 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
       team.SeedsPerThread = run % 3 == 1 ? 128 : 0;
       ++run;
       Refiner<Rules3D> refiner(context, team);
+      const CycleClock clock;
       ASSERT_TRUE(refiner.Run(nullptr));
       ExpectSoundAndUnlocked(context.Mesh);
       ExpectNoRuleApplies(context, smooth);
-      ExpectConsistentStatistics(context, refiner, threads);
+      ExpectConsistentStatistics(context, refiner, threads, clock);
       checks::ExtractSphere(context, smooth);
       EXPECT_GT(refiner.GetSecondsToSeed(), 0.0);
+      EXPECT_LT(refiner.GetSecondsToSeed(), clock.Seconds());
       for (const ThreadStatistics& thread : refiner.GetThreadStatistics())
       {
         rollbacks += thread.Rollbacks;
@@ -322,10 +329,11 @@ TEST(ParallelRefinementOfOne, SynchronisedThread)
   TeamOptions team = Team(1);
   team.Synchronise = true;
   Refiner<Rules3D> refiner(context, team);
+  const CycleClock clock;
   ASSERT_TRUE(refiner.Run(nullptr));
   ExpectSoundAndUnlocked(context.Mesh);
   ExpectNoRuleApplies(context, ball);
-  ExpectConsistentStatistics(context, refiner, 1);
+  ExpectConsistentStatistics(context, refiner, 1, clock);
   checks::ExtractSphere(context, ball);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Rollbacks, 0u);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Waits, 0u);
@@ -337,8 +345,9 @@ TEST(ParallelRefinementOfOne, StatisticsOfOneThread)
   const BallDomain ball(5.0);
   RefinementContext<3> context(ball, Settings(1.0), Around(ball, 1.0), 1000);
   Refiner<Rules3D> refiner(context);
+  const CycleClock clock;
   ASSERT_TRUE(refiner.Run(nullptr));
-  ExpectConsistentStatistics(context, refiner, 1);
+  ExpectConsistentStatistics(context, refiner, 1, clock);
   EXPECT_FALSE(refiner.SwitchedToLocal());
 }
 
@@ -352,10 +361,11 @@ TEST(ParallelRefinementOfMany, ThirtyTwoThreadsOnAnObjectSmallerThanDelta)
   {
     RefinementContext<3> context(ball, Settings(delta), Around(ball, delta), 1000);
     Refiner<Rules3D> refiner(context, Team(32));
+    const CycleClock clock;
     ASSERT_TRUE(refiner.Run(nullptr));
     ExpectSoundAndUnlocked(context.Mesh);
     ExpectNoRuleApplies(context, ball);
-    ExpectConsistentStatistics(context, refiner, 32);
+    ExpectConsistentStatistics(context, refiner, 32, clock);
   }
 }
 

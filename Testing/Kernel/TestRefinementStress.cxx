@@ -23,7 +23,7 @@ using voxplex::testing::Watchdog;
 namespace
 {
 
-constexpr int ImagesPerPolicy = Sanitized ? 10 : 150;
+constexpr int ImagesPerPolicy = Sanitized ? 4 : 150;
 
 using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
 

@@ -141,6 +141,7 @@ TEST_F(RulesInContention, APutOffRemovalBringsUpOthers)
   const auto insert = [&](const Point<3>& p, VertexKind kind)
   {
     const SimplexId seed = mesh.FindConflict(this->One.Kernel, p, mesh.GetVertex(0).Incident);
+    EXPECT_EQ(mesh.Lock(this->One.Kernel, seed, mesh.State(seed).Generation), LockOutcome::Locked);
     EXPECT_EQ(mesh.Insert(this->One.Kernel, p, kind, seed), InsertionOutcome::Inserted);
     return this->One.Kernel.NewVertex;
   };

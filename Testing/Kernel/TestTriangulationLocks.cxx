@@ -308,3 +308,44 @@ TEST_F(TwoWorkers, AFreedVertexThatIsLockedIsNotReused)
   EXPECT_EQ(insert({ 0.3, 0.45, 0.6 }), w) << "otherwise it is";
   ExpectDelaunay(this->T, 1.0);
 }
+
+// Assertions are on in builds with a sanitizer: whoever changes a simplex without its locks is found out.
+#ifndef NDEBUG
+using TwoWorkersDeathTest = TwoWorkers;
+
+TEST_F(TwoWorkersDeathTest, NobodyRemovesAVertexThatItDoesNotOwn)
+{
+  EXPECT_DEATH(this->T.Remove(this->One, this->Inside[0]), "Owns");
+}
+
+TEST_F(TwoWorkersDeathTest, NobodyInsertsFromASimplexThatItDoesNotOwn)
+{
+  const Point<3> p = { 0.4, 0.5, 0.6 };
+  const SimplexId seed = this->Conflict(p);
+  EXPECT_DEATH(this->T.Insert(this->One, p, VertexKind::Free, seed), "OwnsFacet");
+}
+
+TEST_F(TwoWorkersDeathTest, NobodyDeletesACavityThatItOwnsNoMore)
+{
+  struct Careless final : Triangulation<3>::Judge
+  {
+    bool Accepts(const Triangulation<3>::Worker&) override
+    {
+      this->T.Unlock(this->Own);
+      return true;
+    }
+    Triangulation<3>& T;
+    Triangulation<3>::Worker& Own;
+    Careless(Triangulation<3>& t, Triangulation<3>::Worker& own)
+      : T(t)
+      , Own(own)
+    {
+    }
+  };
+  const Point<3> p = { 0.4, 0.5, 0.6 };
+  const SimplexId seed = this->Conflict(p);
+  ASSERT_EQ(this->Lock(this->One, seed), LockOutcome::Locked);
+  Careless careless(this->T, this->One);
+  EXPECT_DEATH(this->T.Insert(this->One, p, VertexKind::Free, seed, 0.0, &careless), "OwnsAll");
+}
+#endif

@@ -35,7 +35,7 @@ inline std::string NameOf(ContentionPolicy policy)
 class Watchdog
 {
 public:
-  explicit Watchdog(std::string what, std::chrono::seconds patience = std::chrono::seconds(100))
+  explicit Watchdog(std::string what, std::chrono::seconds patience = std::chrono::seconds(550))
     : Thread([this, what = std::move(what), patience]() { this->Watch(what, patience); })
   {
   }
@@ -70,7 +70,7 @@ private:
 
 /** Waits until something is true that other threads bring about; false after `patience`. */
 inline bool Soon(const std::function<bool()>& condition,
-  std::chrono::milliseconds patience = std::chrono::milliseconds(20000))
+  std::chrono::milliseconds patience = std::chrono::milliseconds(100000))
 {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (!condition())
