@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadImage.h"
 
+#include "DICOMCheck.h"
+#include "DataFiles.h"
 #include "FileChecks.h"
 #include "FileError.h"
 #include "LibraryMessages.h"
@@ -279,7 +281,8 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   }
   else if (format == "NrrdImageIO" || format == "MetaImageIO")
   {
-    fault = FindFaultOfTextHeader(path);
+    fault = FindFaultOfNamedFiles(path);
+    fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
   }
   if (!fault.empty())
   {
@@ -297,6 +300,10 @@ ScalarImage ReadWith(const std::string& path, const FileNames& files, itk::Image
     CheckFile(files.front(), *io);
     io->ReadImageInformation();
     CheckHeader(path, *io);
+    if (const std::string fault = FindFaultOfSize(files, *io); !fault.empty())
+    {
+      Refuse(path, fault);
+    }
     ScalarImage image = ReadChecked(path, files, io, warnings);
     if (const std::string damage = messages.DamageReport(); !damage.empty())
     {
@@ -342,7 +349,12 @@ void CheckReadable(const std::string& path)
   {
     Refuse(path, std::strerror(errno));
   }
-  if (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0)
+  const fs::file_status status = fs::status(path, ignored);
+  if (!fs::is_regular_file(status) && !fs::is_directory(status))
+  {
+    Refuse(path, "it is neither a regular file nor a folder");
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, ignored) == 0)
   {
     Refuse(path, "the file is empty");
   }
@@ -358,6 +370,10 @@ bool IsPicture(const itk::ImageIOBase& io)
 ScalarImage ReadFile(
   const std::string& path, LibraryMessages& messages, std::vector<std::string>& warnings)
 {
+  if (const std::string fault = FindFaultOfDICOM(path); !fault.empty())
+  {
+    Refuse(path, fault);
+  }
   const auto io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
   if (!io)
   {
@@ -420,9 +436,29 @@ std::string ChooseSeries(const std::string& path, itk::GDCMSeriesFileNames* name
   return matching.front();
 }
 
+/** Before GDCM reads all of them to see what series there are. */
+void CheckFilesOfFolder(const std::string& path)
+{
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
+  {
+    const std::string name = "'" + entry.path().filename().string() + "'";
+    const fs::file_status status = entry.status(ignored);
+    if (fs::is_fifo(status) || fs::is_character_file(status))
+    {
+      Refuse(path, name + " is not a regular file");
+    }
+    if (const std::string fault = FindFaultOfDICOM(entry.path().string()); !fault.empty())
+    {
+      Refuse(path, name + ": " + fault);
+    }
+  }
+}
+
 ScalarImage ReadFolder(const std::string& path, const std::string& wanted,
   LibraryMessages& messages, std::vector<std::string>& warnings)
 {
+  CheckFilesOfFolder(path);
   const auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(true);
   names->SetDirectory(path);
