@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace voxplex::io
 {
@@ -138,6 +139,24 @@ void RequireTriangles(vtkPolyData* surface)
   RequireVertices(polygons, surface);
 }
 
+/** VTK's own writers rely on these. */
+void RequireCells(vtkPolyData* surface)
+{
+  const std::array<std::pair<vtkCellArray*, vtkIdType>, 4> kinds{ { { surface->GetVerts(), 1 },
+    { surface->GetLines(), 2 }, { surface->GetPolys(), 3 }, { surface->GetStrips(), 3 } } };
+  for (const auto& [cells, leastSize] : kinds)
+  {
+    RequireVertices(cells, surface);
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      if (cells->GetCellSize(cell) < leastSize)
+      {
+        throw FileError("it has cells with fewer vertices than they need");
+      }
+    }
+  }
+}
+
 /** Ids of the mesh's points. */
 void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
 {
@@ -217,8 +236,7 @@ void MeshInput::Check(Content content, const std::string& name) const
 {
   if (content == Content::Interfaces && this->Dimension == 3)
   {
-    RequireVertices(this->Triangles->GetPolys(), this->Triangles);
-    RequireVertices(this->Triangles->GetStrips(), this->Triangles);
+    RequireCells(this->Triangles);
   }
   if (TakesAnything(name))
   {

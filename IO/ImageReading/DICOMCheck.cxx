@@ -82,26 +82,31 @@ public:
     Element element;
     element.Tag = this->Number<std::uint16_t>(syntax) << 16;
     element.Tag |= this->Number<std::uint16_t>(syntax);
-    bool isLong = true;
-    if (syntax.IsExplicit && !element.IsDelimiter())
-    {
-      this->File.read(element.Representation.data(), 2);
-      isLong = this->TakeIsLong(element);
-    }
+    const bool isLong =
+      !syntax.IsExplicit || element.IsDelimiter() || this->TakeRepresentation(element);
     element.Length =
       isLong ? this->Number<std::uint32_t>(syntax) : this->Number<std::uint16_t>(syntax);
-    const bool makesSense = !syntax.IsExplicit || element.IsDelimiter() ||
-      std::all_of(element.Representation.begin(), element.Representation.end(),
-        [](char letter) { return letter >= 'A' && letter <= 'Z'; });
-    return this->File && makesSense ? std::optional(element) : std::nullopt;
+    return this->File ? std::optional(element) : std::nullopt;
   }
 
 private:
-  /** Whether the length has four bytes, of which two unused ones come first. */
-  bool TakeIsLong(const Element& element)
+  /**
+   * Returns whether a length of four bytes follows. An element without a value representation counts as
+   * implicit, as it does for GDCM: there are files with both.
+   */
+  bool TakeRepresentation(Element& element)
   {
     constexpr std::array<std::string_view, 13> longOnes{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ",
       "SV", "UC", "UN", "UR", "UT", "UV" };
+    std::array<char, 2>& name = element.Representation;
+    this->File.read(name.data(), name.size());
+    if (std::any_of(
+          name.begin(), name.end(), [](char letter) { return letter < 'A' || letter > 'Z'; }))
+    {
+      name = {};
+      this->File.seekg(-2, std::ios::cur);
+      return true;
+    }
     const bool isLong = std::any_of(longOnes.begin(), longOnes.end(),
       [&element](std::string_view one) { return element.Is(one); });
     if (isLong)
@@ -160,9 +165,9 @@ public:
   {
   }
 
-  std::string FindFault()
+  std::string FindFault(std::uint64_t start)
   {
-    this->Reader.GoTo(PreambleSize + Magic.size());
+    this->Reader.GoTo(start);
     const Syntax syntax = this->ReadFileInformation();
     if (!syntax.IsDeflated)
     {
@@ -280,19 +285,29 @@ private:
   std::string Fault;
 };
 
-bool IsDICOM(const std::string& path)
+/** Where the elements begin; nothing if the file is none of DICOM. */
+std::optional<std::uint64_t> FindStart(const std::string& path)
 {
   std::array<char, PreambleSize + Magic.size()> begin{};
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), begin.size());
-  return file && std::string_view(begin.data() + PreambleSize, Magic.size()) == Magic;
+  if (std::string_view(begin.data() + PreambleSize, Magic.size()) == Magic)
+  {
+    return begin.size();
+  }
+  // Old files have no preamble, and begin with an element of group 2 or 8. GIPL begins with its size.
+  const bool hasGroup = (begin[0] == 2 || begin[0] == 8) && begin[1] == 0;
+  return hasGroup && std::filesystem::path(path).extension() != ".gipl"
+    ? std::optional<std::uint64_t>(0)
+    : std::nullopt;
 }
 
 } // namespace
 
 std::string FindFaultOfDICOM(const std::string& path)
 {
-  return IsDICOM(path) ? Walk(path).FindFault() : "";
+  const std::optional<std::uint64_t> start = FindStart(path);
+  return start ? Walk(path).FindFault(*start) : "";
 }
 
 } // namespace voxplex::io

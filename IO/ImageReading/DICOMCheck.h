@@ -17,10 +17,9 @@ namespace voxplex::io
 {
 
 /**
- * Walks through the elements of a DICOM file, which has the letters DICM after a preamble of 128 bytes;
- * other files pass. An element must not claim more bytes than the file has left,
+ * Walks through the elements of a DICOM file, with or without a preamble; other files pass. An element must not claim more bytes than the file has left,
  * and sequences may be nested 64 deep. Files that are compressed as a whole (transfer syntax 'deflated')
- * pass, and so does what follows an element that makes no sense.
+ * pass.
  *
  * @return what is wrong, or an empty string
  */

@@ -34,8 +34,8 @@ public:
 
   explicit NIfTIHeader(const std::array<char, Size>& bytes)
     : Bytes(bytes)
-    , Swapped(this->Get<std::int32_t>(0) != static_cast<std::int32_t>(Size))
   {
+    this->Swapped = !this->IsValid();
   }
 
   bool IsValid() const { return this->Get<std::int32_t>(0) == static_cast<std::int32_t>(Size); }

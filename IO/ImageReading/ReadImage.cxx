@@ -290,52 +290,23 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   }
 }
 
-/** @throws FileError naming the path, whatever ITK throws */
 ScalarImage ReadWith(const std::string& path, const FileNames& files, itk::ImageIOBase* io,
   LibraryMessages& messages, std::vector<std::string>& warnings)
 {
-  try
+  io->SetFileName(files.front());
+  CheckFile(files.front(), *io);
+  io->ReadImageInformation();
+  CheckHeader(path, *io);
+  if (const std::string fault = FindFaultOfSize(files, *io); !fault.empty())
   {
-    io->SetFileName(files.front());
-    CheckFile(files.front(), *io);
-    io->ReadImageInformation();
-    CheckHeader(path, *io);
-    if (const std::string fault = FindFaultOfSize(files, *io); !fault.empty())
-    {
-      Refuse(path, fault);
-    }
-    ScalarImage image = ReadChecked(path, files, io, warnings);
-    if (const std::string damage = messages.DamageReport(); !damage.empty())
-    {
-      Refuse(path, "the file is truncated or damaged (" + damage + ")");
-    }
-    return image;
+    Refuse(path, fault);
   }
-  catch (const FileError&)
+  ScalarImage image = ReadChecked(path, files, io, warnings);
+  if (const std::string damage = messages.DamageReport(); !damage.empty())
   {
-    throw;
+    Refuse(path, "the file is truncated or damaged (" + damage + ")");
   }
-  catch (const std::bad_alloc&)
-  {
-    Refuse(path, "it does not fit into memory");
-  }
-  catch (const itk::MemoryAllocationError&)
-  {
-    Refuse(path, "it does not fit into memory");
-  }
-  catch (const itk::ExceptionObject& error)
-  {
-    const std::string summary = messages.Summarize(error.GetDescription());
-    if (const std::string explanation = ExplainHeader(summary); !explanation.empty())
-    {
-      Refuse(path, explanation);
-    }
-    Refuse(path, "the file is truncated or damaged (" + summary + ")");
-  }
-  catch (const std::exception& error)
-  {
-    Refuse(path, messages.Summarize(error.what()));
-  }
+  return image;
 }
 
 void CheckReadable(const std::string& path)
@@ -467,6 +438,41 @@ ScalarImage ReadFolder(const std::string& path, const std::string& wanted,
   return ReadWith(path, files, itk::GDCMImageIO::New(), messages, warnings);
 }
 
+/** What read() returns. @throws FileError naming the path, whatever ITK throws */
+template <typename TRead>
+ScalarImage Translate(const std::string& path, const LibraryMessages& messages, TRead&& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const FileError&)
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    Refuse(path, "it does not fit into memory");
+  }
+  catch (const itk::MemoryAllocationError&)
+  {
+    Refuse(path, "it does not fit into memory");
+  }
+  catch (const itk::ExceptionObject& error)
+  {
+    const std::string summary = messages.Summarize(error.GetDescription());
+    if (const std::string explanation = ExplainHeader(summary); !explanation.empty())
+    {
+      Refuse(path, explanation);
+    }
+    Refuse(path, "the file is truncated or damaged (" + summary + ")");
+  }
+  catch (const std::exception& error)
+  {
+    Refuse(path, messages.Summarize(error.what()));
+  }
+}
+
 } // namespace
 
 ScalarImage ReadImage(
@@ -480,8 +486,12 @@ ScalarImage ReadImage(
   {
     Refuse(path, "SetSeriesUID() needs a folder with DICOM files, and this is a file");
   }
-  ScalarImage image =
-    isFolder ? ReadFolder(path, series, messages, warnings) : ReadFile(path, messages, warnings);
+  ScalarImage image = Translate(path, messages,
+    [&]
+    {
+      return isFolder ? ReadFolder(path, series, messages, warnings)
+                      : ReadFile(path, messages, warnings);
+    });
   for (const std::string& warning : messages.Warnings())
   {
     warnings.push_back(path + ": " + warning);

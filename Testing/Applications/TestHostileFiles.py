@@ -122,6 +122,12 @@ class Sizes(HostileTestCase):
                 self.refuse(CLAIM % ("i.vtk", "the file"),
                             self.write("i.vtk", (head % (encoding, scalars)).encode() + b"1 " * 32))
 
+    def test_end_in_the_header(self):
+        """ITK finds out while it looks for the format."""
+        self.refuse("cannot read 'i.vtk': the file is truncated or damaged",
+                    self.write("i.vtk", b"# vtk DataFile Version 3.0\nlabels\nBINARY\nDATASET STRUCTURED_POINTS\nDIM"))
+        self.refuse("cannot read 'i.vtk': the file is truncated or damaged", self.write("i.vtk", b"# vtk DataFile\nlabels"))
+
     def test_gipl(self):
         head = bytearray(256)
         struct.pack_into(">5H4f", head, 0, 60000, 60000, 1000, 1, 8, 1, 1, 1, 1)
@@ -150,6 +156,11 @@ class Sizes(HostileTestCase):
                 message = r"its element \(%04x,%04x\) claims 4294967280 bytes, and 3 are left" % (group, number)
                 self.refuse(message, path.name)
                 self.assert_refused(1, "'%s': .*%s" % (path.name, message), "--input", ".", "--output", "mesh.vtu")
+        # Without a preamble, and without a value representation, for which GDCM has readers, too.
+        path.write_bytes(plain[132:pixels] + struct.pack("<2H2sHI", 0x29, 0x1010, b"OB", 0, 0xFFFFFFF0))
+        self.refuse(r"its element \(0029,1010\) claims", path.name)
+        path.write_bytes(plain[:pixels] + struct.pack("<2HI", 0x29, 0x1010, 0x7FFFFF01))
+        self.refuse(r"its element \(0029,1010\) claims 2147483393 bytes, and 0 are left", path.name)
 
     def test_no_voxels(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})

@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkUnstructuredGrid
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkUnstructuredGridReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
@@ -357,6 +357,19 @@ class Errors(WriterTestCase):
             writer = self.with_data(name, mesh, wrong)
             writer.SetContent(INTERFACES)
             self.refuse(writer, "vertices that are none of its points")
+
+    def test_small_cells(self):
+        points, polygons = vtkPoints(), vtkCellArray()
+        for i in range(3):
+            points.InsertNextPoint(i, 0, i * i)
+        polygons.InsertNextCell(2, (0, 1))
+        surface = vtkPolyData()
+        surface.SetPoints(points)
+        surface.SetPolys(polygons)
+        for name in ("i.vtp", "i.vtk", "i.stl"):
+            writer = self.with_data(name, vtkUnstructuredGrid(), surface)
+            writer.SetContent(INTERFACES)
+            self.refuse(writer, "cells with fewer vertices than they need")
 
     def test_no_points(self):
         for name in ("m.vtu", "m.msh", "m.xdmf", "m.mesh"):
