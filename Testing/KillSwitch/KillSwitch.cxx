@@ -30,7 +30,7 @@ long FromEnvironment()
   return text ? std::atol(text) : 0;
 }
 
-/** What is smaller stays in stdio's buffer for a while: no step. */
+/** What is smaller is no step, of which there would be hundreds: VTK and stdio write numbers one by one. */
 constexpr size_t SmallestBlock = 256;
 
 /** Steps that are left; 0 if the switch is off. */
@@ -141,7 +141,7 @@ extern "C"
   ssize_t write(int descriptor, const void* data, size_t size)
   {
     static auto* const hidden = Hidden<ssize_t(int, const void*, size_t)>("write");
-    if (IsRegular(descriptor) && IsTheStep())
+    if (size >= SmallestBlock && IsRegular(descriptor) && IsTheStep())
     {
       hidden(descriptor, data, size / 2);
       Kill();
