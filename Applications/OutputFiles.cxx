@@ -5,6 +5,8 @@
 #include "Errors.h"
 #include "FileError.h"
 
+#include <vtkSimplexMeshWriter.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -35,6 +37,22 @@ fs::path Canonical(const fs::path& path)
 {
   std::error_code ignored;
   return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+}
+
+/** A hidden name in the folder, of which none exists: a process that was killed may have left some. */
+std::string FreeName(const fs::path& target, std::size_t number)
+{
+  const std::string begin = ".voxplex-" + std::to_string(getpid()) + "-" + std::to_string(number);
+  fs::path path;
+  std::error_code ignored;
+  int attempt = 0;
+  do
+  {
+    const std::string more = attempt == 0 ? "" : "-" + std::to_string(attempt);
+    path = FolderOf(target) / (begin + more + target.extension().string());
+    ++attempt;
+  } while (fs::exists(path, ignored));
+  return path.string();
 }
 
 /** Creates and removes the temporary: the only test that holds on every file system. */
@@ -82,9 +100,7 @@ void OutputFiles::Add(const std::string& path)
   {
     Refuse(path, "two outputs have this name");
   }
-  const std::string name = ".voxplex-" + std::to_string(getpid()) + "-" +
-    std::to_string(this->Files.size()) + target.extension().string();
-  const std::string temporary = (folder / name).string();
+  const std::string temporary = FreeName(target, this->Files.size());
   ProbeFolder(path, temporary);
   this->Files[path] = { temporary, Interruption::AddTemporary(temporary) };
 }
@@ -129,6 +145,14 @@ void OutputFiles::WriteText(
 void OutputFiles::Commit()
 {
   const Interruption::Deferral deferral;
+  // Whatever happens in between, the halves of a format of two files are never of two meshes.
+  for (const auto& [path, temporary] : this->Files)
+  {
+    if (!vtkSimplexMeshWriter::CompanionOf(path).empty())
+    {
+      unlink(path.c_str());
+    }
+  }
   for (const auto& [path, temporary] : this->Files)
   {
     if (std::rename(temporary.Path.c_str(), path.c_str()) != 0)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelTableLines.h"
 
+#include "Excerpt.h"
 #include "LabelTable.h"
 
 #include <algorithm>
@@ -66,11 +67,12 @@ TableRow MakeRow(int line, const std::string& label, const std::string& name)
   const std::optional<std::int64_t> value = ToNumber<std::int64_t>(label);
   if (!value || *value < 0)
   {
-    throw TableError(line, "'" + label + "' is not a label; labels are whole numbers from 1 on");
+    throw TableError(
+      line, "'" + Excerpt(label) + "' is not a label; labels are whole numbers from 1 on");
   }
   if (name.empty())
   {
-    throw TableError(line, "label " + label + " has no name");
+    throw TableError(line, "label " + std::to_string(*value) + " has no name");
   }
   if (!IsUTF8(name))
   {
@@ -88,7 +90,7 @@ std::array<double, 3> MakeColor(int line, const std::array<std::string, 3>& text
     if (!value || !(*value >= 0) || *value > 255)
     {
       throw TableError(line,
-        "'" + texts[i] +
+        "'" + Excerpt(texts[i]) +
           "' is not a part of a colour; red, green and blue are numbers of 0 to 255");
     }
     color[i] = *value;

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace voxplex::io
 {
@@ -67,8 +68,9 @@ void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
   }
 }
 
-void RequireArray(
-  vtkDataSetAttributes* attributes, const char* name, int components, const std::string& what)
+/** An array with a value for each of so many cells or points. */
+vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name, int components,
+  vtkIdType count, const std::string& what)
 {
   vtkDataArray* array = attributes->GetArray(name);
   if (!array || array->GetNumberOfComponents() != components)
@@ -77,10 +79,45 @@ void RequireArray(
       (components == 1 ? " component" : " components") +
       "; give the outputs of the meshing filter, or write a .vtu file");
   }
+  if (array->GetNumberOfTuples() != count)
+  {
+    throw FileError(what + " " + std::to_string(array->GetNumberOfTuples()) + " values '" + name +
+      "' for " + std::to_string(count) + " cells or points");
+  }
+  return array;
+}
+
+/** Offsets and ids that a damaged file may have left anyhow. */
+void RequireVertices(vtkCellArray* cells, vtkPointSet* owner)
+{
+  if (cells->GetNumberOfCells() == 0)
+  {
+    return;
+  }
+  std::array<double, 2> offsets;
+  cells->GetOffsetsArray()->GetRange(offsets.data());
+  std::array<double, 2> ids{ 0.0, -1.0 };
+  if (cells->GetNumberOfConnectivityIds() > 0)
+  {
+    cells->GetConnectivityArray()->GetRange(ids.data());
+  }
+  if (offsets[0] < 0 || offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) ||
+    ids[0] < 0 || ids[1] >= static_cast<double>(owner->GetNumberOfPoints()))
+  {
+    throw FileError("it has cells with vertices that are none of its points");
+  }
 }
 
 void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
 {
+  if (grid->GetNumberOfCells() == 0)
+  {
+    return;
+  }
+  if (grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells())
+  {
+    throw FileError("it has not as many types as cells");
+  }
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {
     if (grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size)
@@ -88,6 +125,7 @@ void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std
       throw FileError(what + ", and cell " + std::to_string(cell) + " is none; write a .vtu file");
     }
   }
+  RequireVertices(grid->GetCells(), grid);
 }
 
 void RequireTriangles(vtkPolyData* surface)
@@ -98,22 +136,53 @@ void RequireTriangles(vtkPolyData* surface)
   {
     throw FileError("the interfaces must be triangles in this format; write a .vtp file");
   }
+  RequireVertices(polygons, surface);
+}
+
+/** VTK's own writers rely on these. */
+void RequireCells(vtkPolyData* surface)
+{
+  const std::array<std::pair<vtkCellArray*, vtkIdType>, 4> kinds{ { { surface->GetVerts(), 1 },
+    { surface->GetLines(), 2 }, { surface->GetPolys(), 3 }, { surface->GetStrips(), 3 } } };
+  for (const auto& [cells, leastSize] : kinds)
+  {
+    RequireVertices(cells, surface);
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      if (cells->GetCellSize(cell) < leastSize)
+      {
+        throw FileError("it has cells with fewer vertices than they need");
+      }
+    }
+  }
 }
 
 /** Ids of the mesh's points. */
 void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
 {
-  RequireArray(interfaces->GetPointData(), "PointIds", 1, "the interfaces have");
-  vtkDataArray* ids = interfaces->GetPointData()->GetArray("PointIds");
-  if (ids->GetNumberOfTuples() == 0)
+  vtkDataArray* ids = RequireArray(interfaces->GetPointData(), "PointIds", 1,
+    interfaces->GetNumberOfPoints(), "the interfaces have");
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
   {
-    return;
+    const double id = ids->GetComponent(i, 0); // perhaps not a number
+    if (!(id >= 0 && id < static_cast<double>(numberOfPoints)))
+    {
+      throw FileError(
+        "the interfaces are not those of this mesh: their PointIds are not its points");
+    }
   }
-  std::array<double, 2> range;
-  ids->GetRange(range.data());
-  if (range[0] < 0 || range[1] >= static_cast<double>(numberOfPoints))
+}
+
+/** The input itself is not touched. */
+template <typename TGrid>
+void EnsurePoints(vtkSmartPointer<TGrid>& grid)
+{
+  if (grid && !grid->GetPoints())
   {
-    throw FileError("the interfaces are not those of this mesh: their PointIds are not its points");
+    const auto copy = vtkSmartPointer<TGrid>::New();
+    copy->ShallowCopy(grid);
+    copy->SetPoints(vtkNew<vtkPoints>());
+    grid = copy;
   }
 }
 
@@ -146,7 +215,6 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces)
   if (!this->Mesh)
   {
     this->Mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    this->Mesh->SetPoints(vtkNew<vtkPoints>());
     AddMeshArrays(this->Mesh, this->Dimension == 4);
   }
   if (this->Dimension == 3 && !this->Triangles)
@@ -159,17 +227,25 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces)
     this->Tetrahedra = vtkSmartPointer<vtkUnstructuredGrid>::New();
     AddInterfaceArrays(this->Tetrahedra);
   }
+  EnsurePoints(this->Mesh);
+  EnsurePoints(this->Triangles);
+  EnsurePoints(this->Tetrahedra);
 }
 
 void MeshInput::Check(Content content, const std::string& name) const
 {
+  if (content == Content::Interfaces && this->Dimension == 3)
+  {
+    RequireCells(this->Triangles);
+  }
   if (TakesAnything(name))
   {
     return;
   }
   if (content == Content::Mesh)
   {
-    RequireArray(this->Mesh->GetCellData(), "Label", 1, "the mesh has");
+    RequireArray(
+      this->Mesh->GetCellData(), "Label", 1, this->Mesh->GetNumberOfCells(), "the mesh has");
     if (this->Dimension == 3)
     {
       RequireCells(this->Mesh, VTK_TETRA, 4, "the cells must be tetrahedra in this format");
@@ -177,7 +253,8 @@ void MeshInput::Check(Content content, const std::string& name) const
     else
     {
       RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells must be pentatopes in this format");
-      RequireArray(this->Mesh->GetPointData(), "Time", 1, "the mesh has");
+      RequireArray(
+        this->Mesh->GetPointData(), "Time", 1, this->Mesh->GetNumberOfPoints(), "the mesh has");
     }
     vtkDataSet* interfaces = this->Triangles;
     if (this->Dimension == 4)
@@ -189,13 +266,15 @@ void MeshInput::Check(Content content, const std::string& name) const
   if (this->Dimension == 3)
   {
     RequireTriangles(this->Triangles);
-    RequireArray(this->Triangles->GetCellData(), "Labels", 2, "the interfaces have");
+    RequireArray(this->Triangles->GetCellData(), "Labels", 2, this->Triangles->GetNumberOfCells(),
+      "the interfaces have");
   }
   else
   {
     RequireCells(
       this->Tetrahedra, VTK_TETRA, 4, "the interfaces must be tetrahedra in this format");
-    RequireArray(this->Tetrahedra->GetCellData(), "Labels", 2, "the interfaces have");
+    RequireArray(this->Tetrahedra->GetCellData(), "Labels", 2, this->Tetrahedra->GetNumberOfCells(),
+      "the interfaces have");
   }
 }
 

@@ -15,12 +15,18 @@ namespace voxplex::io
 namespace
 {
 
-/** No two files of this process, and none of another, have the same. */
-std::string HiddenName(const fs::path& target)
+/** No two files of this process, and none of another, have the same, be it one that was killed. */
+fs::path HiddenName(const fs::path& folder, const fs::path& target)
 {
   static std::atomic<unsigned> count = 0;
-  return ".voxplex-" + std::to_string(getpid()) + "-file" + std::to_string(count++) +
-    target.extension().string();
+  const std::string begin = ".voxplex-" + std::to_string(getpid()) + "-file";
+  std::error_code ignored;
+  fs::path path;
+  do
+  {
+    path = folder / (begin + std::to_string(count++) + target.extension().string());
+  } while (fs::exists(path, ignored));
+  return path;
 }
 
 } // namespace
@@ -43,13 +49,19 @@ WholeFile::WholeFile(const std::string& path)
   {
     throw FileError("it exists and is not a regular file");
   }
-  this->Temporary = (folder / HiddenName(this->Target)).string();
+  this->Temporary = HiddenName(folder, this->Target).string();
 }
 
 WholeFile::~WholeFile()
 {
   std::error_code ignored;
   fs::remove(this->Temporary, ignored);
+}
+
+void WholeFile::RemoveOlder() const
+{
+  std::error_code ignored;
+  fs::remove(this->Target, ignored);
 }
 
 void WholeFile::Commit()

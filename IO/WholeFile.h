@@ -26,6 +26,9 @@ public:
   /** Where to write; the extension is that of the file. */
   const std::string& TemporaryPath() const { return this->Temporary; }
 
+  /** Removes an older file from its place, if there is one, before Commit() does. */
+  void RemoveOlder() const;
+
   /** Moves the file to its place, where it replaces an older one. @throws FileError */
   void Commit();
 

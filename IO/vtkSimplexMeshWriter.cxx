@@ -123,6 +123,8 @@ void vtkSimplexMeshWriter::WriteData()
         companion ? companion->TemporaryPath() : std::string());
       if (companion)
       {
+        // Whatever happens in between, the two are never of two meshes.
+        file.RemoveOlder();
         companion->Commit();
       }
       file.Commit();

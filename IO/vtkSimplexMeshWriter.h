@@ -22,7 +22,8 @@
  *
  * The file appears whole or not at all: it is written beside its place under a temporary hidden name,
  * which is then changed. Whatever goes wrong before leaves an older file of the same name as it was. Of two
- * files the second, the numbers, is moved to its place first.
+ * files the second, the numbers, is moved to its place first, when an older first one is gone: both are never of
+ * two meshes.
  *
  * @par Errors
  * Write() returns 0, reports with vtkErrorMacro and sets the error code; GetErrorMessage() keeps the

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileChecks.h"
 
+#include "Excerpt.h"
 #include "TextHeader.h"
 
 #include <zlib.h>
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <iomanip>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -31,8 +34,8 @@ public:
 
   explicit NIfTIHeader(const std::array<char, Size>& bytes)
     : Bytes(bytes)
-    , Swapped(this->Get<std::int32_t>(0) != static_cast<std::int32_t>(Size))
   {
+    this->Swapped = !this->IsValid();
   }
 
   bool IsValid() const { return this->Get<std::int32_t>(0) == static_cast<std::int32_t>(Size); }
@@ -47,16 +50,15 @@ public:
   float FirstTime() const { return this->Get<float>(136); }
   float VoxelOffset() const { return this->Get<float>(108); }
 
-  /** Bytes of the whole uncompressed file. */
-  std::uint64_t FileSize() const
+  /** Bytes of the whole uncompressed file; a product that may be too large for an integer. */
+  double FileSize() const
   {
-    std::uint64_t voxels = 1;
+    double voxels = 1.0;
     for (int i = 1; i <= this->Dimension(0); ++i)
     {
-      voxels *= static_cast<std::uint64_t>(std::max(1, this->Dimension(i)));
+      voxels *= std::max(1, this->Dimension(i));
     }
-    return static_cast<std::uint64_t>(this->VoxelOffset()) +
-      voxels * static_cast<std::uint64_t>(this->BitsPerVoxel()) / 8;
+    return std::floor(double{ this->VoxelOffset() } + voxels * this->BitsPerVoxel() / 8.0);
   }
 
 private:
@@ -83,12 +85,12 @@ struct GzCloser
   void operator()(gzFile_s* file) const { gzclose(file); }
 };
 
-/** Bytes up to the end of the file, at most enough; less if the compressed stream is damaged. */
-std::uint64_t CountBytes(gzFile file, std::uint64_t enough)
+/** Bytes up to the end of the file, or to enough; less if the compressed stream is damaged. */
+std::uint64_t CountBytes(gzFile file, double enough)
 {
   std::vector<char> buffer(1 << 18);
   std::uint64_t count = 0;
-  while (count < enough)
+  while (static_cast<double>(count) < enough)
   {
     const int got = gzread(file, buffer.data(), static_cast<unsigned>(buffer.size()));
     if (got <= 0)
@@ -100,15 +102,37 @@ std::uint64_t CountBytes(gzFile file, std::uint64_t enough)
   return count;
 }
 
+/** Images in two files have it in the one with this extension; ITK takes either name. */
+std::string HeaderPathOfNIfTI(const std::string& path)
+{
+  std::filesystem::path header(path);
+  const bool isCompressed = header.extension() == ".gz";
+  if (isCompressed)
+  {
+    header.replace_extension();
+  }
+  if (header.extension() != ".img")
+  {
+    return path;
+  }
+  header.replace_extension(".hdr");
+  std::error_code ignored;
+  if (!std::filesystem::exists(header, ignored))
+  {
+    header += ".gz";
+  }
+  return header.string();
+}
+
 std::string SpacingFault(const std::string& value)
 {
-  return "the voxel spacing in its header is '" + value +
+  return "the voxel spacing in its header is '" + Excerpt(value) +
     "'; it must be a positive length along each axis: correct the header";
 }
 
 std::string TimeStepFault(const std::string& value)
 {
-  return "the time from frame to frame in its header is '" + value +
+  return "the time from frame to frame in its header is '" + Excerpt(value) +
     "'; it must be a positive number: correct the header";
 }
 
@@ -159,7 +183,7 @@ std::string FindFaultOfNRRD(const TextHeader& header)
 
 std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
 {
-  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(path.c_str(), "rb"));
+  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(HeaderPathOfNIfTI(path).c_str(), "rb"));
   std::array<char, NIfTIHeader::Size> bytes{};
   if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
   {
@@ -175,7 +199,7 @@ std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
 
 std::string FindFaultOfNIfTI(const std::string& path)
 {
-  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(path.c_str(), "rb"));
+  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(HeaderPathOfNIfTI(path).c_str(), "rb"));
   std::array<char, NIfTIHeader::Size> bytes{};
   if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
   {
@@ -193,7 +217,8 @@ std::string FindFaultOfNIfTI(const std::string& path)
   }
   if (header.HasFrames() && !std::isfinite(header.FirstTime()))
   {
-    return "the time of the first frame in its header (toffset) is not a finite number: correct the "
+    return "the time of the first frame in its header (toffset) is not a finite number: correct "
+           "the "
            "header";
   }
   if (header.HasFrames() && !IsPositive(header.Step(4)) && header.Step(4) != 0)
@@ -215,13 +240,19 @@ std::string FindFaultOfNIfTI(const std::string& path)
   {
     return "";
   }
-  const std::uint64_t expected = header.FileSize();
-  const std::uint64_t found = NIfTIHeader::Size +
-    CountBytes(file.get(), expected - std::min(expected, NIfTIHeader::Size + 0ul));
-  if (found < expected)
+  if (!(header.VoxelOffset() >= 0) || header.BitsPerVoxel() < 0)
   {
-    return "the file is truncated or damaged (" + std::to_string(found) + " of " +
-      std::to_string(expected) + " bytes)";
+    return "it is damaged: its header gives " + std::to_string(header.BitsPerVoxel()) +
+      " bits a voxel from byte " + std::to_string(header.VoxelOffset()) + " on";
+  }
+  const double expected = header.FileSize();
+  const std::uint64_t found =
+    NIfTIHeader::Size + CountBytes(file.get(), expected - double{ NIfTIHeader::Size });
+  if (static_cast<double>(found) < expected)
+  {
+    std::ostringstream bytes;
+    bytes << found << " of " << std::fixed << std::setprecision(0) << expected;
+    return "the file is truncated or damaged (" + bytes.str() + " bytes)";
   }
   return "";
 }
@@ -229,6 +260,16 @@ std::string FindFaultOfNIfTI(const std::string& path)
 std::string FindFaultOfTextHeader(const std::string& path)
 {
   const TextHeader header(path);
+  constexpr double mostOfMetaImage = 10;
+  if (const std::string* dimensions = header.Find("ndims"))
+  {
+    const std::vector<double> number = ParseNumbers(*dimensions);
+    if (number.empty() || !(number.front() >= 1 && number.front() <= mostOfMetaImage))
+    {
+      return "it is damaged: its header gives '" + Excerpt(*dimensions) +
+        "' dimensions, and the format has 1 to 10";
+    }
+  }
   const std::string* spacing = header.Find("elementspacing");
   return spacing ? FindFaultOfMetaImage(*spacing) : FindFaultOfNRRD(header);
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LibraryMessages.h"
 
+#include "Excerpt.h"
+
 #include <itkOutputWindow.h>
 
 #include <algorithm>
@@ -178,7 +180,8 @@ std::string LibraryMessages::Summarize(const std::string& message)
       summary = line;
     }
   }
-  return summary.empty() ? "no reason given" : summary;
+  constexpr std::size_t longest = 300;
+  return summary.empty() ? "no reason given" : Excerpt(summary, longest);
 }
 
 } // namespace voxplex::io

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadImage.h"
 
+#include "DICOMCheck.h"
+#include "DataFiles.h"
 #include "FileChecks.h"
 #include "FileError.h"
 #include "LibraryMessages.h"
@@ -279,7 +281,8 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   }
   else if (format == "NrrdImageIO" || format == "MetaImageIO")
   {
-    fault = FindFaultOfTextHeader(path);
+    fault = FindFaultOfNamedFiles(path);
+    fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
   }
   if (!fault.empty())
   {
@@ -287,48 +290,23 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   }
 }
 
-/** @throws FileError naming the path, whatever ITK throws */
 ScalarImage ReadWith(const std::string& path, const FileNames& files, itk::ImageIOBase* io,
   LibraryMessages& messages, std::vector<std::string>& warnings)
 {
-  try
+  io->SetFileName(files.front());
+  CheckFile(files.front(), *io);
+  io->ReadImageInformation();
+  CheckHeader(path, *io);
+  if (const std::string fault = FindFaultOfSize(files, *io); !fault.empty())
   {
-    io->SetFileName(files.front());
-    CheckFile(files.front(), *io);
-    io->ReadImageInformation();
-    CheckHeader(path, *io);
-    ScalarImage image = ReadChecked(path, files, io, warnings);
-    if (const std::string damage = messages.DamageReport(); !damage.empty())
-    {
-      Refuse(path, "the file is truncated or damaged (" + damage + ")");
-    }
-    return image;
+    Refuse(path, fault);
   }
-  catch (const FileError&)
+  ScalarImage image = ReadChecked(path, files, io, warnings);
+  if (const std::string damage = messages.DamageReport(); !damage.empty())
   {
-    throw;
+    Refuse(path, "the file is truncated or damaged (" + damage + ")");
   }
-  catch (const std::bad_alloc&)
-  {
-    Refuse(path, "it does not fit into memory");
-  }
-  catch (const itk::MemoryAllocationError&)
-  {
-    Refuse(path, "it does not fit into memory");
-  }
-  catch (const itk::ExceptionObject& error)
-  {
-    const std::string summary = messages.Summarize(error.GetDescription());
-    if (const std::string explanation = ExplainHeader(summary); !explanation.empty())
-    {
-      Refuse(path, explanation);
-    }
-    Refuse(path, "the file is truncated or damaged (" + summary + ")");
-  }
-  catch (const std::exception& error)
-  {
-    Refuse(path, messages.Summarize(error.what()));
-  }
+  return image;
 }
 
 void CheckReadable(const std::string& path)
@@ -342,7 +320,12 @@ void CheckReadable(const std::string& path)
   {
     Refuse(path, std::strerror(errno));
   }
-  if (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0)
+  const fs::file_status status = fs::status(path, ignored);
+  if (!fs::is_regular_file(status) && !fs::is_directory(status))
+  {
+    Refuse(path, "it is neither a regular file nor a folder");
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, ignored) == 0)
   {
     Refuse(path, "the file is empty");
   }
@@ -358,6 +341,10 @@ bool IsPicture(const itk::ImageIOBase& io)
 ScalarImage ReadFile(
   const std::string& path, LibraryMessages& messages, std::vector<std::string>& warnings)
 {
+  if (const std::string fault = FindFaultOfDICOM(path); !fault.empty())
+  {
+    Refuse(path, fault);
+  }
   const auto io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
   if (!io)
   {
@@ -420,15 +407,70 @@ std::string ChooseSeries(const std::string& path, itk::GDCMSeriesFileNames* name
   return matching.front();
 }
 
+/** Before GDCM reads all of them to see what series there are. */
+void CheckFilesOfFolder(const std::string& path)
+{
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
+  {
+    const std::string name = "'" + entry.path().filename().string() + "'";
+    const fs::file_status status = entry.status(ignored);
+    if (fs::is_fifo(status) || fs::is_character_file(status))
+    {
+      Refuse(path, name + " is not a regular file");
+    }
+    if (const std::string fault = FindFaultOfDICOM(entry.path().string()); !fault.empty())
+    {
+      Refuse(path, name + ": " + fault);
+    }
+  }
+}
+
 ScalarImage ReadFolder(const std::string& path, const std::string& wanted,
   LibraryMessages& messages, std::vector<std::string>& warnings)
 {
+  CheckFilesOfFolder(path);
   const auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(true);
   names->SetDirectory(path);
   const std::string uid = ChooseSeries(path, names, names->GetSeriesUIDs(), wanted);
   const FileNames files = names->GetFileNames(uid);
   return ReadWith(path, files, itk::GDCMImageIO::New(), messages, warnings);
+}
+
+/** What read() returns. @throws FileError naming the path, whatever ITK throws */
+template <typename TRead>
+ScalarImage Translate(const std::string& path, const LibraryMessages& messages, TRead&& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const FileError&)
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    Refuse(path, "it does not fit into memory");
+  }
+  catch (const itk::MemoryAllocationError&)
+  {
+    Refuse(path, "it does not fit into memory");
+  }
+  catch (const itk::ExceptionObject& error)
+  {
+    const std::string summary = messages.Summarize(error.GetDescription());
+    if (const std::string explanation = ExplainHeader(summary); !explanation.empty())
+    {
+      Refuse(path, explanation);
+    }
+    Refuse(path, "the file is truncated or damaged (" + summary + ")");
+  }
+  catch (const std::exception& error)
+  {
+    Refuse(path, messages.Summarize(error.what()));
+  }
 }
 
 } // namespace
@@ -444,8 +486,12 @@ ScalarImage ReadImage(
   {
     Refuse(path, "SetSeriesUID() needs a folder with DICOM files, and this is a file");
   }
-  ScalarImage image =
-    isFolder ? ReadFolder(path, series, messages, warnings) : ReadFile(path, messages, warnings);
+  ScalarImage image = Translate(path, messages,
+    [&]
+    {
+      return isFolder ? ReadFolder(path, series, messages, warnings)
+                      : ReadFile(path, messages, warnings);
+    });
   for (const std::string& warning : messages.Warnings())
   {
     warnings.push_back(path + ": " + warning);

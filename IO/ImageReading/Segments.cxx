@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segments.h"
 
+#include "Excerpt.h"
 #include "TextHeader.h"
 
 #include <algorithm>
@@ -108,7 +109,7 @@ LabelTable ReadSegments(const std::string& path, std::vector<std::string>& warni
   {
     if (segment.Label() <= 0)
     {
-      warnings.push_back(path + ": the segment '" + segment.Name() +
+      warnings.push_back(path + ": the segment '" + Excerpt(segment.Name()) +
         "' has a value that is not a label, and its name is not used");
     }
     else if (!IsUTF8(segment.Name()))
@@ -131,7 +132,7 @@ std::string DescribeLayers(const std::string& path)
   for (const Segment& segment : ListSegments(header))
   {
     std::string& names = layers[segment.Layer()];
-    names += (names.empty() ? "" : ", ") + segment.Name();
+    names += (names.empty() ? "" : ", ") + Excerpt(segment.Name());
   }
   std::string text;
   for (const auto& [layer, names] : layers)

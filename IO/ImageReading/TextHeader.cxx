@@ -6,6 +6,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -48,36 +50,58 @@ std::vector<std::vector<double>> ParseVectors(const std::string& text)
   return vectors;
 }
 
+std::string ReadBeginning(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  std::string text(std::min<std::uintmax_t>(size, MaximumLength), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
 } // namespace
 
 TextHeader::TextHeader(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::size_t length = 0;
-  for (std::string line; length < MaximumLength && std::getline(file, line);)
+  const std::string text = ReadBeginning(path);
+  bool hasEnded = false;
+  for (std::size_t at = 0; at < text.size() && !hasEnded;)
   {
-    length += line.size() + 1;
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    if (line.empty())
-    {
-      break; // which ends the header of NRRD
-    }
-    const std::size_t separator = line.find_first_of("=:");
-    if (separator == std::string::npos)
-    {
-      continue;
-    }
-    std::string key = LowerCase(line.substr(0, separator));
-    key.erase(key.find_last_not_of(" \t") + 1);
-    std::string value = line.substr(separator + 1);
-    value.erase(0, value.find_first_not_of(" \t=")); // NRRD has "key:=value", too
-    const bool isLast = key == "elementdatafile";    // which ends the header of MetaImage
-    this->Fields.emplace(std::move(key), std::move(value));
-    if (isLast)
-    {
-      break;
-    }
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    hasEnded = this->TakeLine(text.substr(at, end - at));
+    at = end + 1;
   }
+  this->Endless = !hasEnded && text.size() == MaximumLength;
+}
+
+bool TextHeader::TakeLine(std::string line)
+{
+  line.erase(line.find_last_not_of(" \t\r") + 1);
+  if (line.empty())
+  {
+    return true; // which ends the header of NRRD
+  }
+  if (this->IsInList)
+  {
+    this->List.push_back(std::move(line));
+    return false;
+  }
+  const std::size_t separator = line.find_first_of("=:");
+  if (separator == std::string::npos)
+  {
+    return false;
+  }
+  std::string key = LowerCase(line.substr(0, separator));
+  key.erase(key.find_last_not_of(" \t") + 1);
+  std::string value = line.substr(separator + 1);
+  value.erase(0, value.find_first_not_of(" \t=")); // NRRD has "key:=value", too
+  const bool isDataOfMetaImage = key == "elementdatafile";
+  this->IsInList =
+    (isDataOfMetaImage || key == "data file" || key == "datafile") && value.rfind("LIST", 0) == 0;
+  this->Fields.emplace(std::move(key), std::move(value));
+  return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
 
 const std::string* TextHeader::Find(const std::string& key) const

@@ -24,11 +24,23 @@ public:
   /** Reads up to the end of the header, at most 1 MiB. A file without one has no fields. */
   explicit TextHeader(const std::string& path);
 
+  /** Whether the file goes on after 1 MiB of header. */
+  bool IsEndless() const { return this->Endless; }
+
   /** The value without surrounding blanks, or null. */
   const std::string* Find(const std::string& key) const;
 
+  /** The lines that follow a field of data files whose value begins with LIST. */
+  const std::vector<std::string>& ListedFiles() const { return this->List; }
+
 private:
+  /** Returns whether the header ends with this line. */
+  bool TakeLine(std::string line);
+
   std::map<std::string, std::string> Fields;
+  std::vector<std::string> List;
+  bool IsInList = false;
+  bool Endless = false;
 };
 
 /** The numbers of a list; brackets and commas separate, words that are no numbers are left out. */

@@ -78,8 +78,11 @@ void WriteDataset(hid_t file, const std::string& name, hid_t storedType, hid_t t
   const std::array<hsize_t, 2> dimensions{ size / columns, columns };
   const int rank = columns == 1 ? 1 : 2;
   const Handle space(H5Screate_simple(rank, dimensions.data(), nullptr), H5Sclose);
+  // Without the time, so that the same mesh gives the same file.
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
   Handle dataset(
-    H5Dcreate2(file, name.c_str(), storedType, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+    H5Dcreate2(file, name.c_str(), storedType, space, H5P_DEFAULT, creation, H5P_DEFAULT),
     H5Dclose);
   const bool done = dataset >= 0 &&
     (size == 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);

@@ -7,9 +7,9 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 
-#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace voxplex::io
 {
@@ -29,7 +29,7 @@ std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component)
 {
   const vtkIdType index = cell * labels->GetNumberOfComponents() + component;
   const auto label = static_cast<std::int64_t>(labels->GetVariantValue(index).ToTypeInt64());
-  if (label > std::numeric_limits<std::int32_t>::max())
+  if (!std::in_range<std::int32_t>(label))
   {
     throw FileError("label " + std::to_string(label) +
       " does not fit into this format, which has 32 bits for it; write a .vtu file");

@@ -4,10 +4,12 @@
 // the faces; SPACE in a comment as 3D Slicer writes it. Not with vtkPLYWriter, which does not
 // notice a full disk.
 
-#include "MeshView.h"
+#include "LabelPairs.h"
 #include "TextFile.h"
 #include "Writers.h"
 
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -37,7 +39,7 @@ void Append(TextFile& file, T value)
 void WritePLY(const MeshData& mesh, const std::string& path)
 {
   vtkPolyData* surface = mesh.Interfaces;
-  const MeshView view(mesh);
+  vtkDataArray* const pairs = RequireArray(surface->GetCellData(), "Labels");
   TextFile file(path);
   file << "ply\nformat binary_little_endian 1.0\n"
        << "comment Voxplex interfaces. SPACE=" << mesh.Space << "\nelement vertex "
@@ -65,9 +67,8 @@ void WritePLY(const MeshData& mesh, const std::string& path)
     {
       Append(file, static_cast<std::int32_t>(ids[k]));
     }
-    const MeshView::LabelPair& pair = view.PairOfTriangle[static_cast<std::size_t>(cell)];
-    Append(file, static_cast<std::int32_t>(pair.first));
-    Append(file, static_cast<std::int32_t>(pair.second));
+    Append(file, static_cast<std::int32_t>(LabelAt(pairs, cell, 0)));
+    Append(file, static_cast<std::int32_t>(LabelAt(pairs, cell, 1)));
   }
   file.Close();
 }

@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkUnstructuredGrid
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkUnstructuredGridReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
@@ -304,6 +304,81 @@ class Errors(WriterTestCase):
         pentatopes.Update()
         self.refuse(self.with_data("m.vtu", mesh, pentatopes.GetOutputDataObject(1)), "one is of three dimensions")
         self.refuse(self.with_data("m.mfem", pentatopes.GetOutput(), interfaces), "one is of three dimensions")
+
+    def test_damaged_data(self):
+        """What a damaged file may leave: vertices and arrays that are none."""
+        mesher = self.mesher()
+        mesher.Update()
+        mesh, interfaces = mesher.GetOutput(), mesher.GetOutputDataObject(1)
+
+        def damaged(data, damage):
+            copy = data.NewInstance()
+            copy.DeepCopy(data)
+            damage(copy)
+            return copy
+
+        def set_vertex(cells, vertex):
+            vtk_to_numpy(cells.GetConnectivityArray())[-1] = vertex
+
+        def shorten(attributes, name):
+            array = attributes.GetArray(name)
+            array.SetNumberOfTuples(array.GetNumberOfTuples() - 1)
+
+        def replace(attributes, name, value):
+            values = vtkDoubleArray()
+            values.DeepCopy(attributes.GetArray(name))
+            values.SetComponent(0, 0, value)
+            attributes.RemoveArray(name)
+            attributes.AddArray(values)
+
+        for name in ("m.msh", "m.xdmf", "m.inp"):
+            for vertex in (-1, mesh.GetNumberOfPoints(), 1 << 60):
+                with self.subTest(name=name, vertex=vertex):
+                    wrong = damaged(mesh, lambda grid: set_vertex(grid.GetCells(), vertex))
+                    self.refuse(self.with_data(name, wrong, interfaces), "vertices that are none of its points")
+                    wrong = damaged(interfaces, lambda surface: set_vertex(surface.GetPolys(), vertex))
+                    self.refuse(self.with_data(name, mesh, wrong), "vertices that are none of its points")
+            wrong = damaged(mesh, lambda grid: shorten(grid.GetCellData(), "Label"))
+            self.refuse(self.with_data(name, wrong, interfaces), "the mesh has [0-9]+ values 'Label' for")
+            wrong = damaged(interfaces, lambda surface: shorten(surface.GetCellData(), "Labels"))
+            self.refuse(self.with_data(name, mesh, wrong), "the interfaces have [0-9]+ values 'Labels' for")
+            wrong = damaged(interfaces, lambda surface: shorten(surface.GetPointData(), "PointIds"))
+            self.refuse(self.with_data(name, mesh, wrong), "the interfaces have [0-9]+ values 'PointIds' for")
+            for value in (float("nan"), float("inf"), -1, 1e300):
+                with self.subTest(name=name, value=value):
+                    wrong = damaged(interfaces, lambda surface: replace(surface.GetPointData(), "PointIds", value))
+                    self.refuse(self.with_data(name, mesh, wrong), "their PointIds are not its points")
+            for value in (1e300, -1e300, 1 << 40):
+                wrong = damaged(mesh, lambda grid: replace(grid.GetCellData(), "Label", value))
+                self.refuse(self.with_data(name, wrong, interfaces), "does not fit into this format")
+
+        for name in ("i.stl", "i.ply", "i.vtp"):
+            wrong = damaged(interfaces, lambda surface: set_vertex(surface.GetPolys(), 1 << 40))
+            writer = self.with_data(name, mesh, wrong)
+            writer.SetContent(INTERFACES)
+            self.refuse(writer, "vertices that are none of its points")
+
+    def test_small_cells(self):
+        points, polygons = vtkPoints(), vtkCellArray()
+        for i in range(3):
+            points.InsertNextPoint(i, 0, i * i)
+        polygons.InsertNextCell(2, (0, 1))
+        surface = vtkPolyData()
+        surface.SetPoints(points)
+        surface.SetPolys(polygons)
+        for name in ("i.vtp", "i.vtk", "i.stl"):
+            writer = self.with_data(name, vtkUnstructuredGrid(), surface)
+            writer.SetContent(INTERFACES)
+            self.refuse(writer, "cells with fewer vertices than they need")
+
+    def test_no_points(self):
+        for name in ("m.vtu", "m.msh", "m.xdmf", "m.mesh"):
+            empty = vtkUnstructuredGrid()
+            label = vtkIntArray()
+            label.SetName("Label")
+            empty.GetCellData().AddArray(label)
+            self.assertEqual(self.with_data(name, empty).Write(), 1, name)
+            self.assertIsNone(empty.GetPoints())
 
     def test_full_disk(self):
         """A limit on the size of files stands in for it. What was there before stays."""

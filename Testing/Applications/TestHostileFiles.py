@@ -1,0 +1,322 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that were made to do harm: refused in one line that names the file and the fault.
+
+The memory of the program is limited, so that none is taken for what a header claims and the file cannot hold.
+"""
+import gzip
+import os
+import resource
+import shutil
+import struct
+from pathlib import Path
+
+import numpy as np
+
+import images
+from program import PROGRAM, ProgramTestCase, main
+
+GIBIBYTE = 1 << 30
+# What the program and its libraries reserve, and sanitizers, reserve without using it.
+ADDRESS_SPACE = 4 * GIBIBYTE
+USES_SANITIZER = any(name in Path(shutil.which(PROGRAM)).read_bytes() for name in (b"__asan_init", b"__tsan_init"))
+
+CLAIM = "cannot read '%s': it is truncated or damaged: its header claims .* voxels of [0-9]+ bytes?, and %s"
+
+
+def limit_memory():
+    if not USES_SANITIZER:
+        resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
+
+
+class HostileTestCase(ProgramTestCase):
+    def refuse(self, pattern, path, *arguments):
+        done = self.assert_refused(1, pattern, "--input", path, "--output", "mesh.vtu", *arguments, timeout=60,
+                                   preexec_fn=limit_memory)
+        self.assertIn(os.path.basename(str(path)), done.stderr)
+        self.assertLess(len(done.stderr), 500)
+        self.assertNotIn("memory", done.stderr)
+
+    def write(self, name, data):
+        (self.folder / name).write_bytes(data)
+        return name
+
+    def nrrd_header(self, name, **fields):
+        """A header without voxels."""
+        fields = {"encoding": "raw", **{key.replace("_", " "): value for key, value in fields.items()}}
+        path = Path(images.write_nrrd(self.folder / name, images.ball(4, 1.5), header_lines=fields))
+        path.write_bytes(path.read_bytes().split(b"\n\n")[0] + b"\n")
+        return name
+
+    def metaimage_header(self, name, data_file):
+        path = Path(images.write_metaimage(self.folder / name, images.ball(4, 1.5), header_lines={"ElementDataFile": "@"}))
+        path.write_bytes(path.read_bytes().split(b"@")[0] + data_file.encode() + b"\n")
+        return name
+
+    def nifti(self, name, **fields):
+        """fields: offsets in the header, with formats and values."""
+        data = bytearray(Path(images.write_nifti(self.folder / "plain.nii", images.ball(4, 1.5))).read_bytes())
+        (self.folder / "plain.nii").unlink()
+        for offset, (form, *values) in fields.items():
+            struct.pack_into("<" + form, data, int(offset[1:]), *values)
+        return self.write(name, gzip.compress(bytes(data)) if name.endswith(".gz") else bytes(data))
+
+
+class Sizes(HostileTestCase):
+    """Headers that claim more than the file can hold."""
+
+    def test_nrrd(self):
+        for encoding in ("raw", "gzip", "ascii", "hex", "bzip2"):
+            with self.subTest(encoding):
+                images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5),
+                                  header_lines={"sizes": "3000 3000 3000", "encoding": encoding})
+                self.refuse(CLAIM % ("i.nrrd", "the file has [0-9]+ bytes$"), "i.nrrd")
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5), header_lines={"sizes": "4294967296 " * 3})
+        self.refuse("too large", "i.nrrd")
+
+    def test_detached_nrrd(self):
+        self.write("i.raw", bytes(64))
+        self.refuse(CLAIM % ("i.nhdr", "'i.raw' has 64 bytes$"),
+                    self.nrrd_header("i.nhdr", sizes="3000 3000 3000", data_file="i.raw"))
+
+    def test_metaimage(self):
+        for header in ({}, {"CompressedData": "True"}, {"BinaryData": "False"}):
+            with self.subTest(header):
+                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5),
+                                       header_lines={"DimSize": "3000 3000 3000", **header})
+                self.refuse(CLAIM % ("i.mha", "the file has [0-9]+ bytes$"), "i.mha")
+
+    def test_frames(self):
+        images.write_metaimage(self.folder / "i.mha", images.moving_balls(2, 8, 2.5),
+                               header_lines={"DimSize": "8 8 8 100000000"})
+        self.refuse(CLAIM % ("i.mha", "the file"), "i.mha")
+        images.write_sequence(self.folder / "i.nrrd", images.moving_balls(2, 8, 2.5),
+                              header_lines={"sizes": "100000000 8 8 8"})
+        self.refuse(CLAIM % ("i.nrrd", "the file"), "i.nrrd")
+
+    def test_nifti(self):
+        for name in ("i.nii", "i.nii.gz"):
+            self.refuse(r"truncated or damaged \(416 of 35181150962015 bytes\)",
+                        self.nifti(name, _42=("3h", 32767, 32767, 32767)))
+        # The product of all seven does not fit into 64 bits.
+        self.refuse("truncated or damaged", self.nifti("i.nii", _40=("8h", 7, *[32767] * 7)))
+        self.refuse("8 bits a voxel from byte -1", self.nifti("i.nii", _108=("f", -1)))
+        self.refuse("8 bits a voxel from byte nan", self.nifti("i.nii", _108=("f", float("nan"))))
+        self.refuse("truncated or damaged", self.nifti("i.nii", _108=("f", 1e30)))
+
+    def test_nifti_of_two_files(self):
+        self.nifti("i.hdr", _42=("3h", 3000, 3000, 3000), _344=("4s", b"ni1\0"))
+        self.write("i.img", bytes(64))
+        self.refuse(CLAIM % ("i.hdr", "its 2 files have"), "i.hdr")
+        self.refuse(CLAIM % ("i.img", "the file has 64 bytes"), "i.img")
+        self.nifti("i.hdr", _40=("h", 9), _344=("4s", b"ni1\0"))
+        self.refuse("9 dimensions", "i.img")
+
+    def test_vtk(self):
+        """Which ITK reads as zeros where it ends too soon."""
+        head = ("# vtk DataFile Version 3.0\nlabels\n%s\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3000 3000 3000\n"
+                "SPACING 1 1 1\nORIGIN 0 0 0\nPOINT_DATA 27000000000\nSCALARS labels %s 1\nLOOKUP_TABLE default\n")
+        for encoding, scalars in (("BINARY", "unsigned_char"), ("ASCII", "short"), ("binary", "double")):
+            with self.subTest(encoding):
+                self.refuse(CLAIM % ("i.vtk", "the file"),
+                            self.write("i.vtk", (head % (encoding, scalars)).encode() + b"1 " * 32))
+
+    def test_end_in_the_header(self):
+        """ITK finds out while it looks for the format."""
+        self.refuse("cannot read 'i.vtk': the file is truncated or damaged",
+                    self.write("i.vtk", b"# vtk DataFile Version 3.0\nlabels\nBINARY\nDATASET STRUCTURED_POINTS\nDIM"))
+        self.refuse("cannot read 'i.vtk': the file is truncated or damaged", self.write("i.vtk", b"# vtk DataFile\nlabels"))
+
+    def test_gipl(self):
+        head = bytearray(256)
+        struct.pack_into(">5H4f", head, 0, 60000, 60000, 1000, 1, 8, 1, 1, 1, 1)
+        struct.pack_into(">I", head, 252, 719555000)
+        self.refuse(CLAIM % ("i.gipl", "the file has 320 bytes"), self.write("i.gipl", bytes(head) + bytes(64)))
+
+    def test_dicom(self):
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        rows = plain.index(struct.pack("<2H", 0x28, 0x10)) + 8
+        path.write_bytes(plain[:rows] + b"\xff\xff" + plain[rows + 2:rows + 10] + b"\xff\xff" + plain[rows + 12:])
+        self.refuse(CLAIM % (path.name, "the file has"), path.name)
+        frames = images._element(0x28, 8, "IS", "1000000000")
+        path.write_bytes(plain[:rows - 8] + frames + plain[rows - 8:])
+        self.refuse(CLAIM % (path.name, "the file has"), path.name)
+
+    def test_dicom_elements(self):
+        """GDCM takes as much memory as an element claims."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        pixels = plain.rindex(struct.pack("<2H", 0x7FE0, 0x10))
+        for group, number, representation in ((0x7FE0, 0x10, b"OW"), (0x29, 0x1010, b"OB"), (0x40, 0xA730, b"SQ")):
+            with self.subTest(representation):
+                path.write_bytes(plain[:pixels] + struct.pack(
+                    "<2H2sHI", group, number, representation, 0, 0xFFFFFFF0) + b"abc")
+                message = r"its element \(%04x,%04x\) claims 4294967280 bytes, and 3 are left" % (group, number)
+                self.refuse(message, path.name)
+                self.assert_refused(1, "'%s': .*%s" % (path.name, message), "--input", ".", "--output", "mesh.vtu")
+        # Without a preamble, and without a value representation, for which GDCM has readers, too.
+        path.write_bytes(plain[132:pixels] + struct.pack("<2H2sHI", 0x29, 0x1010, b"OB", 0, 0xFFFFFFF0))
+        self.refuse(r"its element \(0029,1010\) claims", path.name)
+        path.write_bytes(plain[:pixels] + struct.pack("<2HI", 0x29, 0x1010, 0x7FFFFF01))
+        self.refuse(r"its element \(0029,1010\) claims 2147483393 bytes, and 0 are left", path.name)
+
+    def test_no_voxels(self):
+        images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
+        self.refuse("its header claims no voxels: 0 x 4 x 4", "i.mha")
+
+    def test_large_and_sound(self):
+        """What compresses best is no hostile size."""
+        zeros = np.zeros((160, 160, 160), np.uint8)
+        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_nifti, "i.nii.gz")):
+            with self.subTest(name):
+                path = Path(write(self.folder / name, zeros))
+                self.assertLess(path.stat().st_size * 200, zeros.size)
+                self.assert_refused(1, "no foreground", "--input", name, "--output", "mesh.vtu")
+
+    def test_text(self):
+        """Numbers in text hold at most half a voxel a byte."""
+        ball = images.ball(12, 4.0)
+        head = Path(images.write_nrrd(self.folder / "i.nrrd", ball, header_lines={"encoding": "ascii"})).read_bytes()
+        text = " ".join(map(str, ball.ravel())).encode()
+        self.write("i.nrrd", head.split(b"\n\n")[0] + b"\n\n" + text)
+        self.mesh("--input", "i.nrrd", "--delta", 3, "--output", "mesh.vtu")
+
+
+class Headers(HostileTestCase):
+    def test_dimensions_of_metaimage(self):
+        for number in ("100000", "0", "-3", "many"):
+            with self.subTest(number):
+                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"NDims": number})
+                self.refuse("its header gives '%s' dimensions" % number, "i.mha")
+
+    def test_endless_headers(self):
+        self.refuse("its header does not end within 1 MiB", self.write("i.nrrd", b"NRRD0004\n" + b"a" * (1 << 21)))
+        self.refuse("its header does not end within 1 MiB",
+                    self.write("i.mhd", b"ObjectType = Image\nNDims = 3\nComment = " + b"a" * (1 << 21)))
+
+    def test_endless_values(self):
+        """They are quoted by their beginnings."""
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5), header_lines={
+            "space": None, "space directions": None, "space origin": None, "spacings": "0 1 1 " + "1" * 100000})
+        self.refuse("spacing in its header is '0 1 1 1+...'", "i.nrrd")
+
+    def test_deep_nesting(self):
+        """GDCM follows sequences by recursion."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        pixels = plain.rindex(struct.pack("<2H", 0x7FE0, 0x10))
+        level = struct.pack("<2H2sHI", 0x40, 0xA730, b"SQ", 0, 0xFFFFFFFF) + struct.pack("<2HI", 0xFFFE, 0xE000, 0xFFFFFFFF)
+        end = struct.pack("<2HI", 0xFFFE, 0xE00D, 0) + struct.pack("<2HI", 0xFFFE, 0xE0DD, 0)
+        path.write_bytes(plain[:pixels] + level * 100000)
+        self.refuse("sequences are nested more than 64 deep", path.name)
+        path.write_bytes(plain[:pixels] + level * 60 + end * 60 + plain[pixels:])
+        self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+
+    def test_control_characters(self):
+        """Terminals obey them."""
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5), header_lines={
+            "space": None, "space directions": None, "space origin": None, "spacings": "0 1 1\x1b[2J"})
+        self.refuse(r"spacing in its header is '0 1 1\?\[2J'", "i.nrrd")
+
+    def test_spacings_and_directions(self):
+        for name, fields, pattern in (
+                ("i.nrrd", {"space directions": "(0,0,0) (0,1,0) (0,0,1)"}, "spacing|singular|independent"),
+                ("i.nrrd", {"space origin": "(nan,0,0)"}, "origin|damaged")):
+            with self.subTest(fields):
+                images.write_nrrd(self.folder / name, images.ball(8, 2.5), header_lines=fields)
+                self.refuse(pattern, name)
+        for fields, pattern in (({"TransformMatrix": "0 0 0 0 0 0 0 0 0"}, "singular"), ({"Offset": "inf 0 0"}, "origin|damaged"),
+                                ({"TransformMatrix": "nan 0 0 0 1 0 0 0 1"}, "singular|damaged|direction")):
+            with self.subTest(fields):
+                images.write_metaimage(self.folder / "i.mha", images.ball(8, 2.5), header_lines=fields)
+                self.refuse(pattern, "i.mha")
+
+
+class DataFiles(HostileTestCase):
+    """What a header names is opened by ITK, whatever it is."""
+
+    def refuse_data_file(self, pattern, data_file):
+        for name, write in (("i.nhdr", lambda name: self.nrrd_header(name, data_file=data_file)),
+                            ("i.mhd", lambda name: self.metaimage_header(name, data_file))):
+            with self.subTest(name=name, data_file=data_file):
+                self.refuse(pattern, write(name))
+
+    def test_missing(self):
+        self.refuse_data_file("its data file 'none.raw' does not exist", "none.raw")
+        self.refuse_data_file("its data file 'none.raw' does not exist", "LIST\nnone.raw")
+        self.refuse_data_file("its data file 'none_001.raw' does not exist", "none_%03d.raw 1 4 1")
+
+    def test_special_files(self):
+        os.mkfifo(self.folder / "fifo.raw")
+        (self.folder / "folder.raw").mkdir()
+        for data_file in ("fifo.raw", "folder.raw", "/dev/zero", "/dev/stdin"):
+            self.refuse_data_file("is not a regular file", data_file)
+
+    def test_patterns(self):
+        for pattern in ("%s%s%s%n%d.raw 1 4 1", "%0999999999d.raw 1 4 1", "a%d%n.raw 1 4 1", "%n.raw 1 4 1",
+                        "a%d.raw 1 2147483647 1", "a%d.raw 1 4 0", "a%d.raw 4 1 1", "a%d.raw"):
+            self.refuse_data_file("is no pattern of names such as", pattern)
+        self.refuse_data_file("names 1000000000 data files", "a%d.raw 1 1000000000 1")
+
+    def test_sound_ones(self):
+        ball = images.ball(8, 2.8)
+        for k in range(8):
+            self.write("slice_%03d.raw" % k, ball[k].tobytes())
+        for data_file in ("slice_%03d.raw 0 7 1", "LIST\n" + "\n".join("slice_%03d.raw" % k for k in range(8))):
+            fields = {"sizes": "8 8 8", "data_file": data_file}
+            with self.subTest(data_file):
+                self.mesh("--input", self.nrrd_header("i.nhdr", **fields), "--delta", 2, "--output", "mesh.vtu")
+
+
+class Files(HostileTestCase):
+    def test_special_files(self):
+        os.mkfifo(self.folder / "i.nrrd")
+        self.refuse("it is neither a regular file nor a folder", "i.nrrd")
+        self.refuse("it is neither a regular file nor a folder", "/dev/zero")
+        self.refuse("'i.nrrd' is not a regular file", ".")
+
+    def test_no_permission(self):
+        images.write_nrrd(self.folder / "i.nrrd", images.ball())
+        (self.folder / "i.nrrd").chmod(0)
+        self.folder.chmod(0o755)
+        # Root may read everything.
+        options = {"user": 65534} if os.geteuid() == 0 else {}
+        done = self.call("--input", "i.nrrd", **options)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "^voxplex: cannot read 'i.nrrd': Permission denied\n$")
+
+    def test_label_tables(self):
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(12, 4.0))
+        os.mkfifo(self.folder / "fifo.txt")
+        (self.folder / "folder.txt").mkdir()
+        with open(self.folder / "large.txt", "wb") as file:
+            file.truncate((16 << 20) + 1)
+        for name, text, pattern in (
+                ("a.txt", b"", "it lists no labels"),
+                ("a.txt", b"\0" * 100, "it is no text file"),
+                ("a.txt", b"x" * 1000000, "line 1: 'x+...' is not a label"),
+                ("a.txt", b"1 " + b"\xff" * 1000, "line 1: the name is not in UTF-8"),
+                ("a.txt", b"\x1b[2J a\n", r"line 1: '\?\[2J' is not a label"),
+                ("a.txt", b"9223372036854775808 a\n", "line 1: '9223372036854775808' is not a label"),
+                ("a.txt", b"1" * 100000 + b" a\n", "line 1: '1+...' is not a label"),
+                ("a.txt", b'1,"a', "line 1: a quotation mark is not closed"),
+                ("a.txt", b"1," + b'"' * 100001, "line 1: a quotation mark is not closed"),
+                ("a.txt", b"1,a" + b"," * 1000000, "line 1: it has 1000002 fields"),
+                ("a.txt", b"1,a,2,3,1e999\n", "line 1: '1e999' is not a part of a colour"),
+                ("fifo.txt", None, "it is not a regular file"),
+                ("folder.txt", None, "it is not a regular file"),
+                ("large.txt", None, "it is larger than 16 MiB"),
+                ("none.txt", None, "there is no such file")):
+            with self.subTest(name=name, text=text and text[:20]):
+                if text is not None:
+                    self.write(name, text)
+                done = self.assert_refused(1, "cannot read the label table '%s': %s" % (name, pattern), "--input",
+                                           "i.nrrd", "--label-table", name, "--output", "m.vtu",
+                                           preexec_fn=limit_memory, timeout=60)
+                self.assertLess(len(done.stderr), 500)
+
+
+if __name__ == "__main__":
+    main()
