@@ -496,6 +496,8 @@ RefinementSettings<D> MeshingStages<D>::Settings(
   settings.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
   settings.FacetAngle = this->Options.FacetAngle;
   settings.Size = prepared.Size.get();
+  settings.SizeFloor =
+    SpacingFloorFraction * this->Stats.Delta; // also where grading is coarser everywhere
   settings.Order = this->Options.Order;
   settings.Slivers = this->Options.Slivers;
   settings.TetSlivers = this->Options.TetSlivers;

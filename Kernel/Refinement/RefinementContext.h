@@ -49,6 +49,7 @@ struct RefinementSettings
   double RadiusEdgeRatio = 2.0;                  ///< rho-bar
   double FacetAngle = 30.0;                      ///< degrees
   const SizeFunction<D>* Size = nullptr;
+  double SizeFloor = 0.0; ///< sizes below it are raised to it; 0: a tenth of the finest delta
   RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
   SliverOptions Slivers;                        ///< 4D only
   TetSliverOptions TetSlivers;                  ///< 3D only
@@ -69,7 +70,8 @@ struct RefinementContext
     const Box<D>& box, std::uint64_t expectedFeatures)
     : Image(image)
     , Settings(settings)
-    , SizeFloor(SpacingFloorFraction * FinestDelta(settings))
+    , SizeFloor(settings.SizeFloor > 0.0 ? settings.SizeFloor
+                                         : SpacingFloorFraction * FinestDelta(settings))
     , SpacingFloor(SizeFloor)
     , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
     , IsCut(image.IsCut())
@@ -92,7 +94,7 @@ struct RefinementContext
     {
       smallest = std::min(smallest, this->Settings.Local->Smallest());
     }
-    this->SpacingFloor = SpacingFloorFraction * smallest;
+    this->SpacingFloor = std::min(this->SizeFloor, SpacingFloorFraction * smallest);
   }
 
   /** sf(p), cleaned of what is no bound and raised to the floor. */
