@@ -232,7 +232,32 @@ void CheckFacets(const SimplexMesh<D>& mesh, std::vector<Face<D>>& expected, Fin
       : "facets are oriented the wrong way round");
 }
 
-/** Centroids of simplices, spread over the mesh, are in no other one. */
+template <int D>
+bool IsInside(
+  const std::array<Vector<D>, static_cast<std::size_t>(D + 1)>& corners, const Vector<D>& p)
+{
+  for (std::size_t a = 0; a < p.size(); ++a)
+  {
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
+      [a](const Vector<D>& one, const Vector<D>& other) { return one[a] < other[a]; });
+    if (!((*low)[a] < p[a] && p[a] < (*high)[a]))
+    {
+      return false;
+    }
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    auto replaced = corners;
+    replaced[i] = p;
+    if (Orientation<D>(replaced) <= 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** Centroids of simplices, spread over the mesh, are in no other one. That of a flat one may be rounded to beyond it. */
 template <int D>
 void CheckOverlap(const Subject<D>& subject, Findings& findings)
 {
@@ -240,31 +265,22 @@ void CheckOverlap(const Subject<D>& subject, Findings& findings)
   const std::size_t step = std::max<std::size_t>(1, mesh.Simplices.size() / OverlapSamples);
   for (std::size_t s = step / 2; s < mesh.Simplices.size(); s += step)
   {
+    const auto own = subject.Corners(s);
     Vector<D> centroid{};
-    for (const Vector<D>& corner : subject.Corners(s))
+    for (const Vector<D>& corner : own)
     {
       for (std::size_t a = 0; a < centroid.size(); ++a)
       {
         centroid[a] += corner[a] / (D + 1);
       }
     }
+    if (!IsInside<D>(own, centroid))
+    {
+      continue;
+    }
     for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
     {
-      const auto corners = subject.Corners(t);
-      bool inside = t != s;
-      for (std::size_t a = 0; inside && a < centroid.size(); ++a)
-      {
-        const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
-          [a](const Vector<D>& p, const Vector<D>& q) { return p[a] < q[a]; });
-        inside = (*low)[a] < centroid[a] && centroid[a] < (*high)[a];
-      }
-      for (std::size_t i = 0; inside && i < corners.size(); ++i)
-      {
-        auto replaced = corners;
-        replaced[i] = centroid;
-        inside = Orientation<D>(replaced) > 0;
-      }
-      if (inside)
+      if (t != s && IsInside<D>(subject.Corners(t), centroid))
       {
         findings.Add("overlap", Place(s) + " and " + Place(t));
       }
