@@ -30,6 +30,9 @@ constexpr double SamplesPerThickness = 2.7;
  */
 constexpr double BoundFactor = 2.0;
 
+/** Of larger components only every so manieth voxel is looked at for where they are thickest. */
+constexpr std::int64_t MostVoxelsLookedAt = 1000;
+
 /** How often a component is sampled where it is thickest before it is sampled as a whole. */
 constexpr unsigned AttemptsAtThickest = 2;
 
@@ -106,6 +109,8 @@ std::vector<FeatureSeed<D>> ComponentGuard<D>::TakeSeeds()
 template <int D>
 void ComponentGuard<D>::SampleThickest(std::uint32_t component)
 {
+  const std::int64_t step = this->All.All()[component].Voxels / MostVoxelsLookedAt + 1;
+  std::int64_t count = 0;
   std::optional<ThinPart<D>> thickest;
   this->All.ForEachRun(component,
     [&](const Index& first, std::int64_t length)
@@ -113,6 +118,10 @@ void ComponentGuard<D>::SampleThickest(std::uint32_t component)
       ThrowIfStopped(this->Stop);
       for (Index voxel = first; voxel[0] < first[0] + length; ++voxel[0])
       {
+        if (count++ % step != 0)
+        {
+          continue;
+        }
         ThinPart<D> part(this->Image, this->Surfaces, voxel);
         if (!thickest || part.IsBetterThan(*thickest))
         {
