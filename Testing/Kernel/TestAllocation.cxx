@@ -297,6 +297,7 @@ TEST(Allocation, AFailedInsertionWithHelpLeavesTheTriangulationAsItWas)
       Triangulation<4>::Worker worker(t, 1);
       std::vector<Triangulation<4>::Worker*> team = { &worker, &helper };
       worker.Help = { &desk, 0, &team, 1, 1, 1 };
+      EXPECT_EQ(t.Lock(worker, seed, t.State(seed).Generation), LockOutcome::Locked);
       Countdown = n;
       try
       {
