@@ -75,9 +75,9 @@ std::vector<Case> Cases()
   return {
     { "nested balls", phantoms::NestedBalls(15.0), 1.2, 30.0, 0.03 },
     { "touching labels", phantoms::TouchingLabels(10), 1.2, 0.0, 0.02 },
-    { "sheet", phantoms::Sheet(12), 0.8, 30.0, 0.02 },
+    { "sheet", phantoms::Sheet(12), 0.8, 30.0, 0.03 },
     { "aligned cube", AlignedCube(), 1.0, 30.0, 0.02 },
-    { "cut ball", phantoms::CutBall(11), 1.5, 30.0, 0.02 },
+    { "cut ball", phantoms::CutBall(11), 0.8, 30.0, 0.02 },
     { "tilted ball", TiltedBall(8.0), 1.4, 30.0, 0.02 },
   };
 }
@@ -154,7 +154,7 @@ TEST(ParallelMeshing, AnyNumberOfThreadsMakesAsGoodAMesh)
         EXPECT_NEAR(volumes.at(label), volume, c.VolumeTolerance * volume) << "label " << label;
       }
       EXPECT_NEAR(static_cast<double>(mesh.Simplices.size()), static_cast<double>(simplices),
-        100.0 + 0.15 * static_cast<double>(simplices)); // small meshes vary with every sliver
+        100.0 + 0.15 * static_cast<double>(simplices)); // a sliver can cost a hundred
     }
   }
 }
