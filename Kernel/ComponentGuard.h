@@ -66,6 +66,10 @@ public:
   /** Components with no element of their label within a voxel of them, in increasing order. */
   std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
 
+  /** An element of each of these that the mesh has, the one of best shape; those that it has not are passed over. */
+  std::vector<std::uint32_t> FindWitnesses(
+    const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const;
+
   /**
    * Adds seeds of these components, and bounds near them.
    * @return false if none of them can be sampled more finely
@@ -81,15 +85,12 @@ private:
   double OwnDelta(std::uint32_t component) const;
   void SampleThickest(std::uint32_t component);
   void Sample(std::uint32_t component, double delta);
-  void SamplePart(std::uint32_t component, double factor);
 
   const LabelImage<D>& Image;
   const Domain<D>& Surfaces;
   const Components<D>& All;
   std::vector<double> Delta;      ///< by component
   std::vector<unsigned> Attempts; ///< by component, how often it was sampled where it is thickest
-  std::vector<double> Own;        ///< by component
-  std::vector<int> Stage;         ///< by component
   double FinestDelta;             ///< no component is sampled more finely
   std::vector<bool> Wanted;       ///< by component
   unsigned Threads;

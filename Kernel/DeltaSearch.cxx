@@ -35,11 +35,13 @@ double Rounded(double delta)
 
 } // namespace
 
-DeltaSearch::DeltaSearch(std::uint64_t target, double guess, double exponent, double largest)
+DeltaSearch::DeltaSearch(
+  std::uint64_t target, double guess, double exponent, double smallest, double largest)
   : Target(static_cast<double>(std::max<std::uint64_t>(target, 1)))
   , Exponent(exponent)
+  , Smallest(std::min(smallest, largest))
   , Largest(largest)
-  , NextDelta(std::min(Rounded(guess), largest))
+  , NextDelta(std::clamp(Rounded(guess), Smallest, Largest))
   , LastWidth(std::numeric_limits<double>::infinity())
 {
 }
@@ -86,9 +88,13 @@ void DeltaSearch::Add(std::uint64_t elements)
 }
 
 //------------------------------------------------------------------------------------------------
-// Too many elements, and delta is the largest, or half of it has made as few.
+// Too few elements, and delta is the smallest. Or too many, and delta is the largest, or half of it has made as few.
 bool DeltaSearch::IsOutOfReach() const
 {
+  if (this->Below && !this->Above)
+  {
+    return this->Below->Delta <= this->Smallest;
+  }
   if (this->Below || !this->Above)
   {
     return false;
@@ -143,7 +149,7 @@ std::optional<double> DeltaSearch::Choose()
     // The count is not monotonic: a finer run had too few. Between the two nearest, if they are apart.
     next = std::sqrt(this->Above->Delta * this->Below->Delta);
   }
-  next = std::min(Rounded(next), this->Largest);
+  next = std::clamp(Rounded(next), this->Smallest, this->Largest);
   const bool isNew = std::none_of(this->All.begin(), this->All.end(),
     [&](const MeshingRun& run) { return std::abs(std::log(run.Delta / next)) < 0.1 * EmptyWidth; });
   return isNew ? std::optional<double>(next) : std::nullopt;

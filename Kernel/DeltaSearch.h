@@ -26,8 +26,8 @@ namespace voxplex
  * the interval is halved if it did not shrink to half of itself in two runs.
  *
  * A run within `Aim` of the target ends the search; from run `GoodEnough` on one within `Tolerance` does; after
- * `MostRuns` the search gives up. It gives up before that if the largest delta has too many elements, if one twice
- * as large as another has as many, or if the interval is as good as empty. Deltas have four digits but for the
+ * `MostRuns` the search gives up. It gives up before that if the largest delta has too many elements or the smallest one too
+ * few, if one twice as large as another has as many, or if the interval is as good as empty. Deltas have four digits but for the
  * largest. It knows nothing of meshes: the same counts give the same deltas.
  */
 class DeltaSearch
@@ -42,9 +42,9 @@ public:
    * @param target elements, at least 1
    * @param guess the first delta
    * @param exponent about how the count falls with delta
-   * @param largest delta that may be tried
+   * @param smallest, largest deltas that may be tried
    */
-  DeltaSearch(std::uint64_t target, double guess, double exponent,
+  DeltaSearch(std::uint64_t target, double guess, double exponent, double smallest = 0.0,
     double largest = std::numeric_limits<double>::infinity());
 
   /** The delta to try; nothing if the search is over. */
@@ -69,6 +69,7 @@ private:
 
   double Target;
   double Exponent;
+  double Smallest;
   double Largest;
   std::optional<double> NextDelta;
   std::vector<MeshingRun> All;

@@ -34,6 +34,19 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop = {});
 
+/**
+ * One element for each of some components by which FindLostComponents() finds it: the one with the largest
+ * normalized volume. Components that are lost have none.
+ *
+ * O(elements), by one thread.
+ *
+ * @return numbers of elements, increasing, each once
+ * @throws std::bad_alloc
+ */
+template <int D>
+std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& components,
+  const Components<D>& all, const LabelImage<D>& image, const SimplexMesh<D>& mesh);
+
 } // namespace voxplex
 
 #endif

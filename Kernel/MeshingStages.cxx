@@ -57,6 +57,8 @@ constexpr double ShareOfRun = 0.6;
  */
 constexpr double ElementsPerEstimated = 1.12;
 constexpr double OptimisedPerEstimated = 1.0;
+/** No delta is tried with which a mesh that is not graded would have more than this times the elements asked for. */
+constexpr double LargestExcess = 16.0;
 
 /** Optimisation leaves so many elements of those that refinement made; the search plans with it. */
 constexpr double ElementsLeftByOptimisation = 0.96;
@@ -274,12 +276,15 @@ DeltaSearch MeshingStages<D>::StartSearch(const Prepared& prepared) const
     SpacingFloorFraction * delta, prepared.Size.get(), this->Options.Threads, prepared.Stop);
   const double perEstimated =
     D == 3 && this->Options.Optimise ? OptimisedPerEstimated : ElementsPerEstimated;
-  const auto target = static_cast<double>(this->Options.Elements) / perEstimated;
-  const auto interfaces = static_cast<double>(estimate.InterfaceElements);
+  const auto wanted = static_cast<double>(this->Options.Elements);
+  const double target = wanted / perEstimated;
+  const double interfaces = std::max(static_cast<double>(estimate.InterfaceElements), 1.0);
   const double sizes = static_cast<double>(estimate.Elements) - interfaces;
   const double guess =
     delta * std::pow(interfaces / std::max(target - sizes, 0.25 * target), 1.0 / (D - 1));
-  return DeltaSearch(this->Options.Elements, guess, D - 1,
+  const double smallest =
+    delta * std::pow(interfaces / (LargestExcess * wanted), 1.0 / (D - 1));
+  return DeltaSearch(this->Options.Elements, guess, D - 1, smallest,
     std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
 }
 
@@ -362,7 +367,7 @@ bool MeshingStages<D>::MeshWithDelta(const Prepared& prepared, SimplexMesh<D>& m
     {
       if (!this->IsFarFromTarget(mesh))
       {
-        this->Optimise(prepared, mesh);
+        this->Optimise(prepared, components ? &*components : nullptr, mesh);
       }
       return !stop.stop_requested();
     }
@@ -680,9 +685,10 @@ void MeshingStages<D>::Extract(const Triangulation<D>& triangulation, const Doma
 }
 
 //------------------------------------------------------------------------------------------------
-/** @throws Cancelled */
+/** Keeps components that the mesh has. @throws Cancelled */
 template <int D>
-void MeshingStages<D>::Optimise(const Prepared& prepared, SimplexMesh<D>& mesh)
+void MeshingStages<D>::Optimise(
+  const Prepared& prepared, const ComponentGuard<D>* components, SimplexMesh<D>& mesh)
 {
   if constexpr (D == 3)
   {
@@ -698,6 +704,11 @@ void MeshingStages<D>::Optimise(const Prepared& prepared, SimplexMesh<D>& mesh)
     const GridGeometry<3>& grid = prepared.Image.Grid();
     options.InterfaceTolerance =
       OptimisationTolerance * std::min({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) });
+    if (components)
+    {
+      options.ShouldHaveStayed = [&mesh, components](const SimplexMesh<3>& result)
+      { return components->FindWitnesses(mesh, components->FindLost(result)); };
+    }
     const OptimisationStatistics done =
       OptimiseMesh(mesh, prepared.Domain, options, this->Options.Threads, prepared.Stop);
     this->Stats.Times.Optimisation += done.Seconds;

@@ -143,7 +143,8 @@ private:
   void Extract(const Triangulation<D>& triangulation, const Domain<D>& domain,
     const std::optional<InterfaceStage>& interfaces, const std::stop_token& stop,
     SimplexMesh<D>& mesh);
-  void Optimise(const Prepared& prepared, SimplexMesh<D>& mesh);
+  void Optimise(
+    const Prepared& prepared, const ComponentGuard<D>* components, SimplexMesh<D>& mesh);
 
   const BitMask<D>* Sites = nullptr; ///< surface voxels of the domain
   const MeshingOptions<D>& Options;

@@ -81,7 +81,7 @@ void Flips::ConsiderFacet(std::uint32_t t, unsigned i)
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const std::uint32_t other = mesh.Cells[t].N[i];
   if (other == TetrahedralComplex::None || mesh.Labels[other] != mesh.Labels[t] ||
-    !this->Target.OwnsAll(mesh.Cells[other].V))
+    !this->Target.MayChange(t) || !this->Target.MayChange(other))
   {
     return;
   }
@@ -365,7 +365,7 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const TetrahedralComplex::Label own = mesh.Labels[t];
   const auto& cell = mesh.Cells[t];
-  if (!this->Target.OwnsAll(cell.V))
+  if (!this->Target.MayChange(t))
   {
     return false;
   }

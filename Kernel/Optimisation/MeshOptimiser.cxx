@@ -41,6 +41,9 @@ constexpr unsigned RingsOfRoom = 3;
 constexpr double TighterBounds = 1.2;
 constexpr double TighterEachRound = 0.1;
 
+/** How often all is done again for the sake of what should have stayed. */
+constexpr unsigned MostAttempts = 8;
+
 /** What ShapeScore takes. */
 constexpr double LargestLowerBound = 59.0;
 constexpr double SmallestUpperBound = 91.0;
@@ -466,14 +469,36 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   statistics.After = statistics.Before;
   if (statistics.Before.Poor != 0)
   {
-    TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop);
-    complex.FindCutFaces(domain);
-    Optimisation(complex, domain, options, threads, limits, statistics).Run();
-    ThrowIfStopped(stop);
-    SimplexMesh<3> result;
-    complex.Write(result);
-    statistics.After = SurveyShapes(result, options, threads, stop);
-    mesh = std::move(result);
+    std::vector<std::uint32_t> kept;
+    for (unsigned attempt = 0; attempt < MostAttempts; ++attempt)
+    {
+      SimplexMesh<3> result;
+      {
+        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop);
+        complex.FindCutFaces(domain);
+        complex.Kept = kept;
+        Optimisation(complex, domain, options, threads, limits, statistics).Run();
+        ThrowIfStopped(stop);
+        complex.Write(result);
+      }
+      const std::vector<std::uint32_t> more = options.ShouldHaveStayed
+        ? options.ShouldHaveStayed(result)
+        : std::vector<std::uint32_t>();
+      if (more.empty())
+      {
+        statistics.After = SurveyShapes(result, options, threads, stop);
+        mesh = std::move(result);
+        break;
+      }
+      const std::size_t before = kept.size();
+      kept.insert(kept.end(), more.begin(), more.end());
+      std::sort(kept.begin(), kept.end());
+      kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+      if (kept.size() == before)
+      {
+        break;
+      }
+    }
     statistics.OutOfTime = limits.OutOfTime();
   }
   statistics.Seconds = std::chrono::duration<double>(Clock::now() - start).count();

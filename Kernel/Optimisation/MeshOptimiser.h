@@ -15,7 +15,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stop_token>
+#include <vector>
 
 namespace voxplex
 {
@@ -41,6 +43,12 @@ struct OptimisationOptions
 
   /** Work ends after about so many seconds, with what was reached by then; 0 means no limit. */
   double Seconds = 0.0;
+
+  /**
+   * Is asked when the work is done, with what has become of the mesh: which tetrahedra of the mesh before should have
+   * stayed as they were. If there are any the work is done again without changing these; at last not at all. May be empty.
+   */
+  std::function<std::vector<std::uint32_t>(const SimplexMesh<3>& result)> ShouldHaveStayed;
 };
 
 /** Shapes of a mesh's tetrahedra. */

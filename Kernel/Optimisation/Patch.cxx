@@ -53,7 +53,7 @@ bool Patch::GatherStar(std::uint32_t v, VertexStar& star)
   for (std::size_t k = 0; k < star.Cells.size(); ++k)
   {
     const auto& cell = this->Complex.Cells[star.Cells[k]];
-    if (!this->OwnsAll(cell.V))
+    if (!this->MayChange(star.Cells[k]))
     {
       return false;
     }
@@ -84,7 +84,7 @@ bool Patch::GatherRing(
   ring.Closed = false;
   ring.Link.assign({ start[2], start[3] });
   ring.Cells.assign({ t });
-  if (!this->OwnsAll(start))
+  if (!this->MayChange(t))
   {
     return false;
   }
@@ -105,7 +105,7 @@ bool Patch::GatherRing(
       return true;
     }
     const Vertices& v = this->Complex.Cells[next].V;
-    if (ring.Cells.size() == most || !this->OwnsAll(v))
+    if (ring.Cells.size() == most || !this->MayChange(next))
     {
       return false;
     }
@@ -123,7 +123,7 @@ bool Patch::GatherRing(
       return true;
     }
     const Vertices& v = this->Complex.Cells[next].V;
-    if (ring.Cells.size() == most || !this->OwnsAll(v))
+    if (ring.Cells.size() == most || !this->MayChange(next))
     {
       return false;
     }
@@ -278,7 +278,8 @@ bool Patch::UseFoundStar(VertexStar& star) const
   for (const std::uint32_t t : star.Cells)
   {
     const Vertices& v = this->Complex.Cells[t].V;
-    if (!this->Complex.IsAlive(t) || std::find(v.begin(), v.end(), star.Vertex) == v.end())
+    if (!this->Complex.IsAlive(t) || this->Complex.IsKept(t) ||
+      std::find(v.begin(), v.end(), star.Vertex) == v.end())
     {
       return false;
     }

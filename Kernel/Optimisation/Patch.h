@@ -80,16 +80,22 @@ public:
     return this->Owns(v[0]) && this->Owns(v[1]) && this->Owns(v[2]) && this->Owns(v[3]);
   }
 
+  /** Whether t may become another tetrahedron, or none. */
+  bool MayChange(std::uint32_t t) const
+  {
+    return this->OwnsAll(this->Complex.Cells[t].V) && !this->Complex.IsKept(t);
+  }
+
   /**
    * The star of v.
-   * @return false if part of it is another block's, or if it falls apart in pieces that share no facet and
+   * @return false if part of it may not change, or if it falls apart in pieces that share no facet and
    * FindStars() has not found it
    */
   bool GatherStar(std::uint32_t v, VertexStar& star);
 
   /**
    * The tetrahedra around the edge from vertex i to vertex j of t.
-   * @return false if there are more than `most` of them, or if part of it is another block's. If
+   * @return false if there are more than `most` of them, or if part of it may not change. If
    * the edge is on the mesh's boundary in more than one place, only the part with t is found.
    */
   bool GatherRing(std::uint32_t t, unsigned i, unsigned j, std::size_t most, EdgeRing& ring) const;

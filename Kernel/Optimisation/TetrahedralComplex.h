@@ -12,6 +12,7 @@
 #include "Optimisation/ShapeScore.h"
 #include "Parallel/UninitialisedVector.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -73,6 +74,10 @@ public:
   void AddVertices(std::size_t number);
 
   bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
+  bool IsKept(std::uint32_t t) const
+  {
+    return std::binary_search(this->Kept.begin(), this->Kept.end(), t);
+  }
   Label LabelOf(std::uint32_t t) const { return t == None ? 0 : this->Labels[t]; }
   /** Domain::CutFaces of a vertex. */
   unsigned CutFacesOf(std::uint32_t v) const
@@ -114,6 +119,7 @@ public:
   UninitialisedVector<Label> Labels;
   UninitialisedVector<float> Scores;
   std::vector<std::int64_t> LabelValues;
+  std::vector<std::uint32_t> Kept; ///< tetrahedra that stay as they are; sorted
 
 private:
   void CopyCells(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);

@@ -122,9 +122,14 @@ struct RefinementContext
    * Delta_dOmega(z) of the thesis for a feature point between two labels: delta or what is asked for that
    * interface in its place, or the local bound or the size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
    * meshed would make R3 insert the missing points one by one, and R6 remove what R5 asks for.
+   * The same label twice is no interface, but may be all that is known near the edge of one: then it is the spacing there.
    */
   double Delta(const Point<D>& z, LabelId a, LabelId b) const
   {
+    if (a == b)
+    {
+      return this->Spacing(z, a);
+    }
     double delta =
       this->Settings.Interfaces ? this->Settings.Interfaces->At(z, a, b) : this->GradedDeltaAt(z);
     if (this->Settings.Local)
@@ -142,7 +147,7 @@ struct RefinementContext
     return delta;
   }
 
-  /** Delta(z) for the interface point closest to p: the label of p is known, that beyond is just behind z. */
+  /** Delta(z) for the interface point closest to p: the label of p is known, that beyond is just behind z, if one is. */
   double DeltaBehind(const Point<D>& p, LabelId label, const Point<D>& z) const
   {
     const Point<D> behind =

@@ -368,8 +368,8 @@ protected:
       place.OnEnd && (this->Context.Settings.Size || this->Context.Settings.Interfaces)
       ? this->Context.Delta(place.Position, t.Label, this->Context.Image.Label(place.Position))
       : this->Context.Settings.Delta;
-    const double spacing = std::min(deltaBeside, this->Context.Spacing(t.Ball.Center, t.Label));
-    if (this->YieldingAt(t.Ball.Center, spacing) == Yielding::All)
+    const double spacing = std::min(deltaBeside, this->Context.Spacing(place.Position, t.Label));
+    if (this->YieldingAt(place.Position, spacing) == Yielding::All)
     {
       return Verdict::Good;
     }
@@ -386,7 +386,7 @@ protected:
     const Verdict verdict = this->CountOutcome(outcome, fired);
     if (verdict == Verdict::Changed)
     {
-      this->CountWork(t.Ball.Center, spacing);
+      this->CountWork(place.Position, spacing);
       this->Worker.Statistics.Projected += place.Moved ? 1 : 0;
       this->ScreenCreated();
     }

@@ -568,6 +568,21 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
   MeshingStatistics statistics;
   SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_TRUE(guard.FindLost(mesh).empty());
+  const auto island = static_cast<std::uint32_t>(
+    std::find_if(components.All().begin(), components.All().end(),
+      [&](const Component<3>& c)
+      { return c.Voxels == 8 && c.First[0] + islands.Image.CropOrigin()[0] == 18 &&
+          c.First[1] + islands.Image.CropOrigin()[1] == 18 &&
+          c.First[2] + islands.Image.CropOrigin()[2] == 18; }) -
+    components.All().begin());
+  ASSERT_LT(island, components.All().size());
+  const std::vector<std::uint32_t> witnesses = guard.FindWitnesses(mesh, { island });
+  ASSERT_EQ(witnesses.size(), 1u);
+  EXPECT_EQ(mesh.Labels[witnesses[0]], 2);
+  for (const std::uint32_t v : mesh.Simplices[witnesses[0]])
+  {
+    EXPECT_LT(Distance(mesh.Points[v], islands.Centres[13]), 3.0);
+  }
 
   // Take the elements of the island around one centre away.
   const auto& all = guard.GetComponents().All();
@@ -580,7 +595,8 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
     }
   }
   const std::vector<std::uint32_t> lost = guard.FindLost(mesh);
-  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(lost, std::vector<std::uint32_t>{ island });
+  EXPECT_TRUE(guard.FindWitnesses(mesh, lost).empty());
   EXPECT_EQ(all[lost[0]].Voxels, 8);
   for (std::size_t a = 0; a < 3; ++a) // indices of the crop, which begins at 2
   {

@@ -102,7 +102,7 @@ TEST(DeltaSearch, TriesNoDeltaAboveTheLargest)
 {
   const auto last = [](double target, double guess)
   {
-    DeltaSearch search(static_cast<std::uint64_t>(target), guess, 2.0, 3.0);
+    DeltaSearch search(static_cast<std::uint64_t>(target), guess, 2.0, 0.0, 3.0);
     while (search.Next())
     {
       EXPECT_LE(*search.Next(), 3.0);
@@ -118,6 +118,24 @@ TEST(DeltaSearch, TriesNoDeltaAboveTheLargest)
     EXPECT_EQ(search.Best().Delta, 3.0);
     EXPECT_LE(search.Runs().size(), 3u);
   }
+}
+
+TEST(DeltaSearch, TriesNoDeltaBelowTheSmallest)
+{
+  for (const double guess : { 0.01, 1.0, 30.0 })
+  {
+    DeltaSearch search(1000, guess, 2.0, 0.5, 10.0);
+    while (search.Next())
+    {
+      EXPECT_GE(*search.Next(), 0.5);
+      EXPECT_LE(*search.Next(), 10.0);
+      search.Add(static_cast<std::uint64_t>(100.0 * std::pow(*search.Next(), -0.1)));
+    }
+    EXPECT_FALSE(search.Found());
+    EXPECT_EQ(search.Runs().back().Delta, 0.5);
+    EXPECT_LE(search.Runs().size(), 8u);
+  }
+  EXPECT_EQ(*DeltaSearch(1000, 2.0, 2.0, 5.0, 3.0).Next(), 3.0);
 }
 
 TEST(DeltaSearch, StepsAreNotTooLarge)

@@ -353,6 +353,73 @@ TEST_P(OptimisedPhantom, DoesNotChangeWhatHasNothingPoor)
   EXPECT_GT(more.Passes, 0u);
 }
 
+TEST_P(OptimisedPhantom, KeepsWhatShouldHaveStayed)
+{
+  // Every tenth of what optimisation changes.
+  const auto corners = [](const SimplexMesh<3>& mesh, std::size_t t)
+  {
+    std::array<Point<3>, 4> p;
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      p[i] = mesh.Points[mesh.Simplices[t][i]];
+    }
+    std::sort(p.begin(), p.end());
+    return std::pair{ mesh.Labels[t], p };
+  };
+  const auto isIn = [&](const SimplexMesh<3>& mesh)
+  {
+    std::set<std::pair<std::int64_t, std::array<Point<3>, 4>>> all;
+    for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+    {
+      all.insert(corners(mesh, t));
+    }
+    std::vector<bool> in;
+    for (std::size_t t = 0; t < this->Before.Simplices.size(); ++t)
+    {
+      in.push_back(all.count(corners(this->Before, t)) != 0);
+    }
+    return in;
+  };
+  const std::vector<bool> untouched = isIn(this->After);
+  std::vector<std::uint32_t> wanted;
+  for (std::uint32_t t = 0, changed = 0; t < untouched.size(); ++t)
+  {
+    if (!untouched[t] && changed++ % 10 == 0)
+    {
+      wanted.push_back(t);
+    }
+  }
+  ASSERT_FALSE(wanted.empty());
+
+  unsigned asked = 0;
+  OptimisationOptions options = this->Options;
+  options.ShouldHaveStayed = [&](const SimplexMesh<3>& result)
+  {
+    ++asked;
+    const std::vector<bool> in = isIn(result);
+    std::vector<std::uint32_t> missing;
+    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
+      [&](std::uint32_t t) { return !in[t]; });
+    return missing;
+  };
+  SimplexMesh<3> mesh = this->Before;
+  const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, options, 2);
+  EXPECT_EQ(asked, 2u);
+  const std::vector<bool> in = isIn(mesh);
+  EXPECT_TRUE(
+    std::all_of(wanted.begin(), wanted.end(), [&in](std::uint32_t t) { return in[t]; }));
+  EXPECT_LT(statistics.After.Poor, statistics.Before.Poor + (wanted.size() == 1 ? 1 : 0));
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+
+  // What cannot be satisfied leaves the mesh as it was.
+  options.ShouldHaveStayed = [&](const SimplexMesh<3>&) { return wanted; };
+  mesh = this->Before;
+  const OptimisationStatistics none = OptimiseMesh(mesh, this->Domain, options, 1);
+  EXPECT_TRUE(AreEqual(mesh, this->Before));
+  EXPECT_EQ(none.After.Poor, none.Before.Poor);
+}
+
 TEST_P(OptimisedPhantom, WorstShapeNeverGetsWorse)
 {
   // Bounds that cannot be reached: every operation has much to try.

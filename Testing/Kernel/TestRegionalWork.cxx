@@ -136,6 +136,23 @@ TEST(RegionalWork, IsModestOnPhantoms)
   EXPECT_TRUE(mesher.Statistics().Yielding.empty());
 }
 
+/** Two frames so near to each other that all circumcentres lie far beyond them. */
+TEST(RegionalWork, IsCountedWherePointsAreMovedTo)
+{
+  const double space = 0.6510869561479895;
+  LabelImage<4> image = LabelImage<4>::FromScalars<std::uint8_t>(
+    std::vector<std::uint8_t>{ 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1 },
+    GridGeometry<4>::Orthogonal({ 2, 2, 2, 2 }, { space, space, space, 0.20051644901783508 }));
+  MeshingOptions<4> options = checks::SpaceTimeOptions(0.72);
+  options.SmoothingSigma = 2.5803734861743171;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  EXPECT_LT(mesher.Statistics().Rules.Insertions(), 10000u);
+  const std::vector<std::string> wrong = checks::Complaints(mesh);
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+}
+
 TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
 {
   MeshingOptions<4> options;

@@ -47,7 +47,9 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
   const std::uint64_t vertices = subject.Mesh.Points.size();
   const std::uint64_t opened =
     Subject<D>::PiecesOfAnEdge * stats.Interfaces.NonManifoldOpened; // vertices made there, at most
-  Require(rules.Insertions() + opened + 1 > vertices || vertices == 0,
+  const std::uint64_t optimised =
+    stats.Optimisation.Ran ? 8 * stats.Optimisation.PoorBefore : 0; // the same
+  Require(rules.Insertions() + opened + optimised + 1 > vertices || vertices == 0,
     "fewer insertions than the mesh has vertices", findings);
   Require(rules.Created >= subject.Mesh.Simplices.size(),
     "fewer simplices created than the mesh has", findings);
