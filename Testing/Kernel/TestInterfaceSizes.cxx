@@ -3,11 +3,13 @@
 // Sampling densities of single interfaces: the table, how they pass into each other, and meshes.
 #include "CallableSize.h"
 #include "Error.h"
+#include "Image/ImageDomain.h"
 #include "Image/InterfaceSizes.h"
 #include "ImageMesher.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
 #include "Refinement/FeatureGrid.h"
+#include "Refinement/RefinementContext.h"
 
 #include <gtest/gtest.h>
 
@@ -202,6 +204,30 @@ TEST(InterfaceSizes, DeltaOfNoInterfaceDoesNotMatter)
     {
       EXPECT_NEAR(edge / uniform.at(labels), 1.0, 0.12) << delta;
     }
+  }
+}
+
+// Where the label beyond is not found, as at the rim of a spike, a tiny delta counted that no interface had.
+TEST(InterfaceSizes, TheSameLabelTwiceHasTheSpacingThere)
+{
+  const LabelImage<3> image = phantoms::NestedBalls(15.0);
+  const ImageDomain<3> domain(image, 1.0);
+  RefinementSettings<3> settings;
+  settings.Delta = 0.01;
+  BaseDensity<3> base;
+  base.Delta = settings.Delta;
+  base.Equivalent = settings.Delta;
+  base.Asked = settings.Delta;
+  const InterfaceSizes<3> sizes(
+    image, { { 3, Any, 2.0 }, { 7, Any, 2.0 }, { 200, Any, 3.0 } }, base, 0.3, 1);
+  settings.Interfaces = &sizes;
+  const RefinementContext<3> context(domain, settings, domain.Bounds(), 1000);
+  for (const LabelId label : { 0, 1, 2, 3 })
+  {
+    const double delta = context.Delta(Somewhere, label, label);
+    EXPECT_GE(delta, 2.0);
+    EXPECT_LE(delta, 3.0);
+    EXPECT_EQ(delta, context.Spacing(Somewhere, label));
   }
 }
 
