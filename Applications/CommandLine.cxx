@@ -274,7 +274,8 @@ void RequireValues(int argc, const char* const* argv, const po::options_descript
   for (int i = 1; i + 1 < argc; ++i)
   {
     const std::string_view argument = argv[i];
-    if (!argument.starts_with("--") || !std::string_view(argv[i + 1]).starts_with("--"))
+    if (!argument.starts_with("--") || argument == "--" ||
+      !std::string_view(argv[i + 1]).starts_with("--"))
     {
       continue;
     }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iomanip>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -26,6 +27,12 @@ constexpr std::uint32_t TransferSyntax = 0x00020010;
 constexpr std::uint32_t PixelData = 0x7FE00010;
 constexpr std::uint32_t Item = 0xFFFEE000;
 constexpr std::uint32_t SequenceEnd = 0xFFFEE0DD;
+
+/** Value representations whose elements have lengths of two bytes, and those with lengths of four. */
+constexpr std::array<std::string_view, 21> ShortOnes{ "AE", "AS", "AT", "CS", "DA", "DS", "DT", "FD",
+  "FL", "IS", "LO", "LT", "PN", "SH", "SL", "SS", "ST", "TM", "UI", "UL", "US" };
+constexpr std::array<std::string_view, 13> LongOnes{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV",
+  "UC", "UN", "UR", "UT", "UV" };
 
 /** How elements are written. */
 struct Syntax
@@ -45,6 +52,11 @@ struct Element
   bool Is(std::string_view representation) const
   {
     return std::equal(representation.begin(), representation.end(), this->Representation.begin());
+  }
+  bool IsAnyOf(std::span<const std::string_view> representations) const
+  {
+    return std::any_of(representations.begin(), representations.end(),
+      [this](std::string_view one) { return this->Is(one); });
   }
 };
 
@@ -96,8 +108,6 @@ private:
    */
   bool TakeRepresentation(Element& element)
   {
-    constexpr std::array<std::string_view, 13> longOnes{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ",
-      "SV", "UC", "UN", "UR", "UT", "UV" };
     std::array<char, 2>& name = element.Representation;
     this->File.read(name.data(), name.size());
     if (std::any_of(
@@ -107,8 +117,7 @@ private:
       this->File.seekg(-2, std::ios::cur);
       return true;
     }
-    const bool isLong = std::any_of(longOnes.begin(), longOnes.end(),
-      [&element](std::string_view one) { return element.Is(one); });
+    const bool isLong = element.IsAnyOf(LongOnes);
     if (isLong)
     {
       this->File.ignore(2);
@@ -147,12 +156,17 @@ Syntax SyntaxNamed(const std::string& uid)
   return syntax;
 }
 
-std::string DescribeExcess(const Element& element, std::uint64_t left)
+std::string TagOf(const Element& element)
 {
   std::ostringstream text;
   text << std::hex << std::setfill('0') << '(' << std::setw(4) << (element.Tag >> 16) << ','
-       << std::setw(4) << (element.Tag & 0xFFFF) << ')' << std::dec;
-  return "it is truncated or damaged: its element " + text.str() + " claims " +
+       << std::setw(4) << (element.Tag & 0xFFFF) << ')';
+  return text.str();
+}
+
+std::string DescribeExcess(const Element& element, std::uint64_t left)
+{
+  return "it is truncated or damaged: its element " + TagOf(element) + " claims " +
     std::to_string(element.Length) + " bytes, and " + std::to_string(left) + " are left";
 }
 
@@ -276,6 +290,15 @@ private:
     if (element.Length != Undefined && element.Length > left)
     {
       this->Fault = DescribeExcess(element, left);
+      return false;
+    }
+    // GDCM takes some of the next bytes for its length, which may be any.
+    if (element.Representation[0] != '\0' && !element.IsAnyOf(ShortOnes) &&
+      !element.IsAnyOf(LongOnes))
+    {
+      this->Fault = "it is damaged: its element " + TagOf(element) +
+        " has the value representation '" + std::string(element.Representation.data(), 2) +
+        "', which DICOM does not have";
       return false;
     }
     return true;

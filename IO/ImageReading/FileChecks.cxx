@@ -49,6 +49,23 @@ public:
   float Step(int i) const { return this->Get<float>(76 + 4 * static_cast<std::size_t>(i)); }
   float FirstTime() const { return this->Get<float>(136); }
   float VoxelOffset() const { return this->Get<float>(108); }
+  /** Whether the numbers that place the image in space, of the methods that the header uses, are finite. */
+  bool IsPlaced() const
+  {
+    const bool isNIfTI = std::memcmp(&this->Bytes[344], "n", 1) == 0; // else Analyze, without them
+    const auto areFinite = [this](std::size_t first, std::size_t count)
+    {
+      bool finite = true;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        finite = finite && std::isfinite(this->Get<float>(first + 4 * i));
+      }
+      return finite;
+    };
+    return !isNIfTI ||
+      ((this->Get<std::int16_t>(252) <= 0 || areFinite(256, 6)) && // qform
+        (this->Get<std::int16_t>(254) <= 0 || areFinite(280, 12))); // sform
+  }
 
   /** Bytes of the whole uncompressed file; a product that may be too large for an integer. */
   double FileSize() const
@@ -235,6 +252,11 @@ std::string FindFaultOfNIfTI(const std::string& path)
       value << header.Step(1) << ' ' << header.Step(2) << ' ' << header.Step(3);
       return SpacingFault(value.str());
     }
+  }
+  if (!header.IsPlaced())
+  {
+    return "the position or orientation in its header (qform or sform) is not finite: correct the "
+           "header";
   }
   if (!header.HoldsVoxels())
   {

@@ -66,6 +66,7 @@ std::string ReadBeginning(const std::string& path)
 TextHeader::TextHeader(const std::string& path)
 {
   const std::string text = ReadBeginning(path);
+  this->IsNRRD = text.starts_with("NRRD");
   bool hasEnded = false;
   for (std::size_t at = 0; at < text.size() && !hasEnded;)
   {
@@ -79,9 +80,10 @@ TextHeader::TextHeader(const std::string& path)
 bool TextHeader::TakeLine(std::string line)
 {
   line.erase(line.find_last_not_of(" \t\r") + 1);
+  line.erase(0, line.find_first_not_of(" \t"));
   if (line.empty())
   {
-    return true; // which ends the header of NRRD
+    return this->IsNRRD; // whose header it ends
   }
   if (this->IsInList)
   {

@@ -39,6 +39,7 @@ private:
 
   std::map<std::string, std::string> Fields;
   std::vector<std::string> List;
+  bool IsNRRD = false;
   bool IsInList = false;
   bool Endless = false;
 };

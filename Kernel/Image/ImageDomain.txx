@@ -82,6 +82,20 @@ Point<D> Spacings(const GridGeometry<D>& grid)
   return spacing;
 }
 
+/** Clang before 16 instantiates a class's constructors even where their constraints fail; those are never called. */
+template <typename FieldType, typename... Arguments>
+FieldType Construct(const Arguments&... arguments)
+{
+  if constexpr (std::constructible_from<FieldType, const Arguments&...>)
+  {
+    return FieldType(arguments...);
+  }
+  else
+  {
+    __builtin_unreachable();
+  }
+}
+
 } // namespace
 
 template <int D, typename FieldType>
@@ -97,7 +111,7 @@ template <int D, typename FieldType>
 ImageDomain<D, FieldType>::ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads,
   const std::stop_token& stop) requires std::same_as<FieldType, LabelField<D>>
   : ImageDomain(
-      image, MakeField([&] { return FieldType(image, sigma, threads, stop); }), threads, stop)
+      image, MakeField([&] { return Construct<FieldType>(image, sigma, threads, stop); }), threads, stop)
 {
 }
 
@@ -105,7 +119,7 @@ template <int D, typename FieldType>
 ImageDomain<D, FieldType>::ImageDomain(const IsosurfaceImage<D>& image, unsigned threads,
   const std::stop_token& stop) requires std::same_as<FieldType, ScalarField<D>>
   : ImageDomain(
-      image.Labels(), MakeField([&] { return FieldType(image, threads, stop); }), threads, stop)
+      image.Labels(), MakeField([&] { return Construct<FieldType>(image, threads, stop); }), threads, stop)
 {
 }
 

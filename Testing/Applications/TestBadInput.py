@@ -37,6 +37,7 @@ class CommandLine(ProgramTestCase):
         self.refuse("'--elements' needs a value, but '--output' follows it", "--input", "a.nrrd", "--elements", "--output",
                     "b.vtu")
         self.refuse("'--input' needs a value, but '--pin' follows it", "--input", "--pin")
+        self.refuse("'--pin' is not understood without a flag", "--", "--pin")
         self.refuse("'--labels' needs a value, but '--delta=1' follows it", "--labels", "--delta=1", "--input", "a.nrrd")
         # Two dashes at the beginning of a value are possible.
         self.assert_refused(1, "'--pin'", "--pin", "--input=--pin", "--force")

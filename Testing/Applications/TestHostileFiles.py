@@ -105,6 +105,16 @@ class Sizes(HostileTestCase):
         self.refuse("8 bits a voxel from byte nan", self.nifti("i.nii", _108=("f", float("nan"))))
         self.refuse("truncated or damaged", self.nifti("i.nii", _108=("f", 1e30)))
 
+    def test_placement_of_nifti(self):
+        """ITK ends the program where these are not finite."""
+        nan = float("nan")
+        for fields in ({"_252": ("h", 1), "_256": ("f", nan)}, {"_252": ("h", 1), "_276": ("f", nan)},
+                       {"_254": ("h", 1), "_280": ("f", float("inf"))}, {"_254": ("h", 1), "_324": ("f", nan)}):
+            with self.subTest(fields):
+                self.refuse("position or orientation in its header .qform or sform. is not finite", self.nifti("i.nii", **fields))
+        self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
+        self.mesh("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu")
+
     def test_nifti_of_two_files(self):
         self.nifti("i.hdr", _42=("3h", 3000, 3000, 3000), _344=("4s", b"ni1\0"))
         self.write("i.img", bytes(64))
@@ -161,6 +171,14 @@ class Sizes(HostileTestCase):
         self.refuse(r"its element \(0029,1010\) claims", path.name)
         path.write_bytes(plain[:pixels] + struct.pack("<2HI", 0x29, 0x1010, 0x7FFFFF01))
         self.refuse(r"its element \(0029,1010\) claims 2147483393 bytes, and 0 are left", path.name)
+
+    def test_dicom_representations(self):
+        """GDCM takes what follows an unknown one for a length, and as much memory."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        spacing = plain.index(struct.pack("<2H", 0x28, 0x30)) + 4
+        path.write_bytes(plain[:spacing] + b"DW" + plain[spacing + 2:])
+        self.refuse(r"its element \(0028,0030\) has the value representation 'DW', which DICOM does not have", path.name)
 
     def test_no_voxels(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
@@ -259,6 +277,10 @@ class DataFiles(HostileTestCase):
                         "a%d.raw 1 2147483647 1", "a%d.raw 1 4 0", "a%d.raw 4 1 1", "a%d.raw"):
             self.refuse_data_file("is no pattern of names such as", pattern)
         self.refuse_data_file("names 1000000000 data files", "a%d.raw 1 1000000000 1")
+        name = self.metaimage_header("i.mhd", "%S%s%n.raw")
+        path = self.folder / name
+        path.write_bytes(path.read_bytes().replace(b"ElementDataFile", b"\n \n  ElementDataFile"))
+        self.refuse("is no pattern of names such as", name)  # also after empty lines, which MetaImage skips
 
     def test_sound_ones(self):
         ball = images.ball(8, 2.8)
