@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -49,16 +50,20 @@ public:
   float Step(int i) const { return this->Get<float>(76 + 4 * static_cast<std::size_t>(i)); }
   float FirstTime() const { return this->Get<float>(136); }
   float VoxelOffset() const { return this->Get<float>(108); }
-  /** Whether the numbers that place the image in space, of the methods that the header uses, are finite. */
+  /**
+   * Whether the numbers that place the image in space, of the methods that the header uses, are such as ITK can take: with
+   * what is not finite it ends the program, and with squares that are not it never ends.
+   */
   bool IsPlaced() const
   {
     const bool isNIfTI = std::memcmp(&this->Bytes[344], "n", 1) == 0; // else Analyze, without them
+    constexpr float Largest = 1e12f;
     const auto areFinite = [this](std::size_t first, std::size_t count)
     {
       bool finite = true;
       for (std::size_t i = 0; i < count; ++i)
       {
-        finite = finite && std::isfinite(this->Get<float>(first + 4 * i));
+        finite = finite && std::abs(this->Get<float>(first + 4 * i)) <= Largest; // not NaN
       }
       return finite;
     };
@@ -255,7 +260,7 @@ std::string FindFaultOfNIfTI(const std::string& path)
   }
   if (!header.IsPlaced())
   {
-    return "the position or orientation in its header (qform or sform) is not finite: correct the "
+    return "the position or orientation in its header (qform or sform) is not finite, or far too large: correct the "
            "header";
   }
   if (!header.HoldsVoxels())
@@ -290,6 +295,17 @@ std::string FindFaultOfTextHeader(const std::string& path)
     {
       return "it is damaged: its header gives '" + Excerpt(*dimensions) +
         "' dimensions, and the format has 1 to 10";
+    }
+  }
+  for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels", "HeaderSize",
+         "BinaryData", "CompressedData" })
+  {
+    std::string field(key);
+    std::transform(field.begin(), field.end(), field.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (header.IsRepeated(field))
+    {
+      return "it is damaged: its header gives " + std::string(key) + " more than once";
     }
   }
   const std::string* spacing = header.Find("elementspacing");

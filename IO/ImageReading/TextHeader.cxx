@@ -102,7 +102,10 @@ bool TextHeader::TakeLine(std::string line)
   const bool isDataOfMetaImage = key == "elementdatafile";
   this->IsInList =
     (isDataOfMetaImage || key == "data file" || key == "datafile") && value.rfind("LIST", 0) == 0;
-  this->Fields.emplace(std::move(key), std::move(value));
+  if (!this->Fields.emplace(key, std::move(value)).second)
+  {
+    this->Repeated.push_back(key);
+  }
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
 

@@ -10,6 +10,7 @@
 #ifndef voxplex_io_TextHeader_h
 #define voxplex_io_TextHeader_h
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,6 +28,12 @@ public:
   /** Whether the file goes on after 1 MiB of header. */
   bool IsEndless() const { return this->Endless; }
 
+  /** Whether a field is given more than once; Find() has the first, but some readers take the last. */
+  bool IsRepeated(const std::string& key) const
+  {
+    return std::find(this->Repeated.begin(), this->Repeated.end(), key) != this->Repeated.end();
+  }
+
   /** The value without surrounding blanks, or null. */
   const std::string* Find(const std::string& key) const;
 
@@ -40,6 +47,7 @@ private:
   std::map<std::string, std::string> Fields;
   std::vector<std::string> List;
   bool IsNRRD = false;
+  std::vector<std::string> Repeated;
   bool IsInList = false;
   bool Endless = false;
 };

@@ -109,9 +109,10 @@ class Sizes(HostileTestCase):
         """ITK ends the program where these are not finite."""
         nan = float("nan")
         for fields in ({"_252": ("h", 1), "_256": ("f", nan)}, {"_252": ("h", 1), "_276": ("f", nan)},
-                       {"_254": ("h", 1), "_280": ("f", float("inf"))}, {"_254": ("h", 1), "_324": ("f", nan)}):
+                       {"_254": ("h", 1), "_280": ("f", float("inf"))}, {"_254": ("h", 1), "_324": ("f", nan)},
+                       {"_254": ("h", 1), "_280": ("f", 1e30)}, {"_252": ("h", 1), "_260": ("f", -1e30)}):
             with self.subTest(fields):
-                self.refuse("position or orientation in its header .qform or sform. is not finite", self.nifti("i.nii", **fields))
+                self.refuse("position or orientation in its header .qform or sform. is not finite, or far too large", self.nifti("i.nii", **fields))
         self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
         self.mesh("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu")
 
@@ -179,6 +180,16 @@ class Sizes(HostileTestCase):
         spacing = plain.index(struct.pack("<2H", 0x28, 0x30)) + 4
         path.write_bytes(plain[:spacing] + b"DW" + plain[spacing + 2:])
         self.refuse(r"its element \(0028,0030\) has the value representation 'DW', which DICOM does not have", path.name)
+
+    def test_repeated_fields_of_metaimage(self):
+        """MetaImage's reader takes the last, and writes beyond its memory where these differ."""
+        for key, value in (("NDims", "0"), ("DimSize", "4 4 400"), ("CompressedData", "False")):
+            with self.subTest(key):
+                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
+                data = (self.folder / "i.mha").read_bytes()
+                lines = b"%s = 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
+                self.write("i.mha", data.replace(b"ElementType", lines + b"ElementType"))
+                self.refuse("gives %s more than once" % key, "i.mha")
 
     def test_no_voxels(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
