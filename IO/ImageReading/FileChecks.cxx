@@ -36,10 +36,15 @@ public:
   explicit NIfTIHeader(const std::array<char, Size>& bytes)
     : Bytes(bytes)
   {
-    this->Swapped = !this->IsValid();
+    // As ITK tells the byte order: by the number of dimensions, whatever size the header gives itself.
+    if (!this->HasDimensions())
+    {
+      this->Swapped = true;
+      this->Swapped = this->HasDimensions();
+    }
   }
 
-  bool IsValid() const { return this->Get<std::int32_t>(0) == static_cast<std::int32_t>(Size); }
+  bool HasDimensions() const { return this->Dimension(0) >= 1 && this->Dimension(0) <= 7; }
   bool HoldsVoxels() const { return std::memcmp(&this->Bytes[344], "n+1", 4) == 0; }
   int Dimension(int i) const
   {
@@ -212,7 +217,7 @@ std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
     return std::nullopt;
   }
   const NIfTIHeader header(bytes);
-  if (!header.IsValid() || !header.HasFrames())
+  if (!header.HasDimensions() || !header.HasFrames())
   {
     return std::nullopt;
   }
@@ -228,11 +233,7 @@ std::string FindFaultOfNIfTI(const std::string& path)
     return "";
   }
   const NIfTIHeader header(bytes);
-  if (!header.IsValid())
-  {
-    return "";
-  }
-  if (header.Dimension(0) < 1 || header.Dimension(0) > 7)
+  if (!header.HasDimensions())
   {
     return "it is damaged: its header gives " + std::to_string(header.Dimension(0)) +
       " dimensions, and the format has 1 to 7";
@@ -296,6 +297,10 @@ std::string FindFaultOfTextHeader(const std::string& path)
       return "it is damaged: its header gives '" + Excerpt(*dimensions) +
         "' dimensions, and the format has 1 to 10";
     }
+  }
+  if (header.Find("elementdatafile") && !header.Find("ndims"))
+  {
+    return "it is damaged: its header does not give NDims";
   }
   for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels", "HeaderSize",
          "BinaryData", "CompressedData" })

@@ -113,6 +113,7 @@ class Sizes(HostileTestCase):
                        {"_254": ("h", 1), "_280": ("f", 1e30)}, {"_252": ("h", 1), "_260": ("f", -1e30)}):
             with self.subTest(fields):
                 self.refuse("position or orientation in its header .qform or sform. is not finite, or far too large", self.nifti("i.nii", **fields))
+        self.refuse("qform or sform", self.nifti("i.nii", _0=("i", 347), _254=("h", 1), _280=("f", nan)))
         self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
         self.mesh("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu")
 
@@ -180,6 +181,11 @@ class Sizes(HostileTestCase):
         spacing = plain.index(struct.pack("<2H", 0x28, 0x30)) + 4
         path.write_bytes(plain[:spacing] + b"DW" + plain[spacing + 2:])
         self.refuse(r"its element \(0028,0030\) has the value representation 'DW', which DICOM does not have", path.name)
+
+    def test_metaimage_without_dimensions(self):
+        images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
+        self.write("i.mha", (self.folder / "i.mha").read_bytes().replace(b"NDims =", b"NDims"))
+        self.refuse("does not give NDims", "i.mha")
 
     def test_repeated_fields_of_metaimage(self):
         """MetaImage's reader takes the last, and writes beyond its memory where these differ."""
