@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -305,10 +304,7 @@ std::string FindFaultOfTextHeader(const std::string& path)
   for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels", "HeaderSize",
          "BinaryData", "CompressedData" })
   {
-    std::string field(key);
-    std::transform(field.begin(), field.end(), field.begin(),
-      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (header.IsRepeated(field))
+    if (header.IsRepeated(key))
     {
       return "it is damaged: its header gives " + std::string(key) + " more than once";
     }

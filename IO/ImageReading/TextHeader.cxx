@@ -109,6 +109,12 @@ bool TextHeader::TakeLine(std::string line)
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
 
+bool TextHeader::IsRepeated(const std::string& key) const
+{
+  return std::find(this->Repeated.begin(), this->Repeated.end(), LowerCase(key)) !=
+    this->Repeated.end();
+}
+
 const std::string* TextHeader::Find(const std::string& key) const
 {
   const auto field = this->Fields.find(key);

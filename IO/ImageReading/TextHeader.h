@@ -10,7 +10,6 @@
 #ifndef voxplex_io_TextHeader_h
 #define voxplex_io_TextHeader_h
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,11 +27,8 @@ public:
   /** Whether the file goes on after 1 MiB of header. */
   bool IsEndless() const { return this->Endless; }
 
-  /** Whether a field is given more than once; Find() has the first, but some readers take the last. */
-  bool IsRepeated(const std::string& key) const
-  {
-    return std::find(this->Repeated.begin(), this->Repeated.end(), key) != this->Repeated.end();
-  }
+  /** Whether a field is given more than once; Find() has the first, but some readers take the last. In any case. */
+  bool IsRepeated(const std::string& key) const;
 
   /** The value without surrounding blanks, or null. */
   const std::string* Find(const std::string& key) const;

@@ -75,7 +75,7 @@ std::vector<Case> Cases()
   return {
     { "nested balls", phantoms::NestedBalls(15.0), 1.2, 30.0, 0.03 },
     { "touching labels", phantoms::TouchingLabels(10), 1.2, 0.0, 0.02 },
-    { "sheet", phantoms::Sheet(12), 0.8, 30.0, 0.03 },
+    { "sheet", phantoms::Sheet(24), 0.8, 30.0, 0.02 },
     { "aligned cube", AlignedCube(), 1.0, 30.0, 0.02 },
     { "cut ball", phantoms::CutBall(11), 0.8, 30.0, 0.02 },
     { "tilted ball", TiltedBall(8.0), 1.4, 30.0, 0.02 },
