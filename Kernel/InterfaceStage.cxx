@@ -92,7 +92,8 @@ void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
   ManifoldRepairOptions options;
   options.FacetAngle = this->Options.FacetAngle;
   options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
-  options.Cut = &this->Of.Surfaces;
+  options.Surfaces = &this->Of.Surfaces;
+  options.Size = this->Of.Size;
   const ManifoldRepairResult result =
     RepairManifold(mesh, this->LabelOf, options, this->Options.Threads, this->Stop);
   this->Figures.NonManifoldRepaired = result.Before - result.Left.size();

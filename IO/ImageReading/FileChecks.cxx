@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <vector>
 
@@ -106,27 +108,61 @@ private:
   bool Swapped = false;
 };
 
-struct GzCloser
+/** Reads a file as the NIfTI library does: what is called .gz is unpacked, and nothing else, however it begins. */
+class NIfTIFile
 {
-  void operator()(gzFile_s* file) const { gzclose(file); }
-};
-
-/** Bytes up to the end of the file, or to enough; less if the compressed stream is damaged. */
-std::uint64_t CountBytes(gzFile file, double enough)
-{
-  std::vector<char> buffer(1 << 18);
-  std::uint64_t count = 0;
-  while (static_cast<double>(count) < enough)
+public:
+  explicit NIfTIFile(const std::string& path)
   {
-    const int got = gzread(file, buffer.data(), static_cast<unsigned>(buffer.size()));
-    if (got <= 0)
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".gz" || extension == ".GZ")
     {
-      break;
+      this->Compressed.reset(gzopen(path.c_str(), "rb"));
     }
-    count += static_cast<std::uint64_t>(got);
+    else
+    {
+      this->Plain.open(path, std::ios::binary);
+    }
   }
-  return count;
-}
+
+  /** @return how many bytes there were; 0 at the end of the file and where the compressed stream is damaged */
+  std::size_t Read(std::span<char> bytes)
+  {
+    if (this->Compressed)
+    {
+      return static_cast<std::size_t>(std::max(
+        0, gzread(this->Compressed.get(), bytes.data(), static_cast<unsigned>(bytes.size()))));
+    }
+    this->Plain.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return static_cast<std::size_t>(this->Plain.gcount());
+  }
+
+  /** Bytes up to the end of the file, or to enough. */
+  std::uint64_t CountBytes(double enough)
+  {
+    std::vector<char> buffer(1 << 18);
+    std::uint64_t count = 0;
+    while (static_cast<double>(count) < enough)
+    {
+      const std::size_t got = this->Read(buffer);
+      if (got == 0)
+      {
+        break;
+      }
+      count += got;
+    }
+    return count;
+  }
+
+private:
+  struct GzCloser
+  {
+    void operator()(gzFile_s* file) const { gzclose(file); }
+  };
+
+  std::unique_ptr<gzFile_s, GzCloser> Compressed;
+  std::ifstream Plain;
+};
 
 /** Images in two files have it in the one with this extension; ITK takes either name. */
 std::string HeaderPathOfNIfTI(const std::string& path)
@@ -209,9 +245,9 @@ std::string FindFaultOfNRRD(const TextHeader& header)
 
 std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
 {
-  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(HeaderPathOfNIfTI(path).c_str(), "rb"));
+  NIfTIFile file(HeaderPathOfNIfTI(path));
   std::array<char, NIfTIHeader::Size> bytes{};
-  if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
+  if (file.Read(bytes) != NIfTIHeader::Size)
   {
     return std::nullopt;
   }
@@ -225,9 +261,9 @@ std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path)
 
 std::string FindFaultOfNIfTI(const std::string& path)
 {
-  const std::unique_ptr<gzFile_s, GzCloser> file(gzopen(HeaderPathOfNIfTI(path).c_str(), "rb"));
+  NIfTIFile file(HeaderPathOfNIfTI(path));
   std::array<char, NIfTIHeader::Size> bytes{};
-  if (!file || gzread(file.get(), bytes.data(), NIfTIHeader::Size) != int{ NIfTIHeader::Size })
+  if (file.Read(bytes) != NIfTIHeader::Size)
   {
     return "";
   }
@@ -274,7 +310,7 @@ std::string FindFaultOfNIfTI(const std::string& path)
   }
   const double expected = header.FileSize();
   const std::uint64_t found =
-    NIfTIHeader::Size + CountBytes(file.get(), expected - double{ NIfTIHeader::Size });
+    NIfTIHeader::Size + file.CountBytes(expected - double{ NIfTIHeader::Size });
   if (static_cast<double>(found) < expected)
   {
     std::ostringstream bytes;

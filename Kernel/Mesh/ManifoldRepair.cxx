@@ -90,7 +90,8 @@ public:
     , FacetCosine(std::cos(options.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(
         std::min(options.JunctionFacetAngle, options.FacetAngle) * std::numbers::pi / 180.0))
-    , Cut(options.Cut)
+    , Surfaces(options.Surfaces)
+    , Size(options.Size)
   {
   }
 
@@ -275,6 +276,10 @@ private:
     bool leavesSome = false;
     for (const SimplexId t : change.Cells)
     {
+      if (this->IsTooLarge(t, change.Label))
+      {
+        return false;
+      }
       const LabelId own = this->Labels[t];
       for (const VertexId v : this->Near.VerticesOf(t))
       {
@@ -304,10 +309,22 @@ private:
     return leavesSome;
   }
 
+  /** Whether a tetrahedron is larger than the elements of a label may be. */
+  bool IsTooLarge(SimplexId t, LabelId label) const
+  {
+    if (!this->Size || label == 0)
+    {
+      return false;
+    }
+    const Circumball<3> ball = this->Near.Circumball(t);
+    const double size = this->Size->Evaluate(ball.Center, this->Surfaces->LabelValue(label));
+    return size > 0.0 && ball.Radius2 > size * size;
+  }
+
   /** Whether it drops what has a facet on a face where the image cuts the object, which is flat. */
   bool Dents(const Change& change) const
   {
-    if (!this->Cut || change.Label != 0)
+    if (!this->Surfaces || change.Label != 0)
     {
       return false;
     }
@@ -318,7 +335,7 @@ private:
         unsigned faces = ~0u;
         for (const VertexId v : this->FacetOf(t, i))
         {
-          faces &= this->Cut->CutFaces(this->Near.Position(v));
+          faces &= this->Surfaces->CutFaces(this->Near.Position(v));
         }
         if (faces != 0)
         {
@@ -364,7 +381,8 @@ private:
   const Neighbourhood Near;
   const double FacetCosine;
   const double JunctionCosine; ///< not smaller
-  const Domain<3>* const Cut;
+  const Domain<3>* const Surfaces;
+  const SizeFunction<3>* const Size;
   std::set<SimplexId> Changed;
 };
 

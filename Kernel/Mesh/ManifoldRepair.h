@@ -9,6 +9,7 @@
 
 #include "Delaunay/Triangulation.h"
 #include "Image/Domain.h"
+#include "Image/SizeFunction.h"
 #include "Mesh/InterfaceEdges.h"
 
 #include <cstddef>
@@ -24,8 +25,10 @@ struct ManifoldRepairOptions
 {
   double FacetAngle = 30.0;         ///< smallest planar angle of new facets, degrees
   double JunctionFacetAngle = 20.0; ///< the same where three labels or more meet at a vertex
-  /** What was meshed, if its image cuts the object: these faces get no dents. */
-  const Domain<3>* Cut = nullptr;
+  /** What was meshed: faces where its image cuts the object get no dents. Without it there are none. */
+  const Domain<3>* Surfaces = nullptr;
+  /** Largest circumradius of a tetrahedron that gets another label. Needs Surfaces; null: no bound. */
+  const SizeFunction<3>* Size = nullptr;
 };
 
 /** What was done. */
@@ -40,7 +43,8 @@ struct ManifoldRepairResult
  * For each edge where other than two boundary facets of a label meet, tetrahedra around it are given to the
  * label of a neighbour, or to background, which drops them, if there are fewer such edges afterwards; those off
  * junctions count more. Tetrahedra are touched only if all their vertices are on interfaces already, so that these
- * get no vertex that is not on them; and something of the label stays at one of the vertices. What has a facet on a face
+ * get no vertex that is not on them; something of the label stays at one of the vertices; and they are not larger than
+ * their new label allows. What has a facet on a face
  * where the image cuts the object is dropped only where nothing else helps, since that leaves a dent in the face: there
  * parts of the object meet at an edge, and the dent is at the rim of the face.
  *

@@ -63,6 +63,7 @@ public:
   }
   const Point<3>& Position(VertexId v) const { return this->Source.Position(v); }
   bool IsOnInterface(VertexId v) const { return this->OnInterface[v] != 0; }
+  voxplex::Circumball<3> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
 
   /** Ascending, so that what is found first does not depend on where the search began. */
   const std::vector<SimplexId>& StarOf(VertexId v) const

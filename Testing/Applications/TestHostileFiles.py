@@ -114,6 +114,8 @@ class Sizes(HostileTestCase):
             with self.subTest(fields):
                 self.refuse("position or orientation in its header .qform or sform. is not finite, or far too large", self.nifti("i.nii", **fields))
         self.refuse("qform or sform", self.nifti("i.nii", _0=("i", 347), _254=("h", 1), _280=("f", nan)))
+        # What is not called .gz is not unpacked, though it begins like that.
+        self.refuse("qform or sform", self.nifti("i.nii", _0=("H", 0x8b1f), _254=("h", 1), _280=("f", nan)))
         self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
         self.mesh("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu")
 

@@ -549,7 +549,7 @@ TEST(CutFaces, GetNoDentsInRepair)
     {
       SimplexLabels repaired = labels;
       ManifoldRepairOptions repair;
-      repair.Cut = cut ? &domain : nullptr;
+      repair.Surfaces = cut ? &domain : nullptr;
       const ManifoldRepairResult result = RepairManifold(context->Mesh, repaired, repair);
       EXPECT_GT(result.Before, 0u);
       EXPECT_TRUE(result.Left.empty());

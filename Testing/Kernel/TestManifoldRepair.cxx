@@ -250,7 +250,7 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
   ManifoldRepairOptions options;
   for (const bool cut : { false, true })
   {
-    options.Cut = cut ? &domain : nullptr;
+    options.Surfaces = cut ? &domain : nullptr;
     for (const std::vector<std::int64_t>& labels :
       { std::vector<std::int64_t>{ 1, 2, 1, 0 }, { 1, 0, 1, 0 } })
     {
@@ -269,6 +269,43 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
       EXPECT_TRUE(checks::Complaints(mesh).empty());
       EXPECT_EQ(mesh.Simplices.size(), tetrahedra - (cut && labels[1] == 2 ? 0 : 1));
     }
+  }
+}
+
+/** Elements of label 1 may be larger than those of label 2. */
+class SizeOfLabelTwo final : public SizeFunction<3>
+{
+public:
+  explicit SizeOfLabelTwo(double size)
+    : Size(size)
+  {
+  }
+  double Evaluate(const Point<3>&, std::int64_t label) const override
+  {
+    return label == 2 ? this->Size : 100.0;
+  }
+
+private:
+  const double Size;
+};
+
+TEST(ManifoldRepair, MakesNoElementLargerThanItsNewLabelAllows)
+{
+  const LabelImage<3> image =
+    phantoms::Make(GridGeometry<3>::Orthogonal({ 6, 6, 6 }, { 1.0, 1.0, 1.0 }),
+      [](const Point<3>& p) -> std::int16_t { return p[0] < 2.5 ? 1 : 2; });
+  const ImageDomain<3> domain(image, 1.0);
+  for (const double size : { 100.0, 0.01 })
+  {
+    const SizeOfLabelTwo sizes(size);
+    Triangulated ring(Ring({ 1, 2, 1, 2 }));
+    ManifoldRepairOptions options;
+    options.Surfaces = &domain;
+    options.Size = &sizes;
+    const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+    EXPECT_TRUE(result.Left.empty());
+    ASSERT_EQ(result.Relabelled.size(), 1u);
+    EXPECT_EQ(ring.Labels[result.Relabelled[0]], size < 1.0 ? 1 : 2);
   }
 }
 

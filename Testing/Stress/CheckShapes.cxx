@@ -82,9 +82,7 @@ void CheckRatios(const Subject<D>& subject, Findings& findings)
   const std::uint64_t excused =
     optimised ? subject.Stats.Optimisation.PoorAfter : subject.Excused();
   ratios.Report("ratio", excused, bound, findings);
-  // What repair gave another label was made for the size of its own.
-  sizes.Report(
-    "size", excused + Subject<D>::RelabelledAtAnEdge * subject.Stats.Interfaces.NonManifoldRepaired, 1, findings);
+  sizes.Report("size", excused, 1, findings);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -43,8 +43,6 @@ struct Subject
 
   /** Around an edge that was opened so many pieces of tetrahedra, or new vertices, may break a bound. */
   static constexpr std::uint64_t PiecesOfAnEdge = 40;
-  /** To mend an edge that was not manifold so many tetrahedra may have got another label. */
-  static constexpr std::uint64_t RelabelledAtAnEdge = 4;
 
   /**
    * Operations that refinement did not do, and pieces around edges that were opened: so many elements may break a bound.
