@@ -65,28 +65,14 @@ std::vector<FeatureSeed<3>> InterfaceStage::Counted(std::vector<FeatureSeed<3>> 
 void InterfaceStage::MakeLabels()
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
-  const unsigned threads = this->Options.Threads;
-  this->LabelOf = LabelSimplices(mesh, this->Of.Surfaces, threads, this->Stop);
-  std::vector<SimplexId> relabelled;
-  if (this->Of.Surfaces.IsCut())
-  {
-    NotchBounds bounds;
-    bounds.RadiusEdgeRatio = this->Options.RadiusEdgeRatio;
-    bounds.DihedralAngle = this->Options.TetSlivers.Angle;
-    bounds.FacetAngle = this->Options.FacetAngle;
-    bounds.JunctionFacetAngle = std::min(bounds.JunctionFacetAngle, bounds.FacetAngle);
-    bounds.Size = this->Of.Size;
-    relabelled = FillNotches(mesh, this->Of.Surfaces, bounds, this->LabelOf, threads, this->Stop);
-  }
-  if (this->Options.Manifold)
-  {
-    this->Repair(relabelled);
-  }
+  this->LabelOf = LabelSimplices(mesh, this->Of.Surfaces, this->Options.Threads, this->Stop);
+  const std::vector<SimplexId> relabelled =
+    this->Options.Manifold ? this->Repair() : std::vector<SimplexId>();
   this->Gone = this->VerticesWithin(relabelled);
 }
 
-/** Adds to what was relabelled. */
-void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
+/** @return the tetrahedra that got another label */
+std::vector<SimplexId> InterfaceStage::Repair()
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
   ManifoldRepairOptions options;
@@ -94,12 +80,11 @@ void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
   options.JunctionFacetAngle = std::min(options.JunctionFacetAngle, options.FacetAngle);
   options.Surfaces = &this->Of.Surfaces;
   options.Size = this->Of.Size;
-  const ManifoldRepairResult result =
+  ManifoldRepairResult result =
     RepairManifold(mesh, this->LabelOf, options, this->Options.Threads, this->Stop);
   this->Figures.NonManifoldRepaired = result.Before - result.Left.size();
   this->Figures.NonManifoldLeft = result.Left.size();
-  relabelled.insert(relabelled.end(), result.Relabelled.begin(), result.Relabelled.end());
-  this->NonManifold = result.Left;
+  this->NonManifold = std::move(result.Left);
   this->Pinches.clear();
   for (const InterfaceEdge& edge : this->NonManifold)
   {
@@ -107,6 +92,7 @@ void InterfaceStage::Repair(std::vector<SimplexId>& relabelled)
       { Interpolate(mesh.Position(edge.Ends[0]), mesh.Position(edge.Ends[1]), 0.5),
         edge.IsJunction });
   }
+  return std::move(result.Relabelled);
 }
 
 /** What whole tetrahedra did not mend. */

@@ -12,7 +12,6 @@
 #include "Mesh/EdgeSpindles.h"
 #include "Mesh/InterfaceVertices.h"
 #include "Mesh/ManifoldRepair.h"
-#include "Mesh/NotchFilling.h"
 #include "Mesh/SimplexLabels.h"
 #include "Mesh/SimplexMesh.h"
 #include "Mesh/Subdivision.h"
@@ -31,9 +30,8 @@ namespace voxplex
  *
  * InspectTriangulation() is called after each refinement, until it returns no points; then Labels() are those of the
  * mesh. It first looks for faces of voxels that are far from all vertices of interfaces. If there are none each
- * tetrahedron gets the label at its circumcentre, or another one where that fills a notch in a face where the image cuts
- * the object (FillNotches) or makes the boundary of a label manifold (RepairManifold); and InterfaceGuard looks at what
- * that has left or made. All that happens in the triangulation, so that no mesh is extracted before all is well. At edges that
+ * tetrahedron gets the label at its circumcentre, or another one where that makes the boundary of a label manifold
+ * (RepairManifold); and InterfaceGuard looks at what that has left or made. All that happens in the triangulation, so that no mesh is extracted before all is well. At edges that
  * are not manifold yet when there are no more points, the mesh has tetrahedra in pieces (MakeSpindles).
  *
  * Where delta is graded triangles count instead of vertices: then only InspectMesh() has points.
@@ -85,7 +83,7 @@ private:
   bool MayGoOn() const { return this->Figures.Rounds < this->Options.InterfaceRounds; }
   std::vector<FeatureSeed<3>> Counted(std::vector<FeatureSeed<3>> seeds);
   void MakeLabels();
-  void Repair(std::vector<SimplexId>& relabelled);
+  std::vector<SimplexId> Repair();
   void OpenEdges();
   std::vector<Point<3>> VerticesWithin(const std::vector<SimplexId>& relabelled) const;
 
