@@ -80,17 +80,17 @@ InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
 
 //------------------------------------------------------------------------------------------------
 /** Looks for changes that leave fewer bad edges. */
-class Mender
+class EdgeRepair
 {
 public:
-  Mender(const Triangulation<3>& triangulation, std::span<LabelId> labels,
+  EdgeRepair(const Triangulation<3>& triangulation, std::span<LabelId> labels,
     std::vector<std::uint8_t> onInterface, const ManifoldRepairOptions& options)
     : Labels(labels)
     , Near(triangulation, labels, std::move(onInterface))
     , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
     , Surfaces(options.Surfaces)
-    , Size(options.Size)
+    , Sizing(options.Sizing)
   {
   }
 
@@ -311,13 +311,13 @@ private:
   /** Whether a tetrahedron is larger than the elements of a label may be. */
   bool IsTooLarge(SimplexId t, LabelId label) const
   {
-    if (!this->Size || label == 0)
+    if (!this->Sizing || label == 0)
     {
       return false;
     }
     const Circumball<3> ball = this->Near.Circumball(t);
-    const double size = this->Size->Evaluate(ball.Center, this->Surfaces->LabelValue(label));
-    return size > 0.0 && ball.Radius2 > size * size;
+    const double size = this->Sizing->ElementSize(ball.Center, label);
+    return ball.Radius2 > size * size;
   }
 
   /** Whether it drops what has a facet on a face where the image cuts the object, which is flat. */
@@ -381,7 +381,7 @@ private:
   const double FacetCosine;
   const double JunctionCosine; ///< not smaller
   const Domain<3>* const Surfaces;
-  const SizeFunction<3>* const Size;
+  const SizingField<3>* const Sizing;
   std::set<SimplexId> Changed;
 };
 
@@ -407,18 +407,18 @@ ManifoldRepairResult RepairManifold(const Triangulation<3>& triangulation,
       onInterface[v] = 1;
     }
   }
-  Mender mender(triangulation, labels, std::move(onInterface), options);
+  EdgeRepair repair(triangulation, labels, std::move(onInterface), options);
   for (bool again = true; again;)
   {
     again = false;
     for (const InterfaceEdge& edge : edges)
     {
       ThrowIfStopped(stop);
-      again |= mender.IsBad(edge.Ends) && mender.Mend(edge.Ends);
+      again |= repair.IsBad(edge.Ends) && repair.Mend(edge.Ends);
     }
   }
-  const std::set<SimplexId>& changed = mender.GetChanged();
-  return { edges.size(), mender.FindLeft(edges), { changed.begin(), changed.end() } };
+  const std::set<SimplexId>& changed = repair.GetChanged();
+  return { edges.size(), repair.FindLeft(edges), { changed.begin(), changed.end() } };
 }
 
 } // namespace voxplex

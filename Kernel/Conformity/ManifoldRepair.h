@@ -11,7 +11,7 @@
 #include "Domain/Domain.h"
 #include "Geometry/ShapeBounds.h"
 #include "Quality/InterfaceEdges.h"
-#include "Sizing/SizeFunction.h"
+#include "Sizing/SizingField.h"
 
 #include <cstddef>
 #include <span>
@@ -27,8 +27,8 @@ struct ManifoldRepairOptions
   ShapeBounds Shape; ///< of new interface triangles: angles only
   /** What was meshed: faces where its image cuts the object get no dents. Without it there are none. */
   const Domain<3>* Surfaces = nullptr;
-  /** Largest circumradius of a tetrahedron that gets another label. Needs Surfaces; null: no bound. */
-  const SizeFunction<3>* Size = nullptr;
+  /** Bounds the circumradius of a tetrahedron that gets another label. Null: no bound. */
+  const SizingField<3>* Sizing = nullptr;
 };
 
 /** What was done. */

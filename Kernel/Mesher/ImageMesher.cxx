@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/ImageMesher.h"
 
-#include "Mesher/MeshingStages.h"
+#include "Mesher/MeshingPipeline.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,9 +42,14 @@ MeshingOutcome ImageMesher<D>::Run(
   this->Stats.Contention = this->Options.Contention;
   this->Stats.Balance = this->Options.Balance;
 
-  MeshingStages<D> stages(this->Options, isosurface, this->Stats);
-  const bool done =
-    this->Progress ? this->RunReporting(stages, image, mesh) : stages.Run(image, mesh);
+  RunProgress progress;
+  std::stop_source stop;
+  const auto run = [&]
+  {
+    return RunPipeline(
+      image, isosurface, this->Options, this->Stats, progress, stop.get_token(), mesh);
+  };
+  const bool done = this->Progress ? this->RunReporting(run, progress, stop) : run();
   if (!done)
   {
     mesh = SimplexMesh<D>();
@@ -58,7 +63,7 @@ MeshingOutcome ImageMesher<D>::Run(
 // whatever they are doing.
 template <int D>
 bool ImageMesher<D>::RunReporting(
-  MeshingStages<D>& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh)
+  const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop)
 {
   bool done = false;
   std::exception_ptr error;
@@ -70,7 +75,7 @@ bool ImageMesher<D>::RunReporting(
     {
       try
       {
-        done = stages.Run(image, mesh);
+        done = run();
       }
       catch (...)
       {
@@ -86,10 +91,10 @@ bool ImageMesher<D>::RunReporting(
   {
     for (bool over = false; !over;)
     {
-      reported = std::max(reported, stages.Fraction.load());
-      if (!stages.Stop.stop_requested() && !this->Progress(reported))
+      reported = std::max(reported, progress.Fraction());
+      if (!stop.stop_requested() && !this->Progress(reported))
       {
-        stages.Stop.request_stop();
+        stop.request_stop();
       }
       std::unique_lock lock(mutex);
       over = changed.wait_for(lock, Period, [&] { return finished; });
@@ -97,7 +102,7 @@ bool ImageMesher<D>::RunReporting(
   }
   catch (...) // from the callback: the worker joins on the way out
   {
-    stages.Stop.request_stop();
+    stop.request_stop();
     throw;
   }
   worker.join();

@@ -14,13 +14,13 @@
 #include "Mesher/MeshingStatistics.h"
 
 #include <functional>
+#include <stop_token>
 #include <utility>
 
 namespace voxplex
 {
 
-template <int D>
-class MeshingStages;
+class RunProgress;
 
 /** How a run ended. Errors are exceptions (Error.h). */
 enum class MeshingOutcome
@@ -66,7 +66,8 @@ private:
   /** @param isosurface of which `image` has the labels, or null */
   MeshingOutcome Run(
     const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
-  bool RunReporting(MeshingStages<D>& stages, const LabelImage<D>& image, SimplexMesh<D>& mesh);
+  bool RunReporting(
+    const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop);
 
   MeshingOptions<D> Options;
   MeshingStatistics Stats;

@@ -3,6 +3,7 @@
 #include "Mesher/MeshSizeEstimate.h"
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -229,11 +230,10 @@ void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
   constexpr std::uint64_t MostElements = 1u << 31; // twice as many ids, and free ones besides
   if (bytes > available || estimate.Elements > MostElements)
   {
-    char elements[32];
-    std::snprintf(elements, sizeof(elements), "%.3g", static_cast<double>(estimate.Elements));
-    throw TooLargeError("the mesh is estimated to have " + std::string(elements) +
-      " elements and to need " + InUnits(bytes) + " of memory, of which there are " +
-      InUnits(available) + "; choose a larger delta or element size, or force it");
+    throw TooLargeError("the mesh is estimated to have " +
+      NumberText(static_cast<double>(estimate.Elements), 3) + " elements and to need " +
+      InUnits(bytes) + " of memory, of which there are " + InUnits(available) +
+      "; choose a larger delta or element size, or force it");
   }
 }
 

@@ -3,10 +3,10 @@
 #include "Mesher/MeshingOptions.h"
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Geometry/Predicates.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace voxplex
@@ -15,24 +15,17 @@ namespace voxplex
 namespace
 {
 
-std::string Number(double x)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", x);
-  return text;
-}
-
 void CheckSliverOptions(const SliverOptions& slivers, bool force)
 {
   if (!(slivers.PickingRadius > 0.0 && slivers.PickingRadius < 1.0))
   {
     throw InputError("the radius of picking regions must be between 0 and 1; it is " +
-      Number(slivers.PickingRadius));
+      NumberText(slivers.PickingRadius));
   }
   if (!(slivers.RadiusFactor > 0.0) || std::isinf(slivers.RadiusFactor))
   {
     throw InputError("the factor that tells small slivers must be positive; it is " +
-      Number(slivers.RadiusFactor));
+      NumberText(slivers.RadiusFactor));
   }
   if (slivers.Picks == 0)
   {
@@ -41,12 +34,12 @@ void CheckSliverOptions(const SliverOptions& slivers, bool force)
   if (!(slivers.VolumeBound >= 0.0 && slivers.VolumeBound < 1.0))
   {
     throw InputError("the normalized volume of slivers must be at least 0 and below 1; it is " +
-      Number(slivers.VolumeBound));
+      NumberText(slivers.VolumeBound));
   }
   if (slivers.VolumeBound > LargestSliverBound && !force)
   {
-    throw InputError("a sliver bound of " + Number(slivers.VolumeBound) + " is above " +
-      Number(LargestSliverBound) +
+    throw InputError("a sliver bound of " + NumberText(slivers.VolumeBound) + " is above " +
+      NumberText(LargestSliverBound) +
       ", where meshes can become very large; ask for less, or force it");
   }
 }
@@ -57,12 +50,12 @@ void CheckTetSliverOptions(const TetSliverOptions& slivers, bool force)
   {
     throw InputError(
       "the dihedral angle of slivers must be at least 0 and below 60 degrees; it is " +
-      Number(slivers.Angle));
+      NumberText(slivers.Angle));
   }
   if (slivers.Angle > LargestSliverAngle && !force)
   {
-    throw InputError("a dihedral angle of " + Number(slivers.Angle) + " degrees is above " +
-      Number(LargestSliverAngle) +
+    throw InputError("a dihedral angle of " + NumberText(slivers.Angle) + " degrees is above " +
+      NumberText(LargestSliverAngle) +
       ", where meshes can become very large; ask for less, or force it");
   }
   if (!(slivers.PickingRadius > 0.0 && slivers.PickingRadius < 1.0) || slivers.Picks == 0)
@@ -77,12 +70,12 @@ void CheckGradingOptions(const GradingOptions& grading)
   {
     throw InputError(
       "the ratio of the sampling density to the local feature size must be positive; it is " +
-      Number(grading.Ratio));
+      NumberText(grading.Ratio));
   }
   if (!(grading.Lambda > 0.0) || std::isinf(grading.Lambda))
   {
     throw InputError("the largest local feature size must be a positive number of voxels; it is " +
-      Number(grading.Lambda));
+      NumberText(grading.Lambda));
   }
 }
 
@@ -102,7 +95,7 @@ void CheckOptions(const MeshingOptions<D>& options)
   if (!(options.Delta >= 0.0) || std::isinf(options.Delta))
   {
     throw InputError("delta must be a positive length, or 0 to derive it from the spacing; it is " +
-      Number(options.Delta));
+      NumberText(options.Delta));
   }
   if (options.Delta > 0.0 && options.Elements > 0)
   {
@@ -111,23 +104,23 @@ void CheckOptions(const MeshingOptions<D>& options)
   if (!(options.Gradation >= 0.0) || std::isinf(options.Gradation))
   {
     throw InputError(
-      "the gradation must be positive, or 0 for no limit; it is " + Number(options.Gradation));
+      "the gradation must be positive, or 0 for no limit; it is " + NumberText(options.Gradation));
   }
   if (!(options.RadiusEdgeRatio > 0.0) || std::isinf(options.RadiusEdgeRatio))
   {
     throw InputError(
-      "the radius-edge ratio must be positive; it is " + Number(options.RadiusEdgeRatio));
+      "the radius-edge ratio must be positive; it is " + NumberText(options.RadiusEdgeRatio));
   }
   if (options.RadiusEdgeRatio < 1.93 && !options.Force)
   {
-    throw InputError("a radius-edge ratio of " + Number(options.RadiusEdgeRatio) +
+    throw InputError("a radius-edge ratio of " + NumberText(options.RadiusEdgeRatio) +
       " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force "
       "it");
   }
   if (!(options.FacetAngle >= 0.0 && options.FacetAngle <= 30.0))
   {
     throw InputError(
-      "the facet angle must be between 0 and 30 degrees; it is " + Number(options.FacetAngle));
+      "the facet angle must be between 0 and 30 degrees; it is " + NumberText(options.FacetAngle));
   }
   if constexpr (D == 4)
   {

@@ -51,7 +51,7 @@ struct MeshingOptions
   /**
    * Connected components (through faces) of at least so many voxels get elements whatever delta, and so does the
    * largest of each label however small; 0: as it comes. Those that got none all the same are in
-   * MeshingStatistics::LostComponents. 3D only.
+   * ComponentStatistics::Lost. 3D only.
    */
   std::int64_t SmallestComponent = 8;
   /**
@@ -107,6 +107,9 @@ struct MeshingOptions
   bool Force = false;
   /** Bytes that the mesher may plan with; 0 means the machine's physical memory. */
   std::uint64_t MemoryLimit = 0;
+
+  bool LooksAfterComponents() const { return D == 3 && this->SmallestComponent > 0; }
+  bool Optimises() const { return D == 3 && this->Optimise; }
 };
 
 /** The radius-edge ratios that optimisation allows. */

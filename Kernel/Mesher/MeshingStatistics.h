@@ -7,9 +7,9 @@
 #ifndef voxplex_MeshingStatistics_h
 #define voxplex_MeshingStatistics_h
 
+#include "Conformity/ComponentStatistics.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Geometry/PredicateStatistics.h"
-#include "Image/DropComponents.h"
 #include "Parallel/Policies.h"
 #include "Refinement/RefinementStatistics.h"
 
@@ -88,12 +88,9 @@ struct MeshingStatistics
   std::uint64_t GradingSamples = 0; ///< interface points by which local feature sizes were measured
   std::uint64_t GradingPoles = 0;   ///< points of the medial axis that these gave
   std::uint64_t EstimatedElements = 0;
-  std::uint64_t Components = 0; ///< connected components of all labels; 0 if none were looked for
-  std::uint64_t ComponentSeeds = 0; ///< feature points inserted for small or thin ones, at most
-  unsigned ComponentRounds = 0;     ///< times that refinement went on because one was lost
+  ComponentStatistics Components;
   InterfaceStatistics Interfaces;
   OptimisationFigures Optimisation;
-  std::vector<ComponentReport> LostComponents; ///< connected components that have no element
   std::vector<YieldingReport>
     Yielding;                 ///< the steps of each region, in the order in which they were taken
   double SizesRaisedTo = 0.0; ///< the floor of sizes, if some were below it; else 0

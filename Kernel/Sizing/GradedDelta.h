@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GradedDelta.h
- * @brief A sampling density that changes from place to place, in the cells of a grid.
+ * @brief A sampling distance that changes from place to place, in the cells of a grid.
  */
 #ifndef voxplex_GradedDelta_h
 #define voxplex_GradedDelta_h
 
 #include "Geometry/Box.h"
-#include "Parallel/ParallelFor.h"
+#include "Sizing/GrowthLimit.h"
 
 #include <algorithm>
 #include <array>
@@ -58,37 +58,14 @@ public:
   }
 
   /**
-   * Makes the values grow by at most `slope` for each unit of length along the axes: each becomes the least
-   * that any other allows. At least one must have been set. Linear in the number of cells; threads share
-   * the rows, and the result does not depend on their number.
+   * Makes the values grow by at most `slope` for each unit of length along the axes (LimitGrowth). At least one must have
+   * been set.
    */
   void Grade(double slope, unsigned threads, const std::stop_token& stop)
   {
-    const auto step = static_cast<float>(slope / this->InverseCell);
-    std::size_t stride = 1;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const std::size_t n = this->Cells[a];
-      ParallelFor(
-        0, this->Values.size() / n, 4096, threads,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t row = begin; row < end; ++row)
-          {
-            float* const first = this->Values.data() + row / stride * stride * n + row % stride;
-            for (std::size_t i = 1; i < n; ++i)
-            {
-              first[i * stride] = std::min(first[i * stride], first[(i - 1) * stride] + step);
-            }
-            for (std::size_t i = n - 1; i-- > 0;)
-            {
-              first[i * stride] = std::min(first[i * stride], first[(i + 1) * stride] + step);
-            }
-          }
-        },
-        stop);
-      stride *= n;
-    }
+    std::array<float, static_cast<std::size_t>(D)> steps;
+    steps.fill(static_cast<float>(slope / this->InverseCell));
+    LimitGrowth(std::span<float>(this->Values), this->Cells, steps, threads, stop);
   }
 
   /** Lowers all values to `largest`. */
@@ -100,7 +77,7 @@ public:
     }
   }
 
-  /** The sampling density at a point of the frame. */
+  /** The sampling distance at a point of the frame. */
   double At(const Point<D>& p) const { return this->Values[this->CellOf(p)]; }
 
   /** The smallest value that was set. */

@@ -80,7 +80,7 @@ Point<D> ToFrame(const LabelImage<D>& image, Point<D> index)
 //------------------------------------------------------------------------------------------------
 template <int D>
 InterfaceSizes<D>::InterfaceSizes(const LabelImage<D>& image,
-  const std::vector<InterfaceSize>& sizes, const BaseDensity<D>& base, double gradation,
+  const std::vector<InterfaceSize>& sizes, const BaseDistance<D>& base, double gradation,
   unsigned threads, const std::stop_token& stop)
   : OfLabel(image.Values().size(), Unset)
   , Base(base)

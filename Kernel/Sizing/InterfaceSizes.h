@@ -8,7 +8,7 @@
 #define voxplex_InterfaceSizes_h
 
 #include "Image/LabelImage.h"
-#include "Sizing/BaseDensity.h"
+#include "Sizing/BaseDistance.h"
 #include "Sizing/GradedGrid.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct InterfaceSize
  * @brief The sampling density of the interface between any two labels, and how it changes in space.
  *
  * What is given for a pair of labels counts; else the smaller of what is given for the two labels; else
- * delta, which may be graded (BaseDensity). A density may be larger than delta.
+ * delta, which may be graded (BaseDistance). A density may be larger than delta.
  *
  * Interfaces meet at junctions, and those with different densities may run near each other. With a gradation of g densities
  * change by at most g over a unit of length: a fine interface makes coarse ones finer that are near it (GradedGrid over all
@@ -62,7 +62,7 @@ public:
    * @throws Cancelled if a stop was requested before the end
    */
   InterfaceSizes(const LabelImage<D>& image, const std::vector<InterfaceSize>& sizes,
-    const BaseDensity<D>& base, double gradation, unsigned threads,
+    const BaseDistance<D>& base, double gradation, unsigned threads,
     const std::stop_token& stop = {});
 
   /** The density at a point of an interface, its surroundings aside. */
@@ -112,7 +112,7 @@ private:
 
   std::unordered_map<std::uint32_t, double> OfPair;
   std::vector<double> OfLabel; ///< by dense id; infinite if not given
-  BaseDensity<D> Base;
+  BaseDistance<D> Base;
   bool IsGraded;
   double SmallestSize = 0.0;
   double LargestSize = 0.0;

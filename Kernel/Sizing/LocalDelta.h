@@ -8,6 +8,7 @@
 #define voxplex_LocalDelta_h
 
 #include "Image/LabelImage.h"
+#include "Sizing/GrowthLimit.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ namespace voxplex
 {
 
 /**
- * @brief An upper bound of the sampling density of one label's interfaces in each cell of a few voxels;
+ * @brief An upper bound of the sampling distance of one label's interfaces in each cell of a few voxels;
  * infinite at first.
  *
  * A query is one look-up. The memory is taken when the first bound is set: two bytes a voxel in 3D. Where
@@ -181,33 +182,20 @@ public:
   void Grade()
   {
     this->Graded = this->Spacings;
+    std::array<std::size_t, static_cast<std::size_t>(D)> cells;
+    std::array<float, static_cast<std::size_t>(D)> steps;
     std::size_t stride = 1;
-    for (std::size_t a = 0; a < D && !this->Graded.empty(); ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
-      const auto n = static_cast<std::size_t>(this->Cells[a]);
-      const auto step = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
-      // To a row of cells from that before or behind it along the axis.
-      const auto spread = [&](std::size_t from, std::size_t to)
+      cells[a] = static_cast<std::size_t>(this->Cells[a]);
+      steps[a] = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
+      for (std::size_t first = 0; first < this->Graded.size(); first += stride * cells[a])
       {
-        for (std::size_t c = 0; c < stride; ++c)
-        {
-          this->Graded[to + c] = std::min(this->Graded[to + c], this->Graded[from + c] + step);
-        }
-      };
-      for (std::size_t first = 0; first < this->Graded.size(); first += stride * n)
-      {
-        this->TakeLeastOfNeighbours(first, stride, n);
-        for (std::size_t k = 1; k < n; ++k)
-        {
-          spread(first + (k - 1) * stride, first + k * stride);
-        }
-        for (std::size_t k = n - 1; k > 0; --k)
-        {
-          spread(first + k * stride, first + (k - 1) * stride);
-        }
+        this->TakeLeastOfNeighbours(first, stride, cells[a]);
       }
-      stride *= n;
+      stride *= cells[a];
     }
+    LimitGrowth(std::span<float>(this->Graded), cells, steps);
   }
 
   /** The smallest bound that was set; infinite if none was. */

@@ -216,7 +216,7 @@ TEST(StressChecks, FindWhatIsNotOfTheImage)
     });
   ExpectFound<3>("lost-list",
     [](Meshed<3>& m) {
-      m.Stats.LostComponents.push_back({ 3, 5, { 2, 2, 2 } });
+      m.Stats.Components.Lost.push_back({ 3, 5, { 2, 2, 2 } });
     });
   const auto move = [](auto& m)
   {

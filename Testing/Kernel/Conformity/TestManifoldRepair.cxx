@@ -298,10 +298,11 @@ TEST(ManifoldRepair, MakesNoElementLargerThanItsNewLabelAllows)
   for (const double size : { 100.0, 0.01 })
   {
     const SizeOfLabelTwo sizes(size);
+    const SizingField<3> sizing(domain, { .Base = { 0.1 }, .Size = &sizes });
     Triangulated ring(Ring({ 1, 2, 1, 2 }));
     ManifoldRepairOptions options;
     options.Surfaces = &domain;
-    options.Size = &sizes;
+    options.Sizing = &sizing;
     const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
     EXPECT_TRUE(result.Left.empty());
     ASSERT_EQ(result.Relabelled.size(), 1u);
@@ -344,7 +345,8 @@ TEST(ManifoldRepair, TellsWhatIsLeft)
     {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", angle " << angle);
       RefinedBlobs blobs(seed);
-      const ManifoldRepairResult result = blobs.Repair({ .Shape = { .FacetAngle = angle, .JunctionFacetAngle = angle } });
+      const ManifoldRepairResult result =
+        blobs.Repair({ .Shape = { .FacetAngle = angle, .JunctionFacetAngle = angle } });
       std::map<Ends, bool> found;
       for (const InterfaceEdge& edge : result.Left)
       {

@@ -78,7 +78,7 @@ void ExpectAllLabels(
   EXPECT_TRUE(complaints.empty()) << name << ": " << complaints.front();
   const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
   EXPECT_EQ(labels.size(), static_cast<std::size_t>(image.NumberOfLabels())) << name;
-  EXPECT_TRUE(mesher.Statistics().LostComponents.empty()) << name;
+  EXPECT_TRUE(mesher.Statistics().Components.Lost.empty()) << name;
   const Components<3> components(image);
   EXPECT_TRUE(FindLostComponents(components, image, mesh, components.FindWanted(1000), 1).empty())
     << name;
@@ -176,5 +176,5 @@ TEST(SmallLabels, AreLeftToChanceOnRequest)
   SimplexMesh<3> mesh;
   ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
   EXPECT_LT(std::set<std::int64_t>(mesh.Labels.begin(), mesh.Labels.end()).size(), 20u);
-  EXPECT_EQ(mesher.Statistics().Components, 0u);
+  EXPECT_EQ(mesher.Statistics().Components.Found, 0u);
 }

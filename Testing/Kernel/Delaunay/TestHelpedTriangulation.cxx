@@ -328,7 +328,7 @@ TEST(FineGrainedRefinement, NoRuleAppliesAfterwards)
         SCOPED_TRACE(name);
         const Watchdog watchdog(name);
         RefinementSettings<3> settings;
-        settings.Delta = delta;
+        settings.Sizing.Base = { delta };
         RefinementContext<3> context(ball, settings, Around(ball, delta), 1000);
         TeamOptions team;
         team.Threads = threads;
@@ -354,8 +354,8 @@ TEST(FineGrainedRefinement, FourBall)
   {
     const Watchdog watchdog("4-ball, " + std::to_string(threads) + " threads");
     RefinementSettings<4> settings;
-    settings.Delta = 2.5;
-    RefinementContext<4> context(ball, settings, Around(ball, settings.Delta), 1000);
+    settings.Sizing.Base = { 2.5 };
+    RefinementContext<4> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
     TeamOptions team;
     team.Threads = threads;
     team.FineGrained = true;
@@ -377,7 +377,7 @@ TEST(FineGrainedRefinement, NobodyHelpsUnlessAsked)
 {
   const BallDomain ball(5.0);
   RefinementSettings<3> settings;
-  settings.Delta = 0.8;
+  settings.Sizing.Base = { 0.8 };
   RefinementContext<3> context(ball, settings, Around(ball, 0.8), 1000);
   TeamOptions team;
   team.Threads = 4;
@@ -397,7 +397,7 @@ TEST(FineGrainedRefinement, StopsWhenAsked)
   for (int most = 1; most < 20; most += 3)
   {
     RefinementSettings<3> settings;
-    settings.Delta = 0.3;
+    settings.Sizing.Base = { 0.3 };
     RefinementContext<3> context(ball, settings, Around(ball, 0.3), 1000);
     TeamOptions team;
     team.Threads = 6;

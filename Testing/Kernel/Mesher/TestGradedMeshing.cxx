@@ -163,11 +163,11 @@ TEST(GradedMeshing, NoRuleAppliesAfterwards)
   for (const unsigned threads : { 1u, 4u })
   {
     RefinementSettings<3> settings;
-    settings.Delta = 2.0;
-    settings.Graded = &graded;
-    RefinementContext<3> context(ball, settings, Around(ball, settings.Delta), 1000);
-    EXPECT_DOUBLE_EQ(context.SpacingFloor, SpacingFloorFraction * 0.4);
-    EXPECT_DOUBLE_EQ(context.SizeFloor, SpacingFloorFraction * 0.4);
+    settings.Sizing.Base = { 2.0 };
+    settings.Sizing.Base.Graded = &graded;
+    RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
+    EXPECT_DOUBLE_EQ(context.Sizing.SpacingFloor(), SpacingFloorFraction * 0.4);
+    EXPECT_DOUBLE_EQ(context.Sizing.SizeFloor(), SpacingFloorFraction * 0.4);
     TeamOptions team;
     team.Threads = threads;
     Refiner<Rules3D> refiner(context, team);
@@ -270,8 +270,8 @@ TEST(GradedMeshing, LosesNoLabelAndNoComponent)
     options.Threads = threads;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(image, options, &statistics);
-    EXPECT_TRUE(statistics.LostComponents.empty());
-    EXPECT_EQ(statistics.Components, 4u);
+    EXPECT_TRUE(statistics.Components.Lost.empty());
+    EXPECT_EQ(statistics.Components.Found, 4u);
     const Components<3> components(image);
     std::set<std::uint32_t> found;
     for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)

@@ -334,8 +334,8 @@ TEST(IsosurfaceMeshing, SmallComponentsAreKeptOrLeftOut)
     Sample(Cube(28), [&](const Point<3>& p) { return std::max(large(p), small(p)); }), Cube(28));
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(grey, 5.0, &statistics);
-  EXPECT_EQ(statistics.Components, 2u);
-  EXPECT_TRUE(statistics.LostComponents.empty());
+  EXPECT_EQ(statistics.Components.Found, 2u);
+  EXPECT_TRUE(statistics.Components.Lost.empty());
   const auto isBeyond = [](const Point<3>& p) { return p[0] > 20.0; };
   EXPECT_TRUE(std::any_of(mesh.Points.begin(), mesh.Points.end(), isBeyond));
   EXPECT_EQ(DropComponents(grey.Image.Labels(), 100.0).size(), 1u);

@@ -127,7 +127,7 @@ private:
 RefinementSettings<3> Settings(double delta)
 {
   RefinementSettings<3> settings;
-  settings.Delta = delta;
+  settings.Sizing.Base = { delta };
   return settings;
 }
 

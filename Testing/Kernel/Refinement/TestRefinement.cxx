@@ -51,8 +51,8 @@ TEST(Refinement, NoRuleAppliesAfterwards)
     {
       SCOPED_TRACE("delta " + std::to_string(delta) + (sf ? " with sizes" : ""));
       RefinementSettings<3> settings;
-      settings.Delta = delta;
-      settings.Size = sf;
+      settings.Sizing.Base = { delta };
+      settings.Sizing.Size = sf;
       RefinementContext<3> context(ball, settings, Around(ball, delta), 1000);
       Refiner<Rules3D> refiner(context);
       ASSERT_TRUE(refiner.Run(nullptr));
@@ -86,11 +86,12 @@ TEST(Refinement, FollowsBoundsThatWereLowered)
   {
     LocalDelta<3> local(image);
     RefinementSettings<3> settings;
-    settings.Delta = 2.5;
-    settings.Local = &local;
+    settings.Sizing.Base = { 2.5 };
+    settings.Sizing.Local = &local;
     TeamOptions team;
     team.Threads = threads;
-    RefinementContext<3> context(domain, settings, Around(domain, settings.Delta), 1000);
+    RefinementContext<3> context(
+      domain, settings, Around(domain, settings.Sizing.Base.Delta), 1000);
     ASSERT_TRUE(Refiner<Rules3D>(context, team).Run(nullptr));
     const std::uint32_t features = context.Features.Size();
     Refiner<Rules3D> idle(context, team, {}, RefinementStart::AtSeeds);
@@ -99,7 +100,7 @@ TEST(Refinement, FollowsBoundsThatWereLowered)
 
     local.SetBound({ 24, 24, 0 }, 2, 1, 1.0);
     local.Grade();
-    context.FollowLocalDelta();
+    context.Sizing.FollowLocalBounds();
     Refiner<Rules3D> near(context, team, {}, RefinementStart::AtSeeds);
     ASSERT_TRUE(near.Run(nullptr));
     EXPECT_GT(context.Features.Size(), features + 10);
@@ -117,8 +118,8 @@ TEST(Refinement, ExtractedBallIsASphere)
 {
   const BallDomain ball(5.0);
   RefinementSettings<3> settings;
-  settings.Delta = 0.8;
-  RefinementContext<3> context(ball, settings, Around(ball, settings.Delta), 1000);
+  settings.Sizing.Base = { 0.8 };
+  RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
   Refiner<Rules3D> refiner(context);
   refiner.Run(nullptr);
   const SimplexMesh<3> mesh = checks::ExtractSphere(context, ball);
@@ -129,7 +130,7 @@ TEST(Refinement, ExtractedBallIsASphere)
   {
     jump += Distance(mesh.Points[i], mesh.Points[i - 1]);
   }
-  EXPECT_LT(jump / static_cast<double>(mesh.Points.size()), 3.0 * settings.Delta);
+  EXPECT_LT(jump / static_cast<double>(mesh.Points.size()), 3.0 * settings.Sizing.Base.Delta);
 }
 
 // R6: circumcentres come before feature points in places, and then have to go. R2 inserts centres of balls that are
@@ -138,10 +139,10 @@ TEST(Refinement, FreeVerticesNearFeatureVerticesAreRemoved)
 {
   const BallDomain ball(5.0);
   RefinementSettings<3> settings;
-  settings.Delta = 1.0;
+  settings.Sizing.Base = { 1.0 };
   settings.RadiusEdgeRatio = 1e9;
   settings.TetSlivers.Angle = 0.0;
-  RefinementContext<3> context(ball, settings, Around(ball, settings.Delta), 1000);
+  RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
   Refiner<Rules3D> refiner(context);
   refiner.Run(nullptr);
   EXPECT_GT(refiner.GetRuleStatistics().Removed, 0u);
@@ -161,7 +162,7 @@ TEST(Refinement, FreeVerticesNearFeatureVerticesAreRemoved)
   {
     for (const Point<3>& feature : points[VertexKind::Feature])
     {
-      EXPECT_GE(Distance(free, feature), 2.0 * settings.Delta);
+      EXPECT_GE(Distance(free, feature), 2.0 * settings.Sizing.Base.Delta);
     }
   }
 }
@@ -170,8 +171,8 @@ TEST(Refinement, StopsWhenAsked)
 {
   const BallDomain ball(5.0);
   RefinementSettings<3> settings;
-  settings.Delta = 0.3;
-  RefinementContext<3> context(ball, settings, Around(ball, settings.Delta), 1000);
+  settings.Sizing.Base = { 0.3 };
+  RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
   Refiner<Rules3D> refiner(context);
   int calls = 0;
   EXPECT_FALSE(refiner.Run([&](std::uint64_t) { return ++calls < 3; }));

@@ -25,7 +25,7 @@ namespace
 RefinementSettings<3> Settings()
 {
   RefinementSettings<3> settings;
-  settings.Delta = 1.0;
+  settings.Sizing.Base = { 1.0 };
   return settings;
 }
 

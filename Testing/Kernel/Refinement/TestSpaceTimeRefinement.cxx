@@ -81,11 +81,11 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
       SCOPED_TRACE(std::string(order == RuleOrder::SurfaceFirst ? "surface" : "radius-edge") +
         " first" + (sf ? ", with sizes" : ""));
       RefinementSettings<4> settings;
-      settings.Delta = 1.4;
-      settings.Size = sf;
+      settings.Sizing.Base = { 1.4 };
+      settings.Sizing.Size = sf;
       settings.Order = order;
       settings.Slivers.Fight = false;
-      RefinementContext<4> context(ball, settings, Around(ball, settings.Delta), 1000);
+      RefinementContext<4> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
       Refiner<Rules4D> refiner(context);
       ASSERT_TRUE(refiner.Run(nullptr));
       const RuleStatistics rules = refiner.GetRuleStatistics();

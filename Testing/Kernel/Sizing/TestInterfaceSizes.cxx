@@ -133,7 +133,7 @@ TEST(InterfaceSizes, DeltaMayBeGraded)
   delta.Lower({ 3.0, 20.0, 20.0 }, 1.0);
   delta.Grade(0.05, 1, {});
   delta.Cap(2.5);
-  const BaseDensity<3> base{ 2.5, &delta, 1.7 };
+  const BaseDistance<3> base{ 2.5, &delta, 1.7 };
   const InterfaceSizes<3> stepping(image, { { 1, 2, 0.5 } }, base, 0.0, 1);
   const InterfaceSizes<3> graded(image, { { 1, 2, 4.0 } }, base, 0.3, 1);
   for (double x = 3.0; x < 30.0; x += 0.9)
@@ -213,21 +213,21 @@ TEST(InterfaceSizes, TheSameLabelTwiceHasTheSpacingThere)
   const LabelImage<3> image = phantoms::NestedBalls(15.0);
   const ImageDomain<3> domain(image, 1.0);
   RefinementSettings<3> settings;
-  settings.Delta = 0.01;
-  BaseDensity<3> base;
-  base.Delta = settings.Delta;
-  base.Equivalent = settings.Delta;
-  base.Asked = settings.Delta;
+  settings.Sizing.Base = { 0.01 };
+  BaseDistance<3> base;
+  base.Delta = settings.Sizing.Base.Delta;
+  base.Equivalent = settings.Sizing.Base.Delta;
+  base.Asked = settings.Sizing.Base.Delta;
   const InterfaceSizes<3> sizes(
     image, { { 3, Any, 2.0 }, { 7, Any, 2.0 }, { 200, Any, 3.0 } }, base, 0.3, 1);
-  settings.Interfaces = &sizes;
+  settings.Sizing.Interfaces = &sizes;
   const RefinementContext<3> context(domain, settings, domain.Bounds(), 1000);
   for (const LabelId label : { 0, 1, 2, 3 })
   {
-    const double delta = context.Delta(Somewhere, label, label);
+    const double delta = context.Sizing.SamplingDistance(Somewhere, label, label);
     EXPECT_GE(delta, 2.0);
     EXPECT_LE(delta, 3.0);
-    EXPECT_EQ(delta, context.Spacing(Somewhere, label));
+    EXPECT_EQ(delta, context.Sizing.Spacing(Somewhere, label));
   }
 }
 

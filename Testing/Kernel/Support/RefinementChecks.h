@@ -40,7 +40,7 @@ Box<D> Around(const Domain<D>& domain, double delta)
 inline std::unique_ptr<RefinementContext<3>> Refined(const Domain<3>& domain, double delta)
 {
   RefinementSettings<3> settings;
-  settings.Delta = delta;
+  settings.Sizing.Base = { delta };
   auto context =
     std::make_unique<RefinementContext<3>>(domain, settings, Around(domain, delta), 1000);
   Refiner<Rules3D> refiner(*context);
@@ -84,7 +84,7 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
   {
     for (std::size_t j = 0; j < i; ++j)
     {
-      ASSERT_GE(Distance(features[i], features[j]), context.SpacingFloor);
+      ASSERT_GE(Distance(features[i], features[j]), context.Sizing.SpacingFloor());
     }
   }
   for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
@@ -101,7 +101,7 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
     {
       Point<D> z;
       ball.ClosestSurfacePoint(c.Center, 0, z);
-      const double local = context.Delta(z, 1, 0);
+      const double local = context.Sizing.SamplingDistance(z, 1, 0);
       ASSERT_TRUE(std::any_of(features.begin(), features.end(),
         [&](const Point<D>& f) { return Distance(f, z) < local; }))
         << "R1";
@@ -136,7 +136,7 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
     if (inside)
     {
       ASSERT_LT(radius / shortest, context.Settings.RadiusEdgeRatio) << "radius-edge ratio";
-      ASSERT_LT(radius, context.Size(c.Center, 1)) << "sizes";
+      ASSERT_LT(radius, context.Sizing.ElementSize(c.Center, 1)) << "sizes";
     }
   }
 }

@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file ComponentGuard.h
+ * @file ComponentCheck.h
  * @brief Sees to it that no connected component of the image is missing from the mesh.
  */
-#ifndef voxplex_ComponentGuard_h
-#define voxplex_ComponentGuard_h
+#ifndef voxplex_ComponentCheck_h
+#define voxplex_ComponentCheck_h
 
+#include "Conformity/ComponentStatistics.h"
+#include "Conformity/ConformityCheck.h"
 #include "Domain/Domain.h"
 #include "Image/Components.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureSeed.h"
-#include "Sizing/LocalDelta.h"
+#include "Sizing/SizingField.h"
 
 #include <cstdint>
 #include <stop_token>
@@ -41,27 +43,29 @@ namespace voxplex
  * objects that are small beside delta.
  */
 template <int D>
-class ComponentGuard
+class ComponentCheck final : public ConformityCheck<D>
 {
 public:
   /**
    * @param image, domain, components must live as long as this
-   * @param delta the sampling density elsewhere, by dense id of the label
+   * @param sizing the sampling distances elsewhere; needed during construction only
    * @param fewestVoxels smaller components are not looked after, but for the largest of each label
    * @param exact whether what is thin beside delta is sampled as a whole from the start
    * @param local where to sample more finely; receives bounds
+   * @param statistics counts rounds and points, and lists what is lost
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
-  ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain,
-    const Components<D>& components, const std::vector<double>& delta, std::int64_t fewestVoxels,
-    bool exact, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop);
+  ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
+    const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
+    bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
+    unsigned threads, const std::stop_token& stop);
 
-  /** What has been decided to insert since the last call, in the order of components. */
+  /** The points that were chosen since the last call, in the order of components. */
   std::vector<FeatureSeed<D>> TakeSeeds();
 
-  /** How many seeds there were so far. */
-  std::size_t NumberOfSeeds() const { return this->SeedsTaken + this->Seeds.size(); }
+  /** Asks for elements of the components that have none; of those that cannot get one it gives up, and lists them. */
+  Remedy<D> InspectMesh(const SimplexMesh<D>& mesh) override;
 
   /** Components with no element of their label within a voxel of them, in increasing order. */
   std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
@@ -97,11 +101,11 @@ private:
   std::stop_token Stop;
   LocalDelta<D>& Local;
   std::vector<FeatureSeed<D>> Seeds; ///< not taken yet
-  std::size_t SeedsTaken = 0;
+  ComponentStatistics& Statistics;
 };
 
-extern template class ComponentGuard<3>;
-extern template class ComponentGuard<4>;
+extern template class ComponentCheck<3>;
+extern template class ComponentCheck<4>;
 
 } // namespace voxplex
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Refinement goes on for the sake of interfaces where it has to, and nowhere else.
-#include "Conformity/InterfaceStage.h"
+#include "Conformity/InterfaceCheck.h"
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
@@ -20,7 +20,7 @@ namespace
 bool HasFarFaces(const LabelImage<3>& image, const SimplexMesh<3>& mesh, double delta)
 {
   const double limit =
-    std::max(InterfaceGuard::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
+    std::max(UniformInterfaceCheck::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, limit, mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {
@@ -41,7 +41,7 @@ bool HasFarFaces(const LabelImage<3>& image, const SimplexMesh<3>& mesh, double 
 
 } // namespace
 
-TEST(InterfaceStage, GoesOnWhereItHasTo)
+TEST(InterfaceCheck, GoesOnWhereItHasTo)
 {
   int afterPinches = 0;
   int afterRepair = 0;
@@ -58,16 +58,15 @@ TEST(InterfaceStage, GoesOnWhereItHasTo)
     const ImageDomain<3> domain(image, 1.0);
     LocalDelta<3> local(image);
     RefinementSettings<3> settings;
-    settings.Delta = delta;
-    settings.Local = &local;
+    settings.Sizing.Base = { delta };
+    settings.Sizing.Local = &local;
     RefinementContext<3> context(domain, settings, Around(domain, delta), 1000);
     ASSERT_TRUE(Refiner<Rules3D>(context).Run(nullptr));
     const InterfaceOptions options;
     InterfaceStatistics figures;
-    const BaseDensity<3> base{ delta };
-    InterfaceStage stage(
-      { context.Mesh, image, domain.GetSites(), domain, base, nullptr, nullptr, {}, 1 }, options,
-      local, figures, {});
+    double seconds = 0.0;
+    InterfaceCheck check({ context.Mesh, image, domain.GetSites(), domain, context.Sizing, {}, 1 },
+      options, local, figures, seconds, {});
     for (bool hadPinches = false;;)
     {
       local.ForgetLowered();
@@ -83,7 +82,7 @@ TEST(InterfaceStage, GoesOnWhereItHasTo)
       const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(), delta);
-      const std::vector<FeatureSeed<3>> seeds = stage.InspectTriangulation();
+      const std::vector<FeatureSeed<3>> seeds = check.InspectTriangulation().Points;
       EXPECT_EQ(!seeds.empty(), wasFar || hasPinches || isFar);
       afterRepair += isFar && !wasFar && !hasPinches ? 1 : 0;
       afterPinches += hadPinches && seeds.empty() ? 1 : 0;
@@ -92,7 +91,7 @@ TEST(InterfaceStage, GoesOnWhereItHasTo)
       {
         break;
       }
-      context.FollowLocalDelta();
+      context.Sizing.FollowLocalBounds();
       ASSERT_TRUE(Refiner<Rules3D>(context, {}, seeds, RefinementStart::AtSeeds).Run(nullptr));
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Conformity/InterfaceStage.h"
+#include "Conformity/InterfaceCheck.h"
 
 #include "Delaunay/VertexStar.h"
 
@@ -10,59 +10,68 @@
 namespace voxplex
 {
 
-InterfaceStage::InterfaceStage(const Subject& subject, const InterfaceOptions& options,
-  LocalDelta<3>& local, InterfaceStatistics& figures, const std::stop_token& stop)
-  : Of(subject)
+InterfaceCheck::InterfaceCheck(const Subject& subject, const InterfaceOptions& options,
+  LocalDelta<3>& local, InterfaceStatistics& statistics, double& seconds,
+  const std::stop_token& stop)
+  : ConformityCheck(seconds)
+  , Of(subject)
   , Options(options)
-  , Figures(figures)
+  , Statistics(statistics)
   , Stop(stop)
   , Vertices(subject.Mesh, subject.Surfaces, subject.Threads, stop)
-  , Guard(subject.Image, subject.Sites, subject.Surfaces, subject.Base, subject.Sizes, local,
-      subject.Threads, stop)
 {
+  if (subject.Sizing.Base().Graded)
+  {
+    this->Graded.emplace(
+      subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
+  }
+  else
+  {
+    this->Uniform.emplace(
+      subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceStage::InspectTriangulation()
+Remedy<3> InterfaceCheck::InspectTriangulation()
 {
-  const bool looks = this->MayGoOn() && !this->Of.Base.Graded;
-  std::vector<FeatureSeed<3>> seeds;
+  const bool looks = this->Uniform && this->MayGoOn();
+  Remedy<3> remedy;
   if (looks)
   {
-    seeds = this->Counted(this->Guard.InspectVertices(this->Vertices.Update()));
+    remedy = this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()));
   }
-  if (seeds.empty())
+  if (!remedy.IsNeeded)
   {
     this->MakeLabels();
     if (looks)
     {
-      seeds = this->Counted(this->Guard.InspectLabels(this->Gone, this->Pinches));
+      remedy = this->Counted(this->Uniform->InspectLabels(this->Gone, this->Places));
     }
   }
-  if (seeds.empty())
+  if (!remedy.IsNeeded)
   {
     this->OpenEdges();
   }
-  return seeds;
+  return remedy;
 }
 
-std::vector<FeatureSeed<3>> InterfaceStage::InspectMesh(const SimplexMesh<3>& mesh)
+Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
 {
-  return this->MayGoOn() && this->Of.Base.Graded
-    ? this->Counted(this->Guard.InspectMesh(mesh, this->Pinches))
-    : std::vector<FeatureSeed<3>>();
+  return this->Graded && this->MayGoOn() ? this->Counted(this->Graded->Inspect(mesh, this->Places))
+                                         : Remedy<3>();
 }
 
 /** A round of those asked for, if there are points to go on with. */
-std::vector<FeatureSeed<3>> InterfaceStage::Counted(std::vector<FeatureSeed<3>> seeds)
+Remedy<3> InterfaceCheck::Counted(std::vector<FeatureSeed<3>> points)
 {
-  this->Figures.Rounds += seeds.empty() ? 0 : 1;
-  this->Figures.Seeds += seeds.size();
-  return seeds;
+  this->Statistics.Rounds += points.empty() ? 0 : 1;
+  this->Statistics.Seeds += points.size();
+  return { !points.empty(), std::move(points) };
 }
 
 //------------------------------------------------------------------------------------------------
-void InterfaceStage::MakeLabels()
+void InterfaceCheck::MakeLabels()
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
   this->LabelOf = LabelSimplices(mesh, this->Of.Surfaces, this->Of.Threads, this->Stop);
@@ -72,22 +81,22 @@ void InterfaceStage::MakeLabels()
 }
 
 /** @return the tetrahedra that got another label */
-std::vector<SimplexId> InterfaceStage::Repair()
+std::vector<SimplexId> InterfaceCheck::Repair()
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
   ManifoldRepairOptions options;
   options.Shape = this->Of.Shape;
   options.Surfaces = &this->Of.Surfaces;
-  options.Size = this->Of.Size;
+  options.Sizing = &this->Of.Sizing;
   ManifoldRepairResult result =
     RepairManifold(mesh, this->LabelOf, options, this->Of.Threads, this->Stop);
-  this->Figures.NonManifoldRepaired = result.Before - result.Left.size();
-  this->Figures.NonManifoldLeft = result.Left.size();
+  this->Statistics.NonManifoldRepaired = result.Before - result.Left.size();
+  this->Statistics.NonManifoldLeft = result.Left.size();
   this->NonManifold = std::move(result.Left);
-  this->Pinches.clear();
+  this->Places.clear();
   for (const InterfaceEdge& edge : this->NonManifold)
   {
-    this->Pinches.push_back(
+    this->Places.push_back(
       { Interpolate(mesh.Position(edge.Ends[0]), mesh.Position(edge.Ends[1]), 0.5),
         edge.IsJunction });
   }
@@ -95,19 +104,19 @@ std::vector<SimplexId> InterfaceStage::Repair()
 }
 
 /** What whole tetrahedra did not mend. */
-void InterfaceStage::OpenEdges()
+void InterfaceCheck::OpenEdges()
 {
   SpindleResult result =
     MakeSpindles(this->Of.Mesh, this->Of.Surfaces, this->LabelOf, this->NonManifold, this->Stop);
   const std::size_t opened = this->NonManifold.size() - result.Left.size();
-  this->Figures.NonManifoldOpened = opened;
-  this->Figures.NonManifoldRepaired += opened;
-  this->Figures.NonManifoldLeft = result.Left.size();
+  this->Statistics.NonManifoldOpened = opened;
+  this->Statistics.NonManifoldRepaired += opened;
+  this->Statistics.NonManifoldLeft = result.Left.size();
   this->Spindles = std::move(result.Parts);
 }
 
 /** Vertices of these tetrahedra that are inside of a label. */
-std::vector<Point<3>> InterfaceStage::VerticesWithin(const std::vector<SimplexId>& relabelled) const
+std::vector<Point<3>> InterfaceCheck::VerticesWithin(const std::vector<SimplexId>& relabelled) const
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
   std::vector<VertexId> vertices;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What the guard of interfaces looks at and samples, face by face.
+// What the check of interfaces looks at and samples, face by face.
 #include "Base/Error.h"
-#include "Conformity/InterfaceGuard.h"
 #include "Conformity/InterfaceVertices.h"
+#include "Conformity/UniformInterfaceCheck.h"
 #include "Domain/ImageDomain.h"
 #include "Domain/InterfacePoints.h"
 #include "InterfaceChecks.h"
@@ -105,7 +105,7 @@ std::set<Point<3>> CrossingsNear(
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(InterfaceGuard, BringsOutAThinProcess)
+TEST(InterfaceDistances, BringsOutAThinProcess)
 {
   const LabelImage<3> image = BlockWithHair();
   const double delta = 4.0;
@@ -121,7 +121,7 @@ TEST(InterfaceGuard, BringsOutAThinProcess)
 }
 
 // Points on the tip alone leave it without an element: no circumcentre lies in it.
-TEST(InterfaceGuard, BringsOutAThinTipOfBackground)
+TEST(InterfaceDistances, BringsOutAThinTipOfBackground)
 {
   const LabelImage<3> image = BlockWithCrack();
   for (const double delta : { 1.3, 1.4, 1.5, 1.6, 1.8 })
@@ -138,7 +138,7 @@ TEST(InterfaceGuard, BringsOutAThinTipOfBackground)
 
 // Graded meshes have few vertices where interfaces are flat, but their triangles are no farther from the image than those
 // of a uniform mesh with the finest delta. Seeds 1 and 12 have places that it takes two rounds for.
-TEST(InterfaceGuard, KeepsGradedMeshesNear)
+TEST(InterfaceDistances, KeepsGradedMeshesNear)
 {
   std::size_t elements[2] = { 0, 0 };
   unsigned far = 0;
@@ -151,7 +151,7 @@ TEST(InterfaceGuard, KeepsGradedMeshesNear)
     options.Delta = 1.2;
     options.Grading.Mode = GradingMode::LocalFeatureSize;
     options.Grading.Ratio = 2.0;
-    options.ExactComponents = true; // the guard has less to do then
+    options.ExactComponents = true; // the check has less to do then
     for (const unsigned rounds : { 0u, 5u })
     {
       options.Interfaces.Rounds = rounds;
@@ -171,7 +171,7 @@ TEST(InterfaceGuard, KeepsGradedMeshesNear)
 }
 
 // Also where no feature is so small that delta would be used anywhere.
-TEST(InterfaceGuard, KeepsGradedBallsNear)
+TEST(InterfaceDistances, KeepsGradedBallsNear)
 {
   const LabelImage<3> image = phantoms::Ball(14.0);
   MeshingOptions<3> options;
@@ -188,7 +188,7 @@ TEST(InterfaceGuard, KeepsGradedBallsNear)
   EXPECT_LT(mesh.Simplices.size(), uniform.Simplices.size() / 3);
 }
 
-TEST(InterfaceGuard, LeavesManifoldBoundaries)
+TEST(InterfaceDistances, LeavesManifoldBoundaries)
 {
   for (const unsigned seed : { 1u, 2u, 3u })
   {
@@ -205,7 +205,7 @@ TEST(InterfaceGuard, LeavesManifoldBoundaries)
   }
 }
 
-TEST(InterfaceGuard, IsContentWithAGoodMesh)
+TEST(InterfaceDistances, IsContentWithAGoodMesh)
 {
   const LabelImage<3> image = phantoms::Ball(8.0);
   MeshingStatistics statistics;
@@ -217,22 +217,23 @@ TEST(InterfaceGuard, IsContentWithAGoodMesh)
 }
 
 // Half as far apart each time, until the label field has no more to show.
-TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
+TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
 {
   const LabelImage<3> image = BlockWithHair();
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
-  InterfaceGuard guard(image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, {});
+  const SizingField<3> sizing(domain, { .Base = { 4.0 } });
+  UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
   double spacing = 0.8 * 4.0;
   int visits = 0;
   for (;;)
   {
-    const std::vector<FeatureSeed<3>> seeds = guard.InspectVertices({});
+    const std::vector<FeatureSeed<3>> seeds = check.InspectVertices({});
     if (seeds.empty())
     {
       break;
     }
-    EXPECT_GT(guard.NumberOfFarFaces(), 100u);
+    EXPECT_GT(check.NumberOfFarFaces(), 100u);
     for (const FeatureSeed<3>& seed : seeds)
     {
       EXPECT_DOUBLE_EQ(seed.Delta, spacing);
@@ -254,7 +255,7 @@ TEST(InterfaceGuard, SamplesMoreFinelyEachTime)
 }
 
 // Where three labels meet a boundary may pinch in the image itself: that alone is no reason for another round.
-TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
+TEST(InterfaceDistances, GoesOnForEdgesOffJunctionsOnly)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(14);
   const ImageDomain<3> domain(image, 1.0);
@@ -263,32 +264,33 @@ TEST(InterfaceGuard, GoesOnForEdgesOffJunctionsOnly)
   for (const bool atJunction : { false, true })
   {
     LocalDelta<3> local(image);
-    InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
-    EXPECT_TRUE(guard.InspectVertices({ vertices, {} }).empty());
-    EXPECT_TRUE(guard.InspectLabels({}, {}).empty());
-    EXPECT_EQ(guard.InspectLabels({}, { { vertices[0], atJunction } }).empty(), atJunction);
-    EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
+    const SizingField<3> sizing(domain, { .Base = { delta } });
+    UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
+    EXPECT_TRUE(check.InspectVertices({ vertices, {} }).empty());
+    EXPECT_TRUE(check.InspectLabels({}, {}).empty());
+    EXPECT_EQ(check.InspectLabels({}, { { vertices[0], atJunction } }).empty(), atJunction);
+    EXPECT_EQ(check.NumberOfFarFaces(), 0u);
     // Along with one that is a reason, those at junctions are sampled, too.
-    const std::size_t one = guard.InspectLabels({}, { { vertices[0], false } }).size();
+    const std::size_t one = check.InspectLabels({}, { { vertices[0], false } }).size();
     EXPECT_GT(
-      guard.InspectLabels({}, { { vertices[0], false }, { vertices.back(), true } }).size(), one);
+      check.InspectLabels({}, { { vertices[0], false }, { vertices.back(), true } }).size(), one);
   }
 }
 
-TEST(InterfaceGuard, CanBeCancelled)
+TEST(InterfaceDistances, CanBeCancelled)
 {
   const LabelImage<3> image = BlockWithHair();
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
   std::stop_source stop;
-  InterfaceGuard guard(
-    image, domain.GetSites(), domain, { 4.0 }, nullptr, local, 1, stop.get_token());
+  const SizingField<3> sizing(domain, { .Base = { 4.0 } });
+  UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, stop.get_token());
   stop.request_stop();
-  EXPECT_THROW(guard.InspectVertices({}), Cancelled);
+  EXPECT_THROW(check.InspectVertices({}), Cancelled);
 }
 
 // Around an edge it samples all that is near, also where the axes of the image are oblique and voxels long.
-TEST(InterfaceGuard, ReachesAsFarInShearedImages)
+TEST(InterfaceDistances, ReachesAsFarInShearedImages)
 {
   GridGeometry<3> sheared = GridGeometry<3>::Orthogonal({ 60, 30, 30 }, { 1.0, 1.0, 1.0 });
   sheared.IndexToFrame[0][1] = 1.5;
@@ -313,14 +315,15 @@ TEST(InterfaceGuard, ReachesAsFarInShearedImages)
         Interpolate(mesh.Points[mesh.Facets[f][0]], mesh.Points[mesh.Facets[f][1]], 0.5);
       const std::set<Point<3>> expected = CrossingsNear(image, domain, middle, 0.5 * delta);
       LocalDelta<3> local(image);
-      InterfaceGuard guard(image, domain.GetSites(), domain, { delta }, nullptr, local, 1, {});
-      guard.InspectVertices({ vertices, {} });
+      const SizingField<3> sizing(domain, { .Base = { delta } });
+      UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
+      check.InspectVertices({ vertices, {} });
       std::set<Point<3>> found;
-      for (const FeatureSeed<3>& seed : guard.InspectLabels({}, { { middle, false } }))
+      for (const FeatureSeed<3>& seed : check.InspectLabels({}, { { middle, false } }))
       {
         found.insert(seed.Position);
       }
-      EXPECT_EQ(guard.NumberOfFarFaces(), 0u);
+      EXPECT_EQ(check.NumberOfFarFaces(), 0u);
       EXPECT_GT(expected.size(), 10u);
       EXPECT_EQ(found, expected) << f;
     }
@@ -328,7 +331,7 @@ TEST(InterfaceGuard, ReachesAsFarInShearedImages)
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
+TEST(InterfaceDistances, FindsAllFacesThatAreFarFromVertices)
 {
   GridGeometry<3> sheared = GridGeometry<3>::Orthogonal({ 90, 22, 20 }, { 0.7, 1.1, 1.6 });
   sheared.IndexToFrame[0][1] = 0.9;
@@ -347,7 +350,7 @@ TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
       });
     const ImageDomain<3> domain(image, 1.0);
     const double delta = 2.5;
-    const double limit = std::max(InterfaceGuard::LargestDistance * delta,
+    const double limit = std::max(UniformInterfaceCheck::LargestDistance * delta,
       std::sqrt(grid.Spacing(0) * grid.Spacing(0) + grid.Spacing(1) * grid.Spacing(1) +
         grid.Spacing(2) * grid.Spacing(2)));
     std::vector<Point<3>> centres;
@@ -377,21 +380,21 @@ TEST(InterfaceGuard, FindsAllFacesThatAreFarFromVertices)
       for (const unsigned threads : { 1u, 3u })
       {
         LocalDelta<3> local(image);
-        InterfaceGuard guard(
-          image, domain.GetSites(), domain, { delta }, nullptr, local, threads, {});
-        guard.InspectVertices({ vertices, {} });
-        EXPECT_EQ(guard.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
+        const SizingField<3> sizing(domain, { .Base = { delta } });
+        UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, threads, {});
+        check.InspectVertices({ vertices, {} });
+        EXPECT_EQ(check.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
       }
     }
   }
 }
 
 // Later inspections look only around vertices that have gone, and find the same as one that looks at all.
-TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
+TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30);
   const ImageDomain<3> domain(image, 1.0);
-  const BaseDensity<3> base{ 3.0 };
+  const BaseDistance<3> base{ 3.0 };
   InterfaceSize size;
   size.Label = image.Values()[1];
   size.Size = 5.0;
@@ -401,12 +404,11 @@ TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
   ASSERT_GT(all.size(), 1000u);
   for (const bool withSizes : { false, true })
   {
-    const double limit = InterfaceGuard::LargestDistance * (withSizes ? 5.0 : 3.0);
-    const auto makeGuard = [&](LocalDelta<3>& local)
-    {
-      return InterfaceGuard(
-        image, domain.GetSites(), domain, base, withSizes ? &sizes : nullptr, local, 1, {});
-    };
+    const double limit = UniformInterfaceCheck::LargestDistance * (withSizes ? 5.0 : 3.0);
+    const SizingField<3> sizing(
+      domain, { .Base = base, .Interfaces = withSizes ? &sizes : nullptr });
+    const auto makeCheck = [&](LocalDelta<3>& local)
+    { return UniformInterfaceCheck(image, domain.GetSites(), domain, sizing, local, 1, {}); };
     std::size_t holes = 0;
     std::size_t number = 0;
     for (const Point<3>& centre : all)
@@ -431,12 +433,12 @@ TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
         }
       }
       LocalDelta<3> local(image);
-      InterfaceGuard again = makeGuard(local);
+      UniformInterfaceCheck again = makeCheck(local);
       vertices.push_back(*inside);
       const bool isNear = again.InspectVertices({ vertices, {} }).empty();
       vertices.pop_back();
       LocalDelta<3> other(image);
-      const auto expected = makeGuard(other).InspectVertices({ vertices, {} });
+      const auto expected = makeCheck(other).InspectVertices({ vertices, {} });
       if (!isNear || expected.empty())
       {
         continue;
@@ -450,7 +452,7 @@ TEST(InterfaceGuard, LooksAgainWhereVerticesHaveGone)
       }
       // The same if labels take the vertex off interfaces, but for that one look only.
       LocalDelta<3> third(image);
-      InterfaceGuard before = makeGuard(third);
+      UniformInterfaceCheck before = makeCheck(third);
       vertices.push_back(*inside);
       EXPECT_TRUE(before.InspectVertices({ vertices, {} }).empty());
       EXPECT_TRUE(before.InspectLabels({}, {}).empty());

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file BaseDensity.h
- * @brief The sampling density of interfaces for which nothing else is asked.
+ * @file BaseDistance.h
+ * @brief The sampling distance of interfaces for which nothing else is asked.
  */
-#ifndef voxplex_BaseDensity_h
-#define voxplex_BaseDensity_h
+#ifndef voxplex_BaseDistance_h
+#define voxplex_BaseDistance_h
 
 #include "Sizing/GradedDelta.h"
 
@@ -16,7 +16,7 @@ namespace voxplex
 
 /** Delta, the same everywhere or graded. */
 template <int D>
-struct BaseDensity
+struct BaseDistance
 {
   double Delta = 1.0;                     ///< if it is graded, the largest
   const GradedDelta<D>* Graded = nullptr; ///< from place to place; null: the same everywhere

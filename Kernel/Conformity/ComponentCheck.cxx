@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Conformity/ComponentGuard.h"
+#include "Conformity/ComponentCheck.h"
 
 #include "Domain/ThinPart.h"
 #include "Parallel/ParallelFor.h"
@@ -56,10 +56,12 @@ constexpr double FinestVoxels = 0.1;
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& domain,
-  const Components<D>& components, const std::vector<double>& delta, std::int64_t fewestVoxels,
-  bool exact, LocalDelta<D>& local, unsigned threads, const std::stop_token& stop)
-  : Image(image)
+ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
+  const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
+  bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
+  unsigned threads, const std::stop_token& stop)
+  : ConformityCheck<D>(seconds)
+  , Image(image)
   , Surfaces(domain)
   , All(components)
   , Attempts(components.All().size(), exact ? AttemptsAtThickest : 0)
@@ -67,17 +69,16 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
   , Threads(threads)
   , Stop(stop)
   , Local(local)
+  , Statistics(statistics)
 {
-  double spacing = image.Grid().Spacing(0);
-  for (int a = 1; a < D; ++a)
+  this->FinestDelta = FinestVoxels * image.Grid().SmallestSpacing();
+  for (std::size_t label = 1; label < image.Values().size(); ++label)
   {
-    spacing = std::min(spacing, image.Grid().Spacing(a));
+    this->FinestDelta = std::min(this->FinestDelta, sizing.LargestOf(static_cast<LabelId>(label)));
   }
-  this->FinestDelta =
-    std::min(*std::min_element(delta.begin() + 1, delta.end()), FinestVoxels * spacing);
   for (std::uint32_t c = 0; c < this->All.All().size(); ++c)
   {
-    this->Delta.push_back(delta[this->All.All()[c].Label]);
+    this->Delta.push_back(sizing.LargestOf(this->All.All()[c].Label));
     const double own = this->OwnDelta(c);
     if (exact && this->Wanted[c] && own < this->Delta[c])
     {
@@ -90,7 +91,7 @@ ComponentGuard<D>::ComponentGuard(const LabelImage<D>& image, const Domain<D>& d
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-double ComponentGuard<D>::OwnDelta(std::uint32_t component) const
+double ComponentCheck<D>::OwnDelta(std::uint32_t component) const
 {
   const Component<D>& of = this->All.All()[component];
   const double volume = static_cast<double>(of.Voxels) * this->Image.Grid().VoxelVolume();
@@ -99,15 +100,39 @@ double ComponentGuard<D>::OwnDelta(std::uint32_t component) const
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-std::vector<FeatureSeed<D>> ComponentGuard<D>::TakeSeeds()
+std::vector<FeatureSeed<D>> ComponentCheck<D>::TakeSeeds()
 {
-  this->SeedsTaken += this->Seeds.size();
+  this->Statistics.Seeds += this->Seeds.size();
   return std::exchange(this->Seeds, {});
 }
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void ComponentGuard<D>::SampleThickest(std::uint32_t component)
+Remedy<D> ComponentCheck<D>::InspectMesh(const SimplexMesh<D>& mesh)
+{
+  const std::vector<std::uint32_t> lost = this->FindLost(mesh);
+  this->Statistics.Lost.clear(); // of an earlier round
+  if (this->SampleFiner(lost))
+  {
+    ++this->Statistics.Rounds;
+    return { true, this->TakeSeeds() };
+  }
+  for (const std::uint32_t c : lost)
+  {
+    const Component<D>& component = this->All.All()[c];
+    ComponentReport entry{ this->Image.Values()[component.Label], component.Voxels, {} };
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      entry.Voxel.push_back(this->Image.CropOrigin()[a] + component.First[a]);
+    }
+    this->Statistics.Lost.push_back(std::move(entry));
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void ComponentCheck<D>::SampleThickest(std::uint32_t component)
 {
   const std::int64_t step = this->All.All()[component].Voxels / MostVoxelsLookedAt + 1;
   std::int64_t count = 0;
@@ -143,7 +168,7 @@ void ComponentGuard<D>::SampleThickest(std::uint32_t component)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
+void ComponentCheck<D>::Sample(std::uint32_t component, double delta)
 {
   this->Delta[component] = delta;
   const LabelId label = this->All.All()[component].Label;
@@ -181,13 +206,13 @@ void ComponentGuard<D>::Sample(std::uint32_t component, double delta)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-std::vector<std::uint32_t> ComponentGuard<D>::FindLost(const SimplexMesh<D>& mesh) const
+std::vector<std::uint32_t> ComponentCheck<D>::FindLost(const SimplexMesh<D>& mesh) const
 {
   return FindLostComponents(this->All, this->Image, mesh, this->Wanted, this->Threads, this->Stop);
 }
 
 template <int D>
-std::vector<std::uint32_t> ComponentGuard<D>::FindWitnesses(
+std::vector<std::uint32_t> ComponentCheck<D>::FindWitnesses(
   const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const
 {
   return FindWitnessesOf(components, this->All, this->Image, mesh);
@@ -195,7 +220,7 @@ std::vector<std::uint32_t> ComponentGuard<D>::FindWitnesses(
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-bool ComponentGuard<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
+bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
 {
   bool any = false;
   for (const std::uint32_t c : lost)
@@ -220,7 +245,7 @@ bool ComponentGuard<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
   return any;
 }
 
-template class ComponentGuard<3>;
-template class ComponentGuard<4>;
+template class ComponentCheck<3>;
+template class ComponentCheck<4>;
 
 } // namespace voxplex

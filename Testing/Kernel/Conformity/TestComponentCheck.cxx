@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Connected components against a flood fill, bounds of delta, and that no component is lost.
 #include "Base/Error.h"
-#include "Conformity/ComponentGuard.h"
+#include "Conformity/ComponentCheck.h"
 #include "Domain/ImageDomain.h"
 #include "Image/Components.h"
 #include "Image/DropComponents.h"
@@ -423,7 +423,7 @@ TEST(DropComponents, SomethingMustBeLeft)
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(ComponentGuard, KeepsIslandsThatAreSmallBesideDelta)
+TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
 {
   const Islands islands(2);
   for (const unsigned threads : { 1u, 4u })
@@ -438,23 +438,23 @@ TEST(ComponentGuard, KeepsIslandsThatAreSmallBesideDelta)
     options.SmallestComponent = 8;
     const SimplexMesh<3> few = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(few, islands.Centres, 2, 1.5), 27u);
-    EXPECT_EQ(statistics.Components, 28u);
-    EXPECT_LE(statistics.ComponentSeeds, 27u * 6u);
-    EXPECT_GE(statistics.ComponentRounds, 1u);
-    EXPECT_TRUE(statistics.LostComponents.empty());
+    EXPECT_EQ(statistics.Components.Found, 28u);
+    EXPECT_LE(statistics.Components.Seeds, 27u * 6u);
+    EXPECT_GE(statistics.Components.Rounds, 1u);
+    EXPECT_TRUE(statistics.Components.Lost.empty());
 
     options.ExactComponents = true;
     const SimplexMesh<3> exact = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(exact, islands.Centres, 2, 1.5), 27u);
-    EXPECT_GT(statistics.ComponentSeeds, 27u * 8u);
-    EXPECT_EQ(statistics.ComponentRounds, 0u);
-    EXPECT_TRUE(statistics.LostComponents.empty());
+    EXPECT_GT(statistics.Components.Seeds, 27u * 8u);
+    EXPECT_EQ(statistics.Components.Rounds, 0u);
+    EXPECT_TRUE(statistics.Components.Lost.empty());
     EXPECT_LT(few.Simplices.size(), exact.Simplices.size());
   }
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(ComponentGuard, LeavesSmallerOnesAlone)
+TEST(ComponentCheck, LeavesSmallerOnesAlone)
 {
   const Islands islands(2);
   MeshingOptions<3> options;
@@ -464,16 +464,16 @@ TEST(ComponentGuard, LeavesSmallerOnesAlone)
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_LT(CountFound(mesh, islands.Centres, 2, 1.5), 27u);
-  EXPECT_EQ(statistics.ComponentSeeds, 24u)
+  EXPECT_EQ(statistics.Components.Seeds, 24u)
     << "on one island, the first of the largest of its label";
-  EXPECT_TRUE(statistics.LostComponents.empty());
+  EXPECT_TRUE(statistics.Components.Lost.empty());
   options.SmallestComponent = 0;
   Mesh(islands.Image, options, statistics);
-  EXPECT_EQ(statistics.Components, 0u);
+  EXPECT_EQ(statistics.Components.Found, 0u);
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(ComponentGuard, KeepsSingleVoxelsIfAsked)
+TEST(ComponentCheck, KeepsSingleVoxelsIfAsked)
 {
   for (const Point<3>& spacing : { Point<3>{ 1.0, 1.0, 1.0 }, Point<3>{ 0.3, 0.3, 1.0 } })
   {
@@ -484,12 +484,12 @@ TEST(ComponentGuard, KeepsSingleVoxelsIfAsked)
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(mesh, islands.Centres, 2, 1.0), 27u);
-    EXPECT_TRUE(statistics.LostComponents.empty());
+    EXPECT_TRUE(statistics.Components.Lost.empty());
   }
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(ComponentGuard, KeepsASheetThatIsThinBesideDelta)
+TEST(ComponentCheck, KeepsASheetThatIsThinBesideDelta)
 {
   MeshingOptions<3> options;
   options.Delta = 6.0;
@@ -497,12 +497,12 @@ TEST(ComponentGuard, KeepsASheetThatIsThinBesideDelta)
   const LabelImage<3> image = phantoms::Sheet(20);
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
   EXPECT_FALSE(mesh.Simplices.empty());
-  EXPECT_TRUE(statistics.LostComponents.empty());
+  EXPECT_TRUE(statistics.Components.Lost.empty());
 }
 
 //------------------------------------------------------------------------------------------------
 // Single voxels next to each other, flat ones: the first guess does not do for all of them.
-TEST(ComponentGuard, GoesOnUntilNothingIsLost)
+TEST(ComponentCheck, GoesOnUntilNothingIsLost)
 {
   std::mt19937 random(5);
   const LabelImage<3> image =
@@ -520,21 +520,23 @@ TEST(ComponentGuard, GoesOnUntilNothingIsLost)
     options.Threads = threads;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(image, options, statistics);
-    EXPECT_GE(statistics.ComponentRounds, 1u);
-    EXPECT_TRUE(statistics.LostComponents.empty());
+    EXPECT_GE(statistics.Components.Rounds, 1u);
+    EXPECT_TRUE(statistics.Components.Lost.empty());
     const ImageDomain<3> domain(image, 1.0);
     const Components<3> components(image);
-    const std::vector<double> delta(image.Values().size(), 3.0);
+    const SizingField<3> sizing(domain, { .Base = { 3.0 } });
     LocalDelta<3> local(image);
-    const ComponentGuard<3> guard(image, domain, components, delta, 1, false, local, 1, {});
-    EXPECT_GT(guard.GetComponents().All().size(), 100u);
-    EXPECT_TRUE(guard.FindLost(mesh).empty());
+    double seconds = 0.0;
+    const ComponentCheck<3> check(
+      image, domain, components, sizing, 1, false, local, statistics.Components, seconds, 1, {});
+    EXPECT_GT(check.GetComponents().All().size(), 100u);
+    EXPECT_TRUE(check.FindLost(mesh).empty());
   }
 }
 
 //------------------------------------------------------------------------------------------------
 // Repairs give tetrahedra away, at times the only ones of a component: two of these images showed it.
-TEST(ComponentGuard, LooksAtRepairedInterfaces)
+TEST(ComponentCheck, LooksAtRepairedInterfaces)
 {
   for (const unsigned seed : { 9u, 19u })
   {
@@ -549,25 +551,28 @@ TEST(ComponentGuard, LooksAtRepairedInterfaces)
       const SimplexMesh<3> mesh = Mesh(image, options, statistics);
       EXPECT_GT(statistics.Interfaces.NonManifoldRepaired, 0u);
       EXPECT_EQ(FindLostComponents(components, image, mesh, components.FindWanted(1), 1, {}).size(),
-        statistics.LostComponents.size());
+        statistics.Components.Lost.size());
     }
   }
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
+TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
 {
   const Islands islands(2);
   const ImageDomain<3> domain(islands.Image, 1.0);
   const Components<3> components(islands.Image);
-  const std::vector<double> delta(islands.Image.Values().size(), 5.0);
+  const SizingField<3> sizing(domain, { .Base = { 5.0 } });
   LocalDelta<3> local(islands.Image);
-  ComponentGuard<3> guard(islands.Image, domain, components, delta, 8, false, local, 2, {});
+  ComponentStatistics counts;
+  double seconds = 0.0;
+  ComponentCheck<3> check(
+    islands.Image, domain, components, sizing, 8, false, local, counts, seconds, 2, {});
   MeshingOptions<3> options;
   options.Delta = 5.0;
   MeshingStatistics statistics;
   SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
-  EXPECT_TRUE(guard.FindLost(mesh).empty());
+  EXPECT_TRUE(check.FindLost(mesh).empty());
   const auto island = static_cast<std::uint32_t>(
     std::find_if(components.All().begin(), components.All().end(),
       [&](const Component<3>& c)
@@ -578,7 +583,7 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
       }) -
     components.All().begin());
   ASSERT_LT(island, components.All().size());
-  const std::vector<std::uint32_t> witnesses = guard.FindWitnesses(mesh, { island });
+  const std::vector<std::uint32_t> witnesses = check.FindWitnesses(mesh, { island });
   ASSERT_EQ(witnesses.size(), 1u);
   EXPECT_EQ(mesh.Labels[witnesses[0]], 2);
   for (const std::uint32_t v : mesh.Simplices[witnesses[0]])
@@ -587,7 +592,7 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
   }
 
   // Take the elements of the island around one centre away.
-  const auto& all = guard.GetComponents().All();
+  const auto& all = check.GetComponents().All();
   for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
   {
     const Point<3>& p = mesh.Points[mesh.Simplices[t][0]];
@@ -596,9 +601,9 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
       mesh.Labels[t] = 1;
     }
   }
-  const std::vector<std::uint32_t> lost = guard.FindLost(mesh);
+  const std::vector<std::uint32_t> lost = check.FindLost(mesh);
   EXPECT_EQ(lost, std::vector<std::uint32_t>{ island });
-  EXPECT_TRUE(guard.FindWitnesses(mesh, lost).empty());
+  EXPECT_TRUE(check.FindWitnesses(mesh, lost).empty());
   EXPECT_EQ(all[lost[0]].Voxels, 8);
   for (std::size_t a = 0; a < 3; ++a) // indices of the crop, which begins at 2
   {
@@ -606,35 +611,35 @@ TEST(ComponentGuard, SaysWhichComponentsHaveNoElement)
   }
 
   // Twice the six points around the middle, then those on all faces, again and again, with smaller bounds.
-  EXPECT_EQ(guard.NumberOfSeeds(), 0u);
+  EXPECT_EQ(counts.Seeds, 0u);
   double smallest = local.Smallest();
   std::size_t before = 0;
   int rounds = 0;
-  while (guard.SampleFiner(lost))
+  while (check.SampleFiner(lost))
   {
-    const std::vector<FeatureSeed<3>> seeds = guard.TakeSeeds();
+    const std::vector<FeatureSeed<3>> seeds = check.TakeSeeds();
     EXPECT_EQ(seeds.size(), rounds < 2 ? 6u : 24u) << rounds;
-    EXPECT_EQ(guard.NumberOfSeeds(), before += seeds.size());
+    EXPECT_EQ(counts.Seeds, before += seeds.size());
     EXPECT_LE(local.Smallest(), smallest);
     smallest = local.Smallest();
     ASSERT_LT(++rounds, 10);
   }
   EXPECT_GE(rounds, 4);
   EXPECT_LT(local.Smallest(), 0.5) << "of a cube of two voxels";
-  EXPECT_FALSE(guard.SampleFiner({}));
+  EXPECT_FALSE(check.SampleFiner({}));
 }
 
 //------------------------------------------------------------------------------------------------
-// A mesh in which nothing is small is what it was without the guard.
-TEST(ComponentGuard, ChangesNothingWhereDeltaIsFineEnough)
+// A mesh in which nothing is small is what it was without the check.
+TEST(ComponentCheck, ChangesNothingWhereDeltaIsFineEnough)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
   MeshingOptions<3> options;
   options.Delta = 1.0;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
-  EXPECT_EQ(statistics.Components, 3u);
-  EXPECT_EQ(statistics.ComponentSeeds, 0u);
+  EXPECT_EQ(statistics.Components.Found, 3u);
+  EXPECT_EQ(statistics.Components.Seeds, 0u);
   options.SmallestComponent = 0;
   const SimplexMesh<3> without = Mesh(image, options, statistics);
   EXPECT_TRUE(std::equal(mesh.Points.begin(), mesh.Points.end(), without.Points.begin()));
