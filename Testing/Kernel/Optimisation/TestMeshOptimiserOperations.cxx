@@ -402,6 +402,43 @@ TEST(Flips, FillNoBackground)
   EXPECT_NEAR(Volume(mesh), volume, 0.01 * volume);
 }
 
+// Two labels touch in a quadrilateral, which each of them cuts along another diagonal. Were one of them flipped, both
+// labels would have the same triangles, and be neighbours.
+TEST(Flips, JoinNoPartsThatTouch)
+{
+  for (const bool touched : { false, true })
+  {
+    constexpr std::uint32_t a = 0, b = 1, c = 2, d = 3, e = 4, f = 5;
+    std::vector<Point<3>> points = { { 1.5, 0, 0 }, { -1.5, 0, 0 }, { 0, 0.8, 0 }, { 0, -0.8, 0 },
+      { 0, 0, -1 } };
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra = { { a, b, c, e }, { b, a, d, e } };
+    std::vector<std::int64_t> labels = { 1, 1 };
+    if (touched)
+    {
+      points.push_back({ 0, 0, 1 });
+      tetrahedra.insert(tetrahedra.end(), { { c, d, f, a }, { d, c, f, b } });
+      labels.insert(labels.end(), { 2, 2 });
+    }
+    for (auto& v : tetrahedra)
+    {
+      const std::array x{ &points[v[0]], &points[v[1]], &points[v[2]], &points[v[3]] };
+      if (SignedVolume<3>(x.data()) < 0.0)
+      {
+        std::swap(v[2], v[3]);
+      }
+    }
+    const SimplexMesh<3> mesh = MeshOf(points, tetrahedra, labels);
+    TetrahedralComplex complex(mesh, ShapeScore(50.0, 95.0, 1.0), 1, {});
+    const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
+    Patch patch(complex, blocks, 0);
+    const std::uint32_t vertices[] = { a, b, c, d };
+    patch.FindStars(vertices);
+    Flips flips(patch, InterfaceRules(10.0, 10.0, 30.0));
+    flips.Improve(0);
+    EXPECT_EQ(flips.Counts().InterfaceFlips, touched ? 0u : 1u);
+  }
+}
+
 TEST(Flips, KeepTheLastTetrahedronOfALabel)
 {
   for (const std::int64_t label : { 2, 1 })
