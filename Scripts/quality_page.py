@@ -218,7 +218,7 @@ INTRODUCTION = """\
 # Quality of the meshes
 
 Made by `Scripts/measure-quality`, tables and pictures: do not edit. All figures are those of
-`voxplex.quality()` ([UserGuide.md](UserGuide.md#quality)), of the files that the programs wrote; the meshes of
+`voxplex.quality()` ([Reference.md](Reference.md#quality)), of the files that the programs wrote; the meshes of
 CGAL 5.5's Mesh_3 are measured by the same function. One thread each. Times are medians of {repeat}, the programs taking turns
 on {machine}; seconds of one thread on this machine, so compare them with each other only. Machines change their pace, so
 rates are measured in {pairs} pairs: a run with everything on against the mean of one of plain refinement before and one

@@ -22,11 +22,11 @@ BLOCK = re.compile(r"^(?:<!-- (?P<mark>file|not run): (?P<value>.*?) -->\n)?^```
 
 
 def environment(folder):
-    """A home with ~/voxplex, and this interpreter as python3."""
+    """A home with ~/voxplex, whose programs are found, and this interpreter as python3."""
     programs = folder / "bin"
     programs.mkdir()
     (programs / "python3").symlink_to(sys.executable)
-    result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{os.environ['PATH']}"}
+    result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{folder / 'voxplex' / 'bin'}:{os.environ['PATH']}"}
     if "VOXPLEX_PREFIX" in os.environ:
         (folder / "voxplex").symlink_to(os.environ["VOXPLEX_PREFIX"])
     return result
