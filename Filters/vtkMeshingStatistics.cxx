@@ -110,7 +110,7 @@ void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
   }
 }
 
-void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceFigures& figures)
+void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceStatistics& figures)
 {
   json.Begin("interfaces");
   json.Add("junction_curves", figures.JunctionCurves);

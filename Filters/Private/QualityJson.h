@@ -8,9 +8,9 @@
 #define voxplex_QualityJson_h
 
 #include "Image/DropComponents.h"
-#include "Mesh/MeshQuality.h"
-#include "MeshMeasurement.h"
 #include "Private/JsonWriter.h"
+#include "Quality/MeshMeasurement.h"
+#include "Quality/MeshQuality.h"
 
 #include <string>
 #include <vector>

@@ -8,18 +8,18 @@
 #define voxplex_RefinementContext_h
 
 #include "Delaunay/Triangulation.h"
-#include "Grading/GradedDelta.h"
-#include "Image/Domain.h"
-#include "Image/InterfaceSizes.h"
-#include "Image/LocalDelta.h"
-#include "Image/SizeFunction.h"
-#include "MeshingStatistics.h"
+#include "Domain/Domain.h"
 #include "Parallel/CacheLine.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 #include "Refinement/PoorElementList.h"
+#include "Refinement/RefinementStatistics.h"
 #include "Refinement/RegionalWork.h"
 #include "Refinement/RuleOptions.h"
+#include "Sizing/GradedDelta.h"
+#include "Sizing/InterfaceSizes.h"
+#include "Sizing/LocalDelta.h"
+#include "Sizing/SizeFunction.h"
 
 #include <algorithm>
 #include <cmath>

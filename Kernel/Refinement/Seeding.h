@@ -7,7 +7,7 @@
 #ifndef voxplex_Seeding_h
 #define voxplex_Seeding_h
 
-#include "Mesh/HilbertOrder.h"
+#include "Geometry/HilbertOrder.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // The checks of the stress program find what they are for: good meshes are spoilt in one way after the other.
 #include "CaseRun.h"
 #include "Checks.h"
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 #include "RandomImages.h"
 #include "Reduction.h"
 #include "Workers.h"
