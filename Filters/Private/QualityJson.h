@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file QualityJson.h
- * @brief What is measured of meshes, in JSON; the keys are documented in Documentation/UserGuide.md.
+ * @brief What is measured of meshes, in JSON; the keys are documented in Documentation/Reference.md.
  */
 #ifndef voxplex_QualityJson_h
 #define voxplex_QualityJson_h
