@@ -124,7 +124,7 @@ void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceStatistics
   json.End();
 }
 
-void AddOptimisation(voxplex::JsonWriter& json, const voxplex::OptimisationFigures& figures)
+void AddOptimisation(voxplex::JsonWriter& json, const voxplex::OptimisationSummary& figures)
 {
   json.Begin("optimisation");
   json.Add("ran", figures.Ran);

@@ -377,7 +377,7 @@ private:
   }
 
   /**
-   * Cuts two pieces off abrs that have not got both a and b.
+   * Borders two pieces off abrs that have not got both a and b.
    * @param i 2 or 3: number of the vertex r or s
    * @param point on the facet of a, b and that vertex, which it takes the place of
    * @return what is left
@@ -481,7 +481,7 @@ private:
   /** Whether it makes a dent in a face where the image cuts the object, or adds something beyond. */
   bool MarsCutFaces(const Ring& ring, const Filling& filling) const
   {
-    for (std::size_t k = 0; k < ring.Sectors.size() && this->Image.IsCut(); ++k)
+    for (std::size_t k = 0; k < ring.Sectors.size() && this->Image.ReachesBorder(); ++k)
     {
       const Sector& sector = ring.Sectors[k];
       if (filling.Gives[k] == 0)
@@ -490,7 +490,7 @@ private:
       }
       const Point<3> centre =
         Interpolate(this->MiddleOf(ring.Ends), this->MiddleOf({ sector.R, sector.S }), 0.5);
-      if (sector.Label == 0 ? this->Image.IsBeyondCutFaces(centre)
+      if (sector.Label == 0 ? this->Image.IsBeyondBorder(centre)
                             : filling.Label == 0 && this->HasFacetOnCutFace(ring, sector))
       {
         return true;
@@ -502,7 +502,7 @@ private:
   /** One of those at the edge. */
   bool HasFacetOnCutFace(const Ring& ring, const Sector& sector) const
   {
-    const auto faces = [this](VertexId v) { return this->Image.CutFaces(this->Position(v)); };
+    const auto faces = [this](VertexId v) { return this->Image.BorderFaces(this->Position(v)); };
     return (faces(ring.Ends[0]) & faces(ring.Ends[1]) & (faces(sector.R) | faces(sector.S))) != 0;
   }
 

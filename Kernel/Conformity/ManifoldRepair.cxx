@@ -334,7 +334,7 @@ private:
         unsigned faces = ~0u;
         for (const VertexId v : this->FacetOf(t, i))
         {
-          faces &= this->Surfaces->CutFaces(this->Near.Position(v));
+          faces &= this->Surfaces->BorderFaces(this->Near.Position(v));
         }
         if (faces != 0)
         {

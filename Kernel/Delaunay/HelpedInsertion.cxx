@@ -127,7 +127,7 @@ void Triangulation<D>::TestCandidates(Worker& worker, const Point<D>& p, std::si
     return;
   }
   const std::vector<Worker*>& team = *worker.Help.Team;
-  worker.Help.Desk->Run(worker.Help.Number, worker.Candidates.Size(), worker.Help.Grain,
+  worker.Help.Sharing->Run(worker.Help.Number, worker.Candidates.Size(), worker.Help.Grain,
     [&](unsigned thread, std::size_t first, std::size_t last)
     { test(*team[thread], first, last); });
 }
@@ -147,7 +147,7 @@ void Triangulation<D>::FillWithHelp(Worker& worker, VertexId apex)
   }
   this->Vertices[apex].Incident = worker.Created[0];
   const Point<D> p = this->Position(apex);
-  worker.Help.Desk->Run(
+  worker.Help.Sharing->Run(
     worker.Help.Number, count, worker.Help.Grain,
     [&](unsigned, std::size_t first, std::size_t last)
     {

@@ -15,7 +15,7 @@ namespace voxplex
 //------------------------------------------------------------------------------------------------
 template <int D>
 InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, VertexKind kind,
-  SimplexId seed, double clearance, Judge* judge)
+  SimplexId seed, double clearance, InsertionVeto* veto)
 {
   assert(this->OwnsFacet(worker, seed));
   if (!this->InConflict(worker, seed, p))
@@ -41,7 +41,7 @@ InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, Ver
       this->RestoreMarks(worker);
       return InsertionOutcome::TooClose;
     }
-    if (judge && !judge->Accepts(worker))
+    if (veto && !veto->Accepts(worker))
     {
       this->RestoreMarks(worker);
       return InsertionOutcome::Rejected;

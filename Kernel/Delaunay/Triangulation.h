@@ -12,7 +12,7 @@
 #include "Delaunay/Stores.h"
 #include "Geometry/Box.h"
 #include "Geometry/Predicates.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 
 #include <atomic>
 #include <cassert>
@@ -30,7 +30,7 @@ enum class InsertionOutcome
   NoConflict, ///< the point does not conflict with the simplex that was given
   Duplicate,  ///< the point is a vertex already
   TooClose,   ///< the point is nearer than asked for to a vertex that stays
-  Rejected,   ///< the judge did not accept what the insertion would make
+  Rejected,   ///< the veto did not accept what the insertion would make
   Contended   ///< another worker owns a vertex of the cavity
 };
 
@@ -75,7 +75,7 @@ enum class LockOutcome
  * the marks and the state of a simplex are written by one worker at a time. All this is ordered by the
  * lock words: taking one acquires what its last owner released.
  *
- * **Helpers** (thesis, section 4.6.2). A worker may be told of a help desk (Assistance). Threads that wait
+ * **Helpers** (thesis, section 4.6.2). A worker may be told of a help sharing (Assistance). Threads that wait
  * there then test simplices of a large cavity for conflict, and compute circumballs of the new ones. They
  * read what the worker may read, write to places that it assigns, and have left before Insert() returns.
  * Marks, locks and links are the worker's own business. Created, Deleted and the new ids are the same, in
@@ -118,12 +118,12 @@ public:
     std::uint64_t BallTests = 0;
     std::uint64_t BallFailures = 0;
 
-    /** Who helps with insertions; nobody as long as there is no desk. */
+    /** Who helps with insertions; nobody as long as there is no sharing. */
     struct Assistance
     {
-      HelpDesk* Desk = nullptr;
-      unsigned Number = 0; ///< of this worker's thread at the desk
-      /** The workers of the threads at the desk, by number: a helper counts and computes in its own. */
+      LoopSharing* Sharing = nullptr;
+      unsigned Number = 0; ///< of this worker's thread at the sharing
+      /** The workers of the threads at the sharing, by number: a helper counts and computes in its own. */
       const std::vector<Worker*>* Team = nullptr;
       /** Fewest simplices of a level of a cavity (equally far from the seed) to ask for help, at least 1. */
       std::size_t FewestSimplices = 128;
@@ -132,16 +132,16 @@ public:
       /** Iterations that a helper takes at a time. */
       std::size_t Grain = 16;
 
-      bool Offered() const { return this->Desk && this->Desk->SomeoneIdle(); }
+      bool Offered() const { return this->Sharing && this->Sharing->SomeoneIdle(); }
     };
     Assistance Help;
 
     std::size_t NumberOfOwned() const { return this->Owned.Size(); }
 
-    /** For a judge: how many simplices the insertion under way would make. */
-    std::size_t NumberOfProspects() const { return this->Boundary.Size(); }
+    /** For a veto: how many simplices the insertion under way would make. */
+    std::size_t NumberOfNewSimplices() const { return this->Boundary.Size(); }
     /** The vertices of the k-th of them; what stands at `apex` is to be the new vertex. */
-    const std::array<VertexId, N>& Prospect(std::size_t k, std::uint32_t& apex) const
+    const std::array<VertexId, N>& NewSimplex(std::size_t k, std::uint32_t& apex) const
     {
       apex = this->Boundary[k].Apex;
       return this->Boundary[k].V;
@@ -207,14 +207,14 @@ public:
   };
 
   /** Decides on an insertion by what it would make. */
-  class Judge
+  class InsertionVeto
   {
   public:
     /** Reads the worker's prospects; the worker owns all their vertices. */
     virtual bool Accepts(const Worker& worker) = 0;
 
   protected:
-    ~Judge() = default;
+    ~InsertionVeto() = default;
   };
 
   /** Triangulates the corners of the box. */
@@ -248,13 +248,13 @@ public:
    *   its vertices, unless it is alone
    * @param clearance if positive: refuse points nearer than this to a vertex, free ones excepted if
    *   the point is a feature point (they give way)
-   * @param judge if given: asked before anything is changed
+   * @param veto if given: asked before anything is changed
    * On success worker.Created and worker.NewVertex tell what was made, and the worker owns all their
    * vertices.
    * @throws std::bad_alloc with the triangulation unchanged
    */
   InsertionOutcome Insert(Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed,
-    double clearance = 0.0, Judge* judge = nullptr);
+    double clearance = 0.0, InsertionVeto* veto = nullptr);
 
   /**
    * Removes a living vertex that is not of kind Box; unless the worker is alone it owns the vertex. A

@@ -41,7 +41,7 @@ public:
    * the first and last frame of a space-time image. Beyond such a face all is as on the face: a point
    * there has the label of its projection, and interface points are those of the projection.
    */
-  virtual bool IsFlatEnd(unsigned) const { return false; }
+  virtual bool HasTimeBorder(unsigned) const { return false; }
 
   /** Label of a point; 0 (background) outside of Bounds(), but for what lies beyond a flat end. */
   virtual LabelId Label(const Point<D>& p) const = 0;
@@ -79,22 +79,22 @@ public:
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const = 0;
 
   /** Whether the border of the image cuts the object: it ends flat there, on planes. Only in 3D. */
-  virtual bool IsCut() const { return false; }
+  virtual bool ReachesBorder() const { return false; }
 
   /**
    * Which of these planes p lies on: bit 2 a + end for that at the lower (0)
    * or upper (1) end of axis a. Interface points that methods of this class find there lie on them up to rounding.
    */
-  virtual unsigned CutFaces(const Point<D>&) const { return 0; }
+  virtual unsigned BorderFaces(const Point<D>&) const { return 0; }
 
   /** Whether p lies beyond one of these planes, where all is background. */
-  virtual bool IsBeyondCutFaces(const Point<D>&) const { return false; }
+  virtual bool IsBeyondBorder(const Point<D>&) const { return false; }
 
   /** Whether p lies beyond none of these planes by more than rounding. */
-  virtual bool IsWithinCutFaces(const Point<D>&) const { return true; }
+  virtual bool IsWithinBorder(const Point<D>&) const { return true; }
 
   /** The point on all of these planes to which p moves along the axes of the image. */
-  virtual Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned) const { return p; }
+  virtual Point<D> MoveOntoBorder(const Point<D>& p, unsigned) const { return p; }
 
   /**
    * A point near p where an interface meets the cut faces of p, or where one of these meets another.
@@ -102,7 +102,7 @@ public:
    * @param reach how far away it may be
    * @return false if none was found
    */
-  virtual bool NearCutEdge(const Point<D>&, double /*reach*/, Point<D>& /*z*/) const
+  virtual bool FindBorderEdge(const Point<D>&, double /*reach*/, Point<D>& /*z*/) const
   {
     return false;
   }

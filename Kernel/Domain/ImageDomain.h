@@ -74,7 +74,7 @@ public:
    * flat ends, where the box ends with the image's first or last frame.
    */
   Box<D> Bounds() const override { return this->BoundingBox; }
-  bool IsFlatEnd(unsigned end) const override { return this->Image.IsCutInTime(end); }
+  bool HasTimeBorder(unsigned end) const override { return this->Image.ReachesBorderInTime(end); }
   LabelId Label(const Point<D>& p) const override { return this->Field.Label(p); }
   std::int64_t LabelValue(LabelId id) const override { return this->Image.Values()[id]; }
   DistanceInterval DistanceBounds(const Point<D>& p) const override
@@ -94,30 +94,31 @@ public:
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
-  bool IsCut() const override { return this->Field.Cuts().Exist(); }
-  unsigned CutFaces(const Point<D>& p) const override
+  bool ReachesBorder() const override { return this->Field.Borders().Exist(); }
+  unsigned BorderFaces(const Point<D>& p) const override
   {
-    return this->Field.Cuts().Exist() ? this->Field.Cuts().Near(this->Field.ToLattice(p), OnCutFace)
-                                      : 0u;
+    return this->Field.Borders().Exist()
+      ? this->Field.Borders().Near(this->Field.ToLattice(p), OnBorder)
+      : 0u;
   }
-  bool IsBeyondCutFaces(const Point<D>& p) const override
+  bool IsBeyondBorder(const Point<D>& p) const override
   {
-    return this->Field.Cuts().Exist() &&
-      this->Field.Cuts().Distance(this->Field.ToLattice(p)) < 0.0;
+    return this->Field.Borders().Exist() &&
+      this->Field.Borders().Distance(this->Field.ToLattice(p)) < 0.0;
   }
-  bool IsWithinCutFaces(const Point<D>& p) const override
+  bool IsWithinBorder(const Point<D>& p) const override
   {
-    return !this->Field.Cuts().Exist() ||
-      this->Field.Cuts().Distance(this->Field.ToLattice(p)) >= -OnCutFace;
+    return !this->Field.Borders().Exist() ||
+      this->Field.Borders().Distance(this->Field.ToLattice(p)) >= -OnBorder;
   }
-  Point<D> MoveOntoCutFaces(const Point<D>& p, unsigned faces) const override
+  Point<D> MoveOntoBorder(const Point<D>& p, unsigned faces) const override
   {
     return faces == 0
       ? p
-      : this->Field.ToFrame(this->Field.Cuts().MoveOnto(this->Field.ToLattice(p), faces));
+      : this->Field.ToFrame(this->Field.Borders().MoveOnto(this->Field.ToLattice(p), faces));
   }
 
-  bool NearCutEdge(const Point<D>& p, double reach, Point<D>& z) const override;
+  bool FindBorderEdge(const Point<D>& p, double reach, Point<D>& z) const override;
 
   /** Along the gradient of the label's margin in the frame of time, in steps of half a voxel. */
   bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
@@ -158,20 +159,20 @@ private:
   {
     if constexpr (D == 4)
     {
-      p[3] = this->Image.IsCutInTime(0) ? std::max(p[3], this->BoundingBox.Min[3]) : p[3];
-      p[3] = this->Image.IsCutInTime(1) ? std::min(p[3], this->BoundingBox.Max[3]) : p[3];
+      p[3] = this->Image.ReachesBorderInTime(0) ? std::max(p[3], this->BoundingBox.Min[3]) : p[3];
+      p[3] = this->Image.ReachesBorderInTime(1) ? std::min(p[3], this->BoundingBox.Max[3]) : p[3];
     }
     return p;
   }
   /** A point closer than this to a cut face has been found on it, voxels; one on it up to rounding is closer. */
-  static constexpr double NearCutFace = 2.0 * FieldType::RootTolerance;
-  static constexpr double OnCutFace = 1e-6;
+  static constexpr double NearBorder = 2.0 * FieldType::RootTolerance;
+  static constexpr double OnBorder = 1e-6;
   /** The frame's coordinates of a point that a search has found, not beyond a flat end. */
   Point<D> Found(const Point<D>& x) const
   {
-    const unsigned faces = this->Field.Cuts().Near(x, NearCutFace);
+    const unsigned faces = this->Field.Borders().Near(x, NearBorder);
     return this->ClampToEnds(
-      this->Field.ToFrame(faces == 0 ? x : this->Field.Cuts().MoveOnto(x, faces)));
+      this->Field.ToFrame(faces == 0 ? x : this->Field.Borders().MoveOnto(x, faces)));
   }
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */

@@ -10,7 +10,7 @@
 
 #include "Domain/ImageDomain.h"
 
-#include "Domain/CutEdges.h"
+#include "Domain/BorderEdges.h"
 #include "Geometry/ExtremeEigenvalues.h"
 #include "Image/SurfaceVoxels.h"
 
@@ -187,11 +187,11 @@ ImageDomain<D, FieldType>::ImageDomain(
       this->BoundingBox.Max[a] = std::max(this->BoundingBox.Max[a], p[a]);
     }
   }
-  if (image.IsCutInTime(0))
+  if (image.ReachesBorderInTime(0))
   {
     this->BoundingBox.Min[D - 1] = 0.0;
   }
-  if (image.IsCutInTime(1))
+  if (image.ReachesBorderInTime(1))
   {
     this->BoundingBox.Max[D - 1] =
       static_cast<double>(grid.Dimensions[D - 1] - 1) * grid.IndexToFrame[D - 1][D - 1];
@@ -469,9 +469,10 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   {
     return false; // what the field has there belongs to the end
   }
-  z = this->MoveOntoCutFaces(moved,
-    this->Field.Cuts().Exist() ? this->Field.Cuts().Near(this->Field.ToLattice(moved), NearCutFace)
-                               : 0u);
+  z = this->MoveOntoBorder(moved,
+    this->Field.Borders().Exist()
+      ? this->Field.Borders().Near(this->Field.ToLattice(moved), NearBorder)
+      : 0u);
   return true;
 }
 
@@ -575,8 +576,8 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
     if (D == 4 && k == 3)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();
-      first = this->Image.IsCutInTime(0) ? -infinity : first;
-      last = this->Image.IsCutInTime(1) ? infinity : last;
+      first = this->Image.ReachesBorderInTime(0) ? -infinity : first;
+      last = this->Image.ReachesBorderInTime(1) ? infinity : last;
     }
     longest = std::max(longest, std::abs(d[k]));
     if (d[k] == 0.0)
@@ -625,13 +626,13 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
 }
 
 template <int D, typename FieldType>
-bool ImageDomain<D, FieldType>::NearCutEdge(const Point<D>& p, double reach, Point<D>& z) const
+bool ImageDomain<D, FieldType>::FindBorderEdge(const Point<D>& p, double reach, Point<D>& z) const
 {
   if constexpr (D == 3)
   {
-    const unsigned faces = this->CutFaces(p);
-    const Point<D> x = this->Field.Cuts().MoveOnto(this->Field.ToLattice(p), faces);
-    if (faces != 0 && CutEdgeSearch(this->Field, this->Image.Grid(), x, faces, reach).Find(z))
+    const unsigned faces = this->BorderFaces(p);
+    const Point<D> x = this->Field.Borders().MoveOnto(this->Field.ToLattice(p), faces);
+    if (faces != 0 && BorderEdgeSearch(this->Field, this->Image.Grid(), x, faces, reach).Find(z))
     {
       z = this->Found(z);
       return true;

@@ -7,7 +7,7 @@
 #ifndef voxplex_LabelField_h
 #define voxplex_LabelField_h
 
-#include "Domain/CutPlanes.h"
+#include "Domain/BorderPlanes.h"
 #include "Domain/TiledLattice.h"
 
 #include <array>
@@ -38,7 +38,7 @@ namespace voxplex
  * less, which makes up for what remains of the shrinking and for the chords of the mesh.
  * Documentation/Algorithm.md has the measured accuracy.
  *
- * **Border.** Where a 3D image cuts the object (LabelImage::IsCut), labels go on unchanged for the smoothing, and all
+ * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), labels go on unchanged for the smoothing, and all
  * beyond the outer faces of the outermost voxels is background: the cut is flat, its edges are sharp.
  *
  * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame it goes on
@@ -83,7 +83,7 @@ public:
   LabelField& operator=(LabelField&&) noexcept = default;
 
   /** Where the image cuts the object; none in 4D. */
-  const CutPlanes<D>& Cuts() const { return this->Planes; }
+  const BorderPlanes<D>& Borders() const { return this->Planes; }
 
   /** Label of a point of the frame; background outside of the lattice. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
@@ -144,7 +144,7 @@ private:
 
   class Builder;
 
-  CutPlanes<D> Planes;
+  BorderPlanes<D> Planes;
 };
 
 // Four pairs of samples at a time, where the compiler has vectors; the result is the same without.

@@ -115,8 +115,9 @@ private:
     for (std::size_t a = 1; a < D; ++a)
     {
       const std::int64_t last = this->Labels.CropDimensions()[a];
-      lattice[a] = this->Labels.IsCut(a, 0) ? std::max<std::int64_t>(lattice[a], 1) : lattice[a];
-      lattice[a] = this->Labels.IsCut(a, 1) ? std::min(lattice[a], last) : lattice[a];
+      lattice[a] =
+        this->Labels.ReachesBorder(a, 0) ? std::max<std::int64_t>(lattice[a], 1) : lattice[a];
+      lattice[a] = this->Labels.ReachesBorder(a, 1) ? std::min(lattice[a], last) : lattice[a];
     }
     std::fill_n(margins, Width, std::numeric_limits<Sample>::quiet_NaN());
     Index voxel;
@@ -135,11 +136,11 @@ private:
       Sample* const to = margins + (begin - voxel[0]);
       voxel[0] = begin;
       this->Image.ReadMargins(voxel, static_cast<std::size_t>(end - begin), to);
-      if (this->Labels.IsCut(0, 0))
+      if (this->Labels.ReachesBorder(0, 0))
       {
         std::fill(margins, to, *to);
       }
-      if (this->Labels.IsCut(0, 1))
+      if (this->Labels.ReachesBorder(0, 1))
       {
         std::fill(to + (end - begin), margins + Width, to[end - begin - 1]);
       }

@@ -7,7 +7,7 @@
 #ifndef voxplex_ScalarField_h
 #define voxplex_ScalarField_h
 
-#include "Domain/CutPlanes.h"
+#include "Domain/BorderPlanes.h"
 #include "Domain/TiledLattice.h"
 #include "Image/IsosurfaceImage.h"
 
@@ -35,7 +35,7 @@ namespace voxplex
  * an edge), with a minus sign: the object is closed halfway, by a plane half a voxel beyond the outermost voxels, as
  * label images are.
  *
- * **Border.** Where a 3D image cuts the object (LabelImage::IsCut), values go on unchanged, and all
+ * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), values go on unchanged, and all
  * beyond the outer faces of the outermost voxels is outside: the cut is flat, its edges are sharp.
  *
  * **Time.** In 4D flat ends are as in LabelField.
@@ -66,7 +66,7 @@ public:
   ScalarField& operator=(ScalarField&&) noexcept = default;
 
   /** Where the image cuts the object; none in 4D. */
-  const CutPlanes<D>& Cuts() const { return this->Planes; }
+  const BorderPlanes<D>& Borders() const { return this->Planes; }
 
   /** 1 inside, else 0, at a point of the frame. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
@@ -142,7 +142,7 @@ private:
 
   class Builder;
 
-  CutPlanes<D> Planes;
+  BorderPlanes<D> Planes;
 };
 
 template <int D>

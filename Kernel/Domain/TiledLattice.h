@@ -163,8 +163,8 @@ protected:
     {
       return {};
     }
-    return { image.IsCut(0, 0) ? in[0] : LabelId{ 0 },
-      image.IsCut(0, 1) ? in[high - low - 1] : LabelId{ 0 } };
+    return { image.ReachesBorder(0, 0) ? in[0] : LabelId{ 0 },
+      image.ReachesBorder(0, 1) ? in[high - low - 1] : LabelId{ 0 } };
   }
   /** Whether all samples of the tile that begins there have one label, which it tells. */
   static bool IsUniform(const LabelImage<D>& image, const Index& first, LabelId& label);
@@ -215,11 +215,11 @@ TiledLattice<D, SampleType>::TiledLattice(const LabelImage<D>& image)
     numberOfTiles *= static_cast<std::size_t>(this->LastCell[a] / TileCells) + 1;
   }
   this->Directory.resize(numberOfTiles);
-  if (image.IsCutInTime(0))
+  if (image.ReachesBorderInTime(0))
   {
     this->Ends[0] = 1.0;
   }
-  if (image.IsCutInTime(1))
+  if (image.ReachesBorderInTime(1))
   {
     this->Ends[1] = static_cast<double>(image.CropDimensions()[D - 1]);
   }
@@ -338,11 +338,11 @@ void TiledLattice<D, SampleType>::ForEachRow(
       std::int64_t i = first[a] - 1 + offset[a];
       if (D == 4 && a == 3)
       {
-        i = image.IsCutInTime(0) ? std::max<std::int64_t>(i, 0) : i;
-        i = image.IsCutInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
+        i = image.ReachesBorderInTime(0) ? std::max<std::int64_t>(i, 0) : i;
+        i = image.ReachesBorderInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
       }
-      i = image.IsCut(a, 0) ? std::max<std::int64_t>(i, 0) : i;
-      i = image.IsCut(a, 1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
+      i = image.ReachesBorder(a, 0) ? std::max<std::int64_t>(i, 0) : i;
+      i = image.ReachesBorder(a, 1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
       inside = inside && i >= 0 && i < crop[a];
       at = at * crop[a] + i;
     }

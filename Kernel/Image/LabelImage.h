@@ -133,13 +133,13 @@ public:
    * Whether the first (0) or last (1) frame of a space-time image has foreground, so that the object
    * is cut there and ends flat; false in 3D, and if the time axis is not orthogonal to space.
    */
-  bool IsCutInTime(unsigned end) const { return this->CutInTime[end]; }
+  bool ReachesBorderInTime(unsigned end) const { return this->CutInTime[end]; }
 
   /**
    * Whether the first (0) or last (1) layer of voxels along an axis of a 3D image has foreground, so that
    * the object is cut by the outer faces of these voxels; false in 4D.
    */
-  bool IsCut(std::size_t axis, unsigned end) const
+  bool ReachesBorder(std::size_t axis, unsigned end) const
   {
     return D == 3 &&
       (end == 0 ? this->Origin[axis] == 0

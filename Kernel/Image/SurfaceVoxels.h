@@ -22,9 +22,9 @@ inline void ClampToCut(const LabelImage<D>& image, typename GridGeometry<D>::Ind
 {
   if constexpr (D == 4)
   {
-    lattice[3] = image.IsCutInTime(0) ? std::max<std::int64_t>(lattice[3], 1) : lattice[3];
+    lattice[3] = image.ReachesBorderInTime(0) ? std::max<std::int64_t>(lattice[3], 1) : lattice[3];
     lattice[3] =
-      image.IsCutInTime(1) ? std::min(lattice[3], image.CropDimensions()[3]) : lattice[3];
+      image.ReachesBorderInTime(1) ? std::min(lattice[3], image.CropDimensions()[3]) : lattice[3];
   }
 }
 

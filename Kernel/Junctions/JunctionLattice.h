@@ -175,11 +175,11 @@ private:
   /** That of the first face that x lies beyond; background if it lies beyond none. */
   LabelId LabelBehind(const Point<3>& x) const
   {
-    if (this->Interior.Cuts().Exist())
+    if (this->Interior.Borders().Exist())
     {
       for (unsigned face = 0; face < 6; ++face)
       {
-        if (this->Interior.Cuts().IsBeyond(x, face))
+        if (this->Interior.Borders().IsBeyond(x, face))
         {
           return static_cast<LabelId>(this->FirstOutside + face);
         }

@@ -63,7 +63,7 @@ struct TimeSlice
 };
 
 /**
- * @brief Cuts a mesh of space-time at any number of times.
+ * @brief Borders a mesh of space-time at any number of times.
  *
  * The points of a simplex that lie before the time T of the slice are below, the others above; the slice
  * has a corner on each edge from one to the other.

@@ -108,8 +108,8 @@ Box<D> BoxAround(const Domain<D>& domain, double largestDistance)
   for (std::size_t a = 0; a < D; ++a)
   {
     const bool isLast = a + 1 == D;
-    box.Min[a] -= isLast && domain.IsFlatEnd(0) ? 0.0 : 2.0 * largestDistance;
-    box.Max[a] += isLast && domain.IsFlatEnd(1) ? 0.0 : 2.0 * largestDistance;
+    box.Min[a] -= isLast && domain.HasTimeBorder(0) ? 0.0 : 2.0 * largestDistance;
+    box.Max[a] += isLast && domain.HasTimeBorder(1) ? 0.0 : 2.0 * largestDistance;
   }
   return box;
 }

@@ -81,11 +81,12 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
           rest /= extent;
           const bool time = D == 4 && a == 3;
           const LabelId* before = voxels - stride;
-          for (std::size_t i = 0; i < row && !(time && position == 0 && image.IsCutInTime(0)); ++i)
+          for (std::size_t i = 0;
+               i < row && !(time && position == 0 && image.ReachesBorderInTime(0)); ++i)
           {
             count[a] += voxels[i] != (position == 0 ? LabelId(0) : before[i]);
           }
-          if (position + 1 == extent && !(time && image.IsCutInTime(1)))
+          if (position + 1 == extent && !(time && image.ReachesBorderInTime(1)))
           {
             count[a] += static_cast<std::uint64_t>(
               row - static_cast<std::size_t>(std::count(voxels, voxels + row, LabelId(0))));

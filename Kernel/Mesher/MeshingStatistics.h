@@ -38,7 +38,7 @@ struct StageTimes
 };
 
 /** What optimisation after refinement did. Angles are in degrees; "poor" is what is out of bounds. */
-struct OptimisationFigures
+struct OptimisationSummary
 {
   bool Ran = false;
   bool OutOfTime = false; ///< stopped by MeshingOptions::OptimisationSeconds
@@ -90,7 +90,7 @@ struct MeshingStatistics
   std::uint64_t EstimatedElements = 0;
   ComponentStatistics Components;
   InterfaceStatistics Interfaces;
-  OptimisationFigures Optimisation;
+  OptimisationSummary Optimisation;
   std::vector<YieldingReport>
     Yielding;                 ///< the steps of each region, in the order in which they were taken
   double SizesRaisedTo = 0.0; ///< the floor of sizes, if some were below it; else 0

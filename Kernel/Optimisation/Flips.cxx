@@ -274,8 +274,8 @@ bool Flips::MayFlipInterface(std::size_t firstRun)
   const Point<3>& b = mesh.Points[ring.B];
   const Point<3>& pc = mesh.Points[c];
   const Point<3>& pd = mesh.Points[d];
-  const unsigned both = mesh.CutFacesOf(ring.A) & mesh.CutFacesOf(ring.B);
-  if ((both & mesh.CutFacesOf(c)) != (both & mesh.CutFacesOf(d)))
+  const unsigned both = mesh.BorderFacesOf(ring.A) & mesh.BorderFacesOf(ring.B);
+  if ((both & mesh.BorderFacesOf(c)) != (both & mesh.BorderFacesOf(d)))
   {
     return false; // an edge of a face where the image cuts the object
   }
@@ -387,7 +387,7 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   {
     const TetrahedralComplex::Label other = mesh.LabelOf(cell.N[i]);
     shared += other == label ? 1 : 0;
-    if (label == 0 && other == 0 && this->CutFacesOfFacet(t, i) != 0)
+    if (label == 0 && other == 0 && this->BorderFacesOfFacet(t, i) != 0)
     {
       return false; // would leave a hole in a flat face
     }
@@ -445,12 +445,12 @@ bool Flips::IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) cons
 }
 
 /** The faces of the image that facet i of t lies on. */
-unsigned Flips::CutFacesOfFacet(std::uint32_t t, unsigned i) const
+unsigned Flips::BorderFacesOfFacet(std::uint32_t t, unsigned i) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const auto& v = mesh.Cells[t].V;
-  return mesh.CutFacesOf(v[(i + 1) & 3]) & mesh.CutFacesOf(v[(i + 2) & 3]) &
-    mesh.CutFacesOf(v[(i + 3) & 3]);
+  return mesh.BorderFacesOf(v[(i + 1) & 3]) & mesh.BorderFacesOf(v[(i + 2) & 3]) &
+    mesh.BorderFacesOf(v[(i + 3) & 3]);
 }
 
 /** Of the smallest angle of facet i of t. */

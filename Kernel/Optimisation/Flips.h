@@ -20,9 +20,9 @@ namespace voxplex
 {
 
 /** What has been done. */
-struct FlipCounts
+struct FlipStatistics
 {
-  FlipCounts& operator+=(const FlipCounts& other)
+  FlipStatistics& operator+=(const FlipStatistics& other)
   {
     this->FacetFlips += other.FacetFlips;
     this->EdgeRemovals += other.EdgeRemovals;
@@ -74,7 +74,7 @@ public:
    */
   bool ImproveByRelabelling(std::uint32_t t);
 
-  const FlipCounts& Counts() const { return this->Done; }
+  const FlipStatistics& Counts() const { return this->Done; }
 
 private:
   static constexpr std::size_t LongestRing = 10;
@@ -93,7 +93,7 @@ private:
   bool Apply();
   bool MayRelabel(std::uint32_t t, TetrahedralComplex::Label label);
   bool IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
-  unsigned CutFacesOfFacet(std::uint32_t t, unsigned i) const;
+  unsigned BorderFacesOfFacet(std::uint32_t t, unsigned i) const;
   double CosineOfFacet(std::uint32_t t, unsigned i) const;
   bool IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const;
   bool EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label);
@@ -115,7 +115,7 @@ private:
 
   Patch& Target;
   const InterfaceRules Rules;
-  FlipCounts Done;
+  FlipStatistics Done;
   EdgeRing Ring;
   EdgeRing OtherRing;
   VertexStar Star;

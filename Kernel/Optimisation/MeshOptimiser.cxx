@@ -231,8 +231,8 @@ private:
 
   void Count(const PatchWorker& worker)
   {
-    this->Statistics.Flips += worker.GetFlipCounts();
-    this->Statistics.Smoothing += worker.GetSmoothingCounts();
+    this->Statistics.Flips += worker.GetFlipStatistics();
+    this->Statistics.Smoothing += worker.GetSmoothingStatistics();
   }
 
   //----------------------------------------------------------------------------------------------
@@ -254,7 +254,7 @@ private:
     {
       worker.Add(t);
     }
-    for (const Effort effort : { Effort::Plain, Effort::Insertions, Effort::Nudges })
+    for (const Effort effort : { Effort::Plain, Effort::Insertions, Effort::MovesOffInterfaces })
     {
       this->WorkWith(effort, worker);
     }
@@ -266,7 +266,7 @@ private:
       }
       this->MakeRoom(worker, TighterBounds + TighterEachRound * round);
       this->WorkWith(Effort::Insertions, worker);
-      this->WorkWith(Effort::Nudges, worker);
+      this->WorkWith(Effort::MovesOffInterfaces, worker);
     }
     this->Count(worker);
   }
@@ -274,7 +274,7 @@ private:
   /** Passes until nothing gets better. */
   void WorkWith(Effort effort, PatchWorker& worker)
   {
-    if (effort == Effort::Nudges && !(this->Options.InterfaceTolerance > 0.0))
+    if (effort == Effort::MovesOffInterfaces && !(this->Options.InterfaceTolerance > 0.0))
     {
       return;
     }
@@ -386,11 +386,11 @@ double AngleOf(double signedSquare)
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * DegreesPerRadian;
 }
 
-void Add(ShapeSurvey& survey, double smallest, double largest, double radiusEdge)
+void Add(ShapeStatistics& survey, double smallest, double largest, double radiusEdge)
 {
-  constexpr double width = 180.0 / ShapeSurvey::NumberOfBins;
+  constexpr double width = 180.0 / ShapeStatistics::NumberOfBins;
   const auto bin = [](double angle)
-  { return std::min(static_cast<std::size_t>(angle / width), ShapeSurvey::NumberOfBins - 1); };
+  { return std::min(static_cast<std::size_t>(angle / width), ShapeStatistics::NumberOfBins - 1); };
   survey.SmallestDihedralAngle = std::min(survey.SmallestDihedralAngle, smallest);
   survey.LargestDihedralAngle = std::max(survey.LargestDihedralAngle, largest);
   survey.LargestRadiusEdgeRatio = std::max(survey.LargestRadiusEdgeRatio, radiusEdge);
@@ -398,14 +398,14 @@ void Add(ShapeSurvey& survey, double smallest, double largest, double radiusEdge
   ++survey.LargestAngles[bin(largest)];
 }
 
-void Merge(ShapeSurvey& survey, const ShapeSurvey& part)
+void Merge(ShapeStatistics& survey, const ShapeStatistics& part)
 {
   survey.SmallestDihedralAngle = std::min(survey.SmallestDihedralAngle, part.SmallestDihedralAngle);
   survey.LargestDihedralAngle = std::max(survey.LargestDihedralAngle, part.LargestDihedralAngle);
   survey.LargestRadiusEdgeRatio =
     std::max(survey.LargestRadiusEdgeRatio, part.LargestRadiusEdgeRatio);
   survey.Poor += part.Poor;
-  for (std::size_t bin = 0; bin < ShapeSurvey::NumberOfBins; ++bin)
+  for (std::size_t bin = 0; bin < ShapeStatistics::NumberOfBins; ++bin)
   {
     survey.SmallestAngles[bin] += part.SmallestAngles[bin];
     survey.LargestAngles[bin] += part.LargestAngles[bin];
@@ -415,18 +415,18 @@ void Merge(ShapeSurvey& survey, const ShapeSurvey& part)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-ShapeSurvey SurveyShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
+ShapeStatistics MeasureShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
   unsigned threads, const std::stop_token& stop)
 {
   CheckOptions(options);
   const ShapeScore score = ScoreOf(options);
-  ShapeSurvey survey;
+  ShapeStatistics survey;
   std::mutex mutex;
   ParallelFor(
     0, mesh.Simplices.size(), SurveyGrain, threads,
     [&](std::size_t first, std::size_t last)
     {
-      ShapeSurvey part;
+      ShapeStatistics part;
       for (std::size_t t = first; t < last; ++t)
       {
         const auto& v = mesh.Simplices[t];
@@ -466,7 +466,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   }
 
   OptimisationStatistics statistics;
-  statistics.Before = SurveyShapes(mesh, options, threads, stop);
+  statistics.Before = MeasureShapes(mesh, options, threads, stop);
   statistics.After = statistics.Before;
   if (statistics.Before.Poor != 0)
   {
@@ -486,7 +486,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
         options.ShouldHaveStayed ? options.ShouldHaveStayed(result) : std::vector<std::uint32_t>();
       if (more.empty())
       {
-        statistics.After = SurveyShapes(result, options, threads, stop);
+        statistics.After = MeasureShapes(result, options, threads, stop);
         mesh = std::move(result);
         break;
       }

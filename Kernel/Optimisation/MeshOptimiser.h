@@ -50,7 +50,7 @@ struct OptimisationOptions
 };
 
 /** Shapes of a mesh's tetrahedra. */
-struct ShapeSurvey
+struct ShapeStatistics
 {
   /** Bins of histograms, each 5 degrees wide. */
   static constexpr std::size_t NumberOfBins = 36;
@@ -65,10 +65,10 @@ struct ShapeSurvey
 
 struct OptimisationStatistics
 {
-  ShapeSurvey Before;
-  ShapeSurvey After;
-  FlipCounts Flips;
-  SmoothingCounts Smoothing;
+  ShapeStatistics Before;
+  ShapeStatistics After;
+  FlipStatistics Flips;
+  SmoothingStatistics Smoothing;
   std::uint32_t Passes = 0; ///< over what is poor
   bool OutOfTime = false;
   double Seconds = 0.0;
@@ -101,7 +101,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   const OptimisationOptions& options, unsigned threads = 1, const std::stop_token& stop = {});
 
 /** Measures shapes against the bounds of the options. */
-ShapeSurvey SurveyShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
+ShapeStatistics MeasureShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
   unsigned threads = 1, const std::stop_token& stop = {});
 
 } // namespace voxplex

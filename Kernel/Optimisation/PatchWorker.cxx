@@ -119,12 +119,12 @@ bool PatchWorker::MendByLastMeans(std::uint32_t t, Effort effort)
     }
   }
   bool better = false;
-  if (effort == Effort::Nudges)
+  if (effort == Effort::MovesOffInterfaces)
   {
     const auto vertices = this->Mesh.Cells[t].V;
     for (const std::uint32_t v : vertices)
     {
-      better = this->Geometry.Nudge(v) || better;
+      better = this->Geometry.MoveOffInterface(v) || better;
       if (!this->IsPoor(t))
       {
         break;

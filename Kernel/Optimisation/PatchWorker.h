@@ -26,8 +26,8 @@ namespace voxplex
 enum class Effort
 {
   Plain,
-  Insertions, ///< also other labels for slivers, and new vertices
-  Nudges      ///< also moves off interfaces
+  Insertions,        ///< also other labels for slivers, and new vertices
+  MovesOffInterfaces ///< also moves off interfaces
 };
 
 /** When to stop. */
@@ -55,8 +55,8 @@ public:
   }
 
   Patch& GetPatch() { return this->Target; }
-  const FlipCounts& GetFlipCounts() const { return this->Topology.Counts(); }
-  const SmoothingCounts& GetSmoothingCounts() const { return this->Geometry.Counts(); }
+  const FlipStatistics& GetFlipStatistics() const { return this->Topology.Counts(); }
+  const SmoothingStatistics& GetSmoothingStatistics() const { return this->Geometry.Counts(); }
 
   /** Another tetrahedron to work on. */
   void Add(std::uint32_t t) { this->Work.push_back({ t, 0 }); }

@@ -102,7 +102,7 @@ bool Smoother::Improve(std::uint32_t v)
   return true;
 }
 
-bool Smoother::Nudge(std::uint32_t v)
+bool Smoother::MoveOffInterface(std::uint32_t v)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
   if (!(this->Reach > 0.0) || mesh.Kinds[v] == VertexRole::Free ||
@@ -120,7 +120,7 @@ bool Smoother::Nudge(std::uint32_t v)
     return false;
   }
   this->Anchors.emplace(v, this->Anchor);
-  ++this->Done.Nudges;
+  ++this->Done.MovesOffInterfaces;
   return true;
 }
 
@@ -404,8 +404,8 @@ bool Smoother::Constrain(Point<3>& p, double length) const
     {
       p = Along(this->Anchor, this->Reach / distance, away);
     }
-    p = this->Image.MoveOntoCutFaces(p, this->Target.Mesh().CutFacesOf(this->Star.Vertex));
-    if (!this->Image.IsWithinCutFaces(p))
+    p = this->Image.MoveOntoBorder(p, this->Target.Mesh().BorderFacesOf(this->Star.Vertex));
+    if (!this->Image.IsWithinBorder(p))
     {
       return false;
     }
@@ -417,9 +417,9 @@ bool Smoother::Constrain(Point<3>& p, double length) const
 bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
-  const unsigned faces = mesh.CutFacesOf(this->Star.Vertex);
+  const unsigned faces = mesh.BorderFacesOf(this->Star.Vertex);
   if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), p) ||
-    Distance2(raw, p) > length * length || (faces != 0 && this->Image.CutFaces(p) != faces))
+    Distance2(raw, p) > length * length || (faces != 0 && this->Image.BorderFaces(p) != faces))
   {
     return false;
   }

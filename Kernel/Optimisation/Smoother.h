@@ -19,20 +19,20 @@ namespace voxplex
 {
 
 /** What has been done. */
-struct SmoothingCounts
+struct SmoothingStatistics
 {
-  SmoothingCounts& operator+=(const SmoothingCounts& other)
+  SmoothingStatistics& operator+=(const SmoothingStatistics& other)
   {
     this->FreeMoves += other.FreeMoves;
     this->SurfaceMoves += other.SurfaceMoves;
-    this->Nudges += other.Nudges;
+    this->MovesOffInterfaces += other.MovesOffInterfaces;
     this->Insertions += other.Insertions;
     return *this;
   }
 
   std::uint64_t FreeMoves = 0;
   std::uint64_t SurfaceMoves = 0;
-  std::uint64_t Nudges = 0;
+  std::uint64_t MovesOffInterfaces = 0;
   std::uint64_t Insertions = 0;
 };
 
@@ -70,12 +70,12 @@ public:
   bool Improve(std::uint32_t v);
 
   /** Moves v, a vertex on interfaces, within reach of where it was; false if it does not move. */
-  bool Nudge(std::uint32_t v);
+  bool MoveOffInterface(std::uint32_t v);
 
   /** Splits the edge from vertex i to vertex j of t if that helps; false if not. */
   bool Insert(std::uint32_t t, unsigned i, unsigned j);
 
-  const SmoothingCounts& Counts() const { return this->Done; }
+  const SmoothingStatistics& Counts() const { return this->Done; }
 
 private:
   enum class Constraint : std::uint8_t
@@ -109,7 +109,7 @@ private:
   const Domain<3>& Image;
   const InterfaceRules Rules;
   const double Reach;
-  SmoothingCounts Done;
+  SmoothingStatistics Done;
 
   VertexStar Star;
   std::vector<Point<3>> Opposite; ///< three points of each tetrahedron of the star

@@ -128,7 +128,7 @@ void TetrahedralComplex::AddVertices(std::size_t number)
   const std::size_t size = this->Points.size() + number;
   this->Points.resize(size);
   this->Kinds.resize(size, VertexRole::Free);
-  this->CutFaces.resize(this->CutFaces.empty() ? 0 : size, 0);
+  this->BorderFaces.resize(this->BorderFaces.empty() ? 0 : size, 0);
   this->Hosts.resize(size, None);
   this->Degrees.resize(size, 0);
   this->Changes.resize(size, 0);
@@ -219,16 +219,16 @@ void TetrahedralComplex::FindKinds()
 /** A vertex is on an edge if it lies on a face on which not all of its triangles towards background do. */
 void TetrahedralComplex::FindCutFaces(const Domain<3>& domain)
 {
-  if (!domain.IsCut())
+  if (!domain.ReachesBorder())
   {
     return;
   }
-  this->CutFaces.assign(this->Points.size(), 0);
+  this->BorderFaces.assign(this->Points.size(), 0);
   for (std::size_t v = 0; v < this->Points.size(); ++v)
   {
     if (this->Kinds[v] != VertexRole::Free)
     {
-      this->CutFaces[v] = static_cast<std::uint8_t>(domain.CutFaces(this->Points[v]));
+      this->BorderFaces[v] = static_cast<std::uint8_t>(domain.BorderFaces(this->Points[v]));
     }
   }
   for (const Tetrahedron& cell : this->Cells)
@@ -240,10 +240,11 @@ void TetrahedralComplex::FindCutFaces(const Domain<3>& domain)
         continue;
       }
       const std::array<std::uint32_t, 3> f = SortedFacet(cell.V, i);
-      const unsigned common = this->CutFaces[f[0]] & this->CutFaces[f[1]] & this->CutFaces[f[2]];
+      const unsigned common =
+        this->BorderFaces[f[0]] & this->BorderFaces[f[1]] & this->BorderFaces[f[2]];
       for (const std::uint32_t v : f)
       {
-        if (this->CutFaces[v] != common && this->Kinds[v] == VertexRole::Surface)
+        if (this->BorderFaces[v] != common && this->Kinds[v] == VertexRole::Surface)
         {
           this->Kinds[v] = VertexRole::Crease;
         }

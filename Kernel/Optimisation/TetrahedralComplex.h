@@ -79,10 +79,10 @@ public:
     return std::binary_search(this->Kept.begin(), this->Kept.end(), t);
   }
   Label LabelOf(std::uint32_t t) const { return t == None ? 0 : this->Labels[t]; }
-  /** Domain::CutFaces of a vertex. */
-  unsigned CutFacesOf(std::uint32_t v) const
+  /** Domain::BorderFaces of a vertex. */
+  unsigned BorderFacesOf(std::uint32_t v) const
   {
-    return this->CutFaces.empty() ? 0u : this->CutFaces[v];
+    return this->BorderFaces.empty() ? 0u : this->BorderFaces[v];
   }
   const Point<3>& PointOf(std::uint32_t t, unsigned i) const
   {
@@ -111,7 +111,7 @@ public:
    */
   std::vector<VertexRole> Kinds;
   std::vector<std::uint8_t>
-    CutFaces; ///< Domain::CutFaces of vertices, or empty if the image cuts nothing
+    BorderFaces; ///< Domain::BorderFaces of vertices, or empty if the image cuts nothing
   std::vector<std::uint32_t> Hosts;   ///< a tetrahedron of each vertex
   std::vector<std::uint32_t> Degrees; ///< number of tetrahedra of each vertex
   std::vector<std::uint32_t> Changes; ///< when a tetrahedron of each vertex changed last

@@ -8,7 +8,7 @@
 #define voxplex_BeggingLists_h
 
 #include "Parallel/CacheLine.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/LoadBalancer.h"
@@ -47,7 +47,7 @@ namespace voxplex
  * work or is about to get some; the thread that makes it do so ends all. That is the only case in
  * which all three lists would be full for a thread.
  *
- * **Help.** A thread that waits may help others at a desk. It still counts as waiting, and is woken as
+ * **Help.** A thread that waits may help others at a sharing. It still counts as waiting, and is woken as
  * before: what it does there is a part of its owner's work, which is busy, and ends before the owner's.
  */
 class BeggingLists final : public LoadBalancer
@@ -56,9 +56,10 @@ public:
   /**
    * @param groups who waits with whom
    * @param topology by which Beggar::Level is told; as many threads as groups
-   * @param desk where those who wait help, or null
+   * @param sharing where those who wait help, or null
    */
-  BeggingLists(const Topology& groups, const Topology& topology, HelpDesk* desk = nullptr);
+  BeggingLists(const ProcessorTopology& groups, const ProcessorTopology& topology,
+    LoopSharing* sharing = nullptr);
 
   bool SomeoneBegs() const override
   {
@@ -74,7 +75,7 @@ public:
   unsigned NumberOfBeggars() const { return this->Listed.load(std::memory_order_relaxed); }
 
 private:
-  static constexpr unsigned Levels = Topology::Levels;
+  static constexpr unsigned Levels = ProcessorTopology::Levels;
 
   struct alignas(CacheLineSize) List
   {
@@ -93,7 +94,7 @@ private:
   void End();
   unsigned SharedLevel(unsigned a, unsigned b) const;
 
-  HelpDesk* const Desk;
+  LoopSharing* const Sharing;
   std::vector<Slot> Slots;
   std::vector<List> Lists;
   alignas(CacheLineSize) std::atomic<unsigned> Listed{ 0 }; ///< threads in all lists together

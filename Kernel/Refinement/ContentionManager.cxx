@@ -11,20 +11,20 @@ namespace voxplex
 {
 
 std::unique_ptr<ContentionManager> MakeContentionManager(
-  ContentionPolicy policy, unsigned threads, HelpDesk* desk, unsigned successesToWake)
+  ContentionPolicy policy, unsigned threads, LoopSharing* sharing, unsigned successesToWake)
 {
   switch (policy)
   {
     case ContentionPolicy::Aggressive:
-      return std::make_unique<AggressiveContentionManager>(threads, desk);
+      return std::make_unique<AggressiveContentionManager>(threads, sharing);
     case ContentionPolicy::Random:
-      return std::make_unique<RandomContentionManager>(threads, desk);
+      return std::make_unique<RandomContentionManager>(threads, sharing);
     case ContentionPolicy::Global:
-      return std::make_unique<GlobalContentionManager>(threads, desk, successesToWake);
+      return std::make_unique<GlobalContentionManager>(threads, sharing, successesToWake);
     case ContentionPolicy::Local:
       break;
   }
-  return std::make_unique<LocalContentionManager>(threads, desk, successesToWake);
+  return std::make_unique<LocalContentionManager>(threads, sharing, successesToWake);
 }
 
 } // namespace voxplex

@@ -15,7 +15,7 @@
 namespace voxplex
 {
 
-class HelpDesk;
+class LoopSharing;
 
 /**
  * @brief Told by every thread of its rollbacks and successes; may make it wait after a rollback.
@@ -62,12 +62,12 @@ public:
 
 /**
  * @param threads how many threads there are, at least 1
- * @param desk where threads help while they wait in lists, or null; must outlive the manager
+ * @param sharing where threads help while they wait in lists, or null; must outlive the manager
  * @param successesToWake global and local: after how many successes in a row a thread wakes another
  *   (s+ of the thesis)
  */
 std::unique_ptr<ContentionManager> MakeContentionManager(ContentionPolicy policy, unsigned threads,
-  HelpDesk* desk = nullptr, unsigned successesToWake = 10);
+  LoopSharing* sharing = nullptr, unsigned successesToWake = 10);
 
 } // namespace voxplex
 

@@ -11,8 +11,9 @@
 namespace voxplex
 {
 
-BeggingLists::BeggingLists(const Topology& groups, const Topology& topology, HelpDesk* desk)
-  : Desk(desk)
+BeggingLists::BeggingLists(
+  const ProcessorTopology& groups, const ProcessorTopology& topology, LoopSharing* sharing)
+  : Sharing(sharing)
   , Slots(groups.Group.size())
 {
   assert(groups.Group.size() == topology.Group.size());
@@ -126,7 +127,7 @@ bool BeggingLists::Beg(unsigned thread)
     own.Spot.Prepare();
     this->Listed.fetch_add(1, std::memory_order_relaxed);
   }
-  WaitAndHelp(own.Spot, this->Desk, thread);
+  WaitAndHelp(own.Spot, this->Sharing, thread);
   // Relaxed: who ends all wrote this before it woke us.
   return !this->Over.load(std::memory_order_relaxed);
 }
@@ -147,14 +148,14 @@ void BeggingLists::Stop()
 }
 
 std::unique_ptr<LoadBalancer> MakeLoadBalancer(
-  BalancePolicy policy, const Topology& topology, HelpDesk* desk)
+  BalancePolicy policy, const ProcessorTopology& topology, LoopSharing* sharing)
 {
   if (policy == BalancePolicy::Hierarchical)
   {
-    return std::make_unique<BeggingLists>(topology, topology, desk);
+    return std::make_unique<BeggingLists>(topology, topology, sharing);
   }
   const auto threads = static_cast<unsigned>(topology.Group.size());
-  return std::make_unique<BeggingLists>(FlatTopology(threads), topology, desk);
+  return std::make_unique<BeggingLists>(FlatTopology(threads), topology, sharing);
 }
 
 } // namespace voxplex

@@ -8,14 +8,14 @@
 #define voxplex_LoadBalancer_h
 
 #include "Parallel/Policies.h"
-#include "Parallel/Topology.h"
+#include "Parallel/ProcessorTopology.h"
 
 #include <memory>
 
 namespace voxplex
 {
 
-class HelpDesk;
+class LoopSharing;
 
 /**
  * @brief The begging lists: threads without work wait in them until a busy thread gives them some.
@@ -64,10 +64,10 @@ public:
 
 /**
  * @param topology has the number of threads
- * @param desk where threads help while they wait for work, or null; must outlive the balancer
+ * @param sharing where threads help while they wait for work, or null; must outlive the balancer
  */
 std::unique_ptr<LoadBalancer> MakeLoadBalancer(
-  BalancePolicy policy, const Topology& topology, HelpDesk* desk = nullptr);
+  BalancePolicy policy, const ProcessorTopology& topology, LoopSharing* sharing = nullptr);
 
 } // namespace voxplex
 

@@ -61,37 +61,37 @@ private:
 };
 
 /**
- * Inserts the first point that a judge accepts: the judge's candidate first, then random points of the
+ * Inserts the first point that a veto accepts: the veto's candidate first, then random points of the
  * picking region; if none is good, the best of them.
  *
- * @param judge a Triangulation<D>::Judge with `Candidate`, `Best`, `HasBest` (whether any point was
+ * @param veto a Triangulation<D>::InsertionVeto with `Candidate`, `Best`, `HasBest` (whether any point was
  * acceptable at all) and `AcceptAll`
  * @param draw bool(Point<D>&): draws a candidate; false if that cannot be used
- * @param insert Verdict(Point<D>&): inserts a point if the judge accepts it
+ * @param insert RuleOutcome(Point<D>&): inserts a point if the veto accepts it
  */
 template <typename BestPick, typename Draw, typename Insert>
-Verdict InsertPick(
-  RuleStatistics& statistics, unsigned picks, BestPick& judge, Draw&& draw, Insert&& insert)
+RuleOutcome InsertPick(
+  RuleStatistics& statistics, unsigned picks, BestPick& veto, Draw&& draw, Insert&& insert)
 {
   for (unsigned pick = 0; pick < picks; ++pick)
   {
-    if (pick > 0 && !draw(judge.Candidate))
+    if (pick > 0 && !draw(veto.Candidate))
     {
       continue;
     }
     ++statistics.PicksTried;
-    const Verdict verdict = insert(judge.Candidate);
-    if (verdict != Verdict::Good)
+    const RuleOutcome outcome = insert(veto.Candidate);
+    if (outcome != RuleOutcome::Good)
     {
-      return verdict;
+      return outcome;
     }
   }
-  if (!judge.HasBest)
+  if (!veto.HasBest)
   {
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
-  judge.AcceptAll = true;
-  return insert(judge.Best);
+  veto.AcceptAll = true;
+  return insert(veto.Best);
 }
 
 } // namespace voxplex

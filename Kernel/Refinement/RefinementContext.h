@@ -53,8 +53,8 @@ struct RefinementContext
     : Image(image)
     , Settings(settings)
     , Sizing(image, settings.Sizing)
-    , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
-    , IsCut(image.IsCut())
+    , HasTimeBorder{ image.HasTimeBorder(0), image.HasTimeBorder(1) }
+    , ReachesBorder(image.ReachesBorder())
     , Mesh(box)
     , Features(box.Min, std::sqrt(settings.Sizing.Base.Finest() * settings.Sizing.Base.Delta),
         expectedFeatures)
@@ -62,16 +62,17 @@ struct RefinementContext
   {
   }
 
-  /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */
+  /** The time of the nearest flat end (Domain::HasTimeBorder); infinite if there is none. */
   double NearestFlatEnd(double time) const
   {
     constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
     const Box<D>& box = this->Mesh.GetBox();
-    if (this->IsFlatEnd[0] && (!this->IsFlatEnd[1] || time - box.Min[Time] <= box.Max[Time] - time))
+    if (this->HasTimeBorder[0] &&
+      (!this->HasTimeBorder[1] || time - box.Min[Time] <= box.Max[Time] - time))
     {
       return box.Min[Time];
     }
-    return this->IsFlatEnd[1] ? box.Max[Time] : std::numeric_limits<double>::infinity();
+    return this->HasTimeBorder[1] ? box.Max[Time] : std::numeric_limits<double>::infinity();
   }
 
   /** Whether z is too near to a flat end to be a feature vertex, and its projection there. */
@@ -87,15 +88,15 @@ struct RefinementContext
   const Domain<D>& Image;
   const RefinementSettings<D> Settings;
   SizingField<D> Sizing;
-  const std::array<bool, 2> IsFlatEnd; ///< Domain::IsFlatEnd; the box ends there
-  const bool IsCut;                    ///< Domain::IsCut
+  const std::array<bool, 2> HasTimeBorder; ///< Domain::HasTimeBorder; the box ends there
+  const bool ReachesBorder;                ///< Domain::ReachesBorder
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
   RegionalWork<D> Work;
 };
 
 /** What came of an element's evaluation, or of another task of a worker. */
-enum class Verdict
+enum class RuleOutcome
 {
   Good,     ///< no rule applies, or none can be applied: nothing changed
   Changed,  ///< the triangulation changed

@@ -11,15 +11,48 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace voxplex
 {
 
+/** The numbers of the rules of a dimension, as places in RuleStatistics::Fired. */
+template <int D>
+struct RuleNumber;
+
+/** Rules3D.h says what they do; R6 removes, and R7 is counted apart. */
+template <>
+struct RuleNumber<3>
+{
+  enum : std::size_t
+  {
+    InterfaceSampling, ///< R1
+    InterfaceBall,     ///< R2
+    InterfaceFacet,    ///< R3
+    RadiusEdgeRatio,   ///< R4
+    ElementSize        ///< R5
+  };
+};
+
+/** Rules4D.h says what they do. */
+template <>
+struct RuleNumber<4>
+{
+  enum : std::size_t
+  {
+    InterfaceSampling, ///< R1
+    InterfaceBall,     ///< R2
+    RadiusEdgeRatio,   ///< R3
+    Sliver,            ///< R4
+    InterfaceFacet     ///< R5
+  };
+};
+
 /** How often each rule changed the mesh, and why changes were refused. */
 struct RuleStatistics
 {
-  std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5
+  std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5, see RuleNumber
   std::uint64_t FiredBySize = 0;        ///< insertions because of the size function; 4D (3D: R5)
   std::uint64_t SliversSplit = 0;       ///< free points inserted by R7; 3D (4D: R4)
   std::uint64_t SliversSampled = 0;     ///< feature points inserted by R7; 3D

@@ -95,11 +95,11 @@ void RefinementTeam::Run(const std::function<void(unsigned threads)>& prepare,
     this->Placement.Group.resize(number);
     if (this->Options.FineGrained)
     {
-      this->Desk = std::make_unique<HelpDesk>(number);
+      this->Sharing = std::make_unique<LoopSharing>(number);
     }
     this->Manager = MakeContentionManager(
-      this->Options.Contention, number, this->Desk.get(), this->Options.SuccessesToWake);
-    this->Balancer = MakeLoadBalancer(this->Options.Balance, this->Placement, this->Desk.get());
+      this->Options.Contention, number, this->Sharing.get(), this->Options.SuccessesToWake);
+    this->Balancer = MakeLoadBalancer(this->Options.Balance, this->Placement, this->Sharing.get());
     prepare(number);
   }
   catch (...)

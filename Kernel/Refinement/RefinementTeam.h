@@ -7,8 +7,8 @@
 #ifndef voxplex_RefinementTeam_h
 #define voxplex_RefinementTeam_h
 
-#include "Parallel/HelpDesk.h"
-#include "Parallel/Topology.h"
+#include "Parallel/LoopSharing.h"
+#include "Parallel/ProcessorTopology.h"
 #include "Refinement/ContentionManager.h"
 #include "Refinement/LoadBalancer.h"
 
@@ -67,20 +67,20 @@ public:
   bool Stopped() const { return this->StopFlag.load(std::memory_order_relaxed); }
 
   /** Valid from prepare() on. */
-  const Topology& Places() const { return this->Placement; }
+  const ProcessorTopology& Places() const { return this->Placement; }
   ContentionManager& Contention() { return *this->Manager; }
   LoadBalancer& Balance() { return *this->Balancer; }
   /** Null unless FineGrained. */
-  HelpDesk* Help() const { return this->Desk.get(); }
+  LoopSharing* Help() const { return this->Sharing.get(); }
 
 private:
   void RunGuarded(unsigned thread, const std::function<void(unsigned thread)>& task);
   void Fail(std::exception_ptr error);
 
   const TeamOptions Options;
-  Topology Placement;
+  ProcessorTopology Placement;
   std::atomic<bool> StopFlag{ false };
-  std::unique_ptr<HelpDesk> Desk; ///< before those who refer to it
+  std::unique_ptr<LoopSharing> Sharing; ///< before those who refer to it
   std::unique_ptr<ContentionManager> Manager;
   std::unique_ptr<LoadBalancer> Balancer;
   std::mutex ErrorMutex;

@@ -38,7 +38,7 @@ enum class RefinementStart
  * Refinement by several threads is speculative (section 3.2): a thread takes the vertices of what it is
  * about to change one by one; if one is another's, it gives up, gives back what it took, and asks the
  * contention manager what to do. A thread without work waits until the load balancer brings some.
- * With TeamOptions::FineGrained threads that wait help those that insert points (HelpDesk).
+ * With TeamOptions::FineGrained threads that wait help those that insert points (LoopSharing).
  * One thread takes no locks and gives a mesh that is the same bit for bit in every run.
  */
 template <typename Rules>
@@ -145,10 +145,10 @@ public:
         statistics.LoadBalanceSeconds = this->Seconds(this->Overheads[t]->LoadBalance);
         statistics.RollbackSeconds = this->Seconds(this->Overheads[t]->Rollback);
       }
-      if (const HelpDesk* desk = this->Team.Help())
+      if (const LoopSharing* sharing = this->Team.Help())
       {
-        statistics.HelpedLoops = desk->GetCounts(static_cast<unsigned>(t)).Loops;
-        statistics.HelpedIterations = desk->GetCounts(static_cast<unsigned>(t)).Iterations;
+        statistics.HelpedLoops = sharing->GetCounts(static_cast<unsigned>(t)).Loops;
+        statistics.HelpedIterations = sharing->GetCounts(static_cast<unsigned>(t)).Iterations;
       }
       const RuleStatistics& rules = this->Workers[t]->Statistics;
       statistics.Insertions = rules.Insertions();
@@ -278,7 +278,7 @@ private:
   {
     for (const auto& worker : this->Workers)
     {
-      worker->Kernel.Help.Desk = this->Team.Help();
+      worker->Kernel.Help.Sharing = this->Team.Help();
       worker->Kernel.Help.Number = static_cast<unsigned>(this->Helpers.size());
       worker->Kernel.Help.Team = &this->Helpers;
       this->Helpers.push_back(&worker->Kernel);
@@ -308,7 +308,7 @@ private:
         return false;
       }
       const PoorElementList::Entry e = me.Poor.Pop();
-      if (this->IsAlive(e) && rules.Refine(e.Id) == Verdict::Changed && this->IsAlive(e))
+      if (this->IsAlive(e) && rules.Refine(e.Id) == RuleOutcome::Changed && this->IsAlive(e))
       {
         me.Poor.Push(e.Id, e.Generation);
       }
@@ -345,13 +345,13 @@ private:
       const PoorElementList::Entry e =
         me.PendingRemovals.empty() ? this->NextAlive(me) : PoorElementList::Entry{ None, 0 };
       const CycleClock::Ticks start = CycleClock::Now();
-      const Verdict verdict =
+      const RuleOutcome outcome =
         me.PendingRemovals.empty() ? this->Refine(me, rules, e) : rules.RemovePending();
-      if (verdict == Verdict::Contended || me.Kernel.NumberOfOwned() >= MostKept)
+      if (outcome == RuleOutcome::Contended || me.Kernel.NumberOfOwned() >= MostKept)
       {
         this->Context.Mesh.Unlock(me.Kernel);
       }
-      if (verdict == Verdict::Contended)
+      if (outcome == RuleOutcome::Contended)
       {
         const CycleClock::Ticks rollback = CycleClock::Now();
         overhead.Rollback += rollback - start;
@@ -361,7 +361,7 @@ private:
         overhead.Contention += CycleClock::Now() - rollback;
         continue;
       }
-      if (verdict == Verdict::Changed)
+      if (outcome == RuleOutcome::Changed)
       {
         this->Team.Contention().RollbackNotOccurred(thread);
         this->TakeUpDeferred(me);
@@ -391,33 +391,33 @@ private:
     return { None, 0 };
   }
 
-  Verdict Refine(RefinementWorker<D>& me, Rules& rules, const PoorElementList::Entry& e)
+  RuleOutcome Refine(RefinementWorker<D>& me, Rules& rules, const PoorElementList::Entry& e)
   {
     if (e.Id == None)
     {
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
-    Verdict verdict = Verdict::Good;
+    RuleOutcome outcome = RuleOutcome::Good;
     switch (this->Context.Mesh.Lock(me.Kernel, e.Id, e.Generation))
     {
       case LockOutcome::Dead:
-        return Verdict::Good;
+        return RuleOutcome::Good;
       case LockOutcome::Contended:
-        verdict = Verdict::Contended;
+        outcome = RuleOutcome::Contended;
         break;
       case LockOutcome::Locked:
-        verdict = rules.Refine(e.Id);
+        outcome = rules.Refine(e.Id);
         break;
     }
-    if (verdict == Verdict::Contended)
+    if (outcome == RuleOutcome::Contended)
     {
       me.Deferred.push_back(e);
     }
-    else if (verdict == Verdict::Changed && this->IsAlive(e))
+    else if (outcome == RuleOutcome::Changed && this->IsAlive(e))
     {
       me.Poor.Push(e.Id, e.Generation);
     }
-    return verdict;
+    return outcome;
   }
 
   static bool HasWork(RefinementWorker<D>& me)

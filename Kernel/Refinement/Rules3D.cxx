@@ -13,7 +13,7 @@ namespace voxplex
 
 //------------------------------------------------------------------------------------------------
 Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
-  : RuleVocabulary(context, worker)
+  : RefinementRules(context, worker)
   , CosineOfFacetAngle(
       std::cos(context.Settings.FacetAngle * std::numbers::pi / 180.0) * BoundSafety)
   , SineOfSliverAngle(std::sin(context.Settings.TetSlivers.Angle * std::numbers::pi / 180.0))
@@ -47,21 +47,23 @@ bool Rules3D::MayBePoor(SimplexId t)
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules3D::Refine(SimplexId id)
+RuleOutcome Rules3D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   const Element t = this->MakeElement(id);
-  Verdict verdict = this->SampleInterface(t); // R1, R2
-  verdict = verdict == Verdict::Good ? this->R3(t) : verdict;
-  if (verdict == Verdict::Good && this->HasBadRatio(t)) // R4
+  RuleOutcome outcome = this->SampleInterface(t); // R1, R2
+  outcome = outcome == RuleOutcome::Good ? this->R3(t) : outcome;
+  if (outcome == RuleOutcome::Good && this->HasBadRatio(t)) // R4
   {
-    verdict = this->InsertCircumcentre(t, this->Worker.Statistics.Fired[3]);
+    outcome =
+      this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<3>::RadiusEdgeRatio]);
   }
-  if (verdict == Verdict::Good && this->IsTooLarge(t)) // R5
+  if (outcome == RuleOutcome::Good && this->IsTooLarge(t)) // R5
   {
-    verdict = this->InsertCircumcentre(t, this->Worker.Statistics.Fired[4]);
+    outcome =
+      this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<3>::ElementSize]);
   }
-  if (verdict == Verdict::Good && t.Label != 0 && this->IsToSplit(t))
+  if (outcome == RuleOutcome::Good && t.Label != 0 && this->IsToSplit(t))
   {
     if (this->Worker.Poor.OnlyLast())
     {
@@ -69,7 +71,7 @@ Verdict Rules3D::Refine(SimplexId id)
     }
     this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
   }
-  return verdict;
+  return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -118,7 +120,7 @@ double Rules3D::DihedralSine(SimplexId t) const
 
 //------------------------------------------------------------------------------------------------
 /** Accepts the first point whose star has no sliver, and remembers the best of the others. */
-class Rules3D::BetterStar final : public Triangulation<3>::Judge
+class Rules3D::BetterStar final : public Triangulation<3>::InsertionVeto
 {
 public:
   /**
@@ -148,10 +150,10 @@ public:
       return true;
     }
     double smallest = 1.0;
-    for (std::size_t k = 0; k < worker.NumberOfProspects(); ++k)
+    for (std::size_t k = 0; k < worker.NumberOfNewSimplices(); ++k)
     {
       std::uint32_t apex;
-      const auto& v = worker.Prospect(k, apex);
+      const auto& v = worker.NewSimplex(k, apex);
       std::array<const Point<3>*, 4> points;
       for (unsigned i = 0; i < 4; ++i)
       {
@@ -196,36 +198,36 @@ private:
 
 //------------------------------------------------------------------------------------------------
 // First without anything for R4 to do; where that fails, what R4 makes of it is usually better.
-Verdict Rules3D::R7(const Element& t)
+RuleOutcome Rules3D::R7(const Element& t)
 {
   ++this->Worker.Statistics.SliversFound;
-  Verdict verdict = Verdict::Good;
+  RuleOutcome outcome = RuleOutcome::Good;
   for (const double tolerance : { 1.0, 1.5 })
   {
-    verdict = verdict == Verdict::Good ? this->SplitSliver(t, tolerance) : verdict;
-    verdict = verdict == Verdict::Good ? this->SampleAtSliver(t, tolerance) : verdict;
+    outcome = outcome == RuleOutcome::Good ? this->SplitSliver(t, tolerance) : outcome;
+    outcome = outcome == RuleOutcome::Good ? this->SampleAtSliver(t, tolerance) : outcome;
   }
-  verdict = verdict == Verdict::Good ? this->SampleBeside(t, 1.5) : verdict;
-  this->Worker.Statistics.SliversKept += verdict == Verdict::Good ? 1 : 0;
-  return verdict;
+  outcome = outcome == RuleOutcome::Good ? this->SampleBeside(t, 1.5) : outcome;
+  this->Worker.Statistics.SliversKept += outcome == RuleOutcome::Good ? 1 : 0;
+  return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
 // A star with one label only has not taken a facet from an interface, nor given it one with a free vertex:
 // the thesis' rejection of points that eliminate legal facets.
-Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
+RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
   const double spacing = this->Context.Sizing.Spacing(t.Ball.Center, t.Label);
   if (this->YieldingAt(t.Ball.Center, spacing) != Yielding::Nothing)
   {
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   const double clearance = SliverSpacing * spacing;
   PseudoRandom<3> random(options.Seed, t.Ball.Center);
-  BetterStar judge(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
+  BetterStar veto(this->Context, t.Ball.Center, this->SineOfSliverAngle, t.Label, tolerance);
   return InsertPick(
-    this->Worker.Statistics, options.Picks, judge,
+    this->Worker.Statistics, options.Picks, veto,
     [&](Point<3>& p)
     {
       p = random.InBall(t.Ball.Center, options.PickingRadius * t.Radius);
@@ -233,10 +235,10 @@ Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
     },
     [&](const Point<3>& p)
     {
-      const Verdict inserted = this->CountOutcome(this->Context.Mesh.Insert(this->Worker.Kernel, p,
-                                                    VertexKind::Free, t.Id, clearance, &judge),
+      const RuleOutcome inserted = this->CountOutcome(
+        this->Context.Mesh.Insert(this->Worker.Kernel, p, VertexKind::Free, t.Id, clearance, &veto),
         this->Worker.Statistics.SliversSplit);
-      if (inserted == Verdict::Changed)
+      if (inserted == RuleOutcome::Changed)
       {
         this->CountWork(t.Ball.Center, spacing);
         this->ScreenCreated();
@@ -247,12 +249,12 @@ Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
 
 //------------------------------------------------------------------------------------------------
 // Near an interface: a point of it instead, in the picking region of a restricted facet nearby.
-Verdict Rules3D::SampleAtSliver(const Element& t, double tolerance)
+RuleOutcome Rules3D::SampleAtSliver(const Element& t, double tolerance)
 {
   Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex simplex = mesh.GetSimplex(t.Id);
-  Verdict verdict = this->SampleFacetsOf(t.Id, t, tolerance);
-  for (unsigned i = 0; i < 4 && verdict == Verdict::Good; ++i)
+  RuleOutcome outcome = this->SampleFacetsOf(t.Id, t, tolerance);
+  for (unsigned i = 0; i < 4 && outcome == RuleOutcome::Good; ++i)
   {
     const SimplexId n = simplex.N[i];
     if (n == None || this->LabelOf(n) != t.Label)
@@ -263,16 +265,16 @@ Verdict Rules3D::SampleAtSliver(const Element& t, double tolerance)
     {
       if (!mesh.TryLock(this->Worker.Kernel, v))
       {
-        return Verdict::Contended;
+        return RuleOutcome::Contended;
       }
     }
-    verdict = this->SampleFacetsOf(n, t, tolerance);
+    outcome = this->SampleFacetsOf(n, t, tolerance);
   }
-  return verdict;
+  return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
+RuleOutcome Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex simplex = mesh.GetSimplex(s);
@@ -286,45 +288,46 @@ Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
     {
       continue;
     }
-    const Verdict verdict = this->SampleNear(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])),
-      this->Context.Sizing.SamplingDistance(z, t.Label, this->LabelOf(n)), t, tolerance);
-    if (verdict != Verdict::Good)
+    const RuleOutcome outcome =
+      this->SampleNear(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])),
+        this->Context.Sizing.SamplingDistance(z, t.Label, this->LabelOf(n)), t, tolerance);
+    if (outcome != RuleOutcome::Good)
     {
-      return verdict;
+      return outcome;
     }
   }
-  return Verdict::Good;
+  return RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
 // All four vertices on interfaces, but none of its facets nor of its neighbours': between two sides of a sheet.
-Verdict Rules3D::SampleBeside(const Element& t, double tolerance)
+RuleOutcome Rules3D::SampleBeside(const Element& t, double tolerance)
 {
   Point<3> z;
   ++this->Worker.Statistics.ClosestSurfacePointCalls;
   if (!this->Context.Image.ClosestSurfacePoint(t.Ball.Center, t.Label, z) ||
     Distance2(z, t.Ball.Center) > t.Ball.Radius2)
   {
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   return this->SampleNear(z, t.Radius, this->DeltaBehind(t, z), t, tolerance);
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules3D::SampleNear(
+RuleOutcome Rules3D::SampleNear(
   const Point<3>& z, double radius, double delta, const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   if (this->YieldingAt(z, spacing) != Yielding::Nothing)
   {
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   const double clearance = SliverSpacing * spacing;
   PseudoRandom<3> random(options.Seed, z);
-  BetterStar judge(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
+  BetterStar veto(this->Context, z, this->SineOfSliverAngle, 0, tolerance);
   return InsertPick(
-    this->Worker.Statistics, options.Picks, judge,
+    this->Worker.Statistics, options.Picks, veto,
     [&](Point<3>& p)
     {
       const Point<3> q = random.InBall(z, options.PickingRadius * radius);
@@ -334,14 +337,14 @@ Verdict Rules3D::SampleNear(
     [&](const Point<3>& p)
     {
       return this->Context.Features.AnyWithin(p, clearance)
-        ? Verdict::Good
+        ? RuleOutcome::Good
         : this->InsertFeature(
-            p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &judge);
+            p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &veto);
     });
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules3D::R3(const Element& t)
+RuleOutcome Rules3D::R3(const Element& t)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex& simplex = mesh.GetSimplex(t.Id);
@@ -388,14 +391,14 @@ Verdict Rules3D::R3(const Element& t)
       ++this->Worker.Statistics.RefusedTooClose;
       continue;
     }
-    const Verdict verdict =
-      this->InsertFeature(z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[2]);
-    if (verdict != Verdict::Good)
+    const RuleOutcome outcome = this->InsertFeature(
+      z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[RuleNumber<3>::InterfaceFacet]);
+    if (outcome != RuleOutcome::Good)
     {
-      return verdict; // z need not conflict with t: whoever called judges t again if it lives
+      return outcome; // z need not conflict with t: whoever called judges t again if it lives
     }
   }
-  return Verdict::Good;
+  return RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -436,9 +439,8 @@ bool Rules3D::FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) cons
 //------------------------------------------------------------------------------------------------
 bool Rules3D::MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const
 {
-  const auto isBeyond = [this](const Point<3>& p)
-  { return this->Context.Image.IsBeyondCutFaces(p); };
-  return this->Context.IsCut &&
+  const auto isBeyond = [this](const Point<3>& p) { return this->Context.Image.IsBeyondBorder(p); };
+  return this->Context.ReachesBorder &&
     ((t.Label == 0 && isBeyond(t.Ball.Center)) ||
       (other == 0 && isBeyond(this->Context.Mesh.GetCircumball(neighbour).Center)));
 }
@@ -448,7 +450,7 @@ bool Rules3D::MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId oth
 bool Rules3D::FacetIsFlat(
   const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const
 {
-  unsigned faces = this->Context.Image.CutFaces(crossing);
+  unsigned faces = this->Context.Image.BorderFaces(crossing);
   if (faces == 0)
   {
     return true;
@@ -457,7 +459,7 @@ bool Rules3D::FacetIsFlat(
   {
     if (i != facet)
     {
-      faces &= this->Context.Image.CutFaces(this->Context.Mesh.Position(v[i]));
+      faces &= this->Context.Image.BorderFaces(this->Context.Mesh.Position(v[i]));
     }
   }
   return faces != 0;
@@ -468,7 +470,7 @@ bool Rules3D::FacetIsFlat(
 void Rules3D::MoveToCutEdge(Point<3>& z, double reach, double clearance) const
 {
   Point<3> edge;
-  if (this->Context.Image.NearCutEdge(z, reach, edge) &&
+  if (this->Context.Image.FindBorderEdge(z, reach, edge) &&
     !this->Context.Features.AnyWithin(edge, clearance))
   {
     z = edge;

@@ -46,13 +46,13 @@
 #ifndef voxplex_Rules3D_h
 #define voxplex_Rules3D_h
 
-#include "Refinement/RuleVocabulary.h"
+#include "Refinement/RefinementRules.h"
 
 namespace voxplex
 {
 
 /** @brief Screens new tetrahedra and refines poor ones. */
-class Rules3D : public RuleVocabulary<3, Rules3D>
+class Rules3D : public RefinementRules<3, Rules3D>
 {
 public:
   Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker);
@@ -61,13 +61,13 @@ public:
    * Applies the first rule that t violates and that can be applied. The worker owns the vertices of t,
    * or is alone. After a change t may be alive still and is then to be judged again.
    */
-  Verdict Refine(SimplexId t);
+  RuleOutcome Refine(SimplexId t);
 
   /** Insertions of a region before rules give way there. */
   static constexpr std::uint32_t WorkLimit = 400;
 
 private:
-  friend RuleVocabulary;
+  friend RefinementRules;
   /** R6 removes free vertices nearer than this times Delta(z). */
   static constexpr double RemovalRadius = 2.0;
   /** R7 inserts no point nearer than this times Delta to a vertex, a free one in the way of a feature
@@ -78,14 +78,14 @@ private:
 
   bool MayBePoor(SimplexId t);
   class BetterStar;
-  Verdict R3(const Element& t);
+  RuleOutcome R3(const Element& t);
   bool IsSliver(SimplexId t) const;
-  Verdict R7(const Element& t);
-  Verdict SplitSliver(const Element& t, double tolerance);
-  Verdict SampleAtSliver(const Element& t, double tolerance);
-  Verdict SampleFacetsOf(SimplexId s, const Element& t, double tolerance);
-  Verdict SampleBeside(const Element& t, double tolerance);
-  Verdict SampleNear(
+  RuleOutcome R7(const Element& t);
+  RuleOutcome SplitSliver(const Element& t, double tolerance);
+  RuleOutcome SampleAtSliver(const Element& t, double tolerance);
+  RuleOutcome SampleFacetsOf(SimplexId s, const Element& t, double tolerance);
+  RuleOutcome SampleBeside(const Element& t, double tolerance);
+  RuleOutcome SampleNear(
     const Point<3>& z, double radius, double delta, const Element& t, double tolerance);
   double DihedralSine(SimplexId t) const;
   bool IsToSplit(const Element& t);

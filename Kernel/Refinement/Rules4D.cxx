@@ -34,22 +34,22 @@ bool Rules4D::MayBePoor(SimplexId s)
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules4D::Refine(SimplexId id)
+RuleOutcome Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   const Element s = this->MakeElement(id);
   const bool ratioFirst = this->Context.Settings.Order == RuleOrder::RadiusEdgeFirst;
-  Verdict verdict = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
-  if (verdict == Verdict::Good)
+  RuleOutcome outcome = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
+  if (outcome == RuleOutcome::Good)
   {
-    verdict = ratioFirst ? this->SampleInterface(s) : this->R3(s);
+    outcome = ratioFirst ? this->SampleInterface(s) : this->R3(s);
   }
-  verdict = verdict == Verdict::Good ? this->R5(s) : verdict;
-  if (verdict == Verdict::Good && this->IsTooLarge(s))
+  outcome = outcome == RuleOutcome::Good ? this->R5(s) : outcome;
+  if (outcome == RuleOutcome::Good && this->IsTooLarge(s))
   {
-    verdict = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
+    outcome = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
   }
-  if (verdict == Verdict::Good && s.Label != 0 && this->IsSliver(id, s.Ball.Radius2))
+  if (outcome == RuleOutcome::Good && s.Label != 0 && this->IsSliver(id, s.Ball.Radius2))
   {
     if (this->Worker.Poor.OnlyLast())
     {
@@ -57,7 +57,7 @@ Verdict Rules4D::Refine(SimplexId id)
     }
     this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
   }
-  return verdict;
+  return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -78,15 +78,16 @@ bool Rules4D::IsSliver(SimplexId s, double radius2) const
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules4D::R3(const Element& s)
+RuleOutcome Rules4D::R3(const Element& s)
 {
-  return this->HasBadRatio(s) ? this->InsertCircumcentre(s, this->Worker.Statistics.Fired[2])
-                              : Verdict::Good;
+  return this->HasBadRatio(s)
+    ? this->InsertCircumcentre(s, this->Worker.Statistics.Fired[RuleNumber<4>::RadiusEdgeRatio])
+    : RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
 /** Accepts the first point that makes no small sliver, and remembers the best. */
-class Rules4D::BestPick final : public Triangulation<4>::Judge
+class Rules4D::BestPick final : public Triangulation<4>::InsertionVeto
 {
 public:
   /** @param radius of the ball around the first candidate */
@@ -111,10 +112,10 @@ public:
       return true;
     }
     double smallest = 1.0;
-    for (std::size_t k = 0; k < worker.NumberOfProspects() && smallest > this->BestVolume; ++k)
+    for (std::size_t k = 0; k < worker.NumberOfNewSimplices() && smallest > this->BestVolume; ++k)
     {
       std::uint32_t apex;
-      const auto& v = worker.Prospect(k, apex);
+      const auto& v = worker.NewSimplex(k, apex);
       std::array<const Point<4>*, 5> points;
       for (unsigned i = 0; i < 5; ++i)
       {
@@ -146,7 +147,7 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules4D::R4(const Element& s)
+RuleOutcome Rules4D::R4(const Element& s)
 {
   RuleStatistics& statistics = this->Worker.Statistics;
   const SliverOptions& options = this->Context.Settings.Slivers;
@@ -155,13 +156,13 @@ Verdict Rules4D::R4(const Element& s)
   if (this->YieldingAt(s.Ball.Center, spacing) != Yielding::Nothing)
   {
     ++statistics.SliversKept;
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   const double clearance = SliverSpacing * spacing;
   PseudoRandom<4> random(options.Seed, s.Ball.Center);
-  BestPick judge(this->Context, s.Radius, s.Ball.Center);
-  const Verdict verdict = InsertPick(
-    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, judge,
+  BestPick veto(this->Context, s.Radius, s.Ball.Center);
+  const RuleOutcome outcome = InsertPick(
+    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, veto,
     [&](Point<4>& p)
     {
       p = random.InBall(s.Ball.Center, options.PickingRadius * s.Radius);
@@ -171,22 +172,22 @@ Verdict Rules4D::R4(const Element& s)
     {
       const Place place = this->PlaceOf(p, CentreMargin * s.Radius);
       p = place.Position;
-      const Verdict inserted = this->CountOutcome(
-        this->Context.Mesh.Insert(this->Worker.Kernel, p, place.Kind, s.Id, clearance, &judge),
-        statistics.Fired[3]);
-      if (inserted == Verdict::Changed)
+      const RuleOutcome inserted = this->CountOutcome(
+        this->Context.Mesh.Insert(this->Worker.Kernel, p, place.Kind, s.Id, clearance, &veto),
+        statistics.Fired[RuleNumber<4>::Sliver]);
+      if (inserted == RuleOutcome::Changed)
       {
         this->CountWork(s.Ball.Center, spacing);
         this->ScreenCreated();
       }
       return inserted;
     });
-  statistics.SliversKept += verdict == Verdict::Good ? 1 : 0;
-  return verdict;
+  statistics.SliversKept += outcome == RuleOutcome::Good ? 1 : 0;
+  return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
-Verdict Rules4D::R5(const Element& s)
+RuleOutcome Rules4D::R5(const Element& s)
 {
   const Triangulation<4>& mesh = this->Context.Mesh;
   const Triangulation<4>::Simplex& simplex = mesh.GetSimplex(s.Id);
@@ -208,18 +209,18 @@ Verdict Rules4D::R5(const Element& s)
     {
       continue;
     }
-    const Verdict verdict = this->InsertFeatureAt(z, s, n, other);
-    if (verdict != Verdict::Good)
+    const RuleOutcome outcome = this->InsertFeatureAt(z, s, n, other);
+    if (outcome != RuleOutcome::Good)
     {
-      return verdict;
+      return outcome;
     }
   }
-  return Verdict::Good;
+  return RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
 // At the centre of the surface ball of a facet, or near it.
-Verdict Rules4D::InsertFeatureAt(
+RuleOutcome Rules4D::InsertFeatureAt(
   const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
 {
   const double delta = this->Context.Sizing.SamplingDistance(z, s.Label, labelOfOther);
@@ -227,10 +228,10 @@ Verdict Rules4D::InsertFeatureAt(
   const Yielding step = this->YieldingAt(z, spacing);
   if (step == Yielding::All)
   {
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   const double clearance = this->FacetClearance(spacing, step);
-  std::uint64_t& fired = this->Worker.Statistics.Fired[4];
+  std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet];
   Point<4> snapped;
   if (this->SnapToEnd(z, delta, snapped))
   {
@@ -239,7 +240,7 @@ Verdict Rules4D::InsertFeatureAt(
   if (this->Context.Features.AnyWithin(z, clearance))
   {
     ++this->Worker.Statistics.RefusedTooClose;
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
   return this->Context.Settings.Slivers.Fight
     ? this->InsertFeaturePick(z, delta, clearance, s, other)
@@ -249,7 +250,7 @@ Verdict Rules4D::InsertFeatureAt(
 //------------------------------------------------------------------------------------------------
 // The picking region of a restricted facet: what the interface has in common with a ball around the
 // centre z of its surface ball.
-Verdict Rules4D::InsertFeaturePick(
+RuleOutcome Rules4D::InsertFeaturePick(
   const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other)
 {
   const SliverOptions& options = this->Context.Settings.Slivers;
@@ -260,9 +261,9 @@ Verdict Rules4D::InsertFeaturePick(
     v.begin(), v.end(), [&w](VertexId x) { return std::find(w.begin(), w.end(), x) != w.end(); });
   const double radius = Distance(z, mesh.Position(*shared));
   PseudoRandom<4> random(options.Seed, z);
-  BestPick judge(this->Context, radius, z);
+  BestPick veto(this->Context, radius, z);
   return InsertPick(
-    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, judge,
+    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, veto,
     [&](Point<4>& p)
     {
       Point<4> onEnd;
@@ -275,8 +276,8 @@ Verdict Rules4D::InsertFeaturePick(
     },
     [&](const Point<4>& p)
     {
-      return this->InsertFeature(
-        p, delta, clearance, s.Id, other, this->Worker.Statistics.Fired[4], &judge);
+      return this->InsertFeature(p, delta, clearance, s.Id, other,
+        this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet], &veto);
     });
 }
 

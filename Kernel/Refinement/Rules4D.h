@@ -42,28 +42,28 @@
 #ifndef voxplex_Rules4D_h
 #define voxplex_Rules4D_h
 
-#include "Refinement/RuleVocabulary.h"
+#include "Refinement/RefinementRules.h"
 
 namespace voxplex
 {
 
 /** @brief Screens new pentatopes and refines poor ones. */
-class Rules4D : public RuleVocabulary<4, Rules4D>
+class Rules4D : public RefinementRules<4, Rules4D>
 {
 public:
-  using RuleVocabulary::RuleVocabulary;
+  using RefinementRules::RefinementRules;
 
   /**
    * Applies the first rule that s violates and that can be applied. The worker owns the vertices of s,
    * or is alone. After a change s may be alive still and is then to be judged again.
    */
-  Verdict Refine(SimplexId s);
+  RuleOutcome Refine(SimplexId s);
 
   /** Insertions of a region before rules give way there. */
   static constexpr std::uint32_t WorkLimit = 250;
 
 private:
-  friend RuleVocabulary;
+  friend RefinementRules;
   class BestPick;
 
   /** Free vertices nearer than this times Delta(z) to a new feature vertex z are removed. */
@@ -73,12 +73,12 @@ private:
 
   bool MayBePoor(SimplexId s);
   bool IsSliver(SimplexId s, double radius2) const;
-  Verdict R3(const Element& s);
-  Verdict R4(const Element& s);
-  Verdict R5(const Element& s);
-  Verdict InsertFeatureAt(
+  RuleOutcome R3(const Element& s);
+  RuleOutcome R4(const Element& s);
+  RuleOutcome R5(const Element& s);
+  RuleOutcome InsertFeatureAt(
     const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther);
-  Verdict InsertFeaturePick(
+  RuleOutcome InsertFeaturePick(
     const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other);
   bool FacetIsGood(const std::array<VertexId, 5>& v, unsigned facet) const;
 };

@@ -89,7 +89,7 @@ void CheckRatios(const Subject<D>& subject, Findings& findings)
 /** What optimisation says of itself, and slivers without it. */
 void CheckDihedralAngles(const Subject<3>& subject, Findings& findings)
 {
-  const OptimisationFigures& said = subject.Stats.Optimisation;
+  const OptimisationSummary& said = subject.Stats.Optimisation;
   const Real bound = subject.Of.Options.TetSlivers.Angle;
   Real smallest = 180;
   Real largest = 0;

@@ -19,8 +19,8 @@ public:
   /** Of one thread in a row: more than it does while whoever it loses to waits for a processor. */
   static constexpr unsigned RollbacksToSwitch = 200000;
 
-  explicit AggressiveContentionManager(unsigned threads, HelpDesk* desk = nullptr)
-    : NonBlockingContentionManager(threads, RollbacksToSwitch, desk)
+  explicit AggressiveContentionManager(unsigned threads, LoopSharing* sharing = nullptr)
+    : NonBlockingContentionManager(threads, RollbacksToSwitch, sharing)
   {
   }
 

@@ -8,10 +8,10 @@ namespace voxplex
 {
 
 GlobalContentionManager::GlobalContentionManager(
-  unsigned threads, HelpDesk* desk, unsigned successesToWake)
+  unsigned threads, LoopSharing* sharing, unsigned successesToWake)
   : Threshold(successesToWake)
   , Slots(threads)
-  , Desk(desk)
+  , Sharing(sharing)
   , Active(threads)
 {
 }
@@ -32,7 +32,7 @@ bool GlobalContentionManager::RollbackOccurred(unsigned thread, [[maybe_unused]]
     this->Losers.Append(this->Slots, thread);
     this->SomeoneWaits.store(true, std::memory_order_relaxed);
   }
-  WaitAndHelp(own.Spot, this->Desk, thread);
+  WaitAndHelp(own.Spot, this->Sharing, thread);
   return true;
 }
 

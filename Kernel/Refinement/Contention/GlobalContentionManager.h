@@ -8,7 +8,7 @@
 #define voxplex_GlobalContentionManager_h
 
 #include "Parallel/CacheLine.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/ContentionManager.h"
@@ -38,7 +38,7 @@ namespace voxplex
  * who waits or is idle holds no vertex. So there are at most n rollbacks, and then somebody
  * succeeds or runs out of work. The latter happens at most n times, as gifts follow successes.
  *
- * **Help.** None of this changes if those who wait help at a desk: see HelpDesk.
+ * **Help.** None of this changes if those who wait help at a sharing: see LoopSharing.
  */
 class GlobalContentionManager final : public ContentionManager
 {
@@ -46,11 +46,11 @@ public:
   static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
 
   /**
-   * @param desk where those who wait help, or null
+   * @param sharing where those who wait help, or null
    * @param successesToWake after how many successes in a row a thread wakes another
    */
   explicit GlobalContentionManager(
-    unsigned threads, HelpDesk* desk = nullptr, unsigned successesToWake = SuccessesToWake);
+    unsigned threads, LoopSharing* sharing = nullptr, unsigned successesToWake = SuccessesToWake);
 
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
 
@@ -91,7 +91,7 @@ private:
 
   const unsigned Threshold; ///< successes in a row
   std::vector<Slot> Slots;
-  HelpDesk* const Desk;
+  LoopSharing* const Sharing;
   alignas(CacheLineSize) std::atomic<bool> SomeoneWaits{ false }; ///< Losers is not empty
   alignas(CacheLineSize) std::mutex Mutex;                        ///< guards what follows
   WaitingList Losers;

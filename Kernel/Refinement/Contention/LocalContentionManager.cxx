@@ -9,10 +9,10 @@ namespace voxplex
 {
 
 LocalContentionManager::LocalContentionManager(
-  unsigned threads, HelpDesk* desk, unsigned successesToWake)
+  unsigned threads, LoopSharing* sharing, unsigned successesToWake)
   : Threshold(successesToWake)
   , Slots(threads)
-  , Desk(desk)
+  , Sharing(sharing)
 {
 }
 
@@ -35,7 +35,7 @@ bool LocalContentionManager::RollbackOccurred(unsigned thread, unsigned winner)
     other.Losers.Append(this->Slots, thread);
     other.SomeoneWaits.store(true, std::memory_order_relaxed);
   }
-  WaitAndHelp(own.Spot, this->Desk, thread);
+  WaitAndHelp(own.Spot, this->Sharing, thread);
   return true;
 }
 

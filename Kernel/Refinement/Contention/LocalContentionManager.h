@@ -8,7 +8,7 @@
 #define voxplex_LocalContentionManager_h
 
 #include "Parallel/CacheLine.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
 #include "Refinement/ContentionManager.h"
@@ -48,7 +48,7 @@ namespace voxplex
  * out of work. The latter happens at most n times, as gifts follow successes. Hence some thread
  * succeeds again and again.
  *
- * **Help.** None of this changes if those who wait help at a desk: see HelpDesk.
+ * **Help.** None of this changes if those who wait help at a sharing: see LoopSharing.
  *
  * One thread may starve in theory, as in the thesis: while its winner never succeeds ten times in a
  * row. It goes on when the winner runs out of work.
@@ -59,11 +59,11 @@ public:
   static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
 
   /**
-   * @param desk where those who wait help, or null
+   * @param sharing where those who wait help, or null
    * @param successesToWake after how many successes in a row a thread wakes another
    */
   explicit LocalContentionManager(
-    unsigned threads, HelpDesk* desk = nullptr, unsigned successesToWake = SuccessesToWake);
+    unsigned threads, LoopSharing* sharing = nullptr, unsigned successesToWake = SuccessesToWake);
 
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
 
@@ -109,7 +109,7 @@ private:
 
   const unsigned Threshold; ///< successes in a row
   std::vector<Slot> Slots;
-  HelpDesk* const Desk;
+  LoopSharing* const Sharing;
   std::atomic<bool> Stopped{ false };
 };
 

@@ -8,10 +8,10 @@ namespace voxplex
 {
 
 NonBlockingContentionManager::NonBlockingContentionManager(
-  unsigned threads, unsigned rollbackLimit, HelpDesk* desk)
+  unsigned threads, unsigned rollbackLimit, LoopSharing* sharing)
   : RollbackLimit(rollbackLimit)
   , Slots(threads)
-  , Local(threads, desk)
+  , Local(threads, sharing)
 {
 }
 

@@ -47,9 +47,9 @@ public:
 protected:
   /**
    * @param rollbackLimit more rollbacks in a row of one thread than this end the attempt
-   * @param desk where those who wait in the local manager help, or null
+   * @param sharing where those who wait in the local manager help, or null
    */
-  NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit, HelpDesk* desk);
+  NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit, LoopSharing* sharing);
 
   /**
    * What the thread does after its n-th rollback in a row.

@@ -7,8 +7,8 @@
 namespace voxplex
 {
 
-RandomContentionManager::RandomContentionManager(unsigned threads, HelpDesk* desk)
-  : NonBlockingContentionManager(threads, RollbacksBeforeSleep + SleepsToSwitch, desk)
+RandomContentionManager::RandomContentionManager(unsigned threads, LoopSharing* sharing)
+  : NonBlockingContentionManager(threads, RollbacksBeforeSleep + SleepsToSwitch, sharing)
   , Slots(threads)
 {
   for (unsigned t = 0; t < threads; ++t)

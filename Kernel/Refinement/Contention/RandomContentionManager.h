@@ -30,7 +30,7 @@ public:
   static constexpr unsigned RollbacksBeforeSleep = 5; ///< r+ of the thesis
   static constexpr unsigned SleepsToSwitch = 200;     ///< of one thread in a row, about 0.6 s
 
-  explicit RandomContentionManager(unsigned threads, HelpDesk* desk = nullptr);
+  explicit RandomContentionManager(unsigned threads, LoopSharing* sharing = nullptr);
 
   void Stop() override;
 

@@ -133,10 +133,10 @@ private:
   }
 
   /** Whether the border of the image is half a voxel after this one. */
-  bool IsCut(std::size_t axis, std::int64_t voxel) const
+  bool ReachesBorder(std::size_t axis, std::int64_t voxel) const
   {
-    return (voxel == -1 && this->Image.IsCut(axis, 0)) ||
-      (voxel == this->Image.CropDimensions()[axis] - 1 && this->Image.IsCut(axis, 1));
+    return (voxel == -1 && this->Image.ReachesBorder(axis, 0)) ||
+      (voxel == this->Image.CropDimensions()[axis] - 1 && this->Image.ReachesBorder(axis, 1));
   }
 
   void SearchVoxels(std::int64_t y, std::int64_t z, std::vector<BestSteps>& cells) const
@@ -157,7 +157,7 @@ private:
       for (std::size_t a = 0; a < 3; ++a)
       {
         const LabelId other = at(next[a], a == 0 ? x + 1 : x);
-        if (other != id && !this->IsCut(a, std::array{ x, y, z }[a]))
+        if (other != id && !this->ReachesBorder(a, std::array{ x, y, z }[a]))
         {
           Step step{ id, other, 0.0, { x, y, z }, a };
           for (std::size_t b = 0; b < 3; ++b)

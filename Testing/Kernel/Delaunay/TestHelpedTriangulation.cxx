@@ -3,7 +3,7 @@
 // Insertions with which threads that wait help: the triangulation is the one that nobody helped with.
 #include "BallDomain.h"
 #include "Delaunay/Triangulation.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 #include "Refinement/Rules4D.h"
@@ -67,7 +67,7 @@ public:
     , Second(t, 3)
     , Team({ &this->Worker, &this->First, &this->Second })
   {
-    this->Worker.Help.Desk = &this->Desk;
+    this->Worker.Help.Sharing = &this->Sharing;
     this->Worker.Help.Number = 0;
     this->Worker.Help.Team = &this->Team;
     this->Worker.Help.FewestSimplices = fewestSimplices;
@@ -75,8 +75,8 @@ public:
     this->Worker.Help.Grain = 2;
     for (const unsigned number : { 1u, 2u })
     {
-      this->Threads.emplace_back(
-        [this, number]() { this->Desk.HelpUntil(number, [this]() { return this->Over.load(); }); });
+      this->Threads.emplace_back([this, number]()
+        { this->Sharing.HelpUntil(number, [this]() { return this->Over.load(); }); });
     }
   }
   ~HelpedWorker() { this->DismissHelpers(); }
@@ -90,7 +90,7 @@ public:
   }
 
   /** True once a helper has done something. */
-  bool WasHelped() const { return this->Desk.GetCounts(0).Iterations > 0; }
+  bool WasHelped() const { return this->Sharing.GetCounts(0).Iterations > 0; }
 
   PredicateStatistics Predicates() const
   {
@@ -100,7 +100,7 @@ public:
     return sum;
   }
 
-  HelpDesk Desk{ 3, std::numeric_limits<unsigned>::max() };
+  LoopSharing Sharing{ 3, std::numeric_limits<unsigned>::max() };
   typename Kernel::Worker Worker;
 
 private:
@@ -254,12 +254,12 @@ public:
   }
 };
 
-/** A storm at a desk. */
+/** A storm at a sharing. */
 template <int D>
 void HelpedStorm(const std::vector<Point<D>>& points, double size, unsigned threads)
 {
-  HelpDesk desk(threads, 400);
-  StormAndCheck<D>(points, size, threads, false, &desk);
+  LoopSharing sharing(threads, 400);
+  StormAndCheck<D>(points, size, threads, false, &sharing);
 }
 
 } // namespace

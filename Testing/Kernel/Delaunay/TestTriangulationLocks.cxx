@@ -327,7 +327,7 @@ TEST_F(TwoWorkersDeathTest, NobodyInsertsFromASimplexThatItDoesNotOwn)
 
 TEST_F(TwoWorkersDeathTest, NobodyDeletesACavityThatItOwnsNoMore)
 {
-  struct Careless final : Triangulation<3>::Judge
+  struct Careless final : Triangulation<3>::InsertionVeto
   {
     bool Accepts(const Triangulation<3>::Worker&) override
     {

@@ -411,7 +411,8 @@ TEST(ScalarField, ValuesGoOnBeyondTheFacesOfTheImage)
   const ScalarField<3> field(image);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    ASSERT_TRUE(image.Labels().IsCut(axis, 0) && image.Labels().IsCut(axis, 1)) << axis;
+    ASSERT_TRUE(image.Labels().ReachesBorder(axis, 0) && image.Labels().ReachesBorder(axis, 1))
+      << axis;
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

@@ -68,8 +68,8 @@ Point<4> RandomPoint(const Box<4>& box, double beyond, std::mt19937& random)
 Point<4> OnEnds(Point<4> p, const ImageDomain<4>& domain)
 {
   const Box<4> box = domain.Bounds();
-  p[3] = domain.IsFlatEnd(0) ? std::max(p[3], box.Min[3]) : p[3];
-  p[3] = domain.IsFlatEnd(1) ? std::min(p[3], box.Max[3]) : p[3];
+  p[3] = domain.HasTimeBorder(0) ? std::max(p[3], box.Min[3]) : p[3];
+  p[3] = domain.HasTimeBorder(1) ? std::min(p[3], box.Max[3]) : p[3];
   return p;
 }
 
@@ -140,21 +140,21 @@ struct Cut
   bool AtStart;
   bool AtEnd;
 };
-constexpr std::array<Cut, 4> Cuts = { { { 0, 6, true, true }, { 0, 4, true, false },
+constexpr std::array<Cut, 4> Borders = { { { 0, 6, true, true }, { 0, 4, true, false },
   { 2, 6, false, true }, { 2, 4, false, false } } };
 
 } // namespace
 
 TEST(SpaceTimeImage, KnowsWhereItIsCut)
 {
-  for (const Cut& cut : Cuts)
+  for (const Cut& cut : Borders)
   {
     const LabelImage<4> image = MovingBalls(Grid(false), cut.First, cut.Last);
-    EXPECT_EQ(image.IsCutInTime(0), cut.AtStart);
-    EXPECT_EQ(image.IsCutInTime(1), cut.AtEnd);
+    EXPECT_EQ(image.ReachesBorderInTime(0), cut.AtStart);
+    EXPECT_EQ(image.ReachesBorderInTime(1), cut.AtEnd);
     const ImageDomain<4> domain(image, 1.0);
-    EXPECT_EQ(domain.IsFlatEnd(0), cut.AtStart);
-    EXPECT_EQ(domain.IsFlatEnd(1), cut.AtEnd);
+    EXPECT_EQ(domain.HasTimeBorder(0), cut.AtStart);
+    EXPECT_EQ(domain.HasTimeBorder(1), cut.AtEnd);
     const Box<4> box = domain.Bounds();
     // Where it is not cut there is a layer of background, as in space.
     EXPECT_EQ(box.Min[3], cut.AtStart ? 0.0 : 1.5 * static_cast<double>(cut.First - 1));
@@ -172,7 +172,7 @@ TEST(SpaceTimeImage, GoesOnUnchangedBeyondACut)
   std::mt19937 random(1);
   for (const bool tilted : { false, true })
   {
-    for (const Cut& cut : Cuts)
+    for (const Cut& cut : Borders)
     {
       const LabelImage<4> image = MovingBalls(Grid(tilted), cut.First, cut.Last);
       const ImageDomain<4> domain(image, 1.0);
@@ -218,7 +218,7 @@ TEST(SpaceTimeImage, WhatStandsStillIsTheSameAtAllTimes)
 
 TEST(SpaceTimeImage, EveryVoxelKeepsItsLabel)
 {
-  for (const Cut& cut : Cuts)
+  for (const Cut& cut : Borders)
   {
     const GridGeometry<4> grid = Grid(true);
     const LabelImage<4> image = MovingBalls(grid, cut.First, cut.Last);
@@ -245,7 +245,7 @@ TEST(SpaceTimeImage, DistanceBoundsHoldNearAndBeyondEnds)
   std::mt19937 random(3);
   for (const bool tilted : { false, true })
   {
-    for (const Cut& cut : Cuts)
+    for (const Cut& cut : Borders)
     {
       const LabelImage<4> image = MovingBalls(Grid(tilted), cut.First, cut.Last);
       const ImageDomain<4> domain(image, 1.0);
@@ -274,7 +274,7 @@ TEST(SpaceTimeImage, InterfacePointsAreNeverBeyondAnEnd)
   std::mt19937 random(4);
   for (const bool tilted : { false, true })
   {
-    for (const Cut& cut : Cuts)
+    for (const Cut& cut : Borders)
     {
       const LabelImage<4> image = MovingBalls(Grid(tilted), cut.First, cut.Last);
       const ImageDomain<4> domain(image, 1.0);
@@ -327,13 +327,13 @@ TEST(SpaceTimeImage, ClosestPointsOnAnEnd)
   std::mt19937 random(5);
   for (const bool tilted : { false, true })
   {
-    for (const Cut& cut : Cuts)
+    for (const Cut& cut : Borders)
     {
       const LabelImage<4> image = MovingBalls(Grid(tilted, 0.7), cut.First, cut.Last);
       const ImageDomain<4> domain(image, 1.0);
       for (const unsigned end : { 0u, 1u })
       {
-        if (!domain.IsFlatEnd(end))
+        if (!domain.HasTimeBorder(end))
         {
           continue;
         }

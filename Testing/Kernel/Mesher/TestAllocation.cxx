@@ -275,15 +275,15 @@ TEST(Allocation, AFailedInsertionWithHelpLeavesTheTriangulationAsItWas)
   const testing::Watchdog watchdog("failures with help");
   Triangulation<4> t(checks::UnitBox<4>(1.0));
   Triangulation<4>::Worker helper(t, 2);
-  HelpDesk desk(2, std::numeric_limits<unsigned>::max());
+  LoopSharing sharing(2, std::numeric_limits<unsigned>::max());
   std::atomic<bool> over{ false };
   const std::jthread helping(
     [&]()
     {
       Spared = true;
-      desk.HelpUntil(1, [&over]() { return over.load(); });
+      sharing.HelpUntil(1, [&over]() { return over.load(); });
     });
-  EXPECT_TRUE(testing::Soon([&]() { return desk.SomeoneIdle(); }));
+  EXPECT_TRUE(testing::Soon([&]() { return sharing.SomeoneIdle(); }));
   std::mt19937 random(1);
   int failures = 0;
   for (const Point<4>& p : checks::RandomPoints<4>(40, 1.0, random))
@@ -296,7 +296,7 @@ TEST(Allocation, AFailedInsertionWithHelpLeavesTheTriangulationAsItWas)
     {
       Triangulation<4>::Worker worker(t, 1);
       std::vector<Triangulation<4>::Worker*> team = { &worker, &helper };
-      worker.Help = { &desk, 0, &team, 1, 1, 1 };
+      worker.Help = { &sharing, 0, &team, 1, 1, 1 };
       EXPECT_EQ(t.Lock(worker, seed, t.State(seed).Generation), LockOutcome::Locked);
       Countdown = n;
       try

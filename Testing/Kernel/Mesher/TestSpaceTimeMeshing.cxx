@@ -69,7 +69,7 @@ TEST(SpaceTimeMeshing, FourBallHasItsHypervolume)
   const LabelImage<4> image = ImageOf(phantoms::FourBall(radius));
   const SimplexMesh<4> mesh = Mesh(image, 2.0);
   ExpectGood(mesh, image);
-  EXPECT_FALSE(image.IsCutInTime(0) || image.IsCutInTime(1));
+  EXPECT_FALSE(image.ReachesBorderInTime(0) || image.ReachesBorderInTime(1));
   EXPECT_EQ(NumberOfComponents(mesh, 1), 1u);
   const double volume = 0.5 * std::pow(std::numbers::pi, 2) * std::pow(radius, 4);
   EXPECT_LT(Volumes(mesh)[1], volume);
@@ -118,8 +118,8 @@ TEST(SpaceTimeMeshing, CutOnOneSideOnly)
       [](const Point<4>& p) -> std::uint8_t {
         return Distance(p, { 10.5, 10.5, 10.5, 0.0 }) < 8.5;
       } });
-  ASSERT_TRUE(image.IsCutInTime(0));
-  ASSERT_FALSE(image.IsCutInTime(1));
+  ASSERT_TRUE(image.ReachesBorderInTime(0));
+  ASSERT_FALSE(image.ReachesBorderInTime(1));
   const SimplexMesh<4> mesh = Mesh(image, 2.0);
   ExpectGood(mesh, image);
   ExpectVolumes(mesh, image, 1, 1.0, 0.1);

@@ -262,7 +262,7 @@ TEST_P(OptimisedPhantom, HasGoodShapes)
 
 TEST_P(OptimisedPhantom, StatisticsAreThoseOfTheMesh)
 {
-  const auto compare = [](const ShapeSurvey& survey, const SimplexMesh<3>& mesh)
+  const auto compare = [](const ShapeStatistics& survey, const SimplexMesh<3>& mesh)
   {
     const MeshQuality quality = MeasureQuality<3>(mesh, 2.5, 30.0, 1);
     EXPECT_NEAR(survey.SmallestDihedralAngle, quality.MinimumDihedralAngle, 1e-4);
@@ -328,14 +328,14 @@ TEST_P(OptimisedPhantom, KeepsInterfaceVerticesOnInterfaces)
   strict.InterfaceTolerance = 0.0;
   SimplexMesh<3> mesh = this->Before;
   const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, strict);
-  EXPECT_EQ(statistics.Smoothing.Nudges, 0u);
+  EXPECT_EQ(statistics.Smoothing.MovesOffInterfaces, 0u);
   EXPECT_EQ(VerticesOffInterfaces(mesh, this->Before, this->Domain, 0.0), 0u);
 }
 
 TEST_P(OptimisedPhantom, DoesNotChangeWhatHasNothingPoor)
 {
   // Bounds that the mesh just keeps, so that nothing is poor.
-  const ShapeSurvey& shapes = this->Statistics.After;
+  const ShapeStatistics& shapes = this->Statistics.After;
   OptimisationOptions kept = this->Options;
   kept.SmallestDihedralAngle = shapes.SmallestDihedralAngle - 0.01;
   kept.LargestDihedralAngle = shapes.LargestDihedralAngle + 0.01;
@@ -426,7 +426,7 @@ TEST_P(OptimisedPhantom, WorstShapeNeverGetsWorse)
   options.SmallestDihedralAngle = 35.0;
   options.LargestDihedralAngle = 130.0;
   options.InterfaceTolerance = 0.05;
-  const auto worst = [&](const ShapeSurvey& survey)
+  const auto worst = [&](const ShapeStatistics& survey)
   {
     const auto square = [](double x) { return x * x; };
     return std::min({ square(std::sin(survey.SmallestDihedralAngle / DegreesPerRadian) /
@@ -470,12 +470,12 @@ TEST_P(OptimisedPhantom, SmoothingNeverLowersTheWorstOfAStar)
     if (patch.GatherStar(v, star))
     {
       const float before = worst();
-      const bool moved = smoother.Improve(v) || smoother.Nudge(v);
+      const bool moved = smoother.Improve(v) || smoother.MoveOffInterface(v);
       EXPECT_TRUE(moved ? worst() > before : worst() == before);
     }
   }
   EXPECT_GT(smoother.Counts().SurfaceMoves, 0u);
-  EXPECT_GT(smoother.Counts().Nudges, 0u);
+  EXPECT_GT(smoother.Counts().MovesOffInterfaces, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(MeshOptimiser, OptimisedPhantom, testing::ValuesIn(Phantoms),

@@ -26,9 +26,9 @@ namespace
 constexpr unsigned Nobody = LoadBalancer::Nobody;
 
 /** Sockets of `perSocket` threads in nodes of `perNode` threads. */
-Topology Regular(unsigned threads, unsigned perSocket, unsigned perNode)
+ProcessorTopology Regular(unsigned threads, unsigned perSocket, unsigned perNode)
 {
-  Topology topology = FlatTopology(threads);
+  ProcessorTopology topology = FlatTopology(threads);
   for (unsigned t = 0; t < threads; ++t)
   {
     topology.Group[t] = { t / perSocket, t / perNode, 0 };
@@ -37,7 +37,7 @@ Topology Regular(unsigned threads, unsigned perSocket, unsigned perNode)
 }
 
 /** Two nodes of two sockets of two threads: sockets {0,1} {2,3} | {4,5} {6,7}. */
-Topology EightThreads()
+ProcessorTopology EightThreads()
 {
   return Regular(8, 2, 4);
 }
@@ -46,7 +46,7 @@ Topology EightThreads()
 class Scene
 {
 public:
-  Scene(BalancePolicy policy, const Topology& topology)
+  Scene(BalancePolicy policy, const ProcessorTopology& topology)
     : Flat(FlatTopology(static_cast<unsigned>(topology.Group.size())))
     , Balancer(policy == BalancePolicy::Hierarchical ? topology : this->Flat, topology)
     , Calls(topology.Group.size())
@@ -90,7 +90,7 @@ public:
     EXPECT_FALSE(this->Calls[thread]->Value()) << thread;
   }
 
-  const Topology Flat;
+  const ProcessorTopology Flat;
   BeggingLists Balancer;
   std::vector<std::unique_ptr<Call>> Calls;
 };
@@ -214,7 +214,7 @@ TEST(HierarchicalWorkStealing, NodesOfOneSocketHaveNoSecondLevel)
 TEST(HierarchicalWorkStealing, UnevenGroups)
 {
   const Watchdog watchdog("HWS, uneven groups");
-  Topology topology = FlatTopology(6);
+  ProcessorTopology topology = FlatTopology(6);
   topology.Group = { { 9, 4, 0 }, { 9, 4, 0 }, { 9, 4, 0 }, { 2, 4, 0 }, { 7, 1, 0 }, { 7, 1, 0 } };
   Scene scene(BalancePolicy::Hierarchical, topology);
   scene.Begs(3);
@@ -286,7 +286,7 @@ TEST_P(BothBalancers, EndsWhenAllBeg)
 {
   const Watchdog watchdog("the end");
   std::mt19937 random(2);
-  for (const Topology& topology :
+  for (const ProcessorTopology& topology :
     { FlatTopology(8), EightThreads(), Regular(8, 1, 1), Regular(8, 3, 6), Regular(8, 4, 8) })
   {
     for (unsigned round = 0; round < 20; ++round)
@@ -371,7 +371,7 @@ namespace
 class Economy
 {
 public:
-  Economy(BalancePolicy policy, const Topology& topology, unsigned seed)
+  Economy(BalancePolicy policy, const ProcessorTopology& topology, unsigned seed)
     : Seed(seed)
     , Balancer(MakeLoadBalancer(policy, topology))
     , Purses(topology.Group.size())
@@ -457,7 +457,7 @@ TEST_P(BothBalancers, AllWorkIsDoneAndThenAllEnd)
 {
   constexpr unsigned work = 2000;
   unsigned seed = 0;
-  for (const Topology& topology : { FlatTopology(2), FlatTopology(16), Regular(16, 4, 8),
+  for (const ProcessorTopology& topology : { FlatTopology(2), FlatTopology(16), Regular(16, 4, 8),
          Regular(16, 1, 2), Regular(13, 3, 6), Regular(16, 2, 2), Regular(5, 1, 1) })
   {
     for (unsigned round = 0; round < 5; ++round)

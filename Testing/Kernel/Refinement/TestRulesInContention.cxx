@@ -42,7 +42,7 @@ protected:
   {
   }
 
-  /** An element to judge. */
+  /** An element to veto. */
   PoorElementList::Entry Next()
   {
     while (!this->One.Poor.Empty())
@@ -70,7 +70,7 @@ protected:
     this->Rules.ScreenCreated();
   }
 
-  Verdict Refine(const PoorElementList::Entry& e)
+  RuleOutcome Refine(const PoorElementList::Entry& e)
   {
     EXPECT_EQ(this->Context.Mesh.Lock(this->One.Kernel, e.Id, e.Generation), LockOutcome::Locked);
     return this->Rules.Refine(e.Id);
@@ -107,9 +107,9 @@ TEST_F(RulesInContention, AContendedElementIsLeftAsItWas)
       ASSERT_TRUE(mesh.TryLock(this->Two.Kernel, *apex));
       const std::uint64_t created = this->One.Kernel.NumberOfCreated;
       const std::uint32_t features = this->Context.Features.Size();
-      const Verdict verdict = this->Refine(e);
-      changed += verdict == Verdict::Changed ? 1 : 0;
-      if (verdict == Verdict::Contended)
+      const RuleOutcome outcome = this->Refine(e);
+      changed += outcome == RuleOutcome::Changed ? 1 : 0;
+      if (outcome == RuleOutcome::Contended)
       {
         ++contended;
         EXPECT_EQ(this->One.Kernel.Winner, 2);
@@ -125,9 +125,9 @@ TEST_F(RulesInContention, AContendedElementIsLeftAsItWas)
     }
     if (mesh.State(e.Id).Generation == e.Generation)
     {
-      const Verdict verdict = this->Refine(e);
-      EXPECT_NE(verdict, Verdict::Contended) << "nobody holds anything any more";
-      changed += verdict == Verdict::Changed ? 1 : 0;
+      const RuleOutcome outcome = this->Refine(e);
+      EXPECT_NE(outcome, RuleOutcome::Contended) << "nobody holds anything any more";
+      changed += outcome == RuleOutcome::Changed ? 1 : 0;
       mesh.Unlock(this->One.Kernel);
     }
   }
@@ -160,7 +160,7 @@ TEST_F(RulesInContention, APutOffRemovalBringsUpOthers)
   this->One.PendingRemovals.push_back({ first, z, 1.0 });
   while (!this->One.PendingRemovals.empty())
   {
-    EXPECT_NE(this->Rules.RemovePending(), Verdict::Contended);
+    EXPECT_NE(this->Rules.RemovePending(), RuleOutcome::Contended);
     mesh.Unlock(this->One.Kernel);
   }
   EXPECT_FALSE(mesh.GetVertex(first).Alive);
@@ -199,26 +199,26 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
         ASSERT_TRUE(mesh.TryLock(this->Two.Kernel, v));
       }
     }
-    const Verdict verdict = this->Refine(e);
+    const RuleOutcome outcome = this->Refine(e);
     mesh.Unlock(this->One.Kernel);
     while (!this->One.PendingRemovals.empty())
     {
       ++putOff;
       const PendingRemoval pending = this->One.PendingRemovals.back();
-      EXPECT_EQ(verdict, Verdict::Changed);
+      EXPECT_EQ(outcome, RuleOutcome::Changed);
       EXPECT_EQ(mesh.GetVertex(pending.Vertex).Kind, VertexKind::Free);
       EXPECT_TRUE(mesh.GetVertex(pending.Vertex).Alive);
       EXPECT_EQ(mesh.GetVertex(pending.Feature).Kind, VertexKind::Feature);
       EXPECT_LT(
         Distance(mesh.Position(pending.Vertex), mesh.Position(pending.Feature)), pending.Radius);
       const std::size_t before = this->One.PendingRemovals.size();
-      EXPECT_EQ(this->Rules.RemovePending(), Verdict::Contended);
+      EXPECT_EQ(this->Rules.RemovePending(), RuleOutcome::Contended);
       EXPECT_EQ(this->One.Kernel.Winner, 2);
       EXPECT_EQ(this->One.PendingRemovals.size(), before) << "not to be forgotten";
       mesh.Unlock(this->One.Kernel);
       ExpectSound(mesh);
       mesh.Unlock(this->Two.Kernel);
-      EXPECT_EQ(this->Rules.RemovePending(), Verdict::Changed);
+      EXPECT_EQ(this->Rules.RemovePending(), RuleOutcome::Changed);
       mesh.Unlock(this->One.Kernel);
       EXPECT_FALSE(mesh.GetVertex(pending.Vertex).Alive);
       ExpectSoundAndUnlocked(mesh);
@@ -232,7 +232,7 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
       }
       // Once more: the vertex is gone, so there is nothing to do.
       this->One.PendingRemovals.push_back(pending);
-      EXPECT_EQ(this->Rules.RemovePending(), Verdict::Good);
+      EXPECT_EQ(this->Rules.RemovePending(), RuleOutcome::Good);
       mesh.Unlock(this->One.Kernel);
       EXPECT_EQ(this->One.PendingRemovals.size(), after);
     }

@@ -125,9 +125,9 @@ private:
     unsigned Gifts = 0;
   };
 
-  static Topology FourSockets(unsigned threads)
+  static ProcessorTopology FourSockets(unsigned threads)
   {
-    Topology topology = FlatTopology(threads);
+    ProcessorTopology topology = FlatTopology(threads);
     for (unsigned t = 0; t < threads; ++t)
     {
       topology.Group[t] = { t * 4 / threads, t * 2 / threads, 0 };
@@ -250,7 +250,7 @@ private:
 
   const Workload Load;
   const std::uint64_t Seed;
-  const Topology Topo;
+  const ProcessorTopology Topo;
   std::unique_ptr<ContentionManager> Contention;
   std::unique_ptr<LoadBalancer> Balance;
   std::vector<Token> Tokens;

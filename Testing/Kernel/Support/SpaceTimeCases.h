@@ -103,7 +103,7 @@ inline void ExpectGood(
   for (const unsigned end : { 0u, 1u })
   {
     const double time = end == 0 ? 0.0 : last;
-    if (!image.IsCutInTime(end))
+    if (!image.ReachesBorderInTime(end))
     {
       EXPECT_GT(std::abs((end == 0 ? from : to) - time), 0.0);
       EXPECT_TRUE(EndVolumes(mesh, time).empty());

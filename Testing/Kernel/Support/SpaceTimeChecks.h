@@ -257,8 +257,8 @@ inline std::vector<std::size_t> LateralFacets(const SimplexMesh<4>& mesh, const 
   std::vector<std::size_t> lateral;
   for (std::size_t k = 0; k < mesh.Facets.size(); ++k)
   {
-    const bool onEnd = (domain.IsFlatEnd(0) && LiesAt(mesh, mesh.Facets[k], box.Min[3])) ||
-      (domain.IsFlatEnd(1) && LiesAt(mesh, mesh.Facets[k], box.Max[3]));
+    const bool onEnd = (domain.HasTimeBorder(0) && LiesAt(mesh, mesh.Facets[k], box.Min[3])) ||
+      (domain.HasTimeBorder(1) && LiesAt(mesh, mesh.Facets[k], box.Max[3]));
     if (!onEnd)
     {
       lateral.push_back(k);

@@ -5,7 +5,7 @@
 #define voxplex_TriangulationStorm_h
 
 #include "Delaunay/Triangulation.h"
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
@@ -58,9 +58,9 @@ public:
   using Team = std::vector<typename Kernel::Worker*>;
 
   /** From now on threads that would wait help, with whatever there is to do. */
-  void HelpEachOther(HelpDesk& desk, Team& team)
+  void HelpEachOther(LoopSharing& sharing, Team& team)
   {
-    this->Worker.Help.Desk = &desk;
+    this->Worker.Help.Sharing = &sharing;
     this->Worker.Help.Number = static_cast<unsigned>(team.size());
     this->Worker.Help.Team = &team;
     this->Worker.Help.FewestSimplices = 1;
@@ -72,9 +72,9 @@ public:
   /** Helps until all threads have done what is theirs. */
   void HelpOthers(const std::atomic<unsigned>& working)
   {
-    while (this->Worker.Help.Desk && working != 0)
+    while (this->Worker.Help.Sharing && working != 0)
     {
-      this->Worker.Help.Desk->HelpUntil(
+      this->Worker.Help.Sharing->HelpUntil(
         this->Worker.Help.Number, [&working]() { return working == 0; });
     }
   }
@@ -148,10 +148,10 @@ private:
     this->T.Unlock(this->Worker);
     ++this->Contended;
     ++this->LostInARow;
-    if (this->Worker.Help.Desk)
+    if (this->Worker.Help.Sharing)
     {
       unsigned looks = static_cast<unsigned>(this->Random() % 64);
-      this->Worker.Help.Desk->HelpUntil(
+      this->Worker.Help.Sharing->HelpUntil(
         this->Worker.Help.Number, [&looks]() { return looks-- == 0; });
     }
     std::this_thread::yield();
@@ -354,11 +354,11 @@ private:
   std::uint64_t LostInARow = 0; ///< rollbacks of the operation under way
 };
 
-/** All points, each for one thread, or each for all if shared. At a desk threads help each other. */
+/** All points, each for one thread, or each for all if shared. At a sharing threads help each other. */
 template <int D>
 std::vector<std::unique_ptr<StormThread<D>>> Storm(Triangulation<D>& t,
   const std::vector<Point<D>>& points, double size, unsigned threads, bool shared = false,
-  HelpDesk* desk = nullptr, OnBox onBox = OnBox::Stays)
+  LoopSharing* sharing = nullptr, OnBox onBox = OnBox::Stays)
 {
   typename StormThread<D>::Team team;
   std::vector<std::unique_ptr<StormThread<D>>> storm;
@@ -374,9 +374,9 @@ std::vector<std::unique_ptr<StormThread<D>>> Storm(Triangulation<D>& t,
   }
   for (const auto& thread : storm)
   {
-    if (desk)
+    if (sharing)
     {
-      thread->HelpEachOther(*desk, team);
+      thread->HelpEachOther(*sharing, team);
     }
   }
   std::atomic<unsigned> working{ threads };
@@ -421,13 +421,13 @@ void ExpectTriangulationOf(const Triangulation<D>& t, const std::vector<Point<D>
 /** A storm, and all that can be said of its result. @return how often threads met */
 template <int D>
 std::uint64_t StormAndCheck(const std::vector<Point<D>>& points, double size, unsigned threads,
-  bool brute = false, HelpDesk* desk = nullptr, OnBox onBox = OnBox::Stays)
+  bool brute = false, LoopSharing* sharing = nullptr, OnBox onBox = OnBox::Stays)
 {
   SCOPED_TRACE(std::to_string(threads) + " threads, " + std::to_string(points.size()) + " points");
   Triangulation<D> t(UnitBox<D>(size));
   std::vector<Point<D>> survivors;
   std::uint64_t contended = 0;
-  for (const auto& thread : Storm(t, points, size, threads, false, desk, onBox))
+  for (const auto& thread : Storm(t, points, size, threads, false, sharing, onBox))
   {
     const std::vector<Point<D>> own = thread->Survivors();
     survivors.insert(survivors.end(), own.begin(), own.end());

@@ -54,7 +54,7 @@ double LargestDistanceOutside(const SimplexMesh<3>& mesh, const GridGeometry<3>&
 
 //------------------------------------------------------------------------------------------------
 // Where axes meet at acute angles another face may be nearer along a diagonal than along an axis; labels go on there.
-TEST(CutFaceBounds, HoldWhereEdgesAreLookedFor)
+TEST(BorderBounds, HoldWhereEdgesAreLookedFor)
 {
   for (const double shear : { 0.0, 1.0, 2.0, -2.5, 4.0 })
   {
@@ -77,7 +77,7 @@ TEST(CutFaceBounds, HoldWhereEdgesAreLookedFor)
       const Point<3> p = grid.ToFrame(index);
       const double reach = 1.0 + 0.001 * i;
       Point<3> z;
-      if (domain.NearCutEdge(p, reach, z))
+      if (domain.FindBorderEdge(p, reach, z))
       {
         ++found;
         ASSERT_LT(checks::DistanceOutside(grid, z), 1e-9);
@@ -89,7 +89,7 @@ TEST(CutFaceBounds, HoldWhereEdgesAreLookedFor)
   }
 }
 
-TEST(CutFaceBounds, HoldInRefinement)
+TEST(BorderBounds, HoldInRefinement)
 {
   for (const double shear : { 1.0, 2.0, 3.0, -2.5 })
   {
@@ -111,7 +111,7 @@ TEST(CutFaceBounds, HoldInRefinement)
 }
 
 // Vertices of edges and junctions are nudged, on their cut faces or near them, but none through another one.
-TEST(CutFaceBounds, HoldInOptimisation)
+TEST(BorderBounds, HoldInOptimisation)
 {
   OptimisationOptions eager;
   eager.SmallestDihedralAngle = 40.0;
@@ -125,7 +125,7 @@ TEST(CutFaceBounds, HoldInOptimisation)
     for (const double delta : { 3.0, 5.0 })
     {
       SimplexMesh<3> mesh = Mesh(image, delta, false);
-      EXPECT_GT(OptimiseMesh(mesh, domain, eager, 1).Smoothing.Nudges, 20u);
+      EXPECT_GT(OptimiseMesh(mesh, domain, eager, 1).Smoothing.MovesOffInterfaces, 20u);
       EXPECT_TRUE(checks::Complaints(mesh).empty());
       EXPECT_LT(LargestDistanceOutside(mesh, grid), 1e-5)
         << "shear " << shear << ", delta " << delta;

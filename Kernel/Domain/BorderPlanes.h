@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file CutPlanes.h
+ * @file BorderPlanes.h
  * @brief The planes on which an image's border cuts the object, and what they do to labels and margins.
  */
-#ifndef voxplex_CutPlanes_h
-#define voxplex_CutPlanes_h
+#ifndef voxplex_BorderPlanes_h
+#define voxplex_BorderPlanes_h
 
 #include "Image/LabelImage.h"
 
@@ -19,7 +19,7 @@ namespace voxplex
 {
 
 /**
- * @brief Where the border of a 3D image cuts the object (LabelImage::IsCut): one plane for each such face of the image.
+ * @brief Where the border of a 3D image cuts the object (LabelImage::ReachesBorder): one plane for each such face of the image.
  *
  * They lie half a voxel outside of the outermost voxel centres. A field whose labels go on beyond them asks here what
  * becomes of a margin there. This is constructive solid geometry: the object is the intersection of what goes on and
@@ -31,19 +31,19 @@ namespace voxplex
  * Immutable after construction: all methods are const and safe to call from any thread, and take O(D).
  */
 template <int D>
-class CutPlanes
+class BorderPlanes
 {
 public:
-  /** @param image not referenced afterwards; one with time is not cut (IsCutInTime is something else) */
-  explicit CutPlanes(const LabelImage<D>& image)
+  /** @param image not referenced afterwards; one with time is not cut (ReachesBorderInTime is something else) */
+  explicit BorderPlanes(const LabelImage<D>& image)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t a = 0; a < D; ++a)
     {
-      this->At[0][a] = image.IsCut(a, 0) ? 0.5 : -infinity;
+      this->At[0][a] = image.ReachesBorder(a, 0) ? 0.5 : -infinity;
       this->At[1][a] =
-        image.IsCut(a, 1) ? static_cast<double>(image.CropDimensions()[a]) + 0.5 : infinity;
-      this->Any = this->Any || image.IsCut(a, 0) || image.IsCut(a, 1);
+        image.ReachesBorder(a, 1) ? static_cast<double>(image.CropDimensions()[a]) + 0.5 : infinity;
+      this->Any = this->Any || image.ReachesBorder(a, 0) || image.ReachesBorder(a, 1);
     }
   }
 

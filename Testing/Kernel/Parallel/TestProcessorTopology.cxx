@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/HardwareCounters.h"
-#include "Parallel/Topology.h"
-#include "Parallel/TopologyDiscovery.h"
+#include "Parallel/ProcessorTopology.h"
+#include "Parallel/ProcessorTopologyDiscovery.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace
 
 using Groups = std::vector<unsigned>;
 
-Groups GroupsOfLevel(const Topology& topology, unsigned level)
+Groups GroupsOfLevel(const ProcessorTopology& topology, unsigned level)
 {
   Groups groups;
   for (const auto& group : topology.Group)
@@ -36,7 +36,7 @@ Groups GroupsOfLevel(const Topology& topology, unsigned level)
 }
 
 /** Threads of one group are in one group on all higher levels, and all in group 0 of the last. */
-void ExpectNested(const Topology& topology)
+void ExpectNested(const ProcessorTopology& topology)
 {
   for (const auto& a : topology.Group)
   {
@@ -57,9 +57,9 @@ void ExpectNested(const Topology& topology)
 
 } // namespace
 
-TEST(Topology, Flat)
+TEST(ProcessorTopology, Flat)
 {
-  const Topology flat = FlatTopology(5);
+  const ProcessorTopology flat = FlatTopology(5);
   EXPECT_EQ(GroupsOfLevel(flat, 0), Groups(5, 0));
   EXPECT_EQ(GroupsOfLevel(flat, 1), Groups(5, 0));
   EXPECT_EQ(GroupsOfLevel(flat, 2), Groups(5, 0));
@@ -67,10 +67,10 @@ TEST(Topology, Flat)
   EXPECT_FALSE(PinThisThread(flat, 0));
 }
 
-TEST(Topology, CoresFirstThenHyperthreadsThenRoundAgain)
+TEST(ProcessorTopology, CoresFirstThenHyperthreadsThenRoundAgain)
 {
   VOXPLEX_NEEDS_HWLOC();
-  const Topology topology = DescribedTopology("pack:2 numa:1 core:4 pu:2", {}, 20);
+  const ProcessorTopology topology = DescribedTopology("pack:2 numa:1 core:4 pu:2", {}, 20);
   EXPECT_EQ(topology.Processor,
     (Groups{ 0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15, 0, 2, 4, 6 }));
   const Groups sockets = { 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0 };
@@ -79,34 +79,34 @@ TEST(Topology, CoresFirstThenHyperthreadsThenRoundAgain)
   ExpectNested(topology);
 }
 
-TEST(Topology, SocketsInNumaNodes)
+TEST(ProcessorTopology, SocketsInNumaNodes)
 {
   VOXPLEX_NEEDS_HWLOC();
-  const Topology topology = DescribedTopology("numa:2 pack:2 core:2 pu:1", {}, 8);
+  const ProcessorTopology topology = DescribedTopology("numa:2 pack:2 core:2 pu:1", {}, 8);
   EXPECT_EQ(topology.Processor, (Groups{ 0, 1, 2, 3, 4, 5, 6, 7 }));
   EXPECT_EQ(GroupsOfLevel(topology, 0), (Groups{ 0, 0, 1, 1, 2, 2, 3, 3 }));
   EXPECT_EQ(GroupsOfLevel(topology, 1), (Groups{ 0, 0, 0, 0, 1, 1, 1, 1 }));
   ExpectNested(topology);
 }
 
-TEST(Topology, NumaNodesInSockets)
+TEST(ProcessorTopology, NumaNodesInSockets)
 {
   VOXPLEX_NEEDS_HWLOC();
-  const Topology topology = DescribedTopology("pack:2 numa:2 core:2 pu:2", {}, 16);
+  const ProcessorTopology topology = DescribedTopology("pack:2 numa:2 core:2 pu:2", {}, 16);
   EXPECT_EQ(GroupsOfLevel(topology, 0), (Groups{ 0, 0, 1, 1, 2, 2, 3, 3, 0, 0, 1, 1, 2, 2, 3, 3 }));
   EXPECT_EQ(GroupsOfLevel(topology, 1), (Groups{ 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1 }));
   ExpectNested(topology);
 }
 
-TEST(Topology, FewThreadsStayInOneSocket)
+TEST(ProcessorTopology, FewThreadsStayInOneSocket)
 {
   VOXPLEX_NEEDS_HWLOC();
-  const Topology topology = DescribedTopology("pack:2 numa:1 core:4 pu:2", {}, 3);
+  const ProcessorTopology topology = DescribedTopology("pack:2 numa:1 core:4 pu:2", {}, 3);
   EXPECT_EQ(topology.Processor, (Groups{ 0, 2, 4 }));
   EXPECT_EQ(GroupsOfLevel(topology, 0), Groups(3, 0));
 }
 
-TEST(Topology, ForbiddenProcessorsAreLeftOut)
+TEST(ProcessorTopology, ForbiddenProcessorsAreLeftOut)
 {
   VOXPLEX_NEEDS_HWLOC();
   const char* machine = "pack:2 numa:1 core:4 pu:2";
@@ -114,24 +114,24 @@ TEST(Topology, ForbiddenProcessorsAreLeftOut)
   EXPECT_EQ(DescribedTopology(machine, { 1, 3, 8, 10 }, 4).Processor, (Groups{ 1, 3, 8, 10 }));
   EXPECT_EQ(DescribedTopology(machine, { 0, 1, 8 }, 4).Processor, (Groups{ 0, 8, 1, 0 }));
   // Groups are numbered by those that are used.
-  const Topology second = DescribedTopology(machine, { 8, 9 }, 2);
+  const ProcessorTopology second = DescribedTopology(machine, { 8, 9 }, 2);
   EXPECT_EQ(GroupsOfLevel(second, 0), Groups(2, 0));
   EXPECT_EQ(GroupsOfLevel(second, 1), Groups(2, 0));
   EXPECT_TRUE(DescribedTopology(machine, { 99 }, 2).Processor.empty());
 }
 
-TEST(Topology, FlatWhereTheDescriptionMakesNoSense)
+TEST(ProcessorTopology, FlatWhereTheDescriptionMakesNoSense)
 {
-  const Topology topology = DescribedTopology("a heap of sand", {}, 3);
+  const ProcessorTopology topology = DescribedTopology("a heap of sand", {}, 3);
   EXPECT_EQ(GroupsOfLevel(topology, 0), Groups(3, 0));
   EXPECT_TRUE(topology.Processor.empty());
 }
 
-TEST(Topology, ThisMachine)
+TEST(ProcessorTopology, ThisMachine)
 {
   for (const unsigned threads : { 1u, 2u, 7u, 300u })
   {
-    const Topology topology = DiscoverTopology(threads);
+    const ProcessorTopology topology = DiscoverTopology(threads);
     ASSERT_EQ(topology.Group.size(), threads);
     ExpectNested(topology);
     if (CanDiscoverTopology())
@@ -181,7 +181,7 @@ void AllowProcess(const std::vector<unsigned>& processors)
 
 } // namespace
 
-TEST(Topology, HonoursWhatTheProcessMayUse)
+TEST(ProcessorTopology, HonoursWhatTheProcessMayUse)
 {
   VOXPLEX_NEEDS_HWLOC();
   const std::vector<unsigned> allowed = AllowedHere();
@@ -189,7 +189,7 @@ TEST(Topology, HonoursWhatTheProcessMayUse)
   for (const unsigned processor : allowed)
   {
     AllowProcess({ processor });
-    const Topology topology = DiscoverTopology(3);
+    const ProcessorTopology topology = DiscoverTopology(3);
     AllowProcess(allowed);
     EXPECT_EQ(topology.Processor, Groups(3, processor));
   }
@@ -198,12 +198,12 @@ TEST(Topology, HonoursWhatTheProcessMayUse)
   EXPECT_EQ(used, allowed);
 }
 
-TEST(Topology, PinsTheCallingThreadOnly)
+TEST(ProcessorTopology, PinsTheCallingThreadOnly)
 {
   VOXPLEX_NEEDS_HWLOC();
   const std::vector<unsigned> allowed = AllowedHere();
   const unsigned threads = static_cast<unsigned>(allowed.size()) + 1;
-  const Topology topology = DiscoverTopology(threads);
+  const ProcessorTopology topology = DiscoverTopology(threads);
   for (unsigned t = 0; t < threads; ++t)
   {
     std::thread(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Parallel/HelpDesk.h"
+#include "Parallel/LoopSharing.h"
 #include "Parallel/ParkingSpot.h"
 #include "Refinement/ContentionManager.h"
 #include "Refinement/LoadBalancer.h"
@@ -39,20 +39,20 @@ struct Custom : std::exception
 class Helpers
 {
 public:
-  Helpers(HelpDesk& desk, unsigned first, unsigned last)
+  Helpers(LoopSharing& sharing, unsigned first, unsigned last)
   {
     for (unsigned t = first; t < last; ++t)
     {
       this->Threads.emplace_back(
-        [this, &desk, t]()
+        [this, &sharing, t]()
         {
           while (!this->Over)
           {
-            desk.HelpUntil(t, [this]() { return this->Over.load(); });
+            sharing.HelpUntil(t, [this]() { return this->Over.load(); });
           }
         });
     }
-    EXPECT_TRUE(Soon([&desk]() { return desk.SomeoneIdle(); }));
+    EXPECT_TRUE(Soon([&sharing]() { return sharing.SomeoneIdle(); }));
   }
   ~Helpers() { this->Over = true; }
   Helpers(const Helpers&) = delete;
@@ -75,13 +75,13 @@ void WaitFor(const std::atomic<bool>& flag)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(HelpDesk, AloneTheOwnerDoesAllInOnePiece)
+TEST(LoopSharing, AloneTheOwnerDoesAllInOnePiece)
 {
-  HelpDesk desk(3);
-  EXPECT_FALSE(desk.SomeoneIdle());
+  LoopSharing sharing(3);
+  EXPECT_FALSE(sharing.SomeoneIdle());
   unsigned calls = 0;
   bool meanwhile = false;
-  desk.Run(
+  sharing.Run(
     1, 100, 7,
     [&](unsigned thread, std::size_t first, std::size_t last)
     {
@@ -93,17 +93,17 @@ TEST(HelpDesk, AloneTheOwnerDoesAllInOnePiece)
     },
     [&]() { meanwhile = true; });
   EXPECT_EQ(calls, 1u);
-  desk.Run(1, 0, 7, [&](unsigned, std::size_t, std::size_t) { ++calls; });
+  sharing.Run(1, 0, 7, [&](unsigned, std::size_t, std::size_t) { ++calls; });
   EXPECT_EQ(calls, 1u) << "an empty loop";
-  EXPECT_EQ(desk.GetCounts(1).Loops, 0u);
-  EXPECT_EQ(desk.GetCounts(1).Iterations, 0u);
+  EXPECT_EQ(sharing.GetCounts(1).Loops, 0u);
+  EXPECT_EQ(sharing.GetCounts(1).Iterations, 0u);
 }
 
-TEST(HelpDesk, AnIdleThreadTakesChunks)
+TEST(LoopSharing, AnIdleThreadTakesChunks)
 {
   const Watchdog watchdog("an idle thread takes chunks");
-  HelpDesk desk(2, Patient);
-  const Helpers helpers(desk, 1, 2);
+  LoopSharing sharing(2, Patient);
+  const Helpers helpers(sharing, 1, 2);
   for (const std::size_t count : { 1u, 5u, 6u, 7u, 100u })
   {
     std::atomic<bool> taken{ false };
@@ -111,8 +111,8 @@ TEST(HelpDesk, AnIdleThreadTakesChunks)
       count, 99); // plain memory: the sanitizer sees whether it is handed over
     std::vector<unsigned> input(count);
     std::iota(input.begin(), input.end(), 0u);
-    const std::uint64_t before = desk.GetCounts(0).Iterations;
-    desk.Run(
+    const std::uint64_t before = sharing.GetCounts(0).Iterations;
+    sharing.Run(
       0, count, 6,
       [&](unsigned thread, std::size_t first, std::size_t last)
       {
@@ -130,26 +130,26 @@ TEST(HelpDesk, AnIdleThreadTakesChunks)
       [&]() { WaitFor(taken); });
     EXPECT_EQ(std::count(by.begin(), by.end(), 99u), 0);
     EXPECT_EQ(by[0], 1u) << "the owner began only when the helper had";
-    EXPECT_EQ(desk.GetCounts(0).Iterations - before,
+    EXPECT_EQ(sharing.GetCounts(0).Iterations - before,
       static_cast<std::uint64_t>(std::count(by.begin(), by.end(), 1u)));
   }
-  EXPECT_EQ(desk.GetCounts(0).Loops, 5u);
-  EXPECT_EQ(desk.GetCounts(1).Loops, 0u);
+  EXPECT_EQ(sharing.GetCounts(0).Loops, 5u);
+  EXPECT_EQ(sharing.GetCounts(1).Loops, 0u);
 }
 
 // The loop's memory is the owner's stack: a helper that stayed would write to whatever comes there next.
-TEST(HelpDesk, NoHelperIsLeftBehind)
+TEST(LoopSharing, NoHelperIsLeftBehind)
 {
   const Watchdog watchdog("no helper is left behind");
-  HelpDesk desk(2, Patient);
-  const Helpers helpers(desk, 1, 2);
+  LoopSharing sharing(2, Patient);
+  const Helpers helpers(sharing, 1, 2);
   std::atomic<bool> inside{ false };
   std::atomic<bool> mayLeave{ false };
   const Call owner(
     [&]()
     {
       bool written[2] = { false, false };
-      desk.Run(
+      sharing.Run(
         0, 2, 1,
         [&](unsigned thread, std::size_t first, std::size_t)
         {
@@ -170,20 +170,20 @@ TEST(HelpDesk, NoHelperIsLeftBehind)
   EXPECT_TRUE(owner.Value());
 }
 
-TEST(HelpDesk, ManyOwnersAndHelpers)
+TEST(LoopSharing, ManyOwnersAndHelpers)
 {
   const Watchdog watchdog("many owners and helpers");
   constexpr unsigned Owners = 4;
   constexpr unsigned Threads = 8;
-  HelpDesk desk(Threads, 200);
+  LoopSharing sharing(Threads, 200);
   std::atomic<unsigned> rounds{ 0 };
   {
-    const Helpers helpers(desk, Owners, Threads);
+    const Helpers helpers(sharing, Owners, Threads);
     std::vector<std::jthread> owners;
     for (unsigned me = 0; me < Owners; ++me)
     {
       owners.emplace_back(
-        [&desk, &rounds, me]()
+        [&sharing, &rounds, me]()
         {
           std::mt19937 random(me);
           for (unsigned round = 0; round < (Sanitized ? 2000u : 20000u); ++round)
@@ -192,7 +192,7 @@ TEST(HelpDesk, ManyOwnersAndHelpers)
             const auto sums = std::make_unique<std::uint64_t[]>(64);
             const std::size_t count = random() % 64;
             const std::uint64_t salt = random();
-            desk.Run(
+            sharing.Run(
               me, count, 1 + random() % 5,
               [&](unsigned, std::size_t first, std::size_t last)
               {
@@ -217,27 +217,27 @@ TEST(HelpDesk, ManyOwnersAndHelpers)
             if (salt % 4 == 0)
             {
               unsigned looks = 20;
-              desk.HelpUntil(me, [&looks]() { return looks-- == 0; });
+              sharing.HelpUntil(me, [&looks]() { return looks-- == 0; });
             }
           }
         });
     }
   }
   EXPECT_EQ(rounds, Owners * (Sanitized ? 2000u : 20000u));
-  EXPECT_FALSE(desk.SomeoneIdle());
+  EXPECT_FALSE(sharing.SomeoneIdle());
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(HelpDesk, WhatAHelperThrowsReachesTheOwner)
+TEST(LoopSharing, WhatAHelperThrowsReachesTheOwner)
 {
   const Watchdog watchdog("a helper throws");
-  HelpDesk desk(3, Patient);
-  const Helpers helpers(desk, 1, 3);
+  LoopSharing sharing(3, Patient);
+  const Helpers helpers(sharing, 1, 3);
   for (unsigned round = 0; round < 200; ++round)
   {
     std::atomic<bool> thrown{ false };
     std::atomic<unsigned> others{ 0 };
-    EXPECT_THROW(desk.Run(
+    EXPECT_THROW(sharing.Run(
                    0, 1000, 1,
                    [&](unsigned thread, std::size_t, std::size_t)
                    {
@@ -252,24 +252,24 @@ TEST(HelpDesk, WhatAHelperThrowsReachesTheOwner)
       std::bad_alloc);
     EXPECT_LT(others, 1000u) << "a chunk that threw counts as taken";
   }
-  // The desk works on.
+  // The sharing works on.
   std::atomic<unsigned> done{ 0 };
-  desk.Run(0, 10, 1, [&](unsigned, std::size_t, std::size_t) { ++done; });
+  sharing.Run(0, 10, 1, [&](unsigned, std::size_t, std::size_t) { ++done; });
   EXPECT_EQ(done, 10u);
 }
 
-TEST(HelpDesk, WhatTheOwnerThrowsWaitsForTheHelpers)
+TEST(LoopSharing, WhatTheOwnerThrowsWaitsForTheHelpers)
 {
   const Watchdog watchdog("the owner throws");
-  HelpDesk desk(2, Patient);
-  const Helpers helpers(desk, 1, 2);
+  LoopSharing sharing(2, Patient);
+  const Helpers helpers(sharing, 1, 2);
   for (unsigned round = 0; round < 200; ++round)
   {
     const bool inMeanwhile = round % 2 == 0;
     std::atomic<bool> helped{ false };
     std::atomic<bool> thrown{ false };
     bool left = false; // not atomic: written by the helper before it leaves
-    EXPECT_THROW(desk.Run(
+    EXPECT_THROW(sharing.Run(
                    0, 2, 1,
                    [&](unsigned thread, std::size_t, std::size_t)
                    {
@@ -297,40 +297,40 @@ TEST(HelpDesk, WhatTheOwnerThrowsWaitsForTheHelpers)
   }
 }
 
-TEST(HelpDesk, AllMayThrow)
+TEST(LoopSharing, AllMayThrow)
 {
   const Watchdog watchdog("all throw");
-  HelpDesk desk(4, Patient);
-  const Helpers helpers(desk, 1, 4);
+  LoopSharing sharing(4, Patient);
+  const Helpers helpers(sharing, 1, 4);
   for (unsigned round = 0; round < 500; ++round)
   {
     EXPECT_THROW(
-      desk.Run(0, 100, 1, [](unsigned, std::size_t, std::size_t) { throw Custom(); }), Custom);
+      sharing.Run(0, 100, 1, [](unsigned, std::size_t, std::size_t) { throw Custom(); }), Custom);
   }
   std::atomic<unsigned> done{ 0 };
-  desk.Run(0, 10, 1, [&](unsigned, std::size_t, std::size_t) { ++done; });
+  sharing.Run(0, 10, 1, [&](unsigned, std::size_t, std::size_t) { ++done; });
   EXPECT_EQ(done, 10u);
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(HelpDesk, AHelperThatFindsNothingGivesUp)
+TEST(LoopSharing, AHelperThatFindsNothingGivesUp)
 {
   const Watchdog watchdog("a helper gives up");
-  HelpDesk desk(2);
+  LoopSharing sharing(2);
   const Call helper(
     [&]()
     {
-      desk.HelpUntil(1, []() { return false; });
+      sharing.HelpUntil(1, []() { return false; });
       return true;
     });
   EXPECT_TRUE(helper.ReturnsSoon());
-  EXPECT_FALSE(desk.SomeoneIdle());
+  EXPECT_FALSE(sharing.SomeoneIdle());
 }
 
-TEST(HelpDesk, WaitAndHelpEndsWithTheWakeUp)
+TEST(LoopSharing, WaitAndHelpEndsWithTheWakeUp)
 {
   const Watchdog watchdog("wake-up");
-  HelpDesk desk(2, Patient);
+  LoopSharing sharing(2, Patient);
   for (const bool withDesk : { true, false })
   {
     for (unsigned round = 0; round < 200; ++round)
@@ -341,7 +341,7 @@ TEST(HelpDesk, WaitAndHelpEndsWithTheWakeUp)
       const Call waiting(
         [&]()
         {
-          WaitAndHelp(spot, withDesk ? &desk : nullptr, 1);
+          WaitAndHelp(spot, withDesk ? &sharing : nullptr, 1);
           return written == 1;
         });
       if (round % 3 == 1)
@@ -358,34 +358,34 @@ TEST(HelpDesk, WaitAndHelpEndsWithTheWakeUp)
       EXPECT_TRUE(waiting.Value());
     }
   }
-  EXPECT_FALSE(desk.SomeoneIdle());
+  EXPECT_FALSE(sharing.SomeoneIdle());
 }
 
 namespace
 {
 
 /** Runs a loop of thread 0 in which thread 1, which waits somewhere, does a part. */
-void ExpectHelp(HelpDesk& desk)
+void ExpectHelp(LoopSharing& sharing)
 {
-  EXPECT_TRUE(Soon([&]() { return desk.SomeoneIdle(); }));
+  EXPECT_TRUE(Soon([&]() { return sharing.SomeoneIdle(); }));
   std::atomic<bool> taken{ false };
-  desk.Run(
+  sharing.Run(
     0, 8, 1, [&](unsigned thread, std::size_t, std::size_t) { taken = taken || thread == 1; },
     [&]() { WaitFor(taken); });
-  EXPECT_GT(desk.GetCounts(0).Iterations, 0u);
+  EXPECT_GT(sharing.GetCounts(0).Iterations, 0u);
 }
 
 } // namespace
 
-TEST(HelpDesk, WhoBegsForWorkHelps)
+TEST(LoopSharing, WhoBegsForWorkHelps)
 {
   const Watchdog watchdog("beg and help");
   for (const BalancePolicy policy : { BalancePolicy::Random, BalancePolicy::Hierarchical })
   {
-    HelpDesk desk(2, Patient);
-    const auto balancer = MakeLoadBalancer(policy, FlatTopology(2), &desk);
+    LoopSharing sharing(2, Patient);
+    const auto balancer = MakeLoadBalancer(policy, FlatTopology(2), &sharing);
     const Call beggar([&]() { return balancer->Beg(1); });
-    ExpectHelp(desk);
+    ExpectHelp(sharing);
     EXPECT_FALSE(beggar.Returned());
     EXPECT_TRUE(Soon([&]() { return balancer->SomeoneBegs(); }));
     EXPECT_EQ(balancer->TakeBeggar(0).Thread, 1u);
@@ -395,15 +395,15 @@ TEST(HelpDesk, WhoBegsForWorkHelps)
   }
 }
 
-TEST(HelpDesk, WhoLostAVertexHelps)
+TEST(LoopSharing, WhoLostAVertexHelps)
 {
   const Watchdog watchdog("lose and help");
   for (const ContentionPolicy policy : { ContentionPolicy::Global, ContentionPolicy::Local })
   {
-    HelpDesk desk(2, Patient);
-    const auto manager = MakeContentionManager(policy, 2, &desk);
+    LoopSharing sharing(2, Patient);
+    const auto manager = MakeContentionManager(policy, 2, &sharing);
     const Call loser([&]() { return manager->RollbackOccurred(1, 0); });
-    ExpectHelp(desk);
+    ExpectHelp(sharing);
     EXPECT_FALSE(loser.Returned());
     for (unsigned success = 0; success < 10; ++success)
     {
@@ -415,14 +415,14 @@ TEST(HelpDesk, WhoLostAVertexHelps)
 }
 
 // A run is stopped while threads wait and help: all end, the owner's loop too.
-TEST(HelpDesk, Stop)
+TEST(LoopSharing, Stop)
 {
   const Watchdog watchdog("stop");
   for (unsigned round = 0; round < 200; ++round)
   {
-    HelpDesk desk(4, Patient);
-    const auto balancer = MakeLoadBalancer(BalancePolicy::Random, FlatTopology(4), &desk);
-    const auto manager = MakeContentionManager(ContentionPolicy::Local, 4, &desk);
+    LoopSharing sharing(4, Patient);
+    const auto balancer = MakeLoadBalancer(BalancePolicy::Random, FlatTopology(4), &sharing);
+    const auto manager = MakeContentionManager(ContentionPolicy::Local, 4, &sharing);
     std::atomic<unsigned> done{ 0 };
     {
       std::vector<std::jthread> waiting;
@@ -434,7 +434,7 @@ TEST(HelpDesk, Stop)
         {
           for (unsigned loop = 0; loop < 20; ++loop)
           {
-            desk.Run(0, 20, 1,
+            sharing.Run(0, 20, 1,
               [&](unsigned, std::size_t first, std::size_t last)
               { done += static_cast<unsigned>(last - first); });
           }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file Topology.h
+ * @file ProcessorTopology.h
  * @brief Which threads are near each other.
  */
-#ifndef voxplex_Topology_h
-#define voxplex_Topology_h
+#ifndef voxplex_ProcessorTopology_h
+#define voxplex_ProcessorTopology_h
 
 #include <array>
 #include <vector>
@@ -20,7 +20,7 @@ namespace voxplex
  * { socket, 0, 0 } if neither does. Numbers are unique on a level and begin with 0. Threads of one
  * group on a level are in one group on all higher levels; Group[t][2] is 0 for all.
  */
-struct Topology
+struct ProcessorTopology
 {
   static constexpr unsigned Levels = 3;
   std::vector<std::array<unsigned, Levels>> Group;
@@ -29,14 +29,14 @@ struct Topology
 };
 
 /** All threads in one socket. */
-Topology FlatTopology(unsigned threads);
+ProcessorTopology FlatTopology(unsigned threads);
 
 /**
  * Spreads the threads over the processors that this process may use, filling one socket after the
  * other; cores first, then their second hyper-threads; more threads than processors go round. Flat
  * where the machine's topology is not known. Thread-safe. Never throws but std::bad_alloc.
  */
-Topology DiscoverTopology(unsigned threads);
+ProcessorTopology DiscoverTopology(unsigned threads);
 
 /**
  * Keeps the calling thread on the processor of thread t, for the rest of its life: meant for
@@ -44,7 +44,7 @@ Topology DiscoverTopology(unsigned threads);
  * processor in the eyes of the next DiscoverTopology().)
  * @return false where that is not possible
  */
-bool PinThisThread(const Topology& topology, unsigned t);
+bool PinThisThread(const ProcessorTopology& topology, unsigned t);
 
 } // namespace voxplex
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file RuleVocabulary.h
+ * @file RefinementRules.h
  * @brief What the rules of 3D and 4D are written in: circumballs, closest feature points, insertions.
  */
-#ifndef voxplex_RuleVocabulary_h
-#define voxplex_RuleVocabulary_h
+#ifndef voxplex_RefinementRules_h
+#define voxplex_RefinementRules_h
 
 #include "Refinement/RefinementContext.h"
 
@@ -27,7 +27,7 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  *
  * Rules (the derived class) has `bool MayBePoor(SimplexId)`, by which new simplices are screened.
  *
- * **Flat ends** (Domain::IsFlatEnd, in 4D). Elements near such an end are good if no vertex lies near it
+ * **Flat ends** (Domain::HasTimeBorder, in 4D). Elements near such an end are good if no vertex lies near it
  * without being on it, and none of the end's vertices near an interface without being on that. So
  * - a circumcentre beyond the end or near it is moved onto it; a feature point near it is moved to where
  *   the interface meets the end;
@@ -41,12 +41,12 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * those of R1, which keep Delta(z) from each other. There is no input on which refinement does not end.
  */
 template <int D, typename Rules>
-class RuleVocabulary
+class RefinementRules
 {
 public:
   static constexpr int Dimension = D;
 
-  RuleVocabulary(RefinementContext<D>& context, RefinementWorker<D>& worker)
+  RefinementRules(RefinementContext<D>& context, RefinementWorker<D>& worker)
     : Context(context)
     , Worker(worker)
   {
@@ -87,8 +87,8 @@ public:
     {
       this->Context.Mesh.Lock( // nobody else operates, so it succeeds
         this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
-      this->InsertFeature(
-        seed.Position, seed.Delta, 0.0, conflict, None, this->Worker.Statistics.Fired[0]);
+      this->InsertFeature(seed.Position, seed.Delta, 0.0, conflict, None,
+        this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
       near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
     }
   }
@@ -97,15 +97,15 @@ public:
    * Tries the last of the worker's pending removals again. The vertex may be another one by now; then it
    * goes if it, too, is a free one so near. What its removal brings up goes after it.
    */
-  Verdict RemovePending()
+  RuleOutcome RemovePending()
   {
     const PendingRemoval pending = this->Worker.PendingRemovals.back();
     if (!this->Context.Mesh.TryLock(this->Worker.Kernel, pending.Vertex))
     {
-      return Verdict::Contended;
+      return RuleOutcome::Contended;
     }
     const Vertex& vertex = this->Context.Mesh.GetVertex(pending.Vertex);
-    Verdict verdict = Verdict::Good;
+    RuleOutcome verdict = RuleOutcome::Good;
     if (vertex.Alive && vertex.Kind == VertexKind::Free &&
       Distance2(vertex.Position, this->Context.Mesh.Position(pending.Feature)) <
         pending.Radius * pending.Radius)
@@ -113,12 +113,12 @@ public:
       const RemovalOutcome outcome = this->Remove(pending.Vertex);
       if (outcome == RemovalOutcome::Contended)
       {
-        return Verdict::Contended;
+        return RuleOutcome::Contended;
       }
-      verdict = outcome == RemovalOutcome::Removed ? Verdict::Changed : Verdict::Good;
+      verdict = outcome == RemovalOutcome::Removed ? RuleOutcome::Changed : RuleOutcome::Good;
     }
     this->Worker.PendingRemovals.pop_back();
-    if (verdict == Verdict::Changed)
+    if (verdict == RuleOutcome::Changed)
     {
       this->ToRemove.clear();
       this->FindVerticesToRemove(pending.Feature, pending.Radius);
@@ -243,46 +243,47 @@ protected:
   }
 
   /** R1 and R2 (thesis, sections 3.1 and 4.2). */
-  Verdict SampleInterface(const Element& t)
+  RuleOutcome SampleInterface(const Element& t)
   {
     if (!this->Context.Mesh.State(t.Id).NearSurface || this->IsSampled(t))
     {
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
     Point<D> z;
     ++this->Worker.Statistics.ClosestSurfacePointCalls;
     if (!this->Context.Image.ClosestSurfacePoint(t.Ball.Center, t.Label, z) ||
       Distance2(z, t.Ball.Center) > t.Ball.Radius2)
     {
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
     const double delta = this->DeltaBehind(t, z);
-    const Verdict verdict = this->R1(t, z, delta);
-    return verdict == Verdict::Good ? this->R2(t, delta) : verdict;
+    const RuleOutcome verdict = this->R1(t, z, delta);
+    return verdict == RuleOutcome::Good ? this->R2(t, delta) : verdict;
   }
 
-  Verdict R1(const Element& t, const Point<D>& z, double delta)
+  RuleOutcome R1(const Element& t, const Point<D>& z, double delta)
   {
     if (this->FeatureVertexNear(t, z, delta))
     {
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
-    std::uint64_t& fired = this->Worker.Statistics.Fired[0];
+    std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling];
     Point<D> snapped;
     if (!this->SnapToEnd(z, delta, snapped))
     {
       return this->InsertFeature(z, delta, delta, t.Id, None, fired);
     }
     return this->FeatureVertexNear(t, snapped, delta)
-      ? Verdict::Good
+      ? RuleOutcome::Good
       : this->InsertFeature(snapped, delta, delta, t.Id, None, fired);
   }
 
-  Verdict R2(const Element& t, double delta)
+  RuleOutcome R2(const Element& t, double delta)
   {
     return t.Radius >= 2.0 * delta
-      ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[1], delta)
-      : Verdict::Good;
+      ? this->InsertCircumcentre(
+          t, this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceBall], delta)
+      : RuleOutcome::Good;
   }
 
   bool HasBadRatio(const Element& t) const
@@ -358,7 +359,7 @@ protected:
    * Inserts c(t), or its projection onto the box or onto a flat end that is near.
    * @param deltaBeside Delta(z) of the interface for whose sake it is inserted: that is how near points may be needed
    */
-  Verdict InsertCircumcentre(const Element& t, std::uint64_t& fired,
+  RuleOutcome InsertCircumcentre(const Element& t, std::uint64_t& fired,
     double deltaBeside = std::numeric_limits<double>::infinity())
   {
     const Place place = this->PlaceOf(t.Ball.Center, CentreMargin * t.Radius);
@@ -371,7 +372,7 @@ protected:
       std::min(deltaBeside, this->Context.Sizing.Spacing(place.Position, t.Label));
     if (this->YieldingAt(place.Position, spacing) == Yielding::All)
     {
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
     if (place.OnEnd && this->Context.Image.ClosestSurfacePointOnEnd(place.Position, z) &&
       Distance2(z, place.Position) < InterfaceMargin * InterfaceMargin * delta * delta)
@@ -383,8 +384,8 @@ protected:
       place.Moved ? SpacingFloorFraction * this->Context.Sizing.Spacing(place.Position) : 0.0;
     const InsertionOutcome outcome =
       this->Context.Mesh.Insert(this->Worker.Kernel, place.Position, place.Kind, t.Id, clearance);
-    const Verdict verdict = this->CountOutcome(outcome, fired);
-    if (verdict == Verdict::Changed)
+    const RuleOutcome verdict = this->CountOutcome(outcome, fired);
+    if (verdict == RuleOutcome::Changed)
     {
       this->CountWork(place.Position, spacing);
       this->Worker.Statistics.Projected += place.Moved ? 1 : 0;
@@ -396,21 +397,21 @@ protected:
   /**
    * Inserts a feature point and removes the free vertices near it. Nothing is nearer to z than the
    * clearance but for what another thread has inserted meanwhile.
-   * @param judge may be null
+   * @param veto may be null
    */
-  Verdict InsertFeature(const Point<D>& z, double delta, double clearance, SimplexId seed,
-    SimplexId otherSeed, std::uint64_t& fired, typename Mesh::Judge* judge = nullptr)
+  RuleOutcome InsertFeature(const Point<D>& z, double delta, double clearance, SimplexId seed,
+    SimplexId otherSeed, std::uint64_t& fired, typename Mesh::InsertionVeto* veto = nullptr)
   {
     Mesh& mesh = this->Context.Mesh;
     InsertionOutcome outcome =
-      mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, seed, clearance, judge);
+      mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, seed, clearance, veto);
     if (outcome == InsertionOutcome::NoConflict && otherSeed != None)
     {
       outcome =
-        mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, otherSeed, clearance, judge);
+        mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, otherSeed, clearance, veto);
     }
-    const Verdict verdict = this->CountOutcome(outcome, fired);
-    if (verdict == Verdict::Changed)
+    const RuleOutcome verdict = this->CountOutcome(outcome, fired);
+    if (verdict == RuleOutcome::Changed)
     {
       const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
       this->CountWork(z, spacing);
@@ -425,14 +426,14 @@ protected:
   }
 
   /** Inserts a feature point of a flat end, unless it would crowd the others. */
-  Verdict InsertFeatureOnEnd(
+  RuleOutcome InsertFeatureOnEnd(
     const Point<D>& z, double delta, const Element& t, SimplexId otherSeed, std::uint64_t& fired)
   {
     const double spacing = EndSpacing * delta;
     if (this->FeatureVertexNear(t, z, spacing))
     {
       ++this->Worker.Statistics.RefusedTooClose;
-      return Verdict::Good;
+      return RuleOutcome::Good;
     }
     return this->InsertFeature(z, delta, spacing, t.Id, otherSeed, fired);
   }
@@ -465,8 +466,8 @@ private:
     for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
     {
       const bool time = a + 1 == static_cast<std::size_t>(D);
-      if ((p[a] == box.Min[a] && !(time && this->Context.IsFlatEnd[0])) ||
-        (p[a] == box.Max[a] && !(time && this->Context.IsFlatEnd[1])))
+      if ((p[a] == box.Min[a] && !(time && this->Context.HasTimeBorder[0])) ||
+        (p[a] == box.Max[a] && !(time && this->Context.HasTimeBorder[1])))
       {
         return true;
       }
@@ -569,7 +570,7 @@ protected:
     }
   }
 
-  Verdict CountOutcome(InsertionOutcome outcome, std::uint64_t& fired)
+  RuleOutcome CountOutcome(InsertionOutcome outcome, std::uint64_t& fired)
   {
     RuleStatistics& statistics = this->Worker.Statistics;
     switch (outcome)
@@ -579,22 +580,22 @@ protected:
         statistics.CavitySimplices += this->Worker.Kernel.Deleted.Size();
         statistics.LargestCavity =
           std::max<std::uint64_t>(statistics.LargestCavity, this->Worker.Kernel.Deleted.Size());
-        return Verdict::Changed;
+        return RuleOutcome::Changed;
       case InsertionOutcome::NoConflict:
         ++statistics.RefusedNoConflict;
-        return Verdict::Good;
+        return RuleOutcome::Good;
       case InsertionOutcome::Duplicate:
         ++statistics.RefusedDuplicate;
-        return Verdict::Good;
+        return RuleOutcome::Good;
       case InsertionOutcome::TooClose:
         ++statistics.RefusedTooClose;
-        return Verdict::Good;
+        return RuleOutcome::Good;
       case InsertionOutcome::Rejected:
-        return Verdict::Good;
+        return RuleOutcome::Good;
       case InsertionOutcome::Contended:
-        return Verdict::Contended;
+        return RuleOutcome::Contended;
     }
-    return Verdict::Good;
+    return RuleOutcome::Good;
   }
 
   RefinementContext<D>& Context;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file CutEdges.h
+ * @file BorderEdges.h
  * @brief Internal to ImageDomain: where interfaces meet the faces on which the image cuts the object.
  */
-#ifndef voxplex_CutEdges_h
-#define voxplex_CutEdges_h
+#ifndef voxplex_BorderEdges_h
+#define voxplex_BorderEdges_h
 
 #include "Image/GridGeometry.h"
 
@@ -21,16 +21,16 @@ namespace voxplex
  * there is none, along the axes and diagonals of the face.
  */
 template <typename Field>
-class CutEdgeSearch
+class BorderEdgeSearch
 {
 public:
   /**
    * @param field a LabelField<3> or ScalarField<3>
-   * @param x on the faces (bits as of CutPlanes), lattice coordinates
+   * @param x on the faces (bits as of BorderPlanes), lattice coordinates
    * @param reach how far away, in the frame, the point may be
    */
-  CutEdgeSearch(const Field& field, const GridGeometry<3>& grid, const Point<3>& x, unsigned faces,
-    double reach)
+  BorderEdgeSearch(const Field& field, const GridGeometry<3>& grid, const Point<3>& x,
+    unsigned faces, double reach)
     : Image(field)
     , Grid(grid)
     , From(x)
@@ -45,7 +45,7 @@ public:
   {
     for (unsigned face = 0; face < 6; ++face)
     {
-      const Point<3> y = this->Image.Cuts().MoveOnto(this->From, 1u << face);
+      const Point<3> y = this->Image.Borders().MoveOnto(this->From, 1u << face);
       if (!((this->Faces >> face) & 1) && std::isfinite(y[face / 2]) &&
         this->Image.ExtendedLabelAt(y) != 0)
       {
@@ -83,7 +83,7 @@ private:
   {
     const Point<3> step = this->Grid.ToFrame(Subtract(y, this->From));
     const double distance = std::sqrt(Dot(step, step));
-    if (distance <= this->Reach && this->Image.Cuts().Distance(y) >= -Field::RootTolerance)
+    if (distance <= this->Reach && this->Image.Borders().Distance(y) >= -Field::RootTolerance)
     {
       this->Reach = distance;
       this->Nearest = y;

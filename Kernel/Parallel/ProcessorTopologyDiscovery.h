@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file TopologyDiscovery.h
- * @brief Topologies of machines that are not there. Private to Topology.cxx and its test.
+ * @file ProcessorTopologyDiscovery.h
+ * @brief Topologies of machines that are not there. Private to ProcessorTopology.cxx and its test.
  */
-#ifndef voxplex_TopologyDiscovery_h
-#define voxplex_TopologyDiscovery_h
+#ifndef voxplex_ProcessorTopologyDiscovery_h
+#define voxplex_ProcessorTopologyDiscovery_h
 
-#include "Parallel/Topology.h"
+#include "Parallel/ProcessorTopology.h"
 
 #include <string>
 #include <vector>
@@ -26,7 +26,7 @@ bool CanDiscoverTopology();
  *   means all
  * @return the flat topology if hwloc does not understand the description or was not built in
  */
-Topology DescribedTopology(
+ProcessorTopology DescribedTopology(
   const std::string& description, const std::vector<unsigned>& allowed, unsigned threads);
 
 } // namespace voxplex

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Parallel/Topology.h"
+#include "Parallel/ProcessorTopology.h"
 
-#include "Parallel/TopologyDiscovery.h"
+#include "Parallel/ProcessorTopologyDiscovery.h"
 
 #ifdef VOXPLEX_HAVE_HWLOC
 #include <hwloc.h>
@@ -16,9 +16,9 @@
 namespace voxplex
 {
 
-Topology FlatTopology(unsigned threads)
+ProcessorTopology FlatTopology(unsigned threads)
 {
-  Topology flat;
+  ProcessorTopology flat;
   flat.Group.assign(threads, { 0, 0, 0 });
   return flat;
 }
@@ -138,7 +138,7 @@ private:
   std::map<unsigned, unsigned> Numbers;
 };
 
-Topology Spread(std::vector<Processor> processors, unsigned threads)
+ProcessorTopology Spread(std::vector<Processor> processors, unsigned threads)
 {
   if (processors.empty())
   {
@@ -160,7 +160,7 @@ Topology Spread(std::vector<Processor> processors, unsigned threads)
   std::stable_sort(processors.begin(), processors.end(),
     [](const Processor& a, const Processor& b) { return a.RankInCore < b.RankInCore; });
 
-  Topology spread;
+  ProcessorTopology spread;
   spread.Group.reserve(threads);
   spread.Processor.reserve(threads);
   Numbering innerNumber;
@@ -182,7 +182,7 @@ bool CanDiscoverTopology()
   return true;
 }
 
-Topology DescribedTopology(
+ProcessorTopology DescribedTopology(
   const std::string& description, const std::vector<unsigned>& allowed, unsigned threads)
 {
   const HwlocTopology topology = Load(description.c_str());
@@ -202,7 +202,7 @@ Topology DescribedTopology(
   return Spread(AllowedProcessors(topology.get(), set.get()), threads);
 }
 
-Topology DiscoverTopology(unsigned threads)
+ProcessorTopology DiscoverTopology(unsigned threads)
 {
   const hwloc_topology_t topology = ThisMachine();
   const Bitmap allowed(hwloc_bitmap_alloc());
@@ -219,7 +219,7 @@ Topology DiscoverTopology(unsigned threads)
   return Spread(AllowedProcessors(topology, allowed.get()), threads);
 }
 
-bool PinThisThread(const Topology& topology, unsigned t)
+bool PinThisThread(const ProcessorTopology& topology, unsigned t)
 {
   const hwloc_topology_t machine = ThisMachine();
   const Bitmap processor(hwloc_bitmap_alloc());
@@ -238,17 +238,18 @@ bool CanDiscoverTopology()
   return false;
 }
 
-Topology DescribedTopology(const std::string&, const std::vector<unsigned>&, unsigned threads)
+ProcessorTopology DescribedTopology(
+  const std::string&, const std::vector<unsigned>&, unsigned threads)
 {
   return FlatTopology(threads);
 }
 
-Topology DiscoverTopology(unsigned threads)
+ProcessorTopology DiscoverTopology(unsigned threads)
 {
   return FlatTopology(threads);
 }
 
-bool PinThisThread(const Topology&, unsigned)
+bool PinThisThread(const ProcessorTopology&, unsigned)
 {
   return false;
 }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file HelpDesk.h
+ * @file LoopSharing.h
  * @brief Threads that wait help those that work with their loops (thesis, section 4.6.2).
  */
-#ifndef voxplex_HelpDesk_h
-#define voxplex_HelpDesk_h
+#ifndef voxplex_LoopSharing_h
+#define voxplex_LoopSharing_h
 
 #include "Parallel/CacheLine.h"
 #include "Parallel/ParkingSpot.h"
@@ -40,7 +40,7 @@ namespace voxplex
  * A helper enters by a compare-and-exchange that succeeds only while the door is open, and takes chunks
  * by an atomic counter, as the owner does. The owner returns when the door is shut and all helpers have
  * left. So a helper touches what the loop refers to only before its owner returns, wherever it was
- * interrupted; between looks and chunks it touches nothing but the slots, which live as long as the desk.
+ * interrupted; between looks and chunks it touches nothing but the slots, which live as long as the sharing.
  *
  * **Memory order.** Opening is a release and entering an acquire: a helper sees all that the owner wrote
  * before. Leaving is a release, and the owner's last look at the slot an acquire: the owner sees all that
@@ -56,7 +56,7 @@ namespace voxplex
  *
  * Loops must not be nested, and a chunk must not wait for another thread.
  */
-class HelpDesk
+class LoopSharing
 {
 public:
   /** Looks without finding a loop after which a helper gives up and sleeps. */
@@ -77,13 +77,13 @@ public:
    * @param threads how many may be owners or helpers
    * @param patience looks without finding a loop after which a helper gives up
    */
-  explicit HelpDesk(unsigned threads, unsigned patience = DefaultPatience)
+  explicit LoopSharing(unsigned threads, unsigned patience = DefaultPatience)
     : Patience(patience)
     , Slots(threads)
   {
   }
-  HelpDesk(const HelpDesk&) = delete;
-  HelpDesk& operator=(const HelpDesk&) = delete;
+  LoopSharing(const LoopSharing&) = delete;
+  LoopSharing& operator=(const LoopSharing&) = delete;
 
   /** True if a thread is ready to help. Only a hint, cheap: a word that changes when waits begin or end. */
   bool SomeoneIdle() const { return this->Idle.load(std::memory_order_relaxed) != 0; }
@@ -300,12 +300,12 @@ private:
   alignas(CacheLineSize) std::atomic<unsigned> Idle{ 0 };
 };
 
-/** Waits at a spot, and meanwhile helps if there is a desk. */
-inline void WaitAndHelp(ParkingSpot& spot, HelpDesk* desk, unsigned thread)
+/** Waits at a spot, and meanwhile helps if there is a sharing. */
+inline void WaitAndHelp(ParkingSpot& spot, LoopSharing* sharing, unsigned thread)
 {
-  if (desk)
+  if (sharing)
   {
-    desk->HelpUntil(thread, [&spot]() { return !spot.IsTaken(); });
+    sharing->HelpUntil(thread, [&spot]() { return !spot.IsTaken(); });
   }
   spot.Wait(); // acquires what was written before the wake-up
 }

@@ -71,7 +71,7 @@ std::array<double, 6> FlatAreas(const SimplexMesh<3>& mesh, const Domain<3>& dom
     unsigned faces = ~0u;
     for (const std::uint32_t v : mesh.Facets[f])
     {
-      faces &= domain.CutFaces(mesh.Points[v]);
+      faces &= domain.BorderFaces(mesh.Points[v]);
     }
     for (unsigned face = 0; face < 6; ++face)
     {
@@ -107,9 +107,9 @@ std::array<double, 6> VoxelAreas(const LabelImage<3>& image)
         const GridGeometry<3>::Index v{ x, y, z };
         for (std::size_t a = 0; a < 3 && image.Ids()[at] != 0; ++a)
         {
-          areas[2 * a] += v[a] == 0 && image.IsCut(a, 0) ? VoxelFace(image.Grid(), a) : 0.0;
+          areas[2 * a] += v[a] == 0 && image.ReachesBorder(a, 0) ? VoxelFace(image.Grid(), a) : 0.0;
           areas[2 * a + 1] +=
-            v[a] == n[a] - 1 && image.IsCut(a, 1) ? VoxelFace(image.Grid(), a) : 0.0;
+            v[a] == n[a] - 1 && image.ReachesBorder(a, 1) ? VoxelFace(image.Grid(), a) : 0.0;
         }
       }
     }
@@ -215,13 +215,13 @@ OptimisationOptions Wild()
 std::size_t CountOnCutFaces(const SimplexMesh<3>& mesh, const Domain<3>& domain)
 {
   return static_cast<std::size_t>(std::count_if(mesh.Points.begin(), mesh.Points.end(),
-    [&](const Point<3>& p) { return domain.CutFaces(p) != 0; }));
+    [&](const Point<3>& p) { return domain.BorderFaces(p) != 0; }));
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(CutFaces, AreWhereForegroundTouchesTheBorder)
+TEST(BorderFaces, AreWhereForegroundTouchesTheBorder)
 {
   const LabelImage<3> image = phantoms::CutBall(12);
   const std::set<std::pair<std::size_t, unsigned>> expected{ { 2, 0 } };
@@ -229,21 +229,22 @@ TEST(CutFaces, AreWhereForegroundTouchesTheBorder)
   {
     for (unsigned end = 0; end < 2; ++end)
     {
-      EXPECT_EQ(image.IsCut(axis, end), expected.contains({ axis, end })) << axis << " " << end;
+      EXPECT_EQ(image.ReachesBorder(axis, end), expected.contains({ axis, end }))
+        << axis << " " << end;
     }
   }
   const ImageDomain<3> domain(image, 1.0);
-  EXPECT_TRUE(domain.IsCut());
-  EXPECT_EQ(domain.CutFaces({ 1.0, 2.0, -0.5 }), 1u << 4);
-  EXPECT_EQ(domain.CutFaces({ 1.0, 2.0, -0.499 }), 0u);
-  EXPECT_EQ(domain.CutFaces({ -0.5, 2.0, 3.0 }), 0u);
+  EXPECT_TRUE(domain.ReachesBorder());
+  EXPECT_EQ(domain.BorderFaces({ 1.0, 2.0, -0.5 }), 1u << 4);
+  EXPECT_EQ(domain.BorderFaces({ 1.0, 2.0, -0.499 }), 0u);
+  EXPECT_EQ(domain.BorderFaces({ -0.5, 2.0, 3.0 }), 0u);
   const LabelImage<3> whole = phantoms::Ball(6.0);
-  EXPECT_FALSE(ImageDomain<3>(whole, 1.0).IsCut());
+  EXPECT_FALSE(ImageDomain<3>(whole, 1.0).ReachesBorder());
 }
 
 // Up to the face labels are those of the outermost voxel centres, but where an interface is oblique to it; at it
 // background begins.
-TEST(CutFaces, LabelsGoOnToTheFace)
+TEST(BorderFaces, LabelsGoOnToTheFace)
 {
   const LabelImage<3> image = CutHalves(ObliqueGrid(30));
   const LabelField<3> field(image, 1.0);
@@ -282,7 +283,7 @@ TEST(CutFaces, LabelsGoOnToTheFace)
 
 //------------------------------------------------------------------------------------------------
 // Not about, but on the face: facets of such points are flat.
-TEST(CutFaces, PointsFoundLieOnThem)
+TEST(BorderFaces, PointsFoundLieOnThem)
 {
   for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
   {
@@ -317,15 +318,15 @@ TEST(CutFaces, PointsFoundLieOnThem)
         continue;
       }
       EXPECT_NEAR(found[axis], -0.5, 1e-9);
-      EXPECT_EQ((domain.CutFaces(z) >> (2 * axis)) & 1, 1u);
+      EXPECT_EQ((domain.BorderFaces(z) >> (2 * axis)) & 1, 1u);
       ++crossings;
       Point<3> back;
       if (domain.FirstCrossing(grid.ToFrame(index), 0, p, back))
       {
-        EXPECT_NE(domain.CutFaces(back), 0u);
+        EXPECT_NE(domain.BorderFaces(back), 0u);
       }
       ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
-      closest += domain.CutFaces(z) != 0 ? 1 : 0;
+      closest += domain.BorderFaces(z) != 0 ? 1 : 0;
     }
     EXPECT_GT(crossings, 500);
     EXPECT_LT(others, crossings / 50);
@@ -333,7 +334,7 @@ TEST(CutFaces, PointsFoundLieOnThem)
   }
 }
 
-TEST(CutFaces, NearEdges)
+TEST(BorderFaces, NearEdges)
 {
   const LabelImage<3> image = phantoms::CutBall(12);
   const ImageDomain<3> domain(image, 1.0);
@@ -343,23 +344,23 @@ TEST(CutFaces, NearEdges)
   {
     const double angle = 0.4 * k;
     const Point<3> p{ c + 8.0 * std::cos(angle), c + 8.0 * std::sin(angle), -0.5 };
-    ASSERT_TRUE(domain.NearCutEdge(p, 3.0, z));
+    ASSERT_TRUE(domain.FindBorderEdge(p, 3.0, z));
     EXPECT_EQ(z[2], -0.5);
     EXPECT_NEAR(std::hypot(z[0] - c, z[1] - c), 9.5, 0.6);
     EXPECT_LT(Distance(p, z), 3.0);
-    EXPECT_FALSE(domain.NearCutEdge(p, 0.5, z));
+    EXPECT_FALSE(domain.FindBorderEdge(p, 0.5, z));
   }
-  EXPECT_FALSE(domain.NearCutEdge({ c, c, -0.5 }, 3.0, z));
-  EXPECT_FALSE(domain.NearCutEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
+  EXPECT_FALSE(domain.FindBorderEdge({ c, c, -0.5 }, 3.0, z));
+  EXPECT_FALSE(domain.FindBorderEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
 
   const LabelImage<3> block = phantoms::Block(ObliqueGrid(12));
   const ImageDomain<3> oblique(block, 1.0);
-  ASSERT_TRUE(oblique.NearCutEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
+  ASSERT_TRUE(oblique.FindBorderEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
   EXPECT_NEAR(Distance(z, block.Grid().ToFrame({ -0.5, -0.5, 3.0 })), 0.0, 1e-9);
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(CutFaces, EdgesOfABlockAreTwelveCurves)
+TEST(BorderFaces, EdgesOfABlockAreTwelveCurves)
 {
   for (const auto& grid : { phantoms::Cube(9), ObliqueGrid(12) })
   {
@@ -391,7 +392,7 @@ TEST(CutFaces, EdgesOfABlockAreTwelveCurves)
   }
 }
 
-TEST(CutFaces, EdgesOfNoiseEndInCorners)
+TEST(BorderFaces, EdgesOfNoiseEndInCorners)
 {
   std::mt19937 random(7);
   const LabelImage<3> image = phantoms::Make(
@@ -411,22 +412,22 @@ TEST(CutFaces, EdgesOfNoiseEndInCorners)
     {
       for (const Point<3>& p : curve.Points)
       {
-        EXPECT_NE(domain.CutFaces(p), 0u);
+        EXPECT_NE(domain.BorderFaces(p), 0u);
       }
     }
-    flat += domain.CutFaces(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
+    flat += domain.BorderFaces(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
   }
   EXPECT_GT(flat, 50u);
   EXPECT_EQ(ends.size(), edges.NumberOfCorners());
   for (const auto& [corner, count] : ends)
   {
-    EXPECT_TRUE(count == 4 || (count == 3 && domain.CutFaces(corner) != 0)) << count;
+    EXPECT_TRUE(count == 4 || (count == 3 && domain.BorderFaces(corner) != 0)) << count;
   }
 }
 
 //------------------------------------------------------------------------------------------------
 // A block comes out as it is: its volume, six flat faces, whatever delta. So do some with sheared axes.
-TEST(CutFaces, MeshesOfBlocksAreExact)
+TEST(BorderFaces, MeshesOfBlocksAreExact)
 {
   for (const auto& grid :
     { GridGeometry<3>::Orthogonal({ 20, 17, 14 }, { 1.0, 0.8, 1.5 }), ObliqueGrid(20) })
@@ -466,7 +467,7 @@ TEST(CutFaces, MeshesOfBlocksAreExact)
 }
 
 // Flat up to chords along the edges, and nothing of the mesh beyond.
-TEST(CutFaces, OfTwoLabelsAreFlatInTheMesh)
+TEST(BorderFaces, OfTwoLabelsAreFlatInTheMesh)
 {
   for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
   {
@@ -503,7 +504,7 @@ TEST(CutFaces, OfTwoLabelsAreFlatInTheMesh)
 }
 
 // Vertices of the interface of the two labels just below a face take no facet's place there.
-TEST(CutFaces, HaveNoNotches)
+TEST(BorderFaces, HaveNoNotches)
 {
   const LabelImage<3> image = LargeCutHalves();
   for (const double delta : { 1.0, 1.5, 2.0, 3.0 })
@@ -515,7 +516,7 @@ TEST(CutFaces, HaveNoNotches)
 }
 
 // Around edges in these faces labels change so often that repair has to do there; nothing is dropped for that.
-TEST(CutFaces, GetNoDentsInRepair)
+TEST(BorderFaces, GetNoDentsInRepair)
 {
   const LabelImage<3> image = phantoms::CutCells(5, 200, 3, 1);
   const ImageDomain<3> domain(image, 1.0);
@@ -568,7 +569,7 @@ TEST(CutFaces, GetNoDentsInRepair)
 }
 
 // Where delta is graded edges get vertices where flat facets need them; without these 90 % are left of the faces.
-TEST(CutFaces, HaveEdgesInGradedMeshes)
+TEST(BorderFaces, HaveEdgesInGradedMeshes)
 {
   const LabelImage<3> image = LargeCutHalves();
   const ImageDomain<3> domain(image, 1.0);
@@ -580,7 +581,7 @@ TEST(CutFaces, HaveEdgesInGradedMeshes)
 }
 
 // Optimisation moves vertices in the faces, not their edges; also when it may do nearly anything.
-TEST(CutFaces, StayFlatInOptimisation)
+TEST(BorderFaces, StayFlatInOptimisation)
 {
   for (const bool upright : { false, true })
   {
@@ -602,7 +603,7 @@ TEST(CutFaces, StayFlatInOptimisation)
         {
           EXPECT_GT(statistics.Flips.InterfaceFlips, 20u);
           EXPECT_GT(statistics.Smoothing.SurfaceMoves, 20u);
-          EXPECT_GT(statistics.Smoothing.Nudges, 20u);
+          EXPECT_GT(statistics.Smoothing.MovesOffInterfaces, 20u);
         }
         const std::array<double, 6> areas = FlatAreas(before, domain);
         const std::array<double, 6> optimised = FlatAreas(after, domain);
@@ -618,7 +619,7 @@ TEST(CutFaces, StayFlatInOptimisation)
 }
 
 // Beside a shallow scoop in a cut face, whose side is the nearest interface of vertices on the face over chords of its rim.
-TEST(CutFaces, KeepTheirVerticesInOptimisation)
+TEST(BorderFaces, KeepTheirVerticesInOptimisation)
 {
   for (const double height : { -7.5, -7.0 })
   {
@@ -646,7 +647,7 @@ TEST(CutFaces, KeepTheirVerticesInOptimisation)
 
 //------------------------------------------------------------------------------------------------
 // An isosurface is cut by the border like labels.
-TEST(CutFaces, OfIsosurfacesAreFlat)
+TEST(BorderFaces, OfIsosurfacesAreFlat)
 {
   const auto grid = phantoms::Cube(24);
   std::vector<float> values;
