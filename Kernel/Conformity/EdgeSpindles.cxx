@@ -216,13 +216,13 @@ private:
   struct Candidate
   {
     Filling How;
-    bool MarsCutFaces = true;
+    bool DentsBorder = true;
     double Score = SmallestScore;
 
     bool IsBetterThan(const Candidate& other) const
     {
       return this->Score > SmallestScore &&
-        (this->MarsCutFaces != other.MarsCutFaces ? other.MarsCutFaces : this->Score > other.Score);
+        (this->DentsBorder != other.DentsBorder ? other.DentsBorder : this->Score > other.Score);
     }
   };
 
@@ -264,7 +264,7 @@ private:
       {
         continue;
       }
-      next.MarsCutFaces = this->MarsCutFaces(ring, next.How);
+      next.DentsBorder = this->DentsBorder(ring, next.How);
       for (const double width : Widths)
       {
         next.How.Width = width;
@@ -479,9 +479,10 @@ private:
   }
 
   /** Whether it makes a dent in a face where the image cuts the object, or adds something beyond. */
-  bool MarsCutFaces(const Ring& ring, const Filling& filling) const
+  bool DentsBorder(const Ring& ring, const Filling& filling) const
   {
-    for (std::size_t k = 0; k < ring.Sectors.size() && this->Image.ReachesBorder(); ++k)
+    const ImageBorder<3>* const border = this->Image.Border();
+    for (std::size_t k = 0; k < ring.Sectors.size() && border; ++k)
     {
       const Sector& sector = ring.Sectors[k];
       if (filling.Gives[k] == 0)
@@ -490,8 +491,8 @@ private:
       }
       const Point<3> centre =
         Interpolate(this->MiddleOf(ring.Ends), this->MiddleOf({ sector.R, sector.S }), 0.5);
-      if (sector.Label == 0 ? this->Image.IsBeyondBorder(centre)
-                            : filling.Label == 0 && this->HasFacetOnCutFace(ring, sector))
+      if (sector.Label == 0 ? border->IsBeyond(centre)
+                            : filling.Label == 0 && this->HasFacetOnBorder(*border, ring, sector))
       {
         return true;
       }
@@ -500,9 +501,9 @@ private:
   }
 
   /** One of those at the edge. */
-  bool HasFacetOnCutFace(const Ring& ring, const Sector& sector) const
+  bool HasFacetOnBorder(const ImageBorder<3>& border, const Ring& ring, const Sector& sector) const
   {
-    const auto faces = [this](VertexId v) { return this->Image.BorderFaces(this->Position(v)); };
+    const auto faces = [&](VertexId v) { return border.FacesAt(this->Position(v)); };
     return (faces(ring.Ends[0]) & faces(ring.Ends[1]) & (faces(sector.R) | faces(sector.S))) != 0;
   }
 

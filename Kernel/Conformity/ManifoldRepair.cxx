@@ -323,7 +323,8 @@ private:
   /** Whether it drops what has a facet on a face where the image cuts the object, which is flat. */
   bool Dents(const Change& change) const
   {
-    if (!this->Surfaces || change.Label != 0)
+    const ImageBorder<3>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
+    if (!border || change.Label != 0)
     {
       return false;
     }
@@ -334,7 +335,7 @@ private:
         unsigned faces = ~0u;
         for (const VertexId v : this->FacetOf(t, i))
         {
-          faces &= this->Surfaces->BorderFaces(this->Near.Position(v));
+          faces &= border->FacesAt(this->Near.Position(v));
         }
         if (faces != 0)
         {

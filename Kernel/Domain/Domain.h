@@ -7,6 +7,7 @@
 #ifndef voxplex_Domain_h
 #define voxplex_Domain_h
 
+#include "Domain/ImageBorder.h"
 #include "Geometry/Box.h"
 #include "Image/LabelImage.h"
 
@@ -78,34 +79,8 @@ public:
   virtual bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const = 0;
 
-  /** Whether the border of the image cuts the object: it ends flat there, on planes. Only in 3D. */
-  virtual bool ReachesBorder() const { return false; }
-
-  /**
-   * Which of these planes p lies on: bit 2 a + end for that at the lower (0)
-   * or upper (1) end of axis a. Interface points that methods of this class find there lie on them up to rounding.
-   */
-  virtual unsigned BorderFaces(const Point<D>&) const { return 0; }
-
-  /** Whether p lies beyond one of these planes, where all is background. */
-  virtual bool IsBeyondBorder(const Point<D>&) const { return false; }
-
-  /** Whether p lies beyond none of these planes by more than rounding. */
-  virtual bool IsWithinBorder(const Point<D>&) const { return true; }
-
-  /** The point on all of these planes to which p moves along the axes of the image. */
-  virtual Point<D> MoveOntoBorder(const Point<D>& p, unsigned) const { return p; }
-
-  /**
-   * A point near p where an interface meets the cut faces of p, or where one of these meets another.
-   * @param p on a cut face
-   * @param reach how far away it may be
-   * @return false if none was found
-   */
-  virtual bool FindBorderEdge(const Point<D>&, double /*reach*/, Point<D>& /*z*/) const
-  {
-    return false;
-  }
+  /** Where the border of the image cuts the object; null if it does not. Only in 3D. */
+  virtual const ImageBorder<D>* Border() const { return nullptr; }
 
   /**
    * An interface point on a flat end, near to p and about closest among those on that end.

@@ -42,7 +42,9 @@ namespace voxplex
  * Immutable after construction: all methods are const and safe to call from any thread.
  */
 template <int D, typename FieldType = LabelField<D>>
-class ImageDomain final : public Domain<D>
+class ImageDomain final
+  : public Domain<D>
+  , private ImageBorder<D>
 {
 public:
   using Index = typename GridGeometry<D>::Index;
@@ -94,31 +96,10 @@ public:
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
-  bool ReachesBorder() const override { return this->Field.Borders().Exist(); }
-  unsigned BorderFaces(const Point<D>& p) const override
+  const ImageBorder<D>* Border() const override
   {
-    return this->Field.Borders().Exist()
-      ? this->Field.Borders().Near(this->Field.ToLattice(p), OnBorder)
-      : 0u;
+    return this->Field.Borders().Exist() ? this : nullptr;
   }
-  bool IsBeyondBorder(const Point<D>& p) const override
-  {
-    return this->Field.Borders().Exist() &&
-      this->Field.Borders().Distance(this->Field.ToLattice(p)) < 0.0;
-  }
-  bool IsWithinBorder(const Point<D>& p) const override
-  {
-    return !this->Field.Borders().Exist() ||
-      this->Field.Borders().Distance(this->Field.ToLattice(p)) >= -OnBorder;
-  }
-  Point<D> MoveOntoBorder(const Point<D>& p, unsigned faces) const override
-  {
-    return faces == 0
-      ? p
-      : this->Field.ToFrame(this->Field.Borders().MoveOnto(this->Field.ToLattice(p), faces));
-  }
-
-  bool FindBorderEdge(const Point<D>& p, double reach, Point<D>& z) const override;
 
   /** Along the gradient of the label's margin in the frame of time, in steps of half a voxel. */
   bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
@@ -141,6 +122,26 @@ public:
   }
 
 private:
+  unsigned FacesAt(const Point<D>& p) const override
+  {
+    return this->Field.Borders().Near(this->Field.ToLattice(p), OnBorder);
+  }
+  bool IsBeyond(const Point<D>& p) const override
+  {
+    return this->Field.Borders().Distance(this->Field.ToLattice(p)) < 0.0;
+  }
+  bool IsWithin(const Point<D>& p) const override
+  {
+    return this->Field.Borders().Distance(this->Field.ToLattice(p)) >= -OnBorder;
+  }
+  Point<D> MoveOnto(const Point<D>& p, unsigned faces) const override
+  {
+    return faces == 0
+      ? p
+      : this->Field.ToFrame(this->Field.Borders().MoveOnto(this->Field.ToLattice(p), faces));
+  }
+  bool FindEdge(const Point<D>& p, double reach, Point<D>& z) const override;
+
   /** A field, and the seconds that it took to make it. */
   struct TimedField
   {

@@ -469,7 +469,7 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   {
     return false; // what the field has there belongs to the end
   }
-  z = this->MoveOntoBorder(moved,
+  z = this->MoveOnto(moved,
     this->Field.Borders().Exist()
       ? this->Field.Borders().Near(this->Field.ToLattice(moved), NearBorder)
       : 0u);
@@ -626,11 +626,11 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
 }
 
 template <int D, typename FieldType>
-bool ImageDomain<D, FieldType>::FindBorderEdge(const Point<D>& p, double reach, Point<D>& z) const
+bool ImageDomain<D, FieldType>::FindEdge(const Point<D>& p, double reach, Point<D>& z) const
 {
   if constexpr (D == 3)
   {
-    const unsigned faces = this->BorderFaces(p);
+    const unsigned faces = this->FacesAt(p);
     const Point<D> x = this->Field.Borders().MoveOnto(this->Field.ToLattice(p), faces);
     if (faces != 0 && BorderEdgeSearch(this->Field, this->Image.Grid(), x, faces, reach).Find(z))
     {

@@ -324,8 +324,7 @@ private:
 template <int D>
 LabelField<D>::LabelField(
   const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
-  : Base(image)
-  , Planes(image)
+  : LabelField::BorderedField(image)
 {
   if (!(sigma >= 0.0 && sigma <= MaximumSigma))
   {

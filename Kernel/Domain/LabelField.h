@@ -7,8 +7,7 @@
 #ifndef voxplex_LabelField_h
 #define voxplex_LabelField_h
 
-#include "Domain/BorderPlanes.h"
-#include "Domain/TiledLattice.h"
+#include "Domain/BorderedField.h"
 
 #include <array>
 #include <cstddef>
@@ -59,7 +58,7 @@ namespace voxplex
  * costs O(1) in a uniform tile, O(2^D k) in a mixed one.
  */
 template <int D>
-class LabelField : public TiledLattice<D, std::int16_t>
+class LabelField : public BorderedField<D, std::int16_t, LabelField<D>>
 {
 public:
   using typename TiledLattice<D, std::int16_t>::Index;
@@ -82,53 +81,20 @@ public:
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
 
-  /** Where the image cuts the object; none in 4D. */
-  const BorderPlanes<D>& Borders() const { return this->Planes; }
-
-  /** Label of a point of the frame; background outside of the lattice. */
-  LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
-
-  /**
-   * By how much a label wins (> 0, exactly where Label(p) == label) or loses (<= 0) at a point:
-   * u_label(p) - max over the other labels of u_l(p), between -2 and +2 or a little more.
-   * Continuous in a mixed tile and across the faces of mixed tiles; +2 or -2 in uniform tiles.
-   */
-  double Margin(const Point<D>& p, LabelId label) const
-  {
-    return this->MarginAt(this->ToLattice(p), label);
-  }
-
-  /** Label() at lattice coordinates. */
-  LabelId LabelAt(const Point<D>& x) const
-  {
-    return this->Planes.Exist() && !(this->Planes.Distance(x) > 0.0) ? LabelId{ 0 }
-                                                                     : this->ExtendedLabelAt(x);
-  }
-  /** Margin() at lattice coordinates. */
-  double MarginAt(const Point<D>& x, LabelId label) const
-  {
-    return this->Planes.Margin(x, label, this->ExtendedMarginAt(x, label));
-  }
   /** LabelAt(), but labels go on beyond the faces where the image cuts the object. */
   LabelId ExtendedLabelAt(const Point<D>& x) const;
-  /** MarginAt(), but labels go on beyond the faces where the image cuts the object. */
+  /**
+   * MarginAt(), but labels go on beyond the faces where the image cuts the object: u_label(x) - max over the other labels
+   * of u_l(x), between -2 and +2 or a little more. Continuous in a mixed tile and across the faces of mixed
+   * tiles; +2 or -2 in uniform tiles.
+   */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
   /** ExtendedMarginAt() of several labels. */
   template <std::size_t N>
   std::array<double, N> ExtendedMarginsAt(
     const Point<D>& x, const std::array<LabelId, N>& labels) const;
 
-  /**
-   * Gradient of MarginAt() with respect to the lattice coordinates.
-   * @return false in a uniform tile away from cuts, or where `label` is not near: the gradient is unknown
-   */
-  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
-  {
-    return (this->Planes.Exist() &&
-             this->Planes.Gradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
-      this->ExtendedMarginGradientAt(x, label, gradient);
-  }
-  /** That of ExtendedMarginAt(). */
+  /** Gradient of ExtendedMarginAt(). @return false in a uniform tile, or where `label` is not near: it is unknown */
   bool ExtendedMarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
 private:
@@ -143,8 +109,6 @@ private:
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
 
   class Builder;
-
-  BorderPlanes<D> Planes;
 };
 
 // Four pairs of samples at a time, where the compiler has vectors; the result is the same without.

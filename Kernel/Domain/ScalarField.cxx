@@ -205,8 +205,7 @@ private:
 template <int D>
 ScalarField<D>::ScalarField(
   const IsosurfaceImage<D>& image, unsigned threads, const std::stop_token& stop)
-  : Base(image.Labels())
-  , Planes(image.Labels())
+  : ScalarField::BorderedField(image.Labels())
 {
   this->MakeTiles(image.Labels(), threads, stop, [&] { return std::make_unique<Builder>(image); });
 }

@@ -7,8 +7,7 @@
 #ifndef voxplex_ScalarField_h
 #define voxplex_ScalarField_h
 
-#include "Domain/BorderPlanes.h"
-#include "Domain/TiledLattice.h"
+#include "Domain/BorderedField.h"
 #include "Image/IsosurfaceImage.h"
 
 #include <algorithm>
@@ -46,7 +45,7 @@ namespace voxplex
  * costs O(1) in a uniform tile, O(2^D) in a mixed one.
  */
 template <int D>
-class ScalarField : public TiledLattice<D, float>
+class ScalarField : public BorderedField<D, float, ScalarField<D>>
 {
 public:
   using typename TiledLattice<D, float>::Index;
@@ -65,22 +64,6 @@ public:
   ScalarField(ScalarField&&) noexcept = default;
   ScalarField& operator=(ScalarField&&) noexcept = default;
 
-  /** Where the image cuts the object; none in 4D. */
-  const BorderPlanes<D>& Borders() const { return this->Planes; }
-
-  /** 1 inside, else 0, at a point of the frame. */
-  LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
-  /** Label() at lattice coordinates. */
-  LabelId LabelAt(const Point<D>& x) const
-  {
-    return this->Planes.Exist() && !(this->Planes.Distance(x) > 0.0) ? LabelId{ 0 }
-                                                                     : this->ExtendedLabelAt(x);
-  }
-  /** Margin() at lattice coordinates. */
-  double MarginAt(const Point<D>& x, LabelId label) const
-  {
-    return this->Planes.Margin(x, label, this->ExtendedMarginAt(x, label));
-  }
   /** LabelAt(), but the object goes on beyond the faces where the image cuts it. */
   LabelId ExtendedLabelAt(const Point<D>& x) const
   {
@@ -89,16 +72,10 @@ public:
   }
 
   /**
-   * By how much a label (0 or 1) wins (> 0, exactly where Label(p) == label) or loses (<= 0) at a point: the
-   * interpolated samples in units of the difference between the largest and smallest one of the cell, so that
-   * it changes by about 1 from voxel to voxel whatever the values mean; -2 to +2. Continuous in a cell,
-   * and across its faces where it is 0.
+   * MarginAt(), but the object goes on beyond the faces where the image cuts it: the interpolated samples in units of the
+   * difference between the largest and smallest one of the cell, so that it changes by about 1 from voxel to
+   * voxel, whatever the unit of the values; -2 to +2. Continuous in a cell, and across its faces where it is 0.
    */
-  double Margin(const Point<D>& p, LabelId label) const
-  {
-    return this->MarginAt(this->ToLattice(p), label);
-  }
-  /** MarginAt(), but the object goes on beyond the faces where the image cuts it. */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
   /** ExtendedMarginAt() of several labels. */
   template <std::size_t N>
@@ -113,17 +90,7 @@ public:
     return margins;
   }
 
-  /**
-   * A multiple of the gradient of MarginAt() in the cell of x, with respect to lattice coordinates.
-   * @return false in a uniform tile away from cuts
-   */
-  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
-  {
-    return (this->Planes.Exist() &&
-             this->Planes.Gradient(x, label, this->ExtendedMarginAt(x, label), gradient)) ||
-      this->ExtendedMarginGradientAt(x, label, gradient);
-  }
-  /** That of ExtendedMarginAt(). */
+  /** A multiple of the gradient of ExtendedMarginAt() in the cell of x. @return false in a uniform tile */
   bool ExtendedMarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
 private:
@@ -141,8 +108,6 @@ private:
   static Interpolation Interpolate(const Cell& cell);
 
   class Builder;
-
-  BorderPlanes<D> Planes;
 };
 
 template <int D>

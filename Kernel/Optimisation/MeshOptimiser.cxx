@@ -476,7 +476,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
       SimplexMesh<3> result;
       {
         TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop);
-        complex.FindCutFaces(domain);
+        complex.FindBorderFaces(domain);
         complex.Kept = kept;
         Optimisation(complex, domain, options, threads, limits, statistics).Run();
         ThrowIfStopped(stop);

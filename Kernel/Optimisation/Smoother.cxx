@@ -404,10 +404,13 @@ bool Smoother::Constrain(Point<3>& p, double length) const
     {
       p = Along(this->Anchor, this->Reach / distance, away);
     }
-    p = this->Image.MoveOntoBorder(p, this->Target.Mesh().BorderFacesOf(this->Star.Vertex));
-    if (!this->Image.IsWithinBorder(p))
+    if (const ImageBorder<3>* border = this->Image.Border())
     {
-      return false;
+      p = border->MoveOnto(p, this->Target.Mesh().BorderFacesOf(this->Star.Vertex));
+      if (!border->IsWithin(p))
+      {
+        return false;
+      }
     }
   }
   return this->FanAllows(p);
@@ -419,7 +422,8 @@ bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const unsigned faces = mesh.BorderFacesOf(this->Star.Vertex);
   if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), p) ||
-    Distance2(raw, p) > length * length || (faces != 0 && this->Image.BorderFaces(p) != faces))
+    Distance2(raw, p) > length * length ||
+    (faces != 0 && this->Image.Border()->FacesAt(p) != faces))
   {
     return false;
   }

@@ -217,9 +217,10 @@ void TetrahedralComplex::FindKinds()
 
 //------------------------------------------------------------------------------------------------
 /** A vertex is on an edge if it lies on a face on which not all of its triangles towards background do. */
-void TetrahedralComplex::FindCutFaces(const Domain<3>& domain)
+void TetrahedralComplex::FindBorderFaces(const Domain<3>& domain)
 {
-  if (!domain.ReachesBorder())
+  const ImageBorder<3>* const border = domain.Border();
+  if (!border)
   {
     return;
   }
@@ -228,7 +229,7 @@ void TetrahedralComplex::FindCutFaces(const Domain<3>& domain)
   {
     if (this->Kinds[v] != VertexRole::Free)
     {
-      this->BorderFaces[v] = static_cast<std::uint8_t>(domain.BorderFaces(this->Points[v]));
+      this->BorderFaces[v] = static_cast<std::uint8_t>(border->FacesAt(this->Points[v]));
     }
   }
   for (const Tetrahedron& cell : this->Cells)

@@ -63,7 +63,7 @@ public:
     const std::stop_token& stop);
 
   /** Finds out what lies where the image cuts the object; to be called once, before anything changes. */
-  void FindCutFaces(const Domain<3>& domain);
+  void FindBorderFaces(const Domain<3>& domain);
 
   /** Replaces the mesh by what this has become: points that are used, and interfaces. */
   void Write(SimplexMesh<3>& mesh) const;

@@ -54,7 +54,7 @@ struct RefinementContext
     , Settings(settings)
     , Sizing(image, settings.Sizing)
     , HasTimeBorder{ image.HasTimeBorder(0), image.HasTimeBorder(1) }
-    , ReachesBorder(image.ReachesBorder())
+    , Border(image.Border())
     , Mesh(box)
     , Features(box.Min, std::sqrt(settings.Sizing.Base.Finest() * settings.Sizing.Base.Delta),
         expectedFeatures)
@@ -89,7 +89,7 @@ struct RefinementContext
   const RefinementSettings<D> Settings;
   SizingField<D> Sizing;
   const std::array<bool, 2> HasTimeBorder; ///< Domain::HasTimeBorder; the box ends there
-  const bool ReachesBorder;                ///< Domain::ReachesBorder
+  const ImageBorder<D>* const Border;      ///< Domain::Border; may be null
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
   RegionalWork<D> Work;

@@ -362,7 +362,7 @@ RuleOutcome Rules3D::R3(const Element& t)
       continue;
     }
     const bool shapely = this->FacetIsGood(simplex.V, i);
-    if (shapely && !this->MayCrossCutFace(t, n, other))
+    if (shapely && !this->MayCrossBorder(t, n, other))
     {
       continue;
     }
@@ -384,7 +384,7 @@ RuleOutcome Rules3D::R3(const Element& t)
     if (shapely)
     {
       clearance = std::max(clearance, CutClearance * delta);
-      this->MoveToCutEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance);
+      this->MoveToBorderEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance);
     }
     if (this->Context.Features.AnyWithin(z, clearance))
     {
@@ -437,10 +437,10 @@ bool Rules3D::FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) cons
 }
 
 //------------------------------------------------------------------------------------------------
-bool Rules3D::MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const
+bool Rules3D::MayCrossBorder(const Element& t, SimplexId neighbour, LabelId other) const
 {
-  const auto isBeyond = [this](const Point<3>& p) { return this->Context.Image.IsBeyondBorder(p); };
-  return this->Context.ReachesBorder &&
+  const auto isBeyond = [this](const Point<3>& p) { return this->Context.Border->IsBeyond(p); };
+  return this->Context.Border &&
     ((t.Label == 0 && isBeyond(t.Ball.Center)) ||
       (other == 0 && isBeyond(this->Context.Mesh.GetCircumball(neighbour).Center)));
 }
@@ -450,7 +450,7 @@ bool Rules3D::MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId oth
 bool Rules3D::FacetIsFlat(
   const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const
 {
-  unsigned faces = this->Context.Image.BorderFaces(crossing);
+  unsigned faces = this->Context.Border->FacesAt(crossing);
   if (faces == 0)
   {
     return true;
@@ -459,7 +459,7 @@ bool Rules3D::FacetIsFlat(
   {
     if (i != facet)
     {
-      faces &= this->Context.Image.BorderFaces(this->Context.Mesh.Position(v[i]));
+      faces &= this->Context.Border->FacesAt(this->Context.Mesh.Position(v[i]));
     }
   }
   return faces != 0;
@@ -467,10 +467,10 @@ bool Rules3D::FacetIsFlat(
 
 //------------------------------------------------------------------------------------------------
 // What is in the way of flat facets is most often near an edge that has too few vertices.
-void Rules3D::MoveToCutEdge(Point<3>& z, double reach, double clearance) const
+void Rules3D::MoveToBorderEdge(Point<3>& z, double reach, double clearance) const
 {
   Point<3> edge;
-  if (this->Context.Image.FindBorderEdge(z, reach, edge) &&
+  if (this->Context.Border->FindEdge(z, reach, edge) &&
     !this->Context.Features.AnyWithin(edge, clearance))
   {
     z = edge;

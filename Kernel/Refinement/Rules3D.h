@@ -91,10 +91,10 @@ private:
   bool IsToSplit(const Element& t);
   bool IsWedged(const Element& t);
   bool FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const;
-  bool MayCrossCutFace(const Element& t, SimplexId neighbour, LabelId other) const;
+  bool MayCrossBorder(const Element& t, SimplexId neighbour, LabelId other) const;
   bool FacetIsFlat(
     const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const;
-  void MoveToCutEdge(Point<3>& z, double reach, double clearance) const;
+  void MoveToBorderEdge(Point<3>& z, double reach, double clearance) const;
 
   const double CosineOfFacetAngle;
   const double SineOfSliverAngle; ///< 0: slivers are left alone

@@ -77,7 +77,7 @@ TEST(BorderBounds, HoldWhereEdgesAreLookedFor)
       const Point<3> p = grid.ToFrame(index);
       const double reach = 1.0 + 0.001 * i;
       Point<3> z;
-      if (domain.FindBorderEdge(p, reach, z))
+      if (domain.Border()->FindEdge(p, reach, z))
       {
         ++found;
         ASSERT_LT(checks::DistanceOutside(grid, z), 1e-9);

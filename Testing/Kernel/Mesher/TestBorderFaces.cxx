@@ -71,7 +71,7 @@ std::array<double, 6> FlatAreas(const SimplexMesh<3>& mesh, const Domain<3>& dom
     unsigned faces = ~0u;
     for (const std::uint32_t v : mesh.Facets[f])
     {
-      faces &= domain.BorderFaces(mesh.Points[v]);
+      faces &= domain.Border()->FacesAt(mesh.Points[v]);
     }
     for (unsigned face = 0; face < 6; ++face)
     {
@@ -212,10 +212,10 @@ OptimisationOptions Wild()
   return options;
 }
 
-std::size_t CountOnCutFaces(const SimplexMesh<3>& mesh, const Domain<3>& domain)
+std::size_t CountOnBorder(const SimplexMesh<3>& mesh, const Domain<3>& domain)
 {
   return static_cast<std::size_t>(std::count_if(mesh.Points.begin(), mesh.Points.end(),
-    [&](const Point<3>& p) { return domain.BorderFaces(p) != 0; }));
+    [&](const Point<3>& p) { return domain.Border()->FacesAt(p) != 0; }));
 }
 
 } // namespace
@@ -234,12 +234,12 @@ TEST(BorderFaces, AreWhereForegroundTouchesTheBorder)
     }
   }
   const ImageDomain<3> domain(image, 1.0);
-  EXPECT_TRUE(domain.ReachesBorder());
-  EXPECT_EQ(domain.BorderFaces({ 1.0, 2.0, -0.5 }), 1u << 4);
-  EXPECT_EQ(domain.BorderFaces({ 1.0, 2.0, -0.499 }), 0u);
-  EXPECT_EQ(domain.BorderFaces({ -0.5, 2.0, 3.0 }), 0u);
+  ASSERT_NE(domain.Border(), nullptr);
+  EXPECT_EQ(domain.Border()->FacesAt({ 1.0, 2.0, -0.5 }), 1u << 4);
+  EXPECT_EQ(domain.Border()->FacesAt({ 1.0, 2.0, -0.499 }), 0u);
+  EXPECT_EQ(domain.Border()->FacesAt({ -0.5, 2.0, 3.0 }), 0u);
   const LabelImage<3> whole = phantoms::Ball(6.0);
-  EXPECT_FALSE(ImageDomain<3>(whole, 1.0).ReachesBorder());
+  EXPECT_EQ(ImageDomain<3>(whole, 1.0).Border(), nullptr);
 }
 
 // Up to the face labels are those of the outermost voxel centres, but where an interface is oblique to it; at it
@@ -318,15 +318,15 @@ TEST(BorderFaces, PointsFoundLieOnThem)
         continue;
       }
       EXPECT_NEAR(found[axis], -0.5, 1e-9);
-      EXPECT_EQ((domain.BorderFaces(z) >> (2 * axis)) & 1, 1u);
+      EXPECT_EQ((domain.Border()->FacesAt(z) >> (2 * axis)) & 1, 1u);
       ++crossings;
       Point<3> back;
       if (domain.FirstCrossing(grid.ToFrame(index), 0, p, back))
       {
-        EXPECT_NE(domain.BorderFaces(back), 0u);
+        EXPECT_NE(domain.Border()->FacesAt(back), 0u);
       }
       ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
-      closest += domain.BorderFaces(z) != 0 ? 1 : 0;
+      closest += domain.Border()->FacesAt(z) != 0 ? 1 : 0;
     }
     EXPECT_GT(crossings, 500);
     EXPECT_LT(others, crossings / 50);
@@ -344,18 +344,18 @@ TEST(BorderFaces, NearEdges)
   {
     const double angle = 0.4 * k;
     const Point<3> p{ c + 8.0 * std::cos(angle), c + 8.0 * std::sin(angle), -0.5 };
-    ASSERT_TRUE(domain.FindBorderEdge(p, 3.0, z));
+    ASSERT_TRUE(domain.Border()->FindEdge(p, 3.0, z));
     EXPECT_EQ(z[2], -0.5);
     EXPECT_NEAR(std::hypot(z[0] - c, z[1] - c), 9.5, 0.6);
     EXPECT_LT(Distance(p, z), 3.0);
-    EXPECT_FALSE(domain.FindBorderEdge(p, 0.5, z));
+    EXPECT_FALSE(domain.Border()->FindEdge(p, 0.5, z));
   }
-  EXPECT_FALSE(domain.FindBorderEdge({ c, c, -0.5 }, 3.0, z));
-  EXPECT_FALSE(domain.FindBorderEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
+  EXPECT_FALSE(domain.Border()->FindEdge({ c, c, -0.5 }, 3.0, z));
+  EXPECT_FALSE(domain.Border()->FindEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
 
   const LabelImage<3> block = phantoms::Block(ObliqueGrid(12));
   const ImageDomain<3> oblique(block, 1.0);
-  ASSERT_TRUE(oblique.FindBorderEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
+  ASSERT_TRUE(oblique.Border()->FindEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
   EXPECT_NEAR(Distance(z, block.Grid().ToFrame({ -0.5, -0.5, 3.0 })), 0.0, 1e-9);
 }
 
@@ -412,16 +412,16 @@ TEST(BorderFaces, EdgesOfNoiseEndInCorners)
     {
       for (const Point<3>& p : curve.Points)
       {
-        EXPECT_NE(domain.BorderFaces(p), 0u);
+        EXPECT_NE(domain.Border()->FacesAt(p), 0u);
       }
     }
-    flat += domain.BorderFaces(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
+    flat += domain.Border()->FacesAt(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
   }
   EXPECT_GT(flat, 50u);
   EXPECT_EQ(ends.size(), edges.NumberOfCorners());
   for (const auto& [corner, count] : ends)
   {
-    EXPECT_TRUE(count == 4 || (count == 3 && domain.BorderFaces(corner) != 0)) << count;
+    EXPECT_TRUE(count == 4 || (count == 3 && domain.Border()->FacesAt(corner) != 0)) << count;
   }
 }
 
@@ -637,10 +637,10 @@ TEST(BorderFaces, KeepTheirVerticesInOptimisation)
       MeshingOptions<3> options = WithDelta(delta);
       options.Optimise = false;
       SimplexMesh<3> mesh = Mesh(image, options);
-      const std::size_t before = CountOnCutFaces(mesh, domain);
+      const std::size_t before = CountOnBorder(mesh, domain);
       EXPECT_GT(before, 15u);
       EXPECT_GT(OptimiseMesh(mesh, domain, Wild(), 1).Smoothing.SurfaceMoves, 0u);
-      EXPECT_GE(CountOnCutFaces(mesh, domain), before) << height << " " << delta;
+      EXPECT_GE(CountOnBorder(mesh, domain), before) << height << " " << delta;
     }
   }
 }

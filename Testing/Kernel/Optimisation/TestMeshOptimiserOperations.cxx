@@ -286,7 +286,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
   const ShapeScore score(30.0, 130.0, 2.0); // most can be better
   TetrahedralComplex complex(mesh, score, 1, {});
-  complex.FindCutFaces(domain);
+  complex.FindBorderFaces(domain);
   const std::size_t cells = complex.Cells.size();
   complex.AddCells(cells);
   std::vector<std::uint32_t> slots(cells);
@@ -313,7 +313,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   complex.Write(after);
   EXPECT_TRUE(checks::Complaints(after).empty());
   TetrahedralComplex fresh(after, score, 1, {});
-  fresh.FindCutFaces(domain);
+  fresh.FindBorderFaces(domain);
   std::vector<bool> isUsed(complex.Points.size());
   for (const auto& cell : complex.Cells)
   {

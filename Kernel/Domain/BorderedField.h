@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file BorderedField.h
+ * @brief A field of labels and margins that the border of the image cuts.
+ */
+#ifndef voxplex_BorderedField_h
+#define voxplex_BorderedField_h
+
+#include "Domain/BorderPlanes.h"
+#include "Domain/TiledLattice.h"
+
+#include <array>
+#include <cstddef>
+
+namespace voxplex
+{
+
+/**
+ * @brief What LabelField and ScalarField have in common: labels and margins go on beyond the planes of the border
+ * (Extended...), and the object ends there.
+ *
+ * Lattice coordinates are those of TiledLattice. Immutable after construction.
+ *
+ * @tparam Field the derived class: has ExtendedLabelAt(x), ExtendedMarginAt(x, label) and
+ *   ExtendedMarginGradientAt(x, label, gradient)
+ */
+template <int D, typename Sample, typename Field>
+class BorderedField : public TiledLattice<D, Sample>
+{
+public:
+  /** Where the image cuts the object; no plane exists in 4D. */
+  const BorderPlanes<D>& Borders() const { return this->Planes; }
+
+  /** Label of a point of the frame; background outside of the lattice. */
+  LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
+
+  /**
+   * By how much a label wins (> 0, exactly where Label(p) == label) or loses (<= 0) at a point of the frame; see the
+   * field for its unit.
+   */
+  double Margin(const Point<D>& p, LabelId label) const
+  {
+    return this->MarginAt(this->ToLattice(p), label);
+  }
+
+  /** Label() at lattice coordinates. */
+  LabelId LabelAt(const Point<D>& x) const
+  {
+    return this->Planes.Exist() && !(this->Planes.Distance(x) > 0.0)
+      ? LabelId{ 0 }
+      : this->Self().ExtendedLabelAt(x);
+  }
+
+  /** Margin() at lattice coordinates. */
+  double MarginAt(const Point<D>& x, LabelId label) const
+  {
+    return this->Planes.Margin(x, label, this->Self().ExtendedMarginAt(x, label));
+  }
+
+  /**
+   * Gradient of MarginAt() with respect to lattice coordinates, or a multiple of it.
+   * @return false if it is not known: in a uniform tile away from borders, or where `label` is not near
+   */
+  bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
+  {
+    return (this->Planes.Exist() &&
+             this->Planes.Gradient(x, label, this->Self().ExtendedMarginAt(x, label), gradient)) ||
+      this->Self().ExtendedMarginGradientAt(x, label, gradient);
+  }
+
+protected:
+  using Base = TiledLattice<D, Sample>;
+
+  explicit BorderedField(const LabelImage<D>& image)
+    : Base(image)
+    , Planes(image)
+  {
+  }
+
+private:
+  const Field& Self() const { return static_cast<const Field&>(*this); }
+
+  BorderPlanes<D> Planes;
+};
+
+} // namespace voxplex
+
+#endif
