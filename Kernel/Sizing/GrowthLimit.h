@@ -46,14 +46,28 @@ void LimitGrowth(std::span<float> values, const std::array<std::size_t, D>& cell
         {
           float* const first = values.data() + s / strips * layer * n + s % strips * Strip;
           const std::size_t width = std::min(Strip, layer - s % strips * Strip);
-          const auto limit = [&](std::size_t k, std::size_t beside)
+          const float step = steps[a];
+          const auto limit = [=](std::size_t k, std::size_t beside)
           {
+            float* __restrict const value = first + k * layer;
+            const float* __restrict const other = first + beside * layer;
             for (std::size_t c = 0; c < width; ++c)
             {
-              float& value = first[k * layer + c];
-              value = std::min(value, first[beside * layer + c] + steps[a]);
+              value[c] = std::min(value[c], other[c] + step);
             }
           };
+          if (layer == 1) // a row: each value needs the one before
+          {
+            for (std::size_t k = 1; k < n; ++k)
+            {
+              first[k] = std::min(first[k], first[k - 1] + step);
+            }
+            for (std::size_t k = n - 1; k-- > 0;)
+            {
+              first[k] = std::min(first[k], first[k + 1] + step);
+            }
+            continue;
+          }
           for (std::size_t k = 1; k < n; ++k)
           {
             limit(k, k - 1);
