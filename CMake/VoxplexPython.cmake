@@ -45,8 +45,8 @@ configure_file(Python/voxplex/installation.py.in "${_voxplex_python_folder}/inst
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_custom_command(
   OUTPUT "${_voxplex_python_folder}/meshing.py"
-  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_SOURCE_DIR}/Parameters/write_python.py"
-    "$<TARGET_FILE:voxplexParameters>" "${CMAKE_SOURCE_DIR}/Python/voxplex/meshing.py.in"
+  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
+    "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/meshing.py.in"
     "${_voxplex_python_folder}/meshing.py"
   DEPENDS voxplexParameters Parameters/write_python.py Python/voxplex/meshing.py.in
   VERBATIM)

@@ -31,20 +31,23 @@ constexpr GroupText GroupTexts[] = {
   { "Running", "How the machine is used." },
 };
 
-std::string CamelCase(const std::string& name)
+std::string Capitalised(std::string text)
 {
-  std::string text;
-  for (std::size_t i = 0; i < name.size(); ++i)
-  {
-    text += name[i] != '-' ? name[i]
-                           : static_cast<char>(std::toupper(static_cast<unsigned char>(name[++i])));
-  }
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text;
 }
 
-std::string SnakeCase(std::string name)
+std::string CamelCase(const std::string& name)
 {
-  std::replace(name.begin(), name.end(), '-', '_');
+  const std::size_t dash = name.find('-');
+  return dash == std::string::npos
+    ? name
+    : name.substr(0, dash) + Capitalised(CamelCase(name.substr(dash + 1)));
+}
+
+std::string Joined(std::string name, char with)
+{
+  std::replace(name.begin(), name.end(), '-', with);
   return name;
 }
 
@@ -57,7 +60,7 @@ std::string Mention(UserInterface interface, const std::string& name)
     case UserInterface::CommandLine:
       return "--" + NameIn(interface, parameter);
     case UserInterface::Slicer:
-      return parameter.Label;
+      return LabelOf(parameter);
     default:
       return NameIn(interface, parameter);
   }
@@ -195,6 +198,10 @@ std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
   const std::string& given = interface == UserInterface::CommandLine ? parameter.Option
     : interface == UserInterface::Slicer                             ? parameter.Slicer
                                                                      : parameter.Python;
+  if (interface == UserInterface::Slicer && parameter.Dimension == 4)
+  {
+    return "";
+  }
   if (!given.empty())
   {
     return given == MeshingParameter::None ? "" : given;
@@ -206,8 +213,18 @@ std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
     case UserInterface::Slicer:
       return CamelCase(parameter.Name);
     default:
-      return SnakeCase(parameter.Name);
+      return Joined(parameter.Name, '_');
   }
+}
+
+std::string LabelOf(const MeshingParameter& parameter)
+{
+  return parameter.Label.empty() ? Capitalised(Joined(parameter.Name, ' ')) : parameter.Label;
+}
+
+std::string PropertyOf(const MeshingParameter& parameter)
+{
+  return parameter.Property.empty() ? Capitalised(CamelCase(parameter.Name)) : parameter.Property;
 }
 
 std::string Describe(UserInterface interface, const MeshingParameter& parameter)

@@ -57,10 +57,12 @@ struct ParameterRange
 struct MeshingParameter
 {
   std::string Name; ///< words with dashes
-  ParameterGroup Group;
   ParameterKind Kind;
-  std::string Property; ///< of the VTK filters: what follows Set and Get
-  std::string Label;    ///< of a field in a window
+  ///@{
+  /** Where they are not made from Name: LabelOf(), PropertyOf(). */
+  std::string Property{};
+  std::string Label{};
+  ///@}
   /** Of images with so many dimensions only; 0: of all. */
   int Dimension = 0;
   /** A number, a word, on or off. Empty: what Zero says is the case where no value is given. */
@@ -85,12 +87,14 @@ struct MeshingParameter
   std::string StandsFor{};
 
   ///@{
-  /** Where it is not made from Name; None where users do not have it. */
+  /** Where it is not made from Name; None where users do not have it. Slicer has nothing of space-time. */
   std::string Option{};
   std::string Slicer{};
   std::string Python{};
   static constexpr const char* None = "-";
   ///@}
+
+  ParameterGroup Group{};
 
   bool IsNumber() const;
   bool IsOnByDefault() const { return this->Default == "on"; }
@@ -114,6 +118,12 @@ const MeshingParameter& FindParameter(std::string_view name);
 
 /** Empty where users of the interface do not have the parameter. */
 std::string NameIn(UserInterface interface, const MeshingParameter& parameter);
+
+/** Of a field in a window: Facet angle. */
+std::string LabelOf(const MeshingParameter& parameter);
+
+/** Of the VTK filters, what follows Set and Get: FacetAngle. */
+std::string PropertyOf(const MeshingParameter& parameter);
 
 /** Its help, and in parentheses what is to be known of its values. Slicer shows defaults itself. */
 std::string Describe(UserInterface interface, const MeshingParameter& parameter);

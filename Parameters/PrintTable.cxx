@@ -60,7 +60,7 @@ void Print(const MeshingParameter& p)
   std::cout << "  {\"name\": " << Quoted(p.Name);
   text("group", TitleOf(p.Group));
   text("kind", NameOf(p.Kind));
-  text("property", p.Property);
+  text("property", PropertyOf(p));
   text("default", p.Default);
   text("unit", p.Unit);
   std::cout << ", \"dimension\": " << p.Dimension << ", \"words\": " << List(p.Words)

@@ -22,28 +22,20 @@ Parameters GreyValues()
 {
   return {
     { .Name = "isovalue",
-      .Group = Group::GreyValues,
       .Kind = Kind::Real,
-      .Property = "Isovalue",
-      .Label = "Isovalue",
       .Dimension = 3,
       .Usual = ParameterRange{ -1e9, 1e9 },
       .Step = 0.1,
       .Unit = "VALUE",
       .Help = "mesh what the isosurface of a grey-value image at this value bounds, as one label" },
     { .Name = "inside",
-      .Group = Group::GreyValues,
       .Kind = Kind::Word,
-      .Property = "Inside",
-      .Label = "Inside",
       .Dimension = 3,
       .Default = "above",
       .Words = { "above", "below" },
       .Help = "on which side of the isosurface the object lies; above: where values are greater" },
     { .Name = "inside-label",
-      .Group = Group::GreyValues,
       .Kind = Kind::Whole,
-      .Property = "InsideLabel",
       .Label = "Label of the inside",
       .Dimension = 3,
       .Default = "1",
@@ -53,7 +45,6 @@ Parameters GreyValues()
       .Unit = "LABEL",
       .Help = "the label of the elements inside of the isosurface" },
     { .Name = "grey-smoothing",
-      .Group = Group::GreyValues,
       .Kind = Kind::Real,
       .Property = "IsosurfaceSmoothingSigma",
       .Label = "Smoothing of grey values",
@@ -73,17 +64,13 @@ Parameters Density()
 {
   return {
     { .Name = "delta",
-      .Group = Group::Density,
       .Kind = Kind::Real,
-      .Property = "Delta",
-      .Label = "Delta",
       .Range = Positive,
       .Unit = "LENGTH",
       .Help = "sampling density of the interfaces: the edges of their triangles are about one to "
               "two times as long; the number of elements grows with the square of 1/delta",
       .Zero = "derived from the spacing" },
     { .Name = "elements",
-      .Group = Group::Density,
       .Kind = Kind::Whole,
       .Property = "NumberOfElements",
       .Label = "Number of elements",
@@ -93,10 +80,7 @@ Parameters Density()
               "{delta}; it takes two or three times as long",
       .Zero = "as delta has it" },
     { .Name = "grading",
-      .Group = Group::Density,
       .Kind = Kind::Word,
-      .Property = "Grading",
-      .Label = "Grading",
       .Dimension = 3,
       .Default = "uniform",
       .Words = { "uniform", "lfs" },
@@ -104,7 +88,6 @@ Parameters Density()
               "shape allows it, by the local feature size (lfs): the distance to the medial axis, "
               "about half the thickness of what is thin" },
     { .Name = "size",
-      .Group = Group::Density,
       .Kind = Kind::Real,
       .Property = "ElementSize",
       .Label = "Largest element",
@@ -113,16 +96,13 @@ Parameters Density()
       .Help = "upper bound of the elements' circumradii, everywhere",
       .Zero = "no bound" },
     { .Name = "label-size",
-      .Group = Group::Density,
       .Kind = Kind::LabelSizes,
-      .Property = "LabelSize",
       .Label = "Largest element of labels",
       .Unit = "LABEL=LENGTH",
       .Help = "the same in single labels",
       .Slicer = "labelSizes",
       .Python = "label_sizes" },
     { .Name = "size-image",
-      .Group = Group::Density,
       .Kind = Kind::Image,
       .Property = "ElementSizeData",
       .Label = "Image of sizes",
@@ -136,10 +116,8 @@ Parameters Labels()
 {
   return {
     { .Name = "labels",
-      .Group = Group::Labels,
       .Kind = Kind::Labels,
       .Property = "Label",
-      .Label = "Labels",
       .Unit = "LIST",
       .Help = "mesh these labels only; the others become background" },
   };
@@ -149,20 +127,14 @@ Parameters Shapes()
 {
   return {
     { .Name = "optimise",
-      .Group = Group::Shapes,
       .Kind = Kind::Flag,
-      .Property = "Optimise",
-      .Label = "Optimise",
       .Dimension = 3,
       .Default = "on",
       .Help = "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a "
               "few, radius-edge ratios up to 2.5",
       .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" },
     { .Name = "smallest-component",
-      .Group = Group::Shapes,
       .Kind = Kind::Whole,
-      .Property = "SmallestComponent",
-      .Label = "Smallest component",
       .Dimension = 3,
       .Default = "8",
       .Range = { 0.0, LargestWhole },
@@ -171,16 +143,12 @@ Parameters Shapes()
               "tetrahedra whatever delta",
       .Zero = "as it comes" },
     { .Name = "exact-components",
-      .Group = Group::Shapes,
       .Kind = Kind::Flag,
-      .Property = "ExactComponents",
-      .Label = "Exact components",
       .Dimension = 3,
       .Default = "off",
       .Help = "sample these components as finely as they are thin, whatever delta; otherwise those "
               "that are thin beside delta have a few tetrahedra" },
     { .Name = "min-component-volume",
-      .Group = Group::Shapes,
       .Kind = Kind::Real,
       .Property = "MinimumComponentVolume",
       .Label = "Smallest volume",
@@ -198,9 +166,7 @@ Parameters Interfaces()
 {
   return {
     { .Name = "interface-size",
-      .Group = Group::Interfaces,
       .Kind = Kind::InterfaceSizes,
-      .Property = "InterfaceSize",
       .Label = "Interface sizes",
       .Unit = "LABELS=LENGTH",
       .Help = "sampling density of all interfaces of a label, or of the interface between two "
@@ -208,10 +174,7 @@ Parameters Interfaces()
       .Slicer = "interfaceSizes",
       .Python = "interface_sizes" },
     { .Name = "feature-ratio",
-      .Group = Group::Interfaces,
       .Kind = Kind::Real,
-      .Property = "FeatureRatio",
-      .Label = "Feature ratio",
       .Dimension = 3,
       .Default = "1",
       .Range = Positive,
@@ -221,10 +184,7 @@ Parameters Interfaces()
       .Help = "with {grading} lfs: sampling density over local feature size where that gives more "
               "than delta" },
     { .Name = "largest-feature",
-      .Group = Group::Interfaces,
       .Kind = Kind::Real,
-      .Property = "LargestFeature",
-      .Label = "Largest feature",
       .Dimension = 3,
       .Default = "12",
       .Range = Positive,
@@ -233,10 +193,7 @@ Parameters Interfaces()
       .Unit = "VOXELS",
       .Help = "with {grading} lfs: larger local feature sizes count as this (lambda), in voxels" },
     { .Name = "gradation",
-      .Group = Group::Interfaces,
       .Kind = Kind::Real,
-      .Property = "Gradation",
-      .Label = "Gradation",
       .Default = "0.3",
       .Range = NotNegative,
       .Usual = ParameterRange{ 0.0, 1.0 },
@@ -250,7 +207,6 @@ Parameters Quality()
 {
   return {
     { .Name = "radius-edge",
-      .Group = Group::Quality,
       .Kind = Kind::Real,
       .Property = "RadiusEdgeRatio",
       .Label = "Radius-edge ratio",
@@ -263,10 +219,7 @@ Parameters Quality()
       .ForceBelow = 1.93,
       .ForceWhy = "it is not proved that refinement ends" },
     { .Name = "facet-angle",
-      .Group = Group::Quality,
       .Kind = Kind::Real,
-      .Property = "FacetAngle",
-      .Label = "Facet angle",
       .Dimension = 3,
       .Default = "30",
       .Range = { 0.0, 30.0 },
@@ -274,10 +227,8 @@ Parameters Quality()
       .Unit = "DEGREES",
       .Help = "lower bound of the angles of triangles on the interfaces, in degrees" },
     { .Name = "smoothing",
-      .Group = Group::Quality,
       .Kind = Kind::Real,
       .Property = "SmoothingSigma",
-      .Label = "Smoothing",
       .Default = "1",
       .Range = Sigmas,
       .Step = 0.1,
@@ -287,10 +238,7 @@ Parameters Quality()
       .Zero = "off",
       .StandsFor = "grey-smoothing" },
     { .Name = "sliver-angle",
-      .Group = Group::Quality,
       .Kind = Kind::Real,
-      .Property = "SliverAngle",
-      .Label = "Sliver angle",
       .Dimension = 3,
       .Default = "9",
       .Range = { 0.0, 59.0 },
@@ -302,7 +250,6 @@ Parameters Quality()
       .ForceAbove = 15.0,
       .ForceWhy = "meshes can become very large" },
     { .Name = "optimise-seconds",
-      .Group = Group::Quality,
       .Kind = Kind::Real,
       .Property = "OptimisationTimeLimit",
       .Label = "Time for optimising",
@@ -312,10 +259,8 @@ Parameters Quality()
       .Help = "stop improving shapes after so long, wherever that is",
       .Zero = "no limit" },
     { .Name = "junctions",
-      .Group = Group::Quality,
       .Kind = Kind::Flag,
       .Property = "SampleJunctions",
-      .Label = "Junctions",
       .Dimension = 3,
       .Default = "on",
       .Help = "sample the curves where three labels or more meet before all else, so that edges "
@@ -323,10 +268,7 @@ Parameters Quality()
       .Zero = "the curves zigzag",
       .Python = "sample_junctions" },
     { .Name = "interface-rounds",
-      .Group = Group::Quality,
       .Kind = Kind::Whole,
-      .Property = "InterfaceRounds",
-      .Label = "Interface rounds",
       .Dimension = 3,
       .Default = "8",
       .Range = { 0.0, 100.0 },
@@ -336,10 +278,7 @@ Parameters Quality()
               "1.5 delta from the mesh's, or a label's boundary is not manifold",
       .Zero = "never" },
     { .Name = "manifold",
-      .Group = Group::Quality,
       .Kind = Kind::Flag,
-      .Property = "Manifold",
-      .Label = "Manifold",
       .Dimension = 3,
       .Default = "on",
       .Help =
@@ -354,30 +293,21 @@ Parameters SpaceTime()
 {
   return {
     { .Name = "time-scale",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Real,
-      .Property = "TimeScale",
-      .Label = "Time scale",
       .Dimension = 4,
       .Default = "1",
       .Range = Positive,
       .Unit = "LENGTH",
-      .Help = "the length that one unit of time counts as much as",
-      .Slicer = None },
+      .Help = "the length that one unit of time counts as much as" },
     { .Name = "rule-order",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Word,
-      .Property = "RuleOrder",
-      .Label = "Rule order",
       .Dimension = 4,
       .Default = "radius-edge",
       .Words = { "radius-edge", "surface" },
       .Help = "which rules come first: those that bound the radius-edge ratio, or those that "
               "sample the interfaces",
-      .Slicer = None,
       .Python = None },
     { .Name = "picking",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Flag,
       .Property = "PickingRegions",
       .Label = "Fight slivers",
@@ -385,10 +315,8 @@ Parameters SpaceTime()
       .Default = "on",
       .Help = "fight slivers with picking regions",
       .Zero = "faster, with flat elements",
-      .Slicer = None,
       .Python = "pick_slivers" },
     { .Name = "picks",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Whole,
       .Property = "NumberOfPicks",
       .Label = "Number of picks",
@@ -397,13 +325,9 @@ Parameters SpaceTime()
       .Range = { 1.0, LargestWhole },
       .Unit = "NUMBER",
       .Help = "random points to try in a picking region",
-      .Slicer = None,
       .Python = None },
     { .Name = "sliver-bound",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Real,
-      .Property = "SliverBound",
-      .Label = "Sliver bound",
       .Dimension = 4,
       .Default = "0.01",
       .Range = { 0.0, 0.999 },
@@ -412,10 +336,8 @@ Parameters SpaceTime()
       .Help = "normalized volume below which an element is a sliver",
       .ForceAbove = 0.03,
       .ForceWhy = "meshes can become very large",
-      .Slicer = None,
       .Python = None },
     { .Name = "seed",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Whole,
       .Property = "RandomSeed",
       .Label = "Random seed",
@@ -423,17 +345,13 @@ Parameters SpaceTime()
       .Default = "0",
       .Range = { 0.0, LargestWhole },
       .Unit = "NUMBER",
-      .Help = "seed of the random points",
-      .Slicer = None },
+      .Help = "seed of the random points" },
     { .Name = "fine-grained",
-      .Group = Group::SpaceTime,
       .Kind = Kind::Flag,
-      .Property = "FineGrained",
       .Label = "Fine-grained",
       .Dimension = 4,
       .Default = "on",
       .Help = "let waiting threads help others to expand cavities",
-      .Slicer = None,
       .Python = None },
   };
 }
@@ -442,10 +360,8 @@ Parameters Running()
 {
   return {
     { .Name = "threads",
-      .Group = Group::Running,
       .Kind = Kind::Whole,
       .Property = "NumberOfThreads",
-      .Label = "Threads",
       .Default = "0",
       .Range = { 0.0, 4096.0 },
       .Step = 1.0,
@@ -454,7 +370,6 @@ Parameters Running()
               "bit for bit, in every run",
       .Zero = "all cores" },
     { .Name = "contention",
-      .Group = Group::Running,
       .Kind = Kind::Word,
       .Property = "ContentionManager",
       .Label = "Contention manager",
@@ -467,7 +382,6 @@ Parameters Running()
       .Slicer = None,
       .Python = None },
     { .Name = "balance",
-      .Group = Group::Running,
       .Kind = Kind::Word,
       .Property = "LoadBalancer",
       .Label = "Load balancer",
@@ -478,7 +392,6 @@ Parameters Running()
       .Slicer = None,
       .Python = None },
     { .Name = "pin",
-      .Group = Group::Running,
       .Kind = Kind::Flag,
       .Property = "PinThreads",
       .Label = "Pin threads",
@@ -487,32 +400,36 @@ Parameters Running()
       .Slicer = None,
       .Python = None },
     { .Name = "memory-limit",
-      .Group = Group::Running,
       .Kind = Kind::Bytes,
-      .Property = "MemoryLimit",
-      .Label = "Memory limit",
       .Range = { 1.0, 1e18 },
       .Unit = "BYTES",
       .Help = "refuse meshes estimated to need more",
       .Zero = "the machine's memory",
       .Slicer = None },
     { .Name = "force",
-      .Group = Group::Running,
       .Kind = Kind::Flag,
-      .Property = "Force",
-      .Label = "Force",
       .Default = "off",
       .Help = "go on although the mesh is estimated not to fit into memory, the labels look like "
               "grey values, or the value of another parameter needs it" },
   };
 }
 
-Parameters Join(const std::vector<Parameters>& groups)
+struct GroupOfParameters
+{
+  Group Name;
+  Parameters Members;
+};
+
+Parameters Join(const std::vector<GroupOfParameters>& groups)
 {
   Parameters all;
-  for (const Parameters& group : groups)
+  for (const GroupOfParameters& group : groups)
   {
-    all.insert(all.end(), group.begin(), group.end());
+    for (const MeshingParameter& member : group.Members)
+    {
+      all.push_back(member);
+      all.back().Group = group.Name;
+    }
   }
   return all;
 }
@@ -521,8 +438,16 @@ Parameters Join(const std::vector<Parameters>& groups)
 
 const std::vector<MeshingParameter>& MeshingParameters()
 {
-  static const Parameters all = Join({ GreyValues(), Density(), Labels(), Shapes(), Interfaces(),
-    Quality(), SpaceTime(), Running() });
+  static const Parameters all = Join({
+    { Group::GreyValues, GreyValues() },
+    { Group::Density, Density() },
+    { Group::Labels, Labels() },
+    { Group::Shapes, Shapes() },
+    { Group::Interfaces, Interfaces() },
+    { Group::Quality, Quality() },
+    { Group::SpaceTime, SpaceTime() },
+    { Group::Running, Running() },
+  });
   return all;
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is written again elsewhere, against the table: ParaView's properties, the page of the documentation."""
+"""What is written again elsewhere, against the table: ParaView's properties, the setters of the programs, the page of the
+documentation."""
 import re
 import sys
 import unittest
@@ -70,6 +71,16 @@ class ParaView(unittest.TestCase):
                 if entries:
                     words = BY_PROPERTY[prop.get("name")]["words"]
                     self.assertEqual([int(entry.get("value")) for entry in entries], list(range(len(words))))
+
+
+class Setters(unittest.TestCase):
+    def test_every_parameter_reaches_its_property(self):
+        """By the text of the source: C++ cannot find a method by its name."""
+        dimensions = {"Filter": 0, "Tets": 3, "Pentatopes": 4}
+        text = (SOURCE / "Applications" / "FilterParameters.cxx").read_text()
+        found = re.findall(r'\{ "([\w-]+)", To\(&(\w+)::Set(\w+)\) \}', text)
+        self.assertEqual({name: (prop, dimensions[kind]) for name, kind, prop in found},
+                         {p["name"]: (p["property"], p["dimension"]) for p in BY_PROPERTY.values()})
 
 
 class Documentation(unittest.TestCase):

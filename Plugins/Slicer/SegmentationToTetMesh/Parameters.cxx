@@ -128,7 +128,7 @@ Parameter FromTable(const MeshingParameter& parameter)
 {
   Parameter made{ .Type = KindOf(parameter),
     .Name = NameIn(UserInterface::Slicer, parameter),
-    .Label = parameter.Label,
+    .Label = LabelOf(parameter),
     .Description = Describe(UserInterface::Slicer, parameter) + ".",
     .Default = DefaultOf(parameter),
     .Elements = parameter.Words,
