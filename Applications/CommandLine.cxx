@@ -146,22 +146,22 @@ bool IsRepeatable(ParameterKind kind)
     kind == ParameterKind::InterfaceSizes;
 }
 
+/** What --help has for the value. */
+std::string ValueName(const MeshingParameter& parameter)
+{
+  std::string name = parameter.Unit;
+  for (const std::string& word : name.empty() ? parameter.Words : std::vector<std::string>())
+  {
+    name += (name.empty() ? "" : "|") + word;
+  }
+  return name;
+}
+
 void Add(po::options_description& options, const MeshingParameter& parameter)
 {
   const std::string name = NameIn(UserInterface::CommandLine, parameter);
   const std::string help = Describe(UserInterface::CommandLine, parameter);
-  std::string value = parameter.Unit;
-  if (value.empty())
-  {
-    for (const std::string& word : parameter.Words)
-    {
-      value += (value.empty() ? "" : "|") + word;
-    }
-  }
-  if (name.empty())
-  {
-    return;
-  }
+  const std::string value = ValueName(parameter);
   if (parameter.Kind == ParameterKind::Flag)
   {
     options.add_options()(name.c_str(), help.c_str());
@@ -188,7 +188,10 @@ po::options_description DeclareOptions()
     po::options_description options(TitleOf(group));
     for (; p != parameters.end() && p->Group == group; ++p)
     {
-      Add(options, *p);
+      if (!NameIn(UserInterface::CommandLine, *p).empty())
+      {
+        Add(options, *p);
+      }
     }
     AddOwn(options, group);
     all.add(options);

@@ -118,11 +118,10 @@ void CheckDimension(const Parameters& p, int dimension)
     ? ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image"
     : ": only for 3D images, and " + Quoted(p.Input) + " is a space-time image; leave it out";
-  for (const auto& [name, value] : p.Values)
+  for (const MeshingParameter& parameter : MeshingParameters())
   {
-    const MeshingParameter& parameter = FindParameter(name);
-    RefuseIf(
-      parameter.Dimension != 0 && parameter.Dimension != dimension, OptionOf(parameter), why);
+    const bool isOfOthers = parameter.Dimension != 0 && parameter.Dimension != dimension;
+    RefuseIf(isOfOthers && p.Has(parameter.Name), OptionOf(parameter), why);
   }
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
   RefuseIf(dimension == 4 && p.Hausdorff, "--hausdorff", why);

@@ -240,7 +240,8 @@ std::string Describe(UserInterface interface, const MeshingParameter& parameter)
     text += separator + note;
     separator = "; ";
   }
-  return text + (separator == "; " ? ")" : "");
+  text += separator == "; " ? ")" : "";
+  return interface == UserInterface::CommandLine ? text : Capitalised(text) + '.';
 }
 
 std::string BeyondLimit(const MeshingParameter& parameter, double value)

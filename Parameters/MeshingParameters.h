@@ -125,7 +125,8 @@ std::string LabelOf(const MeshingParameter& parameter);
 /** Of the VTK filters, what follows Set and Get: FacetAngle. */
 std::string PropertyOf(const MeshingParameter& parameter);
 
-/** Its help, and in parentheses what is to be known of its values. Slicer shows defaults itself. */
+/** Its help, and in parentheses what is to be known of its values. Slicer shows defaults itself. Of the
+ * command line it is no sentence. */
 std::string Describe(UserInterface interface, const MeshingParameter& parameter);
 
 /** "below 1.93" or "above 15" if the value needs Force; otherwise empty. */

@@ -29,8 +29,7 @@ def signature(table):
 def descriptions(table):
     lines = []
     for p in table:
-        text = p["python_help"]
-        lines += [f"    {p['python']}", textwrap.fill(text[0].upper() + text[1:] + ".", 118, initial_indent=8 * " ",
+        lines += [f"    {p['python']}", textwrap.fill(p["python_help"], 118, initial_indent=8 * " ",
                                                        subsequent_indent=8 * " ", break_on_hyphens=False)]
     return "\n".join(lines).lstrip()
 

@@ -94,12 +94,18 @@ std::vector<Parameter> OwnParameters(voxplex::ParameterGroup group)
   }
 }
 
+/** Flags that are on by default have a value here: applications have no flags that switch off. */
+bool IsOnOff(const MeshingParameter& parameter)
+{
+  return parameter.Kind == ParameterKind::Flag && parameter.IsOnByDefault();
+}
+
 Kind KindOf(const MeshingParameter& parameter)
 {
   switch (parameter.Kind)
   {
     case ParameterKind::Flag:
-      return parameter.IsOnByDefault() ? Kind::StringEnumeration : Kind::Boolean;
+      return IsOnOff(parameter) ? Kind::StringEnumeration : Kind::Boolean;
     case ParameterKind::Word:
       return Kind::StringEnumeration;
     case ParameterKind::Real:
@@ -129,12 +135,10 @@ Parameter FromTable(const MeshingParameter& parameter)
   Parameter made{ .Type = KindOf(parameter),
     .Name = NameIn(UserInterface::Slicer, parameter),
     .Label = LabelOf(parameter),
-    .Description = Describe(UserInterface::Slicer, parameter) + ".",
+    .Description = Describe(UserInterface::Slicer, parameter),
     .Default = DefaultOf(parameter),
-    .Elements = parameter.Words,
+    .Elements = IsOnOff(parameter) ? std::vector<std::string>{ "on", "off" } : parameter.Words,
     .Source = &parameter };
-  made.Description.front() =
-    static_cast<char>(std::toupper(static_cast<unsigned char>(made.Description.front())));
   std::transform(made.Name.begin(), made.Name.end(), std::back_inserter(made.LongFlag),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::map<std::string, char> flags{ { "delta", 'd' }, { "smoothing", 's' },
@@ -142,10 +146,6 @@ Parameter FromTable(const MeshingParameter& parameter)
   if (const auto flag = flags.find(parameter.Name); flag != flags.end())
   {
     made.Flag = flag->second;
-  }
-  if (parameter.Kind == ParameterKind::Flag && made.Type == Kind::StringEnumeration)
-  {
-    made.Elements = { "on", "off" };
   }
   if (parameter.Step > 0.0)
   {
