@@ -56,8 +56,8 @@ struct ParameterRange
 
 struct MeshingParameter
 {
-  std::string Name; ///< words with dashes
-  ParameterKind Kind;
+  std::string Name{}; ///< words with dashes
+  ParameterKind Kind{};
   ///@{
   /** Where they are not made from Name: LabelOf(), PropertyOf(). */
   std::string Property{};
@@ -77,7 +77,7 @@ struct MeshingParameter
    * What it does; begins with a small letter, has no full stop at its end, and names other parameters in braces. Of
    * a flag: what it does when it is on, beginning with a verb.
    */
-  std::string Help;
+  std::string Help{};
   std::string Zero{}; ///< what 0, or a flag that is off, means
   /** Values below or above need Force. */
   std::optional<double> ForceBelow{};

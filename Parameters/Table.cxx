@@ -18,399 +18,239 @@ constexpr ParameterRange Positive{ 0.0, Infinity, true };
 constexpr ParameterRange NotNegative{ 0.0, Infinity };
 constexpr ParameterRange Sigmas{ 0.0, 5.0 };
 
+/** What all parameters have is in columns: Dimension, Range, Default, Unit, Help. The rest says what is particular. */
+MeshingParameter Number(Kind kind, const char* name, int dimension, ParameterRange range,
+  const char* defaultValue, const char* unit, const char* help, MeshingParameter rest = {})
+{
+  rest.Name = name;
+  rest.Kind = kind;
+  rest.Dimension = dimension;
+  rest.Range = range;
+  rest.Default = defaultValue;
+  rest.Unit = unit;
+  rest.Help = help;
+  return rest;
+}
+
+MeshingParameter Flag(const char* name, int dimension, const char* defaultValue, const char* help,
+  const MeshingParameter& rest = {})
+{
+  return Number(Kind::Flag, name, dimension, {}, defaultValue, "", help, rest);
+}
+
+MeshingParameter Word(const char* name, int dimension, const char* defaultValue,
+  const std::vector<std::string>& words, const char* help, MeshingParameter rest = {})
+{
+  rest.Words = words;
+  return Number(Kind::Word, name, dimension, {}, defaultValue, rest.Unit.c_str(), help, rest);
+}
+
+MeshingParameter List(Kind kind, const char* name, const char* unit, const char* help,
+  const MeshingParameter& rest = {})
+{
+  return Number(kind, name, 0, {}, "", unit, help, rest);
+}
+
 Parameters GreyValues()
 {
   return {
-    { .Name = "isovalue",
-      .Kind = Kind::Real,
-      .Dimension = 3,
-      .Usual = ParameterRange{ -1e9, 1e9 },
-      .Step = 0.1,
-      .Unit = "VALUE",
-      .Help = "mesh what the isosurface of a grey-value image at this value bounds, as one label" },
-    { .Name = "inside",
-      .Kind = Kind::Word,
-      .Dimension = 3,
-      .Default = "above",
-      .Words = { "above", "below" },
-      .Help = "on which side of the isosurface the object lies; above: where values are greater" },
-    { .Name = "inside-label",
-      .Kind = Kind::Whole,
-      .Label = "Label of the inside",
-      .Dimension = 3,
-      .Default = "1",
-      .Range = { 1.0, LargestWhole },
-      .Usual = ParameterRange{ 1.0, 65535.0 },
-      .Step = 1.0,
-      .Unit = "LABEL",
-      .Help = "the label of the elements inside of the isosurface" },
-    { .Name = "grey-smoothing",
-      .Kind = Kind::Real,
-      .Property = "IsosurfaceSmoothingSigma",
-      .Label = "Smoothing of grey values",
-      .Dimension = 3,
-      .Default = "0",
-      .Range = Sigmas,
-      .Step = 0.1,
-      .Unit = "VOXELS",
-      .Help = "standard deviation of the smoothing of noise in grey values, in voxels",
-      .Zero = "off",
-      .Option = None, // --smoothing is both
-      .Python = None },
+    Number(Kind::Real, "isovalue", 3, {}, "", "VALUE",
+      "mesh what the isosurface of a grey-value image at this value bounds, as one label",
+      { .Usual = ParameterRange{ -1e9, 1e9 }, .Step = 0.1 }),
+    Word("inside", 3, "above", { "above", "below" },
+      "on which side of the isosurface the object lies; above: where values are greater"),
+    Number(Kind::Whole, "inside-label", 3, { 1.0, LargestWhole }, "1", "LABEL",
+      "the label of the elements inside of the isosurface",
+      { .Label = "Label of the inside", .Usual = ParameterRange{ 1.0, 65535.0 }, .Step = 1.0 }),
+    // The programs without a name for it set it by smoothing.
+    Number(Kind::Real, "grey-smoothing", 3, Sigmas, "0", "VOXELS",
+      "standard deviation of the smoothing of noise in grey values, in voxels",
+      { .Property = "IsosurfaceSmoothingSigma",
+        .Label = "Smoothing of grey values",
+        .Step = 0.1,
+        .Zero = "off",
+        .Option = None,
+        .Python = None }),
   };
 }
 
 Parameters Density()
 {
   return {
-    { .Name = "delta",
-      .Kind = Kind::Real,
-      .Range = Positive,
-      .Unit = "LENGTH",
-      .Help = "sampling density of the interfaces: the edges of their triangles are about one to "
-              "two times as long; the number of elements grows with the square of 1/delta",
-      .Zero = "derived from the spacing" },
-    { .Name = "elements",
-      .Kind = Kind::Whole,
-      .Property = "NumberOfElements",
-      .Label = "Number of elements",
-      .Range = { 1.0, LargestWhole },
-      .Unit = "NUMBER",
-      .Help = "solve for the delta that makes so many elements, to within a tenth, in place of "
-              "{delta}; it takes two or three times as long",
-      .Zero = "as delta has it" },
-    { .Name = "grading",
-      .Kind = Kind::Word,
-      .Dimension = 3,
-      .Default = "uniform",
-      .Words = { "uniform", "lfs" },
-      .Help = "sample interfaces with delta everywhere (uniform), or more coarsely where their "
-              "shape allows it, by the local feature size (lfs): the distance to the medial axis, "
-              "about half the thickness of what is thin" },
-    { .Name = "size",
-      .Kind = Kind::Real,
-      .Property = "ElementSize",
-      .Label = "Largest element",
-      .Range = Positive,
-      .Unit = "LENGTH",
-      .Help = "upper bound of the elements' circumradii, everywhere",
-      .Zero = "no bound" },
-    { .Name = "label-size",
-      .Kind = Kind::LabelSizes,
-      .Label = "Largest element of labels",
-      .Unit = "LABEL=LENGTH",
-      .Help = "the same in single labels",
-      .Slicer = "labelSizes",
-      .Python = "label_sizes" },
-    { .Name = "size-image",
-      .Kind = Kind::Image,
-      .Property = "ElementSizeData",
-      .Label = "Image of sizes",
-      .Unit = "FILE",
-      .Help = "the same from an image whose values are lengths, 0 where there is no bound",
-      .Slicer = None },
+    Number(Kind::Real, "delta", 0, Positive, "", "LENGTH",
+      "sampling density of the interfaces: the edges of their triangles are about one to two times "
+      "as long; the number of elements grows with the square of 1/delta",
+      { .Zero = "derived from the spacing" }),
+    Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
+      "solve for the delta that makes so many elements, to within a tenth, in place of {delta}; it "
+      "takes two or three times as long",
+      { .Property = "NumberOfElements", .Label = "Number of elements", .Zero = "as delta has it" }),
+    Word("grading", 3, "uniform", { "uniform", "lfs" },
+      "sample interfaces with delta everywhere (uniform), or more coarsely where their shape "
+      "allows it, by the local feature size (lfs): the distance to the medial axis, about half the "
+      "thickness of what is thin"),
+    Number(Kind::Real, "size", 0, Positive, "", "LENGTH",
+      "upper bound of the elements' circumradii, everywhere",
+      { .Property = "ElementSize", .Label = "Largest element", .Zero = "no bound" }),
+    List(Kind::LabelSizes, "label-size", "LABEL=LENGTH", "the same in single labels",
+      { .Label = "Largest element of labels", .Slicer = "labelSizes", .Python = "label_sizes" }),
+    List(Kind::Image, "size-image", "FILE",
+      "the same from an image whose values are lengths, 0 where there is no bound",
+      { .Property = "ElementSizeData", .Label = "Image of sizes", .Slicer = None }),
   };
 }
 
 Parameters Labels()
 {
   return {
-    { .Name = "labels",
-      .Kind = Kind::Labels,
-      .Property = "Label",
-      .Unit = "LIST",
-      .Help = "mesh these labels only; the others become background" },
+    List(Kind::Labels, "labels", "LIST", "mesh these labels only; the others become background",
+      { .Property = "Label" }),
   };
 }
 
 Parameters Shapes()
 {
   return {
-    { .Name = "optimise",
-      .Kind = Kind::Flag,
-      .Dimension = 3,
-      .Default = "on",
-      .Help = "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a "
-              "few, radius-edge ratios up to 2.5",
-      .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" },
-    { .Name = "smallest-component",
-      .Kind = Kind::Whole,
-      .Dimension = 3,
-      .Default = "8",
-      .Range = { 0.0, LargestWhole },
-      .Unit = "VOXELS",
-      .Help = "connected components of at least so many voxels, and the largest of each label, get "
-              "tetrahedra whatever delta",
-      .Zero = "as it comes" },
-    { .Name = "exact-components",
-      .Kind = Kind::Flag,
-      .Dimension = 3,
-      .Default = "off",
-      .Help = "sample these components as finely as they are thin, whatever delta; otherwise those "
-              "that are thin beside delta have a few tetrahedra" },
-    { .Name = "min-component-volume",
-      .Kind = Kind::Real,
-      .Property = "MinimumComponentVolume",
-      .Label = "Smallest volume",
-      .Dimension = 3,
-      .Range = Positive,
-      .Unit = "VOLUME",
-      .Help = "leave out connected components that are smaller, such as specks: they become what "
-              "is around them",
-      .Zero = "none is left out",
-      .Slicer = "minimumVolume" },
+    Flag("optimise", 3, "on",
+      "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
+      "radius-edge ratios up to 2.5",
+      { .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" }),
+    Number(Kind::Whole, "smallest-component", 3, { 0.0, LargestWhole }, "8", "VOXELS",
+      "connected components of at least so many voxels, and the largest of each label, get "
+      "tetrahedra whatever delta",
+      { .Zero = "as it comes" }),
+    Flag("exact-components", 3, "off",
+      "sample these components as finely as they are thin, whatever delta; otherwise those that "
+      "are thin beside delta have a few tetrahedra"),
+    Number(Kind::Real, "min-component-volume", 3, Positive, "", "VOLUME",
+      "leave out connected components that are smaller, such as specks: they become what is around "
+      "them",
+      { .Property = "MinimumComponentVolume",
+        .Label = "Smallest volume",
+        .Zero = "none is left out",
+        .Slicer = "minimumVolume" }),
   };
 }
 
 Parameters Interfaces()
 {
   return {
-    { .Name = "interface-size",
-      .Kind = Kind::InterfaceSizes,
-      .Label = "Interface sizes",
-      .Unit = "LABELS=LENGTH",
-      .Help = "sampling density of all interfaces of a label, or of the interface between two "
-              "labels, 0 being background, in place of delta, smaller or larger",
-      .Slicer = "interfaceSizes",
-      .Python = "interface_sizes" },
-    { .Name = "feature-ratio",
-      .Kind = Kind::Real,
-      .Dimension = 3,
-      .Default = "1",
-      .Range = Positive,
-      .Usual = ParameterRange{ 0.1, 4.0 },
-      .Step = 0.1,
-      .Unit = "RATIO",
-      .Help = "with {grading} lfs: sampling density over local feature size where that gives more "
-              "than delta" },
-    { .Name = "largest-feature",
-      .Kind = Kind::Real,
-      .Dimension = 3,
-      .Default = "12",
-      .Range = Positive,
-      .Usual = ParameterRange{ 1.0, 100.0 },
-      .Step = 1.0,
-      .Unit = "VOXELS",
-      .Help = "with {grading} lfs: larger local feature sizes count as this (lambda), in voxels" },
-    { .Name = "gradation",
-      .Kind = Kind::Real,
-      .Default = "0.3",
-      .Range = NotNegative,
-      .Usual = ParameterRange{ 0.0, 1.0 },
-      .Unit = "SLOPE",
-      .Help = "how much sizes and interface sizes may change over a unit of length",
-      .Zero = "no limit" },
+    List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
+      "sampling density of all interfaces of a label, or of the interface between two labels, 0 "
+      "being background, in place of delta, smaller or larger",
+      { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
+    Number(Kind::Real, "feature-ratio", 3, Positive, "1", "RATIO",
+      "with {grading} lfs: sampling density over local feature size where that gives more than "
+      "delta",
+      { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
+    Number(Kind::Real, "largest-feature", 3, Positive, "12", "VOXELS",
+      "with {grading} lfs: larger local feature sizes count as this (lambda), in voxels",
+      { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0 }),
+    Number(Kind::Real, "gradation", 0, NotNegative, "0.3", "SLOPE",
+      "how much sizes and interface sizes may change over a unit of length",
+      { .Usual = ParameterRange{ 0.0, 1.0 }, .Zero = "no limit" }),
   };
 }
 
 Parameters Quality()
 {
   return {
-    { .Name = "radius-edge",
-      .Kind = Kind::Real,
-      .Property = "RadiusEdgeRatio",
-      .Label = "Radius-edge ratio",
-      .Default = "2",
-      .Range = { 1.0, Infinity },
-      .Usual = ParameterRange{ 1.0, 10.0 },
-      .Step = 0.1,
-      .Unit = "RATIO",
-      .Help = "upper bound of circumradius over shortest edge, of every element",
-      .ForceBelow = 1.93,
-      .ForceWhy = "it is not proved that refinement ends" },
-    { .Name = "facet-angle",
-      .Kind = Kind::Real,
-      .Dimension = 3,
-      .Default = "30",
-      .Range = { 0.0, 30.0 },
-      .Step = 1.0,
-      .Unit = "DEGREES",
-      .Help = "lower bound of the angles of triangles on the interfaces, in degrees" },
-    { .Name = "smoothing",
-      .Kind = Kind::Real,
-      .Property = "SmoothingSigma",
-      .Default = "1",
-      .Range = Sigmas,
-      .Step = 0.1,
-      .Unit = "VOXELS",
-      .Help = "standard deviation of the smoothing of voxel stairs, in voxels; every voxel centre "
-              "keeps its label",
-      .Zero = "off",
-      .StandsFor = "grey-smoothing" },
-    { .Name = "sliver-angle",
-      .Kind = Kind::Real,
-      .Dimension = 3,
-      .Default = "9",
-      .Range = { 0.0, 59.0 },
-      .Step = 1.0,
-      .Unit = "DEGREES",
-      .Help = "dihedral angle below which, or above 180 degrees less which, a tetrahedron is a "
-              "sliver and split; most above 3 degrees are left to optimisation",
-      .Zero = "leave slivers",
-      .ForceAbove = 15.0,
-      .ForceWhy = "meshes can become very large" },
-    { .Name = "optimise-seconds",
-      .Kind = Kind::Real,
-      .Property = "OptimisationTimeLimit",
-      .Label = "Time for optimising",
-      .Dimension = 3,
-      .Range = Positive,
-      .Unit = "SECONDS",
-      .Help = "stop improving shapes after so long, wherever that is",
-      .Zero = "no limit" },
-    { .Name = "junctions",
-      .Kind = Kind::Flag,
-      .Property = "SampleJunctions",
-      .Dimension = 3,
-      .Default = "on",
-      .Help = "sample the curves where three labels or more meet before all else, so that edges "
-              "follow them",
-      .Zero = "the curves zigzag",
-      .Python = "sample_junctions" },
-    { .Name = "interface-rounds",
-      .Kind = Kind::Whole,
-      .Dimension = 3,
-      .Default = "8",
-      .Range = { 0.0, 100.0 },
-      .Step = 1.0,
-      .Unit = "NUMBER",
-      .Help = "how often, at most, to refine again where an interface of the image is farther than "
-              "1.5 delta from the mesh's, or a label's boundary is not manifold",
-      .Zero = "never" },
-    { .Name = "manifold",
-      .Kind = Kind::Flag,
-      .Dimension = 3,
-      .Default = "on",
-      .Help =
-        "mend edges where more than two triangles of a label's boundary meet, if need be with "
-        "pieces of tetrahedra that are not Delaunay",
-      .Zero = "such edges stay",
-      .Slicer = None },
+    Number(Kind::Real, "radius-edge", 0, { 1.0, Infinity }, "2", "RATIO",
+      "upper bound of circumradius over shortest edge, of every element",
+      { .Property = "RadiusEdgeRatio",
+        .Label = "Radius-edge ratio",
+        .Usual = ParameterRange{ 1.0, 10.0 },
+        .Step = 0.1,
+        .ForceBelow = 1.93,
+        .ForceWhy = "it is not proved that refinement ends" }),
+    Number(Kind::Real, "facet-angle", 3, { 0.0, 30.0 }, "30", "DEGREES",
+      "lower bound of the angles of triangles on the interfaces, in degrees", { .Step = 1.0 }),
+    Number(Kind::Real, "smoothing", 0, Sigmas, "1", "VOXELS",
+      "standard deviation of the smoothing of voxel stairs, in voxels; every voxel centre keeps "
+      "its label",
+      { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
+    Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
+      "dihedral angle below which, or above 180 degrees less which, a tetrahedron is a sliver and "
+      "split; most above 3 degrees are left to optimisation",
+      { .Step = 1.0,
+        .Zero = "leave slivers",
+        .ForceAbove = 15.0,
+        .ForceWhy = "meshes can become very large" }),
+    Number(Kind::Real, "optimise-seconds", 3, Positive, "", "SECONDS",
+      "stop improving shapes after so long, wherever that is",
+      { .Property = "OptimisationTimeLimit", .Label = "Time for optimising", .Zero = "no limit" }),
+    Flag("junctions", 3, "on",
+      "sample the curves where three labels or more meet before all else, so that edges follow "
+      "them",
+      { .Property = "SampleJunctions", .Zero = "the curves zigzag", .Python = "sample_junctions" }),
+    Number(Kind::Whole, "interface-rounds", 3, { 0.0, 100.0 }, "8", "NUMBER",
+      "how often, at most, to refine again where an interface of the image is farther than 1.5 "
+      "delta from the mesh's, or a label's boundary is not manifold",
+      { .Step = 1.0, .Zero = "never" }),
+    Flag("manifold", 3, "on",
+      "mend edges where more than two triangles of a label's boundary meet, if need be with pieces "
+      "of tetrahedra that are not Delaunay",
+      { .Zero = "such edges stay", .Slicer = None }),
   };
 }
 
 Parameters SpaceTime()
 {
   return {
-    { .Name = "time-scale",
-      .Kind = Kind::Real,
-      .Dimension = 4,
-      .Default = "1",
-      .Range = Positive,
-      .Unit = "LENGTH",
-      .Help = "the length that one unit of time counts as much as" },
-    { .Name = "rule-order",
-      .Kind = Kind::Word,
-      .Dimension = 4,
-      .Default = "radius-edge",
-      .Words = { "radius-edge", "surface" },
-      .Help = "which rules come first: those that bound the radius-edge ratio, or those that "
-              "sample the interfaces",
-      .Python = None },
-    { .Name = "picking",
-      .Kind = Kind::Flag,
-      .Property = "PickingRegions",
-      .Label = "Fight slivers",
-      .Dimension = 4,
-      .Default = "on",
-      .Help = "fight slivers with picking regions",
-      .Zero = "faster, with flat elements",
-      .Python = "pick_slivers" },
-    { .Name = "picks",
-      .Kind = Kind::Whole,
-      .Property = "NumberOfPicks",
-      .Label = "Number of picks",
-      .Dimension = 4,
-      .Default = "10",
-      .Range = { 1.0, LargestWhole },
-      .Unit = "NUMBER",
-      .Help = "random points to try in a picking region",
-      .Python = None },
-    { .Name = "sliver-bound",
-      .Kind = Kind::Real,
-      .Dimension = 4,
-      .Default = "0.01",
-      .Range = { 0.0, 0.999 },
-      .Usual = ParameterRange{ 0.0, 0.03 },
-      .Unit = "RATIO",
-      .Help = "normalized volume below which an element is a sliver",
-      .ForceAbove = 0.03,
-      .ForceWhy = "meshes can become very large",
-      .Python = None },
-    { .Name = "seed",
-      .Kind = Kind::Whole,
-      .Property = "RandomSeed",
-      .Label = "Random seed",
-      .Dimension = 4,
-      .Default = "0",
-      .Range = { 0.0, LargestWhole },
-      .Unit = "NUMBER",
-      .Help = "seed of the random points" },
-    { .Name = "fine-grained",
-      .Kind = Kind::Flag,
-      .Label = "Fine-grained",
-      .Dimension = 4,
-      .Default = "on",
-      .Help = "let waiting threads help others to expand cavities",
-      .Python = None },
+    Number(Kind::Real, "time-scale", 4, Positive, "1", "LENGTH",
+      "the length that one unit of time counts as much as"),
+    Word("rule-order", 4, "radius-edge", { "radius-edge", "surface" },
+      "which rules come first: those that bound the radius-edge ratio, or those that sample the "
+      "interfaces",
+      { .Python = None }),
+    Flag("picking", 4, "on", "fight slivers with picking regions",
+      { .Property = "PickingRegions",
+        .Label = "Fight slivers",
+        .Zero = "faster, with flat elements",
+        .Python = "pick_slivers" }),
+    Number(Kind::Whole, "picks", 4, { 1.0, LargestWhole }, "10", "NUMBER",
+      "random points to try in a picking region",
+      { .Property = "NumberOfPicks", .Label = "Number of picks", .Python = None }),
+    Number(Kind::Real, "sliver-bound", 4, { 0.0, 0.999 }, "0.01", "RATIO",
+      "normalized volume below which an element is a sliver",
+      { .Usual = ParameterRange{ 0.0, 0.03 },
+        .ForceAbove = 0.03,
+        .ForceWhy = "meshes can become very large",
+        .Python = None }),
+    Number(Kind::Whole, "seed", 4, { 0.0, LargestWhole }, "0", "NUMBER",
+      "seed of the random points", { .Property = "RandomSeed", .Label = "Random seed" }),
+    Flag("fine-grained", 4, "on", "let waiting threads help others to expand cavities",
+      { .Label = "Fine-grained", .Python = None }),
   };
 }
 
 Parameters Running()
 {
   return {
-    { .Name = "threads",
-      .Kind = Kind::Whole,
-      .Property = "NumberOfThreads",
-      .Default = "0",
-      .Range = { 0.0, 4096.0 },
-      .Step = 1.0,
-      .Unit = "NUMBER",
-      .Help = "threads to use in every stage, refinement included; with 1 the mesh is the same, "
-              "bit for bit, in every run",
-      .Zero = "all cores" },
-    { .Name = "contention",
-      .Kind = Kind::Word,
-      .Property = "ContentionManager",
-      .Label = "Contention manager",
-      .Default = "local",
-      .Words = { "aggressive", "random", "global", "local" },
-      .Unit = "MANAGER",
-      .Help = "what a thread does when another holds what it needs: aggressive (try again at "
-              "once), random (sleep now and then), global or local (wait until another thread "
-              "makes progress)",
-      .Slicer = None,
-      .Python = None },
-    { .Name = "balance",
-      .Kind = Kind::Word,
-      .Property = "LoadBalancer",
-      .Label = "Load balancer",
-      .Default = "hws",
-      .Words = { "rws", "hws" },
-      .Help = "from whom a thread without work gets some: whichever thread looks first (rws) or "
-              "the nearest (hws)",
-      .Slicer = None,
-      .Python = None },
-    { .Name = "pin",
-      .Kind = Kind::Flag,
-      .Property = "PinThreads",
-      .Label = "Pin threads",
-      .Default = "off",
-      .Help = "keep each thread on a core of its own; not while other programs use the cores",
-      .Slicer = None,
-      .Python = None },
-    { .Name = "memory-limit",
-      .Kind = Kind::Bytes,
-      .Range = { 1.0, 1e18 },
-      .Unit = "BYTES",
-      .Help = "refuse meshes estimated to need more",
-      .Zero = "the machine's memory",
-      .Slicer = None },
-    { .Name = "force",
-      .Kind = Kind::Flag,
-      .Default = "off",
-      .Help = "go on although the mesh is estimated not to fit into memory, the labels look like "
-              "grey values, or the value of another parameter needs it" },
+    Number(Kind::Whole, "threads", 0, { 0.0, 4096.0 }, "0", "NUMBER",
+      "threads to use in every stage, refinement included; with 1 the mesh is the same, bit for "
+      "bit, in every run",
+      { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
+    Word("contention", 0, "local", { "aggressive", "random", "global", "local" },
+      "what a thread does when another holds what it needs: aggressive (try again at once), random "
+      "(sleep now and then), global or local (wait until another thread makes progress)",
+      { .Property = "ContentionManager",
+        .Label = "Contention manager",
+        .Unit = "MANAGER",
+        .Slicer = None,
+        .Python = None }),
+    Word("balance", 0, "hws", { "rws", "hws" },
+      "from whom a thread without work gets some: whichever thread looks first (rws) or the "
+      "nearest (hws)",
+      { .Property = "LoadBalancer", .Label = "Load balancer", .Slicer = None, .Python = None }),
+    Flag("pin", 0, "off",
+      "keep each thread on a core of its own; not while other programs use the cores",
+      { .Property = "PinThreads", .Label = "Pin threads", .Slicer = None, .Python = None }),
+    Number(Kind::Bytes, "memory-limit", 0, { 1.0, 1e18 }, "", "BYTES",
+      "refuse meshes estimated to need more", { .Zero = "the machine's memory", .Slicer = None }),
+    Flag("force", 0, "off",
+      "go on although the mesh is estimated not to fit into memory, the labels look like grey "
+      "values, or the value of another parameter needs it"),
   };
 }
 

@@ -175,81 +175,45 @@ ParameterGroup FromTable(voxplex::ParameterGroup group)
   return made;
 }
 
+/** Something that the module returns. */
+Parameter Returned(Kind type, const char* name, const char* label, const char* description)
+{
+  return { .Type = type,
+    .Name = name,
+    .Label = label,
+    .Description = description,
+    .Direction = Channel::Output,
+    .Default = type == Kind::String ? "" : "0" };
+}
+
 ParameterGroup Results()
 {
   return { .Label = "Results",
     .Description = "What is known about the mesh afterwards.",
     .Parameters = {
-      { .Type = Kind::Integer,
-        .Name = "numberOfTetrahedra",
-        .Label = "Tetrahedra",
-        .Description = "How many there are.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "usedDelta",
-        .Label = "Delta used",
-        .Description = "The sampling density that was used.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::String,
-        .Name = "missingLabels",
-        .Label = "Labels without elements",
-        .Description = "Labels of the image that the mesh lacks, because they are too small for "
-                       "delta.",
-        .Direction = Channel::Output },
-      { .Type = Kind::Integer,
-        .Name = "missingComponents",
-        .Label = "Components without elements",
-        .Description =
-          "How many connected components the mesh lacks although they were looked after.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "smallestDihedralAngle",
-        .Label = "Smallest dihedral angle",
-        .Description = "Of all tetrahedra, in degrees.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "largestDihedralAngle",
-        .Label = "Largest dihedral angle",
-        .Description = "Of all tetrahedra, in degrees.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "largestRadiusEdge",
-        .Label = "Largest radius-edge ratio",
-        .Description = "Circumradius over shortest edge, of all tetrahedra.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "smallestFacetAngle",
-        .Label = "Smallest angle of triangles",
-        .Description = "Of those on the interfaces, in degrees.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "hausdorffDistance",
-        .Label = "Hausdorff distance",
-        .Description = "From the faces between voxels of different labels to the interfaces and "
-                       "back, if the mesh was compared with the label map.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Integer,
-        .Name = "nonManifoldEdges",
-        .Label = "Non-manifold edges",
-        .Description = "Edges of the boundary of a label that not exactly two of its triangles "
-                       "share, if the mesh was compared.",
-        .Direction = Channel::Output,
-        .Default = "0" },
-      { .Type = Kind::Double,
-        .Name = "volumeError",
-        .Label = "Error of volumes",
-        .Description = "Of the label that has the largest, as a fraction of its volume, if the "
-                       "mesh was compared.",
-        .Direction = Channel::Output,
-        .Default = "0" },
+      Returned(Kind::Integer, "numberOfTetrahedra", "Tetrahedra", "How many there are."),
+      Returned(Kind::Double, "usedDelta", "Delta used", "The sampling density that was used."),
+      Returned(Kind::String, "missingLabels", "Labels without elements",
+        "Labels of the image that the mesh lacks, because they are too small for delta."),
+      Returned(Kind::Integer, "missingComponents", "Components without elements",
+        "How many connected components the mesh lacks although they were looked after."),
+      Returned(Kind::Double, "smallestDihedralAngle", "Smallest dihedral angle",
+        "Of all tetrahedra, in degrees."),
+      Returned(Kind::Double, "largestDihedralAngle", "Largest dihedral angle",
+        "Of all tetrahedra, in degrees."),
+      Returned(Kind::Double, "largestRadiusEdge", "Largest radius-edge ratio",
+        "Circumradius over shortest edge, of all tetrahedra."),
+      Returned(Kind::Double, "smallestFacetAngle", "Smallest angle of triangles",
+        "Of those on the interfaces, in degrees."),
+      Returned(Kind::Double, "hausdorffDistance", "Hausdorff distance",
+        "From the faces between voxels of different labels to the interfaces and back, if the mesh "
+        "was compared with the label map."),
+      Returned(Kind::Integer, "nonManifoldEdges", "Non-manifold edges",
+        "Edges of the boundary of a label that not exactly two of its triangles share, if the mesh "
+        "was compared."),
+      Returned(Kind::Double, "volumeError", "Error of volumes",
+        "Of the label that has the largest, as a fraction of its volume, if the mesh was "
+        "compared."),
     } };
 }
 
