@@ -66,10 +66,10 @@ double ParseReal(const std::string& option, std::string_view text, const Paramet
     return value;
   }
   const std::string low = NumberText(range.Low);
-  throw UsageError("--" + option + ": must " +
-    (std::isfinite(range.High) ? "lie between " + low + " and " + NumberText(range.High)
-        : range.LowIsOutside   ? "be greater than " + low
-                               : "be " + low + " or more") +
+  throw UsageError("--" + option +
+    (std::isfinite(range.High) ? ": must lie between " + low + " and " + NumberText(range.High)
+        : range.LowIsOutside   ? ": must be greater than " + low
+                               : ": must be " + low + " or more") +
     ", not " + std::string(text) + (tooSmall ? hint : ""));
 }
 

@@ -14,7 +14,7 @@ namespace voxplex::cli
 namespace
 {
 
-void RefuseIf(bool isGiven, const std::string& option, const std::string& why)
+void RefuseIf(bool isGiven, const std::string& option, const std::string& why = "")
 {
   if (isGiven)
   {
@@ -41,8 +41,8 @@ void CheckForced(const Parameters& p)
 
 void CheckSpaceTime(const Parameters& p)
 {
-  RefuseIf(p.SliceCount && p.Slices.empty(), "--slice-count",
-    ": of which slices? Give the beginning of their names with --slices");
+  RefuseIf(p.SliceCount && p.Slices.empty(),
+    "--slice-count: of which slices? Give the beginning of their names with --slices");
   for (const char* name : { "picks", "sliver-bound", "seed" })
   {
     RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),
@@ -78,8 +78,9 @@ void CheckDependent(const Parameters& p)
   RefuseIf(!graded && p.Has("largest-feature"), "--largest-feature", Why);
   RefuseIf(p.Has("optimise") && p.Has("optimise-seconds"), "--optimise-seconds",
     " limits what --no-optimise switches off: leave one of the two out");
-  RefuseIf(p.Has("delta") && p.Has("elements"), "--delta",
-    " and --elements do not go together: delta is what is solved for; leave one of the two out");
+  RefuseIf(p.Has("delta") && p.Has("elements"),
+    "--delta and --elements do not go together: delta is what is solved for; leave one of the two "
+    "out");
 }
 
 } // namespace

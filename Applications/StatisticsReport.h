@@ -39,7 +39,7 @@ struct InputOutputTimes
 };
 
 /**
- * The statistics as Documentation/FileFormats.md lists them: those of the filter, with times,
+ * The statistics as Documentation/Reference.md lists them: those of the filter, with times,
  * rates and memory of the whole program and the parameters of the command.
  */
 nlohmann::ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,

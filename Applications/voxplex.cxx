@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line program: label image in, mesh files out. See Documentation/UserGuide.md.
+// The command line program: label image in, mesh files out. See Documentation/Reference.md.
 
 #include "CommandLine.h"
 #include "Errors.h"

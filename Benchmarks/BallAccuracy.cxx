@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of a digital ball against the true sphere, by smoothing and delta, and of grey-value images of the
 // same ball: the tables of Documentation/Algorithm.md.
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 
-#include "../Testing/Kernel/MeshChecks.h"
-#include "../Testing/Kernel/Phantoms.h"
+#include "../Testing/Kernel/Support/MeshChecks.h"
+#include "../Testing/Kernel/Support/Phantoms.h"
 
 #include <algorithm>
 #include <cmath>

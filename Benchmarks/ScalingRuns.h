@@ -8,7 +8,7 @@
 #define voxplex_ScalingRuns_h
 
 #include "LabelVolume.h"
-#include "MeshingStatistics.h"
+#include "Mesher/MeshingStatistics.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SpaceTimeRun.h"
 
-#include "../Testing/Kernel/SpaceTimeChecks.h"
+#include "../Testing/Kernel/Support/SpaceTimeChecks.h"
 #include "ChildProcess.h"
-#include "Mesh/MeshQuality.h"
+#include "Quality/MeshQuality.h"
 
 #include <algorithm>
 #include <map>

@@ -8,7 +8,7 @@
 #define voxplex_SpaceTimeRun_h
 
 #include "../Testing/Phantoms/SpaceTimePhantoms.h"
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 
 #include <array>
 #include <cstddef>

@@ -40,8 +40,8 @@ MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads, Care 
     options.TetSlivers.Angle = 0.0;
     options.SmallestComponent = 0;
     options.SampleJunctions = false;
-    options.InterfaceRounds = 0;
-    options.Manifold = false;
+    options.Interfaces.Rounds = 0;
+    options.Interfaces.Manifold = false;
   }
   return RunVoxplex(std::move(volume), options).Run;
 }

@@ -7,7 +7,7 @@
 #ifndef voxplex_VoxplexRun_h
 #define voxplex_VoxplexRun_h
 
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 #include "MesherRun.h"
 
 namespace voxplex::benchmarks

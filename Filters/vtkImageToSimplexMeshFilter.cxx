@@ -579,10 +579,10 @@ void vtkImageToSimplexMeshFilter::WarnOfDeviations()
       << "The mesh lacks these labels of the image, which are too small for a Delta of "
       << figures.Run.Delta << ": " << voxplex::ListLabels(figures.LostLabels) << ".");
   }
-  if (!figures.Run.LostComponents.empty())
+  if (!figures.Run.Components.Lost.empty())
   {
     std::string text;
-    for (const voxplex::ComponentReport& component : figures.Run.LostComponents)
+    for (const voxplex::ComponentReport& component : figures.Run.Components.Lost)
     {
       text += (text.empty() ? "" : ", ") + voxplex::Describe(component);
     }

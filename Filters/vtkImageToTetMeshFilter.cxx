@@ -154,8 +154,8 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.Optimise = this->Optimise;
   run.Options.OptimisationSeconds = this->OptimisationTimeLimit;
   run.Options.SampleJunctions = this->SampleJunctions;
-  run.Options.InterfaceRounds = static_cast<unsigned>(this->InterfaceRounds);
-  run.Options.Manifold = this->Manifold;
+  run.Options.Interfaces.Rounds = static_cast<unsigned>(this->InterfaceRounds);
+  run.Options.Interfaces.Manifold = this->Manifold;
   run.Options.SmallestComponent = this->SmallestComponent;
   run.Options.ExactComponents = this->ExactComponents;
   run.Sizes->Implicit = this->SizeImplicitFunction;

@@ -110,7 +110,7 @@ void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
   }
 }
 
-void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceFigures& figures)
+void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceStatistics& figures)
 {
   json.Begin("interfaces");
   json.Add("junction_curves", figures.JunctionCurves);
@@ -233,8 +233,8 @@ VOXPLEX_FIGURE(vtkTypeInt64, EstimatedNumberOfElements, Run.EstimatedElements)
 VOXPLEX_FIGURE(bool, MeshedIsosurface, Isosurface.Meshed)
 VOXPLEX_FIGURE(double, Isovalue, Isosurface.Value)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
-VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components)
-VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.LostComponents.size())
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components.Found)
+VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.Components.Lost.size())
 VOXPLEX_FIGURE(int, NumberOfDroppedComponents, DroppedComponents.size())
 VOXPLEX_FIGURE(bool, HasQuality, HasQuality)
 VOXPLEX_FIGURE(int, NumberOfLabels, Quality.Labels.size())
@@ -422,17 +422,17 @@ double vtkMeshingStatistics::GetLabelVolume(int index) const
 
 vtkTypeInt64 vtkMeshingStatistics::GetLostComponentLabel(int index) const
 {
-  return ReportAt(this->Values->Run.LostComponents, index).Label;
+  return ReportAt(this->Values->Run.Components.Lost, index).Label;
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetLostComponentVoxels(int index) const
 {
-  return ReportAt(this->Values->Run.LostComponents, index).Voxels;
+  return ReportAt(this->Values->Run.Components.Lost, index).Voxels;
 }
 
 void vtkMeshingStatistics::GetLostComponentVoxel(int index, vtkTypeInt64 voxel[3]) const
 {
-  CopyVoxel(ReportAt(this->Values->Run.LostComponents, index), voxel);
+  CopyVoxel(ReportAt(this->Values->Run.Components.Lost, index), voxel);
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetDroppedComponentLabel(int index) const
@@ -491,8 +491,8 @@ std::string vtkMeshingStatistics::ToJSON() const
   json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
   AddIsosurface(json, v.Isosurface);
   json.Add<std::int64_t>("lost_labels", v.LostLabels);
-  json.Add("components", v.Run.Components);
-  voxplex::AddComponents(json, "lost_components", v.Run.LostComponents);
+  json.Add("components", v.Run.Components.Found);
+  voxplex::AddComponents(json, "lost_components", v.Run.Components.Lost);
   voxplex::AddComponents(json, "dropped_components", v.DroppedComponents);
   AddYielding(json, v.Run);
   AddInterfaces(json, v.Run.Interfaces);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPentatopeMeshTimeSlice.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 #include "Mesh/TimeSlice.h"
 
 #include "vtkAlgorithmOutput.h"

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSimplexMeshQuality.h"
 
-#include "Error.h"
-#include "Image/LabelField.h"
+#include "Base/Error.h"
+#include "Domain/LabelField.h"
 #include "Mesh/FindInterfaces.h"
-#include "MeshMeasurement.h"
 #include "Parallel/ParallelFor.h"
 #include "Private/ChosenArray.h"
 #include "Private/ImageLabels.h"
@@ -13,6 +12,7 @@
 #include "Private/QualityJson.h"
 #include "Private/QualityTables.h"
 #include "Private/SmpThreads.h"
+#include "Quality/MeshMeasurement.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

@@ -184,7 +184,7 @@ public:
   ///@}
 
   /**
-   * All figures as one JSON object; what is not finite is null. Documentation/UserGuide.md has the keys.
+   * All figures as one JSON object; what is not finite is null. Documentation/Reference.md has the keys.
    */
   std::string ToJSON() const;
 

@@ -78,7 +78,8 @@ Parameters Density()
 {
   return {
     Number(Kind::Real, "delta", 0, Positive, "", "LENGTH",
-      "sampling density of the interfaces: the edges of their triangles are about one to two times "
+      "sampling distance of the interfaces: the edges of their triangles are about one to two "
+      "times "
       "as long; the number of elements grows with the square of 1/delta",
       { .Zero = "derived from the spacing" }),
     Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
@@ -136,11 +137,11 @@ Parameters Interfaces()
 {
   return {
     List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
-      "sampling density of all interfaces of a label, or of the interface between two labels, 0 "
+      "sampling distance of all interfaces of a label, or of the interface between two labels, 0 "
       "being background, in place of delta, smaller or larger",
       { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
     Number(Kind::Real, "feature-ratio", 3, Positive, "1", "RATIO",
-      "with {grading} lfs: sampling density over local feature size where that gives more than "
+      "with {grading} lfs: sampling distance over local feature size where that gives more than "
       "delta",
       { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
     Number(Kind::Real, "largest-feature", 3, Positive, "12", "VOXELS",

@@ -4,7 +4,7 @@
 import math
 import statistics
 
-# What is asked of the two atlases; the program measures all of it.
+# What is required of the meshes of the two atlases; the program measures all of it.
 CGAL_NON_MANIFOLD_ON_KNEE = 457
 COLUMNS = (("default", "Voxplex"), ("optimised", "optimised"), ("cgal", "CGAL"), ("cgal-optimised", "perturb + exude"))
 
@@ -153,7 +153,7 @@ class Atlas:
                 ("Tetrahedra a second, all but optimisation", total)]
 
     def asked(self):
-        return table(["what is asked", "measured", "met"],
+        return table(["requirement", "measured", "met"],
                      [[text, value, "yes" if met else "**no**"] for text, value, met in self.criteria()])
 
 
@@ -176,12 +176,12 @@ def _range(quality):
 def grading_section(grading):
     """None if the program cannot grade; else by input a list of runs of both modes."""
     if grading is None:
-        return ("Not measured in this run; [Benchmarks.md](Benchmarks.md#grading) has figures from before junctions were sampled "
-                "and interfaces inspected.\n")
-    parts = ["Each input is meshed with several deltas in both modes. Of each graded mesh the table has the number of\n"
-             "tetrahedra, its Hausdorff distance to the smooth interface, and how many tetrahedra a uniform mesh has at\n"
-             "that distance: interpolated between the two uniform meshes beside it, logarithms over logarithms. Where the\n"
-             "graded mesh is nearer than all uniform ones, the nearest of these is taken, and the saving is at least that.\n"]
+        return ("Not measured in this run; [Benchmarks.md](Benchmarks.md#grading) has figures that are older than the sampling of "
+                "junctions and the inspection of interfaces.\n")
+    parts = ["Each input is meshed with several deltas in both modes. The table has, for each graded mesh, the number of tetrahedra\n"
+             "and the Hausdorff distance to the smooth interface. Beside it is the number of tetrahedra that a uniform mesh has at this\n"
+             "distance. It is interpolated between the two nearest uniform meshes, logarithms over logarithms. If the graded mesh is\n"
+             "nearer than all uniform ones, the nearest of these is taken, and the saving is at least the figure given.\n"]
     rows = []
     for name, series in grading.items():
         uniform = sorted((run["distance"], run["elements"]) for run in series["uniform"])
@@ -217,21 +217,22 @@ def _log_ratio(a, b):
 INTRODUCTION = """\
 # Quality of the meshes
 
-Made by `Scripts/measure-quality`, tables and pictures: do not edit. All figures are those of
-`voxplex.quality()` ([UserGuide.md](UserGuide.md#quality)), of the files that the programs wrote; the meshes of
-CGAL 5.5's Mesh_3 are measured by the same function. One thread each. Times are medians of {repeat}, the programs taking turns
-on {machine}; seconds of one thread on this machine, so compare them with each other only. Machines change their pace, so
-rates are measured in {pairs} pairs: a run with everything on against the mean of one of plain refinement before and one
-after it. The percentage is the median of the pairs' ratios, the rates beside it are medians of their own.
+`Scripts/measure-quality` makes this page, its tables and its pictures. Do not edit it. All figures are those of
+`voxplex.quality()` ([Reference.md](Reference.md#quality)), measured in the files that the programs wrote. The same function
+measures the meshes of CGAL 5.5's Mesh_3. All runs have one thread. Times are medians of {repeat}, and the programs took turns
+on {machine}. The seconds are those of this machine, so compare them only with each other. A machine may change its
+pace, so rates are measured in {pairs} pairs: a run with all options on, against the mean of one run of plain refinement before
+it and one after it. The percentage is the median of the pairs' ratios. The rates beside it are medians of their own.
 
-- **Voxplex**: `voxplex` without optimisation, all else at its default. **Optimised**: with it.
-- **CGAL**: `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
-  Voxplex has, without perturbation and exudation; **perturb + exude**: the same mesh after both, without limit of time.
-- A *junction* is where three labels or more meet, background counted; a *corner*, four. An *irregular* junction point
-  is no corner and has other than two junction edges. An edge of a label's own boundary is *non-manifold* if not exactly
-  two facets of it meet there; it counts once for each such label.
-- Distances are symmetric Hausdorff distances between the interfaces of the mesh and those of the image: the centres of
-  faces between voxels of different labels, or the smooth interface that Voxplex meshes. CGAL does not mesh the latter.
+- **Voxplex** is `voxplex` without optimisation, with the defaults for all other options. **Optimised** is with it.
+- **CGAL** is `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
+  Voxplex has, without perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
+- A *junction* is an edge or point where three labels or more meet; background counts as a label. At a *corner* four meet.
+  An *irregular* junction point is no corner and has other than two junction edges. An edge of a label's own boundary is
+  *non-manifold* if other than two facets of the boundary meet there. It counts once for each such label.
+- Distances are symmetric Hausdorff distances between the interfaces of the mesh and those of the image. The interfaces of
+  the image are the centres of faces between voxels of different labels, or the smooth interface that Voxplex meshes. CGAL
+  does not mesh the latter.
 """
 
 
@@ -240,7 +241,7 @@ def make_page(results):
                                   pairs=len(next(iter(results["atlases"].values()))["pairs"]))]
     for key, data in results["atlases"].items():
         atlas = Atlas(data)
-        parts += [f"## {atlas.title}\n", atlas.asked(), "All that was measured:\n", atlas.measured(),
+        parts += [f"## {atlas.title}\n", atlas.asked(), "All figures:\n", atlas.measured(),
                   f"![Dihedral angles](Images/quality-{key}-dihedral.png)\n",
                   f"![Radius-edge ratios and facet angles](Images/quality-{key}-shapes.png)\n"]
     for name in results["missing"]:

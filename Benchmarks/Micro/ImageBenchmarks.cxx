@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // A label image of balls: what its preparation costs, and what the questions of the rules cost.
+#include "Domain/ImageDomain.h"
+#include "Domain/LabelField.h"
 #include "Image/FeatureTransform.h"
-#include "Image/ImageDomain.h"
-#include "Image/LabelField.h"
 #include "RandomPoints.h"
 
 #include <benchmark/benchmark.h>

@@ -3,7 +3,7 @@
 // Insertion and removal of points, processor time. An iteration is a whole run; items are points,
 // and the counter `simplices` counts those created, those that died included.
 #include "Delaunay/Triangulation.h"
-#include "Mesh/HilbertOrder.h"
+#include "Geometry/HilbertOrder.h"
 #include "RandomPoints.h"
 #include "Stopwatch.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/ChosenArray.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"

@@ -7,9 +7,9 @@
 #ifndef voxplex_ElementSizes_h
 #define voxplex_ElementSizes_h
 
-#include "Image/SizeFunction.h"
 #include "Private/ImageFrame.h"
 #include "Private/SpaceTimeFrame.h"
+#include "Sizing/SizeFunction.h"
 
 #include "vtkSmartPointer.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/FrameSeries.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>

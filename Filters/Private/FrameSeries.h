@@ -11,8 +11,8 @@
 #ifndef voxplex_FrameSeries_h
 #define voxplex_FrameSeries_h
 
+#include "Base/UninitialisedVector.h"
 #include "Image/LabelImage.h"
-#include "Parallel/UninitialisedVector.h"
 #include "Private/ChosenArray.h"
 #include "Private/SpaceTimeFrame.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/ImageFrame.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"

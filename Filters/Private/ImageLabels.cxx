@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/ImageLabels.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 
 #include <cstddef>
 #include <span>

@@ -7,8 +7,8 @@
 #ifndef voxplex_MeshingFigures_h
 #define voxplex_MeshingFigures_h
 
-#include "Mesh/MeshQuality.h"
-#include "MeshingStatistics.h"
+#include "Mesher/MeshingStatistics.h"
+#include "Quality/MeshQuality.h"
 
 #include "vtkMeshingStatistics.h"
 

@@ -7,10 +7,10 @@
 #ifndef voxplex_OutputArrays_h
 #define voxplex_OutputArrays_h
 
+#include "Base/UninitialisedVector.h"
 #include "Mesh/SimplexMesh.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file QualityJson.h
- * @brief What is measured of meshes, in JSON; the keys are documented in Documentation/UserGuide.md.
+ * @brief What is measured of meshes, in JSON; the keys are documented in Documentation/Reference.md.
  */
 #ifndef voxplex_QualityJson_h
 #define voxplex_QualityJson_h
 
 #include "Image/DropComponents.h"
-#include "Mesh/MeshQuality.h"
-#include "MeshMeasurement.h"
 #include "Private/JsonWriter.h"
+#include "Quality/MeshMeasurement.h"
+#include "Quality/MeshQuality.h"
 
 #include <string>
 #include <vector>

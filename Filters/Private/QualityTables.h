@@ -8,7 +8,7 @@
 #define voxplex_QualityTables_h
 
 #include "Mesh/SimplexMesh.h"
-#include "MeshMeasurement.h"
+#include "Quality/MeshMeasurement.h"
 
 class vtkCellData;
 class vtkTable;

@@ -7,12 +7,12 @@
 #ifndef voxplex_SimplexMeshRun_h
 #define voxplex_SimplexMeshRun_h
 
-#include "Error.h"
-#include "ImageMesher.h"
-#include "Mesh/MeshQuality.h"
+#include "Base/Error.h"
+#include "Mesher/ImageMesher.h"
 #include "Private/ChosenArray.h"
 #include "Private/ElementSizes.h"
 #include "Private/MeshingFigures.h"
+#include "Quality/MeshQuality.h"
 
 #include "vtkImageData.h"
 #include "vtkImageToSimplexMeshFilter.h"

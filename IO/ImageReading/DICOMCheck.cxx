@@ -29,8 +29,8 @@ constexpr std::uint32_t Item = 0xFFFEE000;
 constexpr std::uint32_t SequenceEnd = 0xFFFEE0DD;
 
 /** Value representations whose elements have lengths of two bytes, and those with lengths of four. */
-constexpr std::array<std::string_view, 21> ShortOnes{ "AE", "AS", "AT", "CS", "DA", "DS", "DT", "FD",
-  "FL", "IS", "LO", "LT", "PN", "SH", "SL", "SS", "ST", "TM", "UI", "UL", "US" };
+constexpr std::array<std::string_view, 21> ShortOnes{ "AE", "AS", "AT", "CS", "DA", "DS", "DT",
+  "FD", "FL", "IS", "LO", "LT", "PN", "SH", "SL", "SS", "ST", "TM", "UI", "UL", "US" };
 constexpr std::array<std::string_view, 13> LongOnes{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV",
   "UC", "UN", "UR", "UT", "UV" };
 

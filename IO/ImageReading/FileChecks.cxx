@@ -74,7 +74,7 @@ public:
       return finite;
     };
     return !isNIfTI ||
-      ((this->Get<std::int16_t>(252) <= 0 || areFinite(256, 6)) && // qform
+      ((this->Get<std::int16_t>(252) <= 0 || areFinite(256, 6)) &&  // qform
         (this->Get<std::int16_t>(254) <= 0 || areFinite(280, 12))); // sform
   }
 
@@ -296,7 +296,8 @@ std::string FindFaultOfNIfTI(const std::string& path)
   }
   if (!header.IsPlaced())
   {
-    return "the position or orientation in its header (qform or sform) is not finite, or far too large: correct the "
+    return "the position or orientation in its header (qform or sform) is not finite, or far too "
+           "large: correct the "
            "header";
   }
   if (!header.HoldsVoxels())
@@ -337,8 +338,8 @@ std::string FindFaultOfTextHeader(const std::string& path)
   {
     return "it is damaged: its header does not give NDims";
   }
-  for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels", "HeaderSize",
-         "BinaryData", "CompressedData" })
+  for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels",
+         "HeaderSize", "BinaryData", "CompressedData" })
   {
     if (header.IsRepeated(key))
     {

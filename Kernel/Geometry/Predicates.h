@@ -47,7 +47,7 @@
 #include "Geometry/Determinants.h"
 #include "Geometry/ExactPredicates.h"
 #include "Geometry/Point.h"
-#include "MeshingStatistics.h"
+#include "Geometry/PredicateStatistics.h"
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 #ifndef voxplex_FeatureTransform_h
 #define voxplex_FeatureTransform_h
 
+#include "Base/UninitialisedVector.h"
 #include "Geometry/Point.h"
 #include "Image/BitMask.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include <array>
 #include <cstddef>

@@ -142,6 +142,36 @@ struct GridGeometry
     return voxels;
   }
 
+  double SmallestSpacing() const
+  {
+    double smallest = this->Spacing(0);
+    for (int a = 1; a < D; ++a)
+    {
+      smallest = std::min(smallest, this->Spacing(a));
+    }
+    return smallest;
+  }
+  double LargestSpacing() const
+  {
+    double largest = this->Spacing(0);
+    for (int a = 1; a < D; ++a)
+    {
+      largest = std::max(largest, this->Spacing(a));
+    }
+    return largest;
+  }
+
+  /** Of a voxel with right angles and these spacings. */
+  double VoxelDiagonal() const
+  {
+    double sum = 0.0;
+    for (int a = 0; a < D; ++a)
+    {
+      sum += this->Spacing(a) * this->Spacing(a);
+    }
+    return std::sqrt(sum);
+  }
+
   /** Volume (area, hypervolume) of one voxel. */
   double VoxelVolume() const
   {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/IsosurfaceImage.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 #include "Image/LabelSmoothing.h"
 #include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"

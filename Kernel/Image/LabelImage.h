@@ -7,8 +7,8 @@
 #ifndef voxplex_LabelImage_h
 #define voxplex_LabelImage_h
 
+#include "Base/UninitialisedVector.h"
 #include "Image/GridGeometry.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include <array>
 #include <cstdint>

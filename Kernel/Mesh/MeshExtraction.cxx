@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/MeshExtraction.h"
 
-#include "Mesh/HilbertOrder.h"
+#include "Base/UninitialisedVector.h"
+#include "Geometry/HilbertOrder.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include <algorithm>
 #include <atomic>

@@ -8,7 +8,7 @@
 #define voxplex_MeshExtraction_h
 
 #include "Delaunay/Triangulation.h"
-#include "Image/Domain.h"
+#include "Domain/Domain.h"
 #include "Mesh/SimplexLabels.h"
 #include "Mesh/SimplexMesh.h"
 

@@ -7,9 +7,9 @@
 #ifndef voxplex_SimplexLabels_h
 #define voxplex_SimplexLabels_h
 
+#include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
-#include "Image/Domain.h"
-#include "Parallel/UninitialisedVector.h"
+#include "Domain/Domain.h"
 
 #include <stop_token>
 

@@ -7,11 +7,13 @@
 #ifndef voxplex_SimplexMesh_h
 #define voxplex_SimplexMesh_h
 
+#include "Base/UninitialisedVector.h"
 #include "Geometry/Point.h"
-#include "Parallel/UninitialisedVector.h"
+#include "Geometry/Triangle.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace voxplex
 {
@@ -39,6 +41,18 @@ struct SimplexMesh
   UninitialisedVector<std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
   UninitialisedVector<std::array<std::int64_t, 2>> FacetLabels;
 };
+
+/** The triangles of a mesh's interfaces. */
+inline std::vector<Triangle> TrianglesOf(const SimplexMesh<3>& mesh)
+{
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.Facets.size());
+  for (const auto& facet : mesh.Facets)
+  {
+    triangles.push_back({ mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]] });
+  }
+  return triangles;
+}
 
 } // namespace voxplex
 

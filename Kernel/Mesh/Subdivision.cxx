@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Subdivision.h"
 
+#include "Geometry/HilbertOrder.h"
 #include "Mesh/FindInterfaces.h"
-#include "Mesh/HilbertOrder.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #define voxplex_Subdivision_h
 
 #include "Delaunay/Triangulation.h"
-#include "Image/Domain.h"
+#include "Domain/Domain.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <array>

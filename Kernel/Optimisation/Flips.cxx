@@ -300,15 +300,25 @@ bool Flips::MayFlipInterface(std::size_t firstRun)
     return false;
   }
 
-  if (!ring.Closed && firstRun > 1 && SignedVolume<3>(std::array{ &a, &b, &pc, &pd }.data()) < 0.0)
+  if (!ring.Closed && firstRun > 1 &&
+    (SignedVolume<3>(std::array{ &a, &b, &pc, &pd }.data()) < 0.0 || this->MayBeEdge(c, d)))
   {
-    return false; // would fill what is background, where another part of the mesh may be
+    return false; // would fill what is background, or take the triangles of another part that touches this one
   }
   // cd must not be on an interface already. It is an edge already only if a label has one cell here. If it has
   // more, acd or bcd can be a facet already only if a, or b, has three interface triangles; a new
   // tetrahedron would then be one that exists, turned inside out, and scores accordingly.
   return (firstRun > 1 || !this->IsInterfaceEdge(ring.Cells[0], c, d)) &&
     (!ring.Closed || firstRun + 1 < cells || !this->IsInterfaceEdge(ring.Cells[firstRun], c, d));
+}
+
+/** Whether two vertices are joined; also true if that cannot be told. */
+bool Flips::MayBeEdge(std::uint32_t a, std::uint32_t b)
+{
+  return !this->Target.GatherStar(a, this->Star) ||
+    std::any_of(this->Star.Corners.begin(), this->Star.Corners.end(),
+      [b](const TetrahedralComplex::Vertices& v)
+      { return std::find(v.begin(), v.end(), b) != v.end(); });
 }
 
 /** Whether an edge of t is on an interface; also true if that cannot be told. */

@@ -106,6 +106,7 @@ private:
 
   double ScoreOf(std::span<const std::uint32_t> cells) const;
   bool MayFlipInterface(std::size_t firstRun);
+  bool MayBeEdge(std::uint32_t a, std::uint32_t b);
   bool IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b);
   double Triangulate(
     std::span<const std::uint32_t> chain, TetrahedralComplex::Label label, double floor);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimisation/MeshOptimiser.h"
 
-#include "Error.h"
+#include "Base/Error.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/PatchWorker.h"
 #include "Optimisation/TetrahedralComplex.h"
@@ -61,10 +61,10 @@ void CheckOptions(const OptimisationOptions& options)
     "the smallest dihedral angle must be between 0 and 60 degrees");
   check(options.LargestDihedralAngle > 90.0 && options.LargestDihedralAngle < 180.0,
     "the largest dihedral angle must be between 90 and 180 degrees");
-  check(options.RadiusEdgeRatio >= 1.0 && std::isfinite(options.RadiusEdgeRatio),
+  check(options.Shape.RadiusEdgeRatio >= 1.0 && std::isfinite(options.Shape.RadiusEdgeRatio),
     "the radius-edge ratio must be at least 1");
-  check(options.FacetAngle >= 0.0 && options.FacetAngle <= 60.0 &&
-      options.JunctionFacetAngle >= 0.0 && options.JunctionFacetAngle <= 60.0,
+  check(options.Shape.FacetAngle >= 0.0 && options.Shape.FacetAngle <= 60.0 &&
+      options.Shape.JunctionFacetAngle >= 0.0 && options.Shape.JunctionFacetAngle <= 60.0,
     "facet angles must be between 0 and 60 degrees");
   check(options.CreaseAngle >= 0.0 && options.CreaseAngle <= 90.0,
     "the crease angle must be between 0 and 90 degrees");
@@ -75,7 +75,8 @@ void CheckOptions(const OptimisationOptions& options)
 
 ShapeScore ScoreOf(const OptimisationOptions& options)
 {
-  return { options.SmallestDihedralAngle, options.LargestDihedralAngle, options.RadiusEdgeRatio };
+  return { options.SmallestDihedralAngle, options.LargestDihedralAngle,
+    options.Shape.RadiusEdgeRatio };
 }
 
 //------------------------------------------------------------------------------------------------
@@ -89,7 +90,7 @@ public:
     : Mesh(complex)
     , Image(domain)
     , Options(options)
-    , Rules(options.FacetAngle, options.JunctionFacetAngle, options.CreaseAngle)
+    , Rules(options.Shape.FacetAngle, options.Shape.JunctionFacetAngle, options.CreaseAngle)
     , Threads(threads)
     , Limits(limits)
     , Statistics(statistics)
@@ -299,7 +300,7 @@ private:
     this->Mesh.Shape = ShapeScore(
       std::min(tighter * this->Options.SmallestDihedralAngle, LargestLowerBound),
       std::max(180.0 - tighter * (180.0 - this->Options.LargestDihedralAngle), SmallestUpperBound),
-      this->Options.RadiusEdgeRatio);
+      this->Options.Shape.RadiusEdgeRatio);
     this->Rescore();
     for (const std::uint32_t t : this->CellsAround(worker.Left()))
     {
@@ -481,9 +482,8 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
         ThrowIfStopped(stop);
         complex.Write(result);
       }
-      const std::vector<std::uint32_t> more = options.ShouldHaveStayed
-        ? options.ShouldHaveStayed(result)
-        : std::vector<std::uint32_t>();
+      const std::vector<std::uint32_t> more =
+        options.ShouldHaveStayed ? options.ShouldHaveStayed(result) : std::vector<std::uint32_t>();
       if (more.empty())
       {
         statistics.After = SurveyShapes(result, options, threads, stop);

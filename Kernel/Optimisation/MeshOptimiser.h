@@ -7,7 +7,8 @@
 #ifndef voxplex_MeshOptimiser_h
 #define voxplex_MeshOptimiser_h
 
-#include "Image/Domain.h"
+#include "Domain/Domain.h"
+#include "Geometry/ShapeBounds.h"
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/Flips.h"
 #include "Optimisation/Smoother.h"
@@ -28,11 +29,8 @@ struct OptimisationOptions
   /** Bounds of tetrahedra: what breaks one is worked on. Dihedral angles: 0 < smallest < 60, 90 < largest < 180. */
   double SmallestDihedralAngle = 15.0;
   double LargestDihedralAngle = 155.0;
-  double RadiusEdgeRatio = 2.5;
-
-  /** Bounds of the planar angles of interface triangles; what breaks one already does not get worse. */
-  double FacetAngle = 30.0;
-  double JunctionFacetAngle = 20.0; ///< of those with a vertex where three or more labels meet
+  /** What breaks the bound of a ratio is worked on; interface triangles that break theirs already do not get worse. */
+  ShapeBounds Shape{ .RadiusEdgeRatio = 2.5 };
   /** Interface edges are flipped only between triangles that make at most this angle. */
   double CreaseAngle = 30.0;
   /**

@@ -7,7 +7,7 @@
 #ifndef voxplex_PatchWorker_h
 #define voxplex_PatchWorker_h
 
-#include "Image/Domain.h"
+#include "Domain/Domain.h"
 #include "Optimisation/Flips.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/Patch.h"

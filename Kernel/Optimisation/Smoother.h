@@ -7,7 +7,7 @@
 #ifndef voxplex_Smoother_h
 #define voxplex_Smoother_h
 
-#include "Image/Domain.h"
+#include "Domain/Domain.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/Patch.h"
 

@@ -7,10 +7,10 @@
 #ifndef voxplex_TetrahedralComplex_h
 #define voxplex_TetrahedralComplex_h
 
-#include "Image/Domain.h"
+#include "Base/UninitialisedVector.h"
+#include "Domain/Domain.h"
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/ShapeScore.h"
-#include "Parallel/UninitialisedVector.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #ifndef voxplex_ParallelFor_h
 #define voxplex_ParallelFor_h
 
-#include "Error.h"
+#include "Base/Error.h"
 
 #include <algorithm>
 #include <atomic>

@@ -7,7 +7,7 @@
 #ifndef voxplex_PickingRegion_h
 #define voxplex_PickingRegion_h
 
-#include "Geometry/MixBits.h"
+#include "Base/MixBits.h"
 #include "Refinement/RefinementContext.h"
 
 #include <bit>

@@ -8,18 +8,15 @@
 #define voxplex_RefinementContext_h
 
 #include "Delaunay/Triangulation.h"
-#include "Grading/GradedDelta.h"
-#include "Image/Domain.h"
-#include "Image/InterfaceSizes.h"
-#include "Image/LocalDelta.h"
-#include "Image/SizeFunction.h"
-#include "MeshingStatistics.h"
+#include "Domain/Domain.h"
 #include "Parallel/CacheLine.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/FeatureSeed.h"
 #include "Refinement/PoorElementList.h"
+#include "Refinement/RefinementStatistics.h"
 #include "Refinement/RegionalWork.h"
 #include "Refinement/RuleOptions.h"
+#include "Sizing/SizingField.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +25,6 @@
 
 namespace voxplex
 {
-
-/** Points closer to a vertex than this fraction of the spacing at their place are never inserted. */
-inline constexpr double SpacingFloorFraction = 0.1;
 
 /** Where a region has taken too much work, points for the sake of facets keep this fraction instead. */
 inline constexpr double YieldingFraction = 0.5;
@@ -42,25 +36,13 @@ inline constexpr double EndMargin = 0.8;
 template <int D>
 struct RefinementSettings
 {
-  double Delta = 1.0;                     ///< sampling density; if it is graded, the largest
-  const GradedDelta<D>* Graded = nullptr; ///< delta from place to place; null: the same everywhere
-  const InterfaceSizes<D>* Interfaces = nullptr; ///< in place of delta; may be null
-  const LocalDelta<D>* Local = nullptr;          ///< upper bound of delta; may be null
-  double RadiusEdgeRatio = 2.0;                  ///< rho-bar
-  double FacetAngle = 30.0;                      ///< degrees
-  const SizeFunction<D>* Size = nullptr;
-  double SizeFloor = 0.0; ///< sizes below it are raised to it; 0: a tenth of the finest delta
+  SizingSources<D> Sizing;
+  double RadiusEdgeRatio = 2.0;                 ///< rho-bar
+  double FacetAngle = 30.0;                     ///< degrees
   RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
   SliverOptions Slivers;                        ///< 4D only
   TetSliverOptions TetSlivers;                  ///< 3D only
 };
-
-/** The smallest sampling density, but for interface sizes, local bounds and sizes of elements. */
-template <int D>
-double FinestDelta(const RefinementSettings<D>& settings)
-{
-  return settings.Graded ? std::min(settings.Graded->Finest(), settings.Delta) : settings.Delta;
-}
 
 /** Shared by all threads. */
 template <int D>
@@ -70,124 +52,14 @@ struct RefinementContext
     const Box<D>& box, std::uint64_t expectedFeatures)
     : Image(image)
     , Settings(settings)
-    , SizeFloor(settings.SizeFloor > 0.0 ? settings.SizeFloor
-                                         : SpacingFloorFraction * FinestDelta(settings))
-    , SpacingFloor(SizeFloor)
+    , Sizing(image, settings.Sizing)
     , IsFlatEnd{ image.IsFlatEnd(0), image.IsFlatEnd(1) }
     , IsCut(image.IsCut())
     , Mesh(box)
-    , Features(box.Min, std::sqrt(FinestDelta(settings) * settings.Delta), expectedFeatures)
+    , Features(box.Min, std::sqrt(settings.Sizing.Base.Finest() * settings.Sizing.Base.Delta),
+        expectedFeatures)
     , Work(expectedFeatures)
   {
-    this->FollowLocalDelta();
-  }
-
-  /** To be called when bounds were added to Settings.Local; not while anybody refines. */
-  void FollowLocalDelta()
-  {
-    double smallest = FinestDelta(this->Settings);
-    if (this->Settings.Interfaces)
-    {
-      smallest = std::min(smallest, this->Settings.Interfaces->Smallest());
-    }
-    if (this->Settings.Local)
-    {
-      smallest = std::min(smallest, this->Settings.Local->Smallest());
-    }
-    this->SpacingFloor = std::min(this->SizeFloor, SpacingFloorFraction * smallest);
-  }
-
-  /** sf(p), cleaned of what is no bound and raised to the floor. */
-  double Size(const Point<D>& p, LabelId label) const
-  {
-    if (!this->Settings.Size)
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-    const double size = this->Settings.Size->Evaluate(p, this->Image.LabelValue(label));
-    if (!(size > 0.0))
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-    return size < this->SizeFloor ? this->SizeFloor : size;
-  }
-
-  /** The sampling density near a point, without interface sizes, local bounds and sizes of elements. */
-  double GradedDeltaAt(const Point<D>& p) const
-  {
-    return this->Settings.Graded ? this->Settings.Graded->At(p) : this->Settings.Delta;
-  }
-
-  /**
-   * Delta_dOmega(z) of the thesis for a feature point between two labels: delta or what is asked for that
-   * interface in its place, or the local bound or the size that is asked for there if that is smaller. Sampling an interface more coarsely than its neighbourhood is
-   * meshed would make R3 insert the missing points one by one, and R6 remove what R5 asks for.
-   * The same label twice is no interface, but may be all that is known near the edge of one: then it is the spacing there.
-   */
-  double Delta(const Point<D>& z, LabelId a, LabelId b) const
-  {
-    if (a == b)
-    {
-      return this->Spacing(z, a);
-    }
-    double delta =
-      this->Settings.Interfaces ? this->Settings.Interfaces->At(z, a, b) : this->GradedDeltaAt(z);
-    if (this->Settings.Local)
-    {
-      const auto bound = this->Settings.Local->At(z);
-      delta = bound.Label == a || bound.Label == b ? std::min<double>(delta, bound.Delta) : delta;
-    }
-    if (this->Settings.Size)
-    {
-      for (const LabelId label : { a, b })
-      {
-        delta = label != 0 ? std::min(delta, this->Size(z, label)) : delta;
-      }
-    }
-    return delta;
-  }
-
-  /** Delta(z) for the interface point closest to p: the label of p is known, that beyond is just behind z, if one is. */
-  double DeltaBehind(const Point<D>& p, LabelId label, const Point<D>& z) const
-  {
-    const Point<D> behind =
-      Interpolate(p, z, 1.0 + this->SpacingFloor / std::max(Distance(p, z), 1e-300));
-    return this->Delta(z, label, this->Image.Label(behind));
-  }
-
-  /** Whether Delta() differs from GradedDeltaAt() for any labels at z, but for sizes. */
-  bool MayBeLocal(const Point<D>& z) const
-  {
-    return this->Settings.Interfaces ||
-      (this->Settings.Local && this->Settings.Local->At(z).Delta < this->GradedDeltaAt(z));
-  }
-
-  /** The largest Delta() of all interfaces. */
-  double LargestDelta() const
-  {
-    return this->Settings.Interfaces
-      ? std::max(this->Settings.Delta, this->Settings.Interfaces->Largest())
-      : this->Settings.Delta;
-  }
-
-  /**
-   * The spacing of the mesh at p: the least that any interface nearby asks for, growing slowly with the distance from
-   * it. All rules that keep points apart, or take points away, ask for it here: a rule that keeps less than another
-   * makes what the other takes away again.
-   */
-  double SpacingAt(const Point<D>& p) const
-  {
-    const double spacing = this->Settings.Interfaces
-      ? std::min(this->LargestDelta(), this->Settings.Interfaces->GradedAt(p))
-      : this->GradedDeltaAt(p);
-    return this->Settings.Local ? std::min(spacing, this->Settings.Local->GradedAt(p)) : spacing;
-  }
-
-  /** The same inside of a label: no more than the size that is asked for there. */
-  double Spacing(const Point<D>& p, LabelId label) const
-  {
-    const double spacing = this->SpacingAt(p);
-    return label != 0 ? std::min(spacing, this->Size(p, label)) : spacing;
   }
 
   /** The time of the nearest flat end (Domain::IsFlatEnd); infinite if there is none. */
@@ -214,8 +86,7 @@ struct RefinementContext
 
   const Domain<D>& Image;
   const RefinementSettings<D> Settings;
-  const double SizeFloor;              ///< smaller sizes are raised to it
-  double SpacingFloor;                 ///< points closer to a vertex than this are never inserted
+  SizingField<D> Sizing;
   const std::array<bool, 2> IsFlatEnd; ///< Domain::IsFlatEnd; the box ends there
   const bool IsCut;                    ///< Domain::IsCut
   Triangulation<D> Mesh;

@@ -210,7 +210,7 @@ private:
   void StartAtSeeds()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
-    const LocalDelta<D>* const local = this->Context.Settings.Local;
+    const LocalDelta<D>* const local = this->Context.Sizing.Sources().Local;
     RefinementWorker<D>& worker = *this->Workers[0];
     InsertSeeds<Rules>(this->Context, worker, this->Seeds);
     std::vector<SimplexId> changed;

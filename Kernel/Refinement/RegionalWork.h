@@ -7,7 +7,7 @@
 #ifndef voxplex_RegionalWork_h
 #define voxplex_RegionalWork_h
 
-#include "Geometry/MixBits.h"
+#include "Base/MixBits.h"
 #include "Geometry/Point.h"
 
 #include <algorithm>

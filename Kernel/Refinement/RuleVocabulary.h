@@ -233,7 +233,7 @@ protected:
   {
     Point<D> z;
     double error;
-    if (t.Radius >= 2.0 * this->Context.LargestDelta() ||
+    if (t.Radius >= 2.0 * this->Context.Sizing.Largest() ||
       !this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error))
     {
       return false;
@@ -293,17 +293,16 @@ protected:
 
   bool IsTooLarge(const Element& t) const
   {
-    return t.Label != 0 && t.Radius >= BoundSafety * this->Context.Size(t.Ball.Center, t.Label);
+    return t.Label != 0 &&
+      t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.Label);
   }
 
   /** Delta(z) for z = cfp(c(t)): the label on this side is known, that beyond is just behind z. */
   double DeltaBehind(const Element& t, const Point<D>& z) const
   {
-    if (!this->Context.Settings.Size && !this->Context.MayBeLocal(z))
-    {
-      return this->Context.GradedDeltaAt(z);
-    }
-    return this->Context.DeltaBehind(t.Ball.Center, t.Label, z);
+    const SizingField<D>& sizing = this->Context.Sizing;
+    return sizing.DependsOnLabels(z) ? sizing.SamplingDistanceBehind(t.Ball.Center, t.Label, z)
+                                     : sizing.BaseAt(z);
   }
 
   bool OwnFeatureVertexNear(const Element& t, const Point<D>& z, double distance) const
@@ -364,11 +363,12 @@ protected:
   {
     const Place place = this->PlaceOf(t.Ball.Center, CentreMargin * t.Radius);
     Point<D> z;
-    const double delta =
-      place.OnEnd && (this->Context.Settings.Size || this->Context.Settings.Interfaces)
-      ? this->Context.Delta(place.Position, t.Label, this->Context.Image.Label(place.Position))
-      : this->Context.Settings.Delta;
-    const double spacing = std::min(deltaBeside, this->Context.Spacing(place.Position, t.Label));
+    const double delta = place.OnEnd && this->Context.Sizing.DependsOnLabels(place.Position)
+      ? this->Context.Sizing.SamplingDistance(
+          place.Position, t.Label, this->Context.Image.Label(place.Position))
+      : this->Context.Sizing.Base().Delta;
+    const double spacing =
+      std::min(deltaBeside, this->Context.Sizing.Spacing(place.Position, t.Label));
     if (this->YieldingAt(place.Position, spacing) == Yielding::All)
     {
       return Verdict::Good;
@@ -380,7 +380,7 @@ protected:
     }
     // The circumball is empty: only a point that was moved can be near a vertex.
     const double clearance =
-      place.Moved ? SpacingFloorFraction * this->Context.SpacingAt(place.Position) : 0.0;
+      place.Moved ? SpacingFloorFraction * this->Context.Sizing.Spacing(place.Position) : 0.0;
     const InsertionOutcome outcome =
       this->Context.Mesh.Insert(this->Worker.Kernel, place.Position, place.Kind, t.Id, clearance);
     const Verdict verdict = this->CountOutcome(outcome, fired);
@@ -412,7 +412,7 @@ protected:
     const Verdict verdict = this->CountOutcome(outcome, fired);
     if (verdict == Verdict::Changed)
     {
-      const double spacing = std::min(delta, this->Context.SpacingAt(z));
+      const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
       this->CountWork(z, spacing);
       this->Context.Features.Add(z);
       this->ScreenCreated();
@@ -505,7 +505,7 @@ private:
     {
       return false;
     }
-    const double own = Rules::RemovalRadius * this->Context.SpacingAt(vertex);
+    const double own = Rules::RemovalRadius * this->Context.Sizing.Spacing(vertex);
     return distance2 < own * own;
   }
 

@@ -37,7 +37,8 @@ bool Rules3D::MayBePoor(SimplexId t)
   {
     const double radius = std::sqrt(ball.Radius2);
     if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t) ||
-      radius >= BoundSafety * this->Context.Size(ball.Center, label) || this->IsSliver(t))
+      radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
+      this->IsSliver(t))
     {
       return true;
     }
@@ -215,7 +216,7 @@ Verdict Rules3D::R7(const Element& t)
 Verdict Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
-  const double spacing = this->Context.Spacing(t.Ball.Center, t.Label);
+  const double spacing = this->Context.Sizing.Spacing(t.Ball.Center, t.Label);
   if (this->YieldingAt(t.Ball.Center, spacing) != Yielding::Nothing)
   {
     return Verdict::Good;
@@ -286,7 +287,7 @@ Verdict Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
       continue;
     }
     const Verdict verdict = this->SampleNear(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])),
-      this->Context.Delta(z, t.Label, this->LabelOf(n)), t, tolerance);
+      this->Context.Sizing.SamplingDistance(z, t.Label, this->LabelOf(n)), t, tolerance);
     if (verdict != Verdict::Good)
     {
       return verdict;
@@ -314,7 +315,7 @@ Verdict Rules3D::SampleNear(
   const Point<3>& z, double radius, double delta, const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
-  const double spacing = std::min(delta, this->Context.SpacingAt(z));
+  const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   if (this->YieldingAt(z, spacing) != Yielding::Nothing)
   {
     return Verdict::Good;
@@ -369,8 +370,8 @@ Verdict Rules3D::R3(const Element& t)
     {
       continue;
     }
-    const double delta = this->Context.Delta(z, t.Label, other);
-    const double spacing = std::min(delta, this->Context.SpacingAt(z));
+    const double delta = this->Context.Sizing.SamplingDistance(z, t.Label, other);
+    const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
     const Yielding step = this->YieldingAt(z, spacing);
     if (step == Yielding::All)
     {

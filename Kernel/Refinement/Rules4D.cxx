@@ -24,7 +24,7 @@ bool Rules4D::MayBePoor(SimplexId s)
   {
     const double radius = std::sqrt(ball.Radius2);
     if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(s) ||
-      radius >= BoundSafety * this->Context.Size(ball.Center, label) ||
+      radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
       this->IsSliver(s, ball.Radius2))
     {
       return true;
@@ -151,7 +151,7 @@ Verdict Rules4D::R4(const Element& s)
   RuleStatistics& statistics = this->Worker.Statistics;
   const SliverOptions& options = this->Context.Settings.Slivers;
   ++statistics.SliversFound;
-  const double spacing = this->Context.Spacing(s.Ball.Center, s.Label);
+  const double spacing = this->Context.Sizing.Spacing(s.Ball.Center, s.Label);
   if (this->YieldingAt(s.Ball.Center, spacing) != Yielding::Nothing)
   {
     ++statistics.SliversKept;
@@ -222,8 +222,8 @@ Verdict Rules4D::R5(const Element& s)
 Verdict Rules4D::InsertFeatureAt(
   const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
 {
-  const double delta = this->Context.Delta(z, s.Label, labelOfOther);
-  const double spacing = std::min(delta, this->Context.SpacingAt(z));
+  const double delta = this->Context.Sizing.SamplingDistance(z, s.Label, labelOfOther);
+  const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   const Yielding step = this->YieldingAt(z, spacing);
   if (step == Yielding::All)
   {

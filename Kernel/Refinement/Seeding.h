@@ -7,7 +7,7 @@
 #ifndef voxplex_Seeding_h
 #define voxplex_Seeding_h
 
-#include "Mesh/HilbertOrder.h"
+#include "Geometry/HilbertOrder.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
     return {};
   }
   const Box<D> bounds = context.Image.Bounds();
-  const double finest = FinestDelta(context.Settings);
+  const double finest = context.Sizing.Base().Finest();
   double volume = 1.0;
   for (std::size_t a = 0; a < D; ++a)
   {
@@ -67,11 +67,13 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
     const LabelId label = context.Image.Label(p);
     if (context.Image.DistanceBounds(p).Lower < spacing &&
       context.Image.ClosestSurfacePoint(p, label, z) &&
-      !context.IsNearEnd(z, context.Settings.Delta, onEnd))
+      !context.IsNearEnd(z, context.Sizing.Base().Delta, onEnd))
     {
-      const double delta = context.GradedDeltaAt(z);
+      const double delta = context.Sizing.BaseAt(z);
       sample.push_back({ z,
-        context.Settings.Interfaces ? std::max(delta, context.DeltaBehind(p, label, z)) : delta });
+        context.Sizing.Sources().Interfaces
+          ? std::max(delta, context.Sizing.SamplingDistanceBehind(p, label, z))
+          : delta });
     }
   }
   return sample;

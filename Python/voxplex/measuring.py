@@ -58,7 +58,7 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
 
     Returns
     -------
-    A dictionary; Documentation/UserGuide.md has its keys.
+    A dictionary; Documentation/Reference.md has its keys.
 
     Raises
     ------

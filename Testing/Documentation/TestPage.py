@@ -3,8 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs what a page of Documentation/ tells its readers to run: TestPage.py PAGE.md
 
-In one empty folder, in order: blocks of `sh` by bash, blocks of `python` in one interpreter, one namespace. A
-block after a line `<!-- file: NAME -->` is written to that file; one after `<!-- not run: REASON -->` is left out.
+In one empty folder, in order: blocks of `sh` by bash, blocks of `python` in one interpreter, one namespace. A block of
+`text` is the output of the block before it and is not compared (Scripts/refresh-output writes it). A block after a line
+`<!-- file: NAME -->` is written to that file; one after `<!-- not run: REASON -->` is left out; one of `sh` after
+`<!-- fails: REASON -->` must end with an error.
 PYTHONPATH and VOXPLEX_PREFIX (an install tree, which stands for ~/voxplex) say what is tested.
 """
 
@@ -17,23 +19,33 @@ import sys
 import tempfile
 from pathlib import Path
 
-BLOCK = re.compile(r"^(?:<!-- (?P<mark>file|not run): (?P<value>.*?) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$",
+BLOCK = re.compile(r"^(?:<!-- (?P<mark>file|not run|fails): (?P<value>.*?) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$",
                    re.MULTILINE | re.DOTALL)
 
 
 def environment(folder):
-    """A home with ~/voxplex, and this interpreter as python3."""
+    """A home with ~/voxplex, whose programs are found, and this interpreter as python3."""
     programs = folder / "bin"
     programs.mkdir()
     (programs / "python3").symlink_to(sys.executable)
-    result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{os.environ['PATH']}"}
+    result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{folder / 'voxplex' / 'bin'}:{os.environ['PATH']}"}
     if "VOXPLEX_PREFIX" in os.environ:
         (folder / "voxplex").symlink_to(os.environ["VOXPLEX_PREFIX"])
     return result
 
 
-def run(page):
-    """The number of blocks that were run; raises what fails."""
+def run_shell(block, variables):
+    """What a block prints; raises if it fails, or if it does not although it must."""
+    process = subprocess.run(["bash", "-euo", "pipefail", "-c", block["text"]], env=variables, timeout=900,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    print(process.stdout, flush=True)
+    if (process.returncode != 0) != (block["mark"] == "fails"):
+        sys.exit(f"exit status {process.returncode} of:\n{block['text']}")
+    return process.stdout
+
+
+def run(page, on_output=lambda block, output: None):
+    """The number of blocks that were run; raises if one fails. Calls on_output for each block of sh."""
     text = page.read_text()
     namespace = {"__name__": "page"}
     count = 0
@@ -44,14 +56,14 @@ def run(page):
         os.chdir(work)
         for block in BLOCK.finditer(text):
             where = f"{page.name}:{text.count(chr(10), 0, block.start('text')) + 1}"
-            if block["mark"] == "not run":
+            if block["mark"] == "not run" or block["kind"] == "text":
                 continue
             count += 1
             print(f"--- {where}: {block['value'] or block['kind']}", flush=True)
             if block["mark"] == "file":
                 Path(block["value"]).write_text(block["text"])
             elif block["kind"] == "sh":
-                subprocess.run(["bash", "-euo", "pipefail", "-c", block["text"]], check=True, env=variables, timeout=900)
+                on_output(block, run_shell(block, variables))
             elif block["kind"] == "python":
                 output = io.StringIO()
                 with contextlib.redirect_stdout(output):
@@ -60,7 +72,7 @@ def run(page):
             else:
                 sys.exit(f"{where}: a block of kind {block['kind']!r} is neither run nor written to a file")
         os.chdir("/")
-    if count != len(re.findall(r"^```\w", text, re.MULTILINE)) - len(re.findall(r"^<!-- not run: ", text, re.MULTILINE)):
+    if count != len(re.findall(r"^```(?!text$)\w", text, re.MULTILINE)) - len(re.findall(r"^<!-- not run: ", text, re.MULTILINE)):
         sys.exit(f"{page.name}: some blocks were overlooked")
     return count
 

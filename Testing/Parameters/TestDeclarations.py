@@ -89,14 +89,14 @@ class Documentation(unittest.TestCase):
         self.assertEqual((SOURCE / "Documentation" / "Parameters.md").read_text(), page(TABLE))
 
 
-    def test_defaults_in_the_user_guide(self):
-        """Tables whose rows begin with an option and a number."""
+    def test_defaults_in_the_reference(self):
+        """Tables whose rows begin with an option and a number, or a word."""
         known = {"--" + p["option"]: {p["default"]} for p in TABLE if p["option"]}
         known["--smoothing"].add(BY_PROPERTY["IsosurfaceSmoothingSigma"]["default"])
-        text = (SOURCE / "Documentation" / "UserGuide.md").read_text()
-        rows = re.findall(r"^\| `(--[\w-]+) [^`]*` \| ([\d.]+) \|", text, re.MULTILINE)
+        text = (SOURCE / "Documentation" / "Reference.md").read_text()
+        rows = re.findall(r"^\| `(--[\w-]+) [^`]*` \| `?([\d.]+|[\w-]+(?=`))`? \|", text, re.MULTILINE)
         self.assertGreater(len(rows), 10)
-        for option, default in rows:
+        for option, default in (row for row in rows if row[0] in known):
             self.assertIn(default, known[option], option)
 
 

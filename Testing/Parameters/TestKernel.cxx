@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /** @file TestKernel.cxx @brief Defaults and ranges of the kernel's options against the table of parameters. */
-#include "Error.h"
-#include "MeshingOptions.h"
+#include "Base/Error.h"
+#include "Mesher/MeshingOptions.h"
 #include "MeshingParameters.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ const std::vector<Option<3>> Options3{
   { "sliver-angle", [](auto& o) -> decltype(auto) { return (o.TetSlivers.Angle); } },
   { "smallest-component", [](auto& o) -> decltype(auto) { return (o.SmallestComponent); } },
   { "optimise-seconds", [](auto& o) -> decltype(auto) { return (o.OptimisationSeconds); } },
-  { "interface-rounds", [](auto& o) -> decltype(auto) { return (o.InterfaceRounds); } },
+  { "interface-rounds", [](auto& o) -> decltype(auto) { return (o.Interfaces.Rounds); } },
   { "memory-limit", [](auto& o) -> decltype(auto) { return (o.MemoryLimit); } },
 };
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CaseRun.h"
 
+#include "Base/Error.h"
 #include "Checks.h"
-#include "Error.h"
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 
 #include <algorithm>
 #include <chrono>

@@ -311,7 +311,7 @@ std::vector<char> FindPresent(const Subject<D>& subject, VoxelComponents<D>& com
 template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
 {
-  figures.Lost = subject.Stats.LostComponents.size();
+  figures.Lost = subject.Stats.Components.Lost.size();
   const std::int64_t smallest = subject.Of.Options.SmallestComponent;
   const Volume<D>& image = subject.Of.Image;
   if (D != 3 || smallest == 0 || !KnowsLabels(image))
@@ -321,7 +321,7 @@ void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& 
   VoxelComponents<D> components(image);
   const std::vector<char> present = FindPresent(subject, components);
   std::vector<char> listed(image.Size(), 0);
-  for (const ComponentReport& report : subject.Stats.LostComponents)
+  for (const ComponentReport& report : subject.Stats.Components.Lost)
   {
     Index<D> voxel{};
     std::copy_n(report.Voxel.begin(), std::min(report.Voxel.size(), voxel.size()), voxel.begin());

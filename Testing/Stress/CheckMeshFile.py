@@ -17,7 +17,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # of NIfTI files with two matrices
 
-# What the program promises with its default flags: see the user guide.
+# What the program promises with its default flags: see Documentation/Reference.md.
 LARGEST_RATIO = 2.5
 SMALLEST_COMPONENT = 8
 # Of elements, how many may break a bound of their shape: the optimiser does what it can.

@@ -63,8 +63,8 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
   {
     Require(stats.Optimisation.Ran == options.Optimise, "whether optimisation ran", findings);
     Require(
-      stats.Interfaces.Rounds <= options.InterfaceRounds, "more rounds than asked for", findings);
-    const bool counts = options.InterfaceRounds > 0 && !options.Optimise;
+      stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
+    const bool counts = options.Interfaces.Rounds > 0 && !options.Optimise;
     Require(!counts || (figures.NonManifold > 0) == (stats.Interfaces.NonManifoldLeft > 0),
       std::to_string(figures.NonManifold) + " edges are not manifold, it says " +
         std::to_string(stats.Interfaces.NonManifoldLeft),

@@ -12,7 +12,7 @@
 
 #include "Findings.h"
 #include "Mesh/SimplexMesh.h"
-#include "MeshingStatistics.h"
+#include "Mesher/MeshingStatistics.h"
 #include "SimplexGeometry.h"
 #include "StressCase.h"
 

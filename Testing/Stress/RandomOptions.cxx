@@ -153,7 +153,7 @@ void DrawSpaceOptions(StressCase<3>& of, Random& random)
     : random.Chance(0.5)                         ? random.Integer(0, 1)
                                                  : random.Integer(2, 60);
   options.SampleJunctions = random.Chance(0.8);
-  options.InterfaceRounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
+  options.Interfaces.Rounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
   options.Optimise = random.Chance(0.5);
   options.OptimisationSeconds = random.Chance(0.02) ? random.LogUniform(0.001, 1.0) : 0.0;
   if (random.Chance(0.25))

@@ -182,7 +182,8 @@ bool Reducer<D>::ResetOptionsOfDimension()
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.ExactComponents), usual.ExactComponents);
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.InterfaceRounds), 0u, usual.InterfaceRounds);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Elements), usual.Elements);
   }
   else

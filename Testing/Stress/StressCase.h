@@ -7,7 +7,7 @@
 #ifndef voxplex_stress_StressCase_h
 #define voxplex_stress_StressCase_h
 
-#include "MeshingOptions.h"
+#include "Mesher/MeshingOptions.h"
 #include "Random.h"
 #include "Volume.h"
 

@@ -3,7 +3,7 @@
 // The checks of the stress program find what they are for: good meshes are spoilt in one way after the other.
 #include "CaseRun.h"
 #include "Checks.h"
-#include "ImageMesher.h"
+#include "Mesher/ImageMesher.h"
 #include "RandomImages.h"
 #include "Reduction.h"
 #include "Workers.h"
@@ -216,7 +216,7 @@ TEST(StressChecks, FindWhatIsNotOfTheImage)
     });
   ExpectFound<3>("lost-list",
     [](Meshed<3>& m) {
-      m.Stats.LostComponents.push_back({ 3, 5, { 2, 2, 2 } });
+      m.Stats.Components.Lost.push_back({ 3, 5, { 2, 2, 2 } });
     });
   const auto move = [](auto& m)
   {

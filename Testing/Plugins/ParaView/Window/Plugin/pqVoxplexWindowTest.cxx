@@ -342,8 +342,8 @@ void pqVoxplexWindowTest::testPanel()
     this->checkShown(
       { "LabelArray", "InputMode", "LabelTable", "SmallestComponent", "MinimumComponentVolume",
         "Delta", "NumberOfElements", "Grading", "SmoothingSigma", "InterfaceTable", "FacetAngle",
-        "SampleJunctions", "InterfaceRounds", "Manifold", "ElementSize", "SizeImage", "SizeArray", "Gradation",
-        "Optimise", "OptimisationTimeLimit", "RadiusEdgeRatio", "SliverAngle", "Force",
+        "SampleJunctions", "InterfaceRounds", "Manifold", "ElementSize", "SizeImage", "SizeArray",
+        "Gradation", "Optimise", "OptimisationTimeLimit", "RadiusEdgeRatio", "SliverAngle", "Force",
         "NumberOfThreads", "ContentionManager", "LoadBalancer", "PinThreads" },
       true);
     this->checkShown({ "Isovalue", "InsideLabel", "FeatureRatio", "LargestFeature" }, false);

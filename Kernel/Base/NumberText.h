@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file NumberText.h
+ * @brief Numbers in messages.
+ */
+#ifndef voxplex_NumberText_h
+#define voxplex_NumberText_h
+
+#include <cstdio>
+#include <string>
+
+namespace voxplex
+{
+
+/** With at most this many significant digits. */
+inline std::string NumberText(double x, int digits = 6)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*g", digits, x);
+  return text;
+}
+
+} // namespace voxplex
+
+#endif

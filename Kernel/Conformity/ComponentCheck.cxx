@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/ComponentCheck.h"
+
+#include "Domain/ThinPart.h"
+#include "Parallel/ParallelFor.h"
+#include "Quality/LostComponents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/**
+ * Delta of a component is at most this times the ratio of its volume to its surface: 0.45 of the edge of a
+ * cube. Chosen on the knee atlas, whose islands of 8 voxels and more then all come out at once.
+ */
+constexpr double SamplesPerThickness = 2.7;
+
+/**
+ * The rules keep this times the spacing of a component's seeds: these carry its shape already. With 1 there
+ * are twice as many additional elements on the knee atlas, and when single voxels are kept, too, they take
+ * three times as long; with 3 refinement then goes on twice rather than once.
+ */
+constexpr double BoundFactor = 2.0;
+
+/** Of larger components only every so manieth voxel is looked at for where they are thickest. */
+constexpr std::int64_t MostVoxelsLookedAt = 1000;
+
+/** How often a component is sampled where it is thickest before it is sampled as a whole. */
+constexpr unsigned AttemptsAtThickest = 2;
+
+/**
+ * Points there keep this times its thickness apart, and interfaces get at most this times its thickness for delta. The six
+ * points around a grain are 0.71 of it apart. Any factors from 0.6 and 1.5 on give about as many elements.
+ */
+constexpr double SpacingAtThickest = 0.7;
+constexpr double BoundAtThickest = 2.0;
+
+/** Thicknesses are taken for this many finest deltas at least: points in less would be too near to each other. */
+constexpr double LeastThickness = 5.0;
+
+/** Of larger components only every so manieth face gets a seed; R1 finds what is between. */
+constexpr std::int64_t MostSeededVoxels = 20000;
+
+/** No component is sampled more finely than this, in voxels: the label field has no finer features. */
+constexpr double FinestVoxels = 0.1;
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
+  const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
+  bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
+  unsigned threads, const std::stop_token& stop)
+  : ConformityCheck<D>(seconds)
+  , Image(image)
+  , Surfaces(domain)
+  , All(components)
+  , Attempts(components.All().size(), exact ? AttemptsAtThickest : 0)
+  , Wanted(components.FindWanted(fewestVoxels))
+  , Threads(threads)
+  , Stop(stop)
+  , Local(local)
+  , Statistics(statistics)
+{
+  this->FinestDelta = FinestVoxels * image.Grid().SmallestSpacing();
+  for (std::size_t label = 1; label < image.Values().size(); ++label)
+  {
+    this->FinestDelta = std::min(this->FinestDelta, sizing.LargestOf(static_cast<LabelId>(label)));
+  }
+  for (std::uint32_t c = 0; c < this->All.All().size(); ++c)
+  {
+    this->Delta.push_back(sizing.LargestOf(this->All.All()[c].Label));
+    const double own = this->OwnDelta(c);
+    if (exact && this->Wanted[c] && own < this->Delta[c])
+    {
+      ThrowIfStopped(stop);
+      this->Sample(c, own);
+    }
+  }
+  this->Local.Grade();
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+double ComponentCheck<D>::OwnDelta(std::uint32_t component) const
+{
+  const Component<D>& of = this->All.All()[component];
+  const double volume = static_cast<double>(of.Voxels) * this->Image.Grid().VoxelVolume();
+  return std::max(SamplesPerThickness * volume / of.Surface, this->FinestDelta);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<FeatureSeed<D>> ComponentCheck<D>::TakeSeeds()
+{
+  this->Statistics.Seeds += this->Seeds.size();
+  return std::exchange(this->Seeds, {});
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Remedy<D> ComponentCheck<D>::InspectMesh(const SimplexMesh<D>& mesh)
+{
+  const std::vector<std::uint32_t> lost = this->FindLost(mesh);
+  this->Statistics.Lost.clear(); // of an earlier round
+  if (this->SampleFiner(lost))
+  {
+    ++this->Statistics.Rounds;
+    return { true, this->TakeSeeds() };
+  }
+  for (const std::uint32_t c : lost)
+  {
+    const Component<D>& component = this->All.All()[c];
+    ComponentReport entry{ this->Image.Values()[component.Label], component.Voxels, {} };
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      entry.Voxel.push_back(this->Image.CropOrigin()[a] + component.First[a]);
+    }
+    this->Statistics.Lost.push_back(std::move(entry));
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void ComponentCheck<D>::SampleThickest(std::uint32_t component)
+{
+  const std::int64_t step = this->All.All()[component].Voxels / MostVoxelsLookedAt + 1;
+  std::int64_t count = 0;
+  std::optional<ThinPart<D>> thickest;
+  this->All.ForEachRun(component,
+    [&](const Index& first, std::int64_t length)
+    {
+      ThrowIfStopped(this->Stop);
+      for (Index voxel = first; voxel[0] < first[0] + length; ++voxel[0])
+      {
+        if (count++ % step != 0)
+        {
+          continue;
+        }
+        ThinPart<D> part(this->Image, this->Surfaces, voxel);
+        if (!thickest || part.IsBetterThan(*thickest))
+        {
+          thickest = std::move(part);
+        }
+      }
+    });
+  const double thickness =
+    std::ldexp(std::max(thickest->Thickness(), LeastThickness * this->FinestDelta),
+      -static_cast<int>(this->Attempts[component]));
+  for (const Point<D>& z : thickest->Ends())
+  {
+    this->Seeds.push_back({ z, SpacingAtThickest * thickness });
+  }
+  this->Local.SetBound(thickest->Voxel(), 1, this->All.All()[component].Label,
+    std::min(this->Delta[component], BoundAtThickest * thickness));
+  ++this->Attempts[component];
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void ComponentCheck<D>::Sample(std::uint32_t component, double delta)
+{
+  this->Delta[component] = delta;
+  const LabelId label = this->All.All()[component].Label;
+  const std::int64_t step = this->All.All()[component].Voxels / MostSeededVoxels + 1;
+  std::int64_t count = 0;
+  this->All.ForEachRun(component,
+    [&](const Index& first, std::int64_t length)
+    {
+      this->Local.SetBound(first, length, label, BoundFactor * delta);
+      Index voxel = first;
+      for (; voxel[0] < first[0] + length; ++voxel[0])
+      {
+        if (count++ % step != 0)
+        {
+          continue;
+        }
+        const Point<D> centre = this->Image.CentreOf(voxel);
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          for (const std::int64_t direction : { -1, 1 })
+          {
+            Index neighbour = voxel;
+            neighbour[a] += direction;
+            Point<D> z;
+            if (this->All.At(neighbour) != component &&
+              this->Surfaces.FirstCrossing(centre, label, this->Image.CentreOf(neighbour), z))
+            {
+              this->Seeds.push_back({ z, delta });
+            }
+          }
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<std::uint32_t> ComponentCheck<D>::FindLost(const SimplexMesh<D>& mesh) const
+{
+  return FindLostComponents(this->All, this->Image, mesh, this->Wanted, this->Threads, this->Stop);
+}
+
+template <int D>
+std::vector<std::uint32_t> ComponentCheck<D>::FindWitnesses(
+  const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const
+{
+  return FindWitnessesOf(components, this->All, this->Image, mesh);
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
+{
+  bool any = false;
+  for (const std::uint32_t c : lost)
+  {
+    if (this->Attempts[c] < AttemptsAtThickest)
+    {
+      this->SampleThickest(c);
+      any = true;
+    }
+    else if (this->Delta[c] > this->FinestDelta)
+    {
+      const double own = this->OwnDelta(c);
+      this->Sample(
+        c, own < this->Delta[c] ? own : std::max(this->FinestDelta, 0.5 * this->Delta[c]));
+      any = true;
+    }
+  }
+  if (any)
+  {
+    this->Local.Grade();
+  }
+  return any;
+}
+
+template class ComponentCheck<3>;
+template class ComponentCheck<4>;
+
+} // namespace voxplex

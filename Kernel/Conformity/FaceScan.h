@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FaceScan.h
+ * @brief Looks at the faces between voxels of different labels, in parallel.
+ */
+#ifndef voxplex_FaceScan_h
+#define voxplex_FaceScan_h
+
+#include "Image/BitMask.h"
+#include "Image/FacesNear.h"
+#include "Image/LabelImage.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * The faces on the upper sides of some voxels for which is(face, hint) is true, ascending.
+ *
+ * @param voxels of the crop and the layer around it, as FindSurfaceVoxels() gives them
+ * @param is called by several threads at once, for faces between different labels; a hint, at first Hint(), is kept from
+ *   face to face nearby
+ * @param threads 0 means all cores; the result does not depend on it
+ * @throws Cancelled if a stop was requested before the end
+ */
+template <typename Hint, typename Is>
+std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& voxels,
+  unsigned threads, const std::stop_token& stop, Is&& is)
+{
+  constexpr std::size_t RowsAtOnce = 64;
+  constexpr std::int64_t VoxelsOfHint = 4;
+  const std::size_t rows = voxels.NumberOfRows();
+  const auto& n = voxels.Dimensions();
+  std::vector<std::vector<VoxelFace>> parts((rows - 1) / RowsAtOnce + 1);
+  ParallelFor(
+    0, rows, RowsAtOnce, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::vector<Hint> hints(static_cast<std::size_t>(n[0] / VoxelsOfHint + 1));
+      for (std::size_t row = first; row < last; ++row)
+      {
+        const auto y = static_cast<std::int64_t>(row) % n[1] - 1;
+        const auto z = static_cast<std::int64_t>(row) / n[1] - 1;
+        const auto words = voxels.Row(row);
+        for (std::size_t w = 0; w < words.size(); ++w)
+        {
+          for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
+          {
+            const std::int64_t x = static_cast<std::int64_t>(64 * w) + std::countr_zero(bits);
+            for (unsigned a = 0; a < 3; ++a)
+            {
+              const VoxelFace face{ { x - 1, y, z }, a };
+              if (image.At(face.Voxel) != image.At(face.Next()) &&
+                is(face, hints[static_cast<std::size_t>(x / VoxelsOfHint)]))
+              {
+                parts[first / RowsAtOnce].push_back(face);
+              }
+            }
+          }
+        }
+      }
+    },
+    stop);
+  std::vector<VoxelFace> faces;
+  for (const auto& part : parts)
+  {
+    faces.insert(faces.end(), part.begin(), part.end());
+  }
+  return faces;
+}
+
+/** Those of some faces for which is(face, hint) is true. */
+template <typename Hint, typename Is>
+std::vector<VoxelFace> FilterFaces(const std::vector<VoxelFace>& faces, Is&& is)
+{
+  std::vector<VoxelFace> some;
+  Hint hint{};
+  std::copy_if(faces.begin(), faces.end(), std::back_inserter(some),
+    [&](const VoxelFace& face) { return is(face, hint); });
+  return some;
+}
+
+} // namespace voxplex
+
+#endif

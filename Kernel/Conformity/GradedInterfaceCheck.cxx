@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/GradedInterfaceCheck.h"
+
+#include "Conformity/FaceScan.h"
+#include "Geometry/BoundingTree.h"
+#include "Refinement/FeatureGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** The mesh may be this many finest sampling distances away from interfaces; uniform meshes are about as far. */
+constexpr double SurfaceDistance = 1.22;
+
+/** From faces of voxels it may be this many times as far, because they are stairs. */
+constexpr double StairFactor = 1.15;
+
+std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
+{
+  std::vector<Point<3>> vertices;
+  std::vector<bool> added(mesh.Points.size());
+  for (const auto& facet : mesh.Facets)
+  {
+    for (const std::uint32_t v : facet)
+    {
+      if (!added[v])
+      {
+        added[v] = true;
+        vertices.push_back(mesh.Points[v]);
+      }
+    }
+  }
+  return vertices;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+GradedInterfaceCheck::GradedInterfaceCheck(const LabelImage<3>& image, const BitMask<3>& sites,
+  const Domain<3>& domain, const SizingField<3>& sizing, LocalDelta<3>& local, unsigned threads,
+  const std::stop_token& stop)
+  : Image(image)
+  , Sites(sites)
+  , Surfaces(domain)
+  , Sampling(image, sites, domain, sizing, local, stop)
+  , Threads(threads)
+  , Stop(stop)
+  , Largest(LargestDistance(image.Grid(), sizing.Base().Asked))
+{
+}
+
+//------------------------------------------------------------------------------------------------
+double GradedInterfaceCheck::LargestDistance(const GridGeometry<3>& grid, double delta)
+{
+  return std::max(SurfaceDistance * delta, 0.5 * grid.VoxelDiagonal());
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
+  const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace>& edges)
+{
+  const std::vector<Point<3>> points = VerticesOfInterfaces(mesh);
+  FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, this->Largest, points.size());
+  for (const Point<3>& p : points)
+  {
+    vertices.Add(p);
+  }
+  const BoundingTree<Triangle> triangles(TrianglesOf(mesh), this->Threads, this->Stop);
+
+  // The faces of voxels, and the interface that runs about them, which is what is meshed.
+  using Hint = std::uint32_t; // see BoundingTree
+  const auto isFar = [&](const VoxelFace& face, Hint& hint)
+  {
+    const Point<3> centre = CentreOf(face, this->Image);
+    const double half = 0.5 * this->Image.Grid().Spacing(static_cast<int>(face.Axis));
+    if (this->Largest > half && vertices.AnyWithin(centre, this->Largest - half))
+    {
+      return false;
+    }
+    const double distance = std::sqrt(triangles.Distance2To(centre, hint));
+    if (distance > StairFactor * this->Largest)
+    {
+      return true;
+    }
+    Point<3> z;
+    return distance + half > this->Largest &&
+      this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
+        this->Image.CentreOf(face.Next()), z) &&
+      triangles.Distance2To(z, hint) > this->Largest * this->Largest;
+  };
+  std::vector<VoxelFace> far = FilterFaces<Hint>(this->Sampling.Sampled(), isFar);
+  if (far.empty())
+  {
+    far = ScanFaces<Hint>(this->Image, this->Sites, this->Threads, this->Stop, isFar);
+  }
+  this->FarFaces = far.size();
+  return this->Sampling.AroundIfBad(far, edges);
+}
+
+} // namespace voxplex

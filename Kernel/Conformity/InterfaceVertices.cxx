@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/InterfaceVertices.h"
+
+#include "Mesh/SimplexLabels.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace voxplex
+{
+
+namespace
+{
+
+constexpr std::size_t Grain = 4096;
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+InterfaceVertices::InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
+  unsigned threads, const std::stop_token& stop)
+  : Source(triangulation)
+  , Image(image)
+  , Threads(threads)
+  , Stop(stop)
+{
+}
+
+InterfaceVertices::Changes InterfaceVertices::Update()
+{
+  return this->Seen.empty() ? this->FindAll() : this->FindChanges();
+}
+
+//------------------------------------------------------------------------------------------------
+std::uint32_t InterfaceVertices::GenerationOf(SimplexId s) const
+{
+  return this->Source.IsAlive(s) ? this->Source.State(s).Generation : None;
+}
+
+LabelId InterfaceVertices::LabelOf(SimplexId s) const
+{
+  return LabelAtCentre(this->Source, this->Image, s);
+}
+
+//------------------------------------------------------------------------------------------------
+InterfaceVertices::Changes InterfaceVertices::FindAll()
+{
+  const std::size_t ids = this->Source.SimplexIdEnd();
+  this->Seen.resize(ids);
+  SimplexLabels labels(ids); // fewer bytes than states: neighbours are anywhere
+  ParallelFor(
+    0, ids, Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        this->Seen[s] = this->GenerationOf(s);
+        labels[s] = this->Seen[s] == None ? LabelId{ 0 } : this->LabelOf(s);
+      }
+    },
+    this->Stop);
+  std::vector<std::uint8_t> isOnInterface(this->Source.VertexIdEnd());
+  const auto mark = [&](VertexId v)
+  {
+    // Relaxed: threads write the same, and the loop's end orders it before its readers.
+    const std::atomic_ref<std::uint8_t> known(isOnInterface[v]);
+    if (known.load(std::memory_order_relaxed) == 0)
+    {
+      known.store(1, std::memory_order_relaxed);
+    }
+  };
+  // One of two tetrahedra with different labels has a ball that meets an interface: the dual edge is in their union.
+  const auto look = [&](SimplexId s)
+  {
+    const auto& simplex = this->Source.GetSimplex(s);
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      const SimplexId n = simplex.N[i];
+      if (n != None && labels[n] != labels[s])
+      {
+        for (unsigned m = 1; m < 4; ++m)
+        {
+          mark(simplex.V[(i + m) % 4]);
+        }
+      }
+    }
+  };
+  ParallelFor(
+    0, ids, Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        if (this->Source.State(s).NearSurface && this->Seen[s] != None)
+        {
+          look(s);
+        }
+      }
+    },
+    this->Stop);
+  Changes changes;
+  for (VertexId v = 0; v < isOnInterface.size(); ++v)
+  {
+    if (isOnInterface[v] != 0)
+    {
+      this->Known.push_back({ v, this->Source.Position(v) });
+      changes.Added.push_back(this->Source.Position(v));
+    }
+  }
+  return changes;
+}
+
+//------------------------------------------------------------------------------------------------
+InterfaceVertices::Changes InterfaceVertices::FindChanges()
+{
+  const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
+  std::vector<SimplexId> star;
+  std::vector<Entry> now;
+  now.reserve(this->Known.size() + candidates.size());
+  Changes changes;
+  // No star but those of the candidates has changed; of other vertices some are no more.
+  auto known = this->Known.begin();
+  const auto keepBefore = [&](VertexId end)
+  {
+    for (; known != this->Known.end() && known->first < end; ++known)
+    {
+      if (this->Source.GetVertex(known->first).Alive)
+      {
+        now.push_back(*known);
+      }
+      else
+      {
+        changes.Gone.push_back(known->second);
+      }
+    }
+  };
+  for (const VertexId v : candidates)
+  {
+    ThrowIfStopped(this->Stop);
+    keepBefore(v);
+    const Point<3>& position = this->Source.Position(v);
+    const bool isOn = this->IsOnInterface(v, star);
+    const bool wasKnown = known != this->Known.end() && known->first == v;
+    const bool isSame = isOn && wasKnown && known->second == position; // ids are used again
+    if (wasKnown && !isSame)
+    {
+      changes.Gone.push_back(known->second);
+    }
+    if (isOn)
+    {
+      now.push_back({ v, position });
+    }
+    if (isOn && !isSame)
+    {
+      changes.Added.push_back(position);
+    }
+    known += wasKnown ? 1 : 0;
+  }
+  keepBefore(None);
+  this->Known = std::move(now);
+  return changes;
+}
+
+//------------------------------------------------------------------------------------------------
+/** In ascending order; those that were made since the last call. */
+std::vector<VertexId> InterfaceVertices::VerticesOfNewSimplices()
+{
+  const std::size_t ids = this->Source.SimplexIdEnd();
+  this->Seen.resize(ids, None);
+  std::vector<std::vector<VertexId>> parts((ids - 1) / Grain + 1);
+  ParallelFor(
+    0, ids, Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::vector<VertexId>& found = parts[first / Grain];
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        const std::uint32_t generation = this->GenerationOf(s);
+        if (generation != this->Seen[s] && generation != None)
+        {
+          const auto& v = this->Source.GetSimplex(s).V;
+          found.insert(found.end(), v.begin(), v.end());
+        }
+        this->Seen[s] = generation;
+      }
+    },
+    this->Stop);
+  std::vector<VertexId> vertices;
+  for (const std::vector<VertexId>& part : parts)
+  {
+    vertices.insert(vertices.end(), part.begin(), part.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+//------------------------------------------------------------------------------------------------
+bool InterfaceVertices::IsOnInterface(VertexId v, std::vector<SimplexId>& star) const
+{
+  star.assign(1, this->Source.GetVertex(v).Incident);
+  for (std::size_t k = 0; k < star.size(); ++k)
+  {
+    const auto& simplex = this->Source.GetSimplex(star[k]);
+    const LabelId label = this->LabelOf(star[k]);
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      const SimplexId n = simplex.N[i];
+      if (n == None || simplex.V[i] == v)
+      {
+        continue;
+      }
+      if (this->LabelOf(n) != label)
+      {
+        return true;
+      }
+      if (std::find(star.begin(), star.end(), n) == star.end())
+      {
+        star.push_back(n);
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace voxplex

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file InterfaceVertices.h
+ * @brief The vertices on the interfaces of a triangulation, without a mesh.
+ */
+#ifndef voxplex_InterfaceVertices_h
+#define voxplex_InterfaceVertices_h
+
+#include "Delaunay/Triangulation.h"
+#include "Domain/Domain.h"
+
+#include <cstdint>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief The vertices of all facets between tetrahedra of different labels: those of the facets that ExtractMesh()
+ * makes. Follows a triangulation that is refined further.
+ *
+ * Not thread safe; uses threads of its own. Nobody may change the triangulation while this looks at it.
+ */
+class InterfaceVertices
+{
+public:
+  /** Positions, each in the order of the vertices' ids. */
+  struct Changes
+  {
+    std::vector<Point<3>> Added;
+    std::vector<Point<3>> Gone;
+  };
+
+  /**
+   * The references must live as long as this.
+   * @param threads 0 means all cores; results do not depend on it
+   */
+  InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
+    unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * What has changed since the last call; at the first, all are added. The triangulation is refined, so that the balls
+   * of which SimplexState::NearSurface is not set meet no interface.
+   *
+   * The first call takes time linear in the numbers of simplices and vertices; later ones nearly none for each of
+   * these, and time linear in the sizes of the stars of those vertices that have new simplices.
+   * @throws Cancelled if a stop was requested before the end
+   */
+  Changes Update();
+
+private:
+  using Entry = std::pair<VertexId, Point<3>>;
+
+  Changes FindAll();
+  Changes FindChanges();
+  std::vector<VertexId> VerticesOfNewSimplices();
+  /** That of a simplex when it was seen last, or None if it was not alive. */
+  std::uint32_t GenerationOf(SimplexId s) const;
+  LabelId LabelOf(SimplexId s) const;
+  /** @param star scratch */
+  bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
+
+  const Triangulation<3>& Source;
+  const Domain<3>& Image;
+  const unsigned Threads;
+  const std::stop_token Stop;
+  std::vector<std::uint32_t> Seen; ///< GenerationOf() every simplex at the last call
+  std::vector<Entry> Known;        ///< at the last call, in the order of their ids
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,401 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Domain/LabelField.h"
+
+#include "Base/Error.h"
+#include "Image/LabelSmoothing.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+namespace voxplex
+{
+namespace
+{
+
+/**
+ * By how much the own label of a voxel wins at least, and where its object is one voxel thin: there
+ * the voxels beside it lose it by about as much, so that the object comes out about one voxel
+ * thick. In samples (SampleOne is 1); even.
+ */
+constexpr int KeptMargin = 328;
+constexpr int ThinMargin = 16384;
+
+} // namespace
+
+/** Makes tiles; one instance serves one thread at a time. */
+template <int D>
+class LabelField<D>::Builder
+{
+public:
+  Builder(const LabelImage<D>& image, const LabelSmoothing& smoothing)
+    : Image(image)
+    , Smoothing(smoothing)
+    , Radius(smoothing.Radius())
+    , Width(TileSamples + 2 * this->Radius)
+    , SlotOf(image.Values().size(), NoSlot)
+    , OwnSlots(PlaneSize)
+    , Margins(PlaneSize)
+    , Other(PlaneSize)
+  {
+    this->Rows = 1;
+    for (int a = 1; a < D; ++a)
+    {
+      this->Rows *= this->Width;
+    }
+    this->Halo.resize(this->Rows * this->Width);
+  }
+
+  /** The samples of the tile whose first one is at these lattice coordinates. */
+  const Sample* MakeTile(const Index& first)
+  {
+    this->GatherHalo(first);
+    this->GatherLabels();
+    return this->Smooth();
+  }
+
+  typename Base::Arena Memory;
+
+private:
+  static constexpr std::uint16_t NoSlot = 0xffff;
+
+  /** Copies the ids within reach of the kernel. */
+  void GatherHalo(Index first)
+  {
+    for (std::int64_t& i : first)
+    {
+      i -= static_cast<std::int64_t>(this->Radius);
+    }
+    const std::size_t width = this->Width;
+    Base::ForEachRow(this->Image, first, width,
+      [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t k)
+      {
+        LabelId* out = this->Halo.data() + k * width;
+        const auto [before, after] = Base::RowEnds(this->Image, in, low, high);
+        std::fill(out, out + low, before);
+        if (low < high)
+        {
+          std::memcpy(out + low, in, static_cast<std::size_t>(high - low) * sizeof(LabelId));
+        }
+        std::fill(out + high, out + width, after);
+        return true;
+      });
+  }
+
+  /** Finds the labels of the halo and their rows of bits. */
+  void GatherLabels()
+  {
+    for (const LabelId label : this->Labels)
+    {
+      this->SlotOf[label] = NoSlot;
+    }
+    this->Labels.clear();
+    const LabelId* in = this->Halo.data();
+    const std::uint64_t all = ~std::uint64_t{ 0 } >> (64 - this->Width);
+    for (std::size_t row = 0; row < this->Rows; ++row, in += this->Width)
+    {
+      if (std::memcmp(in, in + 1, (this->Width - 1) * sizeof(LabelId)) == 0)
+      {
+        this->WordsOf(in[0])[row] = all; // most rows
+        continue;
+      }
+      for (std::size_t x = 0; x < this->Width;)
+      {
+        const LabelId label = in[x];
+        const std::size_t begin = x;
+        while (++x < this->Width && in[x] == label)
+        {
+        }
+        this->WordsOf(label)[row] |= (all << begin) & (all >> (this->Width - x));
+      }
+    }
+  }
+
+  /** The rows of bits of a label; all 0 when it is first met. */
+  std::uint64_t* WordsOf(LabelId label)
+  {
+    std::uint16_t slot = this->SlotOf[label];
+    if (slot == NoSlot)
+    {
+      slot = static_cast<std::uint16_t>(this->Labels.size());
+      this->SlotOf[label] = slot;
+      this->Labels.push_back(label);
+      if (this->Words.size() < this->Labels.size() * this->Rows)
+      {
+        this->Words.resize(this->Labels.size() * this->Rows);
+      }
+      std::fill_n(this->Words.begin() + static_cast<std::ptrdiff_t>(slot * this->Rows), this->Rows,
+        std::uint64_t{ 0 });
+    }
+    return this->Words.data() + slot * this->Rows;
+  }
+
+  /** Samples of one label, before the own label is kept. */
+  void SmoothLabel(LabelId label, Sample* plane)
+  {
+    const std::size_t slot = this->SlotOf[label];
+    this->Smoothing.Smooth(this->Words.data() + slot * this->Rows, this->Buffers, plane);
+  }
+
+  /** All planes of the tile whose labels have been gathered. */
+  const Sample* Smooth()
+  {
+    std::sort(this->Labels.begin(), this->Labels.end());
+    const std::size_t labels = this->Labels.size();
+    const std::size_t header = HeaderSize(labels);
+    const std::size_t planes = labels == 2 ? 1 : labels;
+    Sample* tile = this->Memory.Allocate(header + planes * PlaneSize);
+    tile[0] = static_cast<Sample>(labels);
+    for (std::size_t l = 0; l < labels; ++l)
+    {
+      tile[1 + l] = static_cast<Sample>(this->Labels[l]);
+    }
+    for (std::size_t l = 0; l < planes; ++l)
+    {
+      this->SmoothLabel(this->Labels[l], tile + header + l * PlaneSize);
+    }
+    this->GatherOwn();
+    this->GatherMargins();
+    KeepOwnLabels(this->OwnSlots.data(), this->Margins.data(), labels, PlaneSize, tile + header,
+      this->Other.data());
+    return tile;
+  }
+
+  /** Which of the sorted labels each sample has. */
+  void GatherOwn()
+  {
+    for (std::size_t l = 0; l < this->Labels.size(); ++l)
+    {
+      this->SlotOf[this->Labels[l]] = static_cast<std::uint16_t>(l);
+    }
+    for (std::size_t row = 0; row < PlaneSize / 8; ++row)
+    {
+      std::size_t at = 0;
+      for (std::size_t a = D; a-- > 1;)
+      {
+        at = at * this->Width + ((row >> (3 * (a - 1))) & 7) + this->Radius;
+      }
+      const LabelId* in = this->Halo.data() + at * this->Width + this->Radius;
+      for (std::size_t i = 0; i < 8; ++i)
+      {
+        this->OwnSlots[row * 8 + i] = this->SlotOf[in[i]];
+      }
+    }
+  }
+
+  /** By how much each sample's own label has to win. */
+  void GatherMargins()
+  {
+    std::fill(this->Margins.begin(), this->Margins.end(), Sample{ KeptMargin });
+    if (this->Radius == 0)
+    {
+      return; // nothing is smoothed
+    }
+    for (std::size_t row = 0; row < PlaneSize / 8; ++row)
+    {
+      std::size_t at = 0;
+      for (std::size_t a = D; a-- > 1;)
+      {
+        at = at * this->Width + ((row >> (3 * (a - 1))) & 7) + this->Radius;
+      }
+      const LabelId* in = this->Halo.data() + at * this->Width + this->Radius;
+      std::array<LabelId, 8> thin{};
+      std::size_t stride = 1;
+      for (int a = 0; a < D; ++a, stride *= this->Width)
+      {
+        for (std::size_t i = 0; i < 8; ++i)
+        {
+          const LabelId before = *(in + i - stride);
+          thin[i] |= static_cast<LabelId>((before != in[i]) & (in[i + stride] != in[i]));
+        }
+      }
+      for (std::size_t i = 0; i < 8; ++i)
+      {
+        if (thin[i] && this->IsThinObject(in + i))
+        {
+          this->Margins[row * 8 + i] = ThinMargin;
+        }
+      }
+    }
+  }
+
+  /**
+   * Whether a voxel between two others along some axis belongs to something one voxel thin, not to
+   * a bump on something thicker: no face neighbour with its label is thick itself. What is too small to
+   * contain a block of two voxels along each axis is thin all over, also where legs of it meet; but of
+   * background, which need not be in the mesh.
+   */
+  bool IsThinObject(const LabelId* voxel) const
+  {
+    if (this->Radius < 2)
+    {
+      return true;
+    }
+    std::size_t stride = 1;
+    for (int a = 0; a < D; ++a, stride *= this->Width)
+    {
+      for (const LabelId* neighbour : { voxel - stride, voxel + stride })
+      {
+        if (*neighbour == *voxel && !this->IsBetweenOthers(neighbour))
+        {
+          return *voxel != 0 && this->IsSpeck(voxel);
+        }
+      }
+    }
+    return true;
+  }
+
+  /** Whether fewer voxels than a block has are connected with one, itself included, within the reach of the kernel. */
+  bool IsSpeck(const LabelId* voxel) const
+  {
+    struct Member
+    {
+      const LabelId* Voxel;
+      std::array<int, static_cast<std::size_t>(D)> Offset; ///< from the one that is asked about
+    };
+    std::array<Member, std::size_t{ 1 } << D> members;
+    std::size_t count = 0;
+    members[count++] = { voxel, {} };
+    for (std::size_t next = 0; next < count; ++next)
+    {
+      const Member from = members[next];
+      std::ptrdiff_t stride = 1;
+      for (std::size_t a = 0; a < D; ++a, stride *= static_cast<std::ptrdiff_t>(this->Width))
+      {
+        for (const int step : { -1, 1 })
+        {
+          Member to = from;
+          to.Offset[a] += step;
+          if (static_cast<std::size_t>(std::abs(to.Offset[a])) > this->Radius)
+          {
+            continue;
+          }
+          to.Voxel += step * stride;
+          if (*to.Voxel != *voxel ||
+            std::any_of(members.begin(), members.begin() + count,
+              [&](const Member& known) { return known.Voxel == to.Voxel; }))
+          {
+            continue;
+          }
+          members[count++] = to;
+          if (count == members.size())
+          {
+            return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  bool IsBetweenOthers(const LabelId* voxel) const
+  {
+    std::size_t stride = 1;
+    for (int a = 0; a < D; ++a, stride *= this->Width)
+    {
+      if (*(voxel - stride) != *voxel && voxel[stride] != *voxel)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const LabelImage<D>& Image;
+  const LabelSmoothing& Smoothing;
+  std::size_t Radius;
+  std::size_t Width; ///< samples of the halo along each axis
+  std::size_t Rows;  ///< of the halo
+  std::vector<LabelId> Halo;
+  std::vector<LabelId> Labels; ///< of the halo
+  std::vector<std::uint16_t> SlotOf;
+  std::vector<std::uint64_t> Words;
+  LabelSmoothing::Buffers Buffers;
+  std::vector<std::uint16_t> OwnSlots;
+  std::vector<Sample> Margins;
+  std::vector<Sample> Other;
+};
+
+template <int D>
+LabelField<D>::LabelField(
+  const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
+  : Base(image)
+  , Planes(image)
+{
+  if (!(sigma >= 0.0 && sigma <= MaximumSigma))
+  {
+    std::ostringstream s;
+    s << "The smoothing's standard deviation is " << sigma << " voxels; it must be between 0 (no "
+      << "smoothing) and " << MaximumSigma << ".";
+    throw InputError(s.str());
+  }
+  const LabelSmoothing smoothing(D, sigma);
+  this->MakeTiles(
+    image, threads, stop, [&] { return std::make_unique<Builder>(image, smoothing); });
+}
+
+template <int D>
+bool LabelField<D>::ExtendedMarginGradientAt(
+  const Point<D>& x, LabelId label, Point<D>& gradient) const
+{
+  const Cell cell = this->Locate(x);
+  if (!cell.Tile)
+  {
+    return false;
+  }
+  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const Sample* planes = cell.Tile + HeaderSize(labels);
+  double scale = 1.0 / SampleOne;
+  if (labels == 2)
+  {
+    if (label != static_cast<LabelId>(cell.Tile[1]))
+    {
+      scale = -scale;
+    }
+    gradient = Base::PlaneGradient(planes, cell);
+    for (double& g : gradient)
+    {
+      g *= 2.0 * scale;
+    }
+    return label == static_cast<LabelId>(cell.Tile[1]) ||
+      label == static_cast<LabelId>(cell.Tile[2]);
+  }
+  std::size_t own = labels;
+  std::size_t other = labels;
+  float otherValue = -std::numeric_limits<float>::max();
+  for (std::size_t l = 0; l < labels; ++l)
+  {
+    if (static_cast<LabelId>(cell.Tile[1 + l]) == label)
+    {
+      own = l;
+      continue;
+    }
+    const float value = InterpolatePlane(planes + l * PlaneSize, cell);
+    if (value > otherValue)
+    {
+      other = l;
+      otherValue = value;
+    }
+  }
+  if (own == labels)
+  {
+    return false;
+  }
+  gradient = Base::PlaneGradient(planes + own * PlaneSize, cell);
+  const Point<D> minus = Base::PlaneGradient(planes + other * PlaneSize, cell);
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    gradient[a] = scale * (gradient[a] - minus[a]);
+  }
+  return true;
+}
+
+template class LabelField<3>;
+template class LabelField<4>;
+
+} // namespace voxplex

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Junctions/JunctionSeeds.h"
+
+#include "Refinement/FeatureGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+// Chosen on the knee and AAL atlases: points nearer to each other make more elements, farther ones worse curves.
+
+/** Arc length between points, in delta, about. */
+constexpr double ArcLength = 1.2;
+
+/** No two points are nearer to each other than this, in delta. */
+constexpr double Clearance = 0.75;
+
+/** Closed curves shorter than so many arc lengths are left out: what they go around is smaller than delta. */
+constexpr double ShortestLoop = 4.0;
+
+/** Points in equal steps along a curve, its ends left out. */
+template <typename Function>
+void WalkAlong(const JunctionCurves::Curve& curve, const JunctionDelta& delta, Function&& visit)
+{
+  const std::size_t n = curve.Points.size();
+  const std::size_t pieces = curve.IsClosed ? n : n - 1;
+  std::vector<double> steps{ 0.0 }; // so many steps from the beginning
+  for (std::size_t i = 0; i < pieces; ++i)
+  {
+    const Point<3>& a = curve.Points[i];
+    const Point<3>& b = curve.Points[(i + 1) % n];
+    const double step = ArcLength * delta(Interpolate(a, b, 0.5), curve.Labels);
+    steps.push_back(steps.back() + Distance(a, b) / step);
+  }
+  const double count = std::round(steps.back());
+  if (curve.IsClosed && count < ShortestLoop)
+  {
+    return;
+  }
+  std::size_t i = 0;
+  for (double k = curve.IsClosed ? 0.0 : 1.0; k < count; k += 1.0)
+  {
+    const double at = k * steps.back() / count;
+    while (i + 2 < steps.size() && steps[i + 1] < at)
+    {
+      ++i;
+    }
+    const double piece = steps[i + 1] - steps[i];
+    visit(Interpolate(
+      curve.Points[i], curve.Points[(i + 1) % n], piece > 0.0 ? (at - steps[i]) / piece : 0.0));
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> SampleJunctions(
+  const JunctionCurves& junctions, const JunctionDelta& delta, double largest)
+{
+  std::vector<FeatureSeed<3>> seeds;
+  FeatureGrid<3> taken({ 0.0, 0.0, 0.0 }, largest, junctions.Curves().size());
+  const auto take = [&](const Point<3>& p, double own)
+  {
+    if (!taken.AnyWithin(p, Clearance * own))
+    {
+      taken.Add(p);
+      seeds.push_back({ p, Clearance * own });
+    }
+  };
+  // Corners first: what is left out then is beside them.
+  for (const JunctionCurves::Curve& curve : junctions.Curves())
+  {
+    if (!curve.IsClosed)
+    {
+      take(curve.Points.front(), delta(curve.Points.front(), curve.Labels));
+      take(curve.Points.back(), delta(curve.Points.back(), curve.Labels));
+    }
+  }
+  for (const JunctionCurves::Curve& curve : junctions.Curves())
+  {
+    WalkAlong(curve, delta, [&](const Point<3>& p) { take(p, delta(p, curve.Labels)); });
+  }
+  return seeds;
+}
+
+} // namespace voxplex

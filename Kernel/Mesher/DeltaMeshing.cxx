@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/DeltaMeshing.h"
+
+#include "Base/Stopwatch.h"
+#include "Mesher/MeshSizeEstimate.h"
+#include "Parallel/ParallelFor.h"
+#include "Refinement/Refiner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/**
+ * Refinement leaves slivers to optimisation that are better than this, in degrees. On twelve meshes of eight atlases 3.0
+ * million elements become 2.7 million by that, and no more of them are poor in the end than without: under ten.
+ */
+constexpr double SliversLeftToOptimisation = 3.0;
+
+//------------------------------------------------------------------------------------------------
+/** The sources of a sizing field. */
+template <int D>
+class MeshSizing
+{
+public:
+  /** @throws Cancelled; InputError from interface sizes */
+  explicit MeshSizing(const RunEnvironment<D>& run)
+    : Base(Dimension<D>::GradeBase(run, run.Statistics.Delta))
+    , Local(run.Prepared.Image)
+    , Size(run.Prepared.Size.get())
+    , SizeFloor(SpacingFloorFraction * run.Statistics.Delta) // also where grading is coarser
+  {
+    run.Statistics.LargestDelta = this->Base.Base.Delta;
+    if (!run.Options.InterfaceSizes.empty())
+    {
+      const Stopwatch time;
+      this->Interfaces.emplace(run.Prepared.Image, run.Options.InterfaceSizes, this->Base.Base,
+        run.Options.Gradation, run.Options.Threads, run.Stop);
+      run.Statistics.LargestDelta = this->Interfaces->Largest();
+      run.Statistics.Times.Grading += time.Seconds();
+    }
+  }
+
+  /** They refer to this. */
+  SizingSources<D> Sources() const
+  {
+    return { this->Base.Base, this->Interfaces ? &*this->Interfaces : nullptr,
+      Dimension<D>::HasLocalBounds ? &this->Local : nullptr, this->Size, this->SizeFloor };
+  }
+
+  LocalDelta<D>& LocalBounds() { return this->Local; }
+
+private:
+  const OwnedBaseDistance<D> Base;
+  std::optional<InterfaceSizes<D>> Interfaces; ///< if any are given
+  LocalDelta<D> Local;
+  const SizeFunction<D>* Size;
+  double SizeFloor;
+};
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+RefinementSettings<D> SettingsOf(const MeshingOptions<D>& options, const SizingSources<D>& sizing)
+{
+  RefinementSettings<D> settings;
+  settings.Sizing = sizing;
+  settings.RadiusEdgeRatio = options.RadiusEdgeRatio;
+  settings.FacetAngle = options.FacetAngle;
+  settings.Order = options.Order;
+  settings.Slivers = options.Slivers;
+  settings.TetSlivers = options.TetSlivers;
+  if (options.Optimise && options.OptimisationSeconds == 0.0)
+  {
+    settings.TetSlivers.AngleInside =
+      std::min(settings.TetSlivers.AngleInside, SliversLeftToOptimisation);
+  }
+  return settings;
+}
+
+template <int D>
+TeamOptions TeamOf(const MeshingOptions<D>& options)
+{
+  TeamOptions team;
+  team.Threads = std::min(NumberOfThreads(options.Threads), MaximumNumberOfWorkers);
+  team.Contention = options.Contention;
+  team.SuccessesToWake = Dimension<D>::SuccessesToWake;
+  team.Balance = options.Balance;
+  team.Pin = options.PinThreads;
+  team.Synchronise = options.Synchronise;
+  team.RemoveEagerly = options.RemoveEagerly;
+  team.FineGrained = options.FineGrained && team.Threads <= NumberOfThreads(0);
+  team.SeedsPerThread = options.SeedsPerThread;
+  return team;
+}
+
+/** At least 2 Delta from every interface (thesis, sections 2.2 and 4.2), but not at flat ends. */
+template <int D>
+Box<D> BoxAround(const Domain<D>& domain, double largestDistance)
+{
+  Box<D> box = domain.Bounds();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const bool isLast = a + 1 == D;
+    box.Min[a] -= isLast && domain.IsFlatEnd(0) ? 0.0 : 2.0 * largestDistance;
+    box.Max[a] += isLast && domain.IsFlatEnd(1) ? 0.0 : 2.0 * largestDistance;
+  }
+  return box;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, double sizeFloor)
+{
+  const MeshSizeEstimate estimate = EstimateMeshSize<D>(run.Prepared.Image, distance, sizeFloor,
+    run.Prepared.Size.get(), run.Options.Threads, run.Stop);
+  run.Statistics.EstimatedElements = estimate.Elements;
+  run.Statistics.SizesRaisedTo = estimate.SizesBelowFloor ? sizeFloor : 0.0;
+  if (!run.Options.Force)
+  {
+    CheckMemory(estimate, run.Options.MemoryLimit);
+  }
+  return estimate;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void AddYielding(MeshingStatistics& statistics, const GridGeometry<D>& grid,
+  const std::vector<YieldingRegion<D>>& regions)
+{
+  for (const YieldingRegion<D>& region : regions)
+  {
+    const Point<D> index = grid.ToIndex(region.Place);
+    YieldingReport report{ static_cast<unsigned>(region.Step), {} };
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto last = static_cast<double>(grid.Dimensions[a] - 1);
+      report.Voxel.push_back(std::llround(std::clamp(index[a], 0.0, last)));
+    }
+    statistics.Yielding.push_back(std::move(report));
+  }
+}
+
+/** False if stopped. */
+template <int D>
+bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
+  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices,
+  RunProgress& progress)
+{
+  const Stopwatch time;
+  Refiner<typename Dimension<D>::Rules> refiner(context, TeamOf(run.Options), seeds, start);
+  const bool done = refiner.Run(
+    [&](std::uint64_t vertices)
+    {
+      progress.Refine(static_cast<double>(vertices) / static_cast<double>(expectedVertices));
+      return !run.Stop.stop_requested();
+    });
+  MeshingStatistics& statistics = run.Statistics;
+  statistics.Times.Refinement += time.Seconds();
+  statistics.Rules += refiner.GetRuleStatistics();
+  statistics.Predicates += refiner.GetPredicateStatistics();
+  const std::vector<ThreadStatistics>& threads = refiner.GetThreadStatistics();
+  statistics.Threads.resize(std::max(statistics.Threads.size(), threads.size()));
+  for (std::size_t t = 0; t < threads.size(); ++t)
+  {
+    statistics.Threads[t] += threads[t];
+  }
+  AddYielding(statistics, run.Prepared.Image.Grid(), refiner.GetYielded());
+  statistics.SeedingSeconds += refiner.GetSecondsToSeed();
+  statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
+  return done;
+}
+
+//------------------------------------------------------------------------------------------------
+/** The first remedy that a check needs. */
+template <int D, typename Inspect>
+Remedy<D> FindRemedy(const std::vector<ConformityCheck<D>*>& checks, Inspect&& inspect)
+{
+  for (ConformityCheck<D>* check : checks)
+  {
+    const Stopwatch time;
+    Remedy<D> remedy = inspect(*check);
+    check->Seconds += time.Seconds();
+    if (remedy.IsNeeded)
+    {
+      return remedy;
+    }
+  }
+  return {};
+}
+
+/** Leaves the mesh in `mesh` if no check needs a remedy. */
+template <int D>
+Remedy<D> InspectAndExtract(
+  const RunEnvironment<D>& run, typename Dimension<D>::Checks& checks, SimplexMesh<D>& mesh)
+{
+  const std::vector<ConformityCheck<D>*> all = checks.All();
+  Remedy<D> remedy =
+    FindRemedy<D>(all, [](ConformityCheck<D>& check) { return check.InspectTriangulation(); });
+  if (!remedy.IsNeeded)
+  {
+    const Stopwatch time;
+    checks.Extract(mesh);
+    run.Statistics.Times.Extraction += time.Seconds();
+    remedy = FindRemedy<D>(all, [&](ConformityCheck<D>& check) { return check.InspectMesh(mesh); });
+  }
+  return remedy;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,
+  RunProgress& progress, SimplexMesh<D>& mesh)
+{
+  MeshSizing<D> sizing(run);
+  const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
+  const MeshSizeEstimate estimate = EstimateOf(run, planned.Equivalent(), planned.SizeFloor());
+
+  RefinementContext<D> context(*run.Prepared.Surfaces, SettingsOf(run.Options, sizing.Sources()),
+    BoxAround(*run.Prepared.Surfaces, planned.Largest()), estimate.InterfaceVertices);
+  typename Dimension<D>::Checks checks(run, context, sizing.LocalBounds());
+  context.Sizing.FollowLocalBounds();
+  std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, context.Sizing);
+  const std::vector<FeatureSeed<D>> more = checks.TakeSeeds();
+  seeds.insert(seeds.end(), more.begin(), more.end());
+
+  for (RefinementStart start = RefinementStart::Everywhere;
+       Refine(run, context, seeds, start, estimate.Vertices, progress);
+       start = RefinementStart::AtSeeds)
+  {
+    progress.EndRefinement();
+    sizing.LocalBounds().ForgetLowered(); // refinement has seen to it
+    Remedy<D> remedy = InspectAndExtract(run, checks, mesh);
+    if (!remedy.IsNeeded)
+    {
+      if (isWorthOptimising(mesh))
+      {
+        checks.Optimise(mesh);
+      }
+      return !run.Stop.stop_requested();
+    }
+    seeds = std::move(remedy.Points);
+    context.Sizing.FollowLocalBounds();
+  }
+  return false;
+}
+
+template bool MeshWithDelta<3>(
+  const RunEnvironment<3>&, const IsWorthOptimising<3>&, RunProgress&, SimplexMesh<3>&);
+template bool MeshWithDelta<4>(
+  const RunEnvironment<4>&, const IsWorthOptimising<4>&, RunProgress&, SimplexMesh<4>&);
+
+} // namespace voxplex

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/Dimension.h"
+
+#include "Base/Stopwatch.h"
+#include "Junctions/JunctionSeeds.h"
+#include "Mesh/MeshExtraction.h"
+#include "Optimisation/MeshOptimiser.h"
+#include "Sizing/Grading/LocalFeatureSize.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Spacing of the points by which local feature sizes are measured, in delta. */
+constexpr double GradingSampleSpacing = 0.75;
+
+/** Of the distance from interfaces that is asked for: too coarse a start takes more elements in the end. */
+constexpr double GradingTolerance = 0.9;
+
+/** How far optimisation may move vertices off interfaces as a last means, in smallest voxel spacings. */
+constexpr double OptimisationTolerance = 0.1;
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+OwnedBaseDistance<3> Dimension<3>::GradeBase(const RunEnvironment<3>& run, double delta)
+{
+  if (run.Options.Grading.Mode != GradingMode::LocalFeatureSize)
+  {
+    return { BaseDistance<3>{ delta }, nullptr };
+  }
+  const Stopwatch time;
+  const GridGeometry<3>& grid = run.Prepared.Image.Grid();
+  GradingParameters parameters;
+  parameters.Finest = delta;
+  parameters.Ratio = run.Options.Grading.Ratio;
+  parameters.Lambda = run.Options.Grading.Lambda * std::cbrt(grid.VoxelVolume());
+  parameters.SampleSpacing = GradingSampleSpacing * delta;
+  parameters.Salience = std::max(grid.LargestSpacing(), parameters.SampleSpacing);
+  parameters.Tolerance = GradingTolerance * GradedInterfaceCheck::LargestDistance(grid, delta);
+  auto grading = std::make_shared<const LocalFeatureSize>(
+    run.Prepared.Image, *run.Prepared.Surfaces, parameters, run.Options.Threads, run.Stop);
+  run.Statistics.GradingSamples = grading->Sample().size();
+  run.Statistics.GradingPoles = grading->NumberOfPoles();
+  run.Statistics.Times.Grading += time.Seconds();
+  return { { grading->Largest(), &grading->Delta(), grading->Equivalent(), delta }, grading };
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<FeatureSeed<3>> Dimension<3>::SampleJunctions(
+  const RunEnvironment<3>& run, const SizingField<3>& sizing)
+{
+  if (!run.Prepared.Junctions)
+  {
+    return {};
+  }
+  const Stopwatch time;
+  std::vector<FeatureSeed<3>> seeds = voxplex::SampleJunctions(
+    *run.Prepared.Junctions,
+    [&](const Point<3>& z, const std::array<LabelId, 3>& labels)
+    {
+      return std::min({ sizing.SamplingDistance(z, labels[0], labels[1]),
+        sizing.SamplingDistance(z, labels[1], labels[2]),
+        sizing.SamplingDistance(z, labels[0], labels[2]) });
+    },
+    sizing.Largest());
+  run.Statistics.Interfaces.JunctionSeeds = seeds.size();
+  run.Statistics.Times.Interfaces += time.Seconds();
+  return seeds;
+}
+
+//------------------------------------------------------------------------------------------------
+Dimension<3>::Checks::Checks(
+  const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local)
+  : Run(run)
+  , Source(context.Mesh)
+  , Interfaces(
+      { context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+        context.Sizing, ShapeBounds::With(run.Options.RadiusEdgeRatio, run.Options.FacetAngle),
+        run.Options.Threads },
+      run.Options.Interfaces, local, run.Statistics.Interfaces, run.Statistics.Times.Interfaces,
+      run.Stop)
+{
+  if (run.Prepared.AllComponents)
+  {
+    const Stopwatch time;
+    this->Components.emplace(run.Prepared.Image, *run.Prepared.Surfaces,
+      *run.Prepared.AllComponents, context.Sizing, run.Options.SmallestComponent,
+      run.Options.ExactComponents, local, run.Statistics.Components,
+      run.Statistics.Times.Components, run.Options.Threads, run.Stop);
+    run.Statistics.Times.Components += time.Seconds();
+  }
+}
+
+std::vector<FeatureSeed<3>> Dimension<3>::Checks::TakeSeeds()
+{
+  return this->Components ? this->Components->TakeSeeds() : std::vector<FeatureSeed<3>>();
+}
+
+std::vector<ConformityCheck<3>*> Dimension<3>::Checks::All()
+{
+  std::vector<ConformityCheck<3>*> all;
+  if (this->Components)
+  {
+    all.push_back(&*this->Components);
+  }
+  all.push_back(&this->Interfaces);
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
+{
+  const Domain<3>& surfaces = *this->Run.Prepared.Surfaces;
+  const unsigned threads = this->Run.Options.Threads;
+  ExtractMesh<3>(this->Source, surfaces, this->Interfaces.Labels(), mesh, threads, this->Run.Stop);
+  Subdivide(this->Source, surfaces, this->Interfaces.Parts(), mesh, threads, this->Run.Stop);
+}
+
+void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
+{
+  ExtractMesh<4>(
+    this->Source, *this->Run.Prepared.Surfaces, mesh, this->Run.Options.Threads, this->Run.Stop);
+}
+
+//------------------------------------------------------------------------------------------------
+void Dimension<3>::Checks::Optimise(SimplexMesh<3>& mesh) const
+{
+  const MeshingOptions<3>& asked = this->Run.Options;
+  if (!asked.Optimise || this->Run.Stop.stop_requested())
+  {
+    return;
+  }
+  OptimisationOptions options;
+  options.Shape =
+    ShapeBounds::With(std::max(OptimisedRadiusEdgeRatio, asked.RadiusEdgeRatio), asked.FacetAngle);
+  options.Seconds = asked.OptimisationSeconds;
+  options.InterfaceTolerance =
+    OptimisationTolerance * this->Run.Prepared.Image.Grid().SmallestSpacing();
+  if (this->Components)
+  {
+    options.ShouldHaveStayed = [&mesh, this](const SimplexMesh<3>& result)
+    { return this->Components->FindWitnesses(mesh, this->Components->FindLost(result)); };
+  }
+  const OptimisationStatistics done =
+    OptimiseMesh(mesh, *this->Run.Prepared.Surfaces, options, asked.Threads, this->Run.Stop);
+  MeshingStatistics& statistics = this->Run.Statistics;
+  statistics.Times.Optimisation += done.Seconds;
+  statistics.Optimisation = { true, done.OutOfTime, done.Before.SmallestDihedralAngle,
+    done.Before.LargestDihedralAngle, done.After.SmallestDihedralAngle,
+    done.After.LargestDihedralAngle, done.Before.Poor, done.After.Poor };
+}
+
+} // namespace voxplex

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Dimension.h
+ * @brief The stages of a run that are different in space and in space-time.
+ */
+#ifndef voxplex_Dimension_h
+#define voxplex_Dimension_h
+
+#include "Conformity/ComponentCheck.h"
+#include "Conformity/ConformityCheck.h"
+#include "Conformity/InterfaceCheck.h"
+#include "Mesh/SimplexMesh.h"
+#include "Mesher/MeshingOptions.h"
+#include "Mesher/MeshingStatistics.h"
+#include "Mesher/Preparation.h"
+#include "Refinement/RefinementContext.h"
+#include "Refinement/Rules3D.h"
+#include "Refinement/Rules4D.h"
+#include "Sizing/SizingField.h"
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/** The base distance, and what it refers to. */
+template <int D>
+struct OwnedBaseDistance
+{
+  BaseDistance<D> Base;
+  std::shared_ptr<const void> Grading; ///< null if the distance is uniform
+};
+
+/** What a run works with after its preparation; all must live as long as the stages. */
+template <int D>
+struct RunEnvironment
+{
+  const PreparedImage<D>& Prepared;
+  const MeshingOptions<D>& Options;
+  MeshingStatistics& Statistics;
+  std::stop_token Stop;
+};
+
+template <int D>
+struct Dimension;
+
+/** Space. */
+template <>
+struct Dimension<3>
+{
+  using Rules = Rules3D;
+  static constexpr unsigned SuccessesToWake = 10;
+  static constexpr bool HasLocalBounds = true;
+
+  /** By the local feature size, if the options ask for it. */
+  static OwnedBaseDistance<3> GradeBase(const RunEnvironment<3>& run, double delta);
+
+  /** Points on the curves where labels meet. */
+  static std::vector<FeatureSeed<3>> SampleJunctions(
+    const RunEnvironment<3>& run, const SizingField<3>& sizing);
+
+  /** Components, then interfaces; and the mesh that these give. */
+  class Checks
+  {
+  public:
+    /** Components may lower local bounds at once. All references must live as long as this. */
+    Checks(const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local);
+
+    /** Points for thin components that are there before refinement. */
+    std::vector<FeatureSeed<3>> TakeSeeds();
+
+    /** In their order. */
+    std::vector<ConformityCheck<3>*> All();
+
+    /** With the labels and pieces that the checks have found. */
+    void Extract(SimplexMesh<3>& mesh) const;
+
+    /** Improves shapes, if the options ask for it, and keeps components that the mesh has. */
+    void Optimise(SimplexMesh<3>& mesh) const;
+
+  private:
+    const RunEnvironment<3> Run;
+    const Triangulation<3>& Source;
+    std::optional<ComponentCheck<3>> Components; ///< if they are looked after
+    InterfaceCheck Interfaces;
+  };
+};
+
+/** Space-time: neither grading nor junctions, checks or optimisation yet. */
+template <>
+struct Dimension<4>
+{
+  using Rules = Rules4D;
+  static constexpr unsigned SuccessesToWake = 2; ///< an operation takes ten times as long
+  static constexpr bool HasLocalBounds = false;  ///< no check lowers any
+
+  static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
+  {
+    return { BaseDistance<4>{ delta }, nullptr };
+  }
+  static std::vector<FeatureSeed<4>> SampleJunctions(
+    const RunEnvironment<4>&, const SizingField<4>&)
+  {
+    return {};
+  }
+
+  class Checks
+  {
+  public:
+    Checks(const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>&)
+      : Run(run)
+      , Source(context.Mesh)
+    {
+    }
+    std::vector<FeatureSeed<4>> TakeSeeds() { return {}; }
+    std::vector<ConformityCheck<4>*> All() { return {}; }
+    void Extract(SimplexMesh<4>& mesh) const;
+    void Optimise(SimplexMesh<4>&) const {}
+
+  private:
+    const RunEnvironment<4> Run;
+    const Triangulation<4>& Source;
+  };
+};
+
+} // namespace voxplex
+
+#endif

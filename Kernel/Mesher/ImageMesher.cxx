@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/ImageMesher.h"
+
+#include "Mesher/MeshingPipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace voxplex
+{
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
+{
+  return this->Run(image, nullptr, mesh);
+}
+
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh)
+{
+  return this->Run(image.Labels(), &image, mesh);
+}
+
+template <int D>
+MeshingOutcome ImageMesher<D>::Run(
+  const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh)
+{
+  mesh = SimplexMesh<D>();
+  this->Stats = MeshingStatistics();
+  CheckOptions(this->Options);
+  this->Stats.Delta =
+    this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid().VoxelVolume());
+  this->Stats.ElementsAskedFor = this->Options.Elements;
+  this->Stats.SmoothingSigma =
+    isosurface ? isosurface->Surface().SmoothingSigma : this->Options.SmoothingSigma;
+  this->Stats.Contention = this->Options.Contention;
+  this->Stats.Balance = this->Options.Balance;
+
+  RunProgress progress;
+  std::stop_source stop;
+  const auto run = [&]
+  {
+    return RunPipeline(
+      image, isosurface, this->Options, this->Stats, progress, stop.get_token(), mesh);
+  };
+  const bool done = this->Progress ? this->RunReporting(run, progress, stop) : run();
+  if (!done)
+  {
+    mesh = SimplexMesh<D>();
+    return MeshingOutcome::Cancelled;
+  }
+  return MeshingOutcome::Done;
+}
+
+//------------------------------------------------------------------------------------------------
+// The stages run on a thread of their own, so that the caller's thread can report at a steady pace
+// whatever they are doing.
+template <int D>
+bool ImageMesher<D>::RunReporting(
+  const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop)
+{
+  bool done = false;
+  std::exception_ptr error;
+  bool finished = false;
+  std::mutex mutex; // of finished
+  std::condition_variable changed;
+  std::jthread worker(
+    [&]
+    {
+      try
+      {
+        done = run();
+      }
+      catch (...)
+      {
+        error = std::current_exception();
+      }
+      const std::scoped_lock lock(mutex);
+      finished = true;
+      changed.notify_one();
+    });
+  constexpr auto Period = std::chrono::milliseconds(20);
+  double reported = 0.0;
+  try
+  {
+    for (bool over = false; !over;)
+    {
+      reported = std::max(reported, progress.Fraction());
+      if (!stop.stop_requested() && !this->Progress(reported))
+      {
+        stop.request_stop();
+      }
+      std::unique_lock lock(mutex);
+      over = changed.wait_for(lock, Period, [&] { return finished; });
+    }
+  }
+  catch (...) // from the callback: the worker joins on the way out
+  {
+    stop.request_stop();
+    throw;
+  }
+  worker.join();
+  if (error)
+  {
+    std::rethrow_exception(error);
+  }
+  if (done && !this->Progress(1.0))
+  {
+    done = false;
+  }
+  return done;
+}
+
+template class ImageMesher<3>;
+template class ImageMesher<4>;
+
+} // namespace voxplex

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ImageMesher.h
+ * @brief The kernel's front door: a label image, or an isosurface, in, a simplex mesh out.
+ */
+#ifndef voxplex_ImageMesher_h
+#define voxplex_ImageMesher_h
+
+#include "Image/IsosurfaceImage.h"
+#include "Image/LabelImage.h"
+#include "Mesh/SimplexMesh.h"
+#include "Mesher/MeshingOptions.h"
+#include "Mesher/MeshingStatistics.h"
+
+#include <functional>
+#include <stop_token>
+#include <utility>
+
+namespace voxplex
+{
+
+class RunProgress;
+
+/** How a run ended. Errors are exceptions (Error.h). */
+enum class MeshingOutcome
+{
+  Done,
+  Cancelled ///< the progress callback returned false; the mesh is empty
+};
+
+/**
+ * @brief Meshes one label image, or the inside of an isosurface.
+ *
+ * Run() may be called repeatedly; distinct instances may run at the same time in one process. With
+ * one thread the mesh is bit-for-bit reproducible.
+ */
+template <int D>
+class ImageMesher
+{
+public:
+  explicit ImageMesher(MeshingOptions<D> options)
+    : Options(std::move(options))
+  {
+  }
+
+  /**
+   * Called from the thread that called Run(), at least ten times a second, with the fraction done
+   * (0 to 1, never decreasing). Returning false cancels the run; what it throws leaves Run().
+   */
+  std::function<bool(double fraction)> Progress;
+
+  /**
+   * @param image label image; may be released by the caller after Run() returns
+   * @param mesh receives the mesh; empty when cancelled
+   * @throws InputError, also if no delta was found that makes the elements asked for; TooLargeError,
+   *   std::bad_alloc
+   */
+  MeshingOutcome Run(const LabelImage<D>& image, SimplexMesh<D>& mesh);
+  /** The same for what an isosurface of a grey-value image bounds. */
+  MeshingOutcome Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh);
+
+  const MeshingStatistics& Statistics() const { return this->Stats; }
+
+private:
+  /** @param isosurface of which `image` has the labels, or null */
+  MeshingOutcome Run(
+    const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
+  bool RunReporting(
+    const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop);
+
+  MeshingOptions<D> Options;
+  MeshingStatistics Stats;
+};
+
+extern template class ImageMesher<3>;
+extern template class ImageMesher<4>;
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/MeshSizeEstimate.h"
+
+#include "Base/Error.h"
+#include "Base/NumberText.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Calibrated on the phantoms and atlases of Documentation/Benchmarks.md. */
+template <int D>
+struct Calibration;
+
+template <>
+struct Calibration<3>
+{
+  static constexpr double VerticesPerArea =
+    0.65; ///< interface vertices per delta^(D-1) of interface
+  static constexpr double ElementsPerInterfaceVertex = 4.7;
+  static constexpr double ElementsPerBall = 5.0;    ///< elements per size^D of volume
+  static constexpr double VerticesPerElement = 0.3; ///< of the whole triangulation
+  static constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its copy
+  /** What an interface of no preferred direction has of the area of its stairs. */
+  static constexpr double AreaPerStairs = 2.0 / 3.0;
+};
+
+template <>
+struct Calibration<4>
+{
+  static constexpr double VerticesPerArea = 0.57;
+  static constexpr double ElementsPerInterfaceVertex = 14.0;
+  static constexpr double ElementsPerBall = 25.0;
+  static constexpr double VerticesPerElement = 0.09;
+  static constexpr double BytesPerElement = 450.0;
+  static constexpr double AreaPerStairs = 0.589; // 3 pi / 16
+};
+
+/** Faces of voxels between different labels, by axis; the crop is closed by background, but for flat ends. */
+template <int D>
+std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+{
+  const auto& n = image.CropDimensions();
+  const std::span<const LabelId> ids = image.Ids();
+  const std::size_t row = static_cast<std::size_t>(n[0]);
+  const std::size_t rows = ids.size() / row;
+  std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(D)> faces{};
+  ParallelFor(
+    0, rows, 256, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<std::uint64_t, static_cast<std::size_t>(D)> count{};
+      for (std::size_t r = first; r < last; ++r)
+      {
+        const LabelId* voxels = ids.data() + r * row;
+        count[0] += (voxels[0] != 0) + (voxels[row - 1] != 0);
+        for (std::size_t i = 1; i < row; ++i)
+        {
+          count[0] += voxels[i] != voxels[i - 1];
+        }
+        std::size_t stride = row;
+        std::size_t rest = r;
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          const std::size_t extent = static_cast<std::size_t>(n[a]);
+          const std::size_t position = rest % extent;
+          rest /= extent;
+          const bool time = D == 4 && a == 3;
+          const LabelId* before = voxels - stride;
+          for (std::size_t i = 0; i < row && !(time && position == 0 && image.IsCutInTime(0)); ++i)
+          {
+            count[a] += voxels[i] != (position == 0 ? LabelId(0) : before[i]);
+          }
+          if (position + 1 == extent && !(time && image.IsCutInTime(1)))
+          {
+            count[a] += static_cast<std::uint64_t>(
+              row - static_cast<std::size_t>(std::count(voxels, voxels + row, LabelId(0))));
+          }
+          stride *= extent;
+        }
+      }
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        faces[a] += count[a];
+      }
+    },
+    stop);
+  std::array<std::uint64_t, static_cast<std::size_t>(D)> result;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    result[a] = faces[a];
+  }
+  return result;
+}
+
+/** What a run of samples adds up to. */
+struct BallCount
+{
+  double Sum = 0.0; ///< of 1 / size^D
+  double Smallest = std::numeric_limits<double>::infinity();
+};
+
+/** One voxel of the crop; nothing if it is background. */
+template <int D>
+void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
+  std::size_t voxel, BallCount& count)
+{
+  const LabelId id = image.Ids()[voxel];
+  if (id == 0)
+  {
+    return;
+  }
+  Point<D> index;
+  std::size_t rest = voxel;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    const std::size_t extent = static_cast<std::size_t>(image.CropDimensions()[a]);
+    index[a] = static_cast<double>(rest % extent) + static_cast<double>(image.CropOrigin()[a]);
+    rest /= extent;
+  }
+  const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[id]);
+  if (s > 0.0 && std::isfinite(s))
+  {
+    count.Smallest = std::min(count.Smallest, s);
+    count.Sum += std::pow(std::max(s, floor), -D);
+  }
+}
+
+/** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
+template <int D>
+double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
+  double& smallest, unsigned threads, const std::stop_token& stop)
+{
+  constexpr std::size_t grain = 512; // fixed, so that the sum does not depend on the threads
+  const std::size_t voxels = image.Ids().size();
+  const std::size_t step = std::max<std::size_t>(1, voxels / 50000);
+  const std::size_t samples = (voxels - step / 2 + step - 1) / step;
+  std::vector<BallCount> chunks((samples + grain - 1) / grain);
+  ParallelFor(
+    0, samples, grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      BallCount count;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        CountBalls(image, size, floor, step / 2 + k * step, count);
+      }
+      chunks[first / grain] = count;
+    },
+    stop);
+  double sum = 0.0;
+  for (const BallCount& chunk : chunks)
+  {
+    sum += chunk.Sum;
+    smallest = std::min(smallest, chunk.Smallest);
+  }
+  return sum * static_cast<double>(step) * image.Grid().VoxelVolume();
+}
+
+std::string InUnits(double bytes)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f GiB", bytes / (1024.0 * 1024.0 * 1024.0));
+  return text;
+}
+
+std::uint64_t Saturate(double x)
+{
+  return x < 1.8e19 ? static_cast<std::uint64_t>(x) : ~std::uint64_t(0);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, double sizeFloor,
+  const SizeFunction<D>* size, unsigned threads, const std::stop_token& stop)
+{
+  const auto faces = CountInterfaceFaces(image, threads, stop);
+  double area = 0.0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    area += static_cast<double>(faces[a]) * image.Grid().VoxelVolume() /
+      image.Grid().Spacing(static_cast<int>(a));
+  }
+  using Constants = Calibration<D>;
+  area *= Constants::AreaPerStairs;
+  const double interfaceVertices = Constants::VerticesPerArea * area / std::pow(delta, D - 1);
+  double elements = Constants::ElementsPerInterfaceVertex * interfaceVertices;
+  MeshSizeEstimate estimate;
+  if (size)
+  {
+    // Where sizes are small the interface is sampled by them, and its elements are among these.
+    elements += Constants::ElementsPerBall *
+      BallsInObject(image, *size, sizeFloor, estimate.SmallestSize, threads, stop);
+    estimate.SizesBelowFloor = estimate.SmallestSize < sizeFloor;
+  }
+  estimate.InterfaceVertices = Saturate(interfaceVertices);
+  estimate.InterfaceElements = Saturate(Constants::ElementsPerInterfaceVertex * interfaceVertices);
+  estimate.Elements = Saturate(elements);
+  estimate.Vertices = Saturate(elements * Constants::VerticesPerElement) + 64;
+  estimate.Bytes = Saturate(elements * Constants::BytesPerElement);
+  return estimate;
+}
+
+//------------------------------------------------------------------------------------------------
+void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
+{
+  double available = static_cast<double>(limit);
+  if (limit == 0)
+  {
+    available =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
+  const double bytes = static_cast<double>(estimate.Bytes);
+  constexpr std::uint64_t MostElements = 1u << 31; // twice as many ids, and free ones besides
+  if (bytes > available || estimate.Elements > MostElements)
+  {
+    throw TooLargeError("the mesh is estimated to have " +
+      NumberText(static_cast<double>(estimate.Elements), 3) + " elements and to need " +
+      InUnits(bytes) + " of memory, of which there are " + InUnits(available) +
+      "; choose a larger delta or element size, or force it");
+  }
+}
+
+template MeshSizeEstimate EstimateMeshSize<3>(
+  const LabelImage<3>&, double, double, const SizeFunction<3>*, unsigned, const std::stop_token&);
+template MeshSizeEstimate EstimateMeshSize<4>(
+  const LabelImage<4>&, double, double, const SizeFunction<4>*, unsigned, const std::stop_token&);
+
+} // namespace voxplex

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/MeshingPipeline.h"
+
+#include "Base/Error.h"
+#include "Base/NumberText.h"
+#include "Mesher/DeltaMeshing.h"
+#include "Mesher/DeltaSearch.h"
+#include "Mesher/MeshSizeEstimate.h"
+#include "Mesher/Preparation.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/**
+ * Meshes turn out this many times as large as estimated: with slivers split, and when these are left to
+ * optimisation. The first sampling distance of a search follows from it.
+ */
+constexpr double ElementsPerEstimated = 1.12;
+constexpr double OptimisedPerEstimated = 1.0;
+
+/** No delta is tried with which a mesh that is not graded would have more than this times the elements asked for. */
+constexpr double LargestExcess = 16.0;
+
+/** Of the elements that refinement made, optimisation leaves this part; the search plans with it. */
+constexpr double ElementsLeftByOptimisation = 0.96;
+
+//------------------------------------------------------------------------------------------------
+/** Looks for the delta that makes a number of elements. */
+template <int D>
+class ElementTarget
+{
+public:
+  ElementTarget(const RunEnvironment<D>& run, RunProgress& progress)
+    : Run(run)
+    , Progress(progress)
+  {
+  }
+
+  /**
+   * Keeps the mesh that comes nearest. False if stopped.
+   * @throws InputError if no delta makes about as many elements as asked for
+   */
+  bool Mesh(SimplexMesh<D>& mesh)
+  {
+    DeltaSearch search = this->StartSearch();
+    MeshingStatistics& statistics = this->Run.Statistics;
+    const MeshingStatistics before = statistics;
+    MeshingStatistics best;
+    SimplexMesh<D> next;
+    while (search.Next())
+    {
+      const StageTimes times = statistics.Times;
+      statistics = before;
+      statistics.Times = times;
+      statistics.Delta = *search.Next();
+      this->Progress.BeginOneOfSeveral();
+      const auto isNear = [this](const SimplexMesh<D>& one) { return this->IsNearTarget(one); };
+      if (!MeshWithDelta<D>(this->Run, isNear, this->Progress, next))
+      {
+        return false;
+      }
+      this->Progress.EndOneOfSeveral();
+      search.Add(this->ExpectedElements(next));
+      if (search.Best().Delta == statistics.Delta)
+      {
+        best = statistics;
+        mesh = std::move(next);
+      }
+    }
+    best.Times = statistics.Times;
+    best.Runs = search.Runs();
+    statistics = std::move(best);
+    if (!search.Found())
+    {
+      this->ThrowNotFound(search);
+    }
+    return true;
+  }
+
+private:
+  /**
+   * The first guess is from the estimate of the size of the mesh with the default delta, not graded. No delta is tried
+   * that would raise sizes (SizingField::SizeFloor) that the default does not raise.
+   */
+  DeltaSearch StartSearch() const
+  {
+    const PreparedImage<D>& prepared = this->Run.Prepared;
+    const double delta = DefaultDelta<D>(prepared.Image.Grid().VoxelVolume());
+    const MeshSizeEstimate estimate = EstimateMeshSize<D>(prepared.Image, delta,
+      SpacingFloorFraction * delta, prepared.Size.get(), this->Run.Options.Threads, this->Run.Stop);
+    const double perEstimated =
+      this->Run.Options.Optimises() ? OptimisedPerEstimated : ElementsPerEstimated;
+    const auto wanted = static_cast<double>(this->Run.Options.Elements);
+    const double target = wanted / perEstimated;
+    const double interfaces = std::max(static_cast<double>(estimate.InterfaceElements), 1.0);
+    const double sizes = static_cast<double>(estimate.Elements) - interfaces;
+    const double guess =
+      delta * std::pow(interfaces / std::max(target - sizes, 0.25 * target), 1.0 / (D - 1));
+    const double smallest = delta * std::pow(interfaces / (LargestExcess * wanted), 1.0 / (D - 1));
+    return DeltaSearch(this->Run.Options.Elements, guess, D - 1, smallest,
+      std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
+  }
+
+  /** The number if the mesh is optimised; it is, if it may be the one that was asked for. */
+  std::uint64_t ExpectedElements(const SimplexMesh<D>& mesh) const
+  {
+    const auto elements = static_cast<double>(mesh.Simplices.size());
+    const bool willBeFewer =
+      this->Run.Options.Optimises() && !this->Run.Statistics.Optimisation.Ran;
+    return static_cast<std::uint64_t>(
+      willBeFewer ? elements * ElementsLeftByOptimisation : elements);
+  }
+
+  bool IsNearTarget(const SimplexMesh<D>& mesh) const
+  {
+    const double ratio = static_cast<double>(this->ExpectedElements(mesh)) /
+      static_cast<double>(this->Run.Options.Elements);
+    return !(std::abs(ratio - 1.0) > DeltaSearch::Tolerance);
+  }
+
+  [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
+  {
+    const bool isCoarse = this->Run.Options.Grading.Mode == GradingMode::LocalFeatureSize &&
+      search.Best().Elements < this->Run.Options.Elements;
+    throw InputError("no delta makes a mesh of " + std::to_string(this->Run.Options.Elements) +
+      " elements within " + NumberText(100.0 * DeltaSearch::Tolerance) + " %: the nearest of " +
+      std::to_string(search.Runs().size()) + " meshes has " +
+      std::to_string(search.Best().Elements) + ", with a delta of " +
+      NumberText(search.Best().Delta) +
+      (isCoarse
+          ? "; grading by the local feature size keeps interfaces coarse with every delta: ask "
+            "for fewer, or for a smaller ratio of the sampling distance to the local feature size"
+          : "; ask for about that number, or for larger sizes: small components, element sizes "
+            "and interface sizes make elements with every delta"));
+  }
+
+  const RunEnvironment<D> Run;
+  RunProgress& Progress;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+  const MeshingOptions<D>& options, MeshingStatistics& statistics, RunProgress& progress,
+  const std::stop_token& stop, SimplexMesh<D>& mesh)
+{
+  try
+  {
+    const PreparedImage<D> prepared = Prepare(image, isosurface, options, statistics, stop);
+    progress.EndPreparation();
+    const RunEnvironment<D> run{ prepared, options, statistics, stop };
+    return options.Elements > 0
+      ? ElementTarget<D>(run, progress).Mesh(mesh)
+      : MeshWithDelta<D>(
+          run, [](const SimplexMesh<D>&) { return true; }, progress, mesh);
+  }
+  catch (const Cancelled&)
+  {
+    return false;
+  }
+}
+
+template bool RunPipeline<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+  const MeshingOptions<3>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
+  SimplexMesh<3>&);
+template bool RunPipeline<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+  const MeshingOptions<4>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
+  SimplexMesh<4>&);
+
+} // namespace voxplex

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshingPipeline.h
+ * @brief All stages of a run.
+ */
+#ifndef voxplex_MeshingPipeline_h
+#define voxplex_MeshingPipeline_h
+
+#include "Image/IsosurfaceImage.h"
+#include "Image/LabelImage.h"
+#include "Mesh/SimplexMesh.h"
+#include "Mesher/MeshingOptions.h"
+#include "Mesher/MeshingStatistics.h"
+#include "Mesher/RunProgress.h"
+
+#include <stop_token>
+
+namespace voxplex
+{
+
+/**
+ * Prepare() once; then MeshWithDelta(), with the sampling distance of the options, or with one after the other until there
+ * are as many elements as the options ask for (DeltaSearch).
+ *
+ * @param isosurface what is meshed, or null to mesh the labels alone
+ * @param statistics has what is known before: the sampling distance, if no number of elements is asked for
+ * @param progress may be asked from another thread meanwhile
+ * @return false if stopped
+ * @throws InputError, TooLargeError, std::bad_alloc as ImageMesher::Run()
+ */
+template <int D>
+bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+  const MeshingOptions<D>& options, MeshingStatistics& statistics, RunProgress& progress,
+  const std::stop_token& stop, SimplexMesh<D>& mesh);
+
+extern template bool RunPipeline<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+  const MeshingOptions<3>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
+  SimplexMesh<3>&);
+extern template bool RunPipeline<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+  const MeshingOptions<4>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
+  SimplexMesh<4>&);
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshingStatistics.h
+ * @brief What a run did: counts, times, predicates.
+ */
+#ifndef voxplex_MeshingStatistics_h
+#define voxplex_MeshingStatistics_h
+
+#include "Conformity/ComponentStatistics.h"
+#include "Conformity/InterfaceStatistics.h"
+#include "Geometry/PredicateStatistics.h"
+#include "Parallel/Policies.h"
+#include "Refinement/RefinementStatistics.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Wall-clock seconds of each stage. */
+struct StageTimes
+{
+  double LabelField = 0.0;        ///< label map, crop, smoothing
+  double DistanceTransform = 0.0; ///< surface voxels and feature transform
+  double Grading = 0.0;           ///< local feature sizes
+  double Components = 0.0;        ///< connected components, before and after refinement
+  double Interfaces = 0.0;        ///< junctions, and looking at the mesh's interfaces
+  double Refinement = 0.0;
+  double Extraction = 0.0;
+  double Optimisation = 0.0;
+  double Total() const
+  {
+    return this->LabelField + this->DistanceTransform + this->Grading + this->Components +
+      this->Interfaces + this->Refinement + this->Extraction + this->Optimisation;
+  }
+};
+
+/** What optimisation after refinement did. Angles are in degrees; "poor" is what is out of bounds. */
+struct OptimisationFigures
+{
+  bool Ran = false;
+  bool OutOfTime = false; ///< stopped by MeshingOptions::OptimisationSeconds
+  double SmallestDihedralBefore = 0.0;
+  double LargestDihedralBefore = 0.0;
+  double SmallestDihedralAfter = 0.0;
+  double LargestDihedralAfter = 0.0;
+  std::uint64_t PoorBefore = 0;
+  std::uint64_t PoorAfter = 0;
+};
+
+/** One refinement in the search for a delta that makes a number of elements. */
+struct MeshingRun
+{
+  double Delta = 0.0;
+  std::uint64_t Elements = 0;
+};
+
+/**
+ * Where refinement took many times the work that regions need and rules gave way (RegionalWork): 1: slivers stay, 2: also
+ * facets of interfaces may be out of bounds, 3: also ratios and sizes of elements.
+ */
+struct YieldingReport
+{
+  unsigned Step = 0;
+  std::vector<std::int64_t> Voxel; ///< the index of a voxel there, in the whole image
+};
+
+struct MeshingStatistics
+{
+  RuleStatistics Rules;
+  PredicateStatistics Predicates;
+  StageTimes Times;
+  std::vector<ThreadStatistics> Threads; ///< one for each refinement thread
+  ContentionPolicy Contention = ContentionPolicy::Local;
+  BalancePolicy Balance = BalancePolicy::Hierarchical;
+  /** A non-blocking contention manager made no progress and was replaced by the local one. */
+  bool SwitchedToLocal = false;
+  double SeedingSeconds =
+    0.0;                     ///< part of Times.Refinement: the start, before all threads have work
+  double Delta = 0.0;        ///< the delta that was used, in the image's unit of length
+  double LargestDelta = 0.0; ///< the largest Delta(z): not Delta if graded, or with interface sizes
+  double SmoothingSigma = 0.0;        ///< voxels
+  std::uint64_t ElementsAskedFor = 0; ///< MeshingOptions::Elements
+  /** If a number of elements was asked for: all runs, of which one made the mesh (Delta). Else empty. */
+  std::vector<MeshingRun> Runs;
+  std::uint64_t GradingSamples = 0; ///< interface points by which local feature sizes were measured
+  std::uint64_t GradingPoles = 0;   ///< points of the medial axis that these gave
+  std::uint64_t EstimatedElements = 0;
+  ComponentStatistics Components;
+  InterfaceStatistics Interfaces;
+  OptimisationFigures Optimisation;
+  std::vector<YieldingReport>
+    Yielding;                 ///< the steps of each region, in the order in which they were taken
+  double SizesRaisedTo = 0.0; ///< the floor of sizes, if some were below it; else 0
+  std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
+  std::uint64_t DistanceBytes = 0;   ///< feature transform
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/Preparation.h"
+
+#include "Base/Stopwatch.h"
+#include "Domain/ImageDomain.h"
+#include "Image/GreyValues.h"
+#include "Parallel/ParallelFor.h"
+#include "Sizing/GradedSize.h"
+
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Two interfaces meet in a curve in three dimensions only. */
+template <typename Field>
+void FindJunctions(const ImageDomain<3, Field>& domain, const MeshingOptions<3>& options,
+  std::optional<JunctionCurves>& junctions, MeshingStatistics& statistics,
+  const std::stop_token& stop)
+{
+  if (!options.SampleJunctions)
+  {
+    return;
+  }
+  const Stopwatch time;
+  junctions.emplace(
+    domain.GetImage(), domain.GetLabelField(), domain.GetSites(), options.Threads, stop);
+  statistics.Interfaces.JunctionCurves = junctions->Curves().size();
+  statistics.Interfaces.Corners = junctions->NumberOfCorners();
+  statistics.Times.Interfaces += time.Seconds();
+}
+
+template <typename Field>
+void FindJunctions(const ImageDomain<4, Field>&, const MeshingOptions<4>&,
+  std::optional<JunctionCurves>&, MeshingStatistics&, const std::stop_token&)
+{
+}
+
+/** Takes a domain, and does what depends on the kind of its field. */
+template <int D, typename Field>
+void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
+  const MeshingOptions<D>& options, PreparedImage<D>& prepared, MeshingStatistics& statistics,
+  const std::stop_token& stop)
+{
+  statistics.Times.LabelField = domain->LabelFieldSeconds();
+  statistics.Times.DistanceTransform = domain->DistanceSeconds();
+  statistics.LabelFieldBytes = domain->GetLabelField().MemoryBytes();
+  statistics.DistanceBytes =
+    domain->GetFeatureTransform().MemoryBytes() + domain->GetSites().MemoryBytes();
+  FindJunctions(*domain, options, prepared.Junctions, statistics, stop);
+  prepared.Sites = &domain->GetSites();
+  prepared.Surfaces = std::move(domain);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+  const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
+{
+  PreparedImage<D> prepared{ image, nullptr, nullptr, std::nullopt, std::nullopt, nullptr };
+  if (isosurface)
+  {
+    TakeDomain<D>(
+      std::make_unique<const ImageDomain<D, ScalarField<D>>>(*isosurface, options.Threads, stop),
+      options, prepared, statistics, stop);
+  }
+  else
+  {
+    if (!options.Force)
+    {
+      CheckSegmented(image, options.Threads, stop);
+    }
+    TakeDomain<D>(
+      std::make_unique<const ImageDomain<D>>(image, options.SmoothingSigma, options.Threads, stop),
+      options, prepared, statistics, stop);
+  }
+  if (options.LooksAfterComponents())
+  {
+    const Stopwatch time;
+    prepared.AllComponents.emplace(image, options.Threads, stop);
+    statistics.Components.Found = prepared.AllComponents->All().size();
+    statistics.Times.Components += time.Seconds();
+  }
+  const Stopwatch time;
+  prepared.Size =
+    GradedSize<D>::Limit(options.Size, image, options.Gradation, options.Threads, stop);
+  statistics.Times.Grading += prepared.Size ? time.Seconds() : 0.0;
+  return prepared;
+}
+
+template PreparedImage<3> Prepare<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+  const MeshingOptions<3>&, MeshingStatistics&, const std::stop_token&);
+template PreparedImage<4> Prepare<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+  const MeshingOptions<4>&, MeshingStatistics&, const std::stop_token&);
+
+} // namespace voxplex

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Preparation.h
+ * @brief The first stage of a run: what does not depend on the sampling distance.
+ */
+#ifndef voxplex_Preparation_h
+#define voxplex_Preparation_h
+
+#include "Domain/Domain.h"
+#include "Image/BitMask.h"
+#include "Image/Components.h"
+#include "Image/IsosurfaceImage.h"
+#include "Image/LabelImage.h"
+#include "Junctions/JunctionCurves.h"
+#include "Mesher/MeshingOptions.h"
+#include "Mesher/MeshingStatistics.h"
+#include "Sizing/SizeFunction.h"
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+namespace voxplex
+{
+
+/** Not changed by the stages that follow. */
+template <int D>
+struct PreparedImage
+{
+  const LabelImage<D>& Image;
+  std::unique_ptr<const Domain<D>> Surfaces;
+  const BitMask<D>* Sites;                     ///< surface voxels of the domain
+  std::optional<JunctionCurves> Junctions;     ///< none if they are not sampled
+  std::optional<Components<D>> AllComponents;  ///< none if they are not looked after
+  std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
+};
+
+/**
+ * Makes the domain, finds junctions and components, and limits the growth of element sizes.
+ *
+ * @param image must live as long as the result, and so must the isosurface
+ * @param isosurface what is meshed, or null to mesh the labels alone
+ * @param statistics receives times, numbers and bytes
+ * @throws InputError if the image has grey values (CheckSegmented); Cancelled; std::bad_alloc
+ */
+template <int D>
+PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+  const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop);
+
+extern template PreparedImage<3> Prepare<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+  const MeshingOptions<3>&, MeshingStatistics&, const std::stop_token&);
+extern template PreparedImage<4> Prepare<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+  const MeshingOptions<4>&, MeshingStatistics&, const std::stop_token&);
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/MeshMeasurement.h"
+
+#include "Domain/ImageDomain.h"
+#include "Domain/InterfacePoints.h"
+#include "Image/Components.h"
+#include "Parallel/ParallelFor.h"
+#include "Quality/LostComponents.h"
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+namespace voxplex
+{
+namespace
+{
+
+void CompareLabels(
+  const std::vector<LabelMeasure>& mesh, const LabelImage<3>& image, ImageComparison& comparison)
+{
+  std::map<std::int64_t, LabelComparison> labels;
+  const double voxelVolume = image.Grid().VoxelVolume();
+  for (std::size_t id = 1; id < image.Values().size(); ++id)
+  {
+    if (image.Counts()[id] > 0)
+    {
+      LabelComparison& label = labels[image.Values()[id]];
+      label.Voxels = image.Counts()[id];
+      label.ImageVolume = static_cast<double>(label.Voxels) * voxelVolume;
+    }
+  }
+  for (const LabelMeasure& measure : mesh)
+  {
+    LabelComparison& label = labels[measure.Label];
+    label.Elements = measure.Elements;
+    label.Volume = measure.Volume;
+  }
+  double deviation = 0.0;
+  for (auto& [value, label] : labels)
+  {
+    label.Label = value;
+    comparison.ImageVolume += label.ImageVolume;
+    comparison.Volume += label.Volume;
+    deviation += std::abs(label.Volume - label.ImageVolume);
+    if (label.Elements == 0)
+    {
+      comparison.LostLabels.push_back(value);
+    }
+    if (label.Voxels == 0)
+    {
+      comparison.ExtraLabels.push_back(value);
+    }
+    comparison.Labels.push_back(label);
+  }
+  comparison.VolumeError = deviation / comparison.ImageVolume;
+}
+
+void CompareComponents(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
+  const MeasurementOptions& options, const std::stop_token& stop, ImageComparison& comparison)
+{
+  const Components<3> components(image, options.Threads, stop);
+  const std::vector<bool> wanted = components.FindWanted(options.SmallestComponent);
+  comparison.Components =
+    static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
+  for (const std::uint32_t c :
+    FindLostComponents(components, image, mesh, wanted, options.Threads, stop))
+  {
+    const Component<3>& component = components.All()[c];
+    ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
+    }
+    comparison.LostComponents.push_back(std::move(report));
+  }
+}
+
+void CompareInterfaces(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
+  const MeasurementOptions& options, const std::stop_token& stop, ImageComparison& comparison)
+{
+  comparison.Voxels = MeasureHausdorff(
+    mesh, VoxelFaceCentres(image, options.Threads, stop), nullptr, options.Threads, stop);
+  if (options.SmoothDistances)
+  {
+    const ImageDomain<3> domain(image, options.SmoothingSigma, options.Threads, stop);
+    comparison.Smooth = MeasureHausdorff(mesh,
+      SmoothInterfacePoints(image, domain.GetLabelField(), options.Threads, stop), &domain,
+      options.Threads, stop);
+  }
+}
+
+} // namespace
+
+MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* image,
+  const MeasurementOptions& options, const std::stop_token& stop)
+{
+  MeshMeasurement measurement;
+  measurement.Quality =
+    MeasureQuality(mesh, options.RadiusEdgeBound, options.FacetAngleBound, options.Threads);
+  ThrowIfStopped(stop);
+  measurement.Topology = MeasureTopology(mesh, options.Threads, stop);
+  if (image)
+  {
+    ImageComparison& comparison = measurement.Image.emplace();
+    CompareLabels(measurement.Quality.Labels, *image, comparison);
+    CompareComponents(mesh, *image, options, stop, comparison);
+    if (options.Distances)
+    {
+      CompareInterfaces(mesh, *image, options, stop, comparison);
+    }
+  }
+  return measurement;
+}
+
+} // namespace voxplex

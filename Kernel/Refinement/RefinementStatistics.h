@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file RefinementStatistics.h
+ * @brief What rules and threads did in a refinement.
+ */
+#ifndef voxplex_RefinementStatistics_h
+#define voxplex_RefinementStatistics_h
+
+#include "Parallel/HardwareCounters.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace voxplex
+{
+
+/** How often each rule changed the mesh, and why changes were refused. */
+struct RuleStatistics
+{
+  std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5
+  std::uint64_t FiredBySize = 0;        ///< insertions because of the size function; 4D (3D: R5)
+  std::uint64_t SliversSplit = 0;       ///< free points inserted by R7; 3D (4D: R4)
+  std::uint64_t SliversSampled = 0;     ///< feature points inserted by R7; 3D
+  std::uint64_t Projected = 0;          ///< circumcentres moved onto the box
+  std::uint64_t Removed = 0;            ///< free vertices removed near new feature vertices
+  std::uint64_t RefusedTooClose = 0;    ///< points closer than the spacing floor to a vertex
+  std::uint64_t RefusedNoConflict = 0;  ///< points that conflict with none of the candidates
+  std::uint64_t RefusedDuplicate = 0;   ///< points equal to a vertex
+  std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
+  std::uint64_t ClosestSurfacePointCalls = 0;
+  std::uint64_t Evaluated = 0;           ///< simplices whose rules were evaluated
+  std::uint64_t Created = 0;             ///< simplices created, those that died included
+  std::uint64_t CavitySimplices = 0;     ///< simplices that insertions deleted
+  std::uint64_t LargestCavity = 0;       ///< most simplices that one insertion deleted
+  std::uint64_t SliversFound = 0;        ///< pentatopes below the bound of normalized volume, 4D
+  std::uint64_t PicksTried = 0;          ///< points of picking regions that were tried
+  std::uint64_t SliversKept = 0;         ///< slivers for which no point could be inserted
+  std::uint64_t LargestRegionalWork = 0; ///< most insertions of a region (RegionalWork)
+
+  /** Of all rules. */
+  std::uint64_t Insertions() const
+  {
+    std::uint64_t sum = this->FiredBySize + this->SliversSplit + this->SliversSampled;
+    for (const std::uint64_t fired : this->Fired)
+    {
+      sum += fired;
+    }
+    return sum;
+  }
+
+  RuleStatistics& operator+=(const RuleStatistics& other)
+  {
+    for (std::size_t r = 0; r < this->Fired.size(); ++r)
+    {
+      this->Fired[r] += other.Fired[r];
+    }
+    this->FiredBySize += other.FiredBySize;
+    this->SliversSplit += other.SliversSplit;
+    this->SliversSampled += other.SliversSampled;
+    this->Projected += other.Projected;
+    this->Removed += other.Removed;
+    this->RefusedTooClose += other.RefusedTooClose;
+    this->RefusedNoConflict += other.RefusedNoConflict;
+    this->RefusedDuplicate += other.RefusedDuplicate;
+    this->RemovalsFailed += other.RemovalsFailed;
+    this->ClosestSurfacePointCalls += other.ClosestSurfacePointCalls;
+    this->Evaluated += other.Evaluated;
+    this->Created += other.Created;
+    this->CavitySimplices += other.CavitySimplices;
+    this->LargestCavity = std::max(this->LargestCavity, other.LargestCavity);
+    this->SliversFound += other.SliversFound;
+    this->PicksTried += other.PicksTried;
+    this->SliversKept += other.SliversKept;
+    this->LargestRegionalWork = std::max(this->LargestRegionalWork, other.LargestRegionalWork);
+    return *this;
+  }
+};
+
+/** Distances that work travels from one thread to another: within a socket, a NUMA node, the machine. */
+inline constexpr unsigned StealingLevels = 3;
+
+/**
+ * What one refinement thread did, and the three ways in which it lost time (thesis, section 3.3.5).
+ */
+struct ThreadStatistics
+{
+  std::uint64_t Insertions = 0;
+  std::uint64_t Removals = 0;
+  std::uint64_t Rollbacks = 0;     ///< operations given up because another thread held a vertex
+  std::uint64_t Waits = 0;         ///< times that the contention manager made the thread wait
+  double ContentionSeconds = 0.0;  ///< in the contention manager, waiting or not
+  double LoadBalanceSeconds = 0.0; ///< without work
+  double RollbackSeconds = 0.0;    ///< on operations that were rolled back
+  std::array<std::uint64_t, StealingLevels> Received{}; ///< gifts of work, by distance
+  std::uint64_t ReceivedElements = 0;                   ///< poor elements in them
+  std::uint64_t HelpedLoops = 0;       ///< loops in its insertions of which others did a part
+  std::uint64_t HelpedIterations = 0;  ///< iterations that others did in these
+  HardwareCounters::Counts Hardware{}; ///< empty where there are no counters
+
+  ThreadStatistics& operator+=(const ThreadStatistics& other)
+  {
+    this->Insertions += other.Insertions;
+    this->Removals += other.Removals;
+    this->Rollbacks += other.Rollbacks;
+    this->Waits += other.Waits;
+    this->ContentionSeconds += other.ContentionSeconds;
+    this->LoadBalanceSeconds += other.LoadBalanceSeconds;
+    this->RollbackSeconds += other.RollbackSeconds;
+    for (unsigned level = 0; level < StealingLevels; ++level)
+    {
+      this->Received[level] += other.Received[level];
+    }
+    this->ReceivedElements += other.ReceivedElements;
+    this->HelpedLoops += other.HelpedLoops;
+    this->HelpedIterations += other.HelpedIterations;
+    this->Hardware += other.Hardware;
+    return *this;
+  }
+};
+
+} // namespace voxplex
+
+#endif

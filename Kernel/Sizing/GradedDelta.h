@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file GradedDelta.h
+ * @brief A sampling distance that changes from place to place, in the cells of a grid.
+ */
+#ifndef voxplex_GradedDelta_h
+#define voxplex_GradedDelta_h
+
+#include "Geometry/Box.h"
+#include "Sizing/GrowthLimit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Delta(z) of the thesis, constant in each cell of a cubic grid.
+ *
+ * Values are set at points, the smallest of a cell counts, and Grade() spreads them. A query is one look-up.
+ * Queries may run in any number of threads; nothing else must run beside them.
+ */
+template <int D>
+class GradedDelta
+{
+public:
+  /**
+   * @param bounds where values will be set; elsewhere that of the nearest cell counts
+   * @param cell edge of a cell
+   * @throws std::bad_alloc
+   */
+  GradedDelta(const Box<D>& bounds, double cell)
+    : Origin(bounds.Min)
+    , InverseCell(1.0 / cell)
+  {
+    std::size_t count = 1;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      this->Cells[a] =
+        static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) * this->InverseCell) + 1;
+      count *= this->Cells[a];
+    }
+    this->Values.assign(count, std::numeric_limits<float>::infinity());
+  }
+
+  /** Lowers the value of the cell of p. */
+  void Lower(const Point<D>& p, double delta)
+  {
+    float& value = this->Values[this->CellOf(p)];
+    value = std::min(value, static_cast<float>(delta));
+    this->FinestDelta = std::min(this->FinestDelta, delta);
+  }
+
+  /**
+   * Makes the values grow by at most `slope` for each unit of length along the axes (LimitGrowth). At least one must have
+   * been set.
+   */
+  void Grade(double slope, unsigned threads, const std::stop_token& stop)
+  {
+    std::array<float, static_cast<std::size_t>(D)> steps;
+    steps.fill(static_cast<float>(slope / this->InverseCell));
+    LimitGrowth(std::span<float>(this->Values), this->Cells, steps, threads, stop);
+  }
+
+  /** Lowers all values to `largest`. */
+  void Cap(double largest)
+  {
+    for (float& value : this->Values)
+    {
+      value = std::min(value, static_cast<float>(largest));
+    }
+  }
+
+  /** The sampling distance at a point of the frame. */
+  double At(const Point<D>& p) const { return this->Values[this->CellOf(p)]; }
+
+  /** The smallest value that was set. */
+  double Finest() const { return this->FinestDelta; }
+
+  std::size_t MemoryBytes() const { return this->Values.size() * sizeof(float); }
+
+private:
+  /** The nearest cell. */
+  std::size_t CellOf(const Point<D>& p) const
+  {
+    std::size_t offset = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      const double x = (p[a] - this->Origin[a]) * this->InverseCell;
+      offset = offset * this->Cells[a] +
+        static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
+    }
+    return offset;
+  }
+
+  Point<D> Origin;
+  double InverseCell;
+  std::array<std::size_t, static_cast<std::size_t>(D)> Cells{};
+  std::vector<float> Values;
+  double FinestDelta = std::numeric_limits<double>::infinity();
+};
+
+} // namespace voxplex
+
+#endif

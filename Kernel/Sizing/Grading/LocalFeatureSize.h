@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LocalFeatureSize.h
+ * @brief How densely interfaces are to be sampled, by their local feature size.
+ */
+#ifndef voxplex_LocalFeatureSize_h
+#define voxplex_LocalFeatureSize_h
+
+#include "Domain/Domain.h"
+#include "Image/LabelImage.h"
+#include "Sizing/GradedDelta.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Lengths are in units of the frame. */
+struct GradingParameters
+{
+  double Finest = 1.0;        ///< smallest Delta(z)
+  double Ratio = 1.0;         ///< Delta(z) over lfs(z): delta of the thesis
+  double Lambda = 12.0;       ///< larger local feature sizes count as this
+  double Salience = 1.0;      ///< lower edges and bumps do not count (MedialBalls)
+  double SampleSpacing = 0.5; ///< of the interface points whose Voronoi diagram is taken
+  /** Triangles may be so far from interfaces that bend; infinite: Delta(z) does not depend on the bend. */
+  double Tolerance = std::numeric_limits<double>::infinity();
+};
+
+/**
+ * @brief Delta(z) = min(Ratio x min(lambda, lfs(z)), sqrt(1.2 Tolerance / curvature(z))), but not below Finest
+ * (thesis, sections 2.2 and 2.6.1; the second term is not there).
+ *
+ * lfs(z), the local feature size, is the distance from a point z of the interfaces to their medial axis. It
+ * is computed before refinement:
+ * 1. SampleLabelChanges: points on all interfaces;
+ * 2. FindPoles: points of the medial axis, from the Delaunay triangulation of these;
+ * 3. the distance of each sample point to the nearest of them, by the feature transform of a grid;
+ * 4. SampleCurvature: how strongly the interface bends there, as seen at the scale of Delta;
+ * 5. GradedDelta: Delta at the sample points, spread so that it is Lipschitz.
+ *
+ * The thesis adds feature points to the second triangulation while it refines, so that a point's lfs is too
+ * large at first, and calls that its bottleneck (section 2.7). Here the sample is dense from the
+ * start and the triangulation is made once, by all threads.
+ */
+class LocalFeatureSize
+{
+public:
+  /**
+   * @param threads 0 means all cores; the result does not depend on it
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& domain,
+    const GradingParameters& parameters, unsigned threads, const std::stop_token& stop);
+
+  /** Between Finest and Largest(). */
+  const GradedDelta<3>& Delta() const { return *this->Graded; }
+
+  /** The largest Delta at any sample point. */
+  double Largest() const { return this->LargestDelta; }
+
+  /** The uniform delta by which an interface of the same area would get as many vertices. */
+  double Equivalent() const { return this->EquivalentDelta; }
+
+  /** The points of the interfaces, and the local feature size at each, at most lambda. */
+  const std::vector<Point<3>>& Sample() const { return this->Points; }
+  const std::vector<double>& Sizes() const { return this->SizeOfPoint; }
+
+  std::size_t NumberOfPoles() const { return this->Poles; }
+
+private:
+  std::vector<double> DeltaOfPoints(const std::vector<std::array<LabelId, 2>>& labels,
+    double spacing, double roughness, const GradingParameters& parameters, unsigned threads,
+    const std::stop_token& stop) const;
+
+  std::vector<Point<3>> Points;
+  std::vector<double> SizeOfPoint;
+  std::size_t Poles = 0;
+  std::unique_ptr<GradedDelta<3>> Graded;
+  double LargestDelta;
+  double EquivalentDelta;
+};
+
+} // namespace voxplex
+
+#endif

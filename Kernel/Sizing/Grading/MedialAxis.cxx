@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sizing/Grading/MedialAxis.h"
+
+#include "Parallel/ParallelFor.h"
+#include "Sizing/Grading/SampleTriangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace voxplex
+{
+
+namespace
+{
+
+constexpr std::size_t SimplicesAtOnce = 8192;
+
+/** A Voronoi vertex of the sample: the circumball of a tetrahedron. */
+struct VoronoiVertex
+{
+  Point<3> Centre;
+  double Radius2 = -1.0; ///< negative: no such tetrahedron
+  bool IsMedial = false; ///< by its points of contact and its radius
+
+  /** A strict order whatever the numbers of the simplices. */
+  bool IsFartherThan(const VoronoiVertex& other) const
+  {
+    return this->Radius2 != other.Radius2 ? this->Radius2 > other.Radius2
+                                          : this->Centre > other.Centre;
+  }
+};
+
+/**
+ * With phi half the contact angle and R the radius, the planes meet at R / cos(phi) from the centre.
+ * @param longest2 squared length of the longest edge, (2 R sin(phi))^2
+ */
+bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
+{
+  const double sine2 = std::min(1.0, longest2 / (4.0 * radius2));
+  const double cosine = std::sqrt(1.0 - sine2);
+  const double bound = std::sin(which.ContactAngle * std::numbers::pi / 360.0);
+  return radius2 <= which.LargestRadius * which.LargestRadius && sine2 >= bound * bound &&
+    std::sqrt(radius2) * (1.0 - cosine) >= which.Salience * cosine;
+}
+
+/** With the vertices in an order that does not depend on how the triangulation was made. */
+VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const MedialBalls& which)
+{
+  std::array<const Point<3>*, 4> points;
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    points[i] = &mesh.Position(mesh.GetSimplex(s).V[i]);
+  }
+  std::sort(
+    points.begin(), points.end(), [](const Point<3>* a, const Point<3>* b) { return *a < *b; });
+  Circumball<3> ball;
+  if (!ComputeCircumball<3>(points.data(), ball))
+  {
+    ComputeCircumballExactly<3>(points.data(), ball);
+  }
+  double longest2 = 0.0;
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    for (unsigned j = 0; j < i; ++j)
+    {
+      longest2 = std::max(longest2, Distance2(*points[i], *points[j]));
+    }
+  }
+  return { ball.Center, ball.Radius2, IsMedialBall(ball.Radius2, longest2, which) };
+}
+
+/** For each vertex the farthest of the Voronoi vertices of its cell that a test admits; None if there is none. */
+template <typename Admits>
+std::vector<SimplexId> FarthestOfCells(
+  const Triangulation<3>& mesh, const std::vector<VoronoiVertex>& voronoi, Admits&& admits)
+{
+  std::vector<SimplexId> farthest(mesh.VertexIdEnd(), None);
+  for (SimplexId s = 0; s < voronoi.size(); ++s)
+  {
+    if (voronoi[s].Radius2 < 0.0)
+    {
+      continue;
+    }
+    for (const VertexId v : mesh.GetSimplex(s).V)
+    {
+      if (admits(v, voronoi[s]) &&
+        (farthest[v] == None || voronoi[s].IsFartherThan(voronoi[farthest[v]])))
+      {
+        farthest[v] = s;
+      }
+    }
+  }
+  return farthest;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const MedialBalls& which,
+  unsigned threads, const std::stop_token& stop)
+{
+  std::vector<Point<3>> poles;
+  // A ball that counts touches four points, so there is none around fewer, nor around points in one place. Then
+  // there may be no box to triangulate, either: LargestRadius is its margin, and 0 if it is the points' extent.
+  if (sample.size() < 4 || !(which.LargestRadius > 0.0))
+  {
+    return poles;
+  }
+  // So the corners of the box are in no ball that counts.
+  const SampleTriangulation triangulation(sample, 2.0 * which.LargestRadius, threads, stop);
+  const Triangulation<3>& mesh = triangulation.Mesh();
+  std::vector<VoronoiVertex> voronoi(mesh.SimplexIdEnd());
+  ParallelFor(
+    0, voronoi.size(), SimplicesAtOnce, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t s = begin; s < end; ++s)
+      {
+        if (mesh.IsAlive(static_cast<SimplexId>(s)))
+        {
+          voronoi[s] = MakeVoronoiVertex(mesh, static_cast<SimplexId>(s), which);
+        }
+      }
+    },
+    stop);
+
+  const std::vector<SimplexId> first =
+    FarthestOfCells(mesh, voronoi, [](VertexId, const VoronoiVertex&) { return true; });
+  ThrowIfStopped(stop);
+  const std::vector<SimplexId> second = FarthestOfCells(mesh, voronoi,
+    [&](VertexId v, const VoronoiVertex& vertex)
+    {
+      const Point<3>& z = mesh.Position(v);
+      return Dot(Subtract(vertex.Centre, z), Subtract(voronoi[first[v]].Centre, z)) < 0.0;
+    });
+  for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
+  {
+    for (const SimplexId s : { first[v], second[v] })
+    {
+      if (s != None && voronoi[s].IsMedial)
+      {
+        poles.push_back(voronoi[s].Centre);
+      }
+    }
+  }
+  std::sort(poles.begin(), poles.end());
+  poles.erase(std::unique(poles.begin(), poles.end()), poles.end());
+  return poles;
+}
+
+} // namespace voxplex

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sizing/Grading/SampleCurvature.h"
+
+#include "Base/MixBits.h"
+#include "Geometry/ExtremeEigenvalues.h"
+#include "Sizing/Grading/PointBounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Each level has every fourth point of the one before, twice as far apart. */
+constexpr std::size_t PointsOfNext = 4;
+
+/** A level serves radii up to so many of its spacings: about 450 points. */
+constexpr double LargestRadius = 12.0;
+
+/** Fewer points do not tell a plane from what is bent. */
+constexpr std::size_t FewestPoints = 8;
+
+/** Levels with fewer points than this are not made. */
+constexpr std::size_t SmallestLevel = 256;
+
+/** Edge of a cell, in spacings of its level. */
+constexpr double CellSpacings = 2.0;
+
+/** Whether the k-th point belongs to the next level, as good as random. */
+bool IsOfNext(std::uint64_t k)
+{
+  return MixBits(k + 1) % PointsOfNext == 0;
+}
+
+/** Of points: how many, their centre, and how far they spread about it. */
+class Moments
+{
+public:
+  void Add(const Point<3>& p)
+  {
+    ++this->Points;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      this->Sum[a] += p[a];
+      for (std::size_t b = 0; b <= a; ++b)
+      {
+        this->Products[a][b] += p[a] * p[b];
+      }
+    }
+  }
+
+  std::size_t Count() const { return this->Points; }
+
+  /** Of a sphere with such points, but for the roughness. */
+  double Curvature(double roughness) const
+  {
+    const double weight = 1.0 / static_cast<double>(this->Points);
+    std::array<Point<3>, 3> covariance;
+    double trace = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      for (std::size_t b = 0; b <= a; ++b)
+      {
+        covariance[a][b] = covariance[b][a] =
+          weight * (this->Products[a][b] - weight * this->Sum[a] * this->Sum[b]);
+      }
+      trace += covariance[a][a];
+    }
+    double smallest;
+    double largest;
+    ExtremeEigenvalues<3>(covariance, smallest, largest);
+    const double along = trace - std::max(smallest, 0.0); // r^2 / 2
+    smallest = std::max(smallest - roughness * roughness, 0.0);
+    return along > 0.0 ? std::sqrt(12.0 * smallest) / along : 0.0;
+  }
+
+private:
+  std::size_t Points = 0;
+  Point<3> Sum{};
+  std::array<Point<3>, 3> Products{}; ///< the lower half
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+SampleCurvature::Level::Level(const std::vector<Member>& members, const Box<3>& bounds, double cell)
+  : Origin(bounds.Min)
+  , Members(members.size())
+{
+  this->InverseCell = 1.0 / CellEdge(bounds, cell);
+  std::size_t count = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    this->Cells[a] =
+      static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) * this->InverseCell) + 1;
+    count *= this->Cells[a];
+  }
+  this->First.assign(count + 1, 0);
+  for (const Member& member : members)
+  {
+    ++this->First[this->CellOf(member.Position) + 1];
+  }
+  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+  std::vector<std::uint32_t> next = this->First;
+  for (const Member& member : members)
+  {
+    this->Members[next[this->CellOf(member.Position)]++] = member;
+  }
+}
+
+std::size_t SampleCurvature::Level::CellAlong(std::size_t axis, double x) const
+{
+  const double cell = (x - this->Origin[axis]) * this->InverseCell;
+  return static_cast<std::size_t>(
+    std::clamp(cell, 0.0, static_cast<double>(this->Cells[axis] - 1)));
+}
+
+std::size_t SampleCurvature::Level::CellOf(const Point<3>& p) const
+{
+  std::size_t cell = 0;
+  for (std::size_t a = 3; a-- > 0;)
+  {
+    cell = cell * this->Cells[a] + this->CellAlong(a, p[a]);
+  }
+  return cell;
+}
+
+//------------------------------------------------------------------------------------------------
+SampleCurvature::SampleCurvature(
+  const std::vector<Point<3>>& points, const std::vector<Labels>& labels, double spacing)
+  : Spacing(spacing)
+{
+  const Box<3> bounds = BoundsOf(points);
+  std::vector<Member> members;
+  members.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    members.push_back({ points[k], labels[k] });
+  }
+  do
+  {
+    this->Levels.emplace_back(members, bounds, CellSpacings * spacing);
+    std::vector<Member> some;
+    for (std::size_t k = 0; k < members.size(); ++k)
+    {
+      if (IsOfNext(k))
+      {
+        some.push_back(members[k]);
+      }
+    }
+    members = std::move(some);
+    spacing *= 2.0;
+  } while (members.size() >= SmallestLevel);
+}
+
+//------------------------------------------------------------------------------------------------
+double SampleCurvature::At(
+  const Point<3>& p, const Labels& labels, double radius, double roughness) const
+{
+  std::size_t number = 0;
+  for (double largest = LargestRadius * this->Spacing;
+       radius > largest && number + 1 < this->Levels.size(); largest *= 2.0)
+  {
+    ++number;
+  }
+  const Level& level = this->Levels[number];
+  std::array<std::size_t, 3> low;
+  std::array<std::size_t, 3> high;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    low[a] = level.CellAlong(a, p[a] - radius);
+    high[a] = level.CellAlong(a, p[a] + radius);
+  }
+  Moments moments;
+  for (std::size_t z = low[2]; z <= high[2]; ++z)
+  {
+    for (std::size_t y = low[1]; y <= high[1]; ++y)
+    {
+      const std::size_t row = (z * level.Cells[1] + y) * level.Cells[0];
+      for (std::size_t k = level.First[row + low[0]]; k < level.First[row + high[0] + 1]; ++k)
+      {
+        const Point<3> offset = Subtract(level.Members[k].Position, p);
+        if (Dot(offset, offset) <= radius * radius && level.Members[k].Of == labels)
+        {
+          moments.Add(offset);
+        }
+      }
+    }
+  }
+  return moments.Count() < FewestPoints ? 0.0 : moments.Curvature(roughness);
+}
+
+} // namespace voxplex

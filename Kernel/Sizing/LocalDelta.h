@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file LocalDelta.h
+ * @brief Where interfaces are to be sampled more finely than elsewhere.
+ */
+#ifndef voxplex_LocalDelta_h
+#define voxplex_LocalDelta_h
+
+#include "Image/LabelImage.h"
+#include "Sizing/GrowthLimit.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief An upper bound of the sampling distance of one label's interfaces in each cell of a few voxels;
+ * infinite at first.
+ *
+ * A query is one look-up. The memory is taken when the first bound is set: two bytes a voxel in 3D. Where
+ * two labels have a bound in one cell the smaller one counts.
+ * Queries may run in any number of threads; SetBound() must not run beside anything else.
+ */
+template <int D>
+class LocalDelta
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** Edge of a cell in voxels. */
+  static constexpr std::int64_t Cell = 2;
+
+  explicit LocalDelta(const LabelImage<D>& image)
+    : Grid(image.Grid())
+    , Origin(image.CropOrigin())
+    , VoxelsPerLength(image.Grid().VoxelsPerLength())
+  {
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      this->Cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
+    }
+  }
+
+  /** A bound, and the label whose interfaces it is for. */
+  struct Bound
+  {
+    float Delta = std::numeric_limits<float>::infinity();
+    LabelId Label = 0;
+  };
+
+  /** Lowers the bound in all cells within a voxel of the run of voxels (an index of the crop). */
+  void SetBound(const Index& first, std::int64_t length, LabelId label, double delta)
+  {
+    this->ForCellsNear(first, length,
+      [&](std::size_t cell)
+      {
+        Bound& bound = this->Values[cell];
+        if (delta < bound.Delta)
+        {
+          bound = { static_cast<float>(delta), label };
+          this->MarkLowered(cell);
+        }
+      });
+    this->SetSpacing(first, length, delta);
+    this->SmallestBound = std::min(this->SmallestBound, delta);
+  }
+
+  /** The same for GradedAt() only: vertices there are so near to each other, but no rule asks for it. */
+  void SetSpacing(const Index& first, std::int64_t length, double spacing)
+  {
+    this->ForCellsNear(first, length,
+      [&](std::size_t cell)
+      { this->Spacings[cell] = std::min(this->Spacings[cell], static_cast<float>(spacing)); });
+    this->SmallestBound = std::min(this->SmallestBound, spacing);
+  }
+  /** The bound at a point of the frame; that of the nearest cell outside of the crop. */
+  Bound At(const Point<D>& p) const
+  {
+    return this->Values.empty() ? Bound() : this->Values[this->CellOf(p)];
+  }
+
+  /**
+   * The least that any bound asks for at a point when bounds grow with the distance from where they were
+   * set, by `Slope` times the distance along the axes; as of the last Grade(). Continuous, and nowhere in a cell above the
+   * cell's own bound.
+   */
+  double GradedAt(const Point<D>& p) const
+  {
+    if (this->Graded.empty())
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Point<D> index = this->Grid.ToIndex(p);
+    std::array<std::size_t, D> offset; // of the lower cell along each axis, in values
+    std::array<std::size_t, D> step;   // to the upper one
+    Point<D> fraction;
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto last = static_cast<double>(this->Cells[a] - 1);
+      const double x =
+        std::clamp((index[a] - static_cast<double>(this->Origin[a]) + 0.5) / Cell - 0.5, 0.0, last);
+      const auto lower = static_cast<std::size_t>(x);
+      fraction[a] = x - static_cast<double>(lower);
+      offset[a] = lower * stride;
+      step[a] = fraction[a] > 0.0 ? stride : 0;
+      stride *= static_cast<std::size_t>(this->Cells[a]);
+    }
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < (1u << D); ++corner)
+    {
+      double weight = 1.0;
+      std::size_t cell = 0;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        const bool upper = ((corner >> a) & 1u) != 0;
+        weight *= upper ? fraction[a] : 1.0 - fraction[a];
+        cell += offset[a] + (upper ? step[a] : 0);
+      }
+      sum += weight * static_cast<double>(this->Graded[cell]);
+    }
+    return sum;
+  }
+
+  /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
+  bool HasLowered() const { return this->AnyLowered; }
+
+  /** The same for the cells that a ball of the frame may reach. */
+  bool HasLoweredWithin(const Point<D>& centre, double radius) const
+  {
+    if (!this->AnyLowered)
+    {
+      return false;
+    }
+    const Point<D> index = this->Grid.ToIndex(centre);
+    Index middle;
+    double reach = 0.0; // in cells
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      reach = std::max(reach, radius * this->VoxelsPerLength[a] / Cell);
+      middle[a] = this->CellAlong(a, index[a]);
+    }
+    if (reach < this->CellsToLowered[this->Offset(middle)] - 1.0)
+    {
+      return false;
+    }
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double voxels = radius * this->VoxelsPerLength[a];
+      low[a] = this->CellAlong(a, index[a] - voxels);
+      high[a] = this->CellAlong(a, index[a] + voxels);
+    }
+    bool found = false;
+    ForCells(low, high,
+      [&](const Index& cell) { found |= this->CellsToLowered[this->Offset(cell)] == 0; });
+    return found;
+  }
+
+  void ForgetLowered()
+  {
+    this->CellsToLowered.clear();
+    this->AnyLowered = false;
+  }
+
+  /** How much bounds grow over a unit of length. */
+  static constexpr double Slope = 0.25;
+
+  /**
+   * Prepares GradedAt(). Linear in the number of cells.
+   *
+   * A cell first takes the least value of its neighbours, too: GradedAt() interpolates between the centres of cells, and so
+   * stays below a cell's value up to its border.
+   */
+  void Grade()
+  {
+    this->Graded = this->Spacings;
+    std::array<std::size_t, static_cast<std::size_t>(D)> cells;
+    std::array<float, static_cast<std::size_t>(D)> steps;
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      cells[a] = static_cast<std::size_t>(this->Cells[a]);
+      steps[a] = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
+      for (std::size_t first = 0; first < this->Graded.size(); first += stride * cells[a])
+      {
+        this->TakeLeastOfNeighbours(first, stride, cells[a]);
+      }
+      stride *= cells[a];
+    }
+    LimitGrowth(std::span<float>(this->Graded), cells, steps);
+  }
+
+  /** The smallest bound that was set; infinite if none was. */
+  double Smallest() const { return this->SmallestBound; }
+
+private:
+  /** Calls function(cell) for all cells within a voxel of a run of voxels. */
+  template <typename Function>
+  void ForCellsNear(const Index& first, std::int64_t length, Function&& function)
+  {
+    if (this->Values.empty())
+    {
+      std::size_t count = 1;
+      for (const std::int64_t n : this->Cells)
+      {
+        count *= static_cast<std::size_t>(n);
+      }
+      this->Values.assign(count, Bound());
+      this->Spacings.assign(count, std::numeric_limits<float>::infinity());
+    }
+    Index low;
+    Index high;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const std::int64_t last = first[a] + (a == 0 ? length - 1 : 0);
+      low[a] = std::clamp<std::int64_t>((first[a] - 1) / Cell, 0, this->Cells[a] - 1);
+      high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
+    }
+    ForCells(low, high, [&](const Index& cell) { function(this->Offset(cell)); });
+  }
+
+  void MarkLowered(std::size_t offset)
+  {
+    this->CellsToLowered.resize(this->Values.size(), Unknown);
+    this->AnyLowered = true;
+    if (this->CellsToLowered[offset] == 0)
+    {
+      return;
+    }
+    Index here;
+    Index low;
+    Index high;
+    std::size_t rest = offset;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(this->Cells[a]);
+      here[a] = static_cast<std::int64_t>(rest % n);
+      low[a] = std::max<std::int64_t>(here[a] - Unknown + 1, 0);
+      high[a] = std::min(here[a] + Unknown - 1, this->Cells[a] - 1);
+      rest /= n;
+    }
+    ForCells(low, high,
+      [&](const Index& cell)
+      {
+        std::int64_t cells = 0;
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          cells = std::max(cells, std::abs(cell[a] - here[a]));
+        }
+        std::uint8_t& known = this->CellsToLowered[this->Offset(cell)];
+        known = std::min(known, static_cast<std::uint8_t>(cells));
+      });
+  }
+
+  /** Of the rows before and behind along an axis, for n rows of cells from the first on. */
+  void TakeLeastOfNeighbours(std::size_t first, std::size_t stride, std::size_t n)
+  {
+    for (std::size_t c = first; c < first + stride; ++c)
+    {
+      float before = this->Graded[c];
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        float& value = this->Graded[c + k * stride];
+        const float own = value;
+        const float behind = k + 1 < n ? this->Graded[c + (k + 1) * stride] : own;
+        value = std::min({ before, own, behind });
+        before = own;
+      }
+    }
+  }
+
+  /** Calls function(cell) for a block of cells. */
+  template <typename Function>
+  static void ForCells(const Index& low, const Index& high, Function&& function)
+  {
+    for (Index cell = low; cell[D - 1] <= high[D - 1];)
+    {
+      function(cell);
+      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
+      {
+        cell[a] = low[a];
+      }
+    }
+  }
+
+  /** The nearest cell. */
+  std::size_t CellOf(const Point<D>& p) const
+  {
+    const Point<D> index = this->Grid.ToIndex(p);
+    Index cell;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      cell[a] = this->CellAlong(a, index[a]);
+    }
+    return this->Offset(cell);
+  }
+
+  /** The nearest to a coordinate of the image's index space along an axis. */
+  std::int64_t CellAlong(std::size_t a, double index) const
+  {
+    const double x = (index - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
+    return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
+  }
+
+  std::size_t Offset(const Index& cell) const
+  {
+    std::size_t offset = 0;
+    for (std::size_t a = D; a-- > 0;)
+    {
+      offset =
+        offset * static_cast<std::size_t>(this->Cells[a]) + static_cast<std::size_t>(cell[a]);
+    }
+    return offset;
+  }
+
+  GridGeometry<D> Grid;
+  Index Origin;
+  Index Cells{};
+  Point<D> VoxelsPerLength;
+  std::vector<Bound> Values;   ///< empty: no bound
+  std::vector<float> Spacings; ///< what GradedAt() starts from
+  std::vector<float> Graded;   ///< the same, see GradedAt()
+  /** Stands for this distance and larger ones. */
+  static constexpr std::uint8_t Unknown = 3;
+  /** How many cells away along an axis, at least, the next is that was lowered since ForgetLowered(). */
+  std::vector<std::uint8_t> CellsToLowered;
+  bool AnyLowered = false;
+  double SmallestBound = std::numeric_limits<double>::infinity();
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The vertices on the interfaces of a triangulation, and how they are followed.
+#include "Base/Error.h"
+#include "Conformity/InterfaceVertices.h"
+#include "Domain/ImageDomain.h"
+#include "InterfaceChecks.h"
+#include "Mesh/MeshExtraction.h"
+#include "RefinementChecks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <random>
+#include <set>
+#include <vector>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+/** Of the facets of the mesh. */
+std::set<Point<3>> VerticesOfFacets(const RefinementContext<3>& refined, const Domain<3>& domain)
+{
+  SimplexMesh<3> mesh;
+  ExtractMesh<3>(refined.Mesh, domain, mesh);
+  std::set<Point<3>> vertices;
+  for (const auto& facet : mesh.Facets)
+  {
+    for (const std::uint32_t v : facet)
+    {
+      vertices.insert(mesh.Points[v]);
+    }
+  }
+  return vertices;
+}
+
+std::set<Point<3>> AsSet(const std::vector<Point<3>>& points)
+{
+  const std::set<Point<3>> set(points.begin(), points.end());
+  EXPECT_EQ(set.size(), points.size());
+  return set;
+}
+
+std::set<Point<3>> Difference(const std::set<Point<3>>& from, const std::set<Point<3>>& without)
+{
+  std::set<Point<3>> left;
+  std::set_difference(
+    from.begin(), from.end(), without.begin(), without.end(), std::inserter(left, left.begin()));
+  return left;
+}
+
+void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
+{
+  SCOPED_TRACE(delta);
+  const auto refined = Refined(domain, delta);
+  const std::set<Point<3>> expected = VerticesOfFacets(*refined, domain);
+  EXPECT_GT(expected.size(), 3u);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    InterfaceVertices vertices(refined->Mesh, domain, threads);
+    const InterfaceVertices::Changes all = vertices.Update();
+    EXPECT_EQ(AsSet(all.Added), expected);
+    EXPECT_TRUE(all.Gone.empty());
+    const InterfaceVertices::Changes none = vertices.Update();
+    EXPECT_TRUE(none.Added.empty());
+    EXPECT_TRUE(none.Gone.empty());
+  }
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(InterfaceVertices(refined->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
+}
+
+} // namespace
+
+TEST(InterfaceVertices, AreThoseOfTheFacetsOfTheMesh)
+{
+  const LabelImage<3> image = phantoms::TouchingLabels(24);
+  ExpectVerticesOfFacets(ImageDomain<3>(image, 1.0), 2.5);
+  for (const double delta : { 0.5, 1.0, 2.0, 4.0, 5.0, 7.0 })
+  {
+    ExpectVerticesOfFacets(BallDomain(5.0), delta);
+  }
+}
+
+// Points come and go, whatever rules may have asked for it: ids of vertices and simplices are used again.
+TEST(InterfaceVertices, FollowATriangulationThatChanges)
+{
+  const LabelImage<3> image = Blobs(1);
+  const ImageDomain<3> domain(image, 1.0);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(4.0, 27.0);
+    const auto refined = Refined(domain, 4.0);
+    Triangulation<3>& mesh = refined->Mesh;
+    Triangulation<3>::Worker worker(mesh);
+    InterfaceVertices vertices(mesh, domain, threads);
+    std::set<Point<3>> before = AsSet(vertices.Update().Added);
+    std::vector<VertexId> inserted;
+    std::size_t added = 0;
+    std::size_t gone = 0;
+    for (int round = 0; round < 40; ++round)
+    {
+      for (std::size_t k = random() % 8; k > 0 && !inserted.empty(); --k)
+      {
+        std::swap(inserted[random() % inserted.size()], inserted.back());
+        ASSERT_EQ(mesh.Remove(worker, inserted.back()), RemovalOutcome::Removed);
+        inserted.pop_back();
+      }
+      for (std::size_t k = random() % 9; k > 0; --k)
+      {
+        const Point<3> p{ uniform(random), uniform(random), uniform(random) };
+        const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
+        ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
+        inserted.push_back(worker.NewVertex);
+      }
+      const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
+      const InterfaceVertices::Changes changes = vertices.Update();
+      EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << round;
+      EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << round;
+      added += changes.Added.size();
+      gone += changes.Gone.size();
+      before = now;
+    }
+    EXPECT_GT(added, 40u);
+    EXPECT_GT(gone, 20u);
+  }
+}

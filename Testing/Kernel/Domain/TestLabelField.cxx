@@ -1,0 +1,442 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Error.h"
+#include "Domain/LabelField.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace voxplex;
+
+namespace
+{
+
+template <int D>
+LabelImage<D> MakeImage(const std::vector<short>& scalars, const GridGeometry<D>& grid)
+{
+  return LabelImage<D>::template FromScalars<short>(scalars, grid);
+}
+
+template <int D>
+GridGeometry<D> UnitGrid(std::int64_t n)
+{
+  typename GridGeometry<D>::Index dimensions;
+  dimensions.fill(n);
+  Point<D> spacing;
+  spacing.fill(1.0);
+  return GridGeometry<D>::Orthogonal(dimensions, spacing);
+}
+
+/** Independent labels 0 ... labels at every voxel; blocky > 1 makes cubes of one label. */
+template <int D>
+std::vector<short> Noise(std::int64_t n, int labels, std::int64_t blocky, std::mt19937& random)
+{
+  std::size_t voxels = 1;
+  for (int a = 0; a < D; ++a)
+  {
+    voxels *= static_cast<std::size_t>(n);
+  }
+  std::vector<short> blocks(voxels);
+  for (short& b : blocks)
+  {
+    b = static_cast<short>(random() % static_cast<unsigned>(labels + 1));
+  }
+  std::vector<short> scalars(voxels);
+  for (std::size_t i = 0; i < voxels; ++i)
+  {
+    std::size_t rest = i;
+    std::size_t block = 0;
+    std::size_t factor = 1;
+    for (int a = 0; a < D; ++a)
+    {
+      block += factor * (rest % static_cast<std::size_t>(n) / static_cast<std::size_t>(blocky));
+      factor *= static_cast<std::size_t>(n);
+      rest /= static_cast<std::size_t>(n);
+    }
+    scalars[i] = blocks[block];
+  }
+  return scalars;
+}
+
+template <int D, typename Function>
+void ForEachVoxel(const LabelImage<D>& image, Function&& function)
+{
+  typename GridGeometry<D>::Index i{};
+  std::size_t k = 0;
+  for (std::size_t a = 0; a < D;)
+  {
+    Point<D> index;
+    for (std::size_t b = 0; b < D; ++b)
+    {
+      index[b] = static_cast<double>(i[b] + image.CropOrigin()[b]);
+    }
+    function(index, image.Ids()[k++]);
+    for (a = 0; a < D && ++i[a] == image.CropDimensions()[a]; ++a)
+    {
+      i[a] = 0;
+    }
+  }
+}
+
+/** A digital ball of label 1 around the middle of an n^3 image. */
+std::vector<short> Ball(std::int64_t n, const Point<3>& centre, double radius)
+{
+  std::vector<short> scalars;
+  for (std::int64_t z = 0; z < n; ++z)
+    for (std::int64_t y = 0; y < n; ++y)
+      for (std::int64_t x = 0; x < n; ++x)
+      {
+        const Point<3> p{ static_cast<double>(x), static_cast<double>(y), static_cast<double>(z) };
+        scalars.push_back(Distance(p, centre) <= radius ? 1 : 0);
+      }
+  return scalars;
+}
+
+template <int D>
+void CheckCentres(double sigma, int labels, std::int64_t blocky)
+{
+  std::mt19937 random(static_cast<unsigned>(labels));
+  const std::int64_t n = D == 3 ? 24 : 11;
+  const LabelImage<D> image = MakeImage<D>(Noise<D>(n, labels, blocky, random), UnitGrid<D>(n));
+  const LabelField<D> field(image, sigma);
+  ForEachVoxel<D>(image,
+    [&](const Point<D>& p, LabelId id)
+    {
+      ASSERT_EQ(field.Label(p), id);
+      ASSERT_GE(field.Margin(p, id), 0.019);
+    });
+}
+
+template <int D>
+void CheckMargin(int labels, std::int64_t blocky, double sigma)
+{
+  std::mt19937 random(11);
+  const std::int64_t n = D == 3 ? 40 : 14;
+  const LabelImage<D> image = MakeImage<D>(Noise<D>(n, labels, blocky, random), UnitGrid<D>(n));
+  const LabelField<D> field(image, sigma);
+  std::uniform_real_distribution<double> coordinate(-2.0, static_cast<double>(n) + 1.0);
+  for (int trial = 0; trial < 3000; ++trial)
+  {
+    Point<D> p;
+    for (double& x : p)
+    {
+      x = coordinate(random);
+      x = trial % 3 == 0 ? std::round(2.0 * x) / 2.0 : x; // where ties are
+    }
+    const LabelId label = field.Label(p);
+    int winners = 0;
+    for (int l = 0; l <= image.NumberOfLabels(); ++l)
+    {
+      const double margin = field.Margin(p, static_cast<LabelId>(l));
+      ASSERT_EQ(margin > 0.0, l == label) << l << " margin " << margin;
+      winners += margin > 0.0;
+    }
+    ASSERT_EQ(winners, 1);
+  }
+}
+
+/** Margins of several labels at once are those of one after the other, to the last bit. */
+template <int D, std::size_t N>
+void CheckMargins(const LabelField<D>& field, const std::array<LabelId, N>& labels)
+{
+  std::mt19937 random(12);
+  int different = 0;
+  for (int trial = 0; trial < 4000; ++trial)
+  {
+    Point<D> x;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      x[a] = std::uniform_real_distribution<>(
+        -1.0, static_cast<double>(field.LatticeDimensions()[a]))(random);
+      x[a] = trial % 3 == 0 ? std::round(2.0 * x[a]) / 2.0 : x[a]; // where ties are
+    }
+    const std::array<double, N> margins = field.ExtendedMarginsAt(x, labels);
+    for (std::size_t k = 0; k < N; ++k)
+    {
+      ASSERT_EQ(margins[k], field.ExtendedMarginAt(x, labels[k])) << trial << ", " << labels[k];
+      different += margins[k] != margins[0] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(different, 1000);
+}
+
+} // namespace
+
+TEST(LabelField, EveryVoxelCentreKeepsItsLabel)
+{
+  for (const double sigma : { 0.0, 0.3, 0.7, 1.0, 1.3, 2.5 })
+  {
+    SCOPED_TRACE(sigma);
+    CheckCentres<3>(sigma, 1, 1);
+    CheckCentres<3>(sigma, 2, 3);
+    CheckCentres<3>(sigma, 9, 1);
+    CheckCentres<3>(sigma, 100, 4);
+  }
+  for (const double sigma : { 0.0, 1.0 })
+  {
+    CheckCentres<4>(sigma, 1, 1);
+    CheckCentres<4>(sigma, 5, 3);
+  }
+}
+
+TEST(LabelField, WithoutSmoothingIsTheArgMaxOfInterpolatedIndicators)
+{
+  std::mt19937 random(3);
+  constexpr std::int64_t n = 20;
+  const std::vector<short> scalars = Noise<3>(n, 3, 2, random);
+  const LabelField<3> field(MakeImage<3>(scalars, UnitGrid<3>(n)), 0.0);
+  std::uniform_real_distribution<double> coordinate(-1.5, n + 0.5);
+  for (int trial = 0; trial < 20000; ++trial)
+  {
+    const Point<3> p{ coordinate(random), coordinate(random), coordinate(random) };
+    std::array<double, 4> weight{};
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      double w = 1.0;
+      std::int64_t at = 0;
+      bool inside = true;
+      for (int a = 2; a >= 0; --a)
+      {
+        const double x = p[static_cast<std::size_t>(a)];
+        const double f = x - std::floor(x);
+        const auto i = static_cast<std::int64_t>(std::floor(x)) + ((corner >> a) & 1);
+        w *= (corner >> a) & 1 ? f : 1.0 - f;
+        inside = inside && x > -0.5 && x < n - 0.5; // labels go on to where the image cuts them
+        at = at * n + std::clamp<std::int64_t>(i, 0, n - 1);
+      }
+      weight[inside ? static_cast<std::size_t>(scalars[static_cast<std::size_t>(at)]) : 0] += w;
+    }
+    const LabelId label = field.Label(p);
+    const double largest = *std::max_element(weight.begin(), weight.end());
+    EXPECT_NEAR(weight[label], largest, 0.012); // the own label is kept by a small margin
+  }
+}
+
+TEST(LabelField, MarginIsPositiveExactlyForTheLabel)
+{
+  for (const double sigma : { 0.0, 1.0 })
+  {
+    CheckMargin<3>(1, 1, sigma);
+    CheckMargin<3>(4, 3, sigma);
+    CheckMargin<3>(12, 9, sigma);
+    CheckMargin<4>(3, 3, sigma);
+  }
+}
+
+TEST(LabelField, MarginsOfSeveralLabelsAreThoseOfEach)
+{
+  std::mt19937 random(13);
+  for (const double sigma : { 0.0, 1.0 }) // without smoothing labels tie in many places
+  {
+    for (const int labels : { 1, 2, 5 })
+    {
+      SCOPED_TRACE(testing::Message() << sigma << ", " << labels << " labels");
+      const LabelField<3> field(
+        MakeImage<3>(Noise<3>(24, labels, 3, random), UnitGrid<3>(24)), sigma);
+      CheckMargins<3, 3>(field, { 0, 1, 2 });
+      CheckMargins<3, 4>(field, { 5, 2, 4, 0 });
+    }
+    const LabelField<4> field(MakeImage<4>(Noise<4>(11, 4, 3, random), UnitGrid<4>(11)), sigma);
+    CheckMargins<4, 3>(field, { 3, 1, 0 });
+  }
+}
+
+TEST(LabelField, TilesAgreeOnTheirFaces)
+{
+  std::mt19937 random(17);
+  constexpr std::int64_t n = 40;
+  for (const int labels : { 1, 2, 6 })
+  {
+    const LabelImage<3> image = MakeImage<3>(Noise<3>(n, labels, 5, random), UnitGrid<3>(n));
+    const LabelField<3> field(image, 1.0);
+    std::uniform_real_distribution<double> coordinate(0.0, static_cast<double>(n + 1));
+    constexpr double tile = LabelField<3>::TileCells;
+    int mixed = 0;
+    for (int trial = 0; trial < 20000; ++trial)
+    {
+      Point<3> low{ coordinate(random), coordinate(random), coordinate(random) };
+      const std::size_t axis = static_cast<std::size_t>(trial) % 3;
+      low[axis] = tile * (1.0 + static_cast<double>(random() % 5));
+      Point<3> high = low;
+      low[axis] -= 1e-7;
+      high[axis] += 1e-7;
+      for (int l = 0; l <= labels; ++l)
+      {
+        const double a = field.ExtendedMarginAt(low, static_cast<LabelId>(l));
+        const double b = field.ExtendedMarginAt(high, static_cast<LabelId>(l));
+        if (std::abs(a) == 2.0 || std::abs(b) == 2.0)
+        {
+          ASSERT_EQ(a > 0.0, b > 0.0); // a uniform tile
+          continue;
+        }
+        ++mixed;
+        ASSERT_NEAR(a, b, 1e-5) << labels << " labels, axis " << axis;
+      }
+    }
+    EXPECT_GT(mixed, 1000);
+  }
+}
+
+TEST(LabelField, ThreadsGiveTheSameField)
+{
+  std::mt19937 random(23);
+  constexpr std::int64_t n = 45;
+  const LabelImage<3> image = MakeImage<3>(Noise<3>(n, 5, 6, random), UnitGrid<3>(n));
+  const LabelField<3> one(image, 1.0, 1);
+  const LabelField<3> four(image, 1.0, 4);
+  std::uniform_real_distribution<double> coordinate(-1.0, static_cast<double>(n));
+  for (int trial = 0; trial < 50000; ++trial)
+  {
+    const Point<3> p{ coordinate(random), coordinate(random), coordinate(random) };
+    const LabelId label = one.Label(p);
+    ASSERT_EQ(label, four.Label(p));
+    ASSERT_EQ(one.Margin(p, label), four.Margin(p, label));
+  }
+}
+
+/** A ball through the image's border is closed by the background around it. */
+TEST(LabelField, IsBackgroundOutside)
+{
+  const LabelField<3> field(
+    MakeImage<3>(std::vector<short>(10 * 10 * 10, 4), UnitGrid<3>(10)), 1.0);
+  EXPECT_EQ(field.Label({ 0.0, 5.0, 9.0 }), 1);
+  EXPECT_EQ(field.Label({ -1.0, 5.0, 5.0 }), 0);
+  EXPECT_EQ(field.Label({ 10.0, 5.0, 5.0 }), 0);
+  EXPECT_EQ(field.Label({ 5.0, 1e300, 5.0 }), 0);
+  EXPECT_EQ(field.Label({ 5.0, std::nan(""), 5.0 }), 0);
+  EXPECT_NEAR(field.Margin({ 5.0, -0.5, 5.0 }, 1), 0.0, 1e-3);
+}
+
+TEST(LabelField, RejectsBadSigma)
+{
+  const LabelImage<3> image = MakeImage<3>(std::vector<short>(10 * 10 * 10, 4), UnitGrid<3>(10));
+  for (const double sigma : { -0.1, 5.1, std::nan("") })
+  {
+    EXPECT_THROW(LabelField<3>(image, sigma), InputError) << sigma;
+  }
+}
+
+TEST(LabelField, FollowsABall)
+{
+  constexpr double radius = 20.0;
+  const Point<3> centre{ 23.3, 22.9, 23.1 };
+  const LabelField<3> field(MakeImage<3>(Ball(47, centre, radius), UnitGrid<3>(47)), 1.0);
+  std::mt19937 random(29);
+  std::normal_distribution<double> normal;
+  double distance = 0.0;
+  double angle = 0.0;
+  double volume = 0.0;
+  constexpr int rays = 5000;
+  for (int ray = 0; ray < rays; ++ray)
+  {
+    Point<3> u{ normal(random), normal(random), normal(random) };
+    const double length = std::sqrt(Dot(u, u));
+    double low = radius - 3.0;
+    double high = radius + 3.0;
+    Point<3> p;
+    while (high - low > 1e-4)
+    {
+      const double middle = 0.5 * (low + high);
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        p[a] = centre[a] + u[a] / length * middle;
+      }
+      (field.Label(p) == 1 ? low : high) = middle;
+    }
+    Point<3> gradient;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      Point<3> q = p;
+      q[a] += 1e-3;
+      gradient[a] = -field.Margin(q, 1);
+      q[a] -= 2e-3;
+      gradient[a] += field.Margin(q, 1);
+    }
+    distance += std::abs(low - radius) / rays;
+    volume += low * low * low / (radius * radius * radius) / rays;
+    angle += std::acos(std::clamp(
+               Dot(gradient, u) / (length * std::sqrt(Dot(gradient, gradient))), -1.0, 1.0)) /
+      rays * 57.29577951308232;
+  }
+  EXPECT_LT(distance, 0.075);
+  EXPECT_LT(angle, 6.0); // between voxels too; facets of a mesh average it to less than 4
+  EXPECT_NEAR(volume, 1.0, 0.01);
+}
+
+// A layer of background one voxel thick stays open everywhere, between two labels or within one.
+TEST(LabelField, KeepsGapsOpen)
+{
+  constexpr std::int64_t n = 26;
+  constexpr double gap = 12.0; // voxels between 4 and 21
+  for (const std::size_t axis : { 0u, 1u, 2u })
+  {
+    for (const short other : { 1, 2 })
+    {
+      std::vector<short> scalars;
+      for (std::int64_t k = 0; k < n * n * n; ++k)
+      {
+        const std::array<std::int64_t, 3> voxel{ k % n, k / n % n, k / (n * n) };
+        const bool inside =
+          std::all_of(voxel.begin(), voxel.end(), [](auto x) { return x >= 4 && x <= 21; });
+        const auto height = static_cast<double>(voxel[axis]);
+        scalars.push_back(!inside || height == gap ? 0 : height < gap ? short{ 1 } : other);
+      }
+      const LabelField<3> field(MakeImage<3>(scalars, UnitGrid<3>(n)), 1.0);
+      std::mt19937 random(31);
+      std::uniform_real_distribution<double> along(4.0, 21.0);
+      std::uniform_real_distribution<double> across(-0.3, 0.3);
+      for (int trial = 0; trial < 2000; ++trial)
+      {
+        Point<3> p{ along(random), along(random), along(random) };
+        p[axis] = gap + across(random);
+        ASSERT_EQ(field.Label(p), 0) << p[0] << ' ' << p[1] << ' ' << p[2];
+        // It is no wider than a voxel and a half: not too much is raised.
+        p[axis] = gap + (trial % 2 == 0 ? 0.75 : -0.75);
+        const bool isInner = *std::min_element(p.begin(), p.end()) > 6.0 &&
+          *std::max_element(p.begin(), p.end()) < 19.0;
+        if (isInner)
+        {
+          ASSERT_NE(field.Label(p), 0) << p[0] << ' ' << p[1] << ' ' << p[2];
+        }
+      }
+    }
+  }
+}
+
+// Where legs of one voxel meet that voxel is not between two others, but nothing is thick: legs are as wide as they are.
+TEST(LabelField, KeepsTheWidthOfLegsThatMeet)
+{
+  constexpr std::int64_t n = 12;
+  for (const bool isFour : { true, false })
+  {
+    std::vector<short> scalars;
+    for (std::int64_t k = 0; k < n * n * n; ++k)
+    {
+      const std::array<std::int64_t, 3> d{ k % n - 5, k / n % n - 5, k / (n * n) - 5 };
+      const bool isLeg =
+        std::all_of(d.begin(), d.end(), [](auto x) { return x >= 0; }) && d[0] + d[1] + d[2] <= 1;
+      const bool isFifth = !isFour && d == std::array<std::int64_t, 3>{ 1, 1, 0 };
+      scalars.push_back(isLeg || isFifth ? 1 : 0);
+    }
+    const LabelImage<3> image = MakeImage<3>(scalars, UnitGrid<3>(n));
+    ASSERT_EQ(image.Counts()[1], isFour ? 4 : 5);
+    const LabelField<3> field(image, 1.0);
+    ForEachVoxel<3>(image,
+      [&](const Point<3>& centre, LabelId id)
+      {
+        const bool isMeetingPoint = centre == Point<3>{ 5.0, 5.0, 5.0 };
+        for (std::size_t a = 0; a < 3 && id == 1 && !isMeetingPoint; ++a)
+        {
+          for (const double step : { -0.25, 0.25 })
+          {
+            Point<3> p = centre;
+            p[a] += step;
+            EXPECT_EQ(field.Label(p), 1) << p[0] << ' ' << p[1] << ' ' << p[2];
+          }
+        }
+      });
+  }
+}

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Grey values that were taken for labels are refused, and no segmentation is.
+#include "Base/Error.h"
+#include "Image/GreyValues.h"
+#include "Mesher/ImageMesher.h"
+#include "Phantoms.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace voxplex;
+
+namespace
+{
+
+/** Labels from `lowest` on, so many of them, independent of each other. */
+template <int D>
+LabelImage<D> Noise(const typename GridGeometry<D>::Index& dimensions, int labels, int lowest = 1)
+{
+  std::mt19937 random(7);
+  std::size_t voxels = 1;
+  Point<D> spacing;
+  spacing.fill(1.0);
+  for (const std::int64_t n : dimensions)
+  {
+    voxels *= static_cast<std::size_t>(n);
+  }
+  std::vector<std::int16_t> scalars(voxels);
+  for (std::int16_t& s : scalars)
+  {
+    s = static_cast<std::int16_t>(
+      lowest + static_cast<int>(random() % static_cast<unsigned>(labels)));
+  }
+  scalars.front() = scalars.back() = 1;
+  return LabelImage<D>::template FromScalars<std::int16_t>(
+    scalars, GridGeometry<D>::Orthogonal(dimensions, spacing));
+}
+
+/** Cubes of so many voxels a side, each with a label of its own. */
+LabelImage<3> Blocks(std::int64_t side, std::int64_t along)
+{
+  return phantoms::Make(phantoms::Cube(side * along),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      const auto block = [=](double x) { return static_cast<std::int64_t>(x) / side; };
+      return static_cast<std::int16_t>(
+        1 + (block(p[2]) * along + block(p[1])) * along + block(p[0]));
+    });
+}
+
+/** A smooth wave of grey values, as many as `amplitude`. */
+LabelImage<3> Wave(double amplitude)
+{
+  return phantoms::Make(phantoms::Cube(40),
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      const double x = std::sin(0.3 * p[0]) * std::cos(0.2 * p[1]) + std::sin(0.25 * p[2]);
+      return static_cast<std::int16_t>(1.0 + amplitude * (0.25 * x + 0.5));
+    });
+}
+
+template <int D>
+void ExpectPairs(const LabelImage<D>& image)
+{
+  NeighbourPairs expected;
+  typename GridGeometry<D>::Index voxel{};
+  for (std::size_t at = 0; at < image.Ids().size(); ++at)
+  {
+    std::size_t rest = at;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(image.CropDimensions()[a]);
+      voxel[a] = static_cast<std::int64_t>(rest % n);
+      rest /= n;
+    }
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      auto next = voxel;
+      ++next[a];
+      const bool isPair = image.At(voxel) != 0 && image.At(next) != 0;
+      expected.All += isPair ? 1 : 0;
+      expected.Different += isPair && image.At(voxel) != image.At(next) ? 1 : 0;
+    }
+  }
+  ASSERT_GT(expected.Different, 0);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    const NeighbourPairs pairs = CountNeighbourPairs(image, threads);
+    EXPECT_EQ(pairs.All, expected.All);
+    EXPECT_EQ(pairs.Different, expected.Different);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(GreyValues, PairsAreThoseOfAFullSearch)
+{
+  ExpectPairs<3>(Noise<3>({ 2, 31, 47 }, 5, 0));
+  ExpectPairs<3>(Noise<3>({ 90, 3, 11 }, 3, 0));
+  ExpectPairs<4>(Noise<4>({ 7, 6, 5, 9 }, 3, 0));
+  EXPECT_EQ(NeighbourPairs().ShareOfDifferent(), 0.0);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(GreyValues, AreRefused)
+{
+  for (const int labels : { 40, 255, 2000 })
+  {
+    EXPECT_THROW(CheckSegmented(Noise<3>({ 30, 30, 30 }, labels)), InputError) << labels;
+    EXPECT_THROW(CheckSegmented(Noise<3>({ 30, 30, 30 }, labels), 3), InputError) << labels;
+  }
+  EXPECT_THROW(CheckSegmented(Noise<4>({ 12, 13, 11, 14 }, 100)), InputError);
+  EXPECT_THROW(CheckSegmented(Wave(255.0)), InputError);
+}
+
+TEST(GreyValues, SegmentationsAreNot)
+{
+  EXPECT_NO_THROW(CheckSegmented(Noise<3>({ 60, 60, 60 }, 30)));   // noise, but few labels
+  EXPECT_NO_THROW(CheckSegmented(Noise<3>({ 24, 24, 24 }, 1000))); // small
+  EXPECT_NO_THROW(CheckSegmented(Noise<4>({ 10, 10, 10, 10 }, 100)));
+  EXPECT_NO_THROW(CheckSegmented(Blocks(2, 12)));
+  EXPECT_NO_THROW(CheckSegmented(Blocks(4, 8)));
+  EXPECT_NO_THROW(CheckSegmented(Wave(30.0)));
+  EXPECT_NO_THROW(CheckSegmented(phantoms::CutCells(3, 400, 400, 1)));
+  // As a checkerboard all neighbours differ, but there are two labels.
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Make(phantoms::Cube(40),
+    [](const Point<3>& p) -> std::int16_t
+    { return static_cast<int>(p[0] + p[1] + p[2]) % 2 == 0 ? 1 : 2; })));
+  // Specks with labels of their own, far from each other.
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Make(phantoms::Cube(100),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const bool isSpeck =
+        std::all_of(p.begin(), p.end(), [](double x) { return static_cast<int>(x) % 10 == 3; });
+      return isSpeck ? static_cast<std::int16_t>(1 + p[0] + p[1] + p[2] + 100 * (p[2] > 50)) : 0;
+    })));
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(GreyValues, AreRefusedByTheMesherUnlessForced)
+{
+  const LabelImage<3> image = Noise<3>({ 30, 30, 30 }, 200);
+  MeshingOptions<3> options;
+  options.Delta = 20.0;
+  SimplexMesh<3> mesh;
+  try
+  {
+    ImageMesher<3>(options).Run(image, mesh);
+    ADD_FAILURE() << "not refused";
+  }
+  catch (const InputError& error)
+  {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("200 labels look like grey values"), std::string::npos) << message;
+    EXPECT_NE(message.find("mesh an isosurface of it"), std::string::npos) << message;
+    EXPECT_NE(message.find("or force it"), std::string::npos) << message;
+  }
+  options.Force = true;
+  ImageMesher<3> mesher(options);
+  mesher.Progress = [](double) { return false; };
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Cancelled);
+
+  MeshingOptions<4> inTime;
+  SimplexMesh<4> pentatopes;
+  EXPECT_THROW(
+    ImageMesher<4>(inTime).Run(Noise<4>({ 12, 13, 11, 14 }, 100), pentatopes), InputError);
+}
+
+TEST(GreyValues, CountingCanBeStopped)
+{
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(CheckSegmented(Noise<3>({ 30, 30, 30 }, 200), 1, stop.get_token()), Cancelled);
+}

@@ -1,0 +1,675 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the border of a 3D image cuts an object: flat faces, straight edges, in the field, the domain and the mesh.
+#include "Conformity/ManifoldRepair.h"
+#include "Domain/ImageDomain.h"
+#include "Image/IsosurfaceImage.h"
+#include "Junctions/JunctionCurves.h"
+#include "Mesh/MeshExtraction.h"
+#include "MeshChecks.h"
+#include "Mesher/ImageMesher.h"
+#include "Optimisation/MeshOptimiser.h"
+#include "Phantoms.h"
+#include "RefinementChecks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+using namespace voxplex;
+using checks::Refined;
+
+namespace
+{
+
+GridGeometry<3> ObliqueGrid(std::int64_t n)
+{
+  return phantoms::Sheared({ n, n - 3, n - 6 }, 1.0);
+}
+
+/** A ball in two halves, cut by two borders that meet in it. */
+LabelImage<3> CutHalves(
+  const GridGeometry<3>& grid, const Point<3>& middle = { 6.3, 15.1, 5.7 }, double radius = 11.0)
+{
+  const Point<3> centre = grid.ToFrame(middle);
+  return phantoms::Make(grid,
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      if (!(Distance(p, centre) < radius))
+      {
+        return 0;
+      }
+      return p[0] - centre[0] + 0.6 * (p[1] - centre[1]) - 0.3 * (p[2] - centre[2]) > 2.0 ? 1 : 2;
+    });
+}
+
+LabelImage<3> LargeCutHalves()
+{
+  return CutHalves(
+    GridGeometry<3>::Orthogonal({ 64, 60, 56 }, { 1.0, 1.0, 1.0 }), { 20.3, 30.1, 18.7 }, 28.0);
+}
+
+double Area(const SimplexMesh<3>& mesh, std::size_t facet)
+{
+  const auto& f = mesh.Facets[facet];
+  const Point<3> n = checks::Cross(
+    Subtract(mesh.Points[f[1]], mesh.Points[f[0]]), Subtract(mesh.Points[f[2]], mesh.Points[f[0]]));
+  return 0.5 * std::sqrt(Dot(n, n));
+}
+
+/** Of the facets on each cut face, by its number. */
+std::array<double, 6> FlatAreas(const SimplexMesh<3>& mesh, const Domain<3>& domain)
+{
+  std::array<double, 6> areas{};
+  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  {
+    unsigned faces = ~0u;
+    for (const std::uint32_t v : mesh.Facets[f])
+    {
+      faces &= domain.CutFaces(mesh.Points[v]);
+    }
+    for (unsigned face = 0; face < 6; ++face)
+    {
+      areas[face] += (faces >> face) & 1 ? Area(mesh, f) : 0.0;
+    }
+  }
+  return areas;
+}
+
+/** Of a face of a voxel that is perpendicular to, or spanned by the other axes than, an axis of the image. */
+double VoxelFace(const GridGeometry<3>& grid, std::size_t axis)
+{
+  Point<3> a{};
+  Point<3> b{};
+  a[(axis + 1) % 3] = 1.0;
+  b[(axis + 2) % 3] = 1.0;
+  const Point<3> n = checks::Cross(grid.ToFrame(a), grid.ToFrame(b));
+  return std::sqrt(Dot(n, n));
+}
+
+/** Of the voxels of a label, any but background if 0, in the outermost layer at each face of the image. */
+std::array<double, 6> VoxelAreas(const LabelImage<3>& image)
+{
+  std::array<double, 6> areas{};
+  const auto& n = image.CropDimensions();
+  std::size_t at = 0;
+  for (std::int64_t z = 0; z < n[2]; ++z)
+  {
+    for (std::int64_t y = 0; y < n[1]; ++y)
+    {
+      for (std::int64_t x = 0; x < n[0]; ++x, ++at)
+      {
+        const GridGeometry<3>::Index v{ x, y, z };
+        for (std::size_t a = 0; a < 3 && image.Ids()[at] != 0; ++a)
+        {
+          areas[2 * a] += v[a] == 0 && image.IsCut(a, 0) ? VoxelFace(image.Grid(), a) : 0.0;
+          areas[2 * a + 1] +=
+            v[a] == n[a] - 1 && image.IsCut(a, 1) ? VoxelFace(image.Grid(), a) : 0.0;
+        }
+      }
+    }
+  }
+  return areas;
+}
+
+/**
+ * How many points of a cut face, four a voxel and two voxels or more away from its edges, no flat facet of the mesh
+ * covers: those over notches.
+ */
+int CountUncovered(const SimplexMesh<3>& mesh, const LabelImage<3>& image, std::size_t axis)
+{
+  const GridGeometry<3>& grid = image.Grid();
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  using Flat = std::array<double, 2>;
+  std::vector<std::array<Flat, 3>> triangles; // in indices
+  for (const auto& facet : mesh.Facets)
+  {
+    std::array<Flat, 3> triangle;
+    bool isFlat = true;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const Point<3> index = grid.ToIndex(mesh.Points[facet[i]]);
+      triangle[i] = { index[u], index[v] };
+      isFlat = isFlat && std::abs(index[axis] + 0.5) < 1e-6;
+    }
+    if (isFlat)
+    {
+      triangles.push_back(triangle);
+    }
+  }
+  const auto side = [](const Flat& a, const Flat& b, const Flat& p)
+  { return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]); };
+  const auto isInside = [&](std::int64_t i, std::int64_t j)
+  {
+    GridGeometry<3>::Index voxel{};
+    voxel[u] = i - image.CropOrigin()[u];
+    voxel[v] = j - image.CropOrigin()[v];
+    return i >= 0 && j >= 0 && image.At(voxel) != 0;
+  };
+  int uncovered = 0;
+  for (std::int64_t i = 2; i + 2 < grid.Dimensions[u]; ++i)
+  {
+    for (std::int64_t j = 2; j + 2 < grid.Dimensions[v]; ++j)
+    {
+      bool interior = true;
+      for (int k = 0; k < 25; ++k)
+      {
+        interior = interior && isInside(i + k % 5 - 2, j + k / 5 - 2);
+      }
+      for (int k = 0; k < 4 && interior; ++k)
+      {
+        const Flat p{ static_cast<double>(i) + 0.5 * (k % 2) + 0.01,
+          static_cast<double>(j) + 0.5 * (k / 2) + 0.02 };
+        uncovered += std::none_of(triangles.begin(), triangles.end(),
+          [&](const std::array<Flat, 3>& t)
+          {
+            const double a = side(t[0], t[1], p);
+            const double b = side(t[1], t[2], p);
+            const double c = side(t[2], t[0], p);
+            return (a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0);
+          });
+      }
+    }
+  }
+  return uncovered;
+}
+
+SimplexMesh<3> Mesh(const LabelImage<3>& image, const MeshingOptions<3>& options)
+{
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  for (const std::string& complaint : checks::Complaints(mesh))
+  {
+    ADD_FAILURE() << complaint;
+  }
+  return mesh;
+}
+
+MeshingOptions<3> WithDelta(double delta)
+{
+  MeshingOptions<3> options;
+  options.Delta = delta;
+  return options;
+}
+
+/** Optimisation may do nearly anything. */
+OptimisationOptions Wild()
+{
+  OptimisationOptions options;
+  options.SmallestDihedralAngle = 40.0;
+  options.LargestDihedralAngle = 115.0;
+  options.Shape.FacetAngle = 5.0;
+  options.Shape.JunctionFacetAngle = 5.0;
+  options.CreaseAngle = 90.0;
+  options.InterfaceTolerance = 0.4;
+  return options;
+}
+
+std::size_t CountOnCutFaces(const SimplexMesh<3>& mesh, const Domain<3>& domain)
+{
+  return static_cast<std::size_t>(std::count_if(mesh.Points.begin(), mesh.Points.end(),
+    [&](const Point<3>& p) { return domain.CutFaces(p) != 0; }));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(CutFaces, AreWhereForegroundTouchesTheBorder)
+{
+  const LabelImage<3> image = phantoms::CutBall(12);
+  const std::set<std::pair<std::size_t, unsigned>> expected{ { 2, 0 } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (unsigned end = 0; end < 2; ++end)
+    {
+      EXPECT_EQ(image.IsCut(axis, end), expected.contains({ axis, end })) << axis << " " << end;
+    }
+  }
+  const ImageDomain<3> domain(image, 1.0);
+  EXPECT_TRUE(domain.IsCut());
+  EXPECT_EQ(domain.CutFaces({ 1.0, 2.0, -0.5 }), 1u << 4);
+  EXPECT_EQ(domain.CutFaces({ 1.0, 2.0, -0.499 }), 0u);
+  EXPECT_EQ(domain.CutFaces({ -0.5, 2.0, 3.0 }), 0u);
+  const LabelImage<3> whole = phantoms::Ball(6.0);
+  EXPECT_FALSE(ImageDomain<3>(whole, 1.0).IsCut());
+}
+
+// Up to the face labels are those of the outermost voxel centres, but where an interface is oblique to it; at it
+// background begins.
+TEST(CutFaces, LabelsGoOnToTheFace)
+{
+  const LabelImage<3> image = CutHalves(ObliqueGrid(30));
+  const LabelField<3> field(image, 1.0);
+  std::mt19937 random(5);
+  int labels[3] = {};
+  int changed = 0;
+  for (int i = 0; i < 4000; ++i)
+  {
+    Point<3> x;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      x[a] = std::uniform_real_distribution<>(
+        1.0, static_cast<double>(field.LatticeDimensions()[a] - 2))(random);
+    }
+    const std::size_t axis = i % 2 == 0 ? 0 : 2;
+    x[axis] = 1.0;
+    const LabelId label = field.LabelAt(x);
+    ++labels[label];
+    x[axis] = 0.5001;
+    changed += field.LabelAt(x) != label ? 1 : 0;
+    ASSERT_GT(field.MarginAt(x, field.LabelAt(x)), 0.0);
+    for (const double outside : { 0.5, 0.4999, 0.2, -3.0 })
+    {
+      x[axis] = outside;
+      ASSERT_EQ(field.LabelAt(x), 0);
+      ASSERT_GT(field.MarginAt(x, 0), 0.0);
+      ASSERT_LE(field.MarginAt(x, label == 0 ? 1 : label), 0.0);
+    }
+  }
+  for (const int count : labels)
+  {
+    EXPECT_GT(count, 200);
+  }
+  EXPECT_LT(changed, 80);
+}
+
+//------------------------------------------------------------------------------------------------
+// Not about, but on the face: facets of such points are flat.
+TEST(CutFaces, PointsFoundLieOnThem)
+{
+  for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
+  {
+    const LabelImage<3> image = CutHalves(grid);
+    const ImageDomain<3> domain(image, 1.0);
+    std::mt19937 random(6);
+    int crossings = 0;
+    int closest = 0;
+    int others = 0;
+    for (int i = 0; i < 3000; ++i)
+    {
+      Point<3> index;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        index[a] = std::uniform_real_distribution<>(
+          1.5, static_cast<double>(grid.Dimensions[a] - 2))(random);
+      }
+      const std::size_t axis = i % 2 == 0 ? 0 : 2;
+      index[axis] = std::uniform_real_distribution<>(-0.45, 0.0)(random); // labels go on from here
+      const Point<3> p = grid.ToFrame(index);
+      const LabelId label = domain.Label(p);
+      index[axis] = -3.0;
+      Point<3> z;
+      if (label == 0 || !domain.FirstCrossing(p, label, grid.ToFrame(index), z))
+      {
+        continue;
+      }
+      const Point<3> found = grid.ToIndex(z);
+      if (found[axis] > -0.49)
+      {
+        ++others; // an interface that is oblique to the face
+        continue;
+      }
+      EXPECT_NEAR(found[axis], -0.5, 1e-9);
+      EXPECT_EQ((domain.CutFaces(z) >> (2 * axis)) & 1, 1u);
+      ++crossings;
+      Point<3> back;
+      if (domain.FirstCrossing(grid.ToFrame(index), 0, p, back))
+      {
+        EXPECT_NE(domain.CutFaces(back), 0u);
+      }
+      ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
+      closest += domain.CutFaces(z) != 0 ? 1 : 0;
+    }
+    EXPECT_GT(crossings, 500);
+    EXPECT_LT(others, crossings / 50);
+    EXPECT_GT(closest, crossings / 2); // the others are near the sides or the other half
+  }
+}
+
+TEST(CutFaces, NearEdges)
+{
+  const LabelImage<3> image = phantoms::CutBall(12);
+  const ImageDomain<3> domain(image, 1.0);
+  const double c = 0.5 * static_cast<double>(image.Grid().Dimensions[0] - 1);
+  Point<3> z;
+  for (int k = 0; k < 16; ++k)
+  {
+    const double angle = 0.4 * k;
+    const Point<3> p{ c + 8.0 * std::cos(angle), c + 8.0 * std::sin(angle), -0.5 };
+    ASSERT_TRUE(domain.NearCutEdge(p, 3.0, z));
+    EXPECT_EQ(z[2], -0.5);
+    EXPECT_NEAR(std::hypot(z[0] - c, z[1] - c), 9.5, 0.6);
+    EXPECT_LT(Distance(p, z), 3.0);
+    EXPECT_FALSE(domain.NearCutEdge(p, 0.5, z));
+  }
+  EXPECT_FALSE(domain.NearCutEdge({ c, c, -0.5 }, 3.0, z));
+  EXPECT_FALSE(domain.NearCutEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
+
+  const LabelImage<3> block = phantoms::Block(ObliqueGrid(12));
+  const ImageDomain<3> oblique(block, 1.0);
+  ASSERT_TRUE(oblique.NearCutEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
+  EXPECT_NEAR(Distance(z, block.Grid().ToFrame({ -0.5, -0.5, 3.0 })), 0.0, 1e-9);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(CutFaces, EdgesOfABlockAreTwelveCurves)
+{
+  for (const auto& grid : { phantoms::Cube(9), ObliqueGrid(12) })
+  {
+    const LabelImage<3> image = phantoms::Block(grid);
+    const ImageDomain<3> domain(image, 1.0);
+    const JunctionCurves edges(image, domain.GetLabelField(), domain.GetSites());
+    EXPECT_EQ(edges.NumberOfCorners(), 8u);
+    ASSERT_EQ(edges.Curves().size(), 12u);
+    double length = 0.0;
+    for (const JunctionCurves::Curve& curve : edges.Curves())
+    {
+      EXPECT_FALSE(curve.IsClosed);
+      EXPECT_EQ(curve.Labels, (std::array<LabelId, 3>{ 0, 0, 1 }));
+      const double chord = Distance(curve.Points.front(), curve.Points.back());
+      double arc = 0.0;
+      for (std::size_t i = 1; i < curve.Points.size(); ++i)
+      {
+        arc += Distance(curve.Points[i - 1], curve.Points[i]);
+      }
+      EXPECT_NEAR(arc, chord, 1e-9) << "straight";
+      length += chord;
+    }
+    double expected = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      expected += 4.0 * static_cast<double>(grid.Dimensions[a]) * grid.Spacing(static_cast<int>(a));
+    }
+    EXPECT_NEAR(length, expected, 1e-9);
+  }
+}
+
+TEST(CutFaces, EdgesOfNoiseEndInCorners)
+{
+  std::mt19937 random(7);
+  const LabelImage<3> image = phantoms::Make(
+    phantoms::Cube(9), [&](const Point<3>&) { return static_cast<std::int16_t>(random() % 4); });
+  const ImageDomain<3> domain(image, 1.0);
+  const JunctionCurves edges(image, domain.GetLabelField(), domain.GetSites());
+  std::map<Point<3>, int> ends;
+  std::size_t flat = 0;
+  for (const JunctionCurves::Curve& curve : edges.Curves())
+  {
+    if (!curve.IsClosed)
+    {
+      ++ends[curve.Points.front()];
+      ++ends[curve.Points.back()];
+    }
+    if (curve.Labels[1] == 0) // background and a face of the image, or two of these
+    {
+      for (const Point<3>& p : curve.Points)
+      {
+        EXPECT_NE(domain.CutFaces(p), 0u);
+      }
+    }
+    flat += domain.CutFaces(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
+  }
+  EXPECT_GT(flat, 50u);
+  EXPECT_EQ(ends.size(), edges.NumberOfCorners());
+  for (const auto& [corner, count] : ends)
+  {
+    EXPECT_TRUE(count == 4 || (count == 3 && domain.CutFaces(corner) != 0)) << count;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// A block comes out as it is: its volume, six flat faces, whatever delta. So do some with sheared axes.
+TEST(CutFaces, MeshesOfBlocksAreExact)
+{
+  for (const auto& grid :
+    { GridGeometry<3>::Orthogonal({ 20, 17, 14 }, { 1.0, 0.8, 1.5 }), ObliqueGrid(20) })
+  {
+    const LabelImage<3> image = phantoms::Block(grid);
+    const ImageDomain<3> domain(image, 1.0);
+    const std::array<double, 6> expected = VoxelAreas(image);
+    double volume = 1.0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      volume *= grid.IndexToFrame[a][a] * static_cast<double>(grid.Dimensions[a]);
+    }
+    for (const double delta : { 1.1, 2.3, 5.0 })
+    {
+      for (const bool optimise : { false, true })
+      {
+        SCOPED_TRACE(testing::Message() << delta << (optimise ? ", optimised" : ""));
+        MeshingOptions<3> options = WithDelta(delta);
+        options.Optimise = optimise;
+        const SimplexMesh<3> mesh = Mesh(image, options);
+        EXPECT_NEAR(checks::Volumes(mesh).at(1), volume, 1e-9 * volume);
+        const std::array<double, 6> areas = FlatAreas(mesh, domain);
+        double whole = 0.0;
+        for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+        {
+          whole += Area(mesh, f);
+        }
+        for (unsigned face = 0; face < 6; ++face)
+        {
+          EXPECT_NEAR(areas[face], expected[face], 1e-9 * expected[face]) << face;
+          whole -= areas[face];
+        }
+        EXPECT_NEAR(whole, 0.0, 1e-9 * volume);
+      }
+    }
+  }
+}
+
+// Flat up to chords along the edges, and nothing of the mesh beyond.
+TEST(CutFaces, OfTwoLabelsAreFlatInTheMesh)
+{
+  for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
+  {
+    const LabelImage<3> image = CutHalves(grid);
+    const ImageDomain<3> domain(image, 1.0);
+    const std::array<double, 6> expected = VoxelAreas(image);
+    for (const double delta : { 0.9, 1.2, 1.5 })
+    {
+      for (const unsigned threads : { 1u, 3u })
+      {
+        SCOPED_TRACE(
+          testing::Message() << delta << ", threads: " << threads << ", " << grid.Dimensions[1]);
+        MeshingOptions<3> options = WithDelta(delta);
+        options.Threads = threads;
+        const SimplexMesh<3> mesh = Mesh(image, options);
+        for (const Point<3>& p : mesh.Points)
+        {
+          const Point<3> index = grid.ToIndex(p);
+          EXPECT_GE(index[0], -0.5 - 1e-9);
+          EXPECT_GE(index[2], -0.5 - 1e-9);
+        }
+        const std::array<double, 6> areas = FlatAreas(mesh, domain);
+        for (const unsigned face : { 0u, 4u })
+        {
+          EXPECT_NEAR(areas[face], expected[face], 0.03 * expected[face]) << face;
+          EXPECT_EQ(CountUncovered(mesh, image, face / 2), 0) << face;
+        }
+        options.SampleJunctions = false;
+        const std::array<double, 6> rough = FlatAreas(Mesh(image, options), domain);
+        EXPECT_LT(rough[0], areas[0]); // without their edges faces are not whole
+      }
+    }
+  }
+}
+
+// Vertices of the interface of the two labels just below a face take no facet's place there.
+TEST(CutFaces, HaveNoNotches)
+{
+  const LabelImage<3> image = LargeCutHalves();
+  for (const double delta : { 1.0, 1.5, 2.0, 3.0 })
+  {
+    const SimplexMesh<3> mesh = Mesh(image, WithDelta(delta));
+    EXPECT_EQ(CountUncovered(mesh, image, 0), 0) << delta;
+    EXPECT_EQ(CountUncovered(mesh, image, 2), 0) << delta;
+  }
+}
+
+// Around edges in these faces labels change so often that repair has to do there; nothing is dropped for that.
+TEST(CutFaces, GetNoDentsInRepair)
+{
+  const LabelImage<3> image = phantoms::CutCells(5, 200, 3, 1);
+  const ImageDomain<3> domain(image, 1.0);
+  for (const double delta : { 2.0, 3.0, 4.0 })
+  {
+    MeshingOptions<3> options = WithDelta(delta);
+    options.Interfaces.Rounds = 0;
+    options.Interfaces.Manifold = false;
+    const SimplexMesh<3> before = Mesh(image, options);
+    const auto lostArea = [&](const SimplexMesh<3>& whole, const SimplexMesh<3>& mesh)
+    {
+      const std::array<double, 6> areas = FlatAreas(whole, domain);
+      const std::array<double, 6> left = FlatAreas(mesh, domain);
+      double lost = 0.0;
+      for (unsigned face = 0; face < 6; ++face)
+      {
+        lost = std::max(lost, areas[face] - left[face]);
+      }
+      return lost;
+    };
+    const auto context = Refined(domain, delta);
+    const auto extract = [&](const SimplexLabels& labels)
+    {
+      SimplexMesh<3> mesh;
+      ExtractMesh<3>(context->Mesh, domain, labels, mesh);
+      return mesh;
+    };
+    SimplexLabels labels = LabelSimplices<3>(context->Mesh, domain);
+    const SimplexMesh<3> raw = extract(labels);
+    for (const bool cut : { false, true })
+    {
+      SimplexLabels repaired = labels;
+      ManifoldRepairOptions repair;
+      repair.Surfaces = cut ? &domain : nullptr;
+      const ManifoldRepairResult result = RepairManifold(context->Mesh, repaired, repair);
+      EXPECT_GT(result.Before, 0u);
+      EXPECT_TRUE(result.Left.empty());
+      EXPECT_EQ(lostArea(raw, extract(repaired)) < 1e-9, cut) << delta;
+    }
+    // A run asks for that, and then has nothing more to do.
+    options.Interfaces.Rounds = 1;
+    options.Interfaces.Manifold = true;
+    ImageMesher<3> mesher(options);
+    SimplexMesh<3> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    EXPECT_EQ(mesher.Statistics().Interfaces.Rounds, 0u);
+    EXPECT_GT(mesher.Statistics().Interfaces.NonManifoldRepaired, 0u);
+    EXPECT_LT(lostArea(before, mesh), 1e-9) << delta;
+  }
+}
+
+// Where delta is graded edges get vertices where flat facets need them; without these 90 % are left of the faces.
+TEST(CutFaces, HaveEdgesInGradedMeshes)
+{
+  const LabelImage<3> image = LargeCutHalves();
+  const ImageDomain<3> domain(image, 1.0);
+  MeshingOptions<3> options = WithDelta(1.5);
+  options.Grading.Mode = GradingMode::LocalFeatureSize;
+  const std::array<double, 6> areas = FlatAreas(Mesh(image, options), domain);
+  const std::array<double, 6> expected = VoxelAreas(image);
+  EXPECT_GT(areas[0] + areas[4], 0.94 * (expected[0] + expected[4]));
+}
+
+// Optimisation moves vertices in the faces, not their edges; also when it may do nearly anything.
+TEST(CutFaces, StayFlatInOptimisation)
+{
+  for (const bool upright : { false, true })
+  {
+    const GridGeometry<3> grid = upright ? phantoms::Cube(15) : ObliqueGrid(20);
+    for (const bool block : { false, true })
+    {
+      const LabelImage<3> image = block ? phantoms::Block(grid) : CutHalves(grid);
+      const ImageDomain<3> domain(image, 1.0);
+      MeshingOptions<3> options = WithDelta(1.2);
+      options.Optimise = false;
+      const SimplexMesh<3> before = Mesh(image, options);
+      for (const bool wild : { false, true })
+      {
+        SimplexMesh<3> after = before;
+        const OptimisationOptions optimisation = wild ? Wild() : OptimisationOptions();
+        const OptimisationStatistics statistics = OptimiseMesh(after, domain, optimisation, 1);
+        EXPECT_TRUE(checks::Complaints(after).empty());
+        if (wild)
+        {
+          EXPECT_GT(statistics.Flips.InterfaceFlips, 20u);
+          EXPECT_GT(statistics.Smoothing.SurfaceMoves, 20u);
+          EXPECT_GT(statistics.Smoothing.Nudges, 20u);
+        }
+        const std::array<double, 6> areas = FlatAreas(before, domain);
+        const std::array<double, 6> optimised = FlatAreas(after, domain);
+        for (unsigned face = 0; face < 6; ++face)
+        {
+          // Sides may be nudged, and with them the edges, but in the face; those of an upright block may not.
+          const double tolerance = wild && !(block && upright) ? 0.05 : 1e-9;
+          EXPECT_NEAR(optimised[face], areas[face], tolerance * areas[face]) << face;
+        }
+      }
+    }
+  }
+}
+
+// Beside a shallow scoop in a cut face, whose side is the nearest interface of vertices on the face over chords of its rim.
+TEST(CutFaces, KeepTheirVerticesInOptimisation)
+{
+  for (const double height : { -7.5, -7.0 })
+  {
+    const LabelImage<3> image = phantoms::Make(phantoms::Cube(28),
+      [=](const Point<3>& p) -> std::int16_t
+      {
+        return p[2] < 9.0 && Distance(p, { 13.5, 13.5, 0.0 }) < 12.5 &&
+            !(Distance(p, { 13.6, 13.4, height }) < 8.3)
+          ? 1
+          : 0;
+      });
+    const ImageDomain<3> domain(image, 1.0);
+    for (const double delta : { 3.0, 3.5, 4.0, 4.5, 5.0 })
+    {
+      MeshingOptions<3> options = WithDelta(delta);
+      options.Optimise = false;
+      SimplexMesh<3> mesh = Mesh(image, options);
+      const std::size_t before = CountOnCutFaces(mesh, domain);
+      EXPECT_GT(before, 15u);
+      EXPECT_GT(OptimiseMesh(mesh, domain, Wild(), 1).Smoothing.SurfaceMoves, 0u);
+      EXPECT_GE(CountOnCutFaces(mesh, domain), before) << height << " " << delta;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// An isosurface is cut by the border like labels.
+TEST(CutFaces, OfIsosurfacesAreFlat)
+{
+  const auto grid = phantoms::Cube(24);
+  std::vector<float> values;
+  for (int k = 0; k < 24; ++k)
+  {
+    for (int j = 0; j < 24; ++j)
+    {
+      for (int i = 0; i < 24; ++i)
+      {
+        values.push_back(static_cast<float>(
+          9.0 - Distance(Point<3>{ 1.0 * i, 1.0 * j, 1.0 * k }, Point<3>{ 11.6, 11.4, 3.2 })));
+      }
+    }
+  }
+  const auto image = IsosurfaceImage<3>::FromScalars<float>(values, grid, { 0.0 });
+  const ImageDomain<3, ScalarField<3>> domain(image);
+  MeshingOptions<3> options = WithDelta(1.3);
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  const double radius2 = 81.0 - 3.2 * 3.2; // the outermost values go on
+  const std::array<double, 6> areas = FlatAreas(mesh, domain);
+  EXPECT_NEAR(areas[4], std::numbers::pi * radius2, 0.03 * std::numbers::pi * radius2);
+  EXPECT_EQ(mesher.Statistics().Interfaces.JunctionCurves, 1u);
+}

@@ -1,0 +1,438 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of what isosurfaces of grey-value images bound: accuracy, invariants, borders, components.
+#include "Base/Error.h"
+#include "Image/DropComponents.h"
+#include "MeshChecks.h"
+#include "Mesher/ImageMesher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <set>
+
+using namespace voxplex;
+
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+GridGeometry<3> Cube(std::int64_t n)
+{
+  return GridGeometry<3>::Orthogonal({ n, n, n }, { 1.0, 1.0, 1.0 });
+}
+
+/** A value for each voxel, from its centre in the frame. */
+template <typename T = float>
+std::vector<T> Sample(
+  const GridGeometry<3>& grid, const std::function<double(const Point<3>&)>& value)
+{
+  std::vector<T> values;
+  const auto& n = grid.Dimensions;
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < n[0]; ++i)
+      {
+        values.push_back(static_cast<T>(value(grid.ToFrame(
+          { static_cast<double>(i), static_cast<double>(j), static_cast<double>(k) }))));
+      }
+    }
+  }
+  return values;
+}
+
+/** An image, which reads its values as long as it lives. */
+template <typename T>
+struct GreyImage
+{
+  std::vector<T> Values;
+  IsosurfaceImage<3> Image;
+};
+
+template <typename T>
+GreyImage<T> Make(
+  std::vector<T> values, const GridGeometry<3>& grid, const Isosurface& surface = {})
+{
+  GreyImage<T> grey{ std::move(values), {} };
+  grey.Image = IsosurfaceImage<3>::FromScalars<T>(grey.Values, grid, surface);
+  return grey;
+}
+
+template <typename T>
+SimplexMesh<3> Mesh(const GreyImage<T>& grey, double delta, MeshingStatistics* statistics = nullptr)
+{
+  MeshingOptions<3> options;
+  options.Delta = delta;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  EXPECT_EQ(mesher.Run(grey.Image, mesh), MeshingOutcome::Done);
+  if (statistics)
+  {
+    *statistics = mesher.Statistics();
+  }
+  return mesh;
+}
+
+/** What holds for every mesh with default options of a surface without junctions. */
+void ExpectGood(const SimplexMesh<3>& mesh)
+{
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  ASSERT_FALSE(mesh.Simplices.empty());
+  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+  {
+    ASSERT_LT(checks::RadiusEdge(mesh, t), 2.0 + 1e-9);
+  }
+  for (const auto& f : mesh.Facets)
+  {
+    ASSERT_GE(checks::SmallestAngle(mesh, f), 30.0 - 1e-6);
+  }
+}
+
+std::set<std::uint32_t> SurfaceVertices(const SimplexMesh<3>& mesh)
+{
+  std::set<std::uint32_t> vertices;
+  for (const auto& f : mesh.Facets)
+  {
+    vertices.insert(f.begin(), f.end());
+  }
+  return vertices;
+}
+
+struct Distances
+{
+  double Mean = 0.0;
+  double Largest = 0.0;
+};
+
+/** Of the vertices of the surface. */
+Distances DistancesTo(
+  const SimplexMesh<3>& mesh, const std::function<double(const Point<3>&)>& distance)
+{
+  const std::set<std::uint32_t> vertices = SurfaceVertices(mesh);
+  Distances d;
+  for (const std::uint32_t v : vertices)
+  {
+    const double one = std::abs(distance(mesh.Points[v]));
+    d.Mean += one / static_cast<double>(vertices.size());
+    d.Largest = std::max(d.Largest, one);
+  }
+  return d;
+}
+
+double Volume(const SimplexMesh<3>& mesh)
+{
+  double volume = 0.0;
+  for (const auto& [label, v] : checks::Volumes(mesh))
+  {
+    volume += v;
+  }
+  return volume;
+}
+
+constexpr double BallVolume(double radius)
+{
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+/** How deep a point lies in a ball; negative outside. */
+std::function<double(const Point<3>&)> Depth(double radius, const Point<3>& centre)
+{
+  return [=](const Point<3>& p) { return radius - Distance(p, centre); };
+}
+
+/** The part of a voxel of a cube grid that is in a ball, to 1/512. */
+double PartInside(const Point<3>& voxel, double radius, const Point<3>& centre)
+{
+  const double r = Distance(voxel, centre);
+  if (std::abs(r - radius) > 1.0)
+  {
+    return r < radius ? 1.0 : 0.0;
+  }
+  int inside = 0;
+  for (int i = 0; i < 512; ++i)
+  {
+    Point<3> p = voxel;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      p[a] += (((i >> (3 * a)) & 7) + 0.5) / 8.0 - 0.5;
+    }
+    inside += Distance(p, centre) < radius;
+  }
+  return inside / 512.0;
+}
+
+void ExpectEqual(const SimplexMesh<3>& a, const SimplexMesh<3>& b)
+{
+  EXPECT_EQ(a.Points, b.Points);
+  EXPECT_EQ(a.Simplices, b.Simplices);
+  EXPECT_EQ(a.Labels, b.Labels);
+  EXPECT_EQ(a.Facets, b.Facets);
+}
+
+} // namespace
+
+TEST(IsosurfaceMeshing, BallOfASignedDistance)
+{
+  const Point<3> centre{ 23.6, 23.4, 23.7 };
+  const auto depth = Depth(20.0, centre);
+  const auto grey = Make(Sample(Cube(48), depth), Cube(48));
+  const SimplexMesh<3> mesh = Mesh(grey, 2.0);
+  ExpectGood(mesh);
+  const Distances d = DistancesTo(mesh, depth);
+  EXPECT_LT(d.Mean, 0.01);
+  EXPECT_LT(d.Largest, 0.02);
+  EXPECT_NEAR(Volume(mesh), BallVolume(20.0), 0.012 * BallVolume(20.0));
+  // What the same voxels give as a label image.
+  MeshingOptions<3> options;
+  options.Delta = 2.0;
+  SimplexMesh<3> ofLabels;
+  ImageMesher<3>(options).Run(grey.Image.Labels(), ofLabels);
+  EXPECT_LT(8.0 * d.Mean, DistancesTo(ofLabels, depth).Mean);
+}
+
+TEST(IsosurfaceMeshing, SmoothingDoesNotShrink)
+{
+  const auto depth = Depth(10.0, { 15.6, 15.4, 15.7 });
+  const Isosurface smooth{ 0.0, IsosurfaceSide::Above, 1, 1.5 };
+  const SimplexMesh<3> mesh = Mesh(Make(Sample(Cube(32), depth), Cube(32), smooth), 2.0);
+  EXPECT_LT(DistancesTo(mesh, depth).Mean, 0.04); // a Gaussian moves the surface by 0.2
+}
+
+TEST(IsosurfaceMeshing, BallOfPartialVolumesInBytes)
+{
+  const Point<3> centre{ 23.6, 23.4, 23.7 };
+  const auto values = Sample<unsigned char>(
+    Cube(48), [&](const Point<3>& p) { return std::round(255.0 * PartInside(p, 20.0, centre)); });
+  const SimplexMesh<3> mesh = Mesh(Make(values, Cube(48), { 127.5 }), 2.0);
+  ExpectGood(mesh);
+  const Distances d = DistancesTo(mesh, Depth(20.0, centre));
+  EXPECT_LT(d.Mean, 0.05);
+  EXPECT_LT(d.Largest, 0.15);
+  EXPECT_NEAR(Volume(mesh), BallVolume(20.0), 0.012 * BallVolume(20.0));
+}
+
+TEST(IsosurfaceMeshing, Torus)
+{
+  const auto depth = [](const Point<3>& p)
+  { return 6.0 - std::hypot(std::hypot(p[0] - 25.3, p[1] - 25.6) - 16.0, p[2] - 9.8); };
+  const auto grid = GridGeometry<3>::Orthogonal({ 51, 51, 20 }, { 1.0, 1.0, 1.0 });
+  const SimplexMesh<3> mesh = Mesh(Make(Sample(grid, depth), grid), 1.0);
+  ExpectGood(mesh);
+  const Distances d = DistancesTo(mesh, depth);
+  EXPECT_LT(d.Mean, 0.03);
+  EXPECT_LT(d.Largest, 0.06);
+  const double volume = 2.0 * std::numbers::pi * std::numbers::pi * 16.0 * 36.0;
+  EXPECT_NEAR(Volume(mesh), volume, 0.015 * volume);
+  // Euler characteristic of the boundary: one handle.
+  EXPECT_EQ(2 * SurfaceVertices(mesh).size(), mesh.Facets.size());
+}
+
+TEST(IsosurfaceMeshing, AnisotropicAndSkewedVoxels)
+{
+  GridGeometry<3> grid = GridGeometry<3>::Orthogonal({ 60, 46, 26 }, { 0.5, 0.7, 1.1 });
+  grid.IndexToFrame[0][1] = 0.15;
+  grid.IndexToFrame[0][2] = -0.3;
+  grid.IndexToFrame[1][2] = 0.2;
+  const auto depth = Depth(9.0, grid.ToFrame({ 29.7, 22.6, 12.4 }));
+  const SimplexMesh<3> mesh = Mesh(Make(Sample(grid, depth), grid), 1.2);
+  ExpectGood(mesh);
+  const Distances d = DistancesTo(mesh, depth);
+  EXPECT_LT(d.Mean, 0.02);
+  EXPECT_LT(d.Largest, 0.04);
+  EXPECT_NEAR(Volume(mesh), BallVolume(9.0), 0.02 * BallVolume(9.0));
+}
+
+TEST(IsosurfaceMeshing, BelowAndOtherUnitsGiveTheSameMesh)
+{
+  const auto depth = Depth(8.0, { 11.4, 11.6, 11.5 });
+  const auto values = Sample<double>(Cube(24), depth);
+  const SimplexMesh<3> mesh = Mesh(Make(values, Cube(24), { 0.25 }), 1.5);
+  auto negated = values;
+  auto larger = values;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    negated[i] = -values[i];
+    larger[i] = 4096.0 * values[i];
+  }
+  ExpectEqual(mesh, Mesh(Make(negated, Cube(24), { -0.25, IsosurfaceSide::Below }), 1.5));
+  ExpectEqual(mesh, Mesh(Make(larger, Cube(24), { 1024.0 }), 1.5));
+}
+
+TEST(IsosurfaceMeshing, TheLabelOfTheInside)
+{
+  const auto values = Sample(Cube(20), Depth(6.0, { 9.5, 9.5, 9.5 }));
+  const SimplexMesh<3> mesh =
+    Mesh(Make(values, Cube(20), { 0.0, IsosurfaceSide::Above, 417 }), 2.0);
+  EXPECT_EQ(
+    std::set<std::int64_t>(mesh.Labels.begin(), mesh.Labels.end()), std::set<std::int64_t>{ 417 });
+  for (const auto& labels : mesh.FacetLabels)
+  {
+    ASSERT_EQ(labels, (std::array<std::int64_t, 2>{ 417, 0 }));
+  }
+}
+
+// A shell: what is outside of the ball up to the border, by far the larger part.
+TEST(IsosurfaceMeshing, TheImagesBorderClosesThePlanes)
+{
+  const auto depth = Depth(8.0, { 11.5, 11.5, 11.5 });
+  const auto grey = Make(Sample(Cube(24), depth), Cube(24), { 0.0, IsosurfaceSide::Below });
+  const SimplexMesh<3> mesh = Mesh(grey, 1.5);
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  const double volume = 24.0 * 24.0 * 24.0 - BallVolume(8.0);
+  EXPECT_NEAR(Volume(mesh), volume, 0.015 * volume);
+  std::size_t onPlanes = 0;
+  for (const std::uint32_t v : SurfaceVertices(mesh))
+  {
+    const Point<3>& p = mesh.Points[v];
+    int near = 0;  // planes that are near
+    int exact = 0; // planes that it is on
+    for (const double x : p)
+    {
+      const double toPlane = std::min(std::abs(x + 0.5), std::abs(x - 23.5));
+      near += toPlane < 1.5;
+      exact += toPlane < 0.002;
+    }
+    if (near == 1) // not at an edge of the cube
+    {
+      ASSERT_EQ(exact, 1);
+      ++onPlanes;
+    }
+    else if (near == 0)
+    {
+      ASSERT_NEAR(depth(p), 0.0, 0.05);
+    }
+  }
+  EXPECT_GT(onPlanes, 300u);
+}
+
+TEST(IsosurfaceMeshing, VoxelsWithoutANumberAreLeftOut)
+{
+  const auto depth = Depth(9.0, { 11.5, 11.5, 11.5 });
+  const auto values =
+    Sample(Cube(24), [&](const Point<3>& p) { return p[2] < 11.7 ? NaN : depth(p); });
+  const SimplexMesh<3> mesh = Mesh(Make(values, Cube(24)), 1.2);
+  EXPECT_NEAR(Volume(mesh), 0.5 * BallVolume(9.0), 0.03 * BallVolume(9.0));
+  for (const Point<3>& p : mesh.Points)
+  {
+    ASSERT_GT(p[2], 11.5 - 0.01);
+  }
+}
+
+TEST(IsosurfaceMeshing, SmallComponentsAreKeptOrLeftOut)
+{
+  const auto large = Depth(8.0, { 11.0, 11.0, 11.0 });
+  const auto small = Depth(1.6, { 23.3, 23.4, 23.5 });
+  auto grey = Make(
+    Sample(Cube(28), [&](const Point<3>& p) { return std::max(large(p), small(p)); }), Cube(28));
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh = Mesh(grey, 5.0, &statistics);
+  EXPECT_EQ(statistics.Components.Found, 2u);
+  EXPECT_TRUE(statistics.Components.Lost.empty());
+  const auto isBeyond = [](const Point<3>& p) { return p[0] > 20.0; };
+  EXPECT_TRUE(std::any_of(mesh.Points.begin(), mesh.Points.end(), isBeyond));
+  EXPECT_EQ(DropComponents(grey.Image.Labels(), 100.0).size(), 1u);
+  const SimplexMesh<3> rest = Mesh(grey, 1.5);
+  EXPECT_FALSE(std::any_of(rest.Points.begin(), rest.Points.end(), isBeyond));
+  EXPECT_NEAR(Volume(rest), BallVolume(8.0), 0.06 * BallVolume(8.0));
+}
+
+// A surface through voxel centres, and a plateau of the isovalue itself.
+TEST(IsosurfaceMeshing, TiesEnd)
+{
+  const auto cube = Sample<short>(Cube(20),
+    [](const Point<3>& p)
+    {
+      const auto within = [](double x) { return x >= 5.0 && x <= 14.0; };
+      return within(p[0]) && within(p[1]) && within(p[2]) ? 1.0 : 0.0;
+    });
+  const SimplexMesh<3> mesh = Mesh(Make(cube, Cube(20), { 1.0 }), 1.0);
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  EXPECT_NEAR(Volume(mesh), 729.0, 30.0);
+  const auto checker = Sample<short>(Cube(12),
+    [](const Point<3>& p) { return std::fmod(p[0] + p[1] + p[2], 2.0) < 0.5 ? 7.0 : 3.0; });
+  const SimplexMesh<3> maze = Mesh(Make(checker, Cube(12), { 5.0 }), 1.0);
+  EXPECT_TRUE(checks::Complaints(maze).empty());
+}
+
+TEST(IsosurfaceMeshing, StatisticsAndCancelling)
+{
+  const auto values = Sample(Cube(40), Depth(15.0, { 19.5, 19.5, 19.5 }));
+  const auto grey = Make(values, Cube(40), { 0.0, IsosurfaceSide::Above, 1, 0.75 });
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh = Mesh(grey, 2.0, &statistics);
+  EXPECT_EQ(statistics.SmoothingSigma, 0.75);
+  EXPECT_GT(statistics.LabelFieldBytes, 0u);
+  EXPECT_GT(statistics.DistanceBytes, 0u);
+  ImageMesher<3> mesher(MeshingOptions<3>{});
+  mesher.Progress = [](double) { return false; };
+  SimplexMesh<3> none;
+  EXPECT_EQ(mesher.Run(grey.Image, none), MeshingOutcome::Cancelled);
+  EXPECT_TRUE(none.Simplices.empty());
+}
+
+TEST(IsosurfaceMeshing, SeveralThreads)
+{
+  const auto depth = Depth(15.0, { 19.4, 19.5, 19.6 });
+  const auto grey = Make(Sample(Cube(40), depth), Cube(40));
+  MeshingOptions<3> options;
+  options.Delta = 1.5;
+  options.Threads = 3;
+  options.Optimise = true;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  ASSERT_EQ(mesher.Run(grey.Image, mesh), MeshingOutcome::Done);
+  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  EXPECT_LT(DistancesTo(mesh, depth).Largest, 0.15); // optimisation may move vertices by a tenth
+  EXPECT_NEAR(Volume(mesh), BallVolume(15.0), 0.015 * BallVolume(15.0));
+}
+
+TEST(IsosurfaceMeshing, SpaceTime)
+{
+  const auto grid = GridGeometry<4>::Orthogonal({ 14, 14, 14, 5 }, { 1.0, 1.0, 1.0, 1.0 });
+  std::vector<float> values;
+  for (int t = 0; t < 5; ++t)
+  {
+    for (int k = 0; k < 14; ++k)
+    {
+      for (int j = 0; j < 14; ++j)
+      {
+        for (int i = 0; i < 14; ++i)
+        {
+          values.push_back(static_cast<float>(4.0 + 0.25 * t -
+            std::sqrt((i - 6.5) * (i - 6.5) + (j - 6.5) * (j - 6.5) + (k - 6.5) * (k - 6.5))));
+        }
+      }
+    }
+  }
+  const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, {});
+  MeshingOptions<4> options;
+  options.Delta = 1.5;
+  options.Slivers.VolumeBound = 0.0;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  double volume = 0.0;
+  for (const auto& [label, v] : checks::Volumes(mesh))
+  {
+    volume += v;
+  }
+  const auto integral = [](double r) { return std::numbers::pi / 3.0 * r * r * r * r; };
+  const double expected = (integral(5.0) - integral(4.0)) / 0.25;
+  // Its vertices lie on a surface that is convex at every time: the mesh is inside, by what chords of 1.5 cut off.
+  EXPECT_LT(volume, expected);
+  EXPECT_GT(volume, 0.87 * expected);
+  for (const Point<4>& p : mesh.Points)
+  {
+    ASSERT_GE(p[3], 0.0);
+    ASSERT_LE(p[3], 4.0);
+  }
+}

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The rules of space-time meshes: on an analytic 4-ball, where every answer is known, none applies after
+// refinement; picking regions leave no slivers.
+#include "BallDomain.h"
+#include "CallableSize.h"
+#include "Mesh/MeshExtraction.h"
+#include "Refinement/Refiner.h"
+#include "Refinement/Rules4D.h"
+#include "RefinementChecks.h"
+#include "Sanitizers.h"
+#include "SpaceTimeCases.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+/** Volume over that of the regular pentatope with the same circumsphere: thesis, section 4.5. */
+double NormalizedVolumeOf(const SimplexMesh<4>& mesh, std::size_t s)
+{
+  return Volume(mesh, s) / (25.0 * std::sqrt(5.0) / 384.0 * std::pow(Circumradius(mesh, s), 4));
+}
+
+double SmallestNormalizedVolume(const SimplexMesh<4>& mesh)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    smallest = std::min(smallest, NormalizedVolumeOf(mesh, s));
+  }
+  return smallest;
+}
+
+SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::uint64_t seed,
+  unsigned threads = 1, RuleOrder order = RuleOrder::RadiusEdgeFirst)
+{
+  MeshingOptions<4> options;
+  options.Delta = delta;
+  options.Threads = threads;
+  options.Order = order;
+  options.Slivers.Fight = true;
+  options.Slivers.Seed = seed;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  if (threads == 1) // with more, the mesh varies, and a small one may have none by chance
+  {
+    EXPECT_GT(mesher.Statistics().Rules.SliversFound, 0u);
+  }
+  return mesh;
+}
+
+} // namespace
+
+TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
+{
+  const BallDomainOf<4> ball(5.0);
+  const CallableSizeOf<4> size(
+    [](const Point<4>& p, std::int64_t label)
+    {
+      EXPECT_EQ(label, 5);
+      return p[3] < 0.0 ? 1.4 : 5.0;
+    });
+  for (const RuleOrder order : { RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst })
+  {
+    for (const SizeFunction<4>* sf :
+      { static_cast<const SizeFunction<4>*>(nullptr), static_cast<const SizeFunction<4>*>(&size) })
+    {
+      SCOPED_TRACE(std::string(order == RuleOrder::SurfaceFirst ? "surface" : "radius-edge") +
+        " first" + (sf ? ", with sizes" : ""));
+      RefinementSettings<4> settings;
+      settings.Sizing.Base = { 1.4 };
+      settings.Sizing.Size = sf;
+      settings.Order = order;
+      settings.Slivers.Fight = false;
+      RefinementContext<4> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
+      Refiner<Rules4D> refiner(context);
+      ASSERT_TRUE(refiner.Run(nullptr));
+      const RuleStatistics rules = refiner.GetRuleStatistics();
+      EXPECT_EQ(rules.RefusedTooClose, 0u);
+      EXPECT_EQ(rules.RemovalsFailed, 0u);
+      EXPECT_GT(rules.Fired[0], 0u);
+      EXPECT_GT(rules.Fired[1], 0u);
+      EXPECT_EQ(rules.FiredBySize > 0, sf != nullptr);
+      Triangulation<4>::Worker worker(context.Mesh);
+      const std::vector<std::string> complaints = context.Mesh.Verify(worker);
+      ASSERT_TRUE(complaints.empty()) << complaints.front();
+      ExpectNoRuleApplies<4>(context, ball);
+
+      Refiner<Rules4D> again(context);
+      ASSERT_TRUE(again.Run(nullptr));
+      EXPECT_EQ(again.GetRuleStatistics().Insertions(), 0u) << "again, something happens";
+
+      SimplexMesh<4> mesh;
+      ExtractMesh<4>(context.Mesh, ball, mesh);
+      const std::vector<std::string> wrong = Complaints(mesh);
+      ASSERT_TRUE(wrong.empty()) << wrong.front();
+      const ManifoldDefects defects = FindManifoldDefects(mesh);
+      EXPECT_EQ(defects.Triangles + defects.Vertices, 0u);
+      for (const auto& f : mesh.Facets)
+      {
+        for (const std::uint32_t v : f)
+        {
+          EXPECT_NEAR(BallDomainOf<4>::Norm(mesh.Points[v]), ball.R, 1e-9);
+        }
+      }
+      const double volume = 0.5 * std::pow(std::numbers::pi, 2) * std::pow(ball.R, 4);
+      EXPECT_NEAR(Volumes(mesh)[5], volume, 0.15 * volume); // chords
+    }
+  }
+}
+
+TEST(SpaceTimeRefinement, PickingRegionsLeaveNoSlivers)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(8.0));
+  for (const RuleOrder order : { RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst })
+  {
+    SCOPED_TRACE(order == RuleOrder::SurfaceFirst ? "surface first" : "radius-edge first");
+    const SimplexMesh<4> mesh = MeshWithPicking(image, 2.0, 0, 1, order);
+    ExpectGood(mesh, image);
+    EXPECT_GE(SmallestNormalizedVolume(mesh), SliverOptions().VolumeBound);
+  }
+}
+
+TEST(SpaceTimeRefinement, PickingRegionsFollowTheSeed)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(6.0));
+  const SimplexMesh<4> first = MeshWithPicking(image, 2.0, 0);
+  const SimplexMesh<4> same = MeshWithPicking(image, 2.0, 0);
+  const SimplexMesh<4> other = MeshWithPicking(image, 2.0, 1);
+  EXPECT_TRUE(first.Points == same.Points);
+  EXPECT_TRUE(first.Simplices == same.Simplices);
+  EXPECT_TRUE(first.Facets == same.Facets);
+  EXPECT_FALSE(first.Points == other.Points);
+  ExpectGood(other, image);
+}
+
+TEST(SpaceTimeRefinement, PickingRegionsAtFlatEndsAndWithThreads)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(7, 1.5));
+  for (const unsigned threads : { 1u, 2u, 8u })
+  {
+    SCOPED_TRACE(std::to_string(threads) + " threads");
+    const SimplexMesh<4> mesh = MeshWithPicking(image, Sanitized ? 3.5 : 2.5, 0, threads);
+    ExpectGood(mesh, image, { 2.0, 0.005, true });
+    EXPECT_GE(SmallestNormalizedVolume(mesh), SliverOptions().VolumeBound);
+  }
+}
