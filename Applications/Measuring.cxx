@@ -88,7 +88,7 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
 {
   vtkNew<vtkSimplexMeshQuality> filter;
   filter->SetInputData(mesh);
-  if (!parameters.Isovalue) // otherwise the image has no labels
+  if (!parameters.Has("isovalue")) // otherwise the image has no labels
   {
     filter->SetImageConnection(input.Labels->GetOutputPort());
   }
@@ -97,19 +97,19 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
     filter->AddLabel(label);
   }
   filter->SetDistances(parameters.Hausdorff);
-  if (parameters.SmoothingSigma)
+  if (const auto sigma = parameters.Value("smoothing"))
   {
-    filter->SetSmoothingSigma(*parameters.SmoothingSigma);
+    filter->SetSmoothingSigma(*sigma);
   }
-  if (parameters.FacetAngle)
+  if (const auto angle = parameters.Value("facet-angle"))
   {
-    filter->SetFacetAngle(*parameters.FacetAngle);
+    filter->SetFacetAngle(*angle);
   }
-  if (parameters.SmallestComponent)
+  if (const auto voxels = parameters.Value("smallest-component"))
   {
-    filter->SetSmallestComponent(*parameters.SmallestComponent);
+    filter->SetSmallestComponent(static_cast<int>(*voxels));
   }
-  filter->SetNumberOfThreads(parameters.Threads);
+  filter->SetNumberOfThreads(static_cast<int>(parameters.Value("threads").value_or(0.0)));
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(OnProgress);
   observer->SetClientData(const_cast<ProgressFunction*>(&progress));

@@ -3,6 +3,7 @@
 #include "Meshing.h"
 
 #include "Errors.h"
+#include "FilterParameters.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
@@ -11,10 +12,8 @@
 #include <vtkNew.h>
 #include <vtkSegmentationReader.h>
 
-#include <algorithm>
 #include <array>
 #include <regex>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -23,54 +22,18 @@ namespace voxplex::cli
 namespace
 {
 
-/** Which of the words this is, which is also the filter's number for it. */
-int IndexOf(std::string_view word, std::span<const std::string_view> words)
-{
-  return static_cast<int>(std::find(words.begin(), words.end(), word) - words.begin());
-}
 using Filter = vtkImageToSimplexMeshFilter;
-static_assert(ContentionManagers[Filter::CONTENTION_AGGRESSIVE] == "aggressive" &&
-  ContentionManagers[Filter::CONTENTION_RANDOM] == "random" &&
-  ContentionManagers[Filter::CONTENTION_GLOBAL] == "global" &&
-  ContentionManagers[Filter::CONTENTION_LOCAL] == "local");
-static_assert(LoadBalancers[Filter::RANDOM_WORK_STEALING] == "rws" &&
-  LoadBalancers[Filter::HIERARCHICAL_WORK_STEALING] == "hws");
-static_assert(RuleOrders[vtkImageToPentatopeMeshFilter::RADIUS_EDGE_FIRST] == "radius-edge" &&
-  RuleOrders[vtkImageToPentatopeMeshFilter::SURFACE_FIRST] == "surface");
-static_assert(GradingModes[vtkImageToTetMeshFilter::UNIFORM] == "uniform" &&
-  GradingModes[vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE] == "lfs");
-static_assert(Sides[vtkImageToTetMeshFilter::INSIDE_ABOVE] == "above" &&
-  Sides[vtkImageToTetMeshFilter::INSIDE_BELOW] == "below");
 
 void Configure(Filter* filter, const Parameters& p, const LabelSelection& selection)
 {
-  if (p.Delta)
+  SetParameters(filter, p.Values);
+  if (p.Has("isovalue"))
   {
-    filter->SetDelta(*p.Delta);
-  }
-  if (p.Elements)
-  {
-    filter->SetNumberOfElements(*p.Elements);
-  }
-  if (p.Gradation)
-  {
-    filter->SetGradation(*p.Gradation);
+    vtkImageToTetMeshFilter::SafeDownCast(filter)->SetInputModeToIsosurface();
   }
   for (const auto& [labels, size] : selection.InterfaceSizes)
   {
     filter->SetInterfaceSize(labels.first, labels.second, size);
-  }
-  if (p.RadiusEdgeRatio)
-  {
-    filter->SetRadiusEdgeRatio(*p.RadiusEdgeRatio);
-  }
-  if (p.SmoothingSigma)
-  {
-    filter->SetSmoothingSigma(*p.SmoothingSigma);
-  }
-  if (p.Size)
-  {
-    filter->SetElementSize(*p.Size);
   }
   for (const auto& [label, size] : selection.Sizes)
   {
@@ -80,116 +43,7 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   {
     filter->AddLabel(label);
   }
-  filter->SetNumberOfThreads(p.Threads);
-  if (!p.Contention.empty())
-  {
-    filter->SetContentionManager(IndexOf(p.Contention, ContentionManagers));
-  }
-  if (!p.Balance.empty())
-  {
-    filter->SetLoadBalancer(IndexOf(p.Balance, LoadBalancers));
-  }
-  filter->SetPinThreads(p.PinThreads);
-  filter->SetForce(p.Force);
-  filter->SetMemoryLimit(p.MemoryLimit);
   filter->ComputeQualityOn();
-}
-
-void SetIsosurface(vtkImageToTetMeshFilter* filter, const Parameters& p)
-{
-  filter->SetInputModeToIsosurface();
-  filter->SetIsovalue(*p.Isovalue);
-  if (!p.Inside.empty())
-  {
-    filter->SetInside(IndexOf(p.Inside, Sides));
-  }
-  if (p.InsideLabel)
-  {
-    filter->SetInsideLabel(*p.InsideLabel);
-  }
-  if (p.SmoothingSigma)
-  {
-    filter->SetIsosurfaceSmoothingSigma(*p.SmoothingSigma);
-  }
-}
-
-vtkSmartPointer<Filter> MakeTetMesher(const Parameters& p)
-{
-  const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
-  if (!p.Grading.empty())
-  {
-    filter->SetGrading(IndexOf(p.Grading, GradingModes));
-  }
-  if (p.FeatureRatio)
-  {
-    filter->SetFeatureRatio(*p.FeatureRatio);
-  }
-  if (p.LargestFeature)
-  {
-    filter->SetLargestFeature(*p.LargestFeature);
-  }
-  if (p.Isovalue)
-  {
-    SetIsosurface(filter, p);
-  }
-  if (p.FacetAngle)
-  {
-    filter->SetFacetAngle(*p.FacetAngle);
-  }
-  if (p.SliverAngle)
-  {
-    filter->SetSliverAngle(*p.SliverAngle);
-  }
-  filter->SetOptimise(!p.NoOptimise);
-  if (p.OptimiseSeconds)
-  {
-    filter->SetOptimisationTimeLimit(*p.OptimiseSeconds);
-  }
-  filter->SetSampleJunctions(!p.NoJunctions);
-  if (p.InterfaceRounds)
-  {
-    filter->SetInterfaceRounds(*p.InterfaceRounds);
-  }
-  filter->SetManifold(!p.NoManifold);
-  if (p.SmallestComponent)
-  {
-    filter->SetSmallestComponent(*p.SmallestComponent);
-  }
-  filter->SetExactComponents(p.ExactComponents);
-  if (p.MinimumComponentVolume)
-  {
-    filter->SetMinimumComponentVolume(*p.MinimumComponentVolume);
-  }
-  return filter;
-}
-
-vtkSmartPointer<Filter> MakePentatopeMesher(const Parameters& p)
-{
-  const SpaceTimeParameters& spaceTime = p.SpaceTime;
-  const auto filter = vtkSmartPointer<vtkImageToPentatopeMeshFilter>::New();
-  if (spaceTime.TimeScale)
-  {
-    filter->SetTimeScale(*spaceTime.TimeScale);
-  }
-  if (!spaceTime.RuleOrder.empty())
-  {
-    filter->SetRuleOrder(IndexOf(spaceTime.RuleOrder, RuleOrders));
-  }
-  filter->SetPickingRegions(!spaceTime.NoPicking);
-  if (spaceTime.Picks)
-  {
-    filter->SetNumberOfPicks(*spaceTime.Picks);
-  }
-  if (spaceTime.SliverBound)
-  {
-    filter->SetSliverBound(*spaceTime.SliverBound);
-  }
-  if (spaceTime.Seed)
-  {
-    filter->SetRandomSeed(*spaceTime.Seed);
-  }
-  filter->SetFineGrained(!spaceTime.NoFineGrained);
-  return filter;
 }
 
 void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
@@ -239,8 +93,11 @@ std::string InTermsOfFlags(std::string message)
 vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   const Parameters& parameters, const MeshingInput& input, const ProgressFunction& progress)
 {
-  const auto filter =
-    input.Dimension() == 3 ? MakeTetMesher(parameters) : MakePentatopeMesher(parameters);
+  vtkSmartPointer<Filter> filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
+  if (input.Dimension() == 4)
+  {
+    filter = vtkSmartPointer<vtkImageToPentatopeMeshFilter>::New();
+  }
   filter->SetInputConnection(input.Labels->GetOutputPort());
   Configure(filter, parameters, input.Selection);
   if (input.Sizes)

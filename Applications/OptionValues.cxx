@@ -5,16 +5,16 @@
 #include "Errors.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 namespace voxplex::cli
 {
 namespace
 {
+
+constexpr ParameterRange Lengths{ .Low = 0.0, .LowIsOutside = true };
 
 /** The whole text as a number, or nothing. */
 template <typename T>
@@ -56,27 +56,21 @@ std::string Quoted(std::string_view text)
   return quoted;
 }
 
-double ParsePositive(const std::string& option, std::string_view text, const std::string& hint)
+double ParseReal(const std::string& option, std::string_view text, const ParameterRange& range,
+  const std::string& hint)
 {
   const double value = ParseFinite(option, text);
-  if (value <= 0)
+  const bool tooSmall = value < range.Low || (range.LowIsOutside && value == range.Low);
+  if (!tooSmall && value <= range.High)
   {
-    throw UsageError("--" + option + ": must be greater than 0, not " + std::string(text) + hint);
+    return value;
   }
-  return value;
-}
-
-double ParseRange(const std::string& option, std::string_view text, double low, double high)
-{
-  const double value = ParseFinite(option, text);
-  if (value < low || value > high)
-  {
-    std::ostringstream message;
-    message << "--" << option << ": must lie between " << low << " and " << high << ", not "
-            << text;
-    throw UsageError(message.str());
-  }
-  return value;
+  const std::string low = NumberText(range.Low);
+  throw UsageError("--" + option +
+    (std::isfinite(range.High) ? ": must lie between " + low + " and " + NumberText(range.High)
+        : range.LowIsOutside   ? ": must be greater than " + low
+                               : ": must be " + low + " or more") +
+    ", not " + std::string(text) + (tooSmall ? hint : ""));
 }
 
 std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::string_view text)
@@ -113,7 +107,7 @@ LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
   }
   const std::string_view label = text.substr(0, equals);
   ParseLabelNumber(option, label);
-  return { std::string(label), ParsePositive(option, text.substr(equals + 1)) };
+  return { std::string(label), ParseReal(option, text.substr(equals + 1), Lengths) };
 }
 
 InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text)
@@ -125,7 +119,8 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
       " is not of the form LABEL=LENGTH or LABEL,LABEL=LENGTH, such as 3=0.5 or 3,7=0.5; "
       "--delta is the density of all interfaces");
   }
-  return { std::string(text.substr(0, equals)), ParsePositive(option, text.substr(equals + 1)) };
+  return { std::string(text.substr(0, equals)),
+    ParseReal(option, text.substr(equals + 1), Lengths) };
 }
 
 std::uint64_t ParseBytes(const std::string& option, const std::string& text)
@@ -151,15 +146,16 @@ std::uint64_t ParseBytes(const std::string& option, const std::string& text)
   return static_cast<std::uint64_t>(*value * scale);
 }
 
-std::string ParseWord(
-  const std::string& option, const std::string& text, std::span<const std::string_view> words)
+int ParseWord(
+  const std::string& option, const std::string& text, const std::vector<std::string>& words)
 {
   std::string word = text;
   std::transform(word.begin(), word.end(), word.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(words.begin(), words.end(), word) != words.end())
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end())
   {
-    return word;
+    return static_cast<int>(found - words.begin());
   }
   std::string choice;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -167,6 +163,23 @@ std::string ParseWord(
     choice.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
   }
   throw UsageError("--" + option + ": must be " + choice + ", not " + Quoted(text));
+}
+
+double ParseParameter(const std::string& option, const std::string& text,
+  const MeshingParameter& parameter, const ParameterRange& range)
+{
+  switch (parameter.Kind)
+  {
+    case ParameterKind::Whole:
+      return ParseWhole(option, text, static_cast<int>(range.Low), static_cast<int>(range.High));
+    case ParameterKind::Bytes:
+      return static_cast<double>(ParseBytes(option, text));
+    case ParameterKind::Word:
+      return ParseWord(option, text, parameter.Words);
+    default:
+      return ParseReal(option, text, range,
+        parameter.IsOptional() && !parameter.Zero.empty() ? "; left out: " + parameter.Zero : "");
+  }
 }
 
 int ParseWhole(const std::string& option, const std::string& text, int low, int high)
@@ -182,8 +195,7 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
 
 io::Space ParseSpace(const std::string& option, const std::string& text)
 {
-  constexpr std::array<std::string_view, 2> spaces{ "lps", "ras" };
-  return ParseWord(option, text, spaces) == spaces[0] ? io::Space::LPS : io::Space::RAS;
+  return ParseWord(option, text, { "lps", "ras" }) == 0 ? io::Space::LPS : io::Space::RAS;
 }
 
 } // namespace voxplex::cli

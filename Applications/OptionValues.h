@@ -10,11 +10,11 @@
 #ifndef voxplex_cli_OptionValues_h
 #define voxplex_cli_OptionValues_h
 
+#include "MeshingParameters.h"
 #include "Parameters.h"
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,12 +24,9 @@ namespace voxplex::cli
 
 std::string Quoted(std::string_view text);
 
-/** A finite number above 0. The hint ends the message about numbers that are not. */
-double ParsePositive(
-  const std::string& option, std::string_view text, const std::string& hint = "");
-
-/** A finite number from low to high. */
-double ParseRange(const std::string& option, std::string_view text, double low, double high);
+/** A finite number in the range. The hint ends the message about numbers that are too small. */
+double ParseReal(const std::string& option, std::string_view text, const ParameterRange& range,
+  const std::string& hint = "");
 
 /** A whole number from low to high. */
 int ParseWhole(const std::string& option, const std::string& text, int low, int high);
@@ -49,9 +46,13 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
 /** "8G": bytes, with K, M, G and T for powers of 1024. */
 std::uint64_t ParseBytes(const std::string& option, const std::string& text);
 
-/** One of several words, whatever the case. */
-std::string ParseWord(
-  const std::string& option, const std::string& text, std::span<const std::string_view> words);
+/** The place of one of several words, whatever the case. */
+int ParseWord(
+  const std::string& option, const std::string& text, const std::vector<std::string>& words);
+
+/** A number or a word, as the parameter wants it, within the range. */
+double ParseParameter(const std::string& option, const std::string& text,
+  const MeshingParameter& parameter, const ParameterRange& range);
 
 io::Space ParseSpace(const std::string& option, const std::string& text);
 

@@ -7,9 +7,9 @@
 #ifndef voxplex_cli_Parameters_h
 #define voxplex_cli_Parameters_h
 
+#include "MeshingParameters.h"
 #include "Space.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,34 +18,6 @@
 
 namespace voxplex::cli
 {
-
-/** What --contention and --balance take. */
-inline constexpr std::array<std::string_view, 4> ContentionManagers{ "aggressive", "random",
-  "global", "local" };
-inline constexpr std::array<std::string_view, 2> LoadBalancers{ "rws", "hws" };
-
-/** What --inside takes. */
-inline constexpr std::array<std::string_view, 2> Sides{ "above", "below" };
-
-/** What --rule-order takes. */
-inline constexpr std::array<std::string_view, 2> RuleOrders{ "radius-edge", "surface" };
-
-/** What --grading takes. */
-inline constexpr std::array<std::string_view, 2> GradingModes{ "uniform", "lfs" };
-
-/** What is for images with several time frames only. */
-struct SpaceTimeParameters
-{
-  std::optional<double> TimeScale; ///< length per unit of time
-  std::string Slices;              ///< the beginning of the names of slices
-  std::optional<int> SliceCount;
-  std::string RuleOrder; ///< one of RuleOrders
-  bool NoPicking = false;
-  std::optional<int> Picks;
-  std::optional<double> SliverBound;
-  std::optional<int> Seed;
-  bool NoFineGrained = false;
-};
 
 /** A label, by number or name, and the size of its elements. */
 struct LabelSizeText
@@ -71,46 +43,29 @@ struct Parameters
   std::string Statistics;
   std::string SizeImage;
   std::string LabelTable;
+  std::string Slices; ///< the beginning of the names of slices
+  std::optional<int> SliceCount;
 
-  std::optional<double> Isovalue; ///< the input has grey values, if given
-  std::string Inside;             ///< one of Sides
-  std::optional<std::int64_t> InsideLabel;
-
-  std::optional<double> Delta;
-  std::string Grading; ///< one of GradingModes
-  std::optional<double> FeatureRatio;
-  std::optional<double> LargestFeature; ///< voxels
-  std::optional<int> Elements;
-  std::optional<double> RadiusEdgeRatio;
-  std::optional<double> FacetAngle;
-  std::optional<double> SliverAngle;
-  bool NoOptimise = false;
-  std::optional<double> OptimiseSeconds;
-  bool NoJunctions = false;
-  std::optional<int> InterfaceRounds;
-  bool NoManifold = false;
-  std::optional<int> SmallestComponent;
-  bool ExactComponents = false;
-  std::optional<double> MinimumComponentVolume;
-  std::optional<double> SmoothingSigma;
-  std::optional<double> Size;
+  /** Of the table, apart from lists of labels and sizes. */
+  ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };
   std::vector<LabelSizeText> LabelSizeTexts;
   std::vector<InterfaceSizeText> InterfaceSizeTexts;
-  std::optional<double> Gradation;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
   io::Space OutputSpace = io::Space::LPS;
 
-  int Threads = 0;        ///< 0: all cores
-  std::string Contention; ///< one of ContentionManagers
-  std::string Balance;    ///< one of LoadBalancers
-  bool PinThreads = false;
-  bool Force = false;
-  std::uint64_t MemoryLimit = 0; ///< bytes; 0: the machine's memory
   bool Progress = false;
   bool Quality = false;
   bool Hausdorff = false; ///< implies Quality
 
-  SpaceTimeParameters SpaceTime;
+  ///@{
+  /** Of the table; the name must be one of it. */
+  bool Has(std::string_view name) const { return this->Value(name).has_value(); }
+  std::optional<double> Value(std::string_view name) const
+  {
+    const auto found = this->Values.find(FindParameter(name).Name);
+    return found == this->Values.end() ? std::nullopt : std::optional(found->second);
+  }
+  ///@}
 };
 
 } // namespace voxplex::cli

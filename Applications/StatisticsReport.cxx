@@ -7,6 +7,7 @@
 
 #include <vtkMeshingStatistics.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -38,13 +39,21 @@ ordered_json OrNull(const std::string& text)
   return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
 
-ordered_json DescribeSpaceTime(const SpaceTimeParameters& p)
+ordered_json DescribeValue(const Parameters& p, const MeshingParameter& parameter)
 {
-  return { { "time_scale", OrNull(p.TimeScale) }, { "slices", OrNull(p.Slices) },
-    { "slice_count", OrNull(p.SliceCount) }, { "rule_order", OrNull(p.RuleOrder) },
-    { "no_picking", p.NoPicking }, { "picks", OrNull(p.Picks) },
-    { "sliver_bound", OrNull(p.SliverBound) }, { "seed", OrNull(p.Seed) },
-    { "no_fine_grained", p.NoFineGrained } };
+  const std::optional<double> value = p.Value(parameter.Name);
+  switch (parameter.Kind)
+  {
+    case ParameterKind::Flag:
+      return value.has_value();
+    case ParameterKind::Word:
+      return value ? ordered_json(parameter.Words.at(static_cast<std::size_t>(*value)))
+                   : ordered_json(nullptr);
+    case ParameterKind::Real:
+      return OrNull(value);
+    default:
+      return value ? ordered_json(static_cast<std::int64_t>(*value)) : ordered_json(nullptr);
+  }
 }
 
 /** Null for what was left to its default. */
@@ -63,26 +72,21 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
       size;
   }
   ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Series) },
-    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) },
-    { "isovalue", OrNull(p.Isovalue) }, { "inside", OrNull(p.Inside) },
-    { "inside_label", OrNull(p.InsideLabel) }, { "delta", OrNull(p.Delta) },
-    { "elements", OrNull(p.Elements) }, { "interface_size", interfaceSizes },
-    { "gradation", OrNull(p.Gradation) }, { "size", OrNull(p.Size) }, { "label_size", labelSizes },
-    { "size_image", OrNull(p.SizeImage) }, { "grading", OrNull(p.Grading) },
-    { "feature_ratio", OrNull(p.FeatureRatio) }, { "largest_feature", OrNull(p.LargestFeature) },
-    { "radius_edge", OrNull(p.RadiusEdgeRatio) }, { "facet_angle", OrNull(p.FacetAngle) },
-    { "sliver_angle", OrNull(p.SliverAngle) }, { "no_optimise", p.NoOptimise },
-    { "optimise_seconds", OrNull(p.OptimiseSeconds) }, { "no_junctions", p.NoJunctions },
-    { "interface_rounds", OrNull(p.InterfaceRounds) }, { "no_manifold", p.NoManifold },
-    { "smallest_component", OrNull(p.SmallestComponent) },
-    { "exact_components", p.ExactComponents },
-    { "min_component_volume", OrNull(p.MinimumComponentVolume) },
-    { "smoothing", OrNull(p.SmoothingSigma) }, { "labels", selection.Labels },
+    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) } };
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    std::string key = NameIn(UserInterface::CommandLine, parameter);
+    std::replace(key.begin(), key.end(), '-', '_');
+    if (!key.empty())
+    {
+      parameters[key] = DescribeValue(p, parameter);
+    }
+  }
+  parameters.update({ { "interface_size", interfaceSizes }, { "label_size", labelSizes },
+    { "size_image", OrNull(p.SizeImage) }, { "labels", selection.Labels },
     { "label_table", OrNull(p.LabelTable) }, { "space", ToString(p.OutputSpace) },
-    { "threads", p.Threads }, { "contention", OrNull(p.Contention) },
-    { "balance", OrNull(p.Balance) }, { "pin", p.PinThreads }, { "force", p.Force },
-    { "memory_limit", p.MemoryLimit }, { "quality", p.Quality }, { "hausdorff", p.Hausdorff } };
-  parameters.update(DescribeSpaceTime(p.SpaceTime));
+    { "quality", p.Quality }, { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
+    { "slice_count", OrNull(p.SliceCount) } });
   return parameters;
 }
 

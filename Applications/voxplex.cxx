@@ -100,7 +100,7 @@ void Announce(OutputFiles& files, const Parameters& p)
 std::optional<SliceFiles> AnnounceSlices(
   OutputFiles& files, const Parameters& p, vtkSegmentationReader* reader)
 {
-  if (p.SpaceTime.Slices.empty())
+  if (p.Slices.empty())
   {
     return std::nullopt;
   }
@@ -109,7 +109,7 @@ std::optional<SliceFiles> AnnounceSlices(
   {
     times.push_back(reader->GetTimeOfFrame(frame));
   }
-  SliceFiles slices(p.SpaceTime.Slices, times, p.SpaceTime.SliceCount);
+  SliceFiles slices(p.Slices, times, p.SliceCount);
   files.Add(slices.Collection);
   for (const std::string& path : slices.Slices)
   {
@@ -248,7 +248,7 @@ void Run(const Parameters& p)
   MeshingInput input = Read(p);
   times.Read = reading.Seconds();
 
-  if (p.Isovalue) // a table beside the image is about other numbers
+  if (p.Has("isovalue")) // a table beside the image is about other numbers
   {
     io::SetLabelTable(input.Labels->GetOutput()->GetFieldData(), {});
   }
@@ -269,7 +269,8 @@ void Run(const Parameters& p)
   times.Write = writing.Seconds();
 
   auto report = MakeReport(filter->GetStatistics(), p,
-    LabelReport{ input.Selection, names, p.Isovalue ? "" : input.Labels->GetLabelTableSource() },
+    LabelReport{
+      input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
     times);
   const auto measurement = MeasureOrExit(p, input, filter->GetOutput());
   if (!measurement.is_null())

@@ -33,7 +33,6 @@ set(_voxplex_python_files
   frames.py
   images.py
   measuring.py
-  meshing.py
   names.py
   sources.py
   py.typed
@@ -43,9 +42,18 @@ foreach (_voxplex_file IN LISTS _voxplex_python_files)
   configure_file("Python/voxplex/${_voxplex_file}" "${_voxplex_python_folder}/${_voxplex_file}" COPYONLY)
 endforeach ()
 configure_file(Python/voxplex/installation.py.in "${_voxplex_python_folder}/installation.py" @ONLY)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_custom_command(
+  OUTPUT "${_voxplex_python_folder}/meshing.py"
+  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
+    "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/meshing.py.in"
+    "${_voxplex_python_folder}/meshing.py"
+  DEPENDS voxplexParameters Parameters/write_python.py Python/voxplex/meshing.py.in
+  VERBATIM)
+add_custom_target(VoxplexMeshingPy ALL DEPENDS "${_voxplex_python_folder}/meshing.py")
 list(TRANSFORM _voxplex_python_files PREPEND "${_voxplex_python_folder}/")
 install(
-  FILES       ${_voxplex_python_files} "${_voxplex_python_folder}/installation.py"
+  FILES       ${_voxplex_python_files} "${_voxplex_python_folder}/installation.py" "${_voxplex_python_folder}/meshing.py"
   DESTINATION "${VOXPLEX_PYTHON_DESTINATION}/voxplex"
   COMPONENT   python)
 

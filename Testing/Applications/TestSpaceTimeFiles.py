@@ -249,6 +249,7 @@ class Flags(SpaceTimeTestCase):
 
     def test_of_3d_on_a_space_time_image(self):
         self.refuse(2, "--facet-angle: only for 3D images.*heart.nrrd' is a space-time image", "--facet-angle", 20)
+        self.refuse(2, "--isovalue: only for 3D images", "--isovalue", 1, "--smoothing", 1)
         self.refuse(2, "--quality: only for 3D images", "--quality")
         self.refuse(2, "--hausdorff: only for 3D images", "--hausdorff")
         for name in ("m.vtk", "m.msh", "m.inp", "m.feb", "m.xdmf"):

@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ("Applications", "Filters", "IO", "Kernel")
+FOLDERS = ("Applications", "Filters", "IO", "Kernel", "Parameters")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 # Where two literals are joined, by standing side by side or by an operator.
 JOINT = re.compile(r'(?<!\\)"\s*(?:\+\s*)?"')

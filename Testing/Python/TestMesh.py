@@ -73,7 +73,7 @@ class Isosurfaces(unittest.TestCase):
             voxplex.mesh(ball(), inside="below")
         with self.assertRaisesRegex(ValueError, "only with isovalue"):
             voxplex.mesh(ball(), inside_label=2)
-        with self.assertRaisesRegex(ValueError, "'left', not 'above' or 'below'"):
+        with self.assertRaisesRegex(ValueError, "inside must be above or below, not 'left'"):
             voxplex.mesh(self.depth(), isovalue=0.0, inside="left")
         with self.assertRaisesRegex(ValueError, "labels: only for images of labels"):
             voxplex.mesh(self.depth(), isovalue=0.0, labels=[1])
@@ -244,7 +244,7 @@ class Parameters(unittest.TestCase):
                                largest_feature=voxels).GetNumberOfCells() for voxels in (12, 4, 2, 1)]
         self.assertLess(max(counts[:2]), counts[2])
         self.assertGreater(counts[3], 10 * max(counts[:2]))
-        with self.assertRaisesRegex(ValueError, "uniform, lfs.*'thin'"):
+        with self.assertRaisesRegex(ValueError, "grading must be uniform or lfs, not 'thin'"):
             voxplex.mesh(self.image, grading="thin")
         with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
             voxplex.mesh(self.image, grading="lfs", feature_ratio=0)

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -263,6 +262,31 @@ const Parameter& Find(const std::string& name)
   throw std::logic_error("there is no parameter '" + name + "'");
 }
 
+/** What applications may give: within their slider, or 0 where no value need be given. */
+ParameterRange RangeOf(const Parameter& parameter)
+{
+  if (parameter.Limits)
+  {
+    return { parameter.Limits->Minimum, parameter.Limits->Maximum };
+  }
+  const ParameterRange& range = parameter.Source->Range;
+  return parameter.Source->IsOptional() ? ParameterRange{ 0.0, range.High } : range;
+}
+
+/** The value of a parameter of the table; none of lists. */
+void Take(const Parameter& parameter, const std::string& text, ParameterValues& values)
+{
+  const MeshingParameter& source = *parameter.Source;
+  if (source.Kind == ParameterKind::Flag)
+  {
+    values[source.Name] = text == "true" || text == "on";
+  }
+  else if (source.IsNumber() || source.Kind == ParameterKind::Word)
+  {
+    values[source.Name] = cli::ParseParameter(parameter.LongFlag, text, source, RangeOf(parameter));
+  }
+}
+
 } // namespace
 
 Arguments::Arguments(int argc, const char* const* argv)
@@ -295,28 +319,20 @@ void Arguments::Check() const
   {
     for (const Parameter& parameter : group.Parameters)
     {
-      const std::string& text = this->Text(parameter.Name);
       const auto& elements = parameter.Elements;
-      if (parameter.Type == Kind::Double)
-      {
-        this->Number(parameter.Name);
-      }
-      else if (parameter.Type == Kind::Integer)
-      {
-        this->Whole(parameter.Name);
-      }
-      else if (!elements.empty() &&
-        std::find(elements.begin(), elements.end(), text) == elements.end())
+      const std::string& text = this->Text(parameter.Name);
+      if (!elements.empty() && std::find(elements.begin(), elements.end(), text) == elements.end())
       {
         throw UsageError("--" + parameter.LongFlag + ": " + cli::Quoted(text) + " is not one of " +
           elements.front() + ", " + elements.back());
       }
     }
   }
+  const ParameterValues values = this->MeshingValues();
   this->Labels("labels");
   this->LabelSizes("labelSizes");
   this->InterfaceSizes("interfaceSizes");
-  if (this->Number("delta") > 0.0 && this->Whole("elements") > 0)
+  if (values.at("delta") > 0.0 && values.at("elements") > 0.0)
   {
     throw UsageError("--delta and --elements do not go together: delta is what is solved for; "
                      "leave one of the two out");
@@ -328,31 +344,20 @@ const std::string& Arguments::Text(const std::string& name) const
   return this->Values.at(name);
 }
 
-double Arguments::Number(const std::string& name) const
+ParameterValues Arguments::MeshingValues() const
 {
-  const Parameter& parameter = Find(name);
-  const std::string& text = this->Text(name);
-  constexpr double largest = std::numeric_limits<double>::max();
-  if (parameter.Limits)
+  ParameterValues values;
+  for (const ParameterGroup& group : ParameterGroups())
   {
-    return cli::ParseRange(
-      parameter.LongFlag, text, parameter.Limits->Minimum, parameter.Limits->Maximum);
+    for (const Parameter& parameter : group.Parameters)
+    {
+      if (parameter.Source)
+      {
+        Take(parameter, this->Text(parameter.Name), values);
+      }
+    }
   }
-  const double value = cli::ParseRange(parameter.LongFlag, text, -largest, largest);
-  if (value < 0.0)
-  {
-    throw UsageError("--" + parameter.LongFlag + ": must be 0 or more, not " + text);
-  }
-  return value;
-}
-
-int Arguments::Whole(const std::string& name) const
-{
-  const Parameter& parameter = Find(name);
-  constexpr int largest = std::numeric_limits<int>::max();
-  return cli::ParseWhole(parameter.LongFlag, this->Text(name),
-    parameter.Limits ? static_cast<int>(parameter.Limits->Minimum) : 0,
-    parameter.Limits ? static_cast<int>(parameter.Limits->Maximum) : largest);
+  return values;
 }
 
 bool Arguments::IsSet(const std::string& name) const

@@ -8,6 +8,8 @@
 #ifndef voxplex_slicer_Arguments_h
 #define voxplex_slicer_Arguments_h
 
+#include "MeshingParameters.h"
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -48,8 +50,6 @@ public:
   ///@{
   /** The value of a parameter, given or default. */
   const std::string& Text(const std::string& name) const;
-  double Number(const std::string& name) const;
-  int Whole(const std::string& name) const;
   bool IsSet(const std::string& name) const;                       ///< of a flag without value
   std::vector<std::int64_t> Labels(const std::string& name) const; ///< empty, or 1,2,5
   std::map<std::int64_t, double> LabelSizes(const std::string& name) const;
@@ -57,6 +57,9 @@ public:
   std::map<std::pair<std::int64_t, std::int64_t>, double> InterfaceSizes(
     const std::string& name) const;
   ///@}
+
+  /** Those of the table, apart from lists. */
+  ParameterValues MeshingValues() const;
 
 private:
   void Check() const;

@@ -5,6 +5,7 @@
 #include "Arguments.h"
 #include "Description.h"
 #include "Errors.h"
+#include "FilterParameters.h"
 #include "MeshFile.h"
 #include "OutputFiles.h"
 #include "ProgressReport.h"
@@ -85,26 +86,13 @@ vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
 
 void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
 {
+  cli::SetParameters(filter, arguments.MeshingValues());
   filter->SetInputMode(arguments.IsSet("isosurface") ? vtkImageToTetMeshFilter::INPUT_ISOSURFACE
                                                      : vtkImageToTetMeshFilter::INPUT_LABELS);
-  filter->SetIsovalue(arguments.Number("isovalue"));
-  filter->SetInside(arguments.Text("inside") == "below" ? vtkImageToTetMeshFilter::INSIDE_BELOW
-                                                        : vtkImageToTetMeshFilter::INSIDE_ABOVE);
-  filter->SetInsideLabel(arguments.Whole("insideLabel"));
-  filter->SetIsosurfaceSmoothingSigma(arguments.Number("greySmoothing"));
-  filter->SetDelta(arguments.Number("delta"));
-  filter->SetNumberOfElements(arguments.Whole("elements"));
-  filter->SetGradation(arguments.Number("gradation"));
   for (const auto& [labels, size] : arguments.InterfaceSizes("interfaceSizes"))
   {
     filter->SetInterfaceSize(labels.first, labels.second, size);
   }
-  filter->SetGrading(arguments.Text("grading") == "lfs"
-      ? vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE
-      : vtkImageToTetMeshFilter::UNIFORM);
-  filter->SetFeatureRatio(arguments.Number("featureRatio"));
-  filter->SetLargestFeature(arguments.Number("largestFeature"));
-  filter->SetElementSize(arguments.Number("size"));
   for (const auto& [label, size] : arguments.LabelSizes("labelSizes"))
   {
     filter->SetLabelSize(label, size);
@@ -113,20 +101,7 @@ void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
   {
     filter->AddLabel(label);
   }
-  filter->SetRadiusEdgeRatio(arguments.Number("radiusEdge"));
-  filter->SetFacetAngle(arguments.Number("facetAngle"));
-  filter->SetSmoothingSigma(arguments.Number("smoothing"));
-  filter->SetSliverAngle(arguments.Number("sliverAngle"));
-  filter->SetOptimise(arguments.Text("optimise") == "on");
-  filter->SetOptimisationTimeLimit(arguments.Number("optimiseSeconds"));
-  filter->SetSampleJunctions(arguments.Text("junctions") == "on");
-  filter->SetInterfaceRounds(arguments.Whole("interfaceRounds"));
-  filter->SetSmallestComponent(arguments.Whole("smallestComponent"));
-  filter->SetExactComponents(arguments.IsSet("exactComponents"));
-  filter->SetMinimumComponentVolume(arguments.Number("minimumVolume"));
   filter->ComputeQualityOn();
-  filter->SetNumberOfThreads(arguments.Whole("threads"));
-  filter->SetForce(arguments.IsSet("force"));
 }
 
 /** Of the filter that meshes, and of that which measures. */
@@ -214,7 +189,7 @@ std::optional<Comparison> Compare(const Arguments& arguments, vtkAlgorithmOutput
     filter->AddLabel(label);
   }
   filter->SetSmoothDistances(false);
-  filter->SetNumberOfThreads(arguments.Whole("threads"));
+  filter->SetNumberOfThreads(static_cast<int>(arguments.MeshingValues().at("threads")));
   Update(filter, report);
   if (!filter->GetErrorMessage().empty())
   {

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Parameters.h
- * @brief The module's parameters: the one table from which its XML description, the parser of its
- * command line and its help are made.
+ * @brief The module's parameters, from which its XML description, the parser of its command line and its help are
+ * made: those of meshing, from the table of all programs, and the module's own.
  */
 #ifndef voxplex_slicer_Parameters_h
 #define voxplex_slicer_Parameters_h
+
+#include "MeshingParameters.h"
 
 #include <optional>
 #include <string>
@@ -64,9 +66,10 @@ struct Parameter
   Channel Direction = Channel::None;
   std::string Default{};
   std::optional<Constraints> Limits{};
-  std::vector<std::string> Elements{}; ///< of an enumeration
-  std::string NodeType{};              ///< of images, geometries and tables
-  std::string FileExtensions{};        ///< of these; the application takes the first
+  std::vector<std::string> Elements{};      ///< of an enumeration
+  std::string NodeType{};                   ///< of images, geometries and tables
+  std::string FileExtensions{};             ///< of these; the application takes the first
+  const MeshingParameter* Source = nullptr; ///< null: the module's own
 
   bool IsReturned() const
   {

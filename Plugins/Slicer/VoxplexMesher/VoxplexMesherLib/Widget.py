@@ -148,7 +148,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         form = self.addSection("Advanced", collapsed=True)
         self.buildInterfaces(form)
         self.buildBounds(form)
-        self.threadsSpinBox = self.makeWholeSpinBox(1024, 1, "all cores", "With 1 the mesh is the same in every run")
+        self.threadsSpinBox = self.makeWholeSpinBox(4096, 1, "all cores", "With 1 the mesh is the same in every run")
         self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, the labels look "
                                                "like grey values, the radius-edge ratio is too low, or the sliver angle too "
                                                "large")
@@ -168,7 +168,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
                                                     "where that gives more than delta")
         self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: local feature sizes above this count as "
                                                       "this, in voxels")
-        self.smoothingSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "off", "How far voxel stairs are smoothed, in voxels")
+        self.smoothingSpinBox = self.makeSpinBox(0.0, 5.0, 0.1, 2, "off", "How far voxel stairs are smoothed, in voxels")
         self.junctionsCheckBox = self.makeCheckBox("Sample the curves where three segments meet before all else, so that edges "
                                                    "follow them")
         self.interfaceRoundsSpinBox = self.makeWholeSpinBox(100, 1, "never", "How often, at most, to refine again where interfaces are "
@@ -184,7 +184,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
     def buildBounds(self, form):
         """What is asked of elements, and what is left out."""
         self.radiusEdgeSpinBox = self.makeSpinBox(1.0, 10.0, 0.1, 3, "", "Upper bound of circumradius over shortest edge; "
-                                                  "below 1.932 only with Force")
+                                                  "below 1.93 only with Force")
         self.facetAngleSpinBox = self.makeSpinBox(0.0, 30.0, 1.0, 1, "", "Lower bound of the angles of triangles on the "
                                                   "interfaces, in degrees")
         self.sliverAngleSpinBox = self.makeSpinBox(0.0, 59.0, 1.0, 1, "slivers stay", "Tetrahedra with a dihedral angle below this, or "

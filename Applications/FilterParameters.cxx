@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterParameters.h"
+
+#include <vtkImageToPentatopeMeshFilter.h>
+#include <vtkImageToTetMeshFilter.h>
+
+#include <functional>
+
+namespace voxplex::cli
+{
+namespace
+{
+
+using Filter = vtkImageToSimplexMeshFilter;
+using Tets = vtkImageToTetMeshFilter;
+using Pentatopes = vtkImageToPentatopeMeshFilter;
+using Setter = std::function<void(Filter*, double)>;
+
+template <class F, class T>
+Setter To(void (F::*set)(T))
+{
+  return [set](Filter* filter, double value)
+  { (static_cast<F*>(filter)->*set)(static_cast<T>(value)); };
+}
+
+const std::map<std::string, Setter, std::less<>>& Setters()
+{
+  static const std::map<std::string, Setter, std::less<>> setters{
+    { "isovalue", To(&Tets::SetIsovalue) },
+    { "inside", To(&Tets::SetInside) },
+    { "inside-label", To(&Tets::SetInsideLabel) },
+    { "grey-smoothing", To(&Tets::SetIsosurfaceSmoothingSigma) },
+    { "delta", To(&Filter::SetDelta) },
+    { "elements", To(&Filter::SetNumberOfElements) },
+    { "grading", To(&Tets::SetGrading) },
+    { "size", To(&Filter::SetElementSize) },
+    { "optimise", To(&Tets::SetOptimise) },
+    { "smallest-component", To(&Tets::SetSmallestComponent) },
+    { "exact-components", To(&Tets::SetExactComponents) },
+    { "min-component-volume", To(&Tets::SetMinimumComponentVolume) },
+    { "feature-ratio", To(&Tets::SetFeatureRatio) },
+    { "largest-feature", To(&Tets::SetLargestFeature) },
+    { "gradation", To(&Filter::SetGradation) },
+    { "radius-edge", To(&Filter::SetRadiusEdgeRatio) },
+    { "facet-angle", To(&Tets::SetFacetAngle) },
+    { "smoothing", To(&Filter::SetSmoothingSigma) },
+    { "sliver-angle", To(&Tets::SetSliverAngle) },
+    { "optimise-seconds", To(&Tets::SetOptimisationTimeLimit) },
+    { "junctions", To(&Tets::SetSampleJunctions) },
+    { "interface-rounds", To(&Tets::SetInterfaceRounds) },
+    { "manifold", To(&Tets::SetManifold) },
+    { "time-scale", To(&Pentatopes::SetTimeScale) },
+    { "rule-order", To(&Pentatopes::SetRuleOrder) },
+    { "picking", To(&Pentatopes::SetPickingRegions) },
+    { "picks", To(&Pentatopes::SetNumberOfPicks) },
+    { "sliver-bound", To(&Pentatopes::SetSliverBound) },
+    { "seed", To(&Pentatopes::SetRandomSeed) },
+    { "fine-grained", To(&Pentatopes::SetFineGrained) },
+    { "threads", To(&Filter::SetNumberOfThreads) },
+    { "contention", To(&Filter::SetContentionManager) },
+    { "balance", To(&Filter::SetLoadBalancer) },
+    { "pin", To(&Filter::SetPinThreads) },
+    { "memory-limit", To(&Filter::SetMemoryLimit) },
+    { "force", To(&Filter::SetForce) },
+  };
+  return setters;
+}
+
+} // namespace
+
+void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& values)
+{
+  for (const auto& [name, value] : values)
+  {
+    Setters().at(name)(filter, value);
+  }
+}
+
+} // namespace voxplex::cli

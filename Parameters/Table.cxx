@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshingParameters.h"
+
+namespace voxplex
+{
+namespace
+{
+
+using Kind = ParameterKind;
+using Group = ParameterGroup;
+using Parameters = std::vector<MeshingParameter>;
+
+constexpr const char* None = MeshingParameter::None;
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double LargestWhole = std::numeric_limits<int>::max();
+constexpr ParameterRange Positive{ 0.0, Infinity, true };
+constexpr ParameterRange NotNegative{ 0.0, Infinity };
+constexpr ParameterRange Sigmas{ 0.0, 5.0 };
+
+/** What all parameters have is in columns: Dimension, Range, Default, Unit, Help. The rest says what is particular. */
+MeshingParameter Number(Kind kind, const char* name, int dimension, ParameterRange range,
+  const char* defaultValue, const char* unit, const char* help, MeshingParameter rest = {})
+{
+  rest.Name = name;
+  rest.Kind = kind;
+  rest.Dimension = dimension;
+  rest.Range = range;
+  rest.Default = defaultValue;
+  rest.Unit = unit;
+  rest.Help = help;
+  return rest;
+}
+
+MeshingParameter Flag(const char* name, int dimension, const char* defaultValue, const char* help,
+  const MeshingParameter& rest = {})
+{
+  return Number(Kind::Flag, name, dimension, {}, defaultValue, "", help, rest);
+}
+
+MeshingParameter Word(const char* name, int dimension, const char* defaultValue,
+  const std::vector<std::string>& words, const char* help, MeshingParameter rest = {})
+{
+  rest.Words = words;
+  return Number(Kind::Word, name, dimension, {}, defaultValue, rest.Unit.c_str(), help, rest);
+}
+
+MeshingParameter List(Kind kind, const char* name, const char* unit, const char* help,
+  const MeshingParameter& rest = {})
+{
+  return Number(kind, name, 0, {}, "", unit, help, rest);
+}
+
+Parameters GreyValues()
+{
+  return {
+    Number(Kind::Real, "isovalue", 3, {}, "", "VALUE",
+      "mesh what the isosurface of a grey-value image at this value bounds, as one label",
+      { .Usual = ParameterRange{ -1e9, 1e9 }, .Step = 0.1 }),
+    Word("inside", 3, "above", { "above", "below" },
+      "on which side of the isosurface the object lies; above: where values are greater"),
+    Number(Kind::Whole, "inside-label", 3, { 1.0, LargestWhole }, "1", "LABEL",
+      "the label of the elements inside of the isosurface",
+      { .Label = "Label of the inside", .Usual = ParameterRange{ 1.0, 65535.0 }, .Step = 1.0 }),
+    // The programs without a name for it set it by smoothing.
+    Number(Kind::Real, "grey-smoothing", 3, Sigmas, "0", "VOXELS",
+      "standard deviation of the smoothing of noise in grey values, in voxels",
+      { .Property = "IsosurfaceSmoothingSigma",
+        .Label = "Smoothing of grey values",
+        .Step = 0.1,
+        .Zero = "off",
+        .Option = None,
+        .Python = None }),
+  };
+}
+
+Parameters Density()
+{
+  return {
+    Number(Kind::Real, "delta", 0, Positive, "", "LENGTH",
+      "sampling distance of the interfaces: the edges of their triangles are about one to two "
+      "times "
+      "as long; the number of elements grows with the square of 1/delta",
+      { .Zero = "derived from the spacing" }),
+    Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
+      "solve for the delta that makes so many elements, to within a tenth, in place of {delta}; it "
+      "takes two or three times as long",
+      { .Property = "NumberOfElements", .Label = "Number of elements", .Zero = "as delta has it" }),
+    Word("grading", 3, "uniform", { "uniform", "lfs" },
+      "sample interfaces with delta everywhere (uniform), or more coarsely where their shape "
+      "allows it, by the local feature size (lfs): the distance to the medial axis, about half the "
+      "thickness of what is thin"),
+    Number(Kind::Real, "size", 0, Positive, "", "LENGTH",
+      "upper bound of the elements' circumradii, everywhere",
+      { .Property = "ElementSize", .Label = "Largest element", .Zero = "no bound" }),
+    List(Kind::LabelSizes, "label-size", "LABEL=LENGTH", "the same in single labels",
+      { .Label = "Largest element of labels", .Slicer = "labelSizes", .Python = "label_sizes" }),
+    List(Kind::Image, "size-image", "FILE",
+      "the same from an image whose values are lengths, 0 where there is no bound",
+      { .Property = "ElementSizeData", .Label = "Image of sizes", .Slicer = None }),
+  };
+}
+
+Parameters Labels()
+{
+  return {
+    List(Kind::Labels, "labels", "LIST", "mesh these labels only; the others become background",
+      { .Property = "Label" }),
+  };
+}
+
+Parameters Shapes()
+{
+  return {
+    Flag("optimise", 3, "on",
+      "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
+      "radius-edge ratios up to 2.5",
+      { .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" }),
+    Number(Kind::Whole, "smallest-component", 3, { 0.0, LargestWhole }, "8", "VOXELS",
+      "connected components of at least so many voxels, and the largest of each label, get "
+      "tetrahedra whatever delta",
+      { .Zero = "as it comes" }),
+    Flag("exact-components", 3, "off",
+      "sample these components as finely as they are thin, whatever delta; otherwise those that "
+      "are thin beside delta have a few tetrahedra"),
+    Number(Kind::Real, "min-component-volume", 3, Positive, "", "VOLUME",
+      "leave out connected components that are smaller, such as specks: they become what is around "
+      "them",
+      { .Property = "MinimumComponentVolume",
+        .Label = "Smallest volume",
+        .Zero = "none is left out",
+        .Slicer = "minimumVolume" }),
+  };
+}
+
+Parameters Interfaces()
+{
+  return {
+    List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
+      "sampling distance of all interfaces of a label, or of the interface between two labels, 0 "
+      "being background, in place of delta, smaller or larger",
+      { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
+    Number(Kind::Real, "feature-ratio", 3, Positive, "1", "RATIO",
+      "with {grading} lfs: sampling distance over local feature size where that gives more than "
+      "delta",
+      { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
+    Number(Kind::Real, "largest-feature", 3, Positive, "12", "VOXELS",
+      "with {grading} lfs: larger local feature sizes count as this (lambda), in voxels",
+      { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0 }),
+    Number(Kind::Real, "gradation", 0, NotNegative, "0.3", "SLOPE",
+      "how much sizes and interface sizes may change over a unit of length",
+      { .Usual = ParameterRange{ 0.0, 1.0 }, .Zero = "no limit" }),
+  };
+}
+
+Parameters Quality()
+{
+  return {
+    Number(Kind::Real, "radius-edge", 0, { 1.0, Infinity }, "2", "RATIO",
+      "upper bound of circumradius over shortest edge, of every element",
+      { .Property = "RadiusEdgeRatio",
+        .Label = "Radius-edge ratio",
+        .Usual = ParameterRange{ 1.0, 10.0 },
+        .Step = 0.1,
+        .ForceBelow = 1.93,
+        .ForceWhy = "it is not proved that refinement ends" }),
+    Number(Kind::Real, "facet-angle", 3, { 0.0, 30.0 }, "30", "DEGREES",
+      "lower bound of the angles of triangles on the interfaces, in degrees", { .Step = 1.0 }),
+    Number(Kind::Real, "smoothing", 0, Sigmas, "1", "VOXELS",
+      "standard deviation of the smoothing of voxel stairs, in voxels; every voxel centre keeps "
+      "its label",
+      { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
+    Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
+      "dihedral angle below which, or above 180 degrees less which, a tetrahedron is a sliver and "
+      "split; most above 3 degrees are left to optimisation",
+      { .Step = 1.0,
+        .Zero = "leave slivers",
+        .ForceAbove = 15.0,
+        .ForceWhy = "meshes can become very large" }),
+    Number(Kind::Real, "optimise-seconds", 3, Positive, "", "SECONDS",
+      "stop improving shapes after so long, wherever that is",
+      { .Property = "OptimisationTimeLimit", .Label = "Time for optimising", .Zero = "no limit" }),
+    Flag("junctions", 3, "on",
+      "sample the curves where three labels or more meet before all else, so that edges follow "
+      "them",
+      { .Property = "SampleJunctions", .Zero = "the curves zigzag", .Python = "sample_junctions" }),
+    Number(Kind::Whole, "interface-rounds", 3, { 0.0, 100.0 }, "8", "NUMBER",
+      "how often, at most, to refine again where an interface of the image is farther than 1.5 "
+      "delta from the mesh's, or a label's boundary is not manifold",
+      { .Step = 1.0, .Zero = "never" }),
+    Flag("manifold", 3, "on",
+      "mend edges where more than two triangles of a label's boundary meet, if need be with pieces "
+      "of tetrahedra that are not Delaunay",
+      { .Zero = "such edges stay", .Slicer = None }),
+  };
+}
+
+Parameters SpaceTime()
+{
+  return {
+    Number(Kind::Real, "time-scale", 4, Positive, "1", "LENGTH",
+      "the length that one unit of time counts as much as"),
+    Word("rule-order", 4, "radius-edge", { "radius-edge", "surface" },
+      "which rules come first: those that bound the radius-edge ratio, or those that sample the "
+      "interfaces",
+      { .Python = None }),
+    Flag("picking", 4, "on", "fight slivers with picking regions",
+      { .Property = "PickingRegions",
+        .Label = "Fight slivers",
+        .Zero = "faster, with flat elements",
+        .Python = "pick_slivers" }),
+    Number(Kind::Whole, "picks", 4, { 1.0, LargestWhole }, "10", "NUMBER",
+      "random points to try in a picking region",
+      { .Property = "NumberOfPicks", .Label = "Number of picks", .Python = None }),
+    Number(Kind::Real, "sliver-bound", 4, { 0.0, 0.999 }, "0.01", "RATIO",
+      "normalized volume below which an element is a sliver",
+      { .Usual = ParameterRange{ 0.0, 0.03 },
+        .ForceAbove = 0.03,
+        .ForceWhy = "meshes can become very large",
+        .Python = None }),
+    Number(Kind::Whole, "seed", 4, { 0.0, LargestWhole }, "0", "NUMBER",
+      "seed of the random points", { .Property = "RandomSeed", .Label = "Random seed" }),
+    Flag("fine-grained", 4, "on", "let waiting threads help others to expand cavities",
+      { .Label = "Fine-grained", .Python = None }),
+  };
+}
+
+Parameters Running()
+{
+  return {
+    Number(Kind::Whole, "threads", 0, { 0.0, 4096.0 }, "0", "NUMBER",
+      "threads to use in every stage, refinement included; with 1 the mesh is the same, bit for "
+      "bit, in every run",
+      { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
+    Word("contention", 0, "local", { "aggressive", "random", "global", "local" },
+      "what a thread does when another holds what it needs: aggressive (try again at once), random "
+      "(sleep now and then), global or local (wait until another thread makes progress)",
+      { .Property = "ContentionManager",
+        .Label = "Contention manager",
+        .Unit = "MANAGER",
+        .Slicer = None,
+        .Python = None }),
+    Word("balance", 0, "hws", { "rws", "hws" },
+      "from whom a thread without work gets some: whichever thread looks first (rws) or the "
+      "nearest (hws)",
+      { .Property = "LoadBalancer", .Label = "Load balancer", .Slicer = None, .Python = None }),
+    Flag("pin", 0, "off",
+      "keep each thread on a core of its own; not while other programs use the cores",
+      { .Property = "PinThreads", .Label = "Pin threads", .Slicer = None, .Python = None }),
+    Number(Kind::Bytes, "memory-limit", 0, { 1.0, 1e18 }, "", "BYTES",
+      "refuse meshes estimated to need more", { .Zero = "the machine's memory", .Slicer = None }),
+    Flag("force", 0, "off",
+      "go on although the mesh is estimated not to fit into memory, the labels look like grey "
+      "values, or the value of another parameter needs it"),
+  };
+}
+
+struct GroupOfParameters
+{
+  Group Name;
+  Parameters Members;
+};
+
+Parameters Join(const std::vector<GroupOfParameters>& groups)
+{
+  Parameters all;
+  for (const GroupOfParameters& group : groups)
+  {
+    for (const MeshingParameter& member : group.Members)
+    {
+      all.push_back(member);
+      all.back().Group = group.Name;
+    }
+  }
+  return all;
+}
+
+} // namespace
+
+const std::vector<MeshingParameter>& MeshingParameters()
+{
+  static const Parameters all = Join({
+    { Group::GreyValues, GreyValues() },
+    { Group::Density, Density() },
+    { Group::Labels, Labels() },
+    { Group::Shapes, Shapes() },
+    { Group::Interfaces, Interfaces() },
+    { Group::Quality, Quality() },
+    { Group::SpaceTime, SpaceTime() },
+    { Group::Running, Running() },
+  });
+  return all;
+}
+
+} // namespace voxplex

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the table of parameters as a page: write_documentation.py PROGRAM > Documentation/Parameters.md
+
+PROGRAM prints the table as JSON.
+"""
+import itertools
+import json
+import subprocess
+import sys
+
+LARGEST_WHOLE = 2**31 - 1
+HEAD = """# Parameters of meshing
+
+Every parameter with what it is called by the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in
+VTK (Set and Get come before it; ParaView's properties are called the same). Lengths are in the unit of the image. This page is made
+from the table in `Parameters/Table.cxx`.
+"""
+
+
+def limits(p):
+    """The range as text; words are their own."""
+    if p["words"]:
+        return ", ".join(f"`{word}`" for word in p["words"])
+    if p["kind"] == "flag":
+        return "on, off"
+    low, high = p["range"]
+    if low is None or p["kind"] == "bytes":
+        return "any" if p["kind"] == "real" else ""
+    if high is None or high == LARGEST_WHOLE:
+        return f"above {low:g}" if p["low_is_outside"] else f"{low:g} or more"
+    return f"{low:g} to {high:g}"
+
+
+def row(p):
+    names = [f"`{name}`" if name else "" for name in (p["option"] and "--" + p["option"], p["python"], p["slicer"], p["property"])]
+    help_text = p["option_help"] or p["slicer_help"]
+    return "| " + " | ".join([*names, p["default"], limits(p), help_text]) + " |"
+
+
+def page(table):
+    lines = [HEAD]
+    for group, parameters in itertools.groupby(table, lambda p: p["group"]):
+        lines += [f"## {group}", "", "| option | Python | Slicer | VTK | default | values | what it does |",
+                  "| --- | --- | --- | --- | --- | --- | --- |", *map(row, parameters), ""]
+    return "\n".join(lines)
+
+
+def read_table(program):
+    return json.loads(subprocess.run([program], check=True, capture_output=True, text=True).stdout)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page(read_table(sys.argv[1])))
