@@ -7,7 +7,7 @@
 
 set(_voxplex_doc "${CMAKE_INSTALL_DATAROOTDIR}/doc/voxplex")
 install(
-  FILES       README.md CHANGELOG.md
+  FILES       README.md CONTRIBUTING.md CHANGELOG.md
   DESTINATION "${_voxplex_doc}"
   COMPONENT   documentation)
 install(

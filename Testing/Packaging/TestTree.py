@@ -49,7 +49,7 @@ class Contents(unittest.TestCase):
             if os.environ["VOXPLEX_HAVE_PYTHON"] == "1":
                 expected |= {f"{lib}/vtk/hierarchy/Voxplex/vtk{module}-hierarchy.txt",
                              f"{os.environ['VOXPLEX_PYTHON_DESTINATION']}/voxplex/vtk{module}.so"}
-        expected |= {f"share/doc/voxplex/{name}" for name in ("README.md", "CHANGELOG.md", "Documentation/FirstMesh.md")}
+        expected |= {f"share/doc/voxplex/{name}" for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "Documentation/FirstMesh.md")}
         self.assertEqual(expected - files, set())
 
     def test_headers(self):
