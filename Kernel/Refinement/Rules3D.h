@@ -35,10 +35,10 @@
  *
  * **Termination** for every input. Feature vertices are never removed. None is inserted nearer than
  * SpacingFloor to another or to the box, so the box has room for finitely many, and R1 and R3 fire
- * finitely often. R6 fires only after such an insertion. Between two of them only R2, R4 and R5 insert points.
- * Each point is at least min(2 Delta, rho-bar * shortest edge, size floor) from every vertex,
- * because the circumball is empty and projected points are tested. So they fire finitely often,
- * too. The points of R7 keep SliverSpacing from all vertices.
+ * finitely often. R6 fires only after such an insertion. Between two of them only R2, R4 and R5
+ * insert points. Each point is at least min(2 Delta, rho-bar * shortest edge, size floor) from
+ * every vertex, because the circumball is empty and projected points are tested. So they fire
+ * finitely often, too. The points of R7 keep SliverSpacing from all vertices.
  *
  * With several threads, two feature points may pass the test of their distance at the same time.
  * (If one is a vertex of the other's cavity, the distance is tested again under the locks.) Points
