@@ -73,7 +73,7 @@ void RefinementTeam::Run(const std::function<void(unsigned threads)>& prepare,
           }
           if (this->Options.Pin)
           {
-            // if pinning fails, the thread runs on any processor
+            // If pinning fails, the thread runs on any processor.
             PinThisThread(this->Placement, t);
           }
           this->RunGuarded(t, task);

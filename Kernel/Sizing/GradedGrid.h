@@ -177,7 +177,7 @@ private:
       rest /= n;
     }
     double smallest = std::numeric_limits<double>::infinity();
-    // bounding box of the samples, in continuous indices of the foreground's bounding box
+    // The bounding box of the samples, in continuous indices of the foreground's bounding box.
     Point<D> low{};
     Point<D> high{};
     const auto add = [&](const Point<D>& index, double length)

@@ -187,7 +187,7 @@ void InterfaceSizes<D>::Summarise(
               {
                 if (other != id)
                 {
-                  // a face between two labels is met from both sides
+                  // A face between two labels is met from both sides.
                   found[Key(id, other)][axis] += other == 0 ? 2 : 1;
                 }
               });

@@ -101,8 +101,7 @@ private:
     std::atomic<bool> SomeoneWaits{ false }; ///< Losers is not empty
     bool Idle = false;
 
-    unsigned NextInList =
-      WaitingList::Nobody; ///< guarded by the mutex of the thread that it waits for
+    unsigned NextInList = WaitingList::Nobody; ///< guarded by the winner's mutex
     ParkingSpot Spot;
   };
 
