@@ -28,9 +28,9 @@ namespace voxplex
  * waits for work. Entries that are put last are always removed lazily.
  *
  * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). The thread that deletes a
- * simplex takes it out of its list, which may be another thread's. Then the list needs a lock, and
- * a directory tells where every simplex is. Entries that the directory no longer knows are removed
- * lazily.
+ * simplex takes it out of the list that contains it, which may be another thread's. Then the list
+ * needs a lock, and a directory tells where every simplex is. Entries that the directory no longer
+ * knows are removed lazily.
  */
 class PoorElementList
 {

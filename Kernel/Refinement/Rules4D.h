@@ -20,7 +20,7 @@
  *   r(s).
  * - R5: the dual edge of a facet f meets dOmega at z, and a vertex of f is not a feature vertex:
  *   insert a good point of its picking region, which is dOmega within zeta |z - f| of z. Then
- *   remove the free vertices of its star that are nearer than Delta to it. R1 removes these, too.
+ *   remove the free vertices of its star that are nearer than Delta to it. R1 does so, too.
  * - The size rule (R5 of 3D): c(s) is inside the object, and r(s) >= sf(c(s)): insert c(s).
  *
  * A point is good if its insertion makes no small sliver inside the object: no sliver with a
@@ -28,9 +28,9 @@
  * none of them is good, the point whose worst sliver is best is inserted (lemma 4.1 promises a good
  * point if the bound is small enough).
  *
- * **Order.** For one element the order is R1, R2, R3, R5. With R3 first (section 4.6.1) cavities
- * stay small. R4 comes last, when the thread has no other poor element: most slivers die while the
- * interfaces are sampled. In the thesis R4 precedes R5.
+ * **Order.** For one element the order is R1, R2, R3, R5, or R3, R1, R2, R5 (section 4.6.1), which
+ * keeps cavities small. R4 comes last, when the thread has no other poor element: most slivers die
+ * while the interfaces are sampled. In the thesis R4 precedes R5.
  *
  * **Slivers** are pentatopes here, whatever the shape of their faces. A face that is a sliver makes
  * the pentatopes around it slivers, too, or is harmless.

@@ -381,9 +381,8 @@ private:
   Index Cells{};
   std::int64_t Edge = SmallestCell; ///< edge of a cell, in voxels
   double Slope = 0.0;
-  std::vector<Place> Places; ///< by cell
-  std::vector<std::uint32_t>
-    Source; ///< by cell: the cell whose samples make g smallest at the centre
+  std::vector<Place> Places;         ///< by cell
+  std::vector<std::uint32_t> Source; ///< by cell: the source of its centre
 };
 
 } // namespace voxplex

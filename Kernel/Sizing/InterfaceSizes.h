@@ -72,16 +72,14 @@ public:
     const BaseDistance<D>& base, double gradation, unsigned threads,
     const std::stop_token& stop = {});
 
-  /**
-   * The sampling distance at a point of an interface, without the influence of other interfaces.
-   */
+  /** The sampling distance at a point of an interface, without the gradation. */
   double Between(const Point<D>& z, LabelId a, LabelId b) const
   {
     const double given = this->Given(a, b);
     return std::isfinite(given) ? given : this->Base.At(z);
   }
 
-  /** The sampling distance at a point of an interface. */
+  /** The sampling distance at a point of an interface, with the gradation. */
   double At(const Point<D>& z, LabelId a, LabelId b) const
   {
     const double between = this->Between(z, a, b);

@@ -97,7 +97,7 @@ public:
   const BaseDistance<D>& Base() const { return this->Of.Base; }
   ///@}
 
-  /** Whether all interfaces have the same base distance. */
+  /** Whether AskedDistance() is the same for all interfaces. */
   bool IsUniform() const { return !this->Of.Interfaces && !this->Of.Base.Graded; }
 
   /** The sampling distance between two labels, before local bounds and element sizes lower it. */

@@ -46,8 +46,8 @@ constexpr double BendFactor = 1.2;
 constexpr double Roughness = 0.15;
 
 /**
- * The bend is measured at the scale of Delta, and a strong bend lowers Delta. This is repeated at
- * most so often.
+ * Largest number of repetitions: the bend is measured at the scale of Delta, and a strong bend
+ * lowers Delta.
  */
 constexpr int MostBends = 4;
 

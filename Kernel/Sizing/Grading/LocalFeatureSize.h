@@ -29,8 +29,8 @@ struct GradingParameters
   double Salience = 1.0;      ///< edges and bumps that are lower do not count (MedialBalls)
   double SampleSpacing = 0.5; ///< spacing of the interface points whose Voronoi diagram is computed
   /**
-   * The distance that triangles may have to an interface that bends. Infinite: Delta(z) does not
-   * depend on the bend.
+   * Largest distance of triangles from an interface that bends. Infinite: Delta(z) does not depend
+   * on the bend.
    */
   double Tolerance = std::numeric_limits<double>::infinity();
 };

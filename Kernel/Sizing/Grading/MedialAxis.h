@@ -21,9 +21,9 @@ struct MedialBalls
   /** Upper bound of the radius: larger local feature sizes are not used. 0: no ball is medial. */
   double LargestRadius = 1.0;
   /**
-   * Lower bound of the salience. The planes that touch the ball at its points of contact meet at
-   * some height above the ball: the salience, which is infinite for a sheet. It is the height of
-   * the edge or bump that the ball leaves out. The stairs of voxels are lower than a voxel.
+   * Lower bound of the salience: the height above the ball at which the planes meet that touch the
+   * ball at its points of contact. It is the height of the edge or bump outside the ball, and
+   * infinite for a sheet. Edges and bumps that voxels leave are lower than a voxel.
    */
   double Salience = 0.0;
   /** Smallest angle at which the centre sees the points of contact, degrees, 0 to 180. */
