@@ -27,7 +27,7 @@ namespace voxplex
  * removes one.
  *
  * There are grids of several levels, each finer than the one before, and every vertex is in all of
- * them. A query takes the finest grid whose cells have at least twice the side of its radius. So it
+ * them. A query takes the finest grid whose cells are at least twice as wide as its radius. So it
  * visits at most 2^D cells, or more if its radius is larger than that of the first level. Queries
  * are quick even where vertices are much nearer to each other than elsewhere, as around parts that
  * are small beside delta. Every cell is a list whose head is in a table of fixed size.

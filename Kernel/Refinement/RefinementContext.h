@@ -172,7 +172,7 @@ struct alignas(CacheLineSize) RefinementWorker
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval> PendingRemovals;
   std::vector<YieldingRegion<D>> Yielded; ///< the regions where rules began to give way
-  /** new simplices are not screened now; the caller does so at the end */
+  /** New simplices are not screened now. The caller screens them at the end. */
   bool ScreensLater = false;
   RuleStatistics Statistics;
 };

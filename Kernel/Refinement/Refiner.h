@@ -189,7 +189,7 @@ private:
     ThreadStatistics Counts;
   };
 
-  /** Pushes every simplex of the triangulation, in the order of ids, to the only worker. */
+  /** For the only worker. Pushes all simplices in the order of ids, or those of StartAtSeeds(). */
   void PushAll()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
@@ -210,7 +210,7 @@ private:
     this->Screen(*this->Workers[0], simplices.data(), simplices.data() + simplices.size());
   }
 
-  /** Pushes all simplices to the first worker. */
+  /** Pushes the simplices at the seeds and at lowered bounds, all to the first worker. */
   void StartAtSeeds()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;

@@ -21,7 +21,7 @@ struct BaseDistance
   double Delta = 1.0;                     ///< if it is graded: the largest
   const GradedDelta<D>* Graded = nullptr; ///< Delta(z); null: the same everywhere
   double Equivalent = Delta; ///< the uniform distance that gives about as many vertices
-  double Asked = Delta;      ///< the distance of the options: no interface is finer
+  double Asked = Delta;      ///< delta of the options: the lower bound of At()
 
   double At(const Point<D>& z) const { return this->Graded ? this->Graded->At(z) : this->Delta; }
 
