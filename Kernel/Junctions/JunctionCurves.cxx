@@ -26,7 +26,10 @@ using namespace junctions;
 /** Points of the fine lattice in a cell along each axis. */
 constexpr unsigned FineSide = Fine + 1;
 
-/** Axes in the six orders in which a tetrahedron of Freudenthal's subdivision goes from corner to corner. */
+/**
+ * The six orders of axes in which a tetrahedron of Freudenthal's subdivision goes from corner to
+ * corner.
+ */
 constexpr std::array<std::array<unsigned, 3>, 6> Orders{ { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 },
   { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } } };
 
@@ -37,7 +40,7 @@ struct FineTetrahedron
   std::array<std::uint8_t, 4> Steps; ///< from the first corner
   std::array<LabelId, 4> Labels;
 
-  /** Its facet without corner i. */
+  /** The facet opposite to corner i. */
   Place Facet(unsigned i) const
   {
     const unsigned first = i == 0 ? 1 : 0;
@@ -47,7 +50,7 @@ struct FineTetrahedron
     { return static_cast<std::uint8_t>(this->Steps[k] & ~this->Steps[first]); };
     return { this->Corners[first], step(second), step(third), false };
   }
-  /** The labels of its facet without corner i. */
+  /** The labels of the facet opposite to corner `facet`. */
   std::array<LabelId, 3> FacetLabels(unsigned facet) const
   {
     std::array<LabelId, 3> labels;
@@ -62,7 +65,7 @@ struct FineTetrahedron
   }
 };
 
-/** Whether there are three different ones. */
+/** Whether there are at least three different labels. */
 template <std::size_t N>
 bool AreThree(const std::array<LabelId, N>& labels)
 {
@@ -89,7 +92,7 @@ unsigned CountDistinct(LabelId* begin, LabelId* end)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Finds the segments in cells of the lattice. */
+/** Finds the segments of curves in cells of the lattice. */
 template <typename Field>
 class Tracer
 {
@@ -101,7 +104,7 @@ public:
   {
   }
 
-  /** In the cells with voxels of three labels between layers k and k + 1. */
+  /** Traces the cells between layers k and k + 1 that have voxels of three labels. */
   void TraceLayer(std::int64_t k, std::vector<Segment>& segments) const
   {
     const Index& n = this->Space.LatticeDimensions();
@@ -147,7 +150,7 @@ public:
     }
   }
 
-  /** Goes on into cells where curves leave those between voxels of three labels. */
+  /** Traces further cells where curves leave the cells between voxels of three labels. */
   void FollowOpenEnds(
     std::vector<Segment>& segments, unsigned threads, const std::stop_token& stop) const
   {
@@ -213,7 +216,10 @@ private:
     return AreThree(labels);
   }
 
-  /** Of the two cells that share a triangle, the one that was not looked at. */
+  /**
+   * Finds the cell at a triangle that was not traced yet, among the two cells that share the
+   * triangle.
+   */
   bool FindUntracedCell(const Place& place, const std::set<Index>& followed, Index& cell) const
   {
     for (unsigned side = 0; side < 2; ++side)
@@ -242,14 +248,17 @@ private:
   {
     Index Cell{ -2, -2, -2 };
     std::array<LabelId, FineSide * FineSide * FineSide> Labels;
-    /** Of cells traced before, by their first coordinate: the labels of the face to the next row, and its row. */
+    /**
+     * For each first coordinate of cells: the row behind the cell traced last, and the labels of
+     * the face between the cell and this row.
+     */
     struct Face
     {
       std::int64_t Row = -1;
       std::array<LabelId, FineSide * FineSide> Labels;
     };
     std::vector<Face> Faces;
-    std::vector<Segment> OfCube; ///< scratch
+    std::vector<Segment> OfCube; ///< scratch memory
 
     LabelId& At(std::int64_t x, std::int64_t y, std::int64_t z)
     {
@@ -257,7 +266,10 @@ private:
     }
   };
 
-  /** Of a point of the fine lattice halfway between voxels: theirs, if they have one, since indicators are linear. */
+  /**
+   * The label at a point of the fine lattice between voxels. If these voxels have one label, it is
+   * that label, because indicators are linear.
+   */
   LabelId LabelBetween(const Index& cell, const Index& fine, FineLabels& labels) const
   {
     const auto odd = [&](unsigned a) { return fine[a] & 1; };
@@ -279,7 +291,10 @@ private:
     return first;
   }
 
-  /** @param labels of cells of the layer that were traced before, if any; receives those of this one */
+  /**
+   * @param labels of cells of the layer that were traced before, if any; receives the labels of
+   *   this cell
+   */
   void TraceCell(const Index& cell, FineLabels& labels, std::vector<Segment>& segments) const
   {
     const bool isNext = labels.Cell == Index{ cell[0] - 1, cell[1], cell[2] };
@@ -374,8 +389,8 @@ private:
   }
 
   /**
-   * Leaves out places inside of a cube. Those next to corners stay, for where the corner is depends on them, and so do two
-   * of a ring about the diagonal.
+   * Removes places inside of a cube. Places next to corners stay, because the position of the
+   * corner depends on them. Two places of a ring about the diagonal stay, too.
    */
   static void JoinInside(std::vector<Segment>& segments)
   {
@@ -398,7 +413,7 @@ private:
     }
   }
 
-  /** The segment to join to an end of another one; their number if there is none. */
+  /** The segment to join to an end of another segment; the number of segments if there is none. */
   static std::size_t FindNext(
     const std::vector<Segment>& segments, std::size_t segment, unsigned end)
   {
@@ -420,7 +435,7 @@ private:
     return segments.size();
   }
 
-  /** @param t has three labels or four */
+  /** @param t has three or four labels */
   void Trace(const FineTetrahedron& t, std::vector<Segment>& segments) const
   {
     std::array<LabelId, 4> labels = t.Labels;

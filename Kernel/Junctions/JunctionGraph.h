@@ -22,7 +22,7 @@
 namespace voxplex::junctions
 {
 
-/** Margins of three labels at points of the fine lattice; those asked for last are known. */
+/** Margins of three labels at points of the fine lattice, with a cache of the latest queries. */
 template <typename Field>
 class KnownMargins
 {
@@ -55,7 +55,7 @@ private:
     std::array<LabelId, 3> Labels{};
     std::array<double, 3> Margins{};
 
-    /** False if one is of another label. */
+    /** False if the entry lacks one of the labels. */
     bool Find(const std::array<LabelId, 3>& labels, std::array<double, 3>& margins) const
     {
       for (unsigned i = 0; i < 3; ++i)
@@ -71,7 +71,7 @@ private:
     }
   };
 
-  /** Neighbours have different ones. */
+  /** Neighbours have different hash values. */
   static std::size_t Hash(const Index& fine)
   {
     return static_cast<std::size_t>(fine[0] + 97 * fine[1] + 1031 * fine[2]) &
@@ -83,7 +83,7 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-/** Where points of curves are. */
+/** Computes the positions of points of curves. */
 template <typename Field>
 class Locator
 {
@@ -94,7 +94,7 @@ public:
   {
   }
 
-  /** Lattice coordinates of where the labels of the corners of a triangle are equal. */
+  /** Lattice coordinates of the point of a triangle where the labels of its corners are equal. */
   Point<3> Locate(const Place& place, const std::array<LabelId, 3>& labels)
   {
     const std::array<Index, 3> corners = CornersOf(place);
@@ -111,24 +111,26 @@ public:
     }
     if (count == 1)
     {
-      return x[inside[0]]; // on the edge of two faces
+      return x[inside[0]]; // on the edge between two faces
     }
     if (count == 2)
     {
-      // On a face, on the line between the two. Not both are 0: of labels that tie the smallest wins, at either end.
+      // On a face: a point of the line between the two corners. Not both values are 0: of tied
+      // labels the smallest wins, at either end.
       const auto [i, j] = std::pair{ inside[0], inside[1] };
       const double ahead = -this->Space.MarginAt(x[i], labels[j]);
       const double behind = -this->Space.MarginAt(x[j], labels[i]);
       return Interpolate(x[i], x[j], ahead / (ahead + behind));
     }
-    // By how much label l is ahead of that of corner i, there.
+    // ahead[i][l]: by how much label l is ahead of the label of corner i, at corner i.
     std::array<std::array<double, 3>, 3> ahead;
     for (unsigned i = 0; i < 3; ++i)
     {
       ahead[i] = this->Margins.At(corners[i], labels);
       ahead[i][i] = 0.0;
     }
-    // Weights with sum 1 such that label 0 is as good as 1 and as 2: the cross product of the two rows.
+    // Weights with sum 1 for which label 0 equals labels 1 and 2: the cross product of the two
+    // rows.
     std::array<Point<3>, 2> rows;
     for (unsigned i = 0; i < 3; ++i)
     {
@@ -176,7 +178,7 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-/** The points of all curves and what is joined to what. */
+/** The points of all curves, and which points are joined. */
 template <typename Field>
 class Graph
 {
@@ -224,7 +226,7 @@ public:
       std::count_if(this->Places.begin(), this->Places.end(), Numbering::IsCorner));
   }
 
-  /** First what begins or ends somewhere, then what is closed. */
+  /** First the curves with ends, then the closed curves. */
   std::vector<JunctionCurves::Curve> Curves() const
   {
     std::vector<JunctionCurves::Curve> curves;
@@ -261,7 +263,7 @@ private:
     struct End
     {
       Numbering::Number Place;
-      std::uint32_t Segment; ///< twice its number, and which end
+      std::uint32_t Segment; ///< twice the number of the segment, plus 0 or 1 for the end
     };
     const std::size_t count = 2 * segments.size();
     std::vector<End> memory(2 * count);
@@ -273,7 +275,7 @@ private:
     const std::span<const End> ends = ParallelRadixSort(
       all.first(count), all.last(count), this->Numbers.Bits(),
       [](const End& end) { return end.Place; }, threads, stop);
-    std::vector<std::uint32_t> positions(count); // of each end among the places
+    std::vector<std::uint32_t> positions(count); // index of each end's place
     for (const End& end : ends)
     {
       if (this->Places.empty() || this->Places.back() != end.Place)
@@ -297,7 +299,10 @@ private:
     *std::find(neighbours.begin(), neighbours.end(), Nobody) = to;
   }
 
-  /** From `start` by way of `next` to a corner, to an open end, or back to the start. */
+  /**
+   * Follows a curve from `start` by way of `next` to a corner, to an open end, or back to the
+   * start.
+   */
   JunctionCurves::Curve Follow(
     std::uint32_t start, std::uint32_t next, std::vector<bool>& visited) const
   {
@@ -328,10 +333,10 @@ private:
   const LabelledSpace<Field>& Space;
   const Numbering Numbers;
   std::vector<Numbering::Number> Places; ///< ascending
-  std::vector<std::array<LabelId, 3>>
-    Labels; ///< of their triangles; of corners those of three of four
-  std::vector<std::array<std::uint32_t, 4>>
-    Neighbours; ///< two; up to four of a corner; one of an open end
+  /** The labels of their triangles; at a corner, three of its four labels. */
+  std::vector<std::array<LabelId, 3>> Labels;
+  /** Two of each point; up to four of a corner; one of an open end. */
+  std::vector<std::array<std::uint32_t, 4>> Neighbours;
   std::vector<Point<3>> Positions;
 };
 

@@ -18,19 +18,19 @@ namespace voxplex::junctions
 
 using Index = GridGeometry<3>::Index;
 
-/** Points of the fine lattice to a voxel along each axis. */
+/** Points of the fine lattice per voxel along each axis. */
 inline constexpr std::int64_t Fine = 2;
 
-/** Where a point of a curve is: a triangle or a tetrahedron of the subdivision. */
+/** The place of a point of a curve: a triangle or a tetrahedron of the subdivision. */
 struct Place
 {
   std::array<std::int64_t, 3> Base; ///< first corner, on the fine lattice
-  std::uint8_t Second;              ///< steps from the first corner to the second, one bit an axis
-  std::uint8_t Third;               ///< the same to the third
-  bool IsCorner;                    ///< a tetrahedron; Second and Third tell which
+  std::uint8_t Second; ///< steps from the first corner to the second, one bit for each axis
+  std::uint8_t Third;  ///< steps from the first corner to the third
+  bool IsCorner;       ///< the place is a tetrahedron; Second and Third identify it
 };
 
-/** Places as numbers, to sort and compare. */
+/** Places as numbers, for sorting and comparing. */
 class Numbering
 {
 public:
@@ -43,7 +43,7 @@ public:
   {
   }
 
-  /** All numbers are below 2 to the power of this. */
+  /** All numbers are below 2 to the power of Bits(). */
   unsigned Bits() const
   {
     return 7 + static_cast<unsigned>(std::bit_width(this->Side[0] * this->Side[1] * this->Layers));
@@ -67,7 +67,10 @@ public:
       IsCorner(number) };
   }
   static bool IsCorner(Number number) { return number & 1; }
-  /** Of a triangle that has the diagonal along which a cube of the fine lattice is cut in tetrahedra. */
+  /**
+   * Whether a triangle contains the diagonal along which a cube of the fine lattice is cut into
+   * tetrahedra.
+   */
   static bool IsInsideOfCube(Number number)
   {
     return !IsCorner(number) && ((number >> 4) & 7) == 7;
@@ -78,7 +81,7 @@ private:
   std::uint64_t Layers;
 };
 
-/** The numbers of the places that it joins, and the labels of their triangles. */
+/** The numbers of the two places that a segment joins, and the labels of their triangles. */
 struct Segment
 {
   std::array<Numbering::Number, 2> Ends;
@@ -87,8 +90,8 @@ struct Segment
 
 //------------------------------------------------------------------------------------------------
 /**
- * The labels of the lattice, and behind each of the faces where the image cuts the object another one: so the edges
- * of these faces are junctions, too.
+ * The labels of the lattice. If the image cuts the object at a face, the space behind it has a
+ * label of its own, so that the edges of these faces are junctions, too.
  */
 template <typename Field>
 class LabelledSpace
@@ -116,7 +119,7 @@ public:
   }
 
   bool IsOutside(LabelId id) const { return id >= this->FirstOutside; }
-  /** Whether three different labels make a junction; those of the outside and background alone do not. */
+  /** Whether three labels make a junction: they are different, and one of them is foreground. */
   bool IsJunction(const std::array<LabelId, 3>& l) const
   {
     return l[0] != l[1] && l[0] != l[2] && l[1] != l[2] &&
@@ -134,7 +137,7 @@ public:
     return behind != 0 ? behind : this->Image.AtLattice(lattice);
   }
 
-  /** At lattice coordinates. What lies on a face belongs to the inside. */
+  /** The label at lattice coordinates. A point on a face belongs to the inside. */
   LabelId LabelAt(const Point<3>& x) const
   {
     const LabelId behind = this->LabelBehind(x);
@@ -149,7 +152,7 @@ public:
     return this->Interior.ExtendedMarginsAt(x, labels);
   }
 
-  /** At a point of the fine lattice. Voxel centres keep their labels. */
+  /** The label at a point of the fine lattice. Voxel centres keep their labels. */
   LabelId LabelAtFine(const Index& fine) const
   {
     static_assert(Fine == 2);
@@ -160,7 +163,10 @@ public:
     return this->LabelAt(OfFine(fine));
   }
 
-  /** The labels of a row of voxels from the first of the bounding box on; null if the row lies beyond that. */
+  /**
+   * The labels of a row of voxels, beginning at the first voxel of the bounding box; null if the
+   * row is outside of the box.
+   */
   const LabelId* RowOf(std::int64_t y, std::int64_t z) const
   {
     const Index& n = this->Image.CropDimensions();
@@ -172,7 +178,7 @@ public:
 private:
   bool IsForeground(LabelId id) const { return id != 0 && !this->IsOutside(id); }
 
-  /** That of the first face that x lies beyond; background if it lies beyond none. */
+  /** The label of the first face that x lies beyond; background if there is none. */
   LabelId LabelBehind(const Point<3>& x) const
   {
     if (this->Interior.Borders().Exist())

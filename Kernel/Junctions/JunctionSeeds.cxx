@@ -13,24 +13,28 @@ namespace voxplex
 namespace
 {
 
-// Chosen on the knee and AAL atlases: points nearer to each other make more elements, farther ones worse curves.
+// Chosen on the knee and AAL atlases: a smaller distance of points makes more elements, a larger
+// one worse curves.
 
-/** Arc length between points, in delta, about. */
+/** Approximate arc length between points, in delta. */
 constexpr double ArcLength = 1.2;
 
-/** No two points are nearer to each other than this, in delta. */
+/** Smallest distance between two points, in delta. */
 constexpr double Clearance = 0.75;
 
-/** Closed curves shorter than so many arc lengths are left out: what they go around is smaller than delta. */
+/**
+ * Closed curves shorter than this, in arc lengths, are left out: they surround a part smaller than
+ * delta.
+ */
 constexpr double ShortestLoop = 4.0;
 
-/** Points in equal steps along a curve, its ends left out. */
+/** Visits points in equal steps along a curve, without its ends. */
 template <typename Function>
 void WalkAlong(const JunctionCurves::Curve& curve, const JunctionDelta& delta, Function&& visit)
 {
   const std::size_t n = curve.Points.size();
   const std::size_t pieces = curve.IsClosed ? n : n - 1;
-  std::vector<double> steps{ 0.0 }; // so many steps from the beginning
+  std::vector<double> steps{ 0.0 }; // number of steps from the beginning
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const Point<3>& a = curve.Points[i];
@@ -73,7 +77,7 @@ std::vector<FeatureSeed<3>> SampleJunctions(
       seeds.push_back({ p, Clearance * own });
     }
   };
-  // Corners first: what is left out then is beside them.
+  // Corners come first, so that points near corners are left out, not the corners.
   for (const JunctionCurves::Curve& curve : junctions.Curves())
   {
     if (!curve.IsClosed)

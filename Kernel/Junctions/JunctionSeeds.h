@@ -17,18 +17,21 @@
 namespace voxplex
 {
 
-/** The sampling density of the interfaces of these labels at a point. */
+/** The sampling distance of the interfaces of these labels at a point. */
 using JunctionDelta = std::function<double(const Point<3>&, const std::array<LabelId, 3>&)>;
 
 /**
- * Points on the corners, and on the curves between them in equal steps of about delta. Inserted before
- * refinement they make edges of the mesh follow the junctions; without them R1 and R3 put vertices of interfaces anywhere
- * beside these, and the mesh's junctions zigzag. They take the place of the protecting balls of Boltcheva, Yvinec
- * and Boissonnat (Mesh generation from 3D multi-material images, 2009), which need weighted points.
+ * Seeds at the corners of junctions, and at equal steps of about delta along the curves between
+ * them.
  *
- * Closed curves around what is smaller than delta are left out, corners near others, too.
+ * Inserted before refinement, they make edges of the mesh follow the junctions. Without them R1 and
+ * R3 insert vertices beside the junctions, and the mesh's junctions zigzag. The seeds replace the
+ * protecting balls of Boltcheva, Yvinec and Boissonnat (Mesh generation from 3D multi-material
+ * images, 2009), which need weighted points.
  *
- * @param largest upper bound of what delta returns
+ * Closed curves around parts smaller than delta are left out. So are corners near other corners.
+ *
+ * @param largest upper bound of the values of `delta`
  */
 std::vector<FeatureSeed<3>> SampleJunctions(
   const JunctionCurves& junctions, const JunctionDelta& delta, double largest);

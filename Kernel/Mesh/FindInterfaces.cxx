@@ -21,7 +21,7 @@ namespace
 
 constexpr std::size_t Grain = 4096;
 
-/** The vertices of the face opposite to vertex i, as seen from outside in counter-clockwise order. */
+/** The vertices of the face opposite to vertex i, counter-clockwise as seen from outside. */
 constexpr std::array<std::array<std::size_t, 3>, 4> FaceVertices{ { { 1, 2, 3 }, { 0, 3, 2 },
   { 0, 1, 3 }, { 0, 2, 1 } } };
 
@@ -63,7 +63,9 @@ std::vector<Face> ListFaces(
   return faces;
 }
 
-/** Sorts faces by their points: first all by the smallest, then those that share it by the others. */
+/**
+ * Sorts faces by their points: first by the smallest point, then, if it is the same, by the others.
+ */
 void SortFaces(
   std::vector<Face>& faces, std::size_t points, unsigned threads, const std::stop_token& stop)
 {
@@ -79,7 +81,7 @@ void SortFaces(
     0, faces.size(), Grain, threads,
     [&](std::size_t first, std::size_t last)
     {
-      // Groups that begin in this chunk, wherever they end.
+      // The thread sorts the groups that begin in this chunk, even if they end beyond it.
       const auto sameGroup = [&](std::size_t f)
       { return f > 0 && f < faces.size() && faces[f].Points[0] == faces[f - 1].Points[0]; };
       while (first < last && sameGroup(first))

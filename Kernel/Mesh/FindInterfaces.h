@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FindInterfaces.h
- * @brief The interfaces of a mesh that is given by its tetrahedra and their labels alone.
+ * @brief Finds the interfaces of a mesh that is given by its tetrahedra and their labels alone.
  */
 #ifndef voxplex_FindInterfaces_h
 #define voxplex_FindInterfaces_h
@@ -16,12 +16,13 @@ namespace voxplex
 {
 
 /**
- * Sets Facets and FacetLabels from Points, Simplices and Labels: the faces of one tetrahedron, and those
- * between two of different labels; a face of three or more tetrahedra, which no conforming mesh has, is
- * left out. They come in the order of their smallest, middle and largest point, and do not depend on the
- * number of threads. Tetrahedra must be positively oriented for the normals to be as SimplexMesh says.
+ * Sets Facets and FacetLabels from Points, Simplices and Labels. The facets are the faces of one
+ * tetrahedron, and the faces between two tetrahedra with different labels. A face of three or more
+ * tetrahedra, which no conforming mesh has, is left out. The facets are sorted by their smallest,
+ * middle and largest point. The result does not depend on the number of threads. If the tetrahedra
+ * are positively oriented, the normals are as SimplexMesh describes them.
  *
- * Time O(n log n) at worst, linear for meshes in which few tetrahedra share a point; 64 bytes a
+ * Takes O(n log n) time at worst, and linear time if few tetrahedra share a point; 64 bytes a
  * tetrahedron.
  *
  * @param threads 0 means all cores

@@ -19,7 +19,7 @@ namespace voxplex
 namespace
 {
 
-/** The steps of an extraction and what they hand on. */
+/** The steps of an extraction, and the data that one step passes to the next. */
 template <int D>
 class Extraction
 {
@@ -51,7 +51,7 @@ private:
   static constexpr unsigned N = D + 1;
   using Facet = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
 
-  /** A number to sort by, and whose it is. */
+  /** A sort key and its vertex. */
   struct Ranked
   {
     std::uint64_t Key;
@@ -65,7 +65,7 @@ private:
       this->Stop);
   }
 
-  /** Those of the simplices inside; counts these. */
+  /** Marks the vertices of the simplices inside, and counts these simplices. */
   void MarkVertices()
   {
     this->Numbers.resize(this->Vertices);
@@ -93,8 +93,9 @@ private:
   {
     for (const VertexId v : this->Source.GetSimplex(s).V)
     {
-      // Relaxed: threads write the same number, and the loop's end orders it before its readers.
-      // Most are marked already: looking first leaves the cache line with the other threads.
+      // Relaxed: threads write the same number, and the end of the loop orders it before its
+      // readers. Most vertices are marked already. Reading first leaves the cache line with the
+      // other threads.
       const std::atomic_ref<std::uint32_t> number(this->Numbers[v]);
       if (number.load(std::memory_order_relaxed) == None)
       {
@@ -103,7 +104,10 @@ private:
     }
   }
 
-  /** Along a Hilbert curve; points at the same place of it by their ids. */
+  /**
+   * Numbers points along a Hilbert curve. Points at the same place of the curve are sorted by their
+   * ids.
+   */
   void NumberPoints()
   {
     ChunkCounts places(this->Vertices);
@@ -147,7 +151,7 @@ private:
       });
   }
 
-  /** The ids of the simplices inside in the order of their smallest point. */
+  /** Sorts the ids of the simplices inside by their smallest point. */
   void SortSimplices()
   {
     const std::size_t n = this->NumberOfSimplices;
@@ -183,7 +187,7 @@ private:
 
   SimplexId SortedId(std::size_t k) const { return static_cast<SimplexId>(this->Sorted[k]); }
 
-  /** Simplices and labels; notes which facets are interfaces. */
+  /** Writes the simplices and labels, and notes which facets are interfaces. */
   void WriteSimplices()
   {
     const std::size_t n = this->NumberOfSimplices;
@@ -194,7 +198,7 @@ private:
     this->ForChunks(n,
       [this, n](std::size_t first, std::size_t last)
       {
-        // Neighbours in the mesh lie anywhere in the triangulation.
+        // Neighbours in the mesh are at any places in the triangulation.
         constexpr std::size_t Ahead = 16;
         std::size_t facets = 0;
         for (std::size_t k = first; k < last; ++k)
@@ -206,7 +210,7 @@ private:
       });
   }
 
-  /** Returns the number of its facets to write. */
+  /** Returns the number of the simplex' facets to write. */
   unsigned WriteSimplex(std::size_t k)
   {
     const SimplexId s = this->SortedId(k);
@@ -215,7 +219,8 @@ private:
     for (unsigned i = 0; i < N; ++i)
     {
       this->Mesh.Simplices[k][i] = this->Numbers[simplex.V[i]];
-      // Each facet once, from the side of the larger label; ids ascend with the image's values.
+      // Each facet is written once, from the side of the larger label. Ids ascend with the image's
+      // values.
       interfaces |= (this->LabelOrBackground(simplex.N[i]) < this->Labels[s] ? 1u : 0u) << i;
     }
     this->Mesh.Labels[k] = this->Image.LabelValue(this->Labels[s]);
@@ -261,7 +266,7 @@ private:
     return facet;
   }
 
-  /** Which vertices of a simplex each of its facets has. */
+  /** The vertices of each facet of a simplex. */
   static constexpr std::array<Facet, N> OutwardCorners()
   {
     std::array<Facet, N> corners{};
@@ -284,16 +289,16 @@ private:
   const std::span<const LabelId> Labels; ///< of each simplex id
   const unsigned Threads;
   const std::stop_token& Stop;
-  const std::size_t Ids;      ///< all simplex ids are below
-  const std::size_t Vertices; ///< all vertex ids are below
+  const std::size_t Ids;      ///< all simplex ids are smaller
+  const std::size_t Vertices; ///< all vertex ids are smaller
   SimplexMesh<D> Mesh;
   ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
-  std::size_t NumberOfSimplices = 0;          ///< inside
-  UninitialisedVector<std::uint32_t> Numbers; ///< of each vertex in the mesh, None if it has none
+  std::size_t NumberOfSimplices = 0;          ///< number of simplices inside
+  UninitialisedVector<std::uint32_t> Numbers; ///< number of each vertex in the mesh, or None
   UninitialisedVector<std::uint64_t> SortMemory;
-  std::span<const std::uint64_t> Sorted; ///< smallest point, in the low half simplex id
-  UninitialisedVector<std::uint8_t>
-    Interfaces;            ///< of each simplex of the mesh: a bit for each facet
+  std::span<const std::uint64_t> Sorted; ///< smallest point; in the low half the simplex id
+  /** For each simplex of the mesh, a bit for each facet. */
+  UninitialisedVector<std::uint8_t> Interfaces;
   ChunkCounts FacetCounts; ///< by chunks of simplices of the mesh
 };
 

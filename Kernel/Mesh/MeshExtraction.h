@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshExtraction.h
- * @brief From the refined triangulation of the box to the mesh of the object.
+ * @brief Makes the mesh of the object from the refined triangulation of the box.
  */
 #ifndef voxplex_MeshExtraction_h
 #define voxplex_MeshExtraction_h
@@ -19,14 +19,14 @@ namespace voxplex
 {
 
 /**
- * Collects the simplices that have a label, and the facets between different labels (definition 2.6). Numbers points
- * along a Hilbert curve and sorts simplices by their smallest point, those with the same one by their id in the
- * triangulation. One triangulation gives one mesh, whatever the number of threads.
+ * Collects the simplices that have a label, and the facets between different labels (definition
+ * 2.6). Points are numbered along a Hilbert curve. Simplices are sorted by their smallest point,
+ * then by their id in the triangulation. The mesh does not depend on the number of threads.
  *
- * Nobody may change the triangulation meanwhile.
+ * No thread may change the triangulation meanwhile.
  *
  * @param labels of each simplex id
- * @param mesh receives the mesh; what it held is lost; empty if this throws
+ * @param mesh receives the mesh; its old contents are lost; it is empty if this throws
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
@@ -36,7 +36,7 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads = 1,
   const std::stop_token& stop = {});
 
-/** The same with LabelSimplices(). */
+/** The same with the labels of LabelSimplices(). */
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {});

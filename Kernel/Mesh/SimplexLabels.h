@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SimplexLabels.h
- * @brief Which label each simplex of a triangulation has in the mesh.
+ * @brief The label of each simplex of a triangulation in the mesh.
  */
 #ifndef voxplex_SimplexLabels_h
 #define voxplex_SimplexLabels_h
@@ -16,10 +16,13 @@
 namespace voxplex
 {
 
-/** Of each simplex id; 0 for background, and for what is not alive. */
+/** The label of each simplex id; 0 for background and for dead simplices. */
 using SimplexLabels = UninitialisedVector<LabelId>;
 
-/** That at the circumcentre of a simplex that is alive, which refinement may have asked for already. */
+/**
+ * The label at the circumcentre of a living simplex. If refinement has looked it up already, it is
+ * not looked up again.
+ */
 template <int D>
 LabelId LabelAtCentre(const Triangulation<D>& triangulation, const Domain<D>& image, SimplexId s)
 {
@@ -30,7 +33,7 @@ LabelId LabelAtCentre(const Triangulation<D>& triangulation, const Domain<D>& im
 /**
  * LabelAtCentre() of all simplices (the final mesh of the thesis, section 2.2).
  *
- * Nobody may change the triangulation meanwhile.
+ * No thread may change the triangulation meanwhile.
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */

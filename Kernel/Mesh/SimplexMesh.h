@@ -21,16 +21,17 @@ namespace voxplex
 /**
  * @brief Simplices with labels, and the interfaces between labels.
  *
- * - Points: D coordinates in the mesher's frame (GridGeometry), sorted along a Hilbert curve; every
+ * - Points: D coordinates in the mesher's frame (GridGeometry), sorted along a Hilbert curve. Every
  *   point is used by a simplex.
- * - Simplices: D+1 point indices, positively oriented: det(p1-p0, ..., pD-p0) > 0 in the frame. In 3D
- *   this is the vertex order of VTK_TETRA.
+ * - Simplices: D+1 point indices, positively oriented: det(p1-p0, ..., pD-p0) > 0 in the frame. In
+ *   3D this is the vertex order of VTK_TETRA.
  * - Labels: the image's own label value of each simplex; never background.
- * - Facets: D point indices of each facet that separates two labels (or a label and background), once
- *   per facet. In 3D the right-hand normal points out of the region of the first label of FacetLabels.
+ * - Facets: D point indices of each facet that separates two labels, or a label and background,
+ *   once per facet. In 3D the right-hand normal points out of the region of the first label of
+ *   FacetLabels.
  * - FacetLabels: the two labels of a facet, the larger first, 0 for background.
  *
- * resize() leaves what it adds uninitialised.
+ * resize() leaves new entries uninitialised.
  */
 template <int D>
 struct SimplexMesh

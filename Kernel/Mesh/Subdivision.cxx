@@ -21,7 +21,7 @@ namespace
 
 using Corners = std::array<std::uint32_t, 4>;
 
-/** What changes in a mesh, one step after the other. Points that stay keep their order, and so do tetrahedra. */
+/** Changes a mesh in successive steps. Points that stay keep their order, and so do tetrahedra. */
 class Divider
 {
 public:
@@ -59,7 +59,10 @@ private:
 
   bool IsTouched(std::uint32_t point) const { return this->Touched[point] != 0; }
 
-  /** Which points of the mesh are vertices of what changes: no two are at the same place. */
+  /**
+   * Finds the points of the mesh that are vertices of replaced tetrahedra. No two points are at the
+   * same place.
+   */
   void FindNumbers()
   {
     for (const SimplexId s : this->Parts.Replaced)
@@ -113,10 +116,14 @@ private:
     this->Mesh.Labels.resize(kept);
   }
 
-  /** Those of pieces that the mesh has not got, at their places along the curve, and new numbers to all behind. */
+  /**
+   * Inserts the points of pieces that the mesh lacks at their places along the curve, and renumbers
+   * all points behind them.
+   */
   void AddPoints()
   {
-    std::map<std::pair<std::uint64_t, Point<3>>, std::size_t> added; // and before which point
+    // The value is the number of the point before which it is inserted.
+    std::map<std::pair<std::uint64_t, Point<3>>, std::size_t> added;
     for (const Piece& piece : this->Parts.Pieces)
     {
       for (const VertexId v : piece.V)
@@ -175,7 +182,7 @@ private:
     }
   }
 
-  /** Behind the tetrahedra with the same smallest point. */
+  /** Inserts each piece behind the tetrahedra with the same smallest point. */
   void AddPieces()
   {
     struct Added
@@ -221,7 +228,7 @@ private:
     }
   }
 
-  /** Facets of what changed have points of it only; these are looked for again. */
+  /** A facet of a changed tetrahedron has touched points only. Such facets are found again. */
   void RenewFacets(unsigned threads, const std::stop_token& stop)
   {
     const auto touchedOf = [this](const auto& v)
@@ -266,8 +273,8 @@ private:
   const Domain<3>& Image;
   const Subdivision& Parts;
   SimplexMesh<3>& Mesh;
-  std::map<Point<3>, std::uint32_t> Numbers; ///< in the mesh; None if it has not got the point
-  std::vector<std::uint8_t> Touched;         ///< of points: whether they are of what changes
+  std::map<Point<3>, std::uint32_t> Numbers; ///< in the mesh; None if the mesh lacks the point
+  std::vector<std::uint8_t> Touched; ///< by point: whether it is a vertex of a changed tetrahedron
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Subdivision.h
- * @brief Tetrahedra of a triangulation that a mesh has in pieces.
+ * @brief Replaces tetrahedra of a triangulation by smaller pieces in the mesh.
  */
 #ifndef voxplex_Subdivision_h
 #define voxplex_Subdivision_h
@@ -18,7 +18,7 @@
 namespace voxplex
 {
 
-/** Part of a tetrahedron. */
+/** A part of a tetrahedron. */
 struct Piece
 {
   std::array<VertexId, 4> V; ///< positively oriented
@@ -26,24 +26,25 @@ struct Piece
 };
 
 /**
- * What takes the place of some tetrahedra of a triangulation, which itself stays as it is, and Delaunay. The pieces of one
- * fill it, and those of two beside each other have the same facets between them.
+ * The pieces that replace some tetrahedra of a triangulation. The triangulation itself stays
+ * unchanged, and Delaunay. The pieces of a tetrahedron fill it. The pieces of two adjacent
+ * tetrahedra have the same facets between them.
  */
 struct Subdivision
 {
-  std::vector<Point<3>> Points; ///< vertex VertexIdEnd() of the triangulation, and those after it
-  std::vector<SimplexId> Replaced; ///< ascending; also such that the mesh does not have
+  std::vector<Point<3>> Points;    ///< their ids begin at the triangulation's VertexIdEnd()
+  std::vector<SimplexId> Replaced; ///< ascending; some may not be in the mesh
   std::vector<Piece> Pieces;
 };
 
 /**
- * Puts pieces in the place of whole tetrahedra. Points stay sorted along the Hilbert curve, and tetrahedra by their smallest
- * point. Does nothing, in no time, if nothing is replaced; else goes through the mesh a few times, O(n log k) for k tetrahedra that
- * are replaced.
+ * Replaces whole tetrahedra by their pieces. Points stay sorted along the Hilbert curve, and
+ * tetrahedra by their smallest point. If nothing is replaced, this returns at once. Otherwise it
+ * passes through the mesh a few times: O(n log k) for k replaced tetrahedra.
  *
  * @param domain has the values of labels
- * @param mesh as ExtractMesh() has made it from the triangulation; of no use if this throws
- * @param threads used for some of it; 0 means all cores. The result does not depend on it.
+ * @param mesh from ExtractMesh() and the same triangulation; invalid if this throws
+ * @param threads used for a part of the work; 0 means all cores. The result does not depend on it.
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 void Subdivide(const Triangulation<3>& triangulation, const Domain<3>& domain,

@@ -17,14 +17,14 @@ namespace voxplex
 namespace
 {
 
-/** The edge that a corner of the slice lies on, A < B; A = B for a point of the mesh at T. */
+/** The edge on which a corner of the slice lies, A < B; A = B for a point of the mesh at T. */
 struct Edge
 {
   long long A;
   long long B;
 };
 
-/** Makes the cells of one slice, their corners named by edges. */
+/** Makes the cells of one slice. Corners are identified by edges. */
 class Cutter
 {
 public:
@@ -53,7 +53,7 @@ public:
     }
   }
 
-  /** Numbers the corners, and makes the points. */
+  /** Numbers the corners and makes the points. */
   TimeSlice Finish()
   {
     struct Place
@@ -89,7 +89,7 @@ private:
   struct Corner
   {
     long long Id;
-    bool At; ///< it lies at T
+    bool At; ///< the point lies at T
   };
 
   /** The points of a simplex, those of the smaller side first. */
@@ -97,11 +97,11 @@ private:
   struct Sides
   {
     std::array<Corner, N> Points;
-    unsigned Fewer;  ///< how many are on the smaller side; 0: there is nothing to cut
-    bool FewerBelow; ///< it is the side below
+    unsigned Fewer;  ///< number of points on the smaller side; 0: there is nothing to cut
+    bool FewerBelow; ///< the smaller side is below
     bool Even;       ///< Points is an even permutation of the simplex's points
 
-    /** Makes the permutation even or odd; the larger side has two points at least. */
+    /** Makes the permutation even or odd. The larger side has at least two points. */
     void Permute(bool even)
     {
       if (this->Even != even)
@@ -128,9 +128,9 @@ private:
       count += below[i] ? 1 : 0;
     }
     Sides<N> sides;
-    sides.FewerBelow = 2 * count <= N; // of two sides alike the one below
+    sides.FewerBelow = 2 * count <= N; // of two equal sides, the one below
     sides.Fewer = sides.FewerBelow ? count : static_cast<unsigned>(N) - count;
-    // Moving a point to the front of those of the other side that come before it.
+    // Each move brings a point to the front of the points of the other side before it.
     unsigned moves = 0;
     std::size_t fewer = 0;
     std::size_t more = sides.Fewer;
@@ -151,12 +151,13 @@ private:
   }
 
   /**
-   * Let p_0 be alone below. The rows of det(p_1 - p_0, ..., p_4 - p_0), shortened so that they end at T,
-   * are the corners of the slice with a last column of equal positive numbers; taking the first row off
-   * the others shows that the tetrahedron of the four corners has the opposite sign. Alone above, the
-   * numbers are negative and the signs agree. For the wedge, whose sign cannot change while two points
-   * are below, the example with T = 0 and p_0, ..., p_4 = (0 0 0 -1), (0 0 1 -1), (1 0 0 1), (0 1 0 1),
-   * (0 0 0 1), whose sign is positive, shows the same.
+   * Let p_0 alone be below. Shorten the rows of det(p_1 - p_0, ..., p_4 - p_0) so that they end at
+   * T. Then they are the corners of the slice, with a last column of equal positive numbers.
+   * Subtracting the first row from the others shows that the tetrahedron of the four corners has
+   * the opposite sign. If p_0 alone is above, the numbers are negative and the signs agree. The
+   * sign of a wedge cannot change while two points are below. The example T = 0 and p_0, ..., p_4 =
+   * (0 0 0 -1), (0 0 1 -1), (1 0 0 1), (0 1 0 1), (0 0 0 1), whose sign is positive, shows the same
+   * for it.
    */
   void CutPentatope(Sides<5> sides)
   {
@@ -179,11 +180,11 @@ private:
   }
 
   /**
-   * Adds what is left of a wedge.
+   * Adds the cell that remains of a wedge.
    *
-   * @param triangles whether the triangle 0, 1, 2 is a point, and 3, 4, 5
-   * @param edges whether the edge 0-3 is a point, 1-4, and 2-5; never together with triangles, since
-   *   points at T are all above or all below
+   * @param triangles whether the triangle 0, 1, 2 is a point, and whether 3, 4, 5 is
+   * @param edges whether the edges 0-3, 1-4 and 2-5 are points. If a triangle is a point, no edge
+   *   is, since points at T are all above or all below
    */
   void AddWedge(const std::array<Edge, 6>& w, const std::array<bool, 2>& triangles,
     const std::array<bool, 3>& edges)
@@ -207,7 +208,7 @@ private:
         break;
       case 1:
       {
-        // The apex, and the edges that stay: the wedge looks the same from each of its edges.
+        // The apex, and the edges that stay. A wedge looks the same from each of its edges.
         const auto a =
           static_cast<std::size_t>(std::find(edges.begin(), edges.end(), true) - edges.begin());
         const std::size_t b = (a + 1) % 3;
@@ -223,12 +224,12 @@ private:
           SliceCellType::Tetrahedron, { w[(c + 1) % 3], w[c], w[(c + 2) % 3], w[c + 3] });
         break;
       }
-      default: // flat
+      default: // the cell is flat
         break;
     }
   }
 
-  /** The faces of what is cut from a pentatope whose other points lie inside. */
+  /** Cuts a face of a pentatope whose other point lies inside. */
   void CutTetrahedron(Sides<4> sides)
   {
     const auto& p = sides.Points;
@@ -247,7 +248,7 @@ private:
     }
   }
 
-  /** Adds what is left of a quadrilateral of which edges may be points. */
+  /** Adds the polygon that remains of a quadrilateral. Some of its edges may be points. */
   void AddQuad(const std::array<Edge, 4>& quad)
   {
     std::array<Edge, 4> left;
@@ -313,10 +314,10 @@ private:
   const SpaceTimeMesh& Mesh;
   const double Time;
   const double Tolerance;
-  const bool FromAbove; ///< points at T are below
+  const bool FromAbove; ///< points at T count as below
   long long Source = 0; ///< the cell that is being cut
   TimeSlice Slice;
-  std::vector<Edge> Corners; ///< as Slice.Connectivity will be
+  std::vector<Edge> Corners; ///< in the order of Slice.Connectivity
 };
 
 void CheckTimes(const SpaceTimeMesh& mesh)
@@ -395,7 +396,7 @@ TimeSlicer::Interval TimeSlicer::IntervalOf(long long cell) const
   return { begin, end, end, cell };
 }
 
-/** Fills in Latest; returns that of the root. */
+/** Sets Latest, and returns that of the root. */
 double TimeSlicer::LinkTree(std::size_t first, std::size_t last)
 {
   if (first == last)
@@ -409,7 +410,7 @@ double TimeSlicer::LinkTree(std::size_t first, std::size_t last)
   return root.Latest;
 }
 
-/** Appends the cells whose times come within the tolerance of a time. */
+/** Appends the cells whose times are within the tolerance of a time. */
 void TimeSlicer::FindCells(
   std::size_t first, std::size_t last, double time, std::vector<long long>& found) const
 {

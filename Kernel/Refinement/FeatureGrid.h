@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FeatureGrid.h
- * @brief Answers 'is there a feature vertex near this point?'.
+ * @brief Finds feature vertices near a point.
  */
 #ifndef voxplex_FeatureGrid_h
 #define voxplex_FeatureGrid_h
@@ -23,24 +23,26 @@ namespace voxplex
 {
 
 /**
- * @brief Feature vertices hashed by the cells of uniform grids; refinement adds them and never removes one.
+ * @brief Feature vertices, hashed by the cells of uniform grids. Refinement adds vertices and never
+ * removes one.
  *
- * There are grids of several levels, each finer than the one before, and every vertex is in all of them. A query takes
- * the finest one whose cells have at least twice the side of its radius, so that it visits at most 2^D cells, and more
- * only if its radius is larger than that of the first level. So it is quick, too, where vertices are much nearer to
- * each other than elsewhere, as around what is small beside delta. Every cell is a list whose head sits in a table of
- * fixed size.
+ * There are grids of several levels, each finer than the one before, and every vertex is in all of
+ * them. A query takes the finest grid whose cells are at least twice as wide as its radius. So it
+ * visits at most 2^D cells, or more if its radius is larger than that of the first level. Queries
+ * are quick even where vertices are much nearer to each other than elsewhere, as around parts that
+ * are small beside delta. Every cell is a list whose head is in a table of fixed size.
  *
- * All methods but Remove() may be called by any number of threads at once; a query sees what was added before it
- * began. No thread ever waits for another.
+ * Any number of threads may call all methods except Remove() at once. A query sees every vertex
+ * that was added before it began. No thread ever waits for another.
  */
 template <int D>
 class FeatureGrid
 {
 public:
   /**
-   * @param radius up to which queries visit few cells; larger ones are slower, not wrong
-   * @param expected about how many vertices will be added; more make queries slower, not wrong
+   * @param radius queries up to this radius visit few cells; larger ones are correct but slower
+   * @param expected the expected number of vertices; with more vertices queries are correct but
+   *   slower
    */
   FeatureGrid(const Point<D>& origin, double radius, std::uint64_t expected)
     : Origin(origin)
@@ -79,7 +81,8 @@ public:
   }
 
   /**
-   * Takes a vertex out that was added with just this position. Nobody may use the grid meanwhile.
+   * Removes a vertex that was added with exactly this position. No other thread may use the grid
+   * meanwhile.
    * @return false if there is none
    */
   bool Remove(const Point<D>& p)
@@ -92,7 +95,7 @@ public:
     }
     if (n != End)
     {
-      this->Nodes[n].Position.fill(std::numeric_limits<double>::infinity()); // near nothing
+      this->Nodes[n].Position.fill(std::numeric_limits<double>::infinity()); // no query finds it
     }
     return n != End;
   }
@@ -103,7 +106,7 @@ public:
     return this->FindWithin(p, distance) != nullptr;
   }
 
-  /** A vertex nearer to p than `distance`, null if there is none; it stays where it is. */
+  /** A vertex nearer to p than `distance`, or null if there is none. The pointer stays valid. */
   const Point<D>* FindWithin(const Point<D>& p, double distance) const
   {
     std::size_t level = Levels - 1;
@@ -121,7 +124,7 @@ public:
     {
       return this->FindInCells(p, distance);
     }
-    // Along each axis the ball reaches into at most one of the two next cells.
+    // Along each axis the ball reaches into at most one of the two neighbouring cells.
     std::array<std::int64_t, static_cast<std::size_t>(D)> step;
     for (unsigned a = 0; a < static_cast<unsigned>(D); ++a)
     {
@@ -155,15 +158,15 @@ public:
     return nullptr;
   }
 
-  /** Those that were added. */
+  /** The number of vertices that were added. */
   std::uint32_t Size() const { return this->Count.load(std::memory_order_relaxed); }
 
 private:
   static constexpr std::uint32_t End = 0xffffffffu;
   static constexpr std::size_t Levels = 4;
-  /** Between the radii of levels. */
+  /** Ratio of the radii of successive levels. */
   static constexpr double LevelFactor = 5.0;
-  static constexpr std::uint64_t FewestBuckets = 1u << 14; ///< of a level
+  static constexpr std::uint64_t FewestBuckets = 1u << 14; ///< of one level
   static constexpr std::uint64_t MostBuckets = 1u << 22;
   using Cell = std::array<std::int64_t, static_cast<std::size_t>(D)>;
   struct Node
@@ -200,7 +203,7 @@ private:
     return this->Heads[level * (this->Mask + std::size_t{ 1 }) + (h & this->Mask)];
   }
 
-  /** All cells of the first level that the ball may reach. */
+  /** Searches all cells of the first level that the ball may reach. */
   const Point<D>* FindInCells(const Point<D>& p, double distance) const
   {
     Cell low;

@@ -16,7 +16,7 @@ template <int D>
 struct FeatureSeed
 {
   Point<D> Position;
-  double Delta; ///< it is left out if a feature vertex is nearer than this
+  double Delta; ///< the point is left out if a feature vertex is nearer than this
 };
 
 } // namespace voxplex

@@ -17,8 +17,7 @@ BeggingLists::BeggingLists(
   , Slots(groups.Group.size())
 {
   assert(groups.Group.size() == topology.Group.size());
-  // A group is named by its number and the list of its parent: so groups nest whatever their
-  // numbers.
+  // A group is identified by its number and its parent's list, so groups nest for any numbers.
   std::map<std::pair<unsigned, unsigned>, unsigned> listOf;
   std::vector<unsigned> members;
   const unsigned noParent = WaitingList::Nobody;
@@ -29,7 +28,7 @@ BeggingLists::BeggingLists(
     for (unsigned level = Levels; level-- > 0;)
     {
       const unsigned next = static_cast<unsigned>(members.size());
-      // All share the highest level.
+      // All threads share the highest level.
       const unsigned group = level + 1 == Levels ? 0 : groups.Group[t][level];
       const auto [found, isNew] = listOf.try_emplace({ parent, group }, next);
       if (isNew)
@@ -66,7 +65,8 @@ LoadBalancer::Beggar BeggingLists::TakeBeggar(unsigned giver)
 {
   const Beggar nobody{ Nobody, 0 };
   const auto& lists = this->Slots[giver].ListOfLevel;
-  // Beggars of other sockets may wait for long, and everybody asks all the time: no mutex for that.
+  // Beggars of other sockets may wait for long, and every thread asks all the time. So this look
+  // takes no mutex.
   bool mayServe = false;
   for (const unsigned list : lists)
   {
@@ -128,7 +128,7 @@ bool BeggingLists::Beg(unsigned thread)
     this->Listed.fetch_add(1, std::memory_order_relaxed);
   }
   WaitAndHelp(own.Spot, this->Sharing, thread);
-  // Relaxed: who ends all wrote this before it woke us.
+  // Relaxed: the thread that ends the run wrote this before it woke this thread.
   return !this->Over.load(std::memory_order_relaxed);
 }
 

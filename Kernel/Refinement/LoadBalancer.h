@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LoadBalancer.h
- * @brief Who gets work from whom, and when all is done (thesis, sections 3.2.4 and 3.4.1).
+ * @brief Which thread gets work from which, and when all work is done (thesis, sections 3.2.4 and
+ * 3.4.1).
  */
 #ifndef voxplex_LoadBalancer_h
 #define voxplex_LoadBalancer_h
@@ -20,9 +21,9 @@ class LoopSharing;
 /**
  * @brief The begging lists: threads without work wait in them until a busy thread gives them some.
  *
- * A busy thread looks now and then whether SomeoneBegs(); if it has work to spare it takes a beggar
- * out of the lists, puts work into the beggar's own list, and wakes it. Nobody takes work from a
- * busy thread, so that the lists of poor elements need no locks.
+ * A busy thread regularly asks whether SomeoneBegs(). If it has work to spare, it takes a beggar
+ * out of the lists, puts work into the beggar's own list, and wakes it. No thread takes work from a
+ * busy thread, so the lists of poor elements need no locks.
  */
 class LoadBalancer
 {
@@ -30,41 +31,42 @@ public:
   struct Beggar
   {
     unsigned Thread;
-    unsigned Level; ///< lowest level on which giver and beggar share a group
+    unsigned Level; ///< lowest level at which giver and beggar share a group
   };
   static constexpr unsigned Nobody = 0xffffffffu;
 
   virtual ~LoadBalancer() = default;
 
-  /** Cheap: a load of a shared word that rarely changes. May be out of date. */
+  /** Cheap: it loads a shared word that rarely changes. The answer may be out of date. */
   virtual bool SomeoneBegs() const = 0;
 
   /**
-   * Takes the beggar that `giver` should serve first out of the lists; its Thread is Nobody if
-   * there is none that it may serve. Whoever takes one must call Wake(), or Stop(). From now on the
-   * beggar counts as busy. Without a mutex if there is none, so that it may be asked after each
-   * operation.
+   * Takes the beggar that `giver` should serve first out of the lists. If there is none that it may
+   * serve, Thread is Nobody. The caller must then call Wake() for the beggar, or Stop(). From now
+   * on the beggar counts as busy. If there is no beggar, the call takes no mutex, so it may be made
+   * after each operation.
    */
   virtual Beggar TakeBeggar(unsigned giver) = 0;
 
-  /** Lets a beggar that was taken go on; what the caller wrote before is visible to it. */
+  /** Lets a beggar that was taken out go on. It sees all memory that the caller wrote before. */
   virtual void Wake(unsigned beggar) = 0;
 
   /**
-   * Waits for work. The thread has none left.
-   * @return false if there is none and never will be, since all threads wait, or after Stop(); the
-   *   thread must then leave its list alone until all threads have ended: a giver that was
-   *   interrupted by Stop() may still be writing to it
+   * Waits for work. The thread must have none left.
+   * @return false if there will never be work, because all threads wait, or after Stop(). Then the
+   *   thread must not touch its list until all threads have ended: a giver that was interrupted by
+   *   Stop() may still be writing to it
    */
   virtual bool Beg(unsigned thread) = 0;
 
-  /** Wakes all; from now on Beg() returns false. May be called by anyone at any time. */
+  /** Wakes all threads; from now on Beg() returns false. Any thread may call this at any time. */
   virtual void Stop() = 0;
 };
 
 /**
  * @param topology has the number of threads
- * @param sharing where threads help while they wait for work, or null; must outlive the balancer
+ * @param sharing the loops at which threads help while they wait for work, or null; must outlive
+ *   the balancer
  */
 std::unique_ptr<LoadBalancer> MakeLoadBalancer(
   BalancePolicy policy, const ProcessorTopology& topology, LoopSharing* sharing = nullptr);

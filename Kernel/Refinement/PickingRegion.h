@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PickingRegion.h
- * @brief Trying several points of a region for one insertion (thesis, section 4.1).
+ * @brief Tries several points of a region for one insertion (thesis, section 4.1).
  */
 #ifndef voxplex_PickingRegion_h
 #define voxplex_PickingRegion_h
@@ -16,7 +16,10 @@
 namespace voxplex
 {
 
-/** Numbers that depend on a seed and a place only, whichever thread asks (splitmix64). */
+/**
+ * Pseudo-random numbers that depend on a seed and a place alone, and not on the thread
+ * (splitmix64).
+ */
 template <int D>
 class PseudoRandom
 {
@@ -61,12 +64,12 @@ private:
 };
 
 /**
- * Inserts the first point that a veto accepts: the veto's candidate first, then random points of the
- * picking region; if none is good, the best of them.
+ * Inserts the first point that a veto accepts. The veto's own candidate comes first, then random
+ * points of the picking region. If none is accepted, the best of them is inserted.
  *
- * @param veto a Triangulation<D>::InsertionVeto with `Candidate`, `Best`, `HasBest` (whether any point was
- * acceptable at all) and `AcceptAll`
- * @param draw bool(Point<D>&): draws a candidate; false if that cannot be used
+ * @param veto a Triangulation<D>::InsertionVeto with `Candidate`, `Best`, `HasBest` (whether any
+ *   point was acceptable at all) and `AcceptAll`
+ * @param draw bool(Point<D>&): draws a candidate; returns false if the point cannot be used
  * @param insert RuleOutcome(Point<D>&): inserts a point if the veto accepts it
  */
 template <typename BestPick, typename Draw, typename Insert>

@@ -20,16 +20,17 @@ namespace voxplex
 /**
  * @brief Simplices that may violate a rule, last in first out.
  *
- * The last simplices made are the first refined: most simplices die young, and their data are still in
- * the cache. Some are put last: they come up when nothing else is left.
+ * The simplices made last are refined first: most simplices die young, and their data are still in
+ * the cache. Some are put last: they are taken when nothing else is left.
  *
  * **Lazy removal** (the default). Entries of simplices that died meanwhile are recognised by their
- * generation and dropped when taken. Only the owner touches its list, but for a gift to it while it
- * waits for work. What is put last is always removed lazily.
+ * generation and dropped when taken. Only the owner touches its list, except for a gift while it
+ * waits for work. Entries that are put last are always removed lazily.
  *
- * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). Whoever deletes a simplex takes it
- * out of the list that it is in, its own or another's; the list then needs a lock, and a directory that
- * says where every simplex is. What the directory no longer knows is left to lazy removal.
+ * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). The thread that deletes a
+ * simplex takes it out of the list that contains it, which may be another thread's. Then the list
+ * needs a lock, and a directory tells where every simplex is. Entries that the directory no longer
+ * knows are removed lazily.
  */
 class PoorElementList
 {
@@ -40,7 +41,7 @@ public:
     std::uint32_t Generation;
   };
 
-  /** Which list a simplex is in, and where: shared by all lists of a run. */
+  /** The list of each simplex and its index there. All lists of a run share it. */
   class Directory
   {
   public:
@@ -68,7 +69,10 @@ public:
     ChunkedArray<std::uint64_t> Places{ ~std::uint64_t{ 0 } };
   };
 
-  /** Switches to eager removal. @param number of this list, distinct from those of others */
+  /**
+   * Switches to eager removal.
+   * @param number of this list, distinct from those of the other lists
+   */
   void RemoveEagerly(Directory& directory, std::uint32_t number)
   {
     this->Where = &directory;
@@ -81,35 +85,37 @@ public:
     this->PushGuarded({ s, generation });
   }
 
-  /** To come up when nothing else is left. */
+  /** Adds an entry that is taken when nothing else is left. */
   void PushLast(SimplexId s, std::uint32_t generation)
   {
     const Guard guard(*this);
     this->Last.push_back({ s, generation });
   }
 
-  /** Nothing is left, or nothing but what eager removal has taken out. */
+  /** Whether no entry is left, except for those that eager removal has taken out. */
   bool Empty()
   {
     const Guard guard(*this);
     this->DropRemoved();
     return this->Entries.empty() && this->Last.empty();
   }
-  /** Nothing is left but what was put last. */
+  /** Whether only entries that were put last are left. */
   bool OnlyLast()
   {
     const Guard guard(*this);
     this->DropRemoved();
     return this->Entries.empty();
   }
-  /** Entries, dead ones included. */
+  /** The number of entries, including dead ones. */
   std::size_t Size()
   {
     const Guard guard(*this);
     return this->Entries.size() + this->Last.size();
   }
 
-  /** The last entry; with eager removal its Id may be None. The list must not have been empty. */
+  /**
+   * Takes the last entry. With eager removal its Id may be None. The list must not have been empty.
+   */
   Entry Pop()
   {
     const Guard guard(*this);
@@ -124,7 +130,9 @@ public:
     return e;
   }
 
-  /** With eager removal: takes a dead simplex out if it is there. Any thread may call this. */
+  /**
+   * With eager removal: takes a dead simplex out if it is in this list. Any thread may call this.
+   */
   void Remove(const Entry& e, std::uint32_t index)
   {
     const Guard guard(*this);
@@ -136,10 +144,10 @@ public:
   }
 
   /**
-   * Drops the entries that `isAlive` does not hold for and, if at least `fewest` remain, moves the older
-   * half of them to another list; of those put last likewise. The oldest simplices are the largest and
-   * the farthest from where the owner is at work.
-   * @return how many were moved
+   * Drops the entries for which `isAlive` is false. If at least `fewest` remain, moves the older
+   * half of them to another list. The same holds for the entries that were put last. The oldest
+   * simplices are the largest, and the farthest from where the owner works.
+   * @return the number of entries that were moved
    */
   template <typename Predicate>
   std::size_t GiveOlderHalf(PoorElementList& receiver, std::size_t fewest, Predicate&& isAlive)
@@ -162,7 +170,10 @@ public:
   }
 
 private:
-  /** Holds the list's lock if it needs one: for a few instructions, so others spin. */
+  /**
+   * Holds the list's lock if it needs one. The lock is held for a few instructions, so other
+   * threads spin.
+   */
   class Guard
   {
   public:
@@ -227,7 +238,7 @@ private:
   }
 
   std::vector<Entry> Entries;
-  std::vector<Entry> Last; ///< these come up when Entries is empty
+  std::vector<Entry> Last; ///< taken when Entries is empty
   Directory* Where = nullptr;
   std::uint32_t Number = 0;
   std::atomic_flag Busy;

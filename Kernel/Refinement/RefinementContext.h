@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RefinementContext.h
- * @brief What all refinement threads share, and what each has of its own.
+ * @brief The data that all refinement threads share, and the data of each thread.
  */
 #ifndef voxplex_RefinementContext_h
 #define voxplex_RefinementContext_h
@@ -26,10 +26,13 @@
 namespace voxplex
 {
 
-/** Where a region has taken too much work, points for the sake of facets keep this fraction instead. */
+/**
+ * The spacing factor of points that are inserted for the sake of facets, where a region has taken
+ * too much work.
+ */
 inline constexpr double YieldingFraction = 0.5;
 
-/** Feature points nearer to a flat end than this, in delta, are moved onto it. */
+/** A feature point nearer to a flat end than this, in delta, is moved onto it. */
 inline constexpr double EndMargin = 0.8;
 
 /** Parameters of the rules, in the unit of length of the mesher's frame. */
@@ -44,7 +47,7 @@ struct RefinementSettings
   TetSliverOptions TetSlivers;                  ///< 3D only
 };
 
-/** Shared by all threads. */
+/** The data that all threads share. */
 template <int D>
 struct RefinementContext
 {
@@ -75,7 +78,10 @@ struct RefinementContext
     return this->HasTimeBorder[1] ? box.Max[Time] : std::numeric_limits<double>::infinity();
   }
 
-  /** Whether z is too near to a flat end to be a feature vertex, and its projection there. */
+  /**
+   * Whether z is too near to a flat end to be a feature vertex; `onEnd` receives its projection
+   * there.
+   */
   bool IsNearEnd(const Point<D>& z, double delta, Point<D>& onEnd) const
   {
     constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
@@ -95,23 +101,23 @@ struct RefinementContext
   RegionalWork<D> Work;
 };
 
-/** What came of an element's evaluation, or of another task of a worker. */
+/** The outcome of an element's evaluation, or of another task of a worker. */
 enum class RuleOutcome
 {
-  Good,     ///< no rule applies, or none can be applied: nothing changed
+  Good,     ///< no rule applies or can be applied: nothing changed
   Changed,  ///< the triangulation changed
   Contended ///< given up because another thread owns a vertex; to be tried again
 };
 
-/** A removal by R6 that another thread was in the way of. */
+/** A removal by R6 that was given up because of another thread. */
 struct PendingRemoval
 {
   VertexId Vertex;
-  VertexId Feature; ///< the vertex goes if it is a free one nearer than ...
+  VertexId Feature; ///< the vertex is removed if it is free and nearer than ...
   double Radius;    ///< ... this to the feature vertex
 };
 
-/** A region where rules give way, by a place of it. */
+/** A region where rules give way, given by a point in it. */
 template <int D>
 struct YieldingRegion
 {
@@ -119,7 +125,7 @@ struct YieldingRegion
   Yielding Step;
 };
 
-/** Whose list of poor elements an entry may be taken out of when its simplex dies. */
+/** The lists of poor elements from which a dead simplex may be taken out. */
 struct EagerRemoval
 {
   PoorElementList::Directory Directory;
@@ -127,7 +133,7 @@ struct EagerRemoval
   std::vector<unsigned> Socket;        ///< of the list's thread
 };
 
-/** One thread's own; threads that run write to no common cache line. */
+/** The data of one thread. Running threads write to no common cache line. */
 template <int D>
 struct alignas(CacheLineSize) RefinementWorker
 {
@@ -137,8 +143,9 @@ struct alignas(CacheLineSize) RefinementWorker
   }
 
   /**
-   * Takes what the last operation deleted out of the lists of poor elements; those of another socket are
-   * left to lazy removal (thesis, section 3.2.3). Does nothing unless removal is eager.
+   * If removal is eager, takes the simplices that the last operation deleted out of the lists of
+   * poor elements. Entries in lists of another socket are left to lazy removal (thesis, section
+   * 3.2.3).
    */
   void RemoveDeleted(const Triangulation<D>& mesh)
   {
@@ -164,8 +171,9 @@ struct alignas(CacheLineSize) RefinementWorker
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval> PendingRemovals;
-  std::vector<YieldingRegion<D>> Yielded; ///< where rules began to give way
-  bool ScreensLater = false; ///< what is made is not screened: whoever sets it does so at the end
+  std::vector<YieldingRegion<D>> Yielded; ///< the regions where rules began to give way
+  /** New simplices are not screened now. The caller screens them at the end. */
+  bool ScreensLater = false;
   RuleStatistics Statistics;
 };
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RefinementRules.h
- * @brief What the rules of 3D and 4D are written in: circumballs, closest feature points, insertions.
+ * @brief The operations that the rules of 3D and 4D share: circumballs, closest feature points,
+ * insertions.
  */
 #ifndef voxplex_RefinementRules_h
 #define voxplex_RefinementRules_h
@@ -17,28 +18,31 @@ namespace voxplex
 {
 
 /**
- * Circumradii are certified to within CircumballTolerance; elements are held a little below the bounds,
- * so that they keep them in anybody's arithmetic.
+ * Circumradii are certified to within CircumballTolerance. The bounds of elements are tightened by
+ * a little more, so that elements keep them in any arithmetic.
  */
 inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
 
 /**
- * @brief The base of a set of rules: one instance per thread, no state of its own but references.
+ * @brief The base of a set of rules: one instance per thread. It has no state except references and
+ * scratch memory.
  *
- * Rules (the derived class) has `bool MayBePoor(SimplexId)`, by which new simplices are screened.
+ * The derived class Rules has `bool MayBePoor(SimplexId)`, which screens new simplices.
  *
- * **Flat ends** (Domain::HasTimeBorder, in 4D). Elements near such an end are good if no vertex lies near it
- * without being on it, and none of the end's vertices near an interface without being on that. So
- * - a circumcentre beyond the end or near it is moved onto it; a feature point near it is moved to where
- *   the interface meets the end;
- * - a point moved onto the end near an interface gives way to a feature point on both.
+ * **Flat ends** (Domain::HasTimeBorder, in 4D). Elements near a flat end are good under two
+ * conditions. No vertex lies near the end without being on it. No vertex of the end lies near an
+ * interface without being on the interface. So
+ * - a circumcentre beyond the end or near it is moved onto it; a feature point near it is moved to
+ *   where the interface meets the end;
+ * - if a point moved onto the end is near an interface, a feature point on both takes its place.
  *
- * Points on the end that would crowd feature vertices are refused.
+ * A point on the end that would crowd feature vertices is refused.
  *
- * **Bounded work.** Every insertion is counted in the region of the place that asked for it: c(t), or the feature point.
- * No region needs more than some dozen; `Rules::WorkLimit` is several times what was ever seen where refinement
- * goes well. Beyond it rules give way step by step (Yielding). So a region takes at most 4 WorkLimit insertions, and
- * those of R1, which keep Delta(z) from each other. There is no input on which refinement does not end.
+ * **Bounded work.** Every insertion is counted in the region of the point that asked for it: c(t),
+ * or the feature point. A region needs a few dozen insertions at most. `Rules::WorkLimit` is
+ * several times the largest count that was seen where refinement goes well. Beyond the limit the
+ * rules give way step by step (Yielding). So a region takes at most 4 WorkLimit insertions, plus
+ * those of R1, whose points keep Delta(z) from each other. Hence refinement ends on every input.
  */
 template <int D, typename Rules>
 class RefinementRules
@@ -52,7 +56,10 @@ public:
   {
   }
 
-  /** After every operation: pushes the new simplices that may be poor, by cheap bounds alone. */
+  /**
+   * Call this after every operation. Pushes the new simplices that may be poor, judged by cheap
+   * bounds alone.
+   */
   void ScreenCreated()
   {
     if (this->Worker.ScreensLater)
@@ -70,8 +77,10 @@ public:
   }
 
   /**
-   * Inserts a feature point unless it would crowd others or is near a flat end, with R6.
-   * @param near a living simplex, for the search; receives one near the point if that is inserted
+   * Inserts a feature point and applies R6, unless the point would crowd others or is near a flat
+   * end.
+   * @param near a living simplex, where the search begins; receives one near the point if the point
+   *   is inserted
    */
   void InsertSeed(const FeatureSeed<D>& seed, SimplexId& near)
   {
@@ -85,7 +94,7 @@ public:
       this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
     if (conflict != None)
     {
-      this->Context.Mesh.Lock( // nobody else operates, so it succeeds
+      this->Context.Mesh.Lock( // no other thread operates, so it succeeds
         this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
       this->InsertFeature(seed.Position, seed.Delta, 0.0, conflict, None,
         this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
@@ -94,8 +103,9 @@ public:
   }
 
   /**
-   * Tries the last of the worker's pending removals again. The vertex may be another one by now; then it
-   * goes if it, too, is a free one so near. What its removal brings up goes after it.
+   * Tries the last of the worker's pending removals again. The id may belong to another vertex by
+   * now. That vertex is removed, too, if it is free and within the radius. Vertices that a removal
+   * brings within reach are removed after it.
    */
   RuleOutcome RemovePending()
   {
@@ -134,7 +144,7 @@ protected:
   using Mesh = Triangulation<D>;
   using Vertex = typename Mesh::Vertex;
 
-  /** What the rules know of the simplex under evaluation. */
+  /** The simplex under evaluation. */
   struct Element
   {
     SimplexId Id;
@@ -192,7 +202,7 @@ protected:
   bool ScreenDistance(SimplexId t)
   {
     const Circumball<D>& ball = this->Context.Mesh.GetSimplex(t).Ball;
-    bool near = true; // no reliable ball: let the evaluation look closely
+    bool near = true; // without a reliable ball the evaluation decides
     if (ball.Radius2 >= 0.0)
     {
       const double lower = this->Context.Image.DistanceBounds(ball.Center).Lower;
@@ -226,8 +236,8 @@ protected:
   }
 
   /**
-   * Most simplices near an interface have a feature vertex near cfp(c(t)): a quick look at where that is
-   * tells that neither R1 nor R2 applies.
+   * A quick test: most simplices near an interface have a feature vertex near cfp(c(t)). Returns
+   * true if neither R1 nor R2 applies.
    */
   bool IsSampled(const Element& t) const
   {
@@ -298,7 +308,10 @@ protected:
       t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.Label);
   }
 
-  /** Delta(z) for z = cfp(c(t)): the label on this side is known, that beyond is just behind z. */
+  /**
+   * Delta(z) for z = cfp(c(t)). The label on this side is known; the label beyond is looked up just
+   * behind z.
+   */
   double DeltaBehind(const Element& t, const Point<D>& z) const
   {
     const SizingField<D>& sizing = this->Context.Sizing;
@@ -325,7 +338,9 @@ protected:
       this->Context.Features.AnyWithin(z, distance);
   }
 
-  /** Where a point at p is put that is to keep off flat ends by a margin, and what it is there. */
+  /**
+   * Where a point is inserted that must keep a margin from flat ends, and as which kind of vertex.
+   */
   struct Place
   {
     Point<D> Position;
@@ -334,7 +349,7 @@ protected:
     bool OnEnd;
   };
 
-  /** Into the box, and onto a flat end that is nearer than the margin. */
+  /** Moves p into the box, and onto a flat end that is nearer than the margin. */
   Place PlaceOf(const Point<D>& p, double margin) const
   {
     const Box<D>& box = this->Context.Mesh.GetBox();
@@ -357,7 +372,8 @@ protected:
 
   /**
    * Inserts c(t), or its projection onto the box or onto a flat end that is near.
-   * @param deltaBeside Delta(z) of the interface for whose sake it is inserted: that is how near points may be needed
+   * @param deltaBeside Delta(z) of the interface that needs the point: the spacing there is at most
+   *   this
    */
   RuleOutcome InsertCircumcentre(const Element& t, std::uint64_t& fired,
     double deltaBeside = std::numeric_limits<double>::infinity())
@@ -379,7 +395,7 @@ protected:
     {
       return this->InsertFeatureOnEnd(z, delta, t, None, fired);
     }
-    // The circumball is empty: only a point that was moved can be near a vertex.
+    // The circumball is empty, so only a point that was moved can be near a vertex.
     const double clearance =
       place.Moved ? SpacingFloorFraction * this->Context.Sizing.Spacing(place.Position) : 0.0;
     const InsertionOutcome outcome =
@@ -395,8 +411,8 @@ protected:
   }
 
   /**
-   * Inserts a feature point and removes the free vertices near it. Nothing is nearer to z than the
-   * clearance but for what another thread has inserted meanwhile.
+   * Inserts a feature point and removes the free vertices near it. On entry no feature vertex is
+   * nearer to z than the clearance, unless another thread has inserted it meanwhile.
    * @param veto may be null
    */
   RuleOutcome InsertFeature(const Point<D>& z, double delta, double clearance, SimplexId seed,
@@ -425,7 +441,7 @@ protected:
     return verdict;
   }
 
-  /** Inserts a feature point of a flat end, unless it would crowd the others. */
+  /** Inserts a feature point of a flat end, unless it would crowd other feature vertices. */
   RuleOutcome InsertFeatureOnEnd(
     const Point<D>& z, double delta, const Element& t, SimplexId otherSeed, std::uint64_t& fired)
   {
@@ -439,7 +455,7 @@ protected:
   }
 
   /**
-   * Where an interface meets a flat end that is near z.
+   * Finds where an interface meets a flat end that is near z.
    * @return false if no end is near, z lies on one already, or no interface was found there
    */
   bool SnapToEnd(const Point<D>& z, double delta, Point<D>& snapped) const
@@ -449,17 +465,20 @@ protected:
       this->Context.Image.ClosestSurfacePointOnEnd(onEnd, snapped);
   }
 
-  // Chosen on a beating ventricle, as was EndMargin: without the last two R3 and R5 answer each other for as long as there
-  // is room, and elements of ratio 15 remain.
-  /** Circumcentres nearer to a flat end than this, in circumradii, are moved onto it. */
+  // These and EndMargin were chosen on a beating ventricle. Without the last two, R3 and R5 answer
+  // each other as long as there is room, and elements of ratio 15 remain.
+  /** A circumcentre nearer to a flat end than this, in circumradii, is moved onto it. */
   static constexpr double CentreMargin = 0.5;
-  /** Points on an end nearer to an interface than this, in delta, are moved onto that. */
+  /**
+   * A point on an end that is nearer to an interface than this, in delta, is moved onto the
+   * interface.
+   */
   static constexpr double InterfaceMargin = 0.7;
-  /** Feature vertices on an end are no nearer to each other than this, in delta, but for those of R1. */
+  /** Smallest distance of feature vertices on an end, in delta, except for those of R1. */
   static constexpr double EndSpacing = 0.6;
 
 private:
-  /** Whether a point of the box is on one of its faces that are no flat ends. */
+  /** Whether a point of the box is on a face of the box that is not a flat end. */
   bool IsOnSide(const Point<D>& p) const
   {
     const Box<D>& box = this->Context.Mesh.GetBox();
@@ -476,8 +495,9 @@ private:
   }
 
   /**
-   * Removes the free vertices adjacent to z that are nearer than the radius; a removal can make others
-   * adjacent, so it goes on until none is left. worker.Created holds the star of z on entry.
+   * Removes the free vertices adjacent to z that are nearer than the radius. A removal can make
+   * other vertices adjacent, so this is repeated until none is left. On entry worker.Created holds
+   * the star of z.
    */
   void RemoveFreeVertices(VertexId z, double radius)
   {
@@ -498,7 +518,10 @@ private:
     }
   }
 
-  /** By R6; a vertex that serves interfaces with a smaller delta may be so much nearer. */
+  /**
+   * Whether R6 removes a vertex. Where the spacing is smaller than Delta, the vertex may serve a
+   * finer interface, and the radius is smaller, too.
+   */
   bool IsTooNear(const Point<D>& vertex, const Point<D>& feature, double radius) const
   {
     const double distance2 = Distance2(vertex, feature);
@@ -510,7 +533,7 @@ private:
     return distance2 < own * own;
   }
 
-  /** Adds the free vertices of worker.Created that are nearer than the radius to z to ToRemove. */
+  /** Adds to ToRemove the free vertices of worker.Created that are nearer to z than the radius. */
   void FindVerticesToRemove(VertexId z, double radius)
   {
     const Mesh& mesh = this->Context.Mesh;
@@ -529,7 +552,7 @@ private:
     }
   }
 
-  /** Afterwards worker.Created holds what was made, if anything. */
+  /** Afterwards worker.Created holds the simplices that were created, if any. */
   RemovalOutcome Remove(VertexId v)
   {
     const RemovalOutcome outcome = this->Context.Mesh.Remove(this->Worker.Kernel, v);
@@ -545,19 +568,19 @@ private:
   }
 
 protected:
-  /** How far rules give way in the region of a place. */
+  /** How far the rules give way in the region of a point. */
   Yielding YieldingAt(const Point<D>& place, double spacing) const
   {
     return YieldingOf(this->Context.Work.At(place, spacing), Rules::WorkLimit);
   }
 
-  /** How near to others a feature point for the sake of facets may be. */
+  /** The clearance of a feature point that is inserted for the sake of facets. */
   double FacetClearance(double spacing, Yielding step) const
   {
     return (step < Yielding::Spacing ? SpacingFloorFraction : YieldingFraction) * spacing;
   }
 
-  /** Counts an insertion that was asked for at a place. */
+  /** Counts an insertion in the region of a point. */
   void CountWork(const Point<D>& place, double spacing)
   {
     const std::uint32_t work = this->Context.Work.Add(place, spacing) + 1;
@@ -602,7 +625,7 @@ protected:
   RefinementWorker<D>& Worker;
 
 private:
-  std::vector<VertexId> ToRemove; ///< scratch of RemoveFreeVertices
+  std::vector<VertexId> ToRemove; ///< scratch memory of RemoveFreeVertices
 };
 
 } // namespace voxplex

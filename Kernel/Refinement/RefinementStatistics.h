@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RefinementStatistics.h
- * @brief What rules and threads did in a refinement.
+ * @brief Counts and times of rules and threads in a refinement.
  */
 #ifndef voxplex_RefinementStatistics_h
 #define voxplex_RefinementStatistics_h
@@ -17,11 +17,11 @@
 namespace voxplex
 {
 
-/** The numbers of the rules of a dimension, as places in RuleStatistics::Fired. */
+/** The indices of the rules of a dimension in RuleStatistics::Fired. */
 template <int D>
 struct RuleNumber;
 
-/** Rules3D.h says what they do; R6 removes, and R7 is counted apart. */
+/** Rules3D.h describes the rules. R6 removes vertices, and R7 is counted separately. */
 template <>
 struct RuleNumber<3>
 {
@@ -35,7 +35,7 @@ struct RuleNumber<3>
   };
 };
 
-/** Rules4D.h says what they do. */
+/** Rules4D.h describes the rules. */
 template <>
 struct RuleNumber<4>
 {
@@ -64,15 +64,15 @@ struct RuleStatistics
   std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
   std::uint64_t ClosestSurfacePointCalls = 0;
   std::uint64_t Evaluated = 0;           ///< simplices whose rules were evaluated
-  std::uint64_t Created = 0;             ///< simplices created, those that died included
+  std::uint64_t Created = 0;             ///< simplices created, including those that died
   std::uint64_t CavitySimplices = 0;     ///< simplices that insertions deleted
   std::uint64_t LargestCavity = 0;       ///< most simplices that one insertion deleted
   std::uint64_t SliversFound = 0;        ///< pentatopes below the bound of normalized volume, 4D
   std::uint64_t PicksTried = 0;          ///< points of picking regions that were tried
   std::uint64_t SliversKept = 0;         ///< slivers for which no point could be inserted
-  std::uint64_t LargestRegionalWork = 0; ///< most insertions of a region (RegionalWork)
+  std::uint64_t LargestRegionalWork = 0; ///< most insertions in one region (RegionalWork)
 
-  /** Of all rules. */
+  /** The number of insertions by all rules. */
   std::uint64_t Insertions() const
   {
     std::uint64_t sum = this->FiredBySize + this->SliversSplit + this->SliversSampled;
@@ -111,26 +111,30 @@ struct RuleStatistics
   }
 };
 
-/** Distances that work travels from one thread to another: within a socket, a NUMA node, the machine. */
+/**
+ * Levels at which work passes from one thread to another: within a socket, a NUMA node, the
+ * machine.
+ */
 inline constexpr unsigned StealingLevels = 3;
 
 /**
- * What one refinement thread did, and the three ways in which it lost time (thesis, section 3.3.5).
+ * The operations of one refinement thread, and the three ways in which it lost time (thesis,
+ * section 3.3.5).
  */
 struct ThreadStatistics
 {
   std::uint64_t Insertions = 0;
   std::uint64_t Removals = 0;
   std::uint64_t Rollbacks = 0;     ///< operations given up because another thread held a vertex
-  std::uint64_t Waits = 0;         ///< times that the contention manager made the thread wait
+  std::uint64_t Waits = 0;         ///< times when the contention manager made the thread wait
   double ContentionSeconds = 0.0;  ///< in the contention manager, waiting or not
   double LoadBalanceSeconds = 0.0; ///< without work
   double RollbackSeconds = 0.0;    ///< on operations that were rolled back
-  std::array<std::uint64_t, StealingLevels> Received{}; ///< gifts of work, by distance
-  std::uint64_t ReceivedElements = 0;                   ///< poor elements in them
-  std::uint64_t HelpedLoops = 0;       ///< loops in its insertions of which others did a part
-  std::uint64_t HelpedIterations = 0;  ///< iterations that others did in these
-  HardwareCounters::Counts Hardware{}; ///< empty where there are no counters
+  std::array<std::uint64_t, StealingLevels> Received{}; ///< gifts of work, by level
+  std::uint64_t ReceivedElements = 0;                   ///< poor elements in these gifts
+  std::uint64_t HelpedLoops = 0;       ///< loops of its insertions in which other threads helped
+  std::uint64_t HelpedIterations = 0;  ///< iterations that other threads did in these loops
+  HardwareCounters::Counts Hardware{}; ///< empty if there are no counters
 
   ThreadStatistics& operator+=(const ThreadStatistics& other)
   {

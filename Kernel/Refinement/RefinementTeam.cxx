@@ -14,7 +14,7 @@ namespace voxplex
 namespace
 {
 
-/** Holds threads back until it is known how many there are. */
+/** Holds threads back until their number is known. */
 class StartingLine
 {
 public:
@@ -22,14 +22,14 @@ public:
   {
     Closed,
     Open,
-    Called ///< off: nobody starts
+    Called ///< the start is cancelled
   };
   void Set(State state)
   {
     this->Value.store(state, std::memory_order_release);
     this->Value.notify_all();
   }
-  /** @return true to start */
+  /** @return true if the thread may start */
   bool Wait() const
   {
     this->Value.wait(Closed, std::memory_order_acquire);
@@ -73,7 +73,8 @@ void RefinementTeam::Run(const std::function<void(unsigned threads)>& prepare,
           }
           if (this->Options.Pin)
           {
-            PinThisThread(this->Placement, t); // a wish: where it fails the thread runs anywhere
+            // If pinning fails, the thread runs on any processor.
+            PinThisThread(this->Placement, t);
           }
           this->RunGuarded(t, task);
         });
@@ -81,7 +82,7 @@ void RefinementTeam::Run(const std::function<void(unsigned threads)>& prepare,
   }
   catch (const std::system_error&)
   {
-    // The system gives no more threads: those that there are do the work.
+    // The system gives no more threads: the existing ones do the work.
   }
   catch (...)
   {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RefinementTeam.h
- * @brief The threads that refine together: their start, their end, what they share beside the mesh.
+ * @brief The threads that refine together: their start, their end, and what they share beside the
+ * mesh.
  */
 #ifndef voxplex_RefinementTeam_h
 #define voxplex_RefinementTeam_h
@@ -21,29 +22,36 @@
 namespace voxplex
 {
 
-/** How many threads refine, and how. */
+/** The number of refinement threads, and how they cooperate. */
 struct TeamOptions
 {
   unsigned Threads = 1;
   ContentionPolicy Contention = ContentionPolicy::Local;
-  /** Global and local: after how many successes in a row a thread wakes one that waits. */
+  /** Global and local: number of successes in a row after which a thread wakes a waiting thread. */
   unsigned SuccessesToWake = 10;
   BalancePolicy Balance = BalancePolicy::Hierarchical;
   bool Pin = false;
-  /** Run the code for several threads with one thread too: tells what its locks and clocks cost. */
+  /**
+   * Run the code for several threads even with one thread, to measure the cost of its locks and
+   * clocks.
+   */
   bool Synchronise = false;
-  /** Take simplices out of the lists of poor elements when they die, not when they come up. */
+  /** Take simplices out of the lists of poor elements when they die, not when they are taken. */
   bool RemoveEagerly = false;
-  /** Let threads that wait help with the insertions of others (thesis, section 4.6.2). */
+  /** Let waiting threads help with the insertions of others (thesis, section 4.6.2). */
   bool FineGrained = false;
-  /** Lattice nodes a thread, about, from which interfaces are sampled before the start; 0 for none. */
+  /**
+   * Approximate number of lattice nodes per thread from which interfaces are sampled before the
+   * start; 0: none.
+   */
   unsigned SeedsPerThread = 128;
 };
 
 /**
- * @brief Runs one task in several threads that know a contention manager and a load balancer.
+ * @brief Runs one task in several threads, with a contention manager and a load balancer.
  *
- * If the task throws in one thread, the others are stopped and Run() throws what the first threw.
+ * If the task throws in one thread, the other threads are stopped, and Run() throws the first
+ * exception.
  */
 class RefinementTeam
 {
@@ -54,15 +62,18 @@ public:
   RefinementTeam& operator=(const RefinementTeam&) = delete;
 
   /**
-   * Starts the threads and calls prepare(n) in the calling thread, where n is how many there are: fewer
-   * than asked for if the system gives no more. Then calls task(t) in each, t = 0 ... n-1; the calling
-   * thread is number 0, unless threads are pinned, which the calling thread never is. Returns when all
-   * have ended.
+   * Starts the threads and calls prepare(n) in the calling thread. n is the number of threads:
+   * fewer than in the options if the system gives no more. Then calls task(t) in each thread, t = 0
+   * ... n-1. The calling thread is number 0, unless threads are pinned: the calling thread is never
+   * pinned. Returns when all threads have ended.
    */
   void Run(const std::function<void(unsigned threads)>& prepare,
     const std::function<void(unsigned thread)>& task);
 
-  /** Ends the run soon: nobody waits any more and Stopped() is true. Any thread, while the task runs. */
+  /**
+   * Ends the run soon: no thread waits any more, and Stopped() is true. Any thread may call this
+   * while the task runs.
+   */
   void Stop();
   bool Stopped() const { return this->StopFlag.load(std::memory_order_relaxed); }
 
@@ -80,7 +91,7 @@ private:
   const TeamOptions Options;
   ProcessorTopology Placement;
   std::atomic<bool> StopFlag{ false };
-  std::unique_ptr<LoopSharing> Sharing; ///< before those who refer to it
+  std::unique_ptr<LoopSharing> Sharing; ///< declared before its users
   std::unique_ptr<ContentionManager> Manager;
   std::unique_ptr<LoadBalancer> Balancer;
   std::mutex ErrorMutex;

@@ -21,7 +21,7 @@
 namespace voxplex
 {
 
-/** Of which simplices the rules are asked first. */
+/** The simplices that are judged by the rules first. */
 enum class RefinementStart
 {
   Everywhere,
@@ -31,15 +31,15 @@ enum class RefinementStart
 /**
  * @brief Refines the triangulation of a context by a set of rules, with any number of threads.
  *
- * Rules is a class with `static constexpr int Dimension`, a constructor (context, worker),
- * `ScreenCreated()`, `Refine(simplex)` and `RemovePending()`, as Rules3D; the loop does not know which
- * it runs.
+ * Rules is a class like Rules3D: it has `static constexpr int Dimension`, a constructor (context,
+ * worker), `ScreenCreated()`, `Refine(simplex)` and `RemovePending()`. The loop is the same for all
+ * rules.
  *
- * Refinement by several threads is speculative (section 3.2): a thread takes the vertices of what it is
- * about to change one by one; if one is another's, it gives up, gives back what it took, and asks the
- * contention manager what to do. A thread without work waits until the load balancer brings some.
- * With TeamOptions::FineGrained threads that wait help those that insert points (LoopSharing).
- * One thread takes no locks and gives a mesh that is the same bit for bit in every run.
+ * Refinement by several threads is speculative (section 3.2). A thread locks the vertices that its
+ * operation needs one by one. If another thread owns one of them, the thread gives up, releases its
+ * vertices, and calls the contention manager. A thread without work waits until the load balancer
+ * brings some. With TeamOptions::FineGrained waiting threads help with insertions (LoopSharing). A
+ * single thread takes no locks, and its mesh is the same bit for bit in every run.
  */
 template <typename Rules>
 class Refiner
@@ -47,14 +47,17 @@ class Refiner
 public:
   static constexpr int D = Rules::Dimension;
 
-  /** Called every few hundred evaluations with the number of vertices so far, by any of the threads, by
-   * several at once; false stops refinement. */
+  /**
+   * Called every few hundred evaluations with the number of vertices so far. Several threads may
+   * call it at once. If it returns false, refinement stops.
+   */
   using Monitor = std::function<bool(std::uint64_t vertices)>;
 
   /**
-   * @param seeds feature points to insert before the rules are asked
-   * @param start AtSeeds: only of what the seeds make, and of simplices whose circumball reaches where
-   *   LocalDelta has a lower bound than before; no rule applies to anything else
+   * @param seeds feature points that are inserted before the rules are applied
+   * @param start AtSeeds: the rules judge only the simplices that the seeds make, and simplices
+   *   whose circumball reaches where LocalDelta has lowered a bound. No rule applies to any other
+   *   simplex
    */
   explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {},
     std::vector<FeatureSeed<D>> seeds = {}, RefinementStart start = RefinementStart::Everywhere)
@@ -67,8 +70,8 @@ public:
   }
 
   /**
-   * Refines until no rule applies. Call once.
-   * @return false if stopped by goOn
+   * Refines until no rule applies. Call it once.
+   * @return false if goOn stopped refinement
    * @throws std::bad_alloc
    */
   bool Run(const Monitor& goOn)
@@ -102,7 +105,7 @@ public:
     return !this->Team.Stopped();
   }
 
-  /** Of all threads together. */
+  /** The sum over all threads. */
   RuleStatistics GetRuleStatistics() const
   {
     RuleStatistics sum;
@@ -113,7 +116,7 @@ public:
     }
     return sum;
   }
-  /** Where rules began to give way, of all threads. */
+  /** The regions where rules began to give way, of all threads. */
   std::vector<YieldingRegion<D>> GetYielded() const
   {
     std::vector<YieldingRegion<D>> regions;
@@ -158,7 +161,7 @@ public:
     }
     return threads;
   }
-  /** Until all threads had work; 0 for one thread. */
+  /** Time until all threads had work; 0 for one thread. */
   double GetSecondsToSeed() const { return this->SecondsToSeed; }
   bool SwitchedToLocal()
   {
@@ -166,17 +169,18 @@ public:
   }
 
 private:
-  /** Fewest poor elements of which a thread gives (thesis, section 3.2.4). */
+  /** A thread with fewer poor elements gives none away (thesis, section 3.2.4). */
   static constexpr std::size_t GiveThreshold = 5;
 
   /**
-   * A thread gives its vertices back when it owns so many, not after every turn: elements that follow each
-   * other in its list mostly share vertices, and taking them is what locks cost. In 4D, where operations are
-   * ten times as large, what is kept is in others' way, and taking it costs nothing by comparison.
+   * A thread releases its vertices when it owns this many, not after every turn. Successive
+   * elements of its list mostly share vertices, and taking vertices is the main cost of locks. In
+   * 4D operations are ten times as large: vertices that are kept are in the way of others, and
+   * taking them costs little by comparison.
    */
   static constexpr std::size_t MostKept = D == 3 ? 128 : 1;
 
-  /** Where a thread's time went that was not spent on refining. */
+  /** Where a thread's time went besides refining. */
   struct alignas(CacheLineSize) Overhead
   {
     CycleClock::Ticks Contention = 0;
@@ -185,7 +189,7 @@ private:
     ThreadStatistics Counts;
   };
 
-  /** Every simplex of the triangulation, in the order of ids, to the only worker. */
+  /** For the only worker. Pushes all simplices in the order of ids, or those of StartAtSeeds(). */
   void PushAll()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
@@ -206,7 +210,7 @@ private:
     this->Screen(*this->Workers[0], simplices.data(), simplices.data() + simplices.size());
   }
 
-  /** All for the first worker. */
+  /** Pushes the simplices at the seeds and at lowered bounds, all to the first worker. */
   void StartAtSeeds()
   {
     const Triangulation<D>& mesh = this->Context.Mesh;
@@ -228,7 +232,7 @@ private:
     this->Screen(worker, changed.data(), changed.data() + changed.size());
   }
 
-  /** Workers 1, 2 ..., each with its share of a seeded triangulation. */
+  /** Makes the workers 1, 2 ..., each with its share of a seeded triangulation. */
   void MakeWorkers(unsigned threads)
   {
     for (unsigned t = 0; t < threads; ++t)
@@ -330,7 +334,7 @@ private:
         {
           return;
         }
-        continue; // what was given may have turned out to be dead
+        continue; // the gift may contain dead simplices only
       }
       if ((++turns & 255u) == 0 && goOn && !goOn(this->Context.Mesh.VertexIdEnd()))
       {
@@ -341,7 +345,7 @@ private:
         this->Context.Mesh.Unlock(me.Kernel);
         return;
       }
-      // Most entries are dead when they come up: no clock for these.
+      // Most entries are dead when they are taken, so the clock starts after them.
       const PoorElementList::Entry e =
         me.PendingRemovals.empty() ? this->NextAlive(me) : PoorElementList::Entry{ None, 0 };
       const CycleClock::Ticks start = CycleClock::Now();
@@ -434,7 +438,7 @@ private:
     me.Deferred.clear();
   }
 
-  /** Waits for work; false if there is none any more. */
+  /** Waits for work; returns false if there will be none. */
   bool Beg(unsigned thread)
   {
     const CycleClock::Ticks start = CycleClock::Now();
@@ -449,7 +453,7 @@ private:
     return goOn;
   }
 
-  /** Work for one of those who beg. */
+  /** Gives work to a beggar. */
   void Give(unsigned thread)
   {
     RefinementWorker<D>& me = *this->Workers[thread];
@@ -490,7 +494,7 @@ private:
   RefinementTeam Team;
   EagerRemoval Eager;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
-  std::vector<typename Triangulation<D>::Worker*> Helpers; ///< of all threads, if fine-grained
+  std::vector<typename Triangulation<D>::Worker*> Helpers; ///< of all threads, if FineGrained
   std::vector<std::unique_ptr<Overhead>> Overheads;
   std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end
   double SecondsToSeed = 0.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RegionalWork.h
- * @brief Counts the insertions of each region, so that no region takes work without end.
+ * @brief Counts the insertions of each region, so that the work in a region is bounded.
  */
 #ifndef voxplex_RegionalWork_h
 #define voxplex_RegionalWork_h
@@ -21,18 +21,21 @@ namespace voxplex
 {
 
 /**
- * How far the rules give way in a region that has taken many times the work that regions need; each step includes
- * those before.
+ * How far the rules give way in a region that has taken many times the usual work. Each step
+ * includes those before it.
  */
 enum class Yielding : unsigned
 {
   Nothing,
   Slivers, ///< slivers stay
-  Spacing, ///< points that are inserted for the sake of facets keep half the spacing instead of a tenth
+  Spacing, ///< points inserted for the sake of facets keep half the spacing instead of a tenth
   All      ///< only R1 inserts points, and nothing is removed
 };
 
-/** Of the number of insertions that was counted in a region; `limit` is what no region should need. */
+/**
+ * The step for a number of insertions counted in a region. No region should need `limit`
+ * insertions.
+ */
 constexpr Yielding YieldingOf(std::uint32_t work, std::uint32_t limit)
 {
   return work < limit  ? Yielding::Nothing
@@ -42,22 +45,27 @@ constexpr Yielding YieldingOf(std::uint32_t work, std::uint32_t limit)
 }
 
 /**
- * @brief How many points were inserted in each region since the start of refinement.
+ * @brief The number of points that were inserted in each region since the start of refinement.
  *
- * The region of a place with spacing S (RefinementContext::Spacing) is a cell of a grid whose cells have a side above
- * 2.5 S and at most 3 S, which is 3 times a power of 2^(1/4). So a region has room for a bounded number of vertices that
- * keep S, and where S is the same everywhere a mesh has regions for (2.5 S)^-D times the volume of its box.
+ * Let S be the spacing at a point (SizingField::Spacing). The point's region is a cell of a grid.
+ * The side of its cells is above 2.5 S and at most 3 S, and is 3 times a power of 2^(1/4). So a
+ * region has room for a bounded number of vertices that keep the distance S. If S is the same
+ * everywhere, the number of regions is at most about the volume of the box over (2.5 S)^D.
  *
- * Counts are kept in a table without keys. A region has two entries in it and the smaller one counts. Two regions that
- * share both entries are counted as one: the count of a region is never too small, and rarely too large.
+ * Counts are kept in a table without keys. A region has two entries in it, and the smaller one is
+ * its count. Two regions that share both entries are counted as one. So the count of a region is
+ * never too small, and rarely too large.
  *
- * All methods may be called by any number of threads at once. Each takes constant time.
+ * Any number of threads may call all methods at once. Each takes constant time.
  */
 template <int D>
 class RegionalWork
 {
 public:
-  /** @param expected about how many vertices there will be; if there are more, counts are too large more often */
+  /**
+   * @param expected the expected number of vertices; with more vertices counts are too large more
+   *   often
+   */
   explicit RegionalWork(std::uint64_t expected)
   {
     constexpr std::uint64_t Fewest = std::uint64_t{ 1 } << 14;
@@ -67,7 +75,7 @@ public:
     this->Counts = std::make_unique<std::atomic<std::uint32_t>[]>(entries); // zeros
   }
 
-  /** Counts an insertion; returns the number of those that were counted before in the region. */
+  /** Counts an insertion. Returns the number that was counted before in the region. */
   std::uint32_t Add(const Point<D>& place, double spacing)
   {
     const std::uint64_t hash = this->Hash(place, spacing);
@@ -76,7 +84,7 @@ public:
     return std::min(a, b);
   }
 
-  /** The number of insertions that were counted in the region of a place. */
+  /** The number of insertions that were counted in the region of a point. */
   std::uint32_t At(const Point<D>& place, double spacing) const
   {
     const std::uint64_t hash = this->Hash(place, spacing);
@@ -93,7 +101,7 @@ private:
   std::uint64_t Hash(const Point<D>& place, double spacing) const
   {
     const double step = std::floor(4.0 * std::log2(spacing));
-    const double cells = std::exp2(-0.25 * step) / 3.0; // for a unit of length
+    const double cells = std::exp2(-0.25 * step) / 3.0; // per unit of length
     std::uint64_t hash =
       MixBits(GoldenGamma + static_cast<std::uint64_t>(static_cast<std::int64_t>(step)));
     for (const double x : place)

@@ -23,8 +23,8 @@ Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
 }
 
 //------------------------------------------------------------------------------------------------
-// Cheap: one look-up of the distance bounds, and labels only away from the interfaces, where they
-// cost one look-up too. Nearly all that is screened dies before it would be evaluated.
+// Cheap: one look-up of the distance bounds, and labels only away from the interfaces, where a
+// label costs one look-up, too. Nearly all screened simplices die before they would be evaluated.
 bool Rules3D::MayBePoor(SimplexId t)
 {
   if (this->ScreenDistance(t))
@@ -75,7 +75,7 @@ RuleOutcome Rules3D::Refine(SimplexId id)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Whether R7 applies: of what optimisation mends as well, only the worst is split. */
+/** Whether R7 applies. Of the slivers that optimisation can improve, only the worst are split. */
 bool Rules3D::IsToSplit(const Element& t)
 {
   if (this->SineOfSliverAngle <= 0.0)
@@ -86,7 +86,10 @@ bool Rules3D::IsToSplit(const Element& t)
   return !(sine >= this->SineOfSliverAngle) && (!(sine >= this->SineInside) || this->IsWedged(t));
 }
 
-/** Whether at most one facet of t is inside of its label: where all its vertices are on interfaces nothing can move. */
+/**
+ * Whether at most one facet of t is inside of its label. If all vertices of t are on interfaces,
+ * none can move.
+ */
 bool Rules3D::IsWedged(const Element& t)
 {
   const auto& simplex = this->Context.Mesh.GetSimplex(t.Id);
@@ -125,8 +128,8 @@ class Rules3D::BetterStar final : public Triangulation<3>::InsertionVeto
 public:
   /**
    * @param bound of the smallest sine of the dihedral angles
-   * @param only every simplex of the star is to have this label; 0: any
-   * @param tolerance radius-edge ratios may be so many times the bound: R4 sees to them
+   * @param only the label that every simplex of the star must have; 0: any
+   * @param tolerance the factor by which radius-edge ratios may exceed the bound: R4 repairs them
    */
   BetterStar(const RefinementContext<3>& context, const Point<3>& first, double bound, LabelId only,
     double tolerance)
@@ -167,7 +170,7 @@ public:
       }
       const bool isBad = !(sine > this->BestSine) ||
         ball.Radius2 >= this->LargestRatio * this->LargestRatio * ShortestEdge2<3>(points.data());
-      // Outside the object shapes do not matter, nor does what is good enough need a label.
+      // Outside the object shapes do not matter. A simplex with a good shape needs no label.
       if (this->Only != 0 || isBad)
       {
         const LabelId label = this->Context.Image.Label(ball.Center);
@@ -197,7 +200,8 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-// First without anything for R4 to do; where that fails, what R4 makes of it is usually better.
+// First only points that leave nothing for R4 to do. If none is found, the elements that R4 makes
+// are usually better.
 RuleOutcome Rules3D::R7(const Element& t)
 {
   ++this->Worker.Statistics.SliversFound;
@@ -213,8 +217,8 @@ RuleOutcome Rules3D::R7(const Element& t)
 }
 
 //------------------------------------------------------------------------------------------------
-// A star with one label only has not taken a facet from an interface, nor given it one with a free vertex:
-// the thesis' rejection of points that eliminate legal facets.
+// If the star has one label only, the insertion takes no facet from an interface, and adds none
+// with a free vertex: the thesis' rejection of points that eliminate legal facets.
 RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.TetSlivers;
@@ -248,7 +252,7 @@ RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
 }
 
 //------------------------------------------------------------------------------------------------
-// Near an interface: a point of it instead, in the picking region of a restricted facet nearby.
+// Near an interface: inserts a point of it, from the picking region of a restricted facet nearby.
 RuleOutcome Rules3D::SampleAtSliver(const Element& t, double tolerance)
 {
   Triangulation<3>& mesh = this->Context.Mesh;
@@ -261,7 +265,7 @@ RuleOutcome Rules3D::SampleAtSliver(const Element& t, double tolerance)
     {
       continue;
     }
-    for (const VertexId v : mesh.GetSimplex(n).V) // so that its neighbours may be looked at
+    for (const VertexId v : mesh.GetSimplex(n).V) // so that the neighbours of n may be read
     {
       if (!mesh.TryLock(this->Worker.Kernel, v))
       {
@@ -300,7 +304,8 @@ RuleOutcome Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolera
 }
 
 //------------------------------------------------------------------------------------------------
-// All four vertices on interfaces, but none of its facets nor of its neighbours': between two sides of a sheet.
+// A sliver between two sides of a sheet: all four vertices are on interfaces, but no facet of it or
+// of its neighbours is restricted. Inserts a point of the interface beside it.
 RuleOutcome Rules3D::SampleBeside(const Element& t, double tolerance)
 {
   Point<3> z;
@@ -395,15 +400,15 @@ RuleOutcome Rules3D::R3(const Element& t)
       z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[RuleNumber<3>::InterfaceFacet]);
     if (outcome != RuleOutcome::Good)
     {
-      return outcome; // z need not conflict with t: whoever called judges t again if it lives
+      return outcome; // z need not conflict with t: if t is alive, the caller judges it again
     }
   }
   return RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
-// rho(f) < rho-bar_f of the thesis in the form of section 3.1: no angle below the bound, and all
-// vertices on interfaces.
+// The criterion rho(f) < rho-bar_f of the thesis in the form of section 3.1: no angle is below the
+// bound, and all vertices are on interfaces.
 bool Rules3D::FacetIsGood(const std::array<VertexId, 4>& v, unsigned facet) const
 {
   std::array<const Triangulation<3>::Vertex*, 3> f;
@@ -446,7 +451,8 @@ bool Rules3D::MayCrossBorder(const Element& t, SimplexId neighbour, LabelId othe
 }
 
 //------------------------------------------------------------------------------------------------
-// A facet whose dual edge leaves the object through the border of the image has its vertices there.
+// If the dual edge of a facet leaves the object through the border of the image, the facet's
+// vertices must be there.
 bool Rules3D::FacetIsFlat(
   const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const
 {
@@ -466,7 +472,7 @@ bool Rules3D::FacetIsFlat(
 }
 
 //------------------------------------------------------------------------------------------------
-// What is in the way of flat facets is most often near an edge that has too few vertices.
+// If a facet is not flat, the reason is usually an edge nearby that has too few vertices.
 void Rules3D::MoveToBorderEdge(Point<3>& z, double reach, double clearance) const
 {
   Point<3> edge;

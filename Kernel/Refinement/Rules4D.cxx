@@ -219,7 +219,7 @@ RuleOutcome Rules4D::R5(const Element& s)
 }
 
 //------------------------------------------------------------------------------------------------
-// At the centre of the surface ball of a facet, or near it.
+// Inserts a feature point at the centre of the surface ball of a facet, or near it.
 RuleOutcome Rules4D::InsertFeatureAt(
   const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
 {
@@ -248,8 +248,8 @@ RuleOutcome Rules4D::InsertFeatureAt(
 }
 
 //------------------------------------------------------------------------------------------------
-// The picking region of a restricted facet: what the interface has in common with a ball around the
-// centre z of its surface ball.
+// The picking region of a restricted facet is the part of the interface inside a ball around z, the
+// centre of its surface ball.
 RuleOutcome Rules4D::InsertFeaturePick(
   const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other)
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Seeding.h
- * @brief A start that gives every thread work.
+ * @brief The seeds from which refinement starts, so that every thread has work.
  */
 #ifndef voxplex_Seeding_h
 #define voxplex_Seeding_h
@@ -19,10 +19,12 @@ namespace voxplex
 {
 
 /**
- * Feature points closest to the nodes of a coarse lattice over the domain, no two nearer than delta: points
- * that R1 might insert as well, so nothing that the rules promise changes. None near flat ends.
+ * Feature points closest to the nodes of a coarse lattice over the domain. No point is near a flat
+ * end. R1 might insert the same points, so the guarantees of the rules stay the same. InsertSeeds()
+ * skips points that are nearer than delta to another.
  *
- * @param number about how many nodes; fewer where these would be nearer than a few delta; 0 for none
+ * @param number approximate number of nodes; fewer if these would be nearer than a few delta; 0 for
+ *   none
  */
 template <int D>
 std::vector<FeatureSeed<D>> SampleInterfaces(
@@ -83,7 +85,8 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
  * Inserts feature points along a Hilbert curve.
  *
  * @param Rules as in Refiner
- * @param worker inserts; nobody else may operate meanwhile. What is made is screened, unless it screens later.
+ * @param worker inserts; no other thread may operate meanwhile. New simplices are screened, unless
+ *   the worker screens later.
  */
 template <typename Rules, int D = Rules::Dimension>
 void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
@@ -107,31 +110,32 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
 }
 
 /**
- * Inserts a sample of the interfaces and the seeds that are asked for.
+ * Inserts the given seeds and a sample of the interfaces.
  *
  * The thesis starts all threads from the few simplices of the box and loses its first seconds to
- * rollbacks and idling (section 3.4.3, figure 3.6); with a few dozen points a thread all begin with work
- * of their own. The points are counted as insertions by R1.
+ * rollbacks and idling (section 3.4.3, figure 3.6). With a few dozen points per thread, every
+ * thread begins with work of its own. The points are counted as insertions by R1.
  *
  * @param Rules as in Refiner
- * @param worker inserts; nobody else may operate meanwhile. Nothing is screened: most of what is made does not last.
- * @param seeds to be inserted besides
- * @param nodes about how many points the sample has, 0 for none
+ * @param worker inserts; no other thread may operate meanwhile. Nothing is screened: most of the
+ *   new simplices do not last.
+ * @param seeds are inserted before the sample
+ * @param nodes approximate number of points of the sample, 0 for none
  */
 template <typename Rules, int D = Rules::Dimension>
 void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
   const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
 {
   worker.ScreensLater = true;
-  InsertSeeds<Rules>(
-    context, worker, seeds); // first: the sample would stand in the way of junctions
+  // The seeds come first: points of the sample would be in the way of junctions.
+  InsertSeeds<Rules>(context, worker, seeds);
   InsertSeeds<Rules>(context, worker, SampleInterfaces(context, nodes));
   worker.ScreensLater = false;
 }
 
 /**
- * All living simplices, so that neighbours in the list are near each other in space: consecutive pieces of it are good
- * starts for threads.
+ * All living simplices, ordered so that neighbours in the list are near each other in space. A
+ * thread starts well from a piece of the list.
  */
 template <int D>
 std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file BaseDistance.h
- * @brief The sampling distance of interfaces for which nothing else is asked.
+ * @brief The sampling distance of interfaces to which no other size is given.
  */
 #ifndef voxplex_BaseDistance_h
 #define voxplex_BaseDistance_h
@@ -18,10 +18,10 @@ namespace voxplex
 template <int D>
 struct BaseDistance
 {
-  double Delta = 1.0;                     ///< if it is graded, the largest
-  const GradedDelta<D>* Graded = nullptr; ///< from place to place; null: the same everywhere
-  double Equivalent = Delta;              ///< the uniform one that makes about as many vertices
-  double Asked = Delta;                   ///< that of the options, the finest there may be
+  double Delta = 1.0;                     ///< if it is graded: the largest
+  const GradedDelta<D>* Graded = nullptr; ///< Delta(z); null: the same everywhere
+  double Equivalent = Delta; ///< the uniform distance that gives about as many vertices
+  double Asked = Delta;      ///< delta of the options: the lower bound of At()
 
   double At(const Point<D>& z) const { return this->Graded ? this->Graded->At(z) : this->Delta; }
 

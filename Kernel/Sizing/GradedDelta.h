@@ -23,15 +23,17 @@ namespace voxplex
 /**
  * @brief Delta(z) of the thesis, constant in each cell of a cubic grid.
  *
- * Values are set at points, the smallest of a cell counts, and Grade() spreads them. A query is one look-up.
- * Queries may run in any number of threads; nothing else must run beside them.
+ * Values are set at points. A cell keeps the smallest of its values, and Grade() spreads them over
+ * the grid. A query is one look-up.
+ * Queries may run in any number of threads, but not while another method changes the values.
  */
 template <int D>
 class GradedDelta
 {
 public:
   /**
-   * @param bounds where values will be set; elsewhere that of the nearest cell counts
+   * @param bounds box of the points where values will be set; a query outside takes the nearest
+   *   cell
    * @param cell edge of a cell
    * @throws std::bad_alloc
    */
@@ -58,8 +60,8 @@ public:
   }
 
   /**
-   * Makes the values grow by at most `slope` for each unit of length along the axes (LimitGrowth). At least one must have
-   * been set.
+   * Limits the growth of the values to `slope` for each unit of length along the axes
+   * (LimitGrowth). At least one value must have been set.
    */
   void Grade(double slope, unsigned threads, const std::stop_token& stop)
   {
@@ -86,7 +88,7 @@ public:
   std::size_t MemoryBytes() const { return this->Values.size() * sizeof(float); }
 
 private:
-  /** The nearest cell. */
+  /** The cell nearest to p. */
   std::size_t CellOf(const Point<D>& p) const
   {
     std::size_t offset = 0;

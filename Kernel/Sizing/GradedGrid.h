@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GradedGrid.h
- * @brief Lengths that are given at some places and grow with the distance from there.
+ * @brief Lengths that are given at sample points and grow with the distance from them.
  */
 #ifndef voxplex_GradedGrid_h
 #define voxplex_GradedGrid_h
@@ -23,23 +23,33 @@ namespace voxplex
 {
 
 /**
- * @brief g(p) = min over the samples q of { length(q) + slope |p - q| }: the largest function that is at most the
- * sample at each q and has no more than this slope.
+ * @brief g(p) = min over the samples q of { length(q) + slope |p - q| }: the largest function that
+ * is at most length(q) at each sample q and has no more than this slope.
  *
- * The bounding box of the foreground is cut in cells of a few voxels, two along each axis unless these are
- * too many (MostCells). Of the samples in a cell the smallest length counts, at every place of the bounding box of those
- * that have it. Each cell then finds the cell from which g is smallest at its centre: row by row along each axis, forth and back,
- * neighbours hand on what they found, until nothing changes. Distances are those to the places themselves, not sums of steps,
- * so that they are Euclidean whatever the spacing and the axes. A query takes the place that the cell of p has found, or its own.
- * - With one sample a cell g is exceeded by no more than slope times the diagonal of a cell (two ways to
- *   the centre of a cell where cones meet), and elsewhere right.
- * - With several samples a cell g can be missed by so much in either direction.
+ * Algorithm:
+ * 1. The bounding box of the foreground is cut into cells of two voxels along each axis. If these
+ *    are more than MostCells, the cells are larger.
+ * 2. Each cell keeps the smallest length of its samples, and the bounding box of the samples that
+ *    have it.
+ * 3. Each cell finds the source of its centre: the cell whose samples make g smallest there.
+ *    Neighbours hand on their sources, row by row along each axis, forth and back, until nothing
+ *    changes. Distances are measured to the samples' box itself and are no sums of steps, so they
+ *    are Euclidean for every spacing and all axes.
+ * 4. A query takes the smaller value of two: that of the source of the cell of p, and that of the
+ *    cell's own samples.
  *
- * Source of the limit: P.-O. Persson, "Mesh size functions for implicit geometries and PDE-based gradient
- * limiting", Engineering with Computers 22 (2006), which solves |grad g| = slope by fast marching.
+ * Error:
+ * - If each cell has one sample, At() exceeds g by no more than slope times the diagonal of a cell,
+ *   and only where two sources compete for the centre of a cell.
+ * - If a cell has several samples, At() may miss g by as much in either direction.
  *
- * Queries may run in any number of threads. Building takes time linear in the number of voxels and, a few times, of cells,
- * and 28 to 40 bytes a cell. Neither depends on the number of threads, nor does the result.
+ * Source of the limit: P.-O. Persson, "Mesh size functions for implicit geometries and PDE-based
+ * gradient limiting", Engineering with Computers 22 (2006). It solves |grad g| = slope by fast
+ * marching.
+ *
+ * Queries may run in any number of threads. Building takes time linear in the number of voxels plus
+ * a few times the number of cells. The grid takes 32 bytes a cell in 3D and 40 in 4D. The result
+ * does not depend on the number of threads.
  */
 template <int D>
 class GradedGrid
@@ -50,14 +60,15 @@ public:
   static constexpr std::int64_t SmallestCell = 2; ///< voxels along an axis
   static constexpr std::size_t MostCells = std::size_t(1) << 20;
 
-  /** Nothing is given: At() is infinite. */
+  /** No lengths are given: At() is infinite. */
   GradedGrid() = default;
 
   /**
    * @param slope growth over a unit of length, positive
-   * @param sample void(const Index& voxel, LabelId id, auto&& add): calls add(index, length) for each sample that belongs
-   *   to a voxel, with a continuous index of the bounding box of the foreground. It is called for all voxels but
-   *   background, from several threads at once. Lengths that are not positive and finite are left out.
+   * @param sample void(const Index& voxel, LabelId id, auto&& add): calls add(index, length) for
+   *   each sample that belongs to a voxel. `index` is a continuous index of the bounding box of the
+   *   foreground. The function is called for every voxel that is not background, from several
+   *   threads at once. A length that is not positive and finite is left out.
    * @throws Cancelled if a stop was requested before the end
    */
   template <typename Sample>
@@ -97,7 +108,7 @@ public:
     this->HandOn(threads, stop);
   }
 
-  /** g(p), for a point of the frame; outside of the box, too. */
+  /** g(p) for a point of the frame, inside or outside of the box. */
   double At(const Point<D>& p) const
   {
     if (this->Places.empty())
@@ -109,18 +120,20 @@ public:
     return this->Source[cell] == cell ? handedOn : std::min(handedOn, this->From(cell, p));
   }
 
-  /** Upper bound of what At() may be off, see the class. */
+  /** Upper bound of the error of At(); see the class. */
   double Tolerance() const
   {
     double diagonal = 0.0;
     for (int a = 0; a < D; ++a)
     {
-      diagonal += this->Grid.Spacing(a); // no shorter than the diagonal, whatever the axes
+      diagonal += this->Grid.Spacing(a); // at least the diagonal, for any axes
     }
     return this->Slope * diagonal * static_cast<double>(this->Edge);
   }
 
-  /** The smallest and the largest sample, each the smallest of its cell; infinite and 0 if there are none. */
+  /**
+   * The smallest and the largest length that a cell keeps; infinite and 0 if there are no samples.
+   */
   std::array<double, 2> Range() const
   {
     std::array<double, 2> range{ std::numeric_limits<double>::infinity(), 0.0 };
@@ -138,7 +151,10 @@ public:
 private:
   static constexpr float None = std::numeric_limits<float>::infinity();
 
-  /** The smallest length in a cell, and the box in the frame where it is. */
+  /**
+   * The smallest length of a cell's samples, and the bounding box in the frame of the samples with
+   * it.
+   */
   struct Place
   {
     float Length = None;
@@ -161,7 +177,8 @@ private:
       rest /= n;
     }
     double smallest = std::numeric_limits<double>::infinity();
-    Point<D> low{}; // where it is: continuous indices of the bounding box of the foreground
+    // The bounding box of the samples, in continuous indices of the foreground's bounding box.
+    Point<D> low{};
     Point<D> high{};
     const auto add = [&](const Point<D>& index, double length)
     {
@@ -200,7 +217,10 @@ private:
     this->Places[cell] = this->MakePlace(smallest, low, high);
   }
 
-  /** With oblique axes the box in the frame is larger than that of indices, so lengths come out smaller. */
+  /**
+   * If the axes are oblique, the box in the frame is larger than the box of indices, and lengths
+   * come out smaller.
+   */
   Place MakePlace(double length, const Point<D>& low, const Point<D>& high) const
   {
     Place place;
@@ -224,7 +244,10 @@ private:
     return place;
   }
 
-  /** Rows of cells along an axis do not touch each other, so threads share them. */
+  /**
+   * Finds the source of every cell. Rows of cells along an axis are independent, so threads share
+   * them.
+   */
   void HandOn(unsigned threads, const std::stop_token& stop)
   {
     std::vector<float> values(this->Places.size());
@@ -233,7 +256,8 @@ private:
       values[c] = static_cast<float>(this->From(static_cast<std::uint32_t>(c), this->CentreOf(c)));
     }
     constexpr int MostRounds =
-      16; // three are enough for the atlases of Documentation/Benchmarks.md
+      // three rounds are enough for the atlases of Documentation/Benchmarks.md
+      16;
     std::atomic<bool> changed{ true };
     for (int round = 0; round < MostRounds && changed; ++round)
     {
@@ -269,8 +293,9 @@ private:
   }
 
   /**
-   * Nothing is handed on to where less is asked for than at the giver: on the straight way from a place lengths grow.
-   * @param step from centre to centre
+   * Hands the sources on along one row. A cell hands nothing to a neighbour whose value is not
+   * larger than its own: lengths grow on the straight way from a source.
+   * @param step from the centre of a cell to the centre of the next
    */
   bool HandOnInRow(std::size_t start, std::size_t n, std::size_t stride, const Point<D>& step,
     std::vector<float>& values)
@@ -309,7 +334,7 @@ private:
     return any;
   }
 
-  /** What the samples of one cell ask for at p. */
+  /** The length at p by the samples of one cell. */
   double From(std::uint32_t source, const Point<D>& p) const
   {
     const Place& place = this->Places[source];
@@ -336,7 +361,7 @@ private:
     return this->Grid.ToFrame(index);
   }
 
-  /** The nearest cell. */
+  /** The cell nearest to p. */
   std::uint32_t CellOf(const Point<D>& p) const
   {
     const Point<D> index = this->Grid.ToIndex(p);
@@ -354,10 +379,10 @@ private:
   GridGeometry<D> Grid;
   Index Origin{};
   Index Cells{};
-  std::int64_t Edge = SmallestCell; ///< of a cell, in voxels
+  std::int64_t Edge = SmallestCell; ///< edge of a cell, in voxels
   double Slope = 0.0;
   std::vector<Place> Places;         ///< by cell
-  std::vector<std::uint32_t> Source; ///< by cell: the cell from which g is smallest at the centre
+  std::vector<std::uint32_t> Source; ///< by cell: the source of its centre
 };
 
 } // namespace voxplex

@@ -13,7 +13,10 @@ namespace voxplex
 namespace
 {
 
-/** Sizes of the labels of an image, by dense id; empty if they are not all there is to the function. */
+/**
+ * Sizes of the labels of an image, by dense id; empty if the function depends on more than the
+ * label.
+ */
 template <int D>
 std::vector<double> SizesOfLabels(const SizeFunction<D>& size, const LabelImage<D>& image)
 {
@@ -51,7 +54,7 @@ std::shared_ptr<const SizeFunction<D>> GradedSize<D>::Limit(
   {
     return size;
   }
-  std::atomic<bool> unbounded{ false }; // somewhere
+  std::atomic<bool> unbounded{ false }; // at some voxel
   const std::vector<double> ofLabel = SizesOfLabels<D>(*size, image);
   GradedGrid<D> grid(
     image, gradation,

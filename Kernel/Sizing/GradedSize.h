@@ -17,20 +17,21 @@ namespace voxplex
 {
 
 /**
- * @brief sf'(p) = min over the points q of the object of { sf(q) + gradation |p - q| }: the largest function below sf that
- * changes by no more than `gradation` over a unit of length, whatever sf is.
+ * @brief sf'(p) = min over the points q of the object of { sf(q) + gradation |p - q| }: the largest
+ * function below sf that changes by no more than `gradation` over a unit of length.
  *
- * sf is sampled once at the centre of every voxel of the object (once a label if it depends on the label alone), and
- * asked again where it is evaluated: the smaller of the two counts, so that no bound of sf is lost between samples. See
- * GradedGrid for what the sampling makes of sf'.
+ * sf is sampled once at the centre of every voxel of the object. If sf depends on the label alone,
+ * it is sampled once for each label. A query evaluates sf again and takes the smaller of the two
+ * values, so that no bound of sf is lost between samples. GradedGrid describes the error of the
+ * sampled sf'.
  */
 template <int D>
 class GradedSize final : public SizeFunction<D>
 {
 public:
   /**
-   * sf with its growth limited; sf itself if there is nothing to limit, because the gradation is 0, sf is null, or it is the
-   * same everywhere.
+   * sf with its growth limited. Returns sf itself if there is nothing to limit: the gradation is 0,
+   * sf is null, or sf is the same everywhere.
    *
    * @param gradation change of the size over a unit of length, 0 or more
    * @param threads 0 means all cores; the result does not depend on it

@@ -19,11 +19,11 @@ namespace voxplex
 {
 
 /**
- * Lowers each value to the least that any other allows: values grow by at most `steps[a]` from a cell to the next along
- * axis a. Linear in the number of cells.
+ * Lowers values so that they grow by at most `steps[a]` from a cell to the next along axis a.
+ * Linear in the number of cells.
  *
- * @param values of the cells; the first axis is the fastest
- * @param cells along each axis
+ * @param values of the cells; the first axis varies fastest
+ * @param cells number of cells along each axis
  * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end
  */
@@ -31,8 +31,8 @@ template <std::size_t D>
 void LimitGrowth(std::span<float> values, const std::array<std::size_t, D>& cells,
   const std::array<float, D>& steps, unsigned threads = 1, const std::stop_token& stop = {})
 {
-  constexpr std::size_t Strip = 4096; // cells of a layer that a thread takes along the axis at once
-  std::size_t layer = 1;              // cells between a cell and the next along the axis
+  constexpr std::size_t Strip = 4096; // cells of a layer that a thread handles at once
+  std::size_t layer = 1;              // offset from a cell to the next along axis a
   for (std::size_t a = 0; a < D && !values.empty(); ++a)
   {
     const std::size_t n = cells[a];

@@ -31,7 +31,10 @@ LabelId DenseId(std::span<const std::int64_t> values, std::int64_t value)
   return static_cast<LabelId>(found - values.begin());
 }
 
-/** Calls visit(axis, direction, id) with the label beyond each face of a voxel of the crop; background beyond the crop. */
+/**
+ * Calls visit(axis, direction, id) with the label beyond each face of a voxel of the crop. Beyond
+ * the crop it is background.
+ */
 template <int D, typename Visit>
 void ForEachNeighbour(
   const LabelImage<D>& image, const typename GridGeometry<D>::Index& voxel, Visit&& visit)
@@ -64,7 +67,7 @@ Point<D> FaceCentre(
   return p;
 }
 
-/** A continuous index of the crop. */
+/** A point of the frame, from a continuous index of the crop. */
 template <int D>
 Point<D> ToFrame(const LabelImage<D>& image, Point<D> index)
 {
@@ -157,7 +160,7 @@ void InterfaceSizes<D>::Summarise(
 {
   using Faces = std::array<std::uint64_t, static_cast<std::size_t>(D)>; // by axis
   std::map<std::uint32_t, Faces> all;
-  std::mutex mutex; // of all
+  std::mutex mutex; // guards `all`
   const auto& n = image.CropDimensions();
   const std::size_t row = static_cast<std::size_t>(n[0]);
   ParallelFor(
@@ -184,7 +187,8 @@ void InterfaceSizes<D>::Summarise(
               {
                 if (other != id)
                 {
-                  found[Key(id, other)][axis] += other == 0 ? 2 : 1; // others are met twice
+                  // A face between two labels is met from both sides.
+                  found[Key(id, other)][axis] += other == 0 ? 2 : 1;
                 }
               });
           }
@@ -203,7 +207,7 @@ void InterfaceSizes<D>::Summarise(
 
   this->SmallestSize = Unset;
   double area = 0.0;
-  double vertices = 0.0; // about
+  double vertices = 0.0; // an estimate
   for (const auto& [pair, faces] : all)
   {
     const auto a = static_cast<LabelId>(pair >> 16);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LocalDelta.h
- * @brief Where interfaces are to be sampled more finely than elsewhere.
+ * @brief Upper bounds of the sampling distance where something small or thin needs a finer one.
  */
 #ifndef voxplex_LocalDelta_h
 #define voxplex_LocalDelta_h
@@ -20,12 +20,12 @@ namespace voxplex
 {
 
 /**
- * @brief An upper bound of the sampling distance of one label's interfaces in each cell of a few voxels;
- * infinite at first.
+ * @brief An upper bound of the sampling distance of one label's interfaces in each cell of a few
+ * voxels; infinite at first.
  *
- * A query is one look-up. The memory is taken when the first bound is set: two bytes a voxel in 3D. Where
- * two labels have a bound in one cell the smaller one counts.
- * Queries may run in any number of threads; SetBound() must not run beside anything else.
+ * A query is one look-up. The memory is allocated when the first bound is set: two bytes a voxel in
+ * 3D. If two labels have a bound in one cell, the smaller bound holds.
+ * Queries may run in any number of threads, but not beside SetBound().
  */
 template <int D>
 class LocalDelta
@@ -54,7 +54,10 @@ public:
     LabelId Label = 0;
   };
 
-  /** Lowers the bound in all cells within a voxel of the run of voxels (an index of the crop). */
+  /**
+   * Lowers the bound in all cells within a voxel of a run of voxels. `first` is an index of the
+   * crop.
+   */
   void SetBound(const Index& first, std::int64_t length, LabelId label, double delta)
   {
     this->ForCellsNear(first, length,
@@ -71,7 +74,9 @@ public:
     this->SmallestBound = std::min(this->SmallestBound, delta);
   }
 
-  /** The same for GradedAt() only: vertices there are so near to each other, but no rule asks for it. */
+  /**
+   * Lowers GradedAt() alone: vertices there are this close to each other, but no rule asks for it.
+   */
   void SetSpacing(const Index& first, std::int64_t length, double spacing)
   {
     this->ForCellsNear(first, length,
@@ -79,16 +84,16 @@ public:
       { this->Spacings[cell] = std::min(this->Spacings[cell], static_cast<float>(spacing)); });
     this->SmallestBound = std::min(this->SmallestBound, spacing);
   }
-  /** The bound at a point of the frame; that of the nearest cell outside of the crop. */
+  /** The bound at a point of the frame; outside of the crop that of the nearest cell. */
   Bound At(const Point<D>& p) const
   {
     return this->Values.empty() ? Bound() : this->Values[this->CellOf(p)];
   }
 
   /**
-   * The least that any bound asks for at a point when bounds grow with the distance from where they were
-   * set, by `Slope` times the distance along the axes; as of the last Grade(). Continuous, and nowhere in a cell above the
-   * cell's own bound.
+   * The smallest of all bounds at a point, if each bound grows by `Slope` times the distance along
+   * the axes from where it was set. It is as of the last Grade(), continuous, and nowhere in a cell
+   * above the cell's own bound.
    */
   double GradedAt(const Point<D>& p) const
   {
@@ -98,7 +103,7 @@ public:
     }
     const Point<D> index = this->Grid.ToIndex(p);
     std::array<std::size_t, D> offset; // of the lower cell along each axis, in values
-    std::array<std::size_t, D> step;   // to the upper one
+    std::array<std::size_t, D> step;   // from the lower to the upper cell
     Point<D> fraction;
     std::size_t stride = 1;
     for (std::size_t a = 0; a < D; ++a)
@@ -131,7 +136,7 @@ public:
   /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
   bool HasLowered() const { return this->AnyLowered; }
 
-  /** The same for the cells that a ball of the frame may reach. */
+  /** The same for the cells that a ball in the frame may reach. */
   bool HasLoweredWithin(const Point<D>& centre, double radius) const
   {
     if (!this->AnyLowered)
@@ -170,14 +175,14 @@ public:
     this->AnyLowered = false;
   }
 
-  /** How much bounds grow over a unit of length. */
+  /** Growth of bounds over a unit of length. */
   static constexpr double Slope = 0.25;
 
   /**
    * Prepares GradedAt(). Linear in the number of cells.
    *
-   * A cell first takes the least value of its neighbours, too: GradedAt() interpolates between the centres of cells, and so
-   * stays below a cell's value up to its border.
+   * A cell first takes the smallest value of itself and its neighbours. GradedAt() interpolates
+   * between the centres of cells, so it stays below a cell's value up to the cell's border.
    */
   void Grade()
   {
@@ -260,7 +265,10 @@ private:
       });
   }
 
-  /** Of the rows before and behind along an axis, for n rows of cells from the first on. */
+  /**
+   * Lowers each cell of a block to the smaller value of its two neighbours along an axis. The block
+   * has n rows of cells.
+   */
   void TakeLeastOfNeighbours(std::size_t first, std::size_t stride, std::size_t n)
   {
     for (std::size_t c = first; c < first + stride; ++c)
@@ -291,7 +299,7 @@ private:
     }
   }
 
-  /** The nearest cell. */
+  /** The cell nearest to p. */
   std::size_t CellOf(const Point<D>& p) const
   {
     const Point<D> index = this->Grid.ToIndex(p);
@@ -303,7 +311,7 @@ private:
     return this->Offset(cell);
   }
 
-  /** The nearest to a coordinate of the image's index space along an axis. */
+  /** The cell along axis a nearest to a coordinate of the image's index space. */
   std::int64_t CellAlong(std::size_t a, double index) const
   {
     const double x = (index - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
@@ -325,12 +333,15 @@ private:
   Index Origin;
   Index Cells{};
   Point<D> VoxelsPerLength;
-  std::vector<Bound> Values;   ///< empty: no bound
-  std::vector<float> Spacings; ///< what GradedAt() starts from
-  std::vector<float> Graded;   ///< the same, see GradedAt()
-  /** Stands for this distance and larger ones. */
+  std::vector<Bound> Values;   ///< empty: no bound is set
+  std::vector<float> Spacings; ///< the values at which GradedAt() starts
+  std::vector<float> Graded;   ///< the values of GradedAt() at the centres of cells
+  /** This distance or a larger one. */
   static constexpr std::uint8_t Unknown = 3;
-  /** How many cells away along an axis, at least, the next is that was lowered since ForgetLowered(). */
+  /**
+   * Lower bound of the distance, in cells along an axis, to the next cell that was lowered since
+   * ForgetLowered().
+   */
   std::vector<std::uint8_t> CellsToLowered;
   bool AnyLowered = false;
   double SmallestBound = std::numeric_limits<double>::infinity();

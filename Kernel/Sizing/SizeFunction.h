@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SizeFunction.h
- * @brief The user's upper bound on the circumradius of elements (sf of the thesis, section 2.2, rule R5).
+ * @brief The upper bound of the circumradius of elements (sf of the thesis, section 2.2, rule R5).
  */
 #ifndef voxplex_SizeFunction_h
 #define voxplex_SizeFunction_h
@@ -15,11 +15,11 @@ namespace voxplex
 {
 
 /**
- * @brief sf(p): elements whose circumcentre is p have a circumradius below this value.
+ * @brief sf(p): an element with its circumcentre at p has a circumradius below this value.
  *
- * Implementations are called from every meshing thread at once and must be safe for that.
- * A value of +infinity sets no bound; NaN and values that are not positive are read as no bound.
- * Values below a tenth of delta are raised to that, so that refinement terminates.
+ * Every meshing thread calls Evaluate(), several at once, so implementations must be thread-safe.
+ * +infinity sets no bound; NaN and values that are not positive set none, either.
+ * A value below a tenth of delta is raised to that, so that refinement terminates.
  */
 template <int D>
 class SizeFunction
@@ -33,7 +33,9 @@ public:
    */
   virtual double Evaluate(const Point<D>& p, std::int64_t label) const = 0;
 
-  /** Whether it is the same at all points of a label, which saves asking for each. */
+  /**
+   * Whether the value is the same at all points of a label. Then it is asked once for each label.
+   */
   virtual bool DependsOnLabelAlone() const { return false; }
 };
 

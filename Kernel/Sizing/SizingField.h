@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SizingField.h
- * @brief How far apart the points of the mesh are, and how large its elements may be.
+ * @brief The distance between the points of the mesh, and the largest size of its elements.
  */
 #ifndef voxplex_SizingField_h
 #define voxplex_SizingField_h
@@ -19,40 +19,46 @@
 namespace voxplex
 {
 
-/** Points closer to a vertex than this fraction of the spacing at their place are never inserted. */
+/** A point is never inserted closer to a vertex than this fraction of the spacing at the point. */
 inline constexpr double SpacingFloorFraction = 0.1;
 
-/** What a sizing field is made of. Lengths are in the unit of the mesher's frame; what is pointed to must outlive it. */
+/**
+ * The sources of a sizing field. Lengths are in the unit of the mesher's frame; the objects pointed
+ * to must outlive the field.
+ */
 template <int D>
 struct SizingSources
 {
   BaseDistance<D> Base;                          ///< delta, uniform or by the local feature size
-  const InterfaceSizes<D>* Interfaces = nullptr; ///< in place of the base; may be null
-  const LocalDelta<D>* Local = nullptr;  ///< upper bound where something is thin; may be null
-  const SizeFunction<D>* Size = nullptr; ///< upper bound of circumradii; may be null
-  /** Sizes below it are raised to it; 0: SpacingFloorFraction of the smallest base distance. */
+  const InterfaceSizes<D>* Interfaces = nullptr; ///< instead of the base; may be null
+  const LocalDelta<D>* Local = nullptr;          ///< upper bound near thin parts; may be null
+  const SizeFunction<D>* Size = nullptr;         ///< upper bound of circumradii; may be null
+  /** Smaller sizes are raised to it; 0: SpacingFloorFraction of the smallest base distance. */
   double SizeFloor = 0.0;
 };
 
 /**
- * @brief The one place where rules, checks and the box ask for lengths.
+ * @brief The lengths that the rules, the checks and the bounding box ask for.
  *
- * - The *sampling distance* of an interface is the Delta of the thesis: a larger one is coarser. It is what
- *   InterfaceSizes asks for the two labels, or else the base distance; LocalDelta and the sizes of the elements on both
- *   sides may lower it. Were an interface sampled more coarsely than its neighbourhood is meshed, R3 would insert the missing
- *   points one by one, and R6 would remove what R5 asks for.
- * - The *spacing* at any point is the least sampling distance of the interfaces near it, and grows slowly with the distance
- *   from them. All rules that keep points apart, or take points away, ask for it: if one rule kept less than
- *   another, the other would take away again what the first makes.
+ * - The *sampling distance* of an interface is the Delta of the thesis: a larger one is coarser. It
+ *   is the distance of InterfaceSizes for the two labels, or else the base distance. LocalDelta and
+ *   the sizes of the elements on both sides may lower it. If an interface were sampled more
+ *   coarsely than its neighbourhood is meshed, R3 would insert the missing points one by one, and
+ *   R6 would remove the points of R5.
+ * - The *spacing* at a point is the smallest sampling distance of the interfaces near it. It grows
+ *   slowly with the distance from them. Every rule that keeps points apart or removes points asks
+ *   for the spacing. If one rule kept a smaller distance than another, the second would remove the
+ *   points of the first.
  * - The *element size* is an upper bound of circumradii.
  *
- * Queries are safe in any number of threads, unless FollowLocalBounds() runs, and take one or a few look-ups.
+ * A query takes one or a few look-ups. Queries are safe in any number of threads, but not beside
+ * FollowLocalBounds().
  */
 template <int D>
 class SizingField
 {
 public:
-  /** @param domain must live as long as this; the labels' values are asked from it */
+  /** @param domain must outlive this object; it gives the values of labels */
   SizingField(const Domain<D>& domain, const SizingSources<D>& sources)
     : Image(domain)
     , Of(sources)
@@ -62,7 +68,7 @@ public:
     this->FollowLocalBounds();
   }
 
-  /** To be called when bounds were added to the local ones. */
+  /** Call this after bounds were added to the local ones. */
   void FollowLocalBounds()
   {
     double smallest = this->Of.Base.Finest();
@@ -79,30 +85,30 @@ public:
 
   const SizingSources<D>& Sources() const { return this->Of; }
 
-  /** Sizes below it are raised to it. */
+  /** Smaller sizes are raised to it. */
   double SizeFloor() const { return this->SmallestSize; }
 
-  /** No point closer to a vertex is ever inserted. */
+  /** No point is ever inserted closer to a vertex. */
   double SpacingFloor() const { return this->SmallestSpacing; }
 
   ///@{
-  /** Delta and its bounds, without interface sizes, local bounds and sizes of elements. */
+  /** Delta, uniform or graded, without interface sizes, local bounds and sizes of elements. */
   double BaseAt(const Point<D>& p) const { return this->Of.Base.At(p); }
   const BaseDistance<D>& Base() const { return this->Of.Base; }
   ///@}
 
-  /** Whether the distance that is asked for is the same for all interfaces. */
+  /** Whether AskedDistance() is the same for all interfaces. */
   bool IsUniform() const { return !this->Of.Interfaces && !this->Of.Base.Graded; }
 
-  /** The sampling distance that is asked for between two labels, before anything lowers it. */
+  /** The sampling distance between two labels, before local bounds and element sizes lower it. */
   double AskedDistance(const Point<D>& z, LabelId a, LabelId b) const
   {
     return this->Of.Interfaces ? this->Of.Interfaces->At(z, a, b) : this->BaseAt(z);
   }
 
   /**
-   * The sampling distance at a point of the interface between two labels. The same label twice is no interface, but may
-   * be all that is known near the edge of one: then it is the spacing there.
+   * The sampling distance at a point of the interface between two labels. If both labels are the
+   * same, this is the spacing: near the edge of an interface the second label may be unknown.
    */
   double SamplingDistance(const Point<D>& z, LabelId a, LabelId b) const
   {
@@ -127,7 +133,10 @@ public:
     return distance;
   }
 
-  /** The same at the interface point z closest to p: the label of p is known, the other one is looked up just behind z. */
+  /**
+   * The same at the interface point z closest to p. The label of p is known; the other label is
+   * looked up just behind z.
+   */
   double SamplingDistanceBehind(const Point<D>& p, LabelId label, const Point<D>& z) const
   {
     const Point<D> behind =
@@ -142,27 +151,27 @@ public:
       (this->Of.Local && this->Of.Local->At(z).Delta < this->BaseAt(z));
   }
 
-  /** No sampling distance is larger. */
+  /** Upper bound of all sampling distances. */
   double Largest() const
   {
     return this->Of.Interfaces ? std::max(this->Of.Base.Delta, this->Of.Interfaces->Largest())
                                : this->Of.Base.Delta;
   }
 
-  /** No sampling distance of a label's interfaces is larger. */
+  /** Upper bound of the sampling distances of a label's interfaces. */
   double LargestOf(LabelId label) const
   {
     const double largest = this->Of.Interfaces ? this->Of.Interfaces->LargestOf(label) : 0.0;
-    return largest > 0.0 ? largest : this->Of.Base.Delta; // no voxel may have the label any more
+    return largest > 0.0 ? largest : this->Of.Base.Delta; // the label may have lost all its voxels
   }
 
-  /** The one sampling distance with which interfaces would get about as many vertices. */
+  /** The uniform sampling distance that gives about as many vertices. */
   double Equivalent() const
   {
     return this->Of.Interfaces ? this->Of.Interfaces->Equivalent() : this->Of.Base.Equivalent;
   }
 
-  /** The least sampling distance that is asked for near p, before anything lowers it. */
+  /** The smallest sampling distance near p, before local bounds lower it. */
   double AskedNear(const Point<D>& p) const
   {
     return this->Of.Interfaces
@@ -177,14 +186,17 @@ public:
     return this->Of.Local ? std::min(spacing, this->Of.Local->GradedAt(p)) : spacing;
   }
 
-  /** The same inside of a label: no more than the size that is asked for there. */
+  /** The spacing inside of a label: also at most the element size there. */
   double Spacing(const Point<D>& p, LabelId label) const
   {
     const double spacing = this->Spacing(p);
     return label != 0 ? std::min(spacing, this->ElementSize(p, label)) : spacing;
   }
 
-  /** The largest circumradius of an element of a label with its circumcentre at p; infinite if there is no bound. */
+  /**
+   * The largest circumradius of an element of a label with its circumcentre at p; infinite: no
+   * bound.
+   */
   double ElementSize(const Point<D>& p, LabelId label) const
   {
     if (!this->Of.Size)

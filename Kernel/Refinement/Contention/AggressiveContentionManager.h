@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file AggressiveContentionManager.h
- * @brief Who loses tries again at once (thesis, section 3.3.1).
+ * @brief After a rollback a thread tries again at once (thesis, section 3.3.1).
  */
 #ifndef voxplex_AggressiveContentionManager_h
 #define voxplex_AggressiveContentionManager_h
@@ -12,11 +12,13 @@
 namespace voxplex
 {
 
-/** @brief Nobody waits, until the local manager takes over. */
+/** @brief No thread waits, until the local manager takes over. */
 class AggressiveContentionManager final : public NonBlockingContentionManager
 {
 public:
-  /** Of one thread in a row: more than it does while whoever it loses to waits for a processor. */
+  /**
+   * Rollbacks of one thread in a row. A thread has fewer while the winner waits for a processor.
+   */
   static constexpr unsigned RollbacksToSwitch = 200000;
 
   explicit AggressiveContentionManager(unsigned threads, LoopSharing* sharing = nullptr)

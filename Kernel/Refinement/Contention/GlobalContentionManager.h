@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GlobalContentionManager.h
- * @brief Who loses waits in one list for all (thesis, section 3.3.3).
+ * @brief After a rollback a thread waits in one list for all threads (thesis, section 3.3.3).
  */
 #ifndef voxplex_GlobalContentionManager_h
 #define voxplex_GlobalContentionManager_h
@@ -21,24 +21,25 @@ namespace voxplex
 {
 
 /**
- * @brief A thread that loses waits in one list unless it is the only one that is active; a thread
- * wakes the first of the list after every SuccessesToWake successes in a row.
+ * @brief After a rollback a thread waits in one list, unless it is the only active thread. After
+ * every SuccessesToWake successes in a row a thread wakes the first of the list.
  *
- * A thread is active if it neither waits here nor is idle. Whoever wakes a thread counts it as
- * active on its behalf, so that none that runs is ever missing.
+ * A thread is active if it neither waits here nor is idle. The thread that wakes another counts it
+ * as active at once, so the count never misses a running thread.
  *
- * **No deadlock.** While anybody waits, at least one thread is active: all is decided under one
- * mutex, a thread waits only if another is active, and the only active one wakes another before it
- * becomes idle. An active thread runs, until it has succeeded often enough to wake somebody or is
- * idle.
+ * **No deadlock.** While any thread waits, at least one thread is active. All decisions are made
+ * under one mutex. A thread waits only if another is active, and the only active thread wakes
+ * another before it becomes idle. An active thread runs until it has succeeded often enough to wake
+ * another, or is idle.
  *
- * **No livelock.** Consider a time in which no thread succeeds, becomes idle or becomes busy.
- * Nobody is woken in it, and each rollback makes one more thread wait, until one is active. That
- * one may lose once more, in the attempt that it had begun before; in the next it meets nobody, for
- * who waits or is idle holds no vertex. So there are at most n rollbacks, and then somebody
- * succeeds or runs out of work. The latter happens at most n times, as gifts follow successes.
+ * **No livelock.** Consider a period in which no thread succeeds, becomes idle or becomes busy. No
+ * thread is woken in it, and each rollback makes one more thread wait, until one is active. That
+ * thread may lose once more, in the attempt that it had begun before. In the next attempt it meets
+ * no other thread, because waiting and idle threads hold no vertex. So there are at most n
+ * rollbacks, and then a thread succeeds or runs out of work. The latter happens at most n times,
+ * because gifts follow successes.
  *
- * **Help.** None of this changes if those who wait help at a sharing: see LoopSharing.
+ * **Help.** The proofs stay valid if waiting threads help at a shared loop: see LoopSharing.
  */
 class GlobalContentionManager final : public ContentionManager
 {
@@ -46,22 +47,22 @@ public:
   static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
 
   /**
-   * @param sharing where those who wait help, or null
-   * @param successesToWake after how many successes in a row a thread wakes another
+   * @param sharing the loops at which waiting threads help, or null
+   * @param successesToWake number of successes in a row after which a thread wakes another
    */
   explicit GlobalContentionManager(
     unsigned threads, LoopSharing* sharing = nullptr, unsigned successesToWake = SuccessesToWake);
 
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
 
-  /** Inline and, nine times of ten, a counter of the thread's own. */
+  /** Inline; nine times out of ten it only increments a counter of the thread's own. */
   void RollbackNotOccurred(unsigned thread) override
   {
     Slot& own = this->Slots[thread];
     if (++own.Successes >= this->Threshold)
     {
       own.Successes = 0;
-      // Relaxed: only a hint; who is overlooked now is seen ten successes later, or by
+      // Relaxed: only a hint. A thread that is overlooked now is seen ten successes later, or by
       // BecomesIdle().
       if (this->SomeoneWaits.load(std::memory_order_relaxed))
       {
@@ -75,7 +76,7 @@ public:
   void BecomesBusy(unsigned thread) override;
   void Stop() override;
 
-  /** True if the thread waits now; for tests, and for those who watch a run. */
+  /** True if the thread waits now; for tests and for observers of a run. */
   bool IsWaiting(unsigned thread) const { return this->Slots[thread].Spot.IsTaken(); }
 
 private:
@@ -86,14 +87,14 @@ private:
     unsigned NextInList = WaitingList::Nobody;
   };
 
-  /** Under the mutex. */
+  /** Call this under the mutex. */
   void WakeFirst();
 
   const unsigned Threshold; ///< successes in a row
   std::vector<Slot> Slots;
   LoopSharing* const Sharing;
   alignas(CacheLineSize) std::atomic<bool> SomeoneWaits{ false }; ///< Losers is not empty
-  alignas(CacheLineSize) std::mutex Mutex;                        ///< guards what follows
+  alignas(CacheLineSize) std::mutex Mutex;                        ///< guards the members below
   WaitingList Losers;
   unsigned Active;
   bool Stopped = false;

@@ -23,7 +23,8 @@ bool LocalContentionManager::RollbackOccurred(unsigned thread, unsigned winner)
   Slot& other = this->Slots[winner];
   own.Successes = 0;
   {
-    // Always the lower number first: two threads that lose to each other do not lock crosswise.
+    // The lower number always comes first, so that two threads that lose to each other do not
+    // deadlock.
     const std::scoped_lock lower(this->Slots[std::min(thread, winner)].Mutex);
     const std::scoped_lock higher(this->Slots[std::max(thread, winner)].Mutex);
     // Relaxed: see Stop().
@@ -49,7 +50,8 @@ void LocalContentionManager::WakeFirst(Slot& own)
   }
   if (first != WaitingList::Nobody)
   {
-    // Without the mutex of `first`: who reads too late that it waits only does not wait for it.
+    // Without the mutex of `first`: a thread that still sees it waiting does not wait for it, which
+    // is harmless.
     this->Slots[first].Spot.Wake();
   }
 }
@@ -60,11 +62,11 @@ void LocalContentionManager::BecomesIdle(unsigned thread)
   WaitingList losers;
   {
     const std::scoped_lock lock(own.Mutex);
-    own.Idle = true; // from now on nobody enters the list
+    own.Idle = true; // from now on no thread enters the list
     std::swap(losers, own.Losers);
     own.SomeoneWaits.store(false, std::memory_order_relaxed);
   }
-  // Who is taken out has not been woken yet and so enters no other list before that.
+  // A thread that is taken out has not been woken yet, so it cannot enter another list before.
   for (unsigned loser = losers.TakeFirst(this->Slots); loser != WaitingList::Nobody;
        loser = losers.TakeFirst(this->Slots))
   {
@@ -81,8 +83,9 @@ void LocalContentionManager::BecomesBusy(unsigned thread)
 
 void LocalContentionManager::Stop()
 {
-  // A thread that decides to wait holds its mutex. Either it does so before we lock that: then it
-  // is woken here; or after: then it sees that we have stopped. The lists are left as they are.
+  // A thread that decides to wait holds its mutex. If it decides before the mutex is locked here,
+  // it is woken here. If it decides later, it sees that the manager has stopped. The lists are left
+  // unchanged.
   this->Stopped.store(true, std::memory_order_relaxed);
   for (Slot& slot : this->Slots)
   {

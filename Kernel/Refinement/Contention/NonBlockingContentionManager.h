@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file NonBlockingContentionManager.h
- * @brief What the managers that promise no progress have in common.
+ * @brief The base of the managers that do not guarantee progress.
  */
 #ifndef voxplex_NonBlockingContentionManager_h
 #define voxplex_NonBlockingContentionManager_h
@@ -17,13 +17,13 @@ namespace voxplex
 {
 
 /**
- * @brief Counts rollbacks in a row; when one thread has too many, all threads go over to the local
+ * @brief Counts rollbacks in a row. If one thread has too many, all threads change to the local
  * manager for good.
  *
- * The aggressive and the random manager do livelock (thesis, table 3.1); this bounds how long.
- * Threads notice the change at their next call. That they do not notice at once is harmless: the
- * local manager knows from the start who is idle, and one that has not noticed yet is one that does
- * not wait; it wakes those that wait for it once it has.
+ * The aggressive and the random manager can livelock (thesis, table 3.1); the limit bounds how
+ * long. Threads notice the change at their next call. The delay is harmless. The local manager
+ * knows from the start which threads are idle. A thread that has not noticed the change does not
+ * wait, and once it has, it wakes the threads that wait for it.
  */
 class NonBlockingContentionManager : public ContentionManager
 {
@@ -31,7 +31,7 @@ public:
   bool RollbackOccurred(unsigned thread, unsigned winner) override;
   void RollbackNotOccurred(unsigned thread) override
   {
-    // Relaxed, here and below: any moment is good enough to go over.
+    // Relaxed, here and below: the change may happen at any moment.
     if (this->Switched.load(std::memory_order_relaxed))
     {
       this->Local.RollbackNotOccurred(thread);
@@ -46,14 +46,14 @@ public:
 
 protected:
   /**
-   * @param rollbackLimit more rollbacks in a row of one thread than this end the attempt
-   * @param sharing where those who wait in the local manager help, or null
+   * @param rollbackLimit if a thread has more rollbacks in a row, the local manager takes over
+   * @param sharing the loops at which threads help while they wait in the local manager, or null
    */
   NonBlockingContentionManager(unsigned threads, unsigned rollbackLimit, LoopSharing* sharing);
 
   /**
-   * What the thread does after its n-th rollback in a row.
-   * @return true if it waited
+   * Called after the n-th rollback of a thread in a row.
+   * @return true if the thread waited
    */
   virtual bool Pause(unsigned thread, unsigned rollbacks) = 0;
 

@@ -13,7 +13,7 @@ RandomContentionManager::RandomContentionManager(unsigned threads, LoopSharing* 
 {
   for (unsigned t = 0; t < threads; ++t)
   {
-    // Spread out: small seeds that differ by one begin with almost equal numbers.
+    // The factor spreads the seeds: small seeds that differ by one give almost equal first numbers.
     this->Slots[t].Generator.seed((t + 1) * 2654435769u);
   }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RandomContentionManager.h
- * @brief Who loses often sleeps for a random time (thesis, section 3.3.2).
+ * @brief A thread with several rollbacks in a row sleeps for a random time (thesis, section 3.3.2).
  */
 #ifndef voxplex_RandomContentionManager_h
 #define voxplex_RandomContentionManager_h
@@ -19,10 +19,10 @@ namespace voxplex
 {
 
 /**
- * @brief After more than RollbacksBeforeSleep rollbacks in a row a thread sleeps after each further
- * one, 1 to RollbacksBeforeSleep milliseconds, until the local manager takes over.
+ * @brief After more than RollbacksBeforeSleep rollbacks in a row, a thread sleeps after each
+ * further rollback, for 1 to RollbacksBeforeSleep milliseconds, until the local manager takes over.
  *
- * Who sleeps does not help others. The seeds depend on the threads' numbers only.
+ * A sleeping thread does not help others. The seeds depend on the threads' numbers only.
  */
 class RandomContentionManager final : public NonBlockingContentionManager
 {

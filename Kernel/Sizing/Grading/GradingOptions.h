@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GradingOptions.h
- * @brief What a user may choose about where interfaces are sampled more coarsely.
+ * @brief The user's options for a coarser sampling of interfaces where their shape allows it.
  */
 #ifndef voxplex_GradingOptions_h
 #define voxplex_GradingOptions_h
@@ -10,23 +10,27 @@
 namespace voxplex
 {
 
-/** How the sampling density of interfaces depends on the place. */
+/** How the sampling distance of interfaces depends on the place. */
 enum class GradingMode
 {
   Uniform,         ///< delta everywhere
-  LocalFeatureSize ///< delta where the shape needs it, coarser elsewhere (thesis, sections 2.2 and 2.6.1)
+  LocalFeatureSize ///< delta where the shape needs it, else coarser (thesis, 2.2 and 2.6.1)
 };
 
 /**
- * In mode LocalFeatureSize Delta(z) = max(delta, Ratio x min(lambda, lfs(z))), where lfs(z) is the local
- * feature size: the distance from a point z of the interfaces to their medial axis. 3D only.
+ * In mode LocalFeatureSize Delta(z) = max(delta, Ratio x min(lambda, lfs(z))), and less where the
+ * interface bends (LocalFeatureSize). lfs(z) is the local feature size: the distance from a point z
+ * of the interfaces to their medial axis. 3D only.
  */
 struct GradingOptions
 {
   GradingMode Mode = GradingMode::Uniform;
-  /** Delta(z) over the local feature size; delta in the thesis, where it is 2. */
+  /** Delta(z) over the local feature size. The thesis calls it delta; its value there is 2. */
   double Ratio = 1.0;
-  /** Local feature sizes above this count as this: so many edges of a cube of a voxel's volume. */
+  /**
+   * Upper bound of the local feature size; the unit is the edge of a cube with the volume of a
+   * voxel.
+   */
   double Lambda = 12.0;
 };
 

@@ -18,7 +18,7 @@ namespace
 
 using Index = GridGeometry<3>::Index;
 
-/** How far points are moved, in smallest voxel spacings. */
+/** Largest displacement of a point along an axis, in smallest voxel spacings. */
 constexpr double Jitter = 1e-3;
 
 /** A step from a voxel to the next one along an axis. */
@@ -26,12 +26,16 @@ struct Step
 {
   LabelId From = 0;
   LabelId To = 0;
-  double Distance2 = std::numeric_limits<double>::infinity(); ///< from the centre of the cell
+  double Distance2 =
+    std::numeric_limits<double>::infinity(); ///< to the centre of the cell, squared
   Index Voxel{};
   std::size_t Axis = 0;
 };
 
-/** The best steps of one cell, one for each ordered pair of labels; of more pairs some are left out. */
+/**
+ * The best step of one cell for each ordered pair of labels. If a cell has more pairs than fit, the
+ * rest are left out.
+ */
 class BestSteps
 {
 public:
@@ -64,7 +68,7 @@ private:
   std::size_t Count = 0;
 };
 
-/** Uniform in (-1, 1), from a voxel and a stream. */
+/** A number in (-1, 1), uniformly distributed, from a voxel and a stream. */
 double PseudoRandom(const Index& voxel, std::uint64_t stream)
 {
   std::uint64_t h = stream;
@@ -75,7 +79,7 @@ double PseudoRandom(const Index& voxel, std::uint64_t stream)
   return static_cast<double>(h >> 11) * 0x1p-52 - 1.0;
 }
 
-/** Samples the layers of cells of one image; methods may be called by several threads at once. */
+/** Samples the layers of cells of one image. Several threads may call the methods at once. */
 class Sampler
 {
 public:
@@ -123,7 +127,7 @@ public:
   }
 
 private:
-  /** A row of the crop; null for one of the layer of background around it. */
+  /** A row of the crop; null for a row of the layer of background around it. */
   const LabelId* RowAt(std::int64_t y, std::int64_t z) const
   {
     const Index& n = this->Image.CropDimensions();
@@ -132,7 +136,7 @@ private:
       : this->Image.Ids().data() + (z * n[1] + y) * n[0];
   }
 
-  /** Whether the border of the image is half a voxel after this one. */
+  /** Whether the border of the image is half a voxel beyond this voxel. */
   bool ReachesBorder(std::size_t axis, std::int64_t voxel) const
   {
     return (voxel == -1 && this->Image.ReachesBorder(axis, 0)) ||
@@ -195,7 +199,7 @@ private:
   const Domain<3>& Surfaces;
   Point<3> Spacing;
   double SmallestSpacing;
-  Index Edge{};  ///< of a cell, voxels
+  Index Edge{};  ///< of a cell, in voxels
   Index Cells{}; ///< along each axis
 };
 

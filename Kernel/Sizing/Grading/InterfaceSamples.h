@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceSamples.h
- * @brief Points on all interfaces of a label image, about equally dense everywhere.
+ * @brief Sample points on all interfaces of a label image, at about equal distances.
  */
 #ifndef voxplex_InterfaceSamples_h
 #define voxplex_InterfaceSamples_h
@@ -16,7 +16,7 @@
 namespace voxplex
 {
 
-/** Points of interfaces, and between which labels: the smaller one first. */
+/** Points of interfaces, and the two labels of each, the smaller label first. */
 struct LabelChanges
 {
   std::vector<Point<3>> Points;
@@ -24,17 +24,18 @@ struct LabelChanges
 };
 
 /**
- * The image is cut in cells of about `spacing`. Of all steps from voxel to voxel that begin in a cell and
- * go from one label to another, the one nearest to the cell's centre gives a point where the domain's label
- * changes between the two voxels' centres; so both sides of a sheet are sampled, however thin it is.
+ * The image is cut into cells of about `spacing`. A step goes from a voxel to the next along an
+ * axis. For each ordered pair of labels, a cell keeps the step between these labels that is nearest
+ * to the cell's centre. The step gives one point: where the domain's label changes between the two
+ * voxels' centres. So both sides of a sheet are sampled, even of a very thin one.
  *
- * Points are moved by up to a thousandth of the smallest voxel spacing, each by a pseudo-random vector that
- * depends on its voxel alone: flat faces of an image would otherwise give lattices, whose points are
- * co-spherical everywhere.
+ * Points are moved by up to a thousandth of the smallest voxel spacing. The displacement is a
+ * pseudo-random vector that depends on the voxel alone. Without it flat faces of an image would
+ * give lattices, whose points are co-spherical everywhere.
  *
  * Cost: one pass over the bounding box of the foreground, and one search for each point.
  *
- * @param domain has the label of the image at every voxel centre
+ * @param domain must have the label of the image at every voxel centre
  * @param spacing in units of the frame; cells have at least one voxel along each axis
  * @param threads 0 means all cores; neither the points nor their order depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc

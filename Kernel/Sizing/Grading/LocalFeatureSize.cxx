@@ -21,36 +21,43 @@ namespace
 
 constexpr std::size_t PointsAtOnce = 4096;
 
-/** Voxels of the grid that poles are entered in, a bit each, along an edge of a cell of the feature transform. */
+/** Voxels of the grid of poles, one bit each, along an edge of a cell of the feature transform. */
 constexpr std::uint32_t Stride = 4;
 
 /**
- * Delta grows by no more than this over a unit of length. Where it grows faster R2 and R6 undo each
- * other's work: with 1 refinement of the knee atlas creates 1.5 times as many elements, of which as many stay.
+ * Largest growth of Delta over a unit of length. If Delta grows faster, R2 and R6 undo each other's
+ * work. With a slope of 1, refinement of the knee atlas creates 1.5 times as many elements, and the
+ * same number stays.
  */
 constexpr double LargestSlope = 0.3;
 
 /**
- * Where an interface bends with the radius R, Delta^2 / R is at most this times the distance that is allowed. A triangle
- * with the circumradius Delta is Delta^2 / (2 R) away; some are larger than that, and voxels' stairs come on top. With
- * 1.6 the mesh is too far in places as a rule, and the guard of interfaces makes up for it with more elements than are saved.
+ * Upper bound of Delta^2 / R over the allowed distance, where R is the radius of the bend. A
+ * triangle with the circumradius Delta is Delta^2 / (2 R) away. Some triangles are larger, and the
+ * stairs of voxels add to the distance. With a factor of 1.6 the mesh is usually too far away in
+ * places. The check of the interfaces then adds more elements than the larger factor saves.
  */
 constexpr double BendFactor = 1.2;
 
 /**
- * Interfaces are as rough as this times the largest voxel spacing, root mean square. With 0 stairs of voxels count as bends
- * where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements.
+ * Root mean square roughness of interfaces, in largest voxel spacings. With 0, the stairs of voxels
+ * count as bends where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements.
  */
 constexpr double Roughness = 0.15;
 
-/** The scale at which the bend is seen is that of Delta, which becomes smaller by it: so many times, at most. */
+/**
+ * Largest number of repetitions: the bend is measured at the scale of Delta, and a strong bend
+ * lowers Delta.
+ */
 constexpr int MostBends = 4;
 
-/** @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal. */
+/**
+ * @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal.
+ */
 class NearestPole
 {
 public:
-  /** Poles outside of the bounds are left out. */
+  /** Poles outside of the bounds are ignored. */
   NearestPole(const std::vector<Point<3>>& poles, const Box<3>& bounds, double cell,
     unsigned threads, const std::stop_token& stop)
     : Origin(bounds.Min)
@@ -60,7 +67,7 @@ public:
   {
   }
 
-  /** At most `largest`. */
+  /** The distance from p to the nearest pole, or `largest` if that is smaller. */
   double Distance(const Point<3>& p, double largest) const
   {
     std::array<std::size_t, 3> low;
@@ -95,7 +102,7 @@ public:
   }
 
 private:
-  /** Continuous index in the grid of poles. */
+  /** A continuous index in the grid of poles. */
   double Coordinate(const Point<3>& p, std::size_t axis) const
   {
     return (p[axis] - this->Origin[axis]) / this->Voxel - 0.5;
@@ -201,7 +208,8 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
 }
 
 //------------------------------------------------------------------------------------------------
-// Within the local feature size of a point there is but one sheet, so what is not flat there is a bend.
+// Within the local feature size of a point there is only one sheet, so a deviation from a plane is
+// a bend.
 std::vector<double> LocalFeatureSize::DeltaOfPoints(
   const std::vector<std::array<LabelId, 2>>& labels, double spacing, double roughness,
   const GradingParameters& parameters, unsigned threads, const std::stop_token& stop) const

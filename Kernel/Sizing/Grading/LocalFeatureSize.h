@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LocalFeatureSize.h
- * @brief How densely interfaces are to be sampled, by their local feature size.
+ * @brief The sampling distance of interfaces by their local feature size.
  */
 #ifndef voxplex_LocalFeatureSize_h
 #define voxplex_LocalFeatureSize_h
@@ -25,28 +25,31 @@ struct GradingParameters
 {
   double Finest = 1.0;        ///< smallest Delta(z)
   double Ratio = 1.0;         ///< Delta(z) over lfs(z): delta of the thesis
-  double Lambda = 12.0;       ///< larger local feature sizes count as this
-  double Salience = 1.0;      ///< lower edges and bumps do not count (MedialBalls)
-  double SampleSpacing = 0.5; ///< of the interface points whose Voronoi diagram is taken
-  /** Triangles may be so far from interfaces that bend; infinite: Delta(z) does not depend on the bend. */
+  double Lambda = 12.0;       ///< upper bound of the local feature size
+  double Salience = 1.0;      ///< edges and bumps that are lower do not count (MedialBalls)
+  double SampleSpacing = 0.5; ///< spacing of the interface points whose Voronoi diagram is computed
+  /**
+   * Largest distance of triangles from an interface that bends. Infinite: Delta(z) does not depend
+   * on the bend.
+   */
   double Tolerance = std::numeric_limits<double>::infinity();
 };
 
 /**
- * @brief Delta(z) = min(Ratio x min(lambda, lfs(z)), sqrt(1.2 Tolerance / curvature(z))), but not below Finest
- * (thesis, sections 2.2 and 2.6.1; the second term is not there).
+ * @brief Delta(z) = min(Ratio x min(lambda, lfs(z)), sqrt(1.2 Tolerance / curvature(z))), and at
+ * least Finest (thesis, sections 2.2 and 2.6.1; the thesis has the first term alone).
  *
- * lfs(z), the local feature size, is the distance from a point z of the interfaces to their medial axis. It
- * is computed before refinement:
+ * lfs(z), the local feature size, is the distance from a point z of the interfaces to their medial
+ * axis. It is computed before refinement:
  * 1. SampleLabelChanges: points on all interfaces;
- * 2. FindPoles: points of the medial axis, from the Delaunay triangulation of these;
- * 3. the distance of each sample point to the nearest of them, by the feature transform of a grid;
- * 4. SampleCurvature: how strongly the interface bends there, as seen at the scale of Delta;
+ * 2. FindPoles: points of the medial axis, from the Delaunay triangulation of the sample;
+ * 3. the distance of each sample point to the nearest pole, by the feature transform of a grid;
+ * 4. SampleCurvature: how strongly the interface bends there, measured at the scale of Delta;
  * 5. GradedDelta: Delta at the sample points, spread so that it is Lipschitz.
  *
- * The thesis adds feature points to the second triangulation while it refines, so that a point's lfs is too
- * large at first, and calls that its bottleneck (section 2.7). Here the sample is dense from the
- * start and the triangulation is made once, by all threads.
+ * The thesis adds feature points to the second triangulation during refinement. So a point's lfs is
+ * too large at first, and the thesis calls this triangulation its bottleneck (section 2.7). Here
+ * the sample is dense from the start, and all threads make the triangulation once.
  */
 class LocalFeatureSize
 {
@@ -64,10 +67,10 @@ public:
   /** The largest Delta at any sample point. */
   double Largest() const { return this->LargestDelta; }
 
-  /** The uniform delta by which an interface of the same area would get as many vertices. */
+  /** The uniform delta that gives an interface of the same area as many vertices. */
   double Equivalent() const { return this->EquivalentDelta; }
 
-  /** The points of the interfaces, and the local feature size at each, at most lambda. */
+  /** The sample points of the interfaces, and the local feature size at each, at most lambda. */
   const std::vector<Point<3>>& Sample() const { return this->Points; }
   const std::vector<double>& Sizes() const { return this->SizeOfPoint; }
 

@@ -22,10 +22,10 @@ constexpr std::size_t SimplicesAtOnce = 8192;
 struct VoronoiVertex
 {
   Point<3> Centre;
-  double Radius2 = -1.0; ///< negative: no such tetrahedron
+  double Radius2 = -1.0; ///< negative: the simplex does not exist
   bool IsMedial = false; ///< by its points of contact and its radius
 
-  /** A strict order whatever the numbers of the simplices. */
+  /** A strict order that does not depend on the numbers of the simplices. */
   bool IsFartherThan(const VoronoiVertex& other) const
   {
     return this->Radius2 != other.Radius2 ? this->Radius2 > other.Radius2
@@ -34,7 +34,8 @@ struct VoronoiVertex
 };
 
 /**
- * With phi half the contact angle and R the radius, the planes meet at R / cos(phi) from the centre.
+ * Let phi be half the contact angle and R the radius. The planes that touch the ball meet at R /
+ * cos(phi) from the centre.
  * @param longest2 squared length of the longest edge, (2 R sin(phi))^2
  */
 bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
@@ -46,7 +47,7 @@ bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
     std::sqrt(radius2) * (1.0 - cosine) >= which.Salience * cosine;
 }
 
-/** With the vertices in an order that does not depend on how the triangulation was made. */
+/** Takes the vertices in an order that does not depend on how the triangulation was made. */
 VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const MedialBalls& which)
 {
   std::array<const Point<3>*, 4> points;
@@ -72,7 +73,10 @@ VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const
   return { ball.Center, ball.Radius2, IsMedialBall(ball.Radius2, longest2, which) };
 }
 
-/** For each vertex the farthest of the Voronoi vertices of its cell that a test admits; None if there is none. */
+/**
+ * For each vertex, the farthest Voronoi vertex of its cell that passes the test; None if there is
+ * none.
+ */
 template <typename Admits>
 std::vector<SimplexId> FarthestOfCells(
   const Triangulation<3>& mesh, const std::vector<VoronoiVertex>& voronoi, Admits&& admits)
@@ -103,13 +107,14 @@ std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const Media
   unsigned threads, const std::stop_token& stop)
 {
   std::vector<Point<3>> poles;
-  // A ball that counts touches four points, so there is none around fewer, nor around points in one place. Then
-  // there may be no box to triangulate, either: LargestRadius is its margin, and 0 if it is the points' extent.
+  // A medial ball touches four points. So there is none for fewer points, and none if all points
+  // are in one place. In the latter case LargestRadius, the margin of the box, may be 0, and there
+  // is no box to triangulate.
   if (sample.size() < 4 || !(which.LargestRadius > 0.0))
   {
     return poles;
   }
-  // So the corners of the box are in no ball that counts.
+  // With this margin no medial ball contains a corner of the box.
   const SampleTriangulation triangulation(sample, 2.0 * which.LargestRadius, threads, stop);
   const Triangulation<3>& mesh = triangulation.Mesh();
   std::vector<VoronoiVertex> voronoi(mesh.SimplexIdEnd());

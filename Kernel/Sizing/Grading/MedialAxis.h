@@ -15,37 +15,37 @@
 namespace voxplex
 {
 
-/** Which balls count as medial. Lengths are in units of the sample. */
+/** Which circumballs of the sample count as medial. Lengths are in units of the sample. */
 struct MedialBalls
 {
-  /** Larger ones are left out: nobody asks for so large a local feature size. 0: all are. */
+  /** Upper bound of the radius: larger local feature sizes are not used. 0: no ball is medial. */
   double LargestRadius = 1.0;
   /**
-   * Where the planes that touch the ball at its points of contact meet is so far above the ball, at least:
-   * the height of the edge or bump that the ball is not part of. Those that voxels leave are lower than a
-   * voxel. Infinite for a sheet.
+   * Lower bound of the salience: the height above the ball at which the planes meet that touch the
+   * ball at its points of contact. It is the height of the edge or bump outside the ball, and
+   * infinite for a sheet. Edges and bumps that voxels leave are lower than a voxel.
    */
   double Salience = 0.0;
-  /** At least at this angle the points of contact are seen from the centre, degrees, 0 to 180. */
+  /** Smallest angle at which the centre sees the points of contact, degrees, 0 to 180. */
   double ContactAngle = 90.0;
 };
 
 /**
- * The poles of a sample (thesis, section 2.6.1; Amenta and Bern 1999): of the Voronoi vertices of a point
- * that lie on either side of the interface the farthest. They are taken from the Delaunay triangulation of
- * the sample, the thesis' D(Z), which needs nothing but the sample: the second side is the one away from
- * the farthest of all Voronoi vertices.
+ * The poles of a sample (thesis, section 2.6.1; Amenta and Bern 1999). The poles of a point are the
+ * farthest of its Voronoi vertices on either side of the interface. The first pole is the farthest
+ * of all; the second is the farthest on the side opposite to the first. They are taken from the
+ * Delaunay triangulation of the sample (D(Z) in the thesis), which needs the sample alone.
  *
- * The medial axis has a branch into every edge of the interfaces, those along which three labels meet
- * among them, and into every stair that voxels have left: there the local feature size is 0, and no sampling
- * would be dense enough. Poles on such branches are told by their points of contact (the object angle of Dey and
- * Zhao 2004; the salience is what is left of it where the ball is small beside a voxel) and left out.
+ * The medial axis has a branch into every edge of the interfaces, also where three labels meet, and
+ * into every stair of voxels. At its end the local feature size is 0, and no sampling is fine
+ * enough. Poles on such branches are recognised by their points of contact and left out (the object
+ * angle of Dey and Zhao 2004; the salience takes its place where the ball is small beside a voxel).
  *
- * Cost: that of the triangulation, by all threads; about six simplices a point.
+ * Cost: the triangulation by all threads; about six simplices a point.
  *
- * @param sample points in any order, as few as there may be; one that is there twice counts once
+ * @param sample points in any order, also none; two equal points count as one
  * @param threads 0 means all cores; the result does not depend on it
- * @return centres, in lexicographic order, none twice
+ * @return centres, in lexicographic order, without duplicates
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const MedialBalls& which,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PointBounds.h
- * @brief The box around points, and cells for a grid over it.
+ * @brief The bounding box of points, and the cell size of a grid over it.
  */
 #ifndef voxplex_PointBounds_h
 #define voxplex_PointBounds_h
@@ -16,7 +16,7 @@
 namespace voxplex
 {
 
-/** @param points not none */
+/** @param points at least one */
 inline Box<3> BoundsOf(std::span<const Point<3>> points)
 {
   Box<3> box{ points.front(), points.front() };
@@ -31,7 +31,10 @@ inline Box<3> BoundsOf(std::span<const Point<3>> points)
   return box;
 }
 
-/** The edge of a cell, at least that asked for, with which a grid over the box has about 16 million cells at most. */
+/**
+ * The smallest edge of a cell, `edge` or more, for which a grid over the box has about 16 million
+ * cells at most.
+ */
 inline double CellEdge(const Box<3>& box, double edge)
 {
   constexpr double MostCells = 16.0 * 1024.0 * 1024.0;

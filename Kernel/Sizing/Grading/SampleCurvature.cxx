@@ -17,13 +17,13 @@ namespace voxplex
 namespace
 {
 
-/** Each level has every fourth point of the one before, twice as far apart. */
+/** Each level has about a quarter of the points of the one before, twice as far apart. */
 constexpr std::size_t PointsOfNext = 4;
 
-/** A level serves radii up to so many of its spacings: about 450 points. */
+/** Largest radius that a level serves, in spacings of the level: about 450 points. */
 constexpr double LargestRadius = 12.0;
 
-/** Fewer points do not tell a plane from what is bent. */
+/** Fewer points are not enough to tell a bend from a plane. */
 constexpr std::size_t FewestPoints = 8;
 
 /** Levels with fewer points than this are not made. */
@@ -32,13 +32,13 @@ constexpr std::size_t SmallestLevel = 256;
 /** Edge of a cell, in spacings of its level. */
 constexpr double CellSpacings = 2.0;
 
-/** Whether the k-th point belongs to the next level, as good as random. */
+/** Whether the k-th point belongs to the next level; pseudo-random. */
 bool IsOfNext(std::uint64_t k)
 {
   return MixBits(k + 1) % PointsOfNext == 0;
 }
 
-/** Of points: how many, their centre, and how far they spread about it. */
+/** The number of points, their centre, and their covariance. */
 class Moments
 {
 public:
@@ -57,7 +57,7 @@ public:
 
   std::size_t Count() const { return this->Points; }
 
-  /** Of a sphere with such points, but for the roughness. */
+  /** The curvature of a sphere with such points, without the roughness. */
   double Curvature(double roughness) const
   {
     const double weight = 1.0 / static_cast<double>(this->Points);

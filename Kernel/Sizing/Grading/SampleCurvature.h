@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SampleCurvature.h
- * @brief How strongly a surface bends that is known by points of it.
+ * @brief The curvature of a surface that is known by sample points.
  */
 #ifndef voxplex_SampleCurvature_h
 #define voxplex_SampleCurvature_h
@@ -19,15 +19,15 @@ namespace voxplex
 {
 
 /**
- * @brief The curvature of a sampled surface around its points, seen at any scale.
+ * @brief The curvature of a sampled surface around its points, at any scale.
  *
- * Points spread evenly over the part of a sphere with curvature k that is within a small distance r of one of its points are
- * k r^2 / sqrt(48) off the plane that fits them best, root mean square, and the other two eigenvalues of their
- * covariance are r^2 / 4. So the eigenvalues give the curvature whatever the spread of the points, and without normals,
- * which the stairs of voxels would spoil.
+ * Take points spread evenly over a sphere of curvature k, within a small distance r of one of them.
+ * Their root mean square distance from the plane that fits them best is k r^2 / sqrt(48), and the
+ * other two eigenvalues of their covariance are r^2 / 4. So the eigenvalues give the curvature for
+ * any spread of the points. They need no normals, which the stairs of voxels would spoil.
  *
- * Larger neighbourhoods are judged by a pseudo-random part of the points, so that a query takes about the same time
- * whatever their size. Queries may run in any number of threads.
+ * For a larger neighbourhood a query takes a pseudo-random part of the points, so its time hardly
+ * depends on the radius. Queries may run in any number of threads.
  */
 class SampleCurvature
 {
@@ -36,18 +36,20 @@ public:
 
   /**
    * Linear in the number of points.
-   * @param points of one surface or more; not none
-   * @param labels of each point: those with other labels belong to another surface
-   * @param spacing about how far apart neighbours are, > 0
+   * @param points of one surface or more; at least one
+   * @param labels of each point: points with other labels belong to another surface
+   * @param spacing the approximate distance between neighbours, > 0
    * @throws std::bad_alloc
    */
   SampleCurvature(
     const std::vector<Point<3>>& points, const std::vector<Labels>& labels, double spacing);
 
   /**
-   * The curvature of a sphere that is as far off a plane as the points with these labels within `radius` of p are; of a
-   * cylinder 0.87 times one over its radius, of a saddle 1.41 times its curvatures. 0 if there are too few points.
-   * @param roughness of the surface, root mean square: being so far off a plane is no bend
+   * The curvature around p, from the points with these labels within `radius`. It is the curvature
+   * of a sphere with the same distance from a plane. On a cylinder this is 0.87 over its radius,
+   * and on a saddle 1.41 times its principal curvatures. If there are too few points, it is 0.
+   * @param roughness of the surface, root mean square: this part of the distance from a plane is
+   *   not taken for a bend
    */
   double At(const Point<3>& p, const Labels& labels, double radius, double roughness) const;
 
@@ -58,7 +60,7 @@ private:
     Labels Of;
   };
 
-  /** A part of the points, by the cells of a grid. */
+  /** A part of the points, sorted by the cells of a grid. */
   struct Level
   {
     Level(const std::vector<Member>& members, const Box<3>& bounds, double cell);
@@ -69,7 +71,7 @@ private:
     Point<3> Origin;
     double InverseCell;
     std::array<std::size_t, 3> Cells;
-    std::vector<std::uint32_t> First; ///< of each cell's members; one more than there are cells
+    std::vector<std::uint32_t> First; ///< of each cell's members; the last entry is their number
     std::vector<Member> Members;
   };
 

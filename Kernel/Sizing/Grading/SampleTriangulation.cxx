@@ -20,7 +20,7 @@ constexpr std::size_t RoundFactor = 8;
 constexpr std::size_t FewestOfRound = 256;
 /** Points that a thread takes at a time. */
 constexpr std::size_t PieceSize = 1024;
-/** Fewer points are inserted by one thread. */
+/** Smaller last rounds are inserted by one thread. */
 constexpr std::size_t FewestForThreads = 4 * PieceSize;
 
 Box<3> MakeBox(const std::vector<Point<3>>& sample, double margin)
@@ -34,7 +34,7 @@ Box<3> MakeBox(const std::vector<Point<3>>& sample, double margin)
   return box;
 }
 
-/** The round of the k-th point: rounds are spread evenly over the sample. */
+/** The round of the k-th point. Rounds are spread evenly over the sample. */
 std::size_t RoundOf(std::size_t k, std::size_t rounds)
 {
   std::size_t round = rounds - 1;
@@ -172,8 +172,9 @@ void SampleTriangulation::InsertPiece(Worker& worker, const Entry* begin, const 
 }
 
 //------------------------------------------------------------------------------------------------
-// A simplex at a vertex of the rounds before that is near on the curve, with its vertices locked; None if
-// another thread has one of them. A simplex lives as long as somebody else owns one of its vertices.
+// Locks a simplex at a vertex of the earlier rounds that is near on the curve. Returns None if
+// another thread owns one of the simplex' vertices. While a thread owns a vertex, no other thread
+// can delete the simplices at it.
 SimplexId SampleTriangulation::LockNear(Worker& worker, const Entry& entry)
 {
   const auto found = std::lower_bound(this->Before.begin(), this->Before.end(), entry.Key,
@@ -195,7 +196,7 @@ SimplexId SampleTriangulation::LockNear(Worker& worker, const Entry& entry)
 }
 
 //------------------------------------------------------------------------------------------------
-// As Triangulation::FindConflict, but where rounding or another thread is in the way it gives up: None.
+// Like Triangulation::FindConflict. If rounding or another thread stops the walk, it returns None.
 SimplexId SampleTriangulation::WalkLocking(Worker& worker, const Point<3>& p, SimplexId from)
 {
   Triangulation<3>& mesh = this->Triangulated;

@@ -20,20 +20,26 @@ namespace voxplex
 /**
  * @brief The second triangulation of the thesis, D(Z): all points are given beforehand.
  *
- * Points are inserted in rounds of eight times as many, each in the order of a Hilbert curve (a biased
- * randomised insertion order, Amenta, Choi and Rote 2003): points on surfaces that come in
- * spatial order alone would give cavities of many simplices. In the last round all threads take pieces of the curve, begin
- * at a vertex of the rounds before, and walk to where a point belongs with the vertices of every simplex that
- * they pass locked. What meets another thread is left to one thread at the end, so nobody ever waits.
+ * Points are inserted in rounds. Each round has about eight times as many points as the round
+ * before, in the order of a Hilbert curve (a biased randomised insertion order, Amenta, Choi and
+ * Rote 2003). If points on surfaces were inserted in spatial order alone, cavities would have many
+ * simplices.
  *
- * The triangulation is a function of the points, though the numbers of its vertices and simplices are not.
+ * All threads share the last round and take pieces of the curve. A thread begins at a vertex of the
+ * earlier rounds and walks to the simplex that a point belongs to. It locks the vertices of every
+ * simplex on its way. If it meets another thread, the point is left to one thread at the end. So no
+ * thread ever waits.
+ *
+ * The triangulation is a function of the points alone. The numbers of its vertices and simplices
+ * are not.
  */
 class SampleTriangulation
 {
 public:
   /**
-   * @param sample points, at least one; one that is there twice becomes one vertex
-   * @param margin how far the corners of the box are from the points' bounding box along each axis, at least; positive
+   * @param sample at least one point; two equal points become one vertex
+   * @param margin smallest distance of the box's faces from the points' bounding box along each
+   *   axis; positive
    * @param threads 0 means all cores
    * @throws Cancelled, std::bad_alloc
    */
@@ -43,7 +49,7 @@ public:
   const Triangulation<3>& Mesh() const { return this->Triangulated; }
 
 private:
-  /** A point, its place along the curve, and its vertex if it has been inserted. */
+  /** A point, its position along the curve, and its vertex if it has been inserted. */
   struct Entry
   {
     std::uint64_t Key;
@@ -60,9 +66,9 @@ private:
 
   Triangulation<3> Triangulated;
   std::stop_token Stop;
-  std::vector<Entry> Before; ///< of the rounds before, sorted by key
-  std::mutex Mutex;          ///< of Left
-  std::vector<Entry> Left;   ///< to be inserted by one thread
+  std::vector<Entry> Before; ///< the points of the earlier rounds, sorted by key
+  std::mutex Mutex;          ///< guards Left
+  std::vector<Entry> Left;   ///< the points that one thread inserts at the end
 };
 
 } // namespace voxplex
