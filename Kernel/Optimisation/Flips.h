@@ -69,9 +69,10 @@ public:
 
   /**
    * The last resort for a flat tetrahedron with two or more facets on interfaces: gives it to the
-   * label across two of them. False if this is not allowed or does not help. The change must not
-   * make the interface non-manifold at further places. A label may lose its last tetrahedron around
-   * a vertex only if other tetrahedra of the label are near. InterfaceRules hold for new triangles.
+   * label across two of them, if a flip around it then helps. If that label is background, drops
+   * it. Returns false if neither is possible. The change must not make the interface non-manifold
+   * at further places. A label may lose its last tetrahedron around a vertex only if other
+   * tetrahedra of the label are near. InterfaceRules hold for new triangles.
    */
   bool ImproveByRelabelling(std::uint32_t t);
 
