@@ -85,7 +85,7 @@ std::vector<unsigned> DefaultThreads()
   return threads;
 }
 
-/** What the arguments left open, and whether they make sense. */
+/** Sets the options that the arguments left open, and checks all options. */
 void Complete(ScalingOptions& options)
 {
   if (options.Threads.empty())
