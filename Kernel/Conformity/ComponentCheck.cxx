@@ -33,8 +33,8 @@ constexpr double SamplesPerThickness = 2.7;
 constexpr double BoundFactor = 2.0;
 
 /**
- * The number of voxels searched for the thickest part. In a larger component, only every k-th voxel
- * is searched.
+ * The largest number of voxels searched for the thickest part. In a larger component, only every
+ * k-th voxel is searched.
  */
 constexpr std::int64_t MostVoxelsLookedAt = 1000;
 
@@ -58,8 +58,8 @@ constexpr double BoundAtThickest = 2.0;
 constexpr double LeastThickness = 5.0;
 
 /**
- * The number of voxels that get seeds. In a larger component, only every k-th voxel gets seeds; R1
- * finds the rest.
+ * The largest number of voxels that get seeds. In a larger component, only every k-th voxel gets
+ * seeds; R1 finds the rest.
  */
 constexpr std::int64_t MostSeededVoxels = 20000;
 

@@ -30,8 +30,8 @@ using Corners = std::array<VertexId, 4>;
 constexpr std::array<double, 5> Widths{ 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75 };
 
 /**
- * Values that are equally good: angles of tetrahedra and of interfaces in degrees, and the
- * radius-edge ratio.
+ * Shapes with these values count as equally good: angles of tetrahedra and of interfaces in
+ * degrees, and the radius-edge ratio.
  */
 constexpr double GoodDihedralAngle = 9.0;
 constexpr double GoodFacetAngle = 20.0;
