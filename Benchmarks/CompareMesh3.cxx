@@ -31,7 +31,7 @@ constexpr const char* Usage =
 
 Meshes a label image with Voxplex and with CGAL Mesh_3 and prints both, side by side.
 
-  --delta D        sampling density of Voxplex, in the unit of the image's spacing
+  --delta D        sampling distance of Voxplex, in the unit of the image's spacing
   --elements N     tetrahedra to aim at: delta is tuned (from D, if given), and CGAL's size
                    (default: as many as Voxplex makes with D)
   --cgal-size S    bound of CGAL's surface Delaunay balls; default: tuned to 3 % of the number of

@@ -110,8 +110,10 @@ struct OptimisationStatistics
  * @param domain the domain that the mesh was made from
  * @param threads 0 means all cores
  * @throws InputError if an option is out of range; Cancelled if a stop was requested;
- * std::bad_alloc Complexity: linear in the size of the mesh and in the number of poor tetrahedra. A
- * poor tetrahedron takes about 100 times as long as another one.
+ *   std::bad_alloc
+ *
+ * Complexity: linear in the size of the mesh and in the number of poor tetrahedra. A poor
+ * tetrahedron takes about 100 times as long as another one.
  */
 OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domain,
   const OptimisationOptions& options, unsigned threads = 1, const std::stop_token& stop = {});

@@ -57,8 +57,9 @@ public:
   };
 
   /**
-   * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet Complexity:
-   * linear, except for sorting label values.
+   * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet
+   *
+   * Complexity: linear, except for sorting label values.
    */
   TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
     const std::stop_token& stop);
