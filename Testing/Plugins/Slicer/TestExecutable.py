@@ -328,7 +328,7 @@ class Refusals(ModuleTestCase):
                 "two outputs have this name": ("--returnparameterfile", "b.vtu", "ball.nrrd", "b.vtu"),
                 "Label 5 was asked for.* Correct --labels": ("--labels", "5", "ball.nrrd", "b.vtu"),
                 "--labelsizes .*5.* not occur": ("--labelsizes", "5=1", "ball.nrrd", "b.vtu"),
-                "no delta makes a mesh of 3 elements .*ask for about so many": ("--elements", "3", "ball.nrrd", "b.vtu"),
+                "no delta makes a mesh of 3 elements .*ask for about that number": ("--elements", "3", "ball.nrrd", "b.vtu"),
                 "every component of the image is smaller": ("--minimumvolume", "1e9", "ball.nrrd", "b.vtu"),
                 "--sliverangle is .*--force": ("--sliverangle", "16", "ball.nrrd", "b.vtu"),
                 "--force": ("--delta", "0.001", "ball.nrrd", "b.vtu")}.items():
