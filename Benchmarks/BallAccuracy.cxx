@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of a digital ball against the true sphere, by smoothing and delta, and of grey-value images of the
-// same ball: the tables of Documentation/Algorithm.md.
+// Compares meshes of a digital ball, and of grey-value images of the same ball, with the exact
+// sphere, for several values of smoothing and delta. Prints the tables of
+// Documentation/Algorithm.md.
 #include "Mesher/ImageMesher.h"
 
 #include "../Testing/Kernel/Support/MeshChecks.h"
@@ -23,14 +24,14 @@ namespace
 
 struct Accuracy
 {
-  double Distance = 0.0; ///< of interface vertices from the sphere, mean, voxels
-  double Farthest = 0.0; ///< at most
-  double Normal = 0.0;   ///< error of facet normals, mean, degrees
+  double Distance = 0.0; ///< mean distance of interface vertices from the sphere, voxels
+  double Farthest = 0.0; ///< the largest such distance
+  double Normal = 0.0;   ///< mean error of facet normals, degrees
   double Volume = 0.0;   ///< relative error
   std::size_t Elements = 0;
 };
 
-/** Of a ball in the middle of a cube of voxels. */
+/** Meshes a ball in the middle of a cube of voxels, and measures its accuracy. */
 template <typename Image>
 Accuracy Measure(
   const Image& image, const GridGeometry<3>& grid, double radius, double sigma, double delta)
@@ -77,7 +78,7 @@ Accuracy Measure(
   return accuracy;
 }
 
-/** The part of a voxel that is in the ball, to 1/512. */
+/** The fraction of a voxel that is in the ball, to 1/512. */
 double PartInside(const Point<3>& voxel, const Point<3>& centre, double radius)
 {
   const double r = Distance(voxel, centre);
@@ -98,7 +99,7 @@ double PartInside(const Point<3>& voxel, const Point<3>& centre, double radius)
   return inside / 512.0;
 }
 
-/** A grey-value image of a ball: what each voxel has, and the isovalue. */
+/** A grey-value image of a ball: the value of each voxel, and the isovalue. */
 struct GreyBall
 {
   const char* Name;

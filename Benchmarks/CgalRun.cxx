@@ -11,7 +11,7 @@
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/make_mesh_3.h> // perturbation and exudation, too
+#include <CGAL/make_mesh_3.h> // also has perturbation and exudation
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -28,7 +28,7 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using MeshDomain = CGAL::Labeled_mesh_domain_3<Kernel>;
 
-/** A view of the volume: CGAL reads the very same voxels and owns none of them. */
+/** A view of the volume. CGAL reads the same voxels and does not own them. */
 CGAL::Image_3 MakeImage(const LabelVolume& volume)
 {
   _image* const image = _initImage();
@@ -72,7 +72,7 @@ SimplexMesh<3> ToArrays(const Complex& complex)
   return mesh;
 }
 
-/** @param optimisation is left out if null */
+/** @param optimisation null: no optimisation */
 template <typename ConcurrencyTag>
 MesherRun Run(const LabelVolume& volume, double size, Optimisation* optimisation = nullptr)
 {

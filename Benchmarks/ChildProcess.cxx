@@ -30,8 +30,10 @@ std::uint64_t PeakResidentBytes()
 
 namespace
 {
-/** The whole life of a child; never returns, so that the parent's objects are not destroyed
- * twice. */
+/**
+ * Runs a child from start to exit. Never returns, so that the parent's objects are not destroyed
+ * twice.
+ */
 [[noreturn]] void LiveAsChild(
   int pipeEnd, void (*body)(void*, void*), void* context, void* result, std::size_t size)
 {
@@ -51,7 +53,7 @@ namespace
 struct Child
 {
   pid_t Process;
-  int PipeEnd; ///< to read the result from
+  int PipeEnd; ///< the end to read the result from
 };
 
 Child StartChild(void (*body)(void*, void*), void* context, void* result, std::size_t size)
@@ -76,7 +78,7 @@ Child StartChild(void (*body)(void*, void*), void* context, void* result, std::s
   return { process, ends[0] };
 }
 
-/** Whether the child did well. */
+/** Reads the result of a child and waits for it. Returns whether the child succeeded. */
 bool FinishChild(const Child& child, void* result, std::size_t size)
 {
   const ssize_t received = read(child.PipeEnd, result, size);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file CommandLine.h
- * @brief What the command lines of the benchmark programs have in common, from main() to a number.
+ * @brief Common code for the command lines of the benchmark programs.
  */
 #ifndef voxplex_CommandLine_h
 #define voxplex_CommandLine_h
@@ -22,7 +22,7 @@
 namespace voxplex::benchmarks
 {
 
-/** A positive, finite number, all of the text. @throws std::invalid_argument */
+/** Parses a positive, finite number. The whole text must be used. @throws std::invalid_argument */
 inline double ParseNumber(const std::string& text)
 {
   std::istringstream stream(text);
@@ -34,7 +34,7 @@ inline double ParseNumber(const std::string& text)
   return number;
 }
 
-/** A whole number from 1 to `largest`, which is at most 2^32 - 1. @throws std::invalid_argument */
+/** Parses a whole number from 1 to `largest`, at most 2^32 - 1. @throws std::invalid_argument */
 inline unsigned ParseCount(const std::string& text, unsigned largest = 65535)
 {
   const double number = ParseNumber(text);
@@ -46,15 +46,15 @@ inline unsigned ParseCount(const std::string& text, unsigned largest = 65535)
   return static_cast<unsigned>(number);
 }
 
-/** What to do at each argument of a program. */
+/** The actions for the arguments of a program. */
 struct ArgumentTable
 {
   std::map<std::string, std::function<void(const std::string& value)>> WithValue;
   std::map<std::string, std::function<void()>> Flags;
-  std::string* File = nullptr; ///< takes one argument that is no option, if there may be one
+  std::string* File = nullptr; ///< receives the argument that is no option; null: none is allowed
 };
 
-/** Goes through the arguments. @throws std::invalid_argument, and what the table's functions throw */
+/** Reads the arguments. @throws std::invalid_argument, and exceptions of the table's functions */
 inline void ReadArguments(int argc, char** argv, const ArgumentTable& table)
 {
   for (int i = 1; i < argc; ++i)
@@ -81,8 +81,8 @@ inline void ReadArguments(int argc, char** argv, const ArgumentTable& table)
 }
 
 /**
- * The whole of a main(): options = parse(argc, argv), then run(options). What they throw goes to standard
- * error, with the usage behind it if it is parse that throws.
+ * The whole of a main(): options = parse(argc, argv), then run(options). Exceptions are printed to
+ * standard error. If parse throws, the usage follows.
  * @return the exit status: 2 if parse throws, EXIT_FAILURE if run does
  */
 template <typename Parse, typename Run>

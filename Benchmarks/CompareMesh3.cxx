@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file CompareMesh3.cxx
- * @brief voxplexCompareMesh3: one image, Voxplex and CGAL Mesh_3, a like number of tetrahedra.
+ * @brief voxplexCompareMesh3: compares Voxplex and CGAL Mesh_3 on one image, with about the same
+ * number of tetrahedra.
  *
- * Every run is a child process of its own and the two meshers take turns, so that drifts of the
- * machine hit both alike. Quality is measured by the same routine on both meshes. GPL through CGAL:
- * never installed.
+ * Every run is a separate child process. The two meshers take turns, so that changes in the
+ * machine's speed affect both equally. The same routine measures the quality of both meshes. GPL
+ * because of CGAL: never installed.
  */
 #include "CommandLine.h"
 #include "MeshComparison.h"
@@ -30,7 +31,7 @@ constexpr const char* Usage =
 
 Meshes a label image with Voxplex and with CGAL Mesh_3 and prints both, side by side.
 
-  --delta D        sampling density of Voxplex, in the unit of the image's spacing
+  --delta D        sampling distance of Voxplex, in the unit of the image's spacing
   --elements N     tetrahedra to aim at: delta is tuned (from D, if given), and CGAL's size
                    (default: as many as Voxplex makes with D)
   --cgal-size S    bound of CGAL's surface Delaunay balls; default: tuned to 3 % of the number of
@@ -93,11 +94,11 @@ Options ParseArguments(int argc, char** argv)
   return options;
 }
 
-/** Settles the sizes of both so that they make a like number of tetrahedra. */
+/** Chooses the sizes of both meshers so that they make about the same number of tetrahedra. */
 void SettleSizes(
   const Options& options, const LabelVolume& image, Contestant& voxplex, Contestant& cgal)
 {
-  // Where a search starts if nothing better is known: twice the mean spacing.
+  // The default start of a search is twice the mean spacing.
   const double meanSpacing = std::cbrt(image.Spacing[0] * image.Spacing[1] * image.Spacing[2]);
   const double start = options.Delta > 0.0 ? options.Delta : 2.0 * meanSpacing;
   const bool tuneCgal = options.Cgal && options.CgalSize == 0.0;
@@ -118,7 +119,7 @@ void SettleSizes(
   }
 }
 
-/** Times of meshes that differ in size are no comparison. */
+/** Warns if the meshes differ in size. Their times are then not comparable. */
 void WarnIfUnlike(const Contestant& voxplex, const Contestant& cgal)
 {
   const double ratio =

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ComparePoints.cxx
- * @brief voxplexComparePoints: random points of the unit cube, Voxplex and CGAL in turns.
+ * @brief voxplexComparePoints: inserts random points of the unit cube, with Voxplex and CGAL in
+ * turns.
  *
- * Both insert the same points in the same spatially sorted order; sorting is not timed. Every run
- * is a child process of its own. GPL through CGAL: never installed.
+ * Both insert the same points in the same spatially sorted order. Sorting is not timed. Every run
+ * is a separate child process. GPL because of CGAL: never installed.
  */
 #include "ChildProcess.h"
 #include "CommandLine.h"
@@ -67,7 +68,7 @@ Options ParseArguments(int argc, char** argv)
   return options;
 }
 
-/** A line of the table: medians of both, and the median of the ratios turn by turn. */
+/** Prints a row of the table: the medians of both, and the median of the ratios of each turn. */
 void PrintRow(const char* name, int digits, const std::vector<PointsRun>& voxplex,
   const std::vector<PointsRun>& cgal, double (*value)(const PointsRun&))
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LabelVolume.h
- * @brief The label image that a comparison hands to every mesher alike.
+ * @brief The label image that a comparison passes to every mesher.
  */
 #ifndef voxplex_LabelVolume_h
 #define voxplex_LabelVolume_h
@@ -15,7 +15,9 @@
 namespace voxplex::benchmarks
 {
 
-/** Labels with their spacing; origin and direction are left out, since they move a mesh rigidly. */
+/**
+ * Labels with their spacing. Origin and direction are left out, as they only move a mesh rigidly.
+ */
 struct LabelVolume
 {
   std::array<std::int64_t, 3> Dimensions{};

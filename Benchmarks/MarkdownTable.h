@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MarkdownTable.h
- * @brief A table that reads well on a terminal and can be pasted into Markdown.
+ * @brief A Markdown table that is also readable on a terminal.
  */
 #ifndef voxplex_MarkdownTable_h
 #define voxplex_MarkdownTable_h
@@ -17,7 +17,7 @@
 namespace voxplex::benchmarks
 {
 
-/** A number as printf() writes it; 1234567 as "1,234,567" for an empty format. */
+/** A number in printf() format. If the format is empty, 1234567 becomes "1,234,567". */
 inline std::string Format(double number, const char* format = "")
 {
   char text[64];
@@ -35,14 +35,14 @@ class MarkdownTable
 public:
   explicit MarkdownTable(std::vector<std::string> header) { this->Rows = { std::move(header) }; }
 
-  /** A row shorter than the header is filled up with empty cells. */
+  /** Adds a row. If it is shorter than the header, empty cells are added. */
   void Add(std::vector<std::string> row)
   {
     row.resize(this->Rows.front().size());
     this->Rows.push_back(std::move(row));
   }
 
-  /** On standard output, with a blank line after it. */
+  /** Prints the table and a blank line on standard output. */
   void Print() const
   {
     std::vector<std::size_t> widths(this->Rows.front().size(), 3);
@@ -71,7 +71,7 @@ public:
   }
 
 private:
-  /** The first column to the left, the others to the right. */
+  /** The first column is left-aligned, the others are right-aligned. */
   static void PrintRow(const std::vector<std::string>& row, const std::vector<std::size_t>& widths)
   {
     for (std::size_t c = 0; c < row.size(); ++c)

@@ -24,7 +24,7 @@ double CountTetrahedra(const Contestant& contestant, double size)
 
 double TuneSize(Contestant& contestant, double size, double wanted)
 {
-  // Several threads make another mesh in each run: leaves room for that.
+  // Leaves a margin, because several threads make a different mesh in each run.
   constexpr double tolerance = 0.6 * SizeTolerance;
   double exponent = -2.4; // between a surface (-2) and a volume (-3)
   double previousSize = 0.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshComparison.h
- * @brief Runs of meshers, each in a process of its own, measured alike.
+ * @brief Runs of meshers, each in a separate process, with the same measurements.
  */
 #ifndef voxplex_MeshComparison_h
 #define voxplex_MeshComparison_h
@@ -17,7 +17,7 @@
 namespace voxplex::benchmarks
 {
 
-/** One run, as its child process reports it. */
+/** The result of one run, from its child process. */
 struct Record
 {
   MeshMeasures Quality;
@@ -29,32 +29,36 @@ struct Record
   double Tetrahedra() const { return static_cast<double>(this->Quality.Tetrahedra); }
 };
 
-/** One mesher of a comparison: its name, how it meshes with a size, the size, and its runs. */
+/**
+ * One mesher of a comparison: its name, a function that meshes with a size, the size, and its runs.
+ */
 struct Contestant
 {
   const char* Name;
   std::function<MesherRun(double size)>
-    Mesh; ///< called in child processes only: may consume the image
+    Mesh; ///< called in child processes only; may consume the image
   double Size = 0.0;
   std::vector<Record> Records{};
 };
 
-/** By how much the numbers of tetrahedra of two meshes of a like size may differ. */
+/**
+ * If the numbers of tetrahedra of two meshes differ by at most this fraction, they count as equal.
+ */
 inline constexpr double SizeTolerance = 0.05;
 
-/** Tetrahedra that a size gives; one run, its progress on standard error. */
+/** The number of tetrahedra for a size. Makes one run, and reports it on standard error. */
 double CountTetrahedra(const Contestant& contestant, double size);
 
 /**
- * Sets contestant.Size so that the mesher makes `wanted` tetrahedra within 3 %: secants of
- * log(tetrahedra) over log(size), at most eight runs.
- * @param size where to start
+ * Sets contestant.Size so that the mesher makes `wanted` tetrahedra within 3 %. Uses the secant
+ * method on log(tetrahedra) over log(size), with at most eight runs.
+ * @param size the start of the search
  * @return the number of tetrahedra
- * @throws std::runtime_error if eight runs do not do
+ * @throws std::runtime_error if eight runs are not enough
  */
 double TuneSize(Contestant& contestant, double size, double wanted);
 
-/** One measured run with contestant.Size, added to contestant.Records. */
+/** Makes a measured run with contestant.Size, and adds it to contestant.Records. */
 void AddRun(Contestant& contestant, const LabelVolumes& image);
 
 } // namespace voxplex::benchmarks

@@ -70,7 +70,7 @@ double RadiusEdgeRatio(const Corners& p)
   return radius / shortest;
 }
 
-/** Vertices of the facet opposite of vertex i, seen counter-clockwise from outside. */
+/** The vertices of the facet opposite to vertex i, counter-clockwise when seen from outside. */
 constexpr std::array<std::array<std::size_t, 3>, 4> FacetCorners{ { { 1, 2, 3 }, { 0, 3, 2 },
   { 0, 1, 3 }, { 0, 2, 1 } } };
 
@@ -96,12 +96,12 @@ void MeasureDihedrals(const Corners& p, MeshMeasures& measures)
 struct Facet
 {
   std::array<std::uint32_t, 3> Vertices; ///< increasing
-  std::array<std::int64_t, 2> Labels;    ///< of the two sides; 0 is outside
+  std::array<std::int64_t, 2> Labels;    ///< labels of the two sides; 0 is outside
 
   bool operator<(const Facet& other) const { return this->Vertices < other.Vertices; }
 };
 
-/** Facets whose two sides differ in label. */
+/** The facets whose two sides have different labels. */
 std::vector<Facet> InterfaceFacets(const SimplexMesh<3>& mesh)
 {
   std::vector<Facet> facets;
@@ -138,7 +138,7 @@ std::vector<Facet> InterfaceFacets(const SimplexMesh<3>& mesh)
   return facets;
 }
 
-/** Which vertices have interface facets of three labels or more. */
+/** Whether each vertex has interface facets of three or more labels. */
 std::vector<bool> JunctionVertices(const std::vector<Facet>& facets, std::size_t numberOfVertices)
 {
   constexpr std::int64_t none = -1;

@@ -14,13 +14,13 @@ namespace voxplex::benchmarks
 namespace
 {
 
-/** A number of a record: its name in the table and in the JSON stream, and how to print it. */
+/** A number of a record: its names in the table and in the JSON stream, and its format. */
 struct Row
 {
   const char* Name;
   const char* Key;
   const char* Format;
-  bool Ratio; ///< whether the ratio of the two meshers means anything
+  bool Ratio; ///< whether the ratio of the two meshers is meaningful
   double (*Value)(const Record&);
 };
 
@@ -64,7 +64,7 @@ const Row Rows[] = {
     [](const Record& r) { return 100.0 * r.Quality.VolumeError; } },
 };
 
-/** One number of each row, as a JSON object. */
+/** Writes one number of each row as a JSON object. */
 template <typename NumberOf>
 void WriteNumbers(std::ostream& stream, bool onlyRatios, NumberOf numberOf)
 {
@@ -82,7 +82,7 @@ void WriteNumbers(std::ostream& stream, bool onlyRatios, NumberOf numberOf)
 
 void PrintCell(const char* format, const Contestant& contestant, double value)
 {
-  char text[32] = "-"; // did not run
+  char text[32] = "-"; // the mesher did not run
   if (!contestant.Records.empty())
   {
     std::snprintf(text, sizeof(text), format, value);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshReport.h
- * @brief The outcome of a mesh comparison, for people and for programs.
+ * @brief The result of a mesh comparison, as tables and as JSON.
  */
 #ifndef voxplex_MeshReport_h
 #define voxplex_MeshReport_h
@@ -14,18 +14,25 @@
 namespace voxplex::benchmarks
 {
 
-/** A table on standard output: medians side by side, and ratios of `left` to `right`
- * (Statistics.h). */
+/**
+ * Prints a table on standard output: medians side by side, and ratios of `left` to `right`
+ * (Statistics.h).
+ */
 void PrintTable(const Contestant& left, const Contestant& right);
 
-/** A table on standard output: the medians of `one`, and how far the runs of `many` spread. */
+/** Prints a table on standard output: the medians of `one`, and the range of the runs of `many`. */
 void PrintSpread(const Contestant& one, const Contestant& many);
 
-/** Size, medians and all runs as a JSON object; keys are those of `voxplex --stats` where these have
- * them. */
+/**
+ * Writes size, medians and all runs as a JSON object. Where possible, keys are those of `voxplex
+ * --stats`.
+ */
 void WriteJson(std::ostream& stream, const Contestant& contestant);
 
-/** Medians of the ratios of `left` to `right`, as a JSON object with the same keys; 0 unless both ran. */
+/**
+ * Writes medians of the ratios of `left` to `right` as a JSON object with the same keys; 0 unless
+ * both ran.
+ */
 void WriteRatios(std::ostream& stream, const Contestant& left, const Contestant& right);
 
 } // namespace voxplex::benchmarks

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PointsRun.h
- * @brief Delaunay triangulation of given points, ours and CGAL's.
+ * @brief Delaunay triangulation of given points by Voxplex and by CGAL.
  */
 #ifndef voxplex_PointsRun_h
 #define voxplex_PointsRun_h
@@ -17,28 +17,28 @@ namespace voxplex::benchmarks
 
 struct PointsRun
 {
-  double Seconds = 0.0;    ///< insertion alone; the points come sorted
+  double Seconds = 0.0;    ///< insertion only, of sorted points
   double CpuSeconds = 0.0; ///< processor time of the same
   std::uint64_t Simplices = 0;
   std::uint64_t PeakBytes = 0;
 };
 
 /**
- * Sorts points of the unit cube so that neighbours are near each other.
- * @param rounds biased random insertion order (CGAL::spatial_sort): Hilbert curves through random
- *   halves; else one Hilbert curve through all
+ * Sorts points of the unit cube so that consecutive points are near each other.
+ * @param rounds true: biased random insertion order (CGAL::spatial_sort), with Hilbert curves
+ *   through random halves; false: one Hilbert curve through all points
  */
 template <int D>
 void SortSpatially(std::vector<Point<D>>& points, bool rounds);
 
-/** Voxplex: the unit cube as the box, each point located by a walk from the one before. */
+/** Voxplex. The box is the unit cube. A walk from the previous point locates each point. */
 template <int D>
 PointsRun TriangulateWithVoxplex(const std::vector<Point<D>>& points);
 
 /**
- * CGAL::Delaunay_triangulation_3 (D = 3) or CGAL::Delaunay_triangulation (D = 4), with the corners
- * of the unit cube inserted first, so that both triangulate the same points. Each point has the one
- * before as a hint, which is what CGAL's insertion of a range does after sorting. GPL: never to be
+ * CGAL::Delaunay_triangulation_3 (D = 3) or CGAL::Delaunay_triangulation (D = 4). The corners of
+ * the unit cube are inserted first, so that both triangulate the same points. Each point has the
+ * previous one as a hint, as in CGAL's insertion of a range after sorting. GPL: never to be
  * installed.
  */
 template <int D>

@@ -34,7 +34,7 @@ std::vector<Point<D>> RandomPoints(std::size_t n, const Box<D>& box, unsigned se
   return points;
 }
 
-/** n points of the lattice of integers from 0 to `side` - 1: many are co-spherical. */
+/** n points of the lattice of integers from 0 to `side` - 1. Many of them are co-spherical. */
 template <int D>
 std::vector<Point<D>> RandomLatticePoints(std::size_t n, int side, unsigned seed = 1)
 {

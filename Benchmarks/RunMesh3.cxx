@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RunMesh3.cxx
- * @brief voxplexRunMesh3: a label image meshed by CGAL Mesh_3, before and after perturbation and exudation.
+ * @brief voxplexRunMesh3: meshes a label image with CGAL Mesh_3, without and with perturbation and
+ * exudation.
  *
- * What Scripts/measure-quality compares with. Coordinates are indices times spacing. GPL through CGAL:
- * never installed.
+ * Scripts/measure-quality compares with these meshes. Coordinates are indices times spacing. GPL
+ * because of CGAL: never installed.
  */
 #include "CommandLine.h"
 #include "MeshComparison.h"

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Scaling.cxx
- * @brief voxplexScaling: one image with one thread, with several, and with more than there are cores.
+ * @brief voxplexScaling: meshes one image with one thread, with several, and with more threads than
+ * cores.
  *
- * Every run is a child process of its own; all configurations take turns.
+ * Every run is a separate child process. All configurations take turns.
  */
 #include "CommandLine.h"
 #include "MeshComparison.h"
@@ -40,7 +41,7 @@ const char* NameOf(BalancePolicy policy)
   return BalancePolicyNames[static_cast<std::size_t>(policy)].data();
 }
 
-/** What is to run, and which table each series is for. */
+/** The configurations to run, and the table of each series. */
 class Experiment
 {
 public:
@@ -80,7 +81,10 @@ public:
 private:
   ScalingTables Tables() const { return { this->Runs, this->Baseline }; }
 
-  /** With the first manager and the first balancer of the lists; the sequential code for one thread. */
+  /**
+   * Uses the first manager and the first balancer of the lists. One thread uses the sequential
+   * code.
+   */
   Configuration With(unsigned threads) const
   {
     Configuration what;
@@ -143,8 +147,9 @@ private:
   }
 
   /**
-   * One run with delta n^(-1/3) tells how the number of tetrahedra depends on delta on this image:
-   * between delta^(-2), as interfaces have, and delta^(-3), as what lies between them.
+   * Makes one run with delta n^(-1/3), to find how the number of tetrahedra depends on delta for
+   * this image. The dependence is between delta^(-2), as for interfaces, and delta^(-3), as for
+   * volumes.
    */
   void AddWeak()
   {
@@ -187,7 +192,7 @@ private:
   std::vector<std::pair<std::size_t, std::size_t>> Oversubscribed;
 };
 
-/** Managers side by side for each number of threads; balancers side by side for the first manager. */
+/** Prints managers side by side for each number of threads, and balancers for the first manager. */
 void Experiment::PrintPolicies(const Selection& strong) const
 {
   std::vector<unsigned> numbers;
@@ -244,12 +249,12 @@ void Experiment::Print() const
   }
   if (!this->Ceiling.empty())
   {
-    std::printf("### What the machine gives: independent processes of one thread\n\n");
+    std::printf("### Upper limit of the machine: independent processes of one thread\n\n");
     tables.PrintCeiling(this->Ceiling);
   }
   if (this->Synchronised)
   {
-    std::printf("### What the code for several threads costs one\n\n");
+    std::printf("### Cost of the code for several threads with one thread\n\n");
     tables.PrintSynchronised(*this->Synchronised);
   }
   if (!this->Weak.empty())
@@ -281,7 +286,7 @@ MeshingOptions<3> DefaultsOf(const ScalingOptions& options, unsigned threads)
   return result;
 }
 
-/** Quality of several meshes with so many threads, next to that of one thread. */
+/** Compares the quality of several meshes made by several threads with that of one thread. */
 void CompareQuality(
   const ScalingOptions& options, LabelVolume& image, unsigned threads, std::ostream& json)
 {
@@ -300,7 +305,7 @@ void CompareQuality(
   Contestant one = contestant("one thread", 1);
   Contestant many = contestant(name.c_str(), threads);
   const LabelVolumes volumes = VolumesOf(image);
-  AddRun(one, volumes); // one is enough: always the same mesh
+  AddRun(one, volumes); // one run is enough: the mesh is always the same
   for (int i = 0; i < options.Quality; ++i)
   {
     std::fprintf(stderr, "quality with %u threads, %d of %d\n", threads, i + 1, options.Quality);
@@ -316,7 +321,7 @@ void CompareQuality(
   json << " }";
 }
 
-/** Sets options.Delta so that there are options.Elements tetrahedra. */
+/** Sets options.Delta so that the mesh has options.Elements tetrahedra. */
 void Tune(ScalingOptions& options, LabelVolume& image)
 {
   Contestant voxplex{ "Voxplex",

@@ -30,7 +30,7 @@ modes (default: --strong):
                      list, and with those of --oversubscribe
 
 options:
-  --delta D          sampling density, in the unit of the image's spacing
+  --delta D          sampling distance, in the unit of the image's spacing
   --elements N       tetrahedra to aim at: delta is tuned (from D, if given)
   --threads LIST     default: 1, 2, 4, ... and all cores; 1 is always run
   --contention LIST  default: local,global,random,aggressive; the first where one is enough
@@ -85,7 +85,7 @@ std::vector<unsigned> DefaultThreads()
   return threads;
 }
 
-/** What the arguments left open, and whether they make sense. */
+/** Sets the options that the arguments left open, and checks all options. */
 void Complete(ScalingOptions& options)
 {
   if (options.Threads.empty())

@@ -22,11 +22,11 @@ struct ScalingOptions
   std::string Image;
   std::string Json;
   double Delta = 0.0;    ///< 0: tuned
-  double Elements = 0.0; ///< 0: as many as delta gives
+  double Elements = 0.0; ///< 0: determined by delta
   int Repeat = 3;
   int Quality = 0;
   unsigned Oversubscribe = 0;
-  std::vector<unsigned> Threads; ///< increasing, 1 among them
+  std::vector<unsigned> Threads; ///< increasing; includes 1
   std::vector<ContentionPolicy> Managers = { ContentionPolicy::Local, ContentionPolicy::Global,
     ContentionPolicy::Random, ContentionPolicy::Aggressive };
   std::vector<BalancePolicy> Balancers = { BalancePolicy::Hierarchical, BalancePolicy::Random };
@@ -39,7 +39,7 @@ struct ScalingOptions
   bool Eager = false;
 };
 
-/** @throws std::exception that says what is wrong with the arguments */
+/** @throws std::exception with a message if the arguments are wrong */
 ScalingOptions ParseScalingOptions(int argc, char** argv);
 
 } // namespace voxplex::benchmarks

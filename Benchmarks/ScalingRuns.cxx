@@ -35,7 +35,7 @@ ThreadStatistics SumOf(const std::vector<ThreadStatistics>& threads)
   return sum;
 }
 
-/** In a child: consumes its copy of the image. */
+/** Runs in a child, and consumes its copy of the image. */
 ScalingRecord RunOnce(LabelVolume&& image, const Configuration& what)
 {
   MeshingOptions<3> options;
@@ -75,7 +75,7 @@ ScalingRecord Together(const std::vector<ScalingRecord>& copies)
     }
     return static_cast<double>(copies.size()) / inverses;
   };
-  result.Tetrahedra *= static_cast<double>(copies.size()); // one thread each: all the same
+  result.Tetrahedra *= static_cast<double>(copies.size()); // one thread each, so all are the same
   result.RefinementSeconds = harmonicMean(&ScalingRecord::RefinementSeconds);
   result.ExtractionSeconds = harmonicMean(&ScalingRecord::ExtractionSeconds);
   result.TotalSeconds = harmonicMean(&ScalingRecord::TotalSeconds);

@@ -15,7 +15,7 @@ namespace voxplex::benchmarks
 namespace
 {
 
-/** A number of a record: its name in the JSON stream. */
+/** A number of a record, and its name in the JSON stream. */
 struct Value
 {
   const char* Key;
@@ -117,14 +117,14 @@ std::size_t TimesSwitched(const Series& series)
 const char* const Seconds = "%.3f";
 const char* const Factor = "%.2f";
 
-/** None for more threads than cores. */
+/** The efficiency, or "-" if there are more threads than cores. */
 std::string Efficiency(double speedUp, const Series& series)
 {
   return series.What.Threads > NumberOfThreads(0) ? "-"
                                                   : Format(speedUp / series.What.Threads, Factor);
 }
 
-/** One line of a table that has a series in each column. */
+/** Adds a row to a table that has a series in each column. */
 template <typename CellOf>
 void AddAcross(
   MarkdownTable& table, const char* name, const std::vector<const Series*>& columns, CellOf cellOf)

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalingTables.h
- * @brief What runs in many configurations tell: tables in Markdown, and JSON.
+ * @brief The results of runs in many configurations, as Markdown tables and as JSON.
  *
- * Numbers are medians over rounds. A speed-up is the median over rounds of the number of tetrahedra a
- * second over that of one thread (the sequential code) in the same round: tetrahedra(n) time(1) /
- * (time(n) tetrahedra(1)), as in section 3.4.3 of the thesis. Meshes of one delta differ in size by
- * less than a percent, so that this is the ratio of times there.
+ * Numbers are medians over rounds. For a speed-up, the rate of a round, in tetrahedra per second,
+ * is divided by the rate of one thread (the sequential code) in the same round: tetrahedra(n)
+ * time(1) / (time(n) tetrahedra(1)), as in section 3.4.3 of the thesis. The speed-up is the median
+ * of these ratios. Meshes with the same delta differ in size by less than a percent, so their
+ * speed-up is the ratio of times.
  */
 #ifndef voxplex_ScalingTables_h
 #define voxplex_ScalingTables_h
@@ -22,43 +23,52 @@
 namespace voxplex::benchmarks
 {
 
-/** Series by their place in ScalingRuns::All(). */
+/** Series by their index in ScalingRuns::All(). */
 using Selection = std::vector<std::size_t>;
 
 class ScalingTables
 {
 public:
-  /** @param baseline one thread; what all speed-ups are against */
+  /** @param baseline the series of one thread, which all speed-ups refer to */
   ScalingTables(const ScalingRuns& runs, std::size_t baseline)
     : Runs(runs)
     , Baseline(runs[baseline])
   {
   }
 
-  /** Sizes, times, speed-ups. */
+  /** Prints sizes, times and speed-ups. */
   void PrintTimes(const Selection& series) const;
-  /** The three overheads in seconds for each thread, and what threads gave each other. */
+  /**
+   * Prints the three overheads in seconds for each thread, and the work that threads gave to
+   * others.
+   */
   void PrintOverheads(const Selection& series) const;
 
-  /** Contention managers side by side, in the order of the enumerators, overheads of all threads together: table 3.1 of the thesis. */
+  /**
+   * Prints contention managers side by side, in the order of the enumerators, with the overheads of
+   * all threads together: table 3.1 of the thesis.
+   */
   void PrintManagers(const Selection& series) const;
-  /** Load balancers side by side, by number of threads: figure 3.5 of the thesis. */
+  /** Prints load balancers side by side, by number of threads: figure 3.5 of the thesis. */
   void PrintBalancers(const Selection& series) const;
-  /** Numbers of threads side by side: table 3.4 of the thesis. */
+  /** Prints numbers of threads side by side: table 3.4 of the thesis. */
   void PrintWeak(const Selection& series) const;
 
-  /** The code for several threads with one thread, against the sequential code. */
+  /** Compares the code for several threads, run by one thread, with the sequential code. */
   void PrintSynchronised(std::size_t synchronised) const;
-  /** Independent processes: what the machine gives at best. */
+  /** Prints independent processes: the upper limit of the machine. */
   void PrintCeiling(const Selection& series) const;
-  /** More threads than cores against as many: pairs (over-subscribed, as many as cores). */
+  /**
+   * Compares more threads than cores with as many threads as cores.
+   * @param pairs (over-subscribed, as many as cores)
+   */
   void PrintOversubscribed(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const;
 
-  /** A JSON array with all series: what was run, medians, speed-ups, runs. */
+  /** Writes a JSON array of all series: configuration, medians, speed-ups, runs. */
   void WriteJson(std::ostream& stream) const;
 
 private:
-  /** Median over rounds of the ratio of `series` to `reference`. */
+  /** The median over rounds of the ratio of `series` to `reference`. */
   template <typename Value>
   static double Ratio(const Series& series, const Series& reference, Value value);
   double SpeedUp(const Series& series) const;

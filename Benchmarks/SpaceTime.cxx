@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SpaceTime.cxx
- * @brief voxplexSpaceTime: pentatope meshes of phantoms, with and without picking regions, in both orders
- * of the rules, with several threads.
+ * @brief voxplexSpaceTime: pentatope meshes of phantoms, with and without picking regions, in both
+ * orders of the rules, with several threads.
  *
- * Every run is a child process of its own; all configurations take turns.
+ * Every run is a separate child process. All configurations take turns.
  */
 #include "ChildProcess.h"
 #include "CommandLine.h"
@@ -111,7 +111,7 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
   }
 }
 
-/** A row for each measure, a column for each series. */
+/** Prints a table with a row for each measure and a column for each series. */
 void PrintSideBySide(const std::vector<const Series*>& columns,
   const std::vector<std::tuple<const char*, const char*, Value>>& rows)
 {
@@ -169,7 +169,9 @@ void PrintMeshes(const std::vector<Series>& all)
     });
 }
 
-/** Seconds are of each thread on average; speed-ups are medians of the ratios of rates round by round. */
+/**
+ * Seconds are averages over threads. Speed-ups are medians of the ratios of rates in each round.
+ */
 void PrintThreads(const std::vector<Series>& all, std::size_t perThreads)
 {
   std::printf("### Several threads; overheads of each thread, on average\n\n");
@@ -194,7 +196,7 @@ void PrintThreads(const std::vector<Series>& all, std::size_t perThreads)
   table.Print();
 }
 
-/** Of the first run of a series. */
+/** Prints the fit of the first run of a series. */
 void PrintFit(const Series& series)
 {
   const Fit& fit = series.Records.front().Image;

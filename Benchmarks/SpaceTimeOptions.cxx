@@ -20,11 +20,11 @@ thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a proces
   --phantom NAME     beating-ventricle (default), four-ball (radius 12) or merging-balls
   --coarsening N     N times fewer voxels of the ventricle along x, y and z (default 1)
   --time-scale S     length of a unit of time (default 1)
-  --delta D          sampling density, in the unit of the spacing (default: derived from the spacing)
+  --delta D          sampling distance, in the unit of the spacing (default: derived from the spacing)
   --picking WHAT     picking regions against slivers: off (default), on or both
   --rule-order WHAT  radius-edge (default), surface or both
   --no-fine-grained  waiting threads do not help to expand cavities
-  --threads LIST     also run with so many threads each, e.g. 2,4 (default: 1 only)
+  --threads LIST     also run with these numbers of threads, e.g. 2,4 (default: 1 only)
   --repeat K         rounds (default 3); medians are printed
   --frames           also compare volumes with the image, frame by frame
 )";

@@ -21,10 +21,10 @@ extern const char* const SpaceTimeUsage;
 struct SpaceTimeOptions
 {
   std::string Phantom = "beating-ventricle";
-  std::int64_t Coarsening = 1; ///< of the ventricle
+  std::int64_t Coarsening = 1; ///< coarsening of the ventricle
   double TimeScale = 1.0;
   double Delta = 0.0;            ///< 0: derived from the spacing
-  std::vector<unsigned> Threads; ///< increasing, 1 among them
+  std::vector<unsigned> Threads; ///< increasing; includes 1
   int Repeat = 3;
   std::vector<bool> Picking = { false };
   std::vector<RuleOrder> Orders = { RuleOrder::RadiusEdgeFirst };
@@ -32,7 +32,7 @@ struct SpaceTimeOptions
   bool Frames = false;
 };
 
-/** @throws std::exception that says what is wrong with the arguments */
+/** @throws std::exception with a message if the arguments are wrong */
 SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv);
 
 } // namespace voxplex::benchmarks

@@ -38,7 +38,7 @@ Fit FitOf(const SimplexMesh<4>& mesh, const LabelImage<4>& image, double sigma)
   const double step = image.Grid().IndexToFrame[3][3];
   for (std::size_t frame = 0; frame < fit.Frames; ++frame)
   {
-    // Slices are taken from the right; beyond the last frame there is nothing.
+    // Each slice is the limit from later times. After the last frame there is nothing.
     const double time = step * static_cast<double>(frame);
     const double back = frame + 1 == fit.Frames ? 1e-9 * step : 0.0;
     const Volumes inImage = checks::FrameVolumes(image, static_cast<std::int64_t>(frame));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SpaceTimeRun.h
- * @brief One mesh of a space-time phantom, and all that is said of it.
+ * @brief One mesh of a space-time phantom, and its measures.
  */
 #ifndef voxplex_SpaceTimeRun_h
 #define voxplex_SpaceTimeRun_h
@@ -18,31 +18,33 @@
 namespace voxplex::benchmarks
 {
 
-/** Of the phantoms: labels are 1 and 2. */
+/** The number of labels of the phantoms: 1 and 2. */
 inline constexpr std::size_t MostLabels = 2;
 inline constexpr std::size_t MostFrames = 32;
 
-/** The same measure of image and mesh. */
+/** The same measure of the image and of the mesh. */
 struct Compared
 {
   double Image;
   double Mesh;
 
-  /** Relative error; 0 if both are nothing. */
+  /** The relative error; 0 if both are equal. */
   double Error() const { return this->Image == this->Mesh ? 0.0 : this->Mesh / this->Image - 1.0; }
 };
 
-/** How a mesh fits the image that it was made from. Labels are numbered from 0 here: label 1 is [0]. */
+/**
+ * How well a mesh fits the image it was made from. Labels are numbered from 0 here: label 1 is [0].
+ */
 struct Fit
 {
   std::size_t Frames = 0;
   std::array<std::array<Compared, MostFrames>, MostLabels> Volume{}; ///< in every frame, 3D
   std::array<Compared, MostLabels> Hypervolume{};
   double LateralFacets = 0.0;
-  double FacetsOffInterface = 0.0; ///< lateral ones with a vertex that is on no interface
+  double FacetsOffInterface = 0.0; ///< lateral facets with a vertex that is on no interface
 };
 
-/** What a run reports from its process. */
+/** The result of a run, from its process. */
 struct SpaceTimeRecord
 {
   double Pentatopes = 0.0;
@@ -56,26 +58,27 @@ struct SpaceTimeRecord
   double VolumeMean = 0.0;
   double VolumeDeviation = 0.0;
   double Inverted = 0.0;
-  double AverageCavity = 0.0; ///< pentatopes that an insertion deletes
+  double AverageCavity = 0.0; ///< mean number of pentatopes that an insertion deletes
   double LargestCavity = 0.0;
   double SliversKept = 0.0;
   double PreparationSeconds = 0.0;
   double RefinementSeconds = 0.0;
   double ExtractionSeconds = 0.0;
   std::uint64_t PeakBytes = 0;
-  // Of each refinement thread, on average:
+  // Averages over refinement threads:
   double ContentionSeconds = 0.0;
   double LoadBalanceSeconds = 0.0;
   double RollbackSeconds = 0.0;
   double Rollbacks = 0.0;
-  Fit Image; ///< empty unless asked for
+  Fit Image; ///< empty unless requested
 
   double Rate() const { return this->Pentatopes / this->RefinementSeconds; }
 };
 
 /**
- * Meshes the scalars of a phantom and measures the mesh. Peak memory is that up to the end of meshing.
- * @param fit also compare with the image: one pass over the mesh for each frame
+ * Meshes the scalars of a phantom and measures the mesh. Peak memory is the peak until the end of
+ * meshing.
+ * @param fit whether to compare with the image; takes one pass over the mesh for each frame
  */
 SpaceTimeRecord MeshPhantom(const std::vector<std::uint8_t>& scalars, const GridGeometry<4>& grid,
   const MeshingOptions<4>& options, bool fit);

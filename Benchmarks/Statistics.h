@@ -14,7 +14,7 @@
 namespace voxplex::benchmarks
 {
 
-/** Median; the mean of the middle two for an even count; 0 for none. */
+/** The median. For an even count, the mean of the middle two; for no values, 0. */
 inline double Median(std::vector<double> values)
 {
   if (values.empty())
@@ -26,7 +26,7 @@ inline double Median(std::vector<double> values)
   return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/** Median of `value` over records. */
+/** The median of `value` over records. */
 template <typename Record, typename Value>
 double MedianOf(const std::vector<Record>& records, Value value)
 {
@@ -42,12 +42,12 @@ struct PairedMedians
 {
   double Left;
   double Right;
-  double Ratio; ///< median of the ratios turn by turn; 0 unless both have as many turns
+  double Ratio; ///< median of the ratios of each turn; 0 unless both have the same number of turns
 };
 
 /**
- * Compares runs that were made in turns. Ratios are taken turn by turn, since a machine that others
- * use, too, drifts more between turns than within one.
+ * Compares runs that were made in turns. A ratio is computed for each turn, because the speed of a
+ * shared machine changes more between turns than within a turn.
  */
 template <typename Record, typename Value>
 PairedMedians MedianPair(

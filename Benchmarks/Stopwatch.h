@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Stopwatch.h
- * @brief Seconds since it was made: on the wall, and of processor time.
+ * @brief Measures wall-clock and processor time since its construction, in seconds.
  */
 #ifndef voxplex_Stopwatch_h
 #define voxplex_Stopwatch_h
@@ -21,8 +21,10 @@ public:
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
   }
 
-  /** Processor time of all threads: more than Seconds() if they share work, less if others had the
-   * cores. */
+  /**
+   * Processor time of all threads. It is more than Seconds() if threads share work, and less if
+   * other processes used the cores.
+   */
   double CpuSeconds() const
   {
     return static_cast<double>(std::clock() - this->CpuStart) / CLOCKS_PER_SEC;

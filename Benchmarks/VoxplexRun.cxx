@@ -18,7 +18,7 @@ VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
   const auto grid = GridGeometry<3>::Orthogonal(volume.Dimensions, volume.Spacing);
   const auto image =
     LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, options.Threads);
-  volume.Labels = {}; // the kernel keeps labels of its own
+  volume.Labels = {}; // the kernel has its own copy of the labels
 
   ImageMesher<3> mesher(options);
   mesher.Run(image, run.Mesh);

@@ -15,7 +15,7 @@ namespace
 
 static_assert(std::endian::native == std::endian::little);
 
-/** The elements of the XML part and, in the same order, the bytes that they refer to. */
+/** The elements of the XML part, and the bytes that they refer to, in the same order. */
 class AppendedArrays
 {
 public:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file WriteVtu.h
- * @brief A mesh as a file that the measuring programs read.
+ * @brief Writes a mesh to a file that the measuring programs can read.
  */
 #ifndef voxplex_WriteVtu_h
 #define voxplex_WriteVtu_h
@@ -15,9 +15,9 @@ namespace voxplex::benchmarks
 {
 
 /**
- * Points, tetrahedra and the cell array Label as VTK's XML file with appended binary data, not compressed;
- * on machines with the lowest byte first.
- * @throws std::runtime_error if it cannot be written
+ * Writes points, tetrahedra and the cell array Label as a VTK XML file with appended, uncompressed
+ * binary data. For little-endian machines.
+ * @throws std::runtime_error if the file cannot be written
  */
 void WriteVtu(const SimplexMesh<3>& mesh, const std::string& fileName);
 

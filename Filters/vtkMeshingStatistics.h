@@ -5,18 +5,18 @@
  * @brief   what a meshing filter did: counts, quality, rules, predicates, times
  *
  * A meshing filter owns one of these (vtkImageToSimplexMeshFilter::GetStatistics()) and fills it
- * each time it executes. After an error or an abort counts and times are zero. The figures come in
+ * each time it executes. After an error or an abort, counts and times are zero. The figures come in
  * groups:
  *
  * - **Counts**, **times** and **threads** are always filled.
- * - **Labels** and **quality** need a pass over the finished mesh and are filled only if the
- *   filter's ComputeQuality is on (see GetHasQuality()); otherwise counts are zero and angles and
- *   ratios NaN.
+ * - **Labels** and **quality** need a pass over the finished mesh. They are filled only if the
+ *   filter's ComputeQuality is on (see GetHasQuality()). Otherwise counts are zero, and angles and
+ *   ratios are NaN.
  *
  * Lengths and volumes are in the unit of the image's spacing, angles in degrees, times in seconds
- * of wall clock. In 4D volumes are those of space-time, in units of length to the fourth: a unit of
- * time counts as vtkImageToPentatopeMeshFilter::GetTimeScale() units of length. ToJSON() gives everything as one JSON object, which Python reads with
- * json.loads().
+ * of wall clock. In 4D, volumes are volumes of space-time, in units of length to the fourth power:
+ * a unit of time counts as vtkImageToPentatopeMeshFilter::GetTimeScale() units of length. ToJSON()
+ * returns all figures as one JSON object, which Python reads with json.loads().
  *
  * @sa vtkImageToTetMeshFilter vtkImageToPentatopeMeshFilter
  */
@@ -41,35 +41,37 @@ public:
 
   ///@{
   /**
-   * Size of the mesh: elements are tetrahedra or pentatopes, interface facets the triangles or
-   * tetrahedra between them where labels differ (in 4D: the boundary tetrahedra).
+   * Size of the mesh. Elements are tetrahedra or pentatopes. Interface facets are the triangles or
+   * tetrahedra between elements of different labels (in 4D: the boundary tetrahedra).
    */
   vtkTypeInt64 GetNumberOfElements() const;
   vtkTypeInt64 GetNumberOfVertices() const;
   vtkTypeInt64 GetNumberOfInterfaceFacets() const;
   ///@}
 
-  /** The delta that was used: the one asked for, or the one derived from the spacing. */
+  /** The delta that was used: the requested one, or the one derived from the spacing. */
   double GetDelta() const;
   /**
-   * The largest sampling density of any interface: delta, unless it is graded
-   * (vtkImageToTetMeshFilter::SetGrading()) or interfaces have their own
+   * The largest sampling distance of any interface. This is delta, unless sampling distances are
+   * graded (vtkImageToTetMeshFilter::SetGrading()) or interfaces have their own
    * (vtkImageToSimplexMeshFilter::SetInterfaceSize()).
    */
   double GetLargestDelta() const;
   ///@{
   /**
-   * Points of the interfaces by which local feature sizes were measured, and points of the medial axis that they
-   * gave; 0 unless the sampling density is graded.
+   * The interface points from which local feature sizes were measured, and the points of the medial
+   * axis derived from them. Both are 0 unless sampling distances are graded.
    */
   vtkTypeInt64 GetGradingSamples() const;
   vtkTypeInt64 GetGradingPoles() const;
   ///@}
   ///@{
   /**
-   * If a number of elements was asked for (vtkImageToSimplexMeshFilter::SetNumberOfElements()): that number, how many times
-   * refinement was run to find the delta, and the delta and the elements of each run, in their order. Times are those of all
-   * runs together, everything else is of the run whose mesh was taken. Otherwise 0, also for an index out of range.
+   * If a number of elements was requested (vtkImageToSimplexMeshFilter::SetNumberOfElements()):
+   * that number, the number of refinement runs to find delta, and the delta and the number of
+   * elements of each run, in order. Times are the sums over all runs. All other figures are those
+   * of the run whose mesh was taken. If no number was requested, or the index is out of range, the
+   * result is 0.
    */
   vtkTypeInt64 GetElementsAskedFor() const;
   int GetNumberOfRuns() const;
@@ -77,15 +79,15 @@ public:
   vtkTypeInt64 GetRunElements(int index) const;
   ///@}
 
-  /** The number of threads that was asked for, or that VTK's SMP setting gave. */
+  /** The requested number of threads, or the number that VTK's SMP setting gave. */
   int GetNumberOfThreads() const;
-  /** The number of elements that was estimated before meshing. */
+  /** The number of elements estimated before meshing. */
   vtkTypeInt64 GetEstimatedNumberOfElements() const;
 
   ///@{
   /**
-   * Whether the inside of an isosurface was meshed (vtkImageToTetMeshFilter::SetInputMode()); if so, its
-   * value, and the smallest and the largest value of the image, as they are after smoothing.
+   * Whether the inside of an isosurface was meshed (vtkImageToTetMeshFilter::SetInputMode()). If
+   * so, the isovalue, and the smallest and the largest value of the image after smoothing.
    */
   bool GetMeshedIsosurface() const;
   double GetIsovalue() const;
@@ -94,8 +96,8 @@ public:
 
   ///@{
   /**
-   * Labels that the image has but the mesh has not, in increasing order: there should be none; if
-   * there are, Delta is too coarse for them. The filter warns of them. Always filled.
+   * Labels of the image that the mesh lacks, in increasing order. There should be none. If there
+   * are, Delta is too coarse for them, and the filter warns of them. Always filled.
    */
   int GetNumberOfLostLabels() const;
   vtkTypeInt64 GetLostLabel(int index) const;
@@ -103,12 +105,12 @@ public:
 
   ///@{
   /**
-   * Connected components (through voxel faces) of all labels; 0 if none were looked for
-   * (vtkImageToTetMeshFilter::SetSmallestComponent()). Lost ones have no element although they were
-   * looked after; dropped ones were left out on request
-   * (vtkImageToTetMeshFilter::SetMinimumComponentVolume()). Of each: the label, the number of voxels,
-   * and the index of one voxel in the image, from 0 to the dimensions less 1, in an array of three. An
-   * index out of range gives 0.
+   * Connected components (through voxel faces) of all labels; 0 if components were not searched for
+   * (vtkImageToTetMeshFilter::SetSmallestComponent()). A lost component has no element, although
+   * the filter tried to keep it. A dropped component was left out on request
+   * (vtkImageToTetMeshFilter::SetMinimumComponentVolume()). For each: the label, the number of
+   * voxels, and the index of one voxel in the image, from 0 to the dimensions less 1, in an array
+   * of three. If the index is out of range, the result is 0.
    */
   vtkTypeInt64 GetNumberOfComponents() const;
   int GetNumberOfLostComponents() const;
@@ -127,7 +129,7 @@ public:
   ///@{
   /**
    * The labels of the mesh in increasing order: value, elements and volume of each. The index runs
-   * from 0 to GetNumberOfLabels() - 1; outside of that the result is 0.
+   * from 0 to GetNumberOfLabels() - 1. If the index is out of range, the result is 0.
    */
   int GetNumberOfLabels() const;
   vtkTypeInt64 GetLabel(int index) const;
@@ -137,14 +139,17 @@ public:
 
   ///@{
   /**
-   * Quality, for the whole mesh. The radius-edge ratio is circumradius / shortest edge of an
-   * element; the planar angle is the smallest angle of an interface facet; the normalized volume is
-   * that of an element over that of the regular one with the same circumradius (1 is best, 0 is
-   * flat). Deviations are standard deviations over all elements. Dihedral and planar angles are
-   * those of 3D; in 4D they are NaN. Inverted elements are those without a positive volume: there are none unless something
-   * is wrong. Violations count the elements whose ratio is not below the filter's RadiusEdgeRatio,
-   * and the interface facets with an angle below its FacetAngle; of the latter, those that touch a
-   * junction of three or more labels are counted separately, too.
+   * Quality of the whole mesh.
+   * - The radius-edge ratio is circumradius / shortest edge of an element.
+   * - The planar angle is the smallest angle of an interface facet.
+   * - The normalized volume is the volume of an element divided by the volume of the regular
+   *   element with the same circumradius (1 is best, 0 is flat).
+   * - Deviations are standard deviations over all elements.
+   * - Dihedral and planar angles apply to 3D; in 4D they are NaN.
+   * - Inverted elements have no positive volume. There are none unless something is wrong.
+   * - Violations are elements whose ratio is not below the filter's RadiusEdgeRatio, and interface
+   *   facets with an angle below its FacetAngle. Such facets that touch a junction of three or more
+   *   labels are also counted separately.
    */
   double GetShortestEdge() const;
   double GetMaximumRadiusEdgeRatio() const;
@@ -164,9 +169,9 @@ public:
 
   ///@{
   /**
-   * Histogram of normalized volumes: bin i, from 0 to GetNumberOfNormalizedVolumeBins() - 1 = 19,
-   * counts the elements from i / 20 to below (i + 1) / 20, the last one also those with 1. Outside
-   * of that range of i the result is 0.
+   * Histogram of normalized volumes. Bin i, from 0 to GetNumberOfNormalizedVolumeBins() - 1 = 19,
+   * counts the elements from i / 20 to below (i + 1) / 20. The last bin also counts the elements
+   * with 1. If i is out of range, the result is 0.
    */
   int GetNumberOfNormalizedVolumeBins() const;
   vtkTypeInt64 GetNormalizedVolumeBin(int bin) const;
@@ -174,8 +179,8 @@ public:
 
   ///@{
   /**
-   * Cavity sizes: how many simplices an insertion deleted, on average (NaN without insertions) and at
-   * most.
+   * Cavity sizes: the mean (NaN without insertions) and the largest number of simplices that an
+   * insertion deleted.
    */
   double GetMeanCavitySize() const;
   vtkTypeInt64 GetLargestCavity() const;
@@ -183,10 +188,9 @@ public:
 
   ///@{
   /**
-   * The fight against slivers (vtkImageToTetMeshFilter::SetSliverAngle(),
-   * vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers that
-   * were found, points that were tried in picking regions, slivers that stayed because no point that
-   * was tried was good.
+   * Sliver removal (vtkImageToTetMeshFilter::SetSliverAngle(),
+   * vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers found, points tried in picking
+   * regions, and slivers kept because no tried point was good.
    */
   vtkTypeInt64 GetSliversFound() const;
   vtkTypeInt64 GetPicksTried() const;
@@ -196,9 +200,9 @@ public:
   ///@{
   /**
    * How often each rule changed the mesh, and why changes were refused. GetRuleFired(i) counts the
-   * insertions by rule R_i, i = 1 ... 5; vertices removed by R6 are GetVerticesRemoved(). Insertions
-   * because of element sizes are those of R5 in 3D; in 4D they are counted apart, by
-   * GetFiredBySize(). R7 of 3D inserts free points (GetSliversSplit()) or some of an interface
+   * insertions by rule R_i, i = 1 ... 5. GetVerticesRemoved() counts the vertices removed by R6. In
+   * 3D, R5 makes the insertions because of element sizes. In 4D, GetFiredBySize() counts them
+   * separately. In 3D, R7 inserts free points (GetSliversSplit()) or interface points
    * (GetSliversSampled()).
    */
   vtkTypeInt64 GetRuleFired(int rule) const;
@@ -218,10 +222,12 @@ public:
 
   ///@{
   /**
-   * Junctions and interfaces (vtkImageToTetMeshFilter::SetSampleJunctions() and SetInterfaceRounds()): curves
-   * where three labels meet, corners where four do, points that were inserted on them; times that refinement
-   * went on for the sake of interfaces; edges that were not manifold on the boundary of some label and were made so, of
-   * these the ones around which tetrahedra were cut in pieces, and those left.
+   * Junctions and interfaces (vtkImageToTetMeshFilter::SetSampleJunctions() and
+   * SetInterfaceRounds()).
+   * - Curves where three labels meet, corners where four labels meet, and points inserted on them.
+   * - How many times refinement was resumed to correct interfaces.
+   * - Non-manifold edges of a label's boundary: those repaired, those of the repaired around which
+   *   tetrahedra were cut in pieces (opened), and those left.
    */
   vtkTypeInt64 GetNumberOfJunctionCurves() const;
   vtkTypeInt64 GetNumberOfJunctionCorners() const;
@@ -234,9 +240,10 @@ public:
 
   ///@{
   /**
-   * Optimisation after refinement (vtkImageToTetMeshFilter::SetOptimise()): whether it ran, the smallest and
-   * largest dihedral angle before and after it in degrees, and how many tetrahedra had angles outside of
-   * 15 to 155 degrees, or too large a radius-edge ratio, before and after it.
+   * Optimisation after refinement (vtkImageToTetMeshFilter::SetOptimise()): whether it ran; the
+   * smallest and largest dihedral angle before and after it, in degrees; and the number of poor
+   * elements before and after it. A tetrahedron is poor if one of its angles is outside of 15 to
+   * 155 degrees, or if its radius-edge ratio is too large.
    */
   bool GetOptimised() const;
   double GetMinimumDihedralAngleBefore() const;
@@ -249,8 +256,8 @@ public:
 
   ///@{
   /**
-   * Geometric predicates: all calls; calls that the fast filter could not decide; calls decided by
-   * exact arithmetic; exact ties decided by the symbolic perturbation.
+   * Geometric predicates: all calls, calls that the fast filter could not decide, calls decided by
+   * exact arithmetic, and exact ties decided by the symbolic perturbation.
    */
   vtkTypeInt64 GetPredicateCalls() const;
   vtkTypeInt64 GetPredicateFilterFailures() const;
@@ -260,10 +267,10 @@ public:
 
   ///@{
   /**
-   * Wall-clock seconds of each stage: reading the labels and smoothing them, the distance
-   * transform, local feature sizes, connected components, what is done for junctions and interfaces, refinement, extraction of the mesh
-   * into VTK data, optimisation. The total is the sum of the eight;
-   * measuring the quality is not part of it.
+   * Wall-clock seconds of each stage: reading and smoothing the labels, the distance transform,
+   * local feature sizes, connected components, junctions and interfaces, refinement, extraction of
+   * the mesh into VTK data, optimisation. The total is the sum of the eight. It does not include
+   * measuring the quality.
    */
   double GetLabelFieldTime() const;
   double GetDistanceTransformTime() const;
@@ -277,29 +284,29 @@ public:
   ///@}
 
   /**
-   * The start of refinement, before there is work for all threads; part of GetRefinementTime().
+   * Seconds from the start of refinement until all threads have work; part of GetRefinementTime().
    */
   double GetSeedingTime() const;
 
   /**
-   * Regions in which refinement took many times the work that it should need, and stopped improving shapes. The filter
-   * warns of them; ToJSON() says where they are.
+   * Regions in which refinement took many times the expected work, and stopped improving shapes.
+   * The filter warns of them. ToJSON() has their positions.
    */
   int GetNumberOfYieldingRegions() const;
 
   /**
    * Whether the filter's ContentionManager (aggressive or random) made no progress and was replaced
-   * by the local one. The filter warns of it.
+   * by the local one. If so, the filter warns of it.
    */
   bool GetSwitchedToLocal() const;
 
   ///@{
   /**
-   * What each refinement thread did. There are GetNumberOfThreads() of them, or fewer if the system
-   * gave no more. The index runs from 0 to GetNumberOfRefinementThreads() - 1; outside of that the
-   * result is 0. Insertions and removals are operations that succeeded; a rollback is one that was
-   * given up because another thread held a vertex; a wait is a rollback after which the contention
-   * manager made the thread wait.
+   * Operations of each refinement thread. There are GetNumberOfThreads() threads, or fewer if the
+   * system gave no more. The index runs from 0 to GetNumberOfRefinementThreads() - 1. If it is out
+   * of range, the result is 0. Insertions and removals are operations that succeeded. A rollback is
+   * an operation that was given up because another thread held a vertex. A wait is a rollback after
+   * which the contention manager made the thread wait.
    */
   int GetNumberOfRefinementThreads() const;
   vtkTypeInt64 GetThreadInsertions(int thread) const;
@@ -310,9 +317,9 @@ public:
 
   ///@{
   /**
-   * The three overheads of a refinement thread, in seconds (thesis, section 3.3.5): contention is
-   * the time in the contention manager, load balance the time without work, rollback the time spent
-   * on operations that were given up.
+   * The three overheads of a refinement thread, in seconds (thesis, section 3.3.5). Contention is
+   * the time in the contention manager. Load balance is the time without work. Rollback is the time
+   * spent on operations that were given up.
    */
   double GetThreadContentionTime(int thread) const;
   double GetThreadLoadBalanceTime(int thread) const;
@@ -321,9 +328,9 @@ public:
 
   ///@{
   /**
-   * Gifts of work that a refinement thread received while it had none, and the elements in them.
-   * The level says how far a gift came: 0 from within the socket, 1 from within the NUMA node, 2
-   * from elsewhere in the machine.
+   * How many times an idle refinement thread received work from another thread, and the elements
+   * received. The level says where the other thread runs: 0 in the same socket, 1 in the same NUMA
+   * node, 2 elsewhere in the machine.
    */
   vtkTypeInt64 GetThreadReceived(int thread, int level) const;
   vtkTypeInt64 GetThreadReceivedElements(int thread) const;
@@ -331,7 +338,7 @@ public:
 
   ///@{
   /**
-   * Sums over all refinement threads. Those of times are thus up to GetNumberOfRefinementThreads()
+   * Sums over all refinement threads. A sum of times can be up to GetNumberOfRefinementThreads()
    * times as long as refinement took.
    */
   vtkTypeInt64 GetRollbacks() const;
@@ -344,18 +351,19 @@ public:
   ///@}
 
   /**
-   * Everything as one JSON object:
-   * `{"dimension", "elements", "vertices", "interface_facets", "delta", "largest_delta", "grading": {"samples",
-   * "poles"}, "threads", "contention", "balance", "switched_to_local", "seeding_seconds", "sizes_raised_to",
-   * "isosurface": {"value", "inside", "range": [least, largest]} (null for labels), "lost_labels": [...],
-   * "labels": {"3": {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "cavities":
-   * {"mean", "largest"}, "slivers": {"found", "picks", "kept"}, "predicates": {...}, "time": {...}, "thread_statistics": [{"insertions", "removals", "rollbacks", "waits",
-   * "contention_seconds", "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA
-   * node, machine], "received_elements", "helped_loops",
-   * "helped_iterations"}, ...]}`. Where the processor's counters can be read (a build
-   * with PAPI) the last also has "tlb_misses", "last_level_cache_misses" and "resource_stall_cycles".
-   * "contention" and "balance" name the policies that were asked for. "labels" and "quality" are left out when they were not measured; what is not
-   * finite is null.
+   * All figures as one JSON object: `{"dimension", "elements", "vertices", "interface_facets",
+   * "delta", "largest_delta", "grading": {"samples", "poles"}, "threads", "contention", "balance",
+   * "switched_to_local", "seeding_seconds", "sizes_raised_to", "isosurface": {"value", "inside",
+   * "range": [least, largest]} (null for labels), "lost_labels": [...], "labels": {"3":
+   * {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "cavities": {"mean",
+   * "largest"}, "slivers": {"found", "picks", "kept"}, "predicates": {...}, "time": {...},
+   * "thread_statistics": [{"insertions", "removals", "rollbacks", "waits", "contention_seconds",
+   * "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA node, machine],
+   * "received_elements", "helped_loops", "helped_iterations"}, ...]}`. If the processor's counters
+   * can be read (a build with PAPI), the objects of "thread_statistics" also have "tlb_misses",
+   * "last_level_cache_misses" and "resource_stall_cycles". "contention" and "balance" name the
+   * requested policies. "labels" and "quality" are left out if they were not measured. A figure
+   * that is not finite is null.
    */
   std::string ToJSON() const;
 

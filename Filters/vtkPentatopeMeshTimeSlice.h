@@ -4,73 +4,77 @@
  * @class   vtkPentatopeMeshTimeSlice
  * @brief   the exact cut of a pentatope mesh at the requested time
  *
- * A mesh of space-time becomes a mesh of space that moves: at any time, not only at those of the frames
- * that it was made from, and conforming at each. Tetrahedra of the boundary become its polygons.
+ * The filter turns a mesh of space-time into a moving mesh of space. A slice can be cut at any
+ * time, not only at the times of the frames that the mesh was made from, and each slice is
+ * conforming. Boundary tetrahedra become polygons.
  *
  * @par Input
  * vtkUnstructuredGrid with any of these cells:
  * - pentatopes (4-simplices): `VTK_POLY_VERTEX` of 5 points, as VTK has no cell for them;
  * - tetrahedra of space-time: `VTK_TETRA`.
  *
- * The points are (x, y, z); the point array `Time` (see SetTimeArrayName(); 1 component, any numeric
- * type, finite) has their time. Outputs 0 and 1 of vtkImageToPentatopeMeshFilter are such grids. Points in
- * double precision, a vtkDoubleArray of times and cells with 64-bit ids are read in place.
+ * The points are (x, y, z). The point array `Time` (see SetTimeArrayName(); 1 component, any
+ * numeric type, finite) has the time of each point. Outputs 0 and 1 of
+ * vtkImageToPentatopeMeshFilter are such grids. Points in double precision, a vtkDoubleArray of
+ * times and cells with 64-bit ids are read in place.
  *
  * @par Output
- * vtkUnstructuredGrid, points in double precision. A pentatope becomes a `VTK_TETRA` or a `VTK_WEDGE`
- * or, where one of its points lies at the time, a `VTK_PYRAMID`; a tetrahedron becomes a `VTK_TRIANGLE` or
- * a `VTK_QUAD`. All faces are plane.
+ * vtkUnstructuredGrid, points in double precision. A pentatope becomes a `VTK_TETRA` or a
+ * `VTK_WEDGE` or, if one of its points lies at the time of the slice, a `VTK_PYRAMID`. A
+ * tetrahedron becomes a `VTK_TRIANGLE` or a `VTK_QUAD`. All faces are plane.
  * - Conforming: each point occurs once, and cells share whole faces.
- * - Pentatopes with det(p_i - p_0, t_i - t_0; i = 1 ... 4) > 0 become cells of positive volume in VTK's
- *   order of points. The right-hand normals of polygons point out of the region of the first label
- *   of `Labels`, if the tetrahedra are those of vtkImageToPentatopeMeshFilter.
- * - Cells are in the order of the input's, of which each makes one or none. Their data is copied
- *   (`Label`, `Labels`).
- * - Point data is interpolated linearly along the edges of the input. The array of times, which is the
- *   same everywhere, `PointIds` and arrays of type vtkIdTypeArray, which are about other points, are left
- *   out.
+ * - Pentatopes with det(p_i - p_0, t_i - t_0; i = 1 ... 4) > 0 become cells of positive volume in
+ *   VTK's order of points. If the tetrahedra are those of vtkImageToPentatopeMeshFilter, the
+ *   right-hand normals of polygons point out of the region of the first label of `Labels`.
+ * - Each cell of the input gives at most one cell of the output, in the same order. Cell data is
+ *   copied (`Label`, `Labels`).
+ * - Point data is interpolated linearly along the edges of the input. Three kinds of arrays are
+ *   left out: the array of times, which is constant in a slice; `PointIds`; and arrays of type
+ *   vtkIdTypeArray, as their ids refer to other points.
  * - Field data is passed. `DATA_TIME_STEP` in the output's information is the time of the slice.
  *
- * @par Times with points
- * At the first time of the mesh the slice is the limit of those after it, at all others the limit of
- * those before. The first and the last slice are thus the flat ends of the mesh, and nothing is cut
- * twice. Times within a few roundings of each other count as one; voxplex::TimeSlicer has the details.
+ * @par Times of the mesh's points
+ * At the first time of the mesh, the slice is the limit of the slices after it. At all other times
+ * it is the limit of the slices before. So the first and the last slice are the flat ends of the
+ * mesh, and nothing is cut twice. Times that differ by a few rounding errors count as one;
+ * voxplex::TimeSlicer has the details.
  *
  * @par Time in the pipeline
- * The output can be asked for any time: the filter announces `TIME_RANGE`, the first and the last time of
- * the mesh, and no `TIME_STEPS`. ParaView's slider plays it. The time of the slice is `UPDATE_TIME_STEP` if
- * there is such a request, else SliceTime if it is set, else the start of the range. Times outside the
- * range are moved to its nearer end, as VTK's readers do.
+ * The output can be requested for any time. The filter announces `TIME_RANGE`, the first and the
+ * last time of the mesh, and no `TIME_STEPS`, so ParaView's time slider can play it. The time of
+ * the slice is `UPDATE_TIME_STEP` if a time is requested, else SliceTime if it is set, else the
+ * start of the range. A time outside of the range is moved to the nearer end, as VTK's readers do.
  *
- * The range must be known before the mesh is. A filter upstream announces it as MESH_TIME_RANGE(),
- * which vtkImageToPentatopeMeshFilter does before it meshes. Otherwise, after a file reader for
- * example, the mesh is brought up to date already when information is asked for, and its times are
- * looked at. What the input says of `TIME_RANGE` and `TIME_STEPS` does not matter: they are the times
- * that it can be asked for, not those that the mesh spans.
+ * The filter needs the range before the mesh exists. An upstream filter can announce it as
+ * MESH_TIME_RANGE(); vtkImageToPentatopeMeshFilter does so before it meshes. Otherwise, for example
+ * after a file reader, RequestInformation updates the mesh and reads its times. The input's
+ * `TIME_RANGE` and `TIME_STEPS` are ignored: they are the times that can be requested from the
+ * input, not the times that the mesh spans.
  *
- * Requests for a time end here. The input is asked for the mesh without any, so it does not execute
- * again when the slider moves.
+ * A request for a time is not passed upstream. The input does not execute again when the slider
+ * moves.
  *
  * @par Errors
- * Misuse is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage() keeps the reason:
- * no array of times, or one with several components, or with values that are not finite; cells of other
- * types. No cells at all are no error.
+ * Misuse is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage() keeps the
+ * reason. Errors are: no array of times, an array with several components or with values that are
+ * not finite, and cells of other types. An input without cells is no error.
  *
  * @par Progress and abort
- * Setting AbortExecute from a progress observer stops between the steps (preparation, cut, output), each
- * of which takes less than about a second for a million pentatopes, and leaves the output empty. VTK
- * regards this as up to date: call Modified() to execute again.
+ * If a progress observer sets AbortExecute, the filter stops after the current step (preparation,
+ * cut, output) and leaves the output empty. Each step takes less than about a second for a million
+ * pentatopes. VTK regards the empty output as up to date: call Modified() to execute again.
  *
  * @par Complexity
- * The first slice of a mesh with n cells sorts these by time, O(n log n), and keeps 32 bytes for each,
- * and the input's arrays, until the input changes. After that a slice costs O(k log n) for k cells that
- * it cuts.
+ * The first slice of a mesh with n cells sorts the cells by time in O(n log n). It keeps 32 bytes
+ * for each cell, and the input's arrays, until the input changes. Each further slice costs O(k log
+ * n) for k cells that it cuts.
  *
  * @par Pieces
- * Requests for pieces are passed on, and each piece is cut as if it were the mesh. Two pieces thus have
- * the points of their common faces each for itself.
+ * Requests for pieces are passed upstream, and each piece is cut as if it were the whole mesh. So
+ * the points of a face that two pieces share occur in both pieces.
  *
- * Events are sent from the thread that called Update(). Distinct instances may execute at the same time.
+ * Events are sent from the thread that called Update(). Distinct instances may execute at the same
+ * time.
  */
 #ifndef vtkPentatopeMeshTimeSlice_h
 #define vtkPentatopeMeshTimeSlice_h
@@ -92,8 +96,8 @@ public:
 
   ///@{
   /**
-   * The time to cut at if none is requested through the pipeline, in the mesh's unit of time. NaN,
-   * the default, means the start of the range.
+   * The time of the slice if none is requested through the pipeline, in the mesh's unit of time.
+   * NaN, the default, means the start of the range.
    */
   void SetSliceTime(double time);
   vtkGetMacro(SliceTime, double);
@@ -105,16 +109,16 @@ public:
   const std::string& GetTimeArrayName() const { return this->TimeArrayName; }
   ///@}
 
-  /** Why the last execution failed; empty if it did not. */
+  /** The reason why the last execution failed; empty if it did not. */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 
   /**
-   * The first and the last time of the pentatope mesh on an output port, which the port's algorithm
-   * sets when it is asked for information. It says nothing of the times that the port can be asked for.
+   * The first and the last time of the pentatope mesh on an output port. The port's algorithm sets
+   * this key in RequestInformation. It does not tell which times can be requested from the port.
    */
   static vtkInformationDoubleVectorKey* MESH_TIME_RANGE();
 
-  /** Keeps requests for a time from the input. */
+  /** Keeps requests for a time from going upstream. */
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -134,7 +138,7 @@ private:
   vtkPentatopeMeshTimeSlice(const vtkPentatopeMeshTimeSlice&) = delete;
   void operator=(const vtkPentatopeMeshTimeSlice&) = delete;
 
-  /** Looks at the mesh; false if there is none, or one that cannot be cut. */
+  /** Finds the time range of the mesh; false if there is no mesh or it cannot be cut. */
   bool FindRange(vtkInformation* inputInformation, double range[2]);
   void Cut(
     vtkUnstructuredGrid* mesh, vtkInformation* outputInformation, vtkUnstructuredGrid* output);

@@ -2,64 +2,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSimplexMeshQuality
- * @brief   shapes, junctions and volumes of a tetrahedral mesh with labels, and its distance to an image
+ * @brief   shapes, junctions and volumes of a labelled tetrahedral mesh, its distance to an image
  *
- * Measures meshes of vtkImageToTetMeshFilter, and any others of labelled tetrahedra, whoever made them:
- * only the points, the cells and one cell array are looked at.
+ * Measures meshes of vtkImageToTetMeshFilter and labelled tetrahedral meshes of any other origin.
+ * It reads only the points, the cells and one cell array.
  *
  * @par Input
  * Port 0: vtkUnstructuredGrid of `VTK_TETRA` cells with a cell array of labels, `Label` by default
- * (SetInputArrayToProcess(0, ...)), one component, whole numbers above 0. Port 1, optional: vtkImageData,
- * the label image that the mesh shows; 0 is background, by default its active scalars
- * (SetInputArrayToProcess(1, ...)). It must lie where the mesh lies.
+ * (SetInputArrayToProcess(0, ...)), one component, whole numbers above 0. Port 1, optional:
+ * vtkImageData, the label image that the mesh represents; by default its active scalars
+ * (SetInputArrayToProcess(1, ...)), 0 is background. Image and mesh must have the same coordinates.
  *
  * @par Output 0
  * vtkUnstructuredGrid, the input with four more cell arrays (float64):
  * - `MinimumDihedralAngle`, `MaximumDihedralAngle`: of the six angles, in degrees;
- * - `RadiusEdgeRatio`: circumradius over shortest edge, 0.612 for the regular tetrahedron, infinite if flat;
+ * - `RadiusEdgeRatio`: circumradius over shortest edge, 0.612 for the regular tetrahedron, infinite
+ *   if flat;
  * - `Volume`: positive in VTK's order of vertices.
  *
  * @par Output 1
  * vtkTable, a row for each label of the mesh or the image: `Label`, `Elements`, `Volume`,
- * `BoundaryEdges`, `NonManifoldEdges`, `NonManifoldEdgesAtJunctions`; with an image also `Voxels`,
- * `ImageVolume` and `VolumeError`, (Volume - ImageVolume) / ImageVolume.
+ * `BoundaryEdges`, `NonManifoldEdges`, `NonManifoldEdgesAtJunctions`. If there is an image, also
+ * `Voxels`, `ImageVolume` and `VolumeError`, which is (Volume - ImageVolume) / ImageVolume.
  *
  * @par Output 2
- * vtkTable with the histograms, 90 rows: `Angle`, where a bin of 2 degrees begins, and how many angles
- * fall into it: `DihedralAngles` (six of each tetrahedron) and `PlanarAngles` (three of each interface
- * facet); `Ratio`, where a bin of 0.05 begins, and `RadiusEdgeRatios`, the tetrahedra in it. The last bin
- * has all that lies above it, too.
+ * vtkTable with the histograms, 90 rows:
+ * - `Angle`, the lower end of a bin of 2 degrees, and the numbers of angles in it: `DihedralAngles`
+ *   (six of each tetrahedron) and `PlanarAngles` (three of each interface facet);
+ * - `Ratio`, the lower end of a bin of 0.05, and `RadiusEdgeRatios`, the number of tetrahedra in
+ *   it.
+ *
+ * The last bin also counts all values above it.
  *
  * @par Interfaces and junctions
- * A face of one tetrahedron only, or between two of different labels, is an interface facet. An edge or
- * point of such is at a junction if the facets around it have three labels or more, background counted.
- * An edge of a label's own boundary is non-manifold if not exactly two facets of that boundary share it.
+ * A face is an interface facet if only one tetrahedron has it, or if it lies between two tetrahedra
+ * of different labels. An edge or point of interface facets is at a junction if the facets around
+ * it have three labels or more, including background. An edge of a label's boundary is manifold if
+ * exactly two facets of this boundary share it, and non-manifold otherwise.
  *
  * @par Distances
- * The Hausdorff distance is measured in both directions, with maximum, mean, 99th percentile and the place
- * of the maximum:
- * - from the image: of each centre of a face between voxels of different labels from the nearest interface
- *   facet, exactly; beyond the image's border all is background;
- * - from the mesh: of each vertex and centroid of interface facets from the nearest such centre.
+ * The Hausdorff distance is measured in both directions, with maximum, mean, 99th percentile and
+ * the position of the maximum. A voxel face counts if it lies between voxels of different labels;
+ * beyond the image's border all is background.
+ * - From the image to the mesh: the exact distance of the centre of each such face to the nearest
+ *   interface facet.
+ * - From the mesh to the image: the distance of each vertex and centroid of the interface facets to
+ *   the nearest such centre.
  *
- * The stairs of voxels are part of this distance: half a voxel's diagonal or so remains, however good the
- * mesh. A second figure, unless SmoothDistances is off, takes the smooth interface that
- * vtkImageToTetMeshFilter meshes with the same SmoothingSigma: of points on it, one for each of these faces;
- * and of vertices and centroids from the closest point that the mesher finds, which is on average a few
- * hundredths of a voxel farther than the nearest.
+ * This distance includes the staircase shape of voxels: about half a voxel's diagonal remains even
+ * for a perfect mesh. Unless SmoothDistances is off, a second distance is measured to the smooth
+ * interface that vtkImageToTetMeshFilter meshes with the same SmoothingSigma.
+ * - From the image to the mesh: from one point on the smooth interface for each such face.
+ * - From the mesh to the image: from each vertex and centroid to the closest point that the mesher
+ *   finds. It is on average a few hundredths of a voxel farther away than the nearest point.
  *
  * @par VTK's own filters
- * vtkMeshQuality (Verdict) has the volume, with which this filter agrees (a test compares them). It has
- * neither the largest dihedral angle nor the radius-edge ratio; and the smallest dihedral angle that it
- * finds is, in VTK 9.1, the smallest of four of the six, so that it misses slivers. It is therefore not used.
- * vtkHausdorffDistancePointSetFilter measures from points to cells as this filter does (a test compares
- * them), but takes one thread; it is not used either.
+ * This filter does not use vtkMeshQuality (Verdict). That filter has the volume, and the two
+ * filters agree on it (a test compares them). It has neither the largest dihedral angle nor the
+ * radius-edge ratio. Its smallest dihedral angle is, in VTK 9.1, the smallest of only four of the
+ * six angles, so it misses slivers. Nor does this filter use vtkHausdorffDistancePointSetFilter.
+ * That filter measures from points to cells as this one does (a test compares them), but uses only
+ * one thread.
  *
  * @par Errors
- * Misuse is reported with vtkErrorMacro and leaves the outputs empty; GetErrorMessage() keeps the reason.
+ * Misuse is reported with vtkErrorMacro and leaves the outputs empty; GetErrorMessage() keeps the
+ * reason.
  *
  * @par Progress and abort
- * Setting AbortExecute stops within a fraction of a second and leaves the outputs empty.
+ * If AbortExecute is set, the filter stops within a fraction of a second and leaves the outputs
+ * empty.
  *
  * The result does not depend on the number of threads. Events are sent from the thread that called
  * Update(). Distinct instances may execute at the same time.
@@ -99,8 +110,8 @@ public:
 
   ///@{
   /**
-   * Which labels of the image count; the others are taken for background, as those that were not meshed.
-   * By default all.
+   * The labels of the image that count. All others are treated as background, as labels that were
+   * not meshed. By default all labels count.
    */
   void AddLabel(vtkTypeInt64 label);
   void RemoveAllLabels();
@@ -120,8 +131,9 @@ public:
 
   ///@{
   /**
-   * Connected components of the image with at least so many voxels, and the largest of each label, are looked for in
-   * the mesh: an element of their label must have its centroid within a voxel of them. Default 8.
+   * The filter searches the mesh for connected components of the image with at least this number of
+   * voxels, and for the largest component of each label. A component is found if an element of its
+   * label has its centroid within a voxel of the component. Default 8.
    */
   vtkSetMacro(SmallestComponent, vtkIdType);
   vtkGetMacro(SmallestComponent, vtkIdType);
@@ -135,14 +147,17 @@ public:
   ///@}
 
   ///@{
-  /** Whether to measure them to the smooth interface, too. Default on. */
+  /** Whether to measure distances to the smooth interface, too. Default on. */
   vtkSetMacro(SmoothDistances, bool);
   vtkGetMacro(SmoothDistances, bool);
   vtkBooleanMacro(SmoothDistances, bool);
   ///@}
 
   ///@{
-  /** Of that interface, as vtkImageToTetMeshFilter::SetSmoothingSigma(); voxels, 0 to 5. Default 1. */
+  /**
+   * Smoothing of the interface, as vtkImageToTetMeshFilter::SetSmoothingSigma(); voxels, 0 to 5.
+   * Default 1.
+   */
   vtkSetMacro(SmoothingSigma, double);
   vtkGetMacro(SmoothingSigma, double);
   ///@}
@@ -155,8 +170,9 @@ public:
 
   ///@{
   /**
-   * The larger of both directions' maxima, from the faces of voxels and from the smooth interface; and
-   * where it is. NaN (and the origin) if it was not measured, infinite if the mesh is empty.
+   * The Hausdorff distance between the mesh and the voxel faces, the same for the smooth interface,
+   * and the position of the former. Each is the larger maximum of the two directions. NaN (and the
+   * origin) if it was not measured, infinite if the mesh is empty.
    */
   double GetHausdorffDistance() const;
   double GetSmoothHausdorffDistance() const;
@@ -172,7 +188,7 @@ public:
   ///@}
 
   ///@{
-  /** Edges that are non-manifold, counted for each label that has them, and those of them at junctions. */
+  /** Non-manifold edges, and those at junctions. An edge counts once for each label that has it. */
   vtkTypeInt64 GetNonManifoldEdges() const;
   vtkTypeInt64 GetNonManifoldEdgesAtJunctions() const;
   ///@}
@@ -184,11 +200,12 @@ public:
   ///@}
 
   /**
-   * All figures as one JSON object; what is not finite is null. Documentation/Reference.md has the keys.
+   * All figures as one JSON object. A figure that is not finite is null. Documentation/Reference.md
+   * has the keys.
    */
   std::string ToJSON() const;
 
-  /** Why the last execution failed; empty if it did not. */
+  /** The reason why the last execution failed; empty if it did not. */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
   /** Whether the last execution was stopped. */
   bool GetAborted() const { return this->Aborted; }

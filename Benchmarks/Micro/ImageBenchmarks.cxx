@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// A label image of balls: what its preparation costs, and what the questions of the rules cost.
+// Measures, on a label image of balls, the time of the preparation and of the queries of the rules.
 #include "Domain/ImageDomain.h"
 #include "Domain/LabelField.h"
 #include "Image/FeatureTransform.h"
@@ -22,8 +22,8 @@ constexpr std::int64_t Side = D == 3 ? 160 : 40;
 constexpr double Sigma = 1.0;
 
 /**
- * Balls of random centres and radii, each a label of its own; later ones cover earlier ones, so
- * that they touch, nest and meet in junctions. Voxels are twice as long along the last axis.
+ * Balls with random centres and radii, each with its own label. Later balls cover earlier ones, so
+ * balls touch, nest and meet in junctions. Voxels are twice as long along the last axis.
  */
 template <int D>
 LabelImage<D> MakeBalls()
@@ -133,7 +133,7 @@ void BuildFeatureTransform(benchmark::State& state)
 enum class Where
 {
   Anywhere,   ///< uniformly in the bounding box
-  AtInterface ///< within a smallest voxel spacing of an interface
+  AtInterface ///< within the smallest voxel spacing of an interface
 };
 
 template <int D>

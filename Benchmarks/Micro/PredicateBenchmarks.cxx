@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Orientation and in-sphere tests. Large simplices stop at the static filter, small ones, whose
-// determinants are below the box's bound, at the semi-static one; points of a small lattice are
-// often coplanar or co-spherical and go all the way to exact arithmetic. The counters are fractions
-// of the tests.
+// Orientation and in-sphere tests. The static filter decides large simplices. Determinants of small
+// simplices are below the bound of the box, so the semi-static filter decides them. Points of a
+// small lattice are often coplanar or co-spherical, and need exact arithmetic. The counters are
+// fractions of the tests.
 #include "Geometry/Predicates.h"
 #include "RandomPoints.h"
 
@@ -24,7 +24,7 @@ constexpr double SmallSide = 1e-3;
 enum class Input
 {
   Random, ///< simplices as large as the box
-  Small,  ///< of a thousandth of it
+  Small,  ///< a thousandth of the size of the box
   Lattice
 };
 
@@ -43,7 +43,7 @@ std::array<const Point<D>*, static_cast<std::size_t>(D + 1)> SimplexOf(const Cas
   return simplex;
 }
 
-/** Positively oriented simplices, each with a point that is none of its vertices. */
+/** Positively oriented simplices, each with a point that is not one of its vertices. */
 template <int D>
 std::vector<Case<D>> MakeCases(Predicates<D>& predicates, Input input)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Insertion and removal of points, processor time. An iteration is a whole run; items are points,
-// and the counter `simplices` counts those created, those that died included.
+// Measures the processor time of inserting and removing points. An iteration is a whole run. Items
+// are points. The counter `simplices` counts all created simplices, including those deleted since.
 #include "Delaunay/Triangulation.h"
 #include "Geometry/HilbertOrder.h"
 #include "RandomPoints.h"
@@ -24,7 +24,7 @@ enum class Input
   Lattice
 };
 
-/** n distinct points inside of the cube of that side, along a Hilbert curve. */
+/** n distinct points inside a cube of the given side, along a Hilbert curve. */
 template <int D>
 std::vector<Point<D>> MakePoints(std::size_t n, Input input, double side)
 {
@@ -92,7 +92,7 @@ struct Instance
   }
 };
 
-/** A cube that gives a lattice about two points out of three. */
+/** The side of a cube in which points use about two out of three lattice points. */
 template <int D>
 double SideFor(std::size_t n, Input input)
 {

@@ -18,38 +18,52 @@ namespace
 {
 
 /**
- * Delta of a component is at most this times the ratio of its volume to its surface: 0.45 of the edge of a
- * cube. Chosen on the knee atlas, whose islands of 8 voxels and more then all come out at once.
+ * Delta of a component is at most this factor times the ratio of its volume to its surface: 0.45 of
+ * the edge of a cube. Chosen on the knee atlas: all its islands of 8 voxels and more then appear at
+ * once.
  */
 constexpr double SamplesPerThickness = 2.7;
 
 /**
- * The rules keep this times the spacing of a component's seeds: these carry its shape already. With 1 there
- * are twice as many additional elements on the knee atlas, and when single voxels are kept, too, they take
- * three times as long; with 3 refinement then goes on twice rather than once.
+ * The delta of the rules is this factor times the spacing of a component's seeds, because the seeds
+ * already give its shape. With 1, the knee atlas gets twice as many additional elements; if single
+ * voxels are kept, too, the run takes three times as long. With 3, refinement is then resumed twice
+ * rather than once.
  */
 constexpr double BoundFactor = 2.0;
 
-/** Of larger components only every so manieth voxel is looked at for where they are thickest. */
+/**
+ * The largest number of voxels searched for the thickest part. In a larger component, only every
+ * k-th voxel is searched.
+ */
 constexpr std::int64_t MostVoxelsLookedAt = 1000;
 
-/** How often a component is sampled where it is thickest before it is sampled as a whole. */
+/**
+ * The number of times a component is sampled where it is thickest, before it is sampled as a whole.
+ */
 constexpr unsigned AttemptsAtThickest = 2;
 
 /**
- * Points there keep this times its thickness apart, and interfaces get at most this times its thickness for delta. The six
- * points around a grain are 0.71 of it apart. Any factors from 0.6 and 1.5 on give about as many elements.
+ * Where a component is thickest, points are at least the first factor times its thickness apart,
+ * and delta is at most the second factor times its thickness. The six points around a grain are
+ * 0.71 of its thickness apart. Any larger factors from 0.6 and 1.5 on give about as many elements.
  */
 constexpr double SpacingAtThickest = 0.7;
 constexpr double BoundAtThickest = 2.0;
 
-/** Thicknesses are taken for this many finest deltas at least: points in less would be too near to each other. */
+/**
+ * The smallest thickness, in finest deltas. In a thinner part, points would be too close to each
+ * other.
+ */
 constexpr double LeastThickness = 5.0;
 
-/** Of larger components only every so manieth face gets a seed; R1 finds what is between. */
+/**
+ * The largest number of voxels that get seeds. In a larger component, only every k-th voxel gets
+ * seeds; R1 finds the rest.
+ */
 constexpr std::int64_t MostSeededVoxels = 20000;
 
-/** No component is sampled more finely than this, in voxels: the label field has no finer features. */
+/** The finest spacing of seeds, in voxels. The label field has no finer features. */
 constexpr double FinestVoxels = 0.1;
 
 } // namespace

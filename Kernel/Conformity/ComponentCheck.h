@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ComponentCheck.h
- * @brief Sees to it that no connected component of the image is missing from the mesh.
+ * @brief Ensures that no connected component of the image is missing from the mesh.
  */
 #ifndef voxplex_ComponentCheck_h
 #define voxplex_ComponentCheck_h
@@ -23,36 +23,43 @@ namespace voxplex
 {
 
 /**
- * @brief Chooses where to sample more finely so that every component gets elements, and tells which got
- * none.
+ * @brief Chooses where to sample more finely so that every component gets elements, and reports the
+ * components that got none.
  *
- * An interface that is sampled with delta cannot show what is much thinner than delta: a Delaunay mesh of
- * too few points joins what lies on both sides. So components may have no element when the mesh is there. FindLost() says
- * which, and SampleFiner() chooses points: first the few that bring out a component where it is thickest (ThinPart), with
- * a smaller delta (LocalDelta) just there; if it has no element all the same, the same more finely; then all of it, again
- * and again with half the delta. The largest component of each label is looked after however small it is, so that a mesh
- * has all labels of its image.
+ * If an interface is sampled with delta, objects much thinner than delta can be lost: a Delaunay
+ * mesh of too few points joins the regions on both sides. So some components may have no element
+ * after refinement. FindLost() finds them, and SampleFiner() chooses points for them:
+ * - First, a few points where the component is thickest (ThinPart), with a smaller delta
+ *   (LocalDelta) only there.
+ * - If the component still has no element, the same points again, more finely.
+ * - Then the whole component, repeatedly, each time with half the delta.
  *
- * When components are to be exact, what is thin beside delta is sampled as a whole from the start. The mean
- * thickness of a component is taken from the ratio of its volume to its surface, which is a third of it for a ball or
- * cube and half of it for a sheet or a rod. Where that is small beside delta, its surroundings get a smaller delta, and
- * points on all of its faces are inserted before refinement (FeatureSeed), since R1 looks only at the interface closest to
- * a circumcentre and may never see a small component.
+ * The largest component of each label is checked however small it is, so that the mesh has all
+ * labels of its image.
  *
- * Beyond the thesis, which samples uniformly or by the local feature size and gives no guarantee for
- * objects that are small beside delta.
+ * If components are to be exact, components that are thin compared with delta are sampled as a
+ * whole from the start. The mean thickness of a component is estimated from the ratio of its volume
+ * to its surface. This ratio is a third of the thickness for a ball or cube, and half of it for a
+ * sheet or a rod. If the thickness is small compared with delta, the component's surroundings get a
+ * smaller delta, and points on all of its faces are inserted before refinement (FeatureSeed). R1
+ * alone may never see a small component, because it looks only at the interface closest to a
+ * circumcentre.
+ *
+ * This goes beyond the thesis, which samples uniformly or by the local feature size and gives no
+ * guarantee for objects that are small compared with delta.
  */
 template <int D>
 class ComponentCheck final : public ConformityCheck<D>
 {
 public:
   /**
-   * @param image, domain, components must live as long as this
+   * @param image, domain, components must outlive the check
    * @param sizing the sampling distances elsewhere; needed during construction only
-   * @param fewestVoxels smaller components are not looked after, but for the largest of each label
-   * @param exact whether what is thin beside delta is sampled as a whole from the start
+   * @param fewestVoxels smaller components are not checked, except the largest of each label
+   * @param exact whether components that are thin compared with delta are sampled as a whole from
+   *   the start
    * @param local where to sample more finely; receives bounds
-   * @param statistics counts rounds and points, and lists what is lost
+   * @param statistics counts rounds and points, and lists the lost components
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
@@ -61,21 +68,26 @@ public:
     bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
     unsigned threads, const std::stop_token& stop);
 
-  /** The points that were chosen since the last call, in the order of components. */
+  /** The points chosen since the last call, in the order of components. */
   std::vector<FeatureSeed<D>> TakeSeeds();
 
-  /** Asks for elements of the components that have none; of those that cannot get one it gives up, and lists them. */
+  /**
+   * Requests points for components without elements. Gives up components that cannot get an
+   * element, and lists them.
+   */
   Remedy<D> InspectMesh(const SimplexMesh<D>& mesh) override;
 
-  /** Components with no element of their label within a voxel of them, in increasing order. */
+  /** Components without an element of their label within a voxel of them, in increasing order. */
   std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
 
-  /** An element of each of these that the mesh has, the one of best shape; those that it has not are passed over. */
+  /**
+   * For each of these components that the mesh has, the element of best shape. Others are skipped.
+   */
   std::vector<std::uint32_t> FindWitnesses(
     const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const;
 
   /**
-   * Adds seeds of these components, and bounds near them.
+   * Adds seeds for these components, and bounds near them.
    * @return false if none of them can be sampled more finely
    */
   bool SampleFiner(const std::vector<std::uint32_t>& lost);
@@ -85,7 +97,7 @@ public:
 private:
   using Index = typename GridGeometry<D>::Index;
 
-  /** What the mean thickness of a component bears. */
+  /** The delta that suits the mean thickness of a component. */
   double OwnDelta(std::uint32_t component) const;
   void SampleThickest(std::uint32_t component);
   void Sample(std::uint32_t component, double delta);
@@ -94,7 +106,7 @@ private:
   const Domain<D>& Surfaces;
   const Components<D>& All;
   std::vector<double> Delta;      ///< by component
-  std::vector<unsigned> Attempts; ///< by component, how often it was sampled where it is thickest
+  std::vector<unsigned> Attempts; ///< by component, times it was sampled where it is thickest
   double FinestDelta;             ///< no component is sampled more finely
   std::vector<bool> Wanted;       ///< by component
   unsigned Threads;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ConformityCheck.h
- * @brief What is looked at when refinement has nothing more to do.
+ * @brief The interface of checks that run when refinement has nothing more to do.
  */
 #ifndef voxplex_ConformityCheck_h
 #define voxplex_ConformityCheck_h
@@ -15,23 +15,23 @@
 namespace voxplex
 {
 
-/** How refinement goes on. */
+/** The result of a check: whether and how refinement is resumed. */
 template <int D>
 struct Remedy
 {
-  bool IsNeeded = false; ///< false: all is well, or nothing more can be done
+  bool IsNeeded = false; ///< false: nothing is wrong, or nothing more can be done
   std::vector<FeatureSeed<D>>
-    Points; ///< to be inserted; local bounds may have been lowered besides
+    Points; ///< to be inserted; the check may also have lowered local bounds
 };
 
 /**
- * @brief A property of the mesh that the rules of refinement do not give by themselves.
+ * @brief Checks a property of the mesh that the refinement rules alone do not guarantee.
  *
- * After each refinement all checks inspect the triangulation, then the mesh that is extracted from it, in their order. The
- * first that needs a remedy ends this, and refinement goes on. A check ends by itself: it gives up after so many
- * remedies.
+ * After each refinement, all checks inspect the triangulation, in order, and then the mesh
+ * extracted from it. If a check needs a remedy, inspection stops and refinement is resumed. Each
+ * check gives up after a limited number of remedies, so the run ends.
  *
- * All may throw Cancelled and std::bad_alloc.
+ * All functions may throw Cancelled and std::bad_alloc.
  */
 template <int D>
 class ConformityCheck

@@ -24,30 +24,36 @@ namespace
 using Corners = std::array<VertexId, 4>;
 
 /**
- * How far from the middle of the edge new vertices lie, in parts of the way to the vertices around it, or of the edge's length if
- * these are farther than that.
+ * Distances of new vertices from the midpoint of the edge, as fractions of the distance to the
+ * vertices around it, or of the edge's length if these vertices are farther away.
  */
 constexpr std::array<double, 5> Widths{ 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75 };
 
-/** Shapes that are as good as each other: angles of tetrahedra and of interfaces in degrees, and the radius-edge ratio. */
+/**
+ * Shapes with these values count as equally good: angles of tetrahedra and of interfaces in
+ * degrees, and the radius-edge ratio.
+ */
 constexpr double GoodDihedralAngle = 9.0;
 constexpr double GoodFacetAngle = 20.0;
 constexpr double GoodRadiusEdgeRatio = 2.5;
 
-/** Of the sine of an angle over that of a good one, or of a good ratio over a ratio: what is below is rounding. */
+/**
+ * Scores are the sine of an angle over that of a good angle, or a good ratio over a ratio. A
+ * smaller score may be due to rounding.
+ */
 constexpr double SmallestScore = 1e-6;
 
-/** A tetrahedron around an edge ab, or the piece of one that has the edge: abrs, positively oriented. */
+/** A tetrahedron around an edge ab, or its piece at the edge: abrs, positively oriented. */
 struct Sector
 {
   SimplexId Owner;
   Corners Whole; ///< its vertices as they are stored
   VertexId R;
-  VertexId S; ///< R of the next one
+  VertexId S; ///< R of the next sector
   LabelId Label;
 };
 
-/** What surrounds an edge, in order, and comes back to the first. */
+/** The sectors around an edge, in cyclic order. */
 struct Ring
 {
   std::array<VertexId, 2> Ends;
@@ -57,15 +63,15 @@ struct Ring
   std::size_t Previous(std::size_t k) const { return (k > 0 ? k : this->Sectors.size()) - 1; }
 };
 
-/** Sectors that give their part at the edge to a label. */
+/** The sectors whose part at the edge gets a label. */
 struct Filling
 {
   LabelId Label = 0;
-  std::vector<std::uint8_t> Gives; ///< by sector
+  std::vector<std::uint8_t> Gives; ///< by sector, 1 if its part gets the label
   double Width = 0.0;
 };
 
-/** Whether labels that come one after the other, the first after the last, have each label in one run; background may have more. */
+/** Whether each label of a cyclic sequence has one run. Background may have more. */
 bool HasOneRunOfEach(std::span<const LabelId> labels)
 {
   std::vector<LabelId> begun;
@@ -144,7 +150,7 @@ private:
     return this->Source.VertexIdEnd() + static_cast<VertexId>(this->Parts.Points.size() - 1);
   }
 
-  /** None where the triangulation ends at the edge. */
+  /** Nothing if the triangulation ends at the edge. */
   std::optional<Ring> RingOf(const std::array<VertexId, 2>& ends) const
   {
     std::map<VertexId, Sector> byFirst;
@@ -158,8 +164,8 @@ private:
       {
         return;
       }
-      // A tetrahedron's vertices i, j, k, l with i < j and k < l are an even permutation if j - i is odd, with i and j
-      // exchanged if it is even.
+      // Let i, j, k, l be a tetrahedron's vertices with i < j and k < l. They are an even
+      // permutation if j - i is odd. If it is even, exchange i and j.
       std::array<VertexId, 2> others{};
       std::size_t n = 0;
       for (unsigned i = 0; i < 4; ++i)
@@ -198,7 +204,7 @@ private:
     return isClosed ? std::optional<Ring>(std::move(ring)) : std::nullopt;
   }
 
-  /** The numbers of the first sectors of runs of a label. */
+  /** The first sector of each run of a label. */
   static std::vector<std::size_t> RunsOf(const Ring& ring)
   {
     std::vector<std::size_t> runs;
@@ -212,7 +218,7 @@ private:
     return runs;
   }
 
-  /** A way to leave each label one run, and what speaks for it. */
+  /** A filling that leaves each label one run, and its rating. */
   struct Candidate
   {
     Filling How;
@@ -226,7 +232,7 @@ private:
     }
   };
 
-  /** None if all would make something flat. */
+  /** Nothing if every filling makes a flat tetrahedron or facet. */
   std::optional<Filling> BestFilling(const Ring& ring)
   {
     const std::vector<std::size_t> runs = RunsOf(ring);
@@ -251,7 +257,7 @@ private:
     return best.Score > SmallestScore ? std::optional<Filling>(std::move(best.How)) : std::nullopt;
   }
 
-  /** As few runs as will do, from one on. */
+  /** Fills runs from `first` on, as few as possible, and keeps the best candidate. */
   void TryFrom(const Ring& ring, std::span<const std::size_t> runs, std::size_t first,
     LabelId label, Candidate& best)
   {
@@ -278,7 +284,7 @@ private:
     }
   }
 
-  /** All of some runs one after the other that have not got the label. */
+  /** Fills `number` consecutive runs from `first` on. Sectors that already have the label stay. */
   static Filling Fill(const Ring& ring, std::span<const std::size_t> runs, LabelId label,
     std::size_t first, std::size_t number)
   {
@@ -303,7 +309,10 @@ private:
     return HasOneRunOfEach(labels);
   }
 
-  /** Whether there is a new vertex on the facet before a sector: not if the label goes on beyond it. */
+  /**
+   * Whether there is a new vertex on the facet before a sector. There is none if the label
+   * continues beyond the facet.
+   */
   static bool HasPointBefore(const Ring& ring, const Filling& filling, std::size_t k)
   {
     const auto isOf = [&](std::size_t sector)
@@ -312,7 +321,7 @@ private:
     return (filling.Gives[k] != 0 || filling.Gives[before] != 0) && !isOf(k) && !isOf(before);
   }
 
-  /** Before each sector; None where there is none. */
+  /** The new vertex on the facet before each sector; None if there is none. */
   std::vector<VertexId> AddPointsOnFacets(const Ring& ring, const Filling& filling)
   {
     std::vector<VertexId> points(ring.Sectors.size(), None);
@@ -340,7 +349,7 @@ private:
     return Interpolate(this->Position(ends[0]), this->Position(ends[1]), 0.5);
   }
 
-  /** What becomes of a sector; nothing if it stays whole. May add a point. */
+  /** The pieces of a sector; empty if it stays whole. May add a point. */
   std::vector<Piece> PiecesOf(
     const Ring& ring, const Filling& filling, std::size_t k, std::span<const VertexId> onFacets)
   {
@@ -377,10 +386,10 @@ private:
   }
 
   /**
-   * Borders two pieces off abrs that have not got both a and b.
-   * @param i 2 or 3: number of the vertex r or s
-   * @param point on the facet of a, b and that vertex, which it takes the place of
-   * @return what is left
+   * Cuts two pieces off abrs. Neither has both a and b.
+   * @param i 2 or 3: the number of the vertex r or s
+   * @param point lies on the facet of a, b and vertex i, and replaces vertex i
+   * @return the rest
    */
   static Corners CutOff(
     const Corners& v, unsigned i, VertexId point, LabelId label, std::vector<Piece>& pieces)
@@ -395,7 +404,10 @@ private:
     return rest;
   }
 
-  /** By a point inside, where the label of the edge goes on beyond both facets. */
+  /**
+   * Splits a sector by a point inside it. Used if the label at the edge continues beyond both
+   * facets.
+   */
   std::vector<Piece> SplitWithin(const Corners& whole, LabelId own, LabelId atEdge, double width)
   {
     const VertexId point =
@@ -409,7 +421,7 @@ private:
     return pieces;
   }
 
-  /** By the tetrahedra in the mesh; 0 if something is flat or inverted. */
+  /** The score of the tetrahedra in the mesh; 0 if a tetrahedron is flat or inverted. */
   double ShapesOf(std::span<const Piece> pieces) const
   {
     const double goodSine = std::sin(GoodDihedralAngle / DegreesPerRadian);
@@ -433,7 +445,7 @@ private:
     return smallest;
   }
 
-  /** By the angles of interfaces between pieces. */
+  /** The score of the angles of interfaces between pieces. */
   double FacetsOf(std::span<const Piece> pieces) const
   {
     std::vector<std::pair<std::array<VertexId, 3>, LabelId>> facets;
@@ -462,7 +474,7 @@ private:
     return std::sin(smallest / DegreesPerRadian) / std::sin(GoodFacetAngle / DegreesPerRadian);
   }
 
-  /** Of all that becomes of a ring's sectors; leaves no points. */
+  /** The score of all pieces of a ring. Removes the points it adds. */
   double ScoreOf(const Ring& ring, const Filling& filling)
   {
     const std::size_t points = this->Parts.Points.size();
@@ -478,7 +490,10 @@ private:
     return score;
   }
 
-  /** Whether it makes a dent in a face where the image cuts the object, or adds something beyond. */
+  /**
+   * Whether a filling makes a dent in a face where the image cuts the object, or adds a piece
+   * beyond the image's border.
+   */
   bool DentsBorder(const Ring& ring, const Filling& filling) const
   {
     const ImageBorder<3>* const border = this->Image.Border();
@@ -500,7 +515,7 @@ private:
     return false;
   }
 
-  /** One of those at the edge. */
+  /** Whether a facet at the edge is on a face where the image cuts the object. */
   bool HasFacetOnBorder(const ImageBorder<3>& border, const Ring& ring, const Sector& sector) const
   {
     const auto faces = [&](VertexId v) { return border.FacesAt(this->Position(v)); };
@@ -517,7 +532,7 @@ private:
   const Triangulation<3>& Source;
   const Domain<3>& Image;
   const std::span<const LabelId> Labels;
-  Subdivision Parts;                              ///< its points; the rest at the end
+  Subdivision Parts; ///< has its points now; the rest is set at the end
   std::map<SimplexId, std::vector<Piece>> Pieces; ///< of tetrahedra that were cut
 };
 

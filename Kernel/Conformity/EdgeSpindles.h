@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file EdgeSpindles.h
- * @brief Makes boundaries of labels manifold at edges where whole tetrahedra cannot change sides.
+ * @brief Makes boundaries of labels manifold at edges where giving whole tetrahedra to another
+ * label does not help.
  */
 #ifndef voxplex_EdgeSpindles_h
 #define voxplex_EdgeSpindles_h
@@ -19,38 +20,41 @@
 namespace voxplex
 {
 
-/** What was done. */
+/** The result of MakeSpindles(). */
 struct SpindleResult
 {
   Subdivision Parts;
-  std::vector<InterfaceEdge> Left; ///< only where tetrahedra are flat to rounding
+  std::vector<InterfaceEdge> Left; ///< only where tetrahedra are flat within rounding
 };
 
 /**
- * At an edge ab where other than two boundary facets of a label meet, tetrahedra of some label come in more than one run
- * around it. Those of some runs are cut in pieces, so that the parts at ab, which form a spindle or a sector of one from a to
- * b, go over to another label around the edge; then each label, but background, has one run. It always can: the whole
- * spindle may get one label.
+ * At a non-manifold edge ab, the tetrahedra of some label form more than one run around the edge.
+ * The tetrahedra of some runs are cut in pieces. The pieces at ab form a spindle from a to b, or a
+ * sector of one, and get another label that occurs around the edge. After that, each label except
+ * background has one run. This is always possible, because the whole spindle can get a single
+ * label.
  *
- *           s                   a, b   ends of the edge, here seen along it
+ *           s                   a, b   ends of the edge, seen along the edge
  *          /|\                  r, s   vertices around it
  *         / | \                 p, q   new ones on the facets abr, abs
- *        /  q  \                abpq   is part of the spindle
+ *        /  q  \                abpq   part of the spindle
  *       / /   \ \               aprs, bprs, apqs, bpqs keep their label
  *      ab----p---r
  *
- * There is no such edge more afterwards, and one less for each spindle (Documentation/Algorithm.md, "Looking at the
- * interfaces", has the proof): edges at ab's tetrahedra keep their runs, and of new edges none has more than one run of a
- * label. Each tetrahedron keeps pieces with its label, so that none is lost. New vertices lie at one of a few fixed places in
- * their facet or tetrahedron, so that shapes of pieces are bounded by those of tetrahedra; of all ways to do it the one
- * with the best shapes in the mesh is taken, but faces where the image cuts the object get neither dents nor bulges if there is
- * any other.
+ * Each spindle removes one non-manifold edge and makes no new one (Documentation/Algorithm.md,
+ * "Looking at the interfaces", has the proof): edges at ab's tetrahedra keep their runs, and no new
+ * edge has more than one run of a label. Each tetrahedron keeps pieces with its own label, so no
+ * element is lost. New vertices lie at one of a few fixed positions in their facet or tetrahedron,
+ * so the shapes of the tetrahedra bound the shapes of the pieces. Of all possible cuts, the one
+ * with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
+ * image cuts the object is taken only if there is no other.
  *
- * The triangulation stays what it is, and nobody may change it meanwhile. Takes time linear in the number of edges, if few
- * tetrahedra share one; edges with many runs around them take more.
+ * The triangulation is not changed, and no thread may change it during the call. Takes time linear
+ * in the number of edges, if few tetrahedra share an edge. Edges with many runs around them take
+ * longer.
  *
- * @param labels of each simplex id
- * @param edges those that are not manifold, with vertex ids
+ * @param labels by simplex id
+ * @param edges the non-manifold edges, with vertex ids
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 SpindleResult MakeSpindles(const Triangulation<3>& triangulation, const Domain<3>& domain,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FaceScan.h
- * @brief Looks at the faces between voxels of different labels, in parallel.
+ * @brief Searches the faces between voxels of different labels, in parallel.
  */
 #ifndef voxplex_FaceScan_h
 #define voxplex_FaceScan_h
@@ -24,11 +24,12 @@ namespace voxplex
 {
 
 /**
- * The faces on the upper sides of some voxels for which is(face, hint) is true, ascending.
+ * Finds the faces on the upper sides of some voxels for which is(face, hint) is true, in ascending
+ * order.
  *
- * @param voxels of the crop and the layer around it, as FindSurfaceVoxels() gives them
- * @param is called by several threads at once, for faces between different labels; a hint, at first Hint(), is kept from
- *   face to face nearby
+ * @param voxels voxels of the crop and the layer around it, as FindSurfaceVoxels() returns them
+ * @param is called by several threads at once, for faces between different labels. The hint is
+ *   first Hint(), and is passed on between faces near each other.
  * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end
  */
@@ -78,7 +79,7 @@ std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& v
   return faces;
 }
 
-/** Those of some faces for which is(face, hint) is true. */
+/** The faces for which is(face, hint) is true. */
 template <typename Hint, typename Is>
 std::vector<VoxelFace> FilterFaces(const std::vector<VoxelFace>& faces, Is&& is)
 {

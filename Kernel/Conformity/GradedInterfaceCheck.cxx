@@ -16,10 +16,13 @@ namespace voxplex
 namespace
 {
 
-/** The mesh may be this many finest sampling distances away from interfaces; uniform meshes are about as far. */
+/**
+ * The largest allowed distance of the mesh from interfaces, in finest sampling distances. Uniform
+ * meshes are about as far away.
+ */
 constexpr double SurfaceDistance = 1.22;
 
-/** From faces of voxels it may be this many times as far, because they are stairs. */
+/** The mesh may be farther from voxel faces by this factor, because voxel faces form stairs. */
 constexpr double StairFactor = 1.15;
 
 std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
@@ -74,7 +77,7 @@ std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
   }
   const BoundingTree<Triangle> triangles(TrianglesOf(mesh), this->Threads, this->Stop);
 
-  // The faces of voxels, and the interface that runs about them, which is what is meshed.
+  // Checks the voxel face, and the smooth interface near it, which is the interface that is meshed.
   using Hint = std::uint32_t; // see BoundingTree
   const auto isFar = [&](const VoxelFace& face, Hint& hint)
   {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GradedInterfaceCheck.h
- * @brief Whether the mesh's triangles are near the interfaces of the image, where sampling distances are graded.
+ * @brief Checks that the interfaces of the image have triangles of the mesh near them, if sampling
+ * distances are graded.
  */
 #ifndef voxplex_GradedInterfaceCheck_h
 #define voxplex_GradedInterfaceCheck_h
@@ -17,35 +18,41 @@ namespace voxplex
 {
 
 /**
- * @brief UniformInterfaceCheck for graded meshes, whose vertices may be rare: it looks at the triangles between them.
+ * @brief UniformInterfaceCheck for graded meshes. Their vertices may be sparse, so this check
+ * measures the distance to triangles.
  *
- * A face between voxels of different labels is far if no triangle is within LargestDistance() of it. Each inspection looks
- * at the faces that were sampled, and at all others only when nothing is wrong with these.
+ * Let L be LargestDistance(). A face between voxels of different labels is far if no triangle is
+ * within 1.15 L of its centre, or if none is within L of the interface point between its two voxel
+ * centres. Each inspection first checks the faces that were sampled before. If none of them is far,
+ * it checks all faces.
  *
- * Not thread safe; uses threads of its own. An inspection takes time linear in the image's surface voxels, and n log n in
- * the number of the interfaces' facets.
+ * Not thread safe; uses threads of its own. An inspection takes time linear in the number of the
+ * image's surface voxels, and O(n log n) for n facets of the interfaces.
  */
 class GradedInterfaceCheck
 {
 public:
-  /** The mesh may be this far from interfaces. @param delta the finest sampling distance that was asked for */
+  /**
+   * The largest allowed distance of the mesh from interfaces.
+   * @param delta the finest requested sampling distance
+   */
   static double LargestDistance(const GridGeometry<3>& grid, double delta);
 
-  /** As UniformInterfaceCheck's. */
+  /** Parameters as in UniformInterfaceCheck. */
   GradedInterfaceCheck(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
     const SizingField<3>& sizing, LocalDelta<3>& local, unsigned threads,
     const std::stop_token& stop);
 
   /**
-   * Points that would mend what is wrong with a mesh's interfaces.
-   * @param edges of the mesh
-   * @return nothing if all is well, or if the label field has no finer features to sample
+   * Proposes points that repair a mesh's interfaces.
+   * @param edges the non-manifold edges of the mesh
+   * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> Inspect(
     const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace>& edges);
 
-  /** At the last inspection. */
+  /** The number of far faces at the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }
 
 private:

@@ -62,7 +62,7 @@ Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
                                          : Remedy<3>();
 }
 
-/** A round of those asked for, if there are points to go on with. */
+/** Makes a remedy of these points. If there are any, counts a round. */
 Remedy<3> InterfaceCheck::Counted(std::vector<FeatureSeed<3>> points)
 {
   this->Statistics.Rounds += points.empty() ? 0 : 1;
@@ -103,7 +103,7 @@ std::vector<SimplexId> InterfaceCheck::Repair()
   return std::move(result.Relabelled);
 }
 
-/** What whole tetrahedra did not mend. */
+/** Opens the edges that Repair() left non-manifold. */
 void InterfaceCheck::OpenEdges()
 {
   SpindleResult result =

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceCheck.h
- * @brief Whether the interfaces of a refined triangulation are those of the image, and manifold (3D).
+ * @brief Checks that the interfaces of a refined triangulation match those of the image, and are
+ * manifold (3D).
  */
 #ifndef voxplex_InterfaceCheck_h
 #define voxplex_InterfaceCheck_h
@@ -30,23 +31,29 @@ namespace voxplex
 {
 
 /**
- * @brief Gives tetrahedra their labels, and says where refinement has to go on for the sake of interfaces.
+ * @brief Gives tetrahedra their labels, and decides where refinement has to be resumed to correct
+ * interfaces.
  *
- * InspectTriangulation() first looks for faces of voxels that are far from all vertices of interfaces. If there are none
- * each tetrahedron gets the label at its circumcentre, or another one where that makes the boundary of a label manifold
- * (RepairManifold); and what that has left or made is looked at (UniformInterfaceCheck). All that happens in the
- * triangulation, so that no mesh is extracted before all is well. Edges that are not manifold yet, when refinement does not go
- * on, are opened: there the mesh has tetrahedra in pieces (MakeSpindles).
+ * InspectTriangulation() takes these steps:
+ * - It looks for voxel faces that are far from all vertices of interfaces.
+ * - If there are none, each tetrahedron gets the label at its circumcentre. Some tetrahedra get
+ *   another label, to make the boundary of a label manifold (RepairManifold).
+ * - It checks the edges that are still not manifold, and the faces that the repair made far
+ *   (UniformInterfaceCheck).
  *
- * Where sampling distances are graded, triangles count instead of vertices: then only InspectMesh() asks for points
- * (GradedInterfaceCheck).
+ * All steps use the triangulation, so no mesh is extracted before its interfaces are correct. If
+ * refinement is not resumed, the remaining non-manifold edges are opened: the mesh gets the
+ * tetrahedra around them in pieces (MakeSpindles).
  *
- * Not thread safe; uses threads of its own. Nobody may change the triangulation meanwhile.
+ * If sampling distances are graded, distances are measured to triangles instead of vertices. Then
+ * only InspectMesh() requests points (GradedInterfaceCheck).
+ *
+ * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
  */
 class InterfaceCheck final : public ConformityCheck<3>
 {
 public:
-  /** What there is to look at; the references must live as long as the check. */
+  /** The objects to inspect. The references must outlive the check. */
   struct Subject
   {
     const Triangulation<3>& Mesh;
@@ -54,26 +61,26 @@ public:
     const BitMask<3>& Sites; ///< surface voxels of the image
     const Domain<3>& Surfaces;
     const SizingField<3>& Sizing;
-    ShapeBounds Shape; ///< that repair keeps
+    ShapeBounds Shape; ///< bounds that the repair respects
     unsigned Threads;  ///< 0 means all cores
   };
 
   /**
-   * All references must live as long as this.
-   * @param local receives the spacing of what is to be inserted, and bounds
+   * All references must outlive the check.
+   * @param local receives the spacing of the points to be inserted, and bounds
    * @param statistics counts rounds, points and edges
    */
   InterfaceCheck(const Subject& subject, const InterfaceOptions& options, LocalDelta<3>& local,
     InterfaceStatistics& statistics, double& seconds, const std::stop_token& stop);
 
-  /** Asks for nothing more when as many rounds were made as the options allow. */
+  /** Requests no points once the number of rounds has reached the limit in the options. */
   Remedy<3> InspectTriangulation() override;
   Remedy<3> InspectMesh(const SimplexMesh<3>& mesh) override;
 
-  /** Of each simplex id, when InspectTriangulation() has asked for nothing. */
+  /** The label of each simplex id. Valid if InspectTriangulation() requested nothing. */
   std::span<const LabelId> Labels() const { return this->LabelOf; }
 
-  /** Which tetrahedra the mesh has in pieces, when InspectTriangulation() has asked for nothing. */
+  /** The tetrahedra that were cut in pieces. Valid if InspectTriangulation() requested nothing. */
   const Subdivision& Parts() const { return this->Spindles; }
 
 private:
@@ -92,7 +99,7 @@ private:
   std::optional<UniformInterfaceCheck> Uniform;
   std::optional<GradedInterfaceCheck> Graded;
   SimplexLabels LabelOf;
-  std::vector<Point<3>> Gone; ///< vertices that are inside of a label since others were given
+  std::vector<Point<3>> Gone;             ///< vertices that relabelling left inside of a label
   std::vector<InterfaceEdge> NonManifold; ///< with these labels
   std::vector<NonManifoldPlace> Places;   ///< of these edges
   Subdivision Spindles;

@@ -12,23 +12,30 @@ namespace voxplex
 namespace
 {
 
-// Chosen on the knee atlas. Around edges a larger radius adds elements, and new trouble at its rim. Around far
-// faces a smaller one leaves the tips of processes without what they hang on.
+// Chosen on the knee atlas. Around edges, a larger radius adds elements, and makes new non-manifold
+// edges at its rim. Around far faces, a smaller radius leaves out the parts that the tips of
+// processes hang on.
 
-/** Faces within this many sampling distances of a far face, or of the middle of a non-manifold edge, are sampled. */
+/**
+ * Faces are sampled within this many sampling distances of a far face, or of the midpoint of a
+ * non-manifold edge.
+ */
 constexpr double RadiusAtFace = 1.0;
 constexpr double RadiusAtEdge = 0.5;
 
 /**
- * Spacing at the first visit, in sampling distances. With 0.5 there is one round less, but meshes of atlases with thin
- * labels have up to a sixth more elements.
+ * Spacing at the first visit, in sampling distances. With 0.5, there is one round less, but meshes
+ * of atlases with thin labels have up to a sixth more elements.
  */
 constexpr double FirstSpacing = 0.8;
 
-/** Bounds of circumballs are this times the spacing of points, but not the finest. */
+/**
+ * The sampling distance of R1 is this factor times the spacing of points, except the finest
+ * spacing.
+ */
 constexpr double BoundFactor = 2.0;
 
-/** Nothing is sampled more finely than this, in smallest voxel spacings. */
+/** The finest spacing of points, in smallest voxel spacings. */
 constexpr double FinestVoxels = 0.2;
 
 } // namespace
@@ -116,7 +123,10 @@ InterfaceSampling::Index InterfaceSampling::CellOf(const VoxelFace& face)
   return cell;
 }
 
-/** What sampling begins with: the sampling distance, but where that is graded no more than was asked for. */
+/**
+ * The distance that sampling begins with: the sampling distance. If it is graded, at most the
+ * requested one.
+ */
 double InterfaceSampling::FirstDistance(const VoxelFace& face) const
 {
   const double distance = this->Sizing.AskedDistance(
@@ -125,7 +135,10 @@ double InterfaceSampling::FirstDistance(const VoxelFace& face) const
   return base.Graded ? std::min(distance, base.Asked) : distance;
 }
 
-/** Halved from visit to visit; the last is at the finest spacing, after it 0. */
+/**
+ * The spacing, halved at each visit. The last visit has the finest spacing; after it, the result is
+ * 0.
+ */
 double InterfaceSampling::SpacingAt(const VoxelFace& face, unsigned visit) const
 {
   const double first = FirstSpacing * this->FirstDistance(face);
@@ -138,8 +151,9 @@ double InterfaceSampling::SpacingAt(const VoxelFace& face, unsigned visit) const
 }
 
 //------------------------------------------------------------------------------------------------
-// Points alone do not bring out what is thinner than they are apart: as long as no circumcentre lies in it, no
-// element has its label. R1 with a smaller sampling distance makes circumballs small enough.
+// Points alone do not give elements to a part that is thinner than their spacing: if no
+// circumcentre lies in the part, no element has its label. R1 with a smaller sampling distance
+// makes circumballs small enough.
 void InterfaceSampling::LowerBound(const VoxelFace& face)
 {
   const auto visits = this->Visits.find(CellOf(face));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceSampling.h
- * @brief Points of interfaces that are inserted where a check found something wrong.
+ * @brief Chooses interface points to insert where a check found something wrong.
  */
 #ifndef voxplex_InterfaceSampling_h
 #define voxplex_InterfaceSampling_h
@@ -21,19 +21,22 @@
 namespace voxplex
 {
 
-/** The middle of an edge that is not manifold on the boundary of some label: other than two of its facets meet there. */
+/**
+ * The midpoint of a non-manifold edge: some label does not have exactly two boundary facets there.
+ */
 struct NonManifoldPlace
 {
   Point<3> Middle;
-  bool IsJunction; ///< three labels or more meet there
+  bool IsJunction; ///< three or more labels meet there
 };
 
 /**
- * @brief Proposes points on the interfaces around far faces of voxels and around edges that are not manifold.
+ * @brief Proposes points on the interfaces around far voxel faces and around non-manifold edges.
  *
- * The points are FirstSpacing sampling distances apart at the first visit of a place, half of that at the next, and so
- * on down to a fifth of a voxel. Where a face is far a second time R1 gets a smaller sampling distance besides
- * (LocalDelta), so that circumcentres come to lie in what is thin.
+ * At the first visit of a place, the points are FirstSpacing sampling distances apart. Each further
+ * visit halves the spacing, down to a fifth of a voxel. If a face is far a second time, R1 also
+ * gets a smaller sampling distance there (LocalDelta), so that circumcentres come to lie in thin
+ * parts.
  *
  * Not thread safe.
  */
@@ -41,7 +44,7 @@ class InterfaceSampling
 {
 public:
   /**
-   * All references must live as long as this.
+   * All references must outlive the object.
    * @param sites the image's surface voxels (FindSurfaceVoxels)
    * @param local receives the spacing of the points, and bounds
    */
@@ -49,19 +52,21 @@ public:
     const SizingField<3>& sizing, LocalDelta<3>& local, const std::stop_token& stop);
 
   /**
-   * @return nothing if there is nothing wrong, or if the label field has no finer features to sample
+   * Proposes points around far faces and non-manifold edges.
+   * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> Around(
     const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges);
 
   /**
-   * The same, but edges at junctions are no reason to begin: they are sampled along with the rest.
+   * As Around(), but returns nothing if only edges at junctions are wrong. Such edges are sampled
+   * along with other places.
    */
   std::vector<FeatureSeed<3>> AroundIfBad(
     const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges);
 
-  /** The faces around which there were points so far, ascending. */
+  /** The faces around which points were proposed so far, ascending. */
   const std::vector<VoxelFace>& Sampled() const { return this->Faces; }
 
 private:
@@ -83,7 +88,7 @@ private:
   std::vector<VoxelFace> Faces;
 };
 
-/** Of both, which are ascending. */
+/** The union of two ascending lists. */
 std::vector<VoxelFace> UnionOf(const std::vector<VoxelFace>& a, const std::vector<VoxelFace>& b);
 
 } // namespace voxplex

@@ -49,7 +49,7 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.resize(ids);
-  SimplexLabels labels(ids); // fewer bytes than states: neighbours are anywhere
+  SimplexLabels labels(ids); // smaller than states: neighbours are anywhere in memory
   ParallelFor(
     0, ids, Grain, this->Threads,
     [&](std::size_t first, std::size_t last)
@@ -64,14 +64,16 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
   std::vector<std::uint8_t> isOnInterface(this->Source.VertexIdEnd());
   const auto mark = [&](VertexId v)
   {
-    // Relaxed: threads write the same, and the loop's end orders it before its readers.
+    // Relaxed: all threads write the same value, and the end of the loop orders the writes before
+    // reads.
     const std::atomic_ref<std::uint8_t> known(isOnInterface[v]);
     if (known.load(std::memory_order_relaxed) == 0)
     {
       known.store(1, std::memory_order_relaxed);
     }
   };
-  // One of two tetrahedra with different labels has a ball that meets an interface: the dual edge is in their union.
+  // If two neighbouring tetrahedra have different labels, the circumball of one of them meets an
+  // interface, because the union of the two balls contains the dual edge.
   const auto look = [&](SimplexId s)
   {
     const auto& simplex = this->Source.GetSimplex(s);
@@ -120,7 +122,7 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
   std::vector<Entry> now;
   now.reserve(this->Known.size() + candidates.size());
   Changes changes;
-  // No star but those of the candidates has changed; of other vertices some are no more.
+  // Only the stars of the candidates have changed. Some other vertices may have been removed.
   auto known = this->Known.begin();
   const auto keepBefore = [&](VertexId end)
   {
@@ -143,7 +145,7 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
     const Point<3>& position = this->Source.Position(v);
     const bool isOn = this->IsOnInterface(v, star);
     const bool wasKnown = known != this->Known.end() && known->first == v;
-    const bool isSame = isOn && wasKnown && known->second == position; // ids are used again
+    const bool isSame = isOn && wasKnown && known->second == position; // ids are reused
     if (wasKnown && !isSame)
     {
       changes.Gone.push_back(known->second);
@@ -164,7 +166,7 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
 }
 
 //------------------------------------------------------------------------------------------------
-/** In ascending order; those that were made since the last call. */
+/** The vertices of simplices created since the last call, in ascending order. */
 std::vector<VertexId> InterfaceVertices::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();

@@ -19,10 +19,10 @@ namespace voxplex
 {
 
 /**
- * @brief The vertices of all facets between tetrahedra of different labels: those of the facets that ExtractMesh()
- * makes. Follows a triangulation that is refined further.
+ * @brief The vertices of all facets between tetrahedra of different labels. ExtractMesh() makes the
+ * same facets. The set can be updated after further refinement.
  *
- * Not thread safe; uses threads of its own. Nobody may change the triangulation while this looks at it.
+ * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
  */
 class InterfaceVertices
 {
@@ -35,18 +35,20 @@ public:
   };
 
   /**
-   * The references must live as long as this.
+   * The references must outlive the object.
    * @param threads 0 means all cores; results do not depend on it
    */
   InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
     unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * What has changed since the last call; at the first, all are added. The triangulation is refined, so that the balls
-   * of which SimplexState::NearSurface is not set meet no interface.
+   * Returns the changes since the last call. At the first call, all vertices are added. The
+   * triangulation must be refined: if SimplexState::NearSurface of a simplex is not set, its
+   * circumball meets no interface.
    *
-   * The first call takes time linear in the numbers of simplices and vertices; later ones nearly none for each of
-   * these, and time linear in the sizes of the stars of those vertices that have new simplices.
+   * The first call takes time linear in the numbers of simplices and vertices. A later call takes
+   * little time for each of these, and time linear in the sizes of the stars of the vertices with
+   * new simplices.
    * @throws Cancelled if a stop was requested before the end
    */
   Changes Update();
@@ -57,7 +59,7 @@ private:
   Changes FindAll();
   Changes FindChanges();
   std::vector<VertexId> VerticesOfNewSimplices();
-  /** That of a simplex when it was seen last, or None if it was not alive. */
+  /** The current generation of a simplex, or None if it is not alive. */
   std::uint32_t GenerationOf(SimplexId s) const;
   LabelId LabelOf(SimplexId s) const;
   /** @param star scratch */
@@ -68,7 +70,7 @@ private:
   const unsigned Threads;
   const std::stop_token Stop;
   std::vector<std::uint32_t> Seen; ///< GenerationOf() every simplex at the last call
-  std::vector<Entry> Known;        ///< at the last call, in the order of their ids
+  std::vector<Entry> Known;        ///< interface vertices at the last call, by increasing id
 };
 
 } // namespace voxplex

@@ -31,14 +31,14 @@ Edge MakeEdge(VertexId a, VertexId b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/** What the interfaces of a triangulation consist of. */
+/** The facets of the interfaces of a triangulation. */
 struct InterfaceFacets
 {
   std::vector<Facet> Facets;
   std::vector<std::array<std::int64_t, 2>> Labels; ///< on both sides of each
 };
 
-/** In the order of the ids of the simplices on the sides of the larger labels. */
+/** The facets are in the order of the simplices on the side of the larger label. */
 InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
   std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
 {
@@ -79,7 +79,7 @@ InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
 }
 
 //------------------------------------------------------------------------------------------------
-/** Looks for changes that leave fewer bad edges. */
+/** Finds and applies changes that leave fewer bad edges. */
 class EdgeRepair
 {
 public:
@@ -134,8 +134,9 @@ public:
   const std::set<SimplexId>& GetChanged() const { return this->Changed; }
 
   /**
-   * The bad edges now, in the order of their ends: of what has changed, and what was bad elsewhere.
-   * @param before those before any change
+   * The bad edges now, in the order of their ends. Only edges that were bad before, and edges of
+   * changed tetrahedra, need to be checked.
+   * @param before the bad edges before any change
    */
   std::vector<InterfaceEdge> FindLeft(const std::vector<InterfaceEdge>& before) const
   {
@@ -168,7 +169,10 @@ private:
     return { v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4] };
   }
 
-  /** Each tetrahedron around the edge, and each run of a label, to the labels beside them. */
+  /**
+   * All candidate changes: each tetrahedron around the edge, and each run of a label, gets a label
+   * beside it.
+   */
   std::vector<Change> ChangesAt(const Edge& edge) const
   {
     const std::vector<SimplexId> star = this->Near.StarOf(edge);
@@ -223,7 +227,7 @@ private:
     return changes;
   }
 
-  /** Those of some tetrahedra, ascending. */
+  /** The edges of some tetrahedra, ascending. */
   template <typename Cells>
   std::vector<Edge> EdgesOf(const Cells& cells) const
   {
@@ -244,7 +248,7 @@ private:
     return edges;
   }
 
-  /** By how much CountBad() becomes less, over all edges. */
+  /** The decrease of CountBad(), summed over all edges. */
   int GainOf(const Change& change) const
   {
     int gain = 0;
@@ -298,7 +302,7 @@ private:
       for (unsigned i = 0; i < 4; ++i)
       {
         const bool isNew = this->Near.LabelBeside(t, i) == own &&
-          !change.Touches(this->Near.Beside(t, i)); // it becomes an interface now
+          !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
         if (isNew && !this->HasGoodAngles(t, i))
         {
           return false;
@@ -320,7 +324,10 @@ private:
     return ball.Radius2 > size * size;
   }
 
-  /** Whether it drops what has a facet on a face where the image cuts the object, which is flat. */
+  /**
+   * Whether a change drops a tetrahedron with a facet on a flat face where the image cuts the
+   * object.
+   */
   bool Dents(const Change& change) const
   {
     const ImageBorder<3>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
@@ -349,7 +356,7 @@ private:
   bool HasGoodAngles(SimplexId t, unsigned i) const
   {
     const Facet facet = this->FacetOf(t, i);
-    bool isSharp = false; // good enough at junctions only
+    bool isSharp = false; // allowed at junctions only
     for (unsigned k = 0; k < 3; ++k)
     {
       const Point<3>& p = this->Near.Position(facet[k]);
@@ -366,7 +373,7 @@ private:
       std::any_of(facet.begin(), facet.end(), [this](VertexId v) { return this->IsAtJunction(v); });
   }
 
-  /** Whether three labels or more meet at a vertex; background counts. */
+  /** Whether three or more labels, including background, meet at a vertex. */
   bool IsAtJunction(VertexId v) const
   {
     std::set<LabelId> labels;
@@ -377,10 +384,10 @@ private:
     return labels.size() > 2;
   }
 
-  const std::span<LabelId> Labels; ///< of each simplex id
+  const std::span<LabelId> Labels; ///< by simplex id
   const Neighbourhood Near;
   const double FacetCosine;
-  const double JunctionCosine; ///< not smaller
+  const double JunctionCosine; ///< at least FacetCosine
   const Domain<3>* const Surfaces;
   const SizingField<3>* const Sizing;
   std::set<SimplexId> Changed;

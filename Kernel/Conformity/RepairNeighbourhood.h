@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RepairNeighbourhood.h
- * @brief Internal to ManifoldRepair: what is around the bad edges of interfaces, as it is or as it would be after a change.
+ * @brief Internal to ManifoldRepair: the surroundings of bad interface edges, before or after a
+ * proposed change.
  */
 #ifndef voxplex_RepairNeighbourhood_h
 #define voxplex_RepairNeighbourhood_h
@@ -23,7 +24,7 @@ namespace voxplex::repair
 
 using Edge = std::array<VertexId, 2>;
 
-/** Some tetrahedra get another label; 0 drops them. */
+/** Gives some tetrahedra another label; 0 drops them. */
 struct Change
 {
   std::vector<SimplexId> Cells;
@@ -35,7 +36,7 @@ struct Change
   }
 };
 
-/** The first of a few for which is() is true, else `added` behind them. */
+/** The first element for which is() is true. If there is none, `added` is appended. */
 template <typename T, typename Predicate>
 T& FindOrAdd(std::vector<T>& few, Predicate&& is, const T& added)
 {
@@ -44,11 +45,11 @@ T& FindOrAdd(std::vector<T>& few, Predicate&& is, const T& added)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The tetrahedra of a triangulation with their labels, by their vertices. */
+/** Access to the labelled tetrahedra of a triangulation by their vertices. */
 class Neighbourhood
 {
 public:
-  /** @param onInterface of each vertex, whether it is on an interface before any change */
+  /** @param onInterface for each vertex, whether it is on an interface before any change */
   Neighbourhood(const Triangulation<3>& triangulation, std::span<const LabelId> labels,
     std::vector<std::uint8_t> onInterface)
     : Source(triangulation)
@@ -65,7 +66,7 @@ public:
   bool IsOnInterface(VertexId v) const { return this->OnInterface[v] != 0; }
   voxplex::Circumball<3> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
 
-  /** Ascending, so that what is found first does not depend on where the search began. */
+  /** The star of a vertex. Ascending, so that results do not depend on where a search begins. */
   const std::vector<SimplexId>& StarOf(VertexId v) const
   {
     const auto [entry, isNew] = this->Stars.try_emplace(v);
@@ -82,7 +83,7 @@ public:
     return change && change->Touches(t) ? change->Label : this->Labels[t];
   }
 
-  /** Tetrahedra with both vertices. */
+  /** The tetrahedra that have both vertices. */
   std::vector<SimplexId> StarOf(const Edge& edge) const
   {
     std::vector<SimplexId> star;
@@ -105,16 +106,16 @@ public:
     return beside == None ? LabelId{ 0 } : this->Labels[beside];
   }
 
-  /** What is wrong at an edge. */
+  /** Defects at an edge. */
   struct State
   {
-    int
-      Bad; ///< labels with a number of boundary facets other than two or none, background left out
-    bool IsJunction; ///< three labels or more meet there
+    int Bad; ///< labels, except background, with boundary facets at the edge, but not exactly two
+    bool IsJunction; ///< three or more labels meet there
   };
   State StateOf(const Edge& edge, const Change* change) const
   {
-    // Few: lists that are searched from end to end. Of each facet with the edge the label on its sides.
+    // The lists are short, so a linear search is enough. A Side has the labels on both sides of a
+    // facet at the edge.
     struct Side
     {
       VertexId Third;
@@ -125,7 +126,7 @@ public:
       LabelId Label;
       int Facets;
     };
-    constexpr std::size_t Most = 16; // mostly
+    constexpr std::size_t Most = 16; // enough for most edges
     std::vector<Side> sides;
     std::vector<Count> facets;
     sides.reserve(Most);
@@ -164,7 +165,7 @@ public:
     return { static_cast<int>(bad), facets.size() > 2 };
   }
 
-  /** What is wrong at an edge counts more off junctions, where there is no excuse. */
+  /** The weighted number of defects at an edge. A defect off junctions has a larger weight. */
   int CountBad(const Edge& edge, const Change* change) const
   {
     const State state = this->StateOf(edge, change);
@@ -176,10 +177,10 @@ private:
   static constexpr int OffJunction = 3;
 
   const Triangulation<3>& Source;
-  const std::span<const LabelId> Labels;       ///< of each simplex id; others change them
+  const std::span<const LabelId> Labels;       ///< by simplex id; the owner may change them
   const std::vector<std::uint8_t> OnInterface; ///< by vertex
   mutable std::unordered_map<VertexId, std::vector<SimplexId>>
-    Stars; ///< of vertices that were asked for
+    Stars; ///< cache of the requested stars
 };
 
 } // namespace voxplex::repair

@@ -15,10 +15,16 @@ namespace voxplex
 namespace
 {
 
-/** Of vertices that are nearer to each other than this times NearVoxel one is enough to clear voxels around. */
+/**
+ * If vertices are closer to each other than this factor times NearVoxel, one of them is enough to
+ * clear the voxels around them.
+ */
 constexpr double ClearingDistance = 0.25;
 
-/** Some of the points, none nearer to another than `distance`; each of the others is nearer to one of them. */
+/**
+ * A subset of the points, at least `distance` apart. Each other point is closer than that to one of
+ * the subset.
+ */
 std::vector<Point<3>> ThinOut(const std::vector<Point<3>>& points, double distance)
 {
   FeatureGrid<3> kept({ 0.0, 0.0, 0.0 }, distance, points.size());
@@ -52,7 +58,7 @@ UniformInterfaceCheck::UniformInterfaceCheck(const LabelImage<3>& image, const B
   if (sizing.IsUniform())
   {
     constexpr double Safety = 1.0 - 1e-6;
-    // Half a diagonal is longer.
+    // The result is positive, because Reach is at least the voxel's diagonal.
     this->NearVoxel = Safety * (this->Reach - 0.5 * image.Grid().LargestSpacing());
   }
 }
@@ -73,7 +79,7 @@ bool UniformInterfaceCheck::IsFar(const VoxelFace& face, Hint& known) const
   {
     return false;
   }
-  // A vertex near the face serves more faces nearby than a farther one.
+  // A near vertex serves more of the adjacent faces than a far one.
   known = this->Vertices->FindWithin(centre, 0.5 * distance);
   if (!known)
   {
@@ -83,17 +89,19 @@ bool UniformInterfaceCheck::IsFar(const VoxelFace& face, Hint& known) const
 }
 
 //------------------------------------------------------------------------------------------------
-// Row by row of a ball: IndexToFrame is upper triangular, so that z and y of the frame are the same all along a row.
+// Clears the ball row by row. IndexToFrame is upper triangular, so z and y of the frame are
+// constant along a row.
 void UniformInterfaceCheck::ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) const
 {
   const GridGeometry<3>::Matrix& m = this->Image.Grid().IndexToFrame;
   const auto& n = voxels.Dimensions();
-  Point<3> x = this->Image.Grid().ToIndex(p); // in the mask, which has a layer more than the crop
+  Point<3> x = this->Image.Grid().ToIndex(p); // in the mask: the crop and one layer around it
   for (std::size_t a = 0; a < 3; ++a)
   {
     x[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
   }
-  // The places along an axis that are no farther than half a width from a centre; its square is rounded.
+  // The positions along an axis within half a width of a centre. The square of half a width is
+  // rounded.
   const auto places = [&](std::size_t a, double centre, double half2)
   {
     const double half = std::sqrt(std::max(half2, 0.0)) / m[a][a];
@@ -126,7 +134,7 @@ std::vector<VoxelFace> UniformInterfaceCheck::FindAllFar(
   BitMask<3> voxels = this->Sites;
   if (this->NearVoxel > 0.0)
   {
-    // Vertices may be much denser than the sampling distance asks for. The scan below uses all of them.
+    // Vertices may be much denser than the sampling distance. The scan below uses all of them.
     const std::vector<Point<3>> some = ThinOut(vertices, ClearingDistance * this->NearVoxel);
     ParallelFor(
       0, some.size(), 1024, this->Threads,
@@ -143,13 +151,13 @@ std::vector<VoxelFace> UniformInterfaceCheck::FindAllFar(
     [this](const VoxelFace& face, Hint& known) { return this->IsFar(face, known); });
 }
 
-/** Of the faces that were sampled, and of those that may have been near to vertices that have gone. */
+/** The far faces among those that were sampled, and those near to vertices that are gone. */
 std::vector<VoxelFace> UniformInterfaceCheck::FindFarAgain(const std::vector<Point<3>>& gone) const
 {
   std::vector<SearchBall> balls;
   for (const Point<3>& p : gone)
   {
-    balls.push_back({ p, this->Reach + 1e-6 * this->VoxelDiagonal }); // for rounding
+    balls.push_back({ p, this->Reach + 1e-6 * this->VoxelDiagonal }); // tolerates rounding
   }
   const std::vector<VoxelFace> near = FindFacesNear(this->Image, this->Sites, balls, this->Stop);
   return FilterFaces<Hint>(UnionOf(this->Sampling.Sampled(), near),

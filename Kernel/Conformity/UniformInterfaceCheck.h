@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file UniformInterfaceCheck.h
- * @brief Whether the interfaces of the image have vertices near them.
+ * @brief Checks that the interfaces of the image have vertices of the mesh near them.
  */
 #ifndef voxplex_UniformInterfaceCheck_h
 #define voxplex_UniformInterfaceCheck_h
@@ -19,32 +19,37 @@ namespace voxplex
 {
 
 /**
- * @brief Finds what sampling with one distance missed, and says where to sample more finely.
+ * @brief Finds features that sampling missed, and proposes where to sample more finely.
  *
- * R1 asks for the interface that is closest to a circumcentre, so the tip of a thin process, or a hole through a sheet,
- * may never be looked at; and where two interfaces are nearer to each other than their sampling distance, tetrahedra of
- * their labels alternate around edges. The check looks for
- * - faces between voxels of different labels that have no vertex of the interfaces within LargestDistance times the sampling
- *   distance, or a voxel's diagonal if that is more;
- * - edges that are not manifold on the boundary of some label.
- * InterfaceSampling proposes points around them. CGAL's Mesh_3 refines facets around such edges to the same end; the
- * thesis has no such rule.
+ * R1 looks only at the interface closest to a circumcentre. So it may never see the tip of a thin
+ * process, or a hole through a sheet. If two interfaces are closer to each other than their
+ * sampling distance, tetrahedra of their labels alternate around edges. The check looks for
+ * - faces between voxels of different labels without an interface vertex within LargestDistance
+ *   times the sampling distance, or within a voxel's diagonal if that is larger;
+ * - non-manifold edges on the boundary of some label.
  *
- * The first InspectVertices() looks at all faces; later calls, and InspectLabels(), look at those that were sampled and
- * at those whose vertex is none of an interface any more.
+ * InterfaceSampling proposes points around them. CGAL's Mesh_3 refines facets around such edges for
+ * the same purpose. The thesis has no such rule.
  *
- * Not thread safe; uses threads of its own. A look at all faces takes time linear in the image's surface voxels.
+ * The first InspectVertices() checks all faces. Later calls, and InspectLabels(), check only faces
+ * that were sampled, and faces whose near vertex is no longer on an interface.
+ *
+ * Not thread safe; uses threads of its own. Checking all faces takes time linear in the number of
+ * the image's surface voxels.
  */
 class UniformInterfaceCheck
 {
 public:
-  /** The distance that is asked for, in sampling distances; to a vertex, so that to a facet is less. */
+  /**
+   * The largest allowed distance from a face to a vertex, in sampling distances. The distance to a
+   * facet is smaller.
+   */
   static constexpr double LargestDistance = 1.4;
 
   /**
-   * All references must live as long as this.
+   * All references must outlive the check.
    * @param sites the image's surface voxels (FindSurfaceVoxels)
-   * @param local receives the spacing of what is proposed, and bounds
+   * @param local receives the spacing of the proposed points, and bounds
    * @param threads 0 means all cores; results do not depend on it
    */
   UniformInterfaceCheck(const LabelImage<3>& image, const BitMask<3>& sites,
@@ -52,26 +57,29 @@ public:
     const std::stop_token& stop);
 
   /**
-   * Points that would bring vertices near to far faces.
-   * @param changes of the interfaces' vertices since the last call; at the first all are added
+   * Proposes points that bring vertices near to far faces.
+   * @param changes changes of the interface vertices since the last call; at the first call all are
+   *   added
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> InspectVertices(const InterfaceVertices::Changes& changes);
 
   /**
-   * After InspectVertices(): points that would make edges manifold, and what changes of labels have made far.
-   * @param gone positions of vertices that are on interfaces no more because of these changes; they count again afterwards
-   * @return nothing if all is well, or if the label field has no finer features to sample
+   * To be called after InspectVertices(). Proposes points that make edges manifold, and points near
+   * faces that became far because labels changed.
+   * @param gone positions of vertices that are no longer on interfaces because labels changed. They
+   *   count again after this call.
+   * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> InspectLabels(
     const std::vector<Point<3>>& gone, const std::vector<NonManifoldPlace>& edges);
 
-  /** At the last inspection. */
+  /** The number of far faces at the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }
 
 private:
-  /** A vertex that was near a face nearby, or null. */
+  /** A vertex that was near an adjacent face, or null. */
   using Hint = const Point<3>*;
 
   double LargestDistanceOf(const VoxelFace& face, const Point<3>& centre) const;
@@ -87,8 +95,11 @@ private:
   const unsigned Threads;
   const std::stop_token Stop;
   double VoxelDiagonal;
-  double Reach; ///< no face asks for a vertex that is farther
-  /** No face is far whose lower voxel has a vertex nearer to its centre. 0: depends on the face. */
+  double Reach; ///< the largest distance at which any face may have its vertex
+  /**
+   * If a vertex is within this distance of a voxel's centre, no face on the voxel's upper sides is
+   * far. 0: depends on the face.
+   */
   double NearVoxel = 0.0;
   std::optional<FeatureGrid<3>> Vertices; ///< at the last InspectVertices()
   std::size_t FarFaces = 0;

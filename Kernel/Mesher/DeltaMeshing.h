@@ -16,18 +16,19 @@
 namespace voxplex
 {
 
-/** Whether the mesh that was extracted is worth optimising. */
+/** Whether the extracted mesh is worth optimising. */
 template <int D>
 using IsWorthOptimising = std::function<bool(const SimplexMesh<D>&)>;
 
 /**
- * Chooses sampling distances; refines; inspects (ConformityCheck), and refines again until no check asks for more;
- * extracts the mesh; optimises it.
+ * Meshes in these steps: chooses sampling distances; refines; runs the checks (ConformityCheck),
+ * and refines again until no check needs a remedy; extracts the mesh; optimises it.
  *
- * @param run its statistics receive all that is done; their Delta is the sampling distance
+ * @param run its statistics receive all counts and times; their Delta is the sampling distance
  * @param mesh receives the mesh
  * @return false if stopped
- * @throws Cancelled if stopped, too; TooLargeError; InputError of interface sizes; std::bad_alloc
+ * @throws Cancelled (a stop may also end in this); TooLargeError; InputError of interface sizes;
+ *   std::bad_alloc
  */
 template <int D>
 bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,

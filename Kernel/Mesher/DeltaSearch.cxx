@@ -12,24 +12,27 @@ namespace voxplex
 namespace
 {
 
-/** What the exponent can be between two runs; beyond, chance or a threshold has made the difference. */
+/**
+ * The range of the exponent between two runs. A value outside of it is due to chance or a
+ * threshold.
+ */
 constexpr double SmallestExponent = 0.5;
 constexpr double LargestExponent = 6.0;
 
 /** No step changes delta by more than this factor. */
 constexpr double LargestStep = 4.0;
 
-/** Counts that differ by less are taken for the same number of elements. */
+/** Counts that differ by less count as equal. */
 constexpr double SameCount = 0.03;
 
-/** Log of the ratio of two deltas that are as good as equal. */
+/** If the log of the ratio of two deltas is smaller than this, they count as equal. */
 constexpr double EmptyWidth = 1e-3;
 
-/** To four digits, so that who reads a delta can ask for it again. */
+/** Rounds to four digits, so that a user who reads a delta can request the same delta. */
 double Rounded(double delta)
 {
   const double digits = 3.0 - std::floor(std::log10(delta));
-  const double scale = std::pow(10.0, std::abs(digits)); // a whole number: nothing is rounded twice
+  const double scale = std::pow(10.0, std::abs(digits)); // a whole number, so rounding occurs once
   return digits >= 0.0 ? std::round(delta * scale) / scale : std::round(delta / scale) * scale;
 }
 
@@ -88,7 +91,8 @@ void DeltaSearch::Add(std::uint64_t elements)
 }
 
 //------------------------------------------------------------------------------------------------
-// Too few elements, and delta is the smallest. Or too many, and delta is the largest, or half of it has made as few.
+// True if the smallest delta gives too few elements; if the largest delta gives too many; or if
+// there are too many, and half the delta gave no more elements.
 bool DeltaSearch::IsOutOfReach() const
 {
   if (this->Below && !this->Above)
@@ -111,7 +115,8 @@ bool DeltaSearch::IsOutOfReach() const
 //------------------------------------------------------------------------------------------------
 std::optional<double> DeltaSearch::Choose()
 {
-  // From the run nearest to the target, along the line through the next nearest with another delta.
+  // Extrapolate from the run nearest to the target, on the line through the next nearest run with
+  // another delta.
   std::vector<MeshingRun> runs = this->All;
   std::stable_sort(runs.begin(), runs.end(),
     [this](const MeshingRun& a, const MeshingRun& b)
@@ -146,7 +151,8 @@ std::optional<double> DeltaSearch::Choose()
   }
   else if (this->Above && this->Below)
   {
-    // The count is not monotonic: a finer run had too few. Between the two nearest, if they are apart.
+    // The count is not monotonic: a finer run had too few elements. Take the middle of the
+    // interval, unless it is nearly empty.
     next = std::sqrt(this->Above->Delta * this->Below->Delta);
   }
   next = std::clamp(Rounded(next), this->Smallest, this->Largest);

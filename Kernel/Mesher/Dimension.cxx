@@ -18,13 +18,19 @@ namespace voxplex
 namespace
 {
 
-/** Spacing of the points by which local feature sizes are measured, in delta. */
+/** Spacing of the points used to measure local feature sizes, in delta. */
 constexpr double GradingSampleSpacing = 0.75;
 
-/** Of the distance from interfaces that is asked for: too coarse a start takes more elements in the end. */
+/**
+ * The tolerance of grading, as a fraction of the largest distance from interfaces that the check
+ * allows. A start that is too coarse takes more elements in the end.
+ */
 constexpr double GradingTolerance = 0.9;
 
-/** How far optimisation may move vertices off interfaces as a last means, in smallest voxel spacings. */
+/**
+ * How far optimisation may move vertices off interfaces as a last resort, in smallest voxel
+ * spacings.
+ */
 constexpr double OptimisationTolerance = 0.1;
 
 } // namespace

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Dimension.h
- * @brief The stages of a run that are different in space and in space-time.
+ * @brief The stages of a run that differ between space and space-time.
  */
 #ifndef voxplex_Dimension_h
 #define voxplex_Dimension_h
@@ -27,7 +27,7 @@
 namespace voxplex
 {
 
-/** The base distance, and what it refers to. */
+/** The base distance, and the object that it refers to. */
 template <int D>
 struct OwnedBaseDistance
 {
@@ -35,7 +35,7 @@ struct OwnedBaseDistance
   std::shared_ptr<const void> Grading; ///< null if the distance is uniform
 };
 
-/** What a run works with after its preparation; all must live as long as the stages. */
+/** The inputs of a run after its preparation. All references must outlive the stages. */
 template <int D>
 struct RunEnvironment
 {
@@ -48,7 +48,7 @@ struct RunEnvironment
 template <int D>
 struct Dimension;
 
-/** Space. */
+/** The stages in space. */
 template <>
 struct Dimension<3>
 {
@@ -56,47 +56,49 @@ struct Dimension<3>
   static constexpr unsigned SuccessesToWake = 10;
   static constexpr bool HasLocalBounds = true;
 
-  /** By the local feature size, if the options ask for it. */
+  /** The base distance. Graded by the local feature size if the options request it. */
   static OwnedBaseDistance<3> GradeBase(const RunEnvironment<3>& run, double delta);
 
   /** Points on the curves where labels meet. */
   static std::vector<FeatureSeed<3>> SampleJunctions(
     const RunEnvironment<3>& run, const SizingField<3>& sizing);
 
-  /** Components, then interfaces; and the mesh that these give. */
+  /** Checks components, then interfaces. Extracts and optimises the mesh. */
   class Checks
   {
   public:
-    /** Components may lower local bounds at once. All references must live as long as this. */
+    /** Components may lower local bounds already here. All references must outlive the checks. */
     Checks(const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local);
 
-    /** Points for thin components that are there before refinement. */
+    /** Points for thin components, to be inserted before refinement. */
     std::vector<FeatureSeed<3>> TakeSeeds();
 
-    /** In their order. */
+    /** All checks, in order. */
     std::vector<ConformityCheck<3>*> All();
 
-    /** With the labels and pieces that the checks have found. */
+    /** Extracts the mesh with the labels and pieces that the checks have found. */
     void Extract(SimplexMesh<3>& mesh) const;
 
-    /** Improves shapes, if the options ask for it, and keeps components that the mesh has. */
+    /** Improves shapes if the options request it. Keeps the components that the mesh has. */
     void Optimise(SimplexMesh<3>& mesh) const;
 
   private:
     const RunEnvironment<3> Run;
     const Triangulation<3>& Source;
-    std::optional<ComponentCheck<3>> Components; ///< if they are looked after
+    std::optional<ComponentCheck<3>> Components; ///< empty if components are not checked
     InterfaceCheck Interfaces;
   };
 };
 
-/** Space-time: neither grading nor junctions, checks or optimisation yet. */
+/**
+ * The stages in space-time. There is no grading, no junctions, no checks and no optimisation yet.
+ */
 template <>
 struct Dimension<4>
 {
   using Rules = Rules4D;
   static constexpr unsigned SuccessesToWake = 2; ///< an operation takes ten times as long
-  static constexpr bool HasLocalBounds = false;  ///< no check lowers any
+  static constexpr bool HasLocalBounds = false;  ///< no check lowers local bounds
 
   static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
   {

@@ -59,8 +59,8 @@ MeshingOutcome ImageMesher<D>::Run(
 }
 
 //------------------------------------------------------------------------------------------------
-// The stages run on a thread of their own, so that the caller's thread can report at a steady pace
-// whatever they are doing.
+// The stages run on a separate thread, so that the caller's thread can report progress at a steady
+// pace.
 template <int D>
 bool ImageMesher<D>::RunReporting(
   const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop)
@@ -68,7 +68,7 @@ bool ImageMesher<D>::RunReporting(
   bool done = false;
   std::exception_ptr error;
   bool finished = false;
-  std::mutex mutex; // of finished
+  std::mutex mutex; // guards `finished`
   std::condition_variable changed;
   std::jthread worker(
     [&]
@@ -100,7 +100,7 @@ bool ImageMesher<D>::RunReporting(
       over = changed.wait_for(lock, Period, [&] { return finished; });
     }
   }
-  catch (...) // from the callback: the worker joins on the way out
+  catch (...) // from the callback; the worker is joined when the scope is left
   {
     stop.request_stop();
     throw;

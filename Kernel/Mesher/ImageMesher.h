@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ImageMesher.h
- * @brief The kernel's front door: a label image, or an isosurface, in, a simplex mesh out.
+ * @brief The entry point of the kernel: makes a simplex mesh of a label image or an isosurface.
  */
 #ifndef voxplex_ImageMesher_h
 #define voxplex_ImageMesher_h
@@ -32,8 +32,8 @@ enum class MeshingOutcome
 /**
  * @brief Meshes one label image, or the inside of an isosurface.
  *
- * Run() may be called repeatedly; distinct instances may run at the same time in one process. With
- * one thread the mesh is bit-for-bit reproducible.
+ * Run() may be called repeatedly. Distinct instances may run at the same time in one process. With
+ * one thread, the mesh is bit-for-bit reproducible.
  */
 template <int D>
 class ImageMesher
@@ -46,24 +46,25 @@ public:
 
   /**
    * Called from the thread that called Run(), at least ten times a second, with the fraction done
-   * (0 to 1, never decreasing). Returning false cancels the run; what it throws leaves Run().
+   * (0 to 1, never decreasing). If it returns false, the run is cancelled. If it throws, Run()
+   * throws the same exception.
    */
   std::function<bool(double fraction)> Progress;
 
   /**
-   * @param image label image; may be released by the caller after Run() returns
+   * @param image label image; the caller may release it after Run() returns
    * @param mesh receives the mesh; empty when cancelled
-   * @throws InputError, also if no delta was found that makes the elements asked for; TooLargeError,
+   * @throws InputError, also if no delta gives the requested number of elements; TooLargeError;
    *   std::bad_alloc
    */
   MeshingOutcome Run(const LabelImage<D>& image, SimplexMesh<D>& mesh);
-  /** The same for what an isosurface of a grey-value image bounds. */
+  /** As above, for the inside of an isosurface of a grey-value image. */
   MeshingOutcome Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh);
 
   const MeshingStatistics& Statistics() const { return this->Stats; }
 
 private:
-  /** @param isosurface of which `image` has the labels, or null */
+  /** @param isosurface the isosurface whose labels `image` has, or null */
   MeshingOutcome Run(
     const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
   bool RunReporting(

@@ -32,9 +32,9 @@ struct Calibration<3>
     0.65; ///< interface vertices per delta^(D-1) of interface
   static constexpr double ElementsPerInterfaceVertex = 4.7;
   static constexpr double ElementsPerBall = 5.0;    ///< elements per size^D of volume
-  static constexpr double VerticesPerElement = 0.3; ///< of the whole triangulation
+  static constexpr double VerticesPerElement = 0.3; ///< vertices of the whole triangulation
   static constexpr double BytesPerElement = 400.0;  ///< triangulation, output and its copy
-  /** What an interface of no preferred direction has of the area of its stairs. */
+  /** The area of an interface without a preferred direction, over the area of its stairs. */
   static constexpr double AreaPerStairs = 2.0 / 3.0;
 };
 
@@ -49,7 +49,10 @@ struct Calibration<4>
   static constexpr double AreaPerStairs = 0.589; // 3 pi / 16
 };
 
-/** Faces of voxels between different labels, by axis; the crop is closed by background, but for flat ends. */
+/**
+ * Counts voxel faces between different labels, by axis. Background closes the crop, except at flat
+ * ends.
+ */
 template <int D>
 std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
   const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
@@ -108,14 +111,14 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
   return result;
 }
 
-/** What a run of samples adds up to. */
+/** The sum over a range of samples. */
 struct BallCount
 {
   double Sum = 0.0; ///< of 1 / size^D
   double Smallest = std::numeric_limits<double>::infinity();
 };
 
-/** One voxel of the crop; nothing if it is background. */
+/** Adds one voxel of the crop, unless it is background. */
 template <int D>
 void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
   std::size_t voxel, BallCount& count)
@@ -141,12 +144,12 @@ void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double 
   }
 }
 
-/** Sum over the object of volume / size^D, sampled at some ten thousand voxels. */
+/** The sum of volume / size^D over the object, sampled at about ten thousand voxels. */
 template <int D>
 double BallsInObject(const LabelImage<D>& image, const SizeFunction<D>& size, double floor,
   double& smallest, unsigned threads, const std::stop_token& stop)
 {
-  constexpr std::size_t grain = 512; // fixed, so that the sum does not depend on the threads
+  constexpr std::size_t grain = 512; // fixed, so that the sum does not depend on threads
   const std::size_t voxels = image.Ids().size();
   const std::size_t step = std::max<std::size_t>(1, voxels / 50000);
   const std::size_t samples = (voxels - step / 2 + step - 1) / step;
@@ -205,7 +208,8 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
   MeshSizeEstimate estimate;
   if (size)
   {
-    // Where sizes are small the interface is sampled by them, and its elements are among these.
+    // Where sizes are small, they determine the sampling of the interface, and this sum includes
+    // its elements.
     elements += Constants::ElementsPerBall *
       BallsInObject(image, *size, sizeFloor, estimate.SmallestSize, threads, stop);
     estimate.SizesBelowFloor = estimate.SmallestSize < sizeFloor;
@@ -228,13 +232,13 @@ void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   }
   const double bytes = static_cast<double>(estimate.Bytes);
-  constexpr std::uint64_t MostElements = 1u << 31; // twice as many ids, and free ones besides
+  constexpr std::uint64_t MostElements = 1u << 31; // half of all ids; some ids are free
   if (bytes > available || estimate.Elements > MostElements)
   {
     throw TooLargeError("the mesh is estimated to have " +
       NumberText(static_cast<double>(estimate.Elements), 3) + " elements and to need " +
-      InUnits(bytes) + " of memory, of which there are " + InUnits(available) +
-      "; choose a larger delta or element size, or force it");
+      InUnits(bytes) + " of memory; " + InUnits(available) +
+      " are available; choose a larger delta or element size, or force it");
   }
 }
 

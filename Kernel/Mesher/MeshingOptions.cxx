@@ -24,7 +24,7 @@ void CheckSliverOptions(const SliverOptions& slivers, bool force)
   }
   if (!(slivers.RadiusFactor > 0.0) || std::isinf(slivers.RadiusFactor))
   {
-    throw InputError("the factor that tells small slivers must be positive; it is " +
+    throw InputError("the factor that identifies small slivers must be positive; it is " +
       NumberText(slivers.RadiusFactor));
   }
   if (slivers.Picks == 0)
@@ -69,7 +69,7 @@ void CheckGradingOptions(const GradingOptions& grading)
   if (!(grading.Ratio > 0.0) || std::isinf(grading.Ratio))
   {
     throw InputError(
-      "the ratio of the sampling density to the local feature size must be positive; it is " +
+      "the ratio of the sampling distance to the local feature size must be positive; it is " +
       NumberText(grading.Ratio));
   }
   if (!(grading.Lambda > 0.0) || std::isinf(grading.Lambda))
@@ -99,7 +99,7 @@ void CheckOptions(const MeshingOptions<D>& options)
   }
   if (options.Delta > 0.0 && options.Elements > 0)
   {
-    throw InputError("a number of elements is solved for delta: give one of the two");
+    throw InputError("give either delta or a number of elements, not both");
   }
   if (!(options.Gradation >= 0.0) || std::isinf(options.Gradation))
   {

@@ -22,20 +22,22 @@ namespace
 {
 
 /**
- * Meshes turn out this many times as large as estimated: with slivers split, and when these are left to
+ * The number of elements over the estimated number: with slivers split, and with slivers left to
  * optimisation. The first sampling distance of a search follows from it.
  */
 constexpr double ElementsPerEstimated = 1.12;
 constexpr double OptimisedPerEstimated = 1.0;
 
-/** No delta is tried with which a mesh that is not graded would have more than this times the elements asked for. */
+/**
+ * A delta is not tried if an ungraded mesh would have more than this times the requested elements.
+ */
 constexpr double LargestExcess = 16.0;
 
-/** Of the elements that refinement made, optimisation leaves this part; the search plans with it. */
+/** The fraction of the elements that optimisation leaves. The search plans with it. */
 constexpr double ElementsLeftByOptimisation = 0.96;
 
 //------------------------------------------------------------------------------------------------
-/** Looks for the delta that makes a number of elements. */
+/** Searches the delta that gives the requested number of elements. */
 template <int D>
 class ElementTarget
 {
@@ -47,8 +49,9 @@ public:
   }
 
   /**
-   * Keeps the mesh that comes nearest. False if stopped.
-   * @throws InputError if no delta makes about as many elements as asked for
+   * Keeps the mesh nearest to the requested number of elements.
+   * @return false if stopped
+   * @throws InputError if no delta gives about the requested number
    */
   bool Mesh(SimplexMesh<D>& mesh)
   {
@@ -89,8 +92,9 @@ public:
 
 private:
   /**
-   * The first guess is from the estimate of the size of the mesh with the default delta, not graded. No delta is tried
-   * that would raise sizes (SizingField::SizeFloor) that the default does not raise.
+   * The first guess is computed from the estimated size of the ungraded mesh with the default
+   * delta. A delta is not tried if it would raise sizes (SizingField::SizeFloor) that the default
+   * delta does not raise.
    */
   DeltaSearch StartSearch() const
   {
@@ -111,7 +115,10 @@ private:
       std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
   }
 
-  /** The number if the mesh is optimised; it is, if it may be the one that was asked for. */
+  /**
+   * The expected number of elements after optimisation. A mesh is optimised if it may be the
+   * result.
+   */
   std::uint64_t ExpectedElements(const SimplexMesh<D>& mesh) const
   {
     const auto elements = static_cast<double>(mesh.Simplices.size());

@@ -20,12 +20,13 @@ namespace voxplex
 {
 
 /**
- * Prepare() once; then MeshWithDelta(), with the sampling distance of the options, or with one after the other until there
- * are as many elements as the options ask for (DeltaSearch).
+ * Calls Prepare() once. Then calls MeshWithDelta() with the sampling distance of the options. If
+ * the options request a number of elements, tries several sampling distances until it is met
+ * (DeltaSearch).
  *
- * @param isosurface what is meshed, or null to mesh the labels alone
- * @param statistics has what is known before: the sampling distance, if no number of elements is asked for
- * @param progress may be asked from another thread meanwhile
+ * @param isosurface the isosurface to mesh, or null to mesh the labels alone
+ * @param statistics must have the sampling distance, unless a number of elements is requested
+ * @param progress other threads may read it during the run
  * @return false if stopped
  * @throws InputError, TooLargeError, std::bad_alloc as ImageMesher::Run()
  */

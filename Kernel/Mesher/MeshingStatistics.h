@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingStatistics.h
- * @brief What a run did: counts, times, predicates.
+ * @brief Statistics of a run: counts, times, predicates.
  */
 #ifndef voxplex_MeshingStatistics_h
 #define voxplex_MeshingStatistics_h
@@ -26,7 +26,7 @@ struct StageTimes
   double DistanceTransform = 0.0; ///< surface voxels and feature transform
   double Grading = 0.0;           ///< local feature sizes
   double Components = 0.0;        ///< connected components, before and after refinement
-  double Interfaces = 0.0;        ///< junctions, and looking at the mesh's interfaces
+  double Interfaces = 0.0;        ///< junctions, and checks of the mesh's interfaces
   double Refinement = 0.0;
   double Extraction = 0.0;
   double Optimisation = 0.0;
@@ -37,7 +37,9 @@ struct StageTimes
   }
 };
 
-/** What optimisation after refinement did. Angles are in degrees; "poor" is what is out of bounds. */
+/**
+ * Results of optimisation after refinement. Angles are in degrees. Poor elements violate a bound.
+ */
 struct OptimisationSummary
 {
   bool Ran = false;
@@ -50,7 +52,7 @@ struct OptimisationSummary
   std::uint64_t PoorAfter = 0;
 };
 
-/** One refinement in the search for a delta that makes a number of elements. */
+/** One refinement in the search for the delta that gives a requested number of elements. */
 struct MeshingRun
 {
   double Delta = 0.0;
@@ -58,13 +60,14 @@ struct MeshingRun
 };
 
 /**
- * Where refinement took many times the work that regions need and rules gave way (RegionalWork): 1: slivers stay, 2: also
- * facets of interfaces may be out of bounds, 3: also ratios and sizes of elements.
+ * A region where refinement took many times the expected work, so that rules were relaxed
+ * (RegionalWork). Step 1: slivers stay. Step 2: facets of interfaces may also violate bounds. Step
+ * 3: ratios and sizes of elements may, too.
  */
 struct YieldingReport
 {
   unsigned Step = 0;
-  std::vector<std::int64_t> Voxel; ///< the index of a voxel there, in the whole image
+  std::vector<std::int64_t> Voxel; ///< the index of a voxel of the region, in the whole image
 };
 
 struct MeshingStatistics
@@ -77,25 +80,25 @@ struct MeshingStatistics
   BalancePolicy Balance = BalancePolicy::Hierarchical;
   /** A non-blocking contention manager made no progress and was replaced by the local one. */
   bool SwitchedToLocal = false;
-  double SeedingSeconds =
-    0.0;                     ///< part of Times.Refinement: the start, before all threads have work
-  double Delta = 0.0;        ///< the delta that was used, in the image's unit of length
-  double LargestDelta = 0.0; ///< the largest Delta(z): not Delta if graded, or with interface sizes
+  double SeedingSeconds = 0.0; ///< part of Times.Refinement: the start, until all threads have work
+  double Delta = 0.0;          ///< the delta that was used, in the image's unit of length
+  double LargestDelta = 0.0; ///< the largest Delta(z); Delta unless graded or with interface sizes
   double SmoothingSigma = 0.0;        ///< voxels
   std::uint64_t ElementsAskedFor = 0; ///< MeshingOptions::Elements
-  /** If a number of elements was asked for: all runs, of which one made the mesh (Delta). Else empty. */
+  /**
+   * If a number of elements was requested, all runs; one of them made the mesh (Delta). Else empty.
+   */
   std::vector<MeshingRun> Runs;
-  std::uint64_t GradingSamples = 0; ///< interface points by which local feature sizes were measured
-  std::uint64_t GradingPoles = 0;   ///< points of the medial axis that these gave
+  std::uint64_t GradingSamples = 0; ///< interface points used to measure local feature sizes
+  std::uint64_t GradingPoles = 0;   ///< points of the medial axis derived from them
   std::uint64_t EstimatedElements = 0;
   ComponentStatistics Components;
   InterfaceStatistics Interfaces;
   OptimisationSummary Optimisation;
-  std::vector<YieldingReport>
-    Yielding;                 ///< the steps of each region, in the order in which they were taken
-  double SizesRaisedTo = 0.0; ///< the floor of sizes, if some were below it; else 0
-  std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
-  std::uint64_t DistanceBytes = 0;   ///< feature transform
+  std::vector<YieldingReport> Yielding; ///< the steps of all regions, in the order they were taken
+  double SizesRaisedTo = 0.0;           ///< the floor of sizes if some sizes were below it, else 0
+  std::uint64_t LabelFieldBytes = 0;    ///< dense labels and smoothed values
+  std::uint64_t DistanceBytes = 0;      ///< feature transform
 };
 
 } // namespace voxplex

@@ -16,7 +16,7 @@ namespace voxplex
 namespace
 {
 
-/** Two interfaces meet in a curve in three dimensions only. */
+/** Finds junctions. Only in three dimensions do interfaces meet in curves. */
 template <typename Field>
 void FindJunctions(const ImageDomain<3, Field>& domain, const MeshingOptions<3>& options,
   std::optional<JunctionCurves>& junctions, MeshingStatistics& statistics,
@@ -40,7 +40,7 @@ void FindJunctions(const ImageDomain<4, Field>&, const MeshingOptions<4>&,
 {
 }
 
-/** Takes a domain, and does what depends on the kind of its field. */
+/** Stores a domain, and computes everything that depends on the type of its field. */
 template <int D, typename Field>
 void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
   const MeshingOptions<D>& options, PreparedImage<D>& prepared, MeshingStatistics& statistics,

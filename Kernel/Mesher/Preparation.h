@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Preparation.h
- * @brief The first stage of a run: what does not depend on the sampling distance.
+ * @brief The first stage of a run, which does not depend on the sampling distance.
  */
 #ifndef voxplex_Preparation_h
 #define voxplex_Preparation_h
@@ -24,23 +24,23 @@
 namespace voxplex
 {
 
-/** Not changed by the stages that follow. */
+/** The result of Prepare(). Later stages do not change it. */
 template <int D>
 struct PreparedImage
 {
   const LabelImage<D>& Image;
   std::unique_ptr<const Domain<D>> Surfaces;
   const BitMask<D>* Sites;                     ///< surface voxels of the domain
-  std::optional<JunctionCurves> Junctions;     ///< none if they are not sampled
-  std::optional<Components<D>> AllComponents;  ///< none if they are not looked after
+  std::optional<JunctionCurves> Junctions;     ///< empty if junctions are not sampled
+  std::optional<Components<D>> AllComponents;  ///< empty if components are not checked
   std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
 };
 
 /**
  * Makes the domain, finds junctions and components, and limits the growth of element sizes.
  *
- * @param image must live as long as the result, and so must the isosurface
- * @param isosurface what is meshed, or null to mesh the labels alone
+ * @param image must outlive the result, and so must the isosurface
+ * @param isosurface the isosurface to mesh, or null to mesh the labels alone
  * @param statistics receives times, numbers and bytes
  * @throws InputError if the image has grey values (CheckSegmented); Cancelled; std::bad_alloc
  */

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RunProgress.h
- * @brief How far a run is.
+ * @brief The progress of a run.
  */
 #ifndef voxplex_RunProgress_h
 #define voxplex_RunProgress_h
@@ -13,20 +13,23 @@
 namespace voxplex
 {
 
-/** What the stages of a run share with the thread that reports. A run may refine several times. */
+/**
+ * Progress that the stages of a run share with the reporting thread. A run may refine several
+ * times.
+ */
 class RunProgress
 {
 public:
-  /** 0 to 1. Safe to ask for from any thread. */
+  /** The fraction done, 0 to 1. May be called from any thread. */
   double Fraction() const { return this->Reached.load(); }
 
   void EndPreparation() { this->Reached = this->Start; }
 
-  /** One more mesh is made, of an unknown number. */
+  /** Begins another mesh, if the number of meshes is unknown. */
   void BeginOneOfSeveral() { this->End = this->Start + ShareOfOne * (RefinementEnd - this->Start); }
   void EndOneOfSeveral() { this->Start = this->End; }
 
-  /** @param part of the refinement, about; it may be larger than 1 */
+  /** @param part the approximate fraction of the refinement that is done; may be larger than 1 */
   void Refine(double part)
   {
     this->Reached = this->Start + (this->End - this->Start) * std::min(LargestPart, part);
@@ -36,12 +39,12 @@ public:
 private:
   static constexpr double PreparationEnd = 0.2;
   static constexpr double RefinementEnd = 0.95;
-  /** Each of several meshes takes this share of what is left. */
+  /** If there are several meshes, each takes this share of the remaining progress. */
   static constexpr double ShareOfOne = 0.6;
   static constexpr double LargestPart = 0.98;
 
   std::atomic<double> Reached{ 0.0 };
-  double Start = PreparationEnd; ///< of the refinement
+  double Start = PreparationEnd; ///< of the current refinement
   double End = RefinementEnd;
 };
 

@@ -11,9 +11,9 @@ namespace voxplex
 namespace
 {
 
-/** Scores have to grow by this factor, so that flips end. */
+/** Scores must grow by this factor, so that flipping terminates. */
 constexpr double LeastGain = 1.05;
-/** Nothing flatter than this is made, so that all is positively oriented whatever the rounding. */
+/** The smallest score of new tetrahedra. They are positively oriented in spite of rounding. */
 constexpr double LeastScore = 1e-6;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ double Flips::ScoreOf(std::span<const std::uint32_t> cells) const
 void Flips::Consider(double before)
 {
   this->Current.Gain = std::min(1.0, this->Current.Score) - before;
-  // Of two that are as good, the one that leaves interfaces alone.
+  // If two plans are equally good, prefer the one that does not change interfaces.
   if (this->Current.Gain > this->Best.Gain ||
     (this->Current.Gain > 0.0 && this->Current.Gain == this->Best.Gain && this->Best.OnInterface &&
       !this->Current.OnInterface))
@@ -101,7 +101,7 @@ void Flips::ConsiderFacet(std::uint32_t t, unsigned i)
   plan.Score = 1.0;
   for (unsigned k = 0; k < 3; ++k)
   {
-    // (v1, v2, v3) are clockwise as seen from p.
+    // (v1, v2, v3) are clockwise when seen from p.
     const TetrahedralComplex::Vertices fresh = { v[1 + (k + 1) % 3], v[1 + k], q, p };
     plan.Score = std::min(plan.Score, mesh.Score(fresh));
     if (plan.Score < floor)
@@ -127,7 +127,7 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
   const double before = this->ScoreOf(ring.Cells);
   const double floor = std::max(LeastScore, std::max(before * LeastGain, before + this->Best.Gain));
 
-  // Runs of one label: the ring is turned so that the first run begins with its first cell.
+  // Rotate the ring so that a run of one label begins with the first cell.
   const std::size_t cells = ring.Cells.size();
   const auto labelAt = [&](std::size_t k) { return mesh.Labels[ring.Cells[k % cells]]; };
   std::size_t changes = 0;
@@ -142,7 +142,7 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
   }
   if (changes > (ring.Closed ? 2u : 0u))
   {
-    return; // three or more regions meet here, or the interface is not a manifold
+    return; // three or more regions meet here, or the interface is not manifold
   }
   const bool onInterface = !ring.Closed || changes == 2;
   std::size_t firstRun = cells;
@@ -197,7 +197,10 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Klincsek's recursion; returns less than `floor` if there is no triangulation as good as that. */
+/**
+ * Klincsek's recursion. Returns less than `floor` if no triangulation has this score or a better
+ * one.
+ */
 double Flips::Triangulate(
   std::span<const std::uint32_t> chain, TetrahedralComplex::Label label, double floor)
 {
@@ -261,7 +264,8 @@ void Flips::Emit(std::span<const std::uint32_t> chain, TetrahedralComplex::Label
 
 //------------------------------------------------------------------------------------------------
 /**
- * Whether the interface edge of Ring, between c = Link[0] and d = Link[firstRun], may be flipped to cd.
+ * Whether the interface edge of Ring, between c = Link[0] and d = Link[firstRun], may be flipped to
+ * cd.
  */
 bool Flips::MayFlipInterface(std::size_t firstRun)
 {
@@ -303,16 +307,17 @@ bool Flips::MayFlipInterface(std::size_t firstRun)
   if (!ring.Closed && firstRun > 1 &&
     (SignedVolume<3>(std::array{ &a, &b, &pc, &pd }.data()) < 0.0 || this->MayBeEdge(c, d)))
   {
-    return false; // would fill what is background, or take the triangles of another part that touches this one
+    return false; // would fill background, or use triangles of another part that touches this one
   }
-  // cd must not be on an interface already. It is an edge already only if a label has one cell here. If it has
-  // more, acd or bcd can be a facet already only if a, or b, has three interface triangles; a new
-  // tetrahedron would then be one that exists, turned inside out, and scores accordingly.
+  // cd must not be on an interface already. cd can be an edge already only if a label has one cell
+  // here. If the label has more cells, acd or bcd can be a facet already only if a or b has three
+  // interface triangles. Then a new tetrahedron would be an existing one with inverted orientation,
+  // and its score would be negative.
   return (firstRun > 1 || !this->IsInterfaceEdge(ring.Cells[0], c, d)) &&
     (!ring.Closed || firstRun + 1 < cells || !this->IsInterfaceEdge(ring.Cells[firstRun], c, d));
 }
 
-/** Whether two vertices are joined; also true if that cannot be told. */
+/** Whether two vertices are joined by an edge. True if this cannot be determined. */
 bool Flips::MayBeEdge(std::uint32_t a, std::uint32_t b)
 {
   return !this->Target.GatherStar(a, this->Star) ||
@@ -321,7 +326,7 @@ bool Flips::MayBeEdge(std::uint32_t a, std::uint32_t b)
       { return std::find(v.begin(), v.end(), b) != v.end(); });
 }
 
-/** Whether an edge of t is on an interface; also true if that cannot be told. */
+/** Whether an edge of t is on an interface. True if this cannot be determined. */
 bool Flips::IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -418,7 +423,8 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
       }
     }
   }
-  // No pinch at a vertex, and the label goes on near all that it had before, or elsewhere near t.
+  // At no vertex may a label get more pieces than before, and the old label must remain at a vertex
+  // of t.
   bool goesOn = false;
   for (const std::uint32_t v : cell.V)
   {
@@ -453,7 +459,7 @@ unsigned Flips::BorderFacesOfFacet(std::uint32_t t, unsigned i) const
     mesh.BorderFacesOf(v[(i + 3) & 3]);
 }
 
-/** Of the smallest angle of facet i of t. */
+/** The cosine of the smallest angle of facet i of t. */
 double Flips::CosineOfFacet(std::uint32_t t, unsigned i) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -461,7 +467,7 @@ double Flips::CosineOfFacet(std::uint32_t t, unsigned i) const
     mesh.PointOf(t, (i + 1) & 3), mesh.PointOf(t, (i + 2) & 3), mesh.PointOf(t, (i + 3) & 3));
 }
 
-/** Whether the facets of t that a label is across of make no larger angle than a crease. */
+/** Whether the facets of t towards a label make no larger angle than a crease. */
 bool Flips::IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -489,7 +495,10 @@ bool Flips::IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) cons
   return true;
 }
 
-/** Whether labels change around an edge of t as often as before, or twice, if t gets another label. */
+/**
+ * Whether labels change around an edge of t at most as often as before, or twice, if t gets another
+ * label.
+ */
 bool Flips::EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -511,14 +520,17 @@ bool Flips::EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralCo
   }
   if (!ring.Closed && label == 0)
   {
-    // At either end of the ring t joins background.
+    // If t is at an end of the ring, it joins background there.
     after -= ring.Cells.front() == t ? 1 : 0;
     after -= ring.Cells.back() == t ? 1 : 0;
   }
   return after <= std::max(before, 2u);
 }
 
-/** Pieces, joined by facets, of a label in Star, with t taken to have the label ofT. */
+/**
+ * The number of pieces of a label in Star if t has the label ofT. A piece is connected through
+ * facets.
+ */
 std::size_t Flips::PiecesInStar(
   std::uint32_t t, TetrahedralComplex::Label ofT, TetrahedralComplex::Label label)
 {

@@ -19,7 +19,7 @@
 namespace voxplex
 {
 
-/** What has been done. */
+/** Counts of changes. */
 struct FlipStatistics
 {
   FlipStatistics& operator+=(const FlipStatistics& other)
@@ -34,25 +34,26 @@ struct FlipStatistics
 
   std::uint64_t FacetFlips = 0;
   std::uint64_t EdgeRemovals = 0;
-  std::uint64_t InterfaceFlips = 0; ///< edge removals whose edge lay on an interface
-  std::uint64_t Relabelled = 0;     ///< tetrahedra that went to a neighbour's label
-  std::uint64_t Dropped = 0;        ///< tetrahedra on the mesh's boundary that were left out
+  std::uint64_t InterfaceFlips = 0; ///< edge removals at edges on an interface
+  std::uint64_t Relabelled = 0;     ///< tetrahedra that got the label of a neighbour
+  std::uint64_t Dropped = 0;        ///< tetrahedra on the mesh's boundary that were removed
 };
 
 /**
- * @brief Flips: edge removal, on interfaces also, and the flip of a facet into an edge.
+ * @brief Flips: edge removal, including edges on interfaces, and the flip of a facet into an edge.
  *
- * Edge removal takes the tetrahedra around an edge ab out and fills the hole with pairs of tetrahedra, one
- * with a and one with b, over the triangles of a triangulation of the polygon around the edge; the best
- * triangulation is found by dynamic programming (Klincsek, Minimal triangulations of polygonal domains,
- * 1980; Freitag and Ollivier-Gooch 1997). For rings of three and four these are the 3-2 and 4-4 flips.
+ * Edge removal deletes the tetrahedra around an edge ab. The polygon around the edge is
+ * triangulated, and the hole is filled with two tetrahedra for each triangle, one with a and one
+ * with b. The best triangulation is found by dynamic programming (Klincsek, Minimal triangulations
+ * of polygonal domains, 1980; Freitag and Ollivier-Gooch 1997). For rings of three and four
+ * tetrahedra, these are the 3-2 and 4-4 flips.
  *
- * Where ab is an edge of the interface of two labels, between the triangles abc and abd, each label fills
- * its own polygon, which has the edge cd: the interface flips to acd and bcd, and the volume of abcd
- * changes its label. That is how slivers die that have two facets on an interface: their label's
- * polygon is just the edge cd, so nothing is left of them. With background on the other side the sliver
- * is left out of the mesh. The interface stays a manifold where it was one, labels keep their number of
- * pieces, and InterfaceRules hold.
+ * If ab is an edge of the interface of two labels, between the triangles abc and abd, each label
+ * fills its own polygon, which has the edge cd. The interface flips to acd and bcd, and the volume
+ * of abcd changes its label. This removes slivers that have two facets on an interface: the polygon
+ * of their label is only the edge cd, so no tetrahedron replaces them. If background is on the
+ * other side, the sliver is removed from the mesh. The interface stays manifold where it was
+ * manifold, labels keep their number of pieces, and InterfaceRules hold.
  */
 class Flips
 {
@@ -63,14 +64,15 @@ public:
   {
   }
 
-  /** Does what raises the smallest score around t most; false if nothing does. */
+  /** Makes the change that raises the smallest score around t most; false if there is none. */
   bool Improve(std::uint32_t t);
 
   /**
-   * A last means for a flat tetrahedron with two or more facets on interfaces: gives it to the label across
-   * two of them, if the flips around it can then get rid of it; false if not. The interface may
-   * not get more places where it is not a manifold than it has, no label loses its last tetrahedron
-   * around a vertex unless others of it are near, and InterfaceRules hold for new triangles.
+   * The last resort for a flat tetrahedron with two or more facets on interfaces: gives it to the
+   * label across two of them, if a flip around it then helps. If that label is background, drops
+   * it. Returns false if neither is possible. The change must not make the interface non-manifold
+   * at further places. A label may lose its last tetrahedron around a vertex only if other
+   * tetrahedra of the label are near. InterfaceRules hold for new triangles.
    */
   bool ImproveByRelabelling(std::uint32_t t);
 
@@ -79,11 +81,11 @@ public:
 private:
   static constexpr std::size_t LongestRing = 10;
 
-  /** A way to fill a hole, and how good it is. */
+  /** A way to fill a hole, and its quality. */
   struct Plan
   {
-    double Score = 0.0; ///< the smallest after, up to 1
-    double Gain = 0.0;  ///< of the smallest score, up to 1
+    double Score = 0.0; ///< the smallest score afterwards, up to 1
+    double Gain = 0.0;  ///< the gain in the smallest score, up to 1
     std::vector<std::uint32_t> Old;
     std::vector<NewTetrahedron> Fresh;
     bool OnInterface = false;

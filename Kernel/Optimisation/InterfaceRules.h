@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceRules.h
- * @brief What optimisation may do to the triangles between two labels.
+ * @brief Rules for changes of the triangles between two labels.
  */
 #ifndef voxplex_InterfaceRules_h
 #define voxplex_InterfaceRules_h
@@ -16,11 +16,13 @@
 namespace voxplex
 {
 
-/** Bounds that a change of an interface has to keep; what breaks one already may not get worse. */
+/**
+ * Bounds on changes of an interface. A triangle that already violates a bound must not get worse.
+ */
 struct InterfaceRules
 {
   double FacetCosine;    ///< of the smallest planar angle
-  double JunctionCosine; ///< the same where three or more labels meet at a vertex
+  double JunctionCosine; ///< the same, if three or more labels meet at a vertex of the triangle
   double CreaseCosine; ///< of the largest angle between two triangles whose common edge is flipped
 
   InterfaceRules(double facetAngle, double junctionAngle, double creaseAngle)
@@ -32,8 +34,8 @@ struct InterfaceRules
 };
 
 /**
- * What triangles may be like that take the place of others in an interface. Angles may be as small as those that
- * were there, but off junctions only as those were that were off junctions, too.
+ * Bounds for triangles that replace others in an interface. A new angle may be as small as the
+ * replaced ones. Off junctions, only replaced triangles off junctions count.
  */
 class FacetBounds
 {
@@ -44,13 +46,13 @@ public:
   {
   }
 
-  /** A triangle that goes, by the cosine of its smallest angle. */
+  /** Adds a replaced triangle. @param cosine of its smallest angle */
   void Replace(double cosine, bool isAtJunction)
   {
     this->LargestJunctionCosine = std::max(this->LargestJunctionCosine, cosine);
     this->LargestCosine = std::max(this->LargestCosine, isAtJunction ? -1.0 : cosine);
   }
-  /** Whether a triangle may come. */
+  /** Whether a new triangle is allowed. @param cosine of its smallest angle */
   bool Allow(double cosine, bool isAtJunction) const
   {
     return cosine <= (isAtJunction ? this->LargestJunctionCosine : this->LargestCosine);
@@ -67,7 +69,7 @@ inline double CosineOfSmallestAngle(const Point<3>& a, const Point<3>& b, const 
   const double ab = Distance2(a, b);
   const double bc = Distance2(b, c);
   const double ca = Distance2(c, a);
-  // It lies opposite to the shortest edge.
+  // The smallest angle is opposite to the shortest edge.
   const double shortest = std::min({ ab, bc, ca });
   const double product = shortest == ab ? bc * ca : shortest == bc ? ab * ca : ab * bc;
   return (ab + bc + ca - 2.0 * shortest) / (2.0 * std::sqrt(product));

@@ -27,24 +27,29 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t SurveyGrain = 16384;
-/** Vertices of a block: the more, the fewer tetrahedra lie between blocks. */
+/** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
 constexpr std::size_t VerticesOfBlock = 4000;
 constexpr std::size_t MostBlocks = 256;
-/** Passes over one block; what becomes poor is worked on in the same pass, so more are seldom needed. */
+/**
+ * Passes over one block. A pass also works on tetrahedra that become poor in it, so more passes are
+ * seldom needed.
+ */
 constexpr unsigned PassesOfBlock = 4;
-/** Passes with each effort over the whole, at most. */
+/** The largest number of passes over the whole mesh with each effort. */
 constexpr unsigned MostPasses = 12;
-/** How often room is made around what is left; and how many tetrahedra away. */
+/**
+ * How many times room is made around the remaining poor tetrahedra, and within how many tetrahedra.
+ */
 constexpr unsigned RoundsOfRoom = 3;
 constexpr unsigned RingsOfRoom = 3;
-/** By how much bounds of angles are tightened there, and by how much more each time. */
+/** The factor that tightens bounds of angles there, and its growth at each round. */
 constexpr double TighterBounds = 1.2;
 constexpr double TighterEachRound = 0.1;
 
-/** How often all is done again for the sake of what should have stayed. */
+/** The largest number of attempts because of tetrahedra that should have stayed. */
 constexpr unsigned MostAttempts = 8;
 
-/** What ShapeScore takes. */
+/** The limits of ShapeScore. */
 constexpr double LargestLowerBound = 59.0;
 constexpr double SmallestUpperBound = 91.0;
 
@@ -103,7 +108,8 @@ public:
       }
     }
     const auto cells = static_cast<std::uint32_t>(this->Mesh.Cells.size());
-    // Edge removal needs slots of its own for rings of six and more. It mostly frees some.
+    // Edge removal needs additional slots for rings of six and more. Otherwise it mostly frees
+    // slots.
     this->Mesh.AddCells(this->Poor.size() + 64 * MostBlocks);
     for (auto slot = static_cast<std::uint32_t>(this->Mesh.Cells.size()); slot-- > cells;)
     {
@@ -129,7 +135,7 @@ public:
 private:
   using Blocks = std::vector<std::uint32_t>;
 
-  /** Blocks of vertices that follow each other: compact where points are sorted along a curve. */
+  /** Blocks of consecutive vertices. They are compact if points are sorted along a curve. */
   Blocks BlocksByOrder(std::size_t number) const
   {
     Blocks blocks(this->Mesh.Points.size());
@@ -190,7 +196,7 @@ private:
       slots[k * number / this->Slots.size()].push_back(this->Slots[k]);
     }
     std::vector<std::uint32_t> clocks(number, this->LastClock);
-    std::mutex mutex; // of the statistics
+    std::mutex mutex; // guards the statistics
     ParallelFor(
       0, number, 1, this->Threads,
       [&](std::size_t b, std::size_t)
@@ -222,7 +228,7 @@ private:
       this->Slots.insert(this->Slots.end(), slots[b].begin(), slots[b].end());
       this->Poor.insert(this->Poor.end(), poor[b].begin(), poor[b].end());
     }
-    // A tetrahedron between blocks may have been mended from one of them, or its slot be another's now.
+    // A block may have improved a tetrahedron between blocks, or its slot may hold another one now.
     std::sort(this->Poor.begin(), this->Poor.end());
     this->Poor.erase(std::unique(this->Poor.begin(), this->Poor.end()), this->Poor.end());
     std::erase_if(this->Poor,
@@ -236,7 +242,10 @@ private:
   }
 
   //----------------------------------------------------------------------------------------------
-  /** One thread, with growing effort; then with room around what is left. */
+  /**
+   * One thread works on the whole mesh, with growing effort; then it makes room around the
+   * remaining poor tetrahedra.
+   */
   void WorkOnAll()
   {
     const std::size_t points = this->Mesh.Points.size();
@@ -271,7 +280,7 @@ private:
     this->Count(worker);
   }
 
-  /** Passes until nothing gets better. */
+  /** Makes passes until nothing gets better. */
   void WorkWith(Effort effort, PatchWorker& worker)
   {
     if (effort == Effort::MovesOffInterfaces && !(this->Options.InterfaceTolerance > 0.0))
@@ -293,7 +302,7 @@ private:
     }
   }
 
-  /** Improves tetrahedra around poor ones beyond their bounds, so that these can change. */
+  /** Improves tetrahedra around poor ones beyond their bounds, so that the poor ones can change. */
   void MakeRoom(PatchWorker& worker, double tighter)
   {
     const ShapeScore usual = this->Mesh.Shape;
@@ -328,7 +337,7 @@ private:
       this->Limits.Stop);
   }
 
-  /** These, and those with a vertex of one of them, and so on. */
+  /** The cells, and those that share a vertex with them, repeated RingsOfRoom times. */
   std::vector<std::uint32_t> CellsAround(std::vector<std::uint32_t> cells) const
   {
     std::vector<bool> reached(this->Mesh.Points.size());
@@ -379,7 +388,7 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-/** The angle whose cosine times its absolute value this is. */
+/** The angle, from its cosine times the absolute value of the cosine. */
 double AngleOf(double signedSquare)
 {
   const double cosine = std::copysign(std::sqrt(std::abs(signedSquare)), signedSquare);

@@ -26,25 +26,35 @@ namespace voxplex
 /** Angles are in degrees, lengths in the mesh's unit. */
 struct OptimisationOptions
 {
-  /** Bounds of tetrahedra: what breaks one is worked on. Dihedral angles: 0 < smallest < 60, 90 < largest < 180. */
+  /**
+   * Bounds of dihedral angles. Tetrahedra that violate a bound are improved. 0 < smallest < 60, 90
+   * < largest < 180.
+   */
   double SmallestDihedralAngle = 15.0;
   double LargestDihedralAngle = 155.0;
-  /** What breaks the bound of a ratio is worked on; interface triangles that break theirs already do not get worse. */
+  /**
+   * Tetrahedra that violate the bound of the ratio are improved. Interface triangles that already
+   * violate their bound do not get worse.
+   */
   ShapeBounds Shape{ .RadiusEdgeRatio = 2.5 };
   /** Interface edges are flipped only between triangles that make at most this angle. */
   double CreaseAngle = 30.0;
   /**
-   * How far vertices on interfaces may leave them as a last means, which ones on junctions cannot otherwise
-   * move by. A tenth of a voxel is a good value; 0 means not at all.
+   * How far vertices may be moved off interfaces as a last resort. Vertices on junctions cannot
+   * move in any other way. A tenth of a voxel is a good value; 0 means not at all.
    */
   double InterfaceTolerance = 0.0;
 
-  /** Work ends after about so many seconds, with what was reached by then; 0 means no limit. */
+  /**
+   * The time limit in seconds, kept approximately. The mesh reached by then is the result. 0: no
+   * limit.
+   */
   double Seconds = 0.0;
 
   /**
-   * Is asked when the work is done, with what has become of the mesh: which tetrahedra of the mesh before should have
-   * stayed as they were. If there are any the work is done again without changing these; at last not at all. May be empty.
+   * Called with the resulting mesh. Returns the tetrahedra of the original mesh that should have
+   * been left unchanged. If there are any, optimisation starts again and leaves these unchanged.
+   * After a limited number of attempts, the mesh is not optimised at all. May be empty.
    */
   std::function<std::vector<std::uint32_t>(const SimplexMesh<3>& result)> ShouldHaveStayed;
 };
@@ -55,12 +65,12 @@ struct ShapeStatistics
   /** Bins of histograms, each 5 degrees wide. */
   static constexpr std::size_t NumberOfBins = 36;
 
-  double SmallestDihedralAngle = 180.0; ///< degrees; as it is here if there are no tetrahedra
-  double LargestDihedralAngle = 0.0;    ///< the same
-  double LargestRadiusEdgeRatio = 0.0;  ///< the same; infinite if one is flat
-  std::uint64_t Poor = 0;               ///< tetrahedra that break a bound
+  double SmallestDihedralAngle = 180.0; ///< degrees; 180 if there are no tetrahedra
+  double LargestDihedralAngle = 0.0;    ///< degrees; 0 if there are no tetrahedra
+  double LargestRadiusEdgeRatio = 0.0;  ///< infinite if a tetrahedron is flat; 0 if there are none
+  std::uint64_t Poor = 0;               ///< tetrahedra that violate a bound
   std::array<std::uint64_t, NumberOfBins> SmallestAngles{}; ///< tetrahedra by their smallest angle
-  std::array<std::uint64_t, NumberOfBins> LargestAngles{};  ///< and by their largest
+  std::array<std::uint64_t, NumberOfBins> LargestAngles{};  ///< tetrahedra by their largest angle
 };
 
 struct OptimisationStatistics
@@ -69,33 +79,41 @@ struct OptimisationStatistics
   ShapeStatistics After;
   FlipStatistics Flips;
   SmoothingStatistics Smoothing;
-  std::uint32_t Passes = 0; ///< over what is poor
+  std::uint32_t Passes = 0; ///< over the poor tetrahedra
   bool OutOfTime = false;
   double Seconds = 0.0;
 };
 
 /**
- * Brings all tetrahedra within the bounds of shape where it can: flips (Flips), smoothing (Smoother), and,
- * for what is left, changes of labels of slivers between labels, insertion of vertices inside labels, and
- * small moves of vertices on interfaces. Where that does not do, tetrahedra around are first improved beyond the bounds,
- * which makes room.
+ * Brings tetrahedra within the shape bounds where possible. It uses flips (Flips) and smoothing
+ * (Smoother). For the remaining poor tetrahedra, it changes the labels of slivers between labels,
+ * inserts vertices inside labels, and moves vertices on interfaces by small distances. If that does
+ * not help, tetrahedra around are first improved beyond the bounds, which makes room.
  *
- * Only poor tetrahedra are worked on, and a change is made only if the smallest score (ShapeScore) of
- * what it touches grows, so the worst shape of the mesh never gets worse. Kept are: conformity, positive
- * orientation, every label, the pieces of each label but for single tetrahedra, planar angles of interfaces,
- * and where interfaces are: vertices on them move only along them (but for InterfaceTolerance), and their triangles
- * change only where they are nearly flat. A mesh without poor tetrahedra is left as it is, bit for
- * bit; otherwise points that are used keep their order, and new ones come last.
+ * Only poor tetrahedra are improved. A change is made only if the smallest score (ShapeScore) of
+ * the changed tetrahedra grows, so the worst shape of the mesh never gets worse. Optimisation keeps
+ * - conformity, positive orientation and every label;
+ * - the connected pieces of each label, except single tetrahedra;
+ * - the bounds of planar angles of interfaces;
+ * - the position of interfaces: vertices on them move only along them (except by
+ *   InterfaceTolerance), and their triangles change only where they are nearly flat.
  *
- * Most of the work is done in blocks of vertices, each by one thread, with other blocks in each round;
- * the rest by one thread. Blocks do not depend on the number of threads, so neither does the result, unless
- * the time limit ends it.
+ * A mesh without poor tetrahedra is unchanged, bit for bit. Otherwise the used points keep their
+ * order, and new points come last.
  *
- * @param mesh valid; points sorted along a space-filling curve make it fast. Unchanged if this throws.
- * @param domain what the mesh was made from
+ * Most of the work is done in blocks of vertices, one thread for each block. Each round uses other
+ * blocks. One thread does the rest. Blocks do not depend on the number of threads, so neither does
+ * the result, unless the time limit ends the work.
+ *
+ * @param mesh a valid mesh. Points sorted along a space-filling curve make it fast. Unchanged if
+ *   this throws.
+ * @param domain the domain that the mesh was made from
  * @param threads 0 means all cores
- * @throws InputError if an option is out of range; Cancelled if a stop was requested; std::bad_alloc
- * Complexity: linear in the mesh, and in the number of poor tetrahedra, which weigh some 100 times as much.
+ * @throws InputError if an option is out of range; Cancelled if a stop was requested;
+ *   std::bad_alloc
+ *
+ * Complexity: linear in the size of the mesh and in the number of poor tetrahedra. A poor
+ * tetrahedron takes about 100 times as long as another one.
  */
 OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domain,
   const OptimisationOptions& options, unsigned threads = 1, const std::stop_token& stop = {});

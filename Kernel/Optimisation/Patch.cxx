@@ -19,7 +19,7 @@ std::array<std::uint32_t, 3> SortedFacet(const Vertices& v, unsigned i)
   return f;
 }
 
-/** The vertices of t from vertex i and vertex j on, positively oriented. */
+/** The vertices of a tetrahedron, starting with vertices i and j, positively oriented. */
 Vertices StartingAtEdge(const Vertices& v, unsigned i, unsigned j)
 {
   Vertices w = StartingAt(v, i);
@@ -30,7 +30,7 @@ Vertices StartingAtEdge(const Vertices& v, unsigned i, unsigned j)
   return w;
 }
 
-/** The vertex of a tetrahedron that is none of three others. */
+/** The index of the vertex that is none of a, b and c. */
 unsigned IndexOfOther(const Vertices& v, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
   unsigned i = 0;
@@ -88,7 +88,7 @@ bool Patch::GatherRing(
   {
     return false;
   }
-  // Forwards until the start or the mesh's end, then backwards from the start.
+  // Walk forwards until the start or the mesh's end, then backwards from the start.
   for (std::uint32_t cell = t;;)
   {
     const std::uint32_t behind = ring.Link[ring.Link.size() - 2];
@@ -153,7 +153,7 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
   const auto isOld = [old](std::uint32_t t)
   { return std::find(old.begin(), old.end(), t) != old.end(); };
 
-  // The facets around the hole, as seen from outside.
+  // The facets around the hole, seen from outside.
   this->Open.clear();
   for (const std::uint32_t t : old)
   {
@@ -175,13 +175,13 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
       --this->Complex.Degrees[v];
     }
   }
-  // Slots last in, first out: those of the hole come first.
+  // Slots are last in, first out, so the slots of the hole are used first.
   for (std::size_t k = old.size(); k-- > 0;)
   {
     cells[old[k]].V[0] = None;
     this->FreeSlots.push_back(old[k]);
   }
-  // Whatever of the hole's vertices loses its host finds another beside the hole, if it has any left.
+  // If a vertex of the hole loses its host, it gets another one beside the hole, if there is any.
   for (const OpenFacet& open : this->Open)
   {
     for (const std::uint32_t v : open.V)
@@ -265,7 +265,9 @@ void Patch::FindStars(std::span<const std::uint32_t> vertices)
   }
 }
 
-/** Replaces a star that was gathered in part; false if it was not found, or has changed since. */
+/**
+ * Replaces a partly gathered star by the found one. False if the star was not found or has changed.
+ */
 bool Patch::UseFoundStar(VertexStar& star) const
 {
   const auto found = this->FoundStars.find(star.Vertex);

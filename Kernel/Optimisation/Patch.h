@@ -19,14 +19,16 @@
 namespace voxplex
 {
 
-/** The tetrahedra around an edge ab: (a, b, Link[k], Link[k + 1]) is Cells[k], positively oriented. */
+/**
+ * The tetrahedra around an edge ab: (a, b, Link[k], Link[k + 1]) is Cells[k], positively oriented.
+ */
 struct EdgeRing
 {
   std::uint32_t A = 0;
   std::uint32_t B = 0;
-  bool Closed = false; ///< then Link[0] follows on the last vertex; else the mesh ends at both ends
+  bool Closed = false; ///< true: Link[0] follows the last vertex; false: the mesh ends at both ends
   std::vector<std::uint32_t> Link;
-  std::vector<std::uint32_t> Cells; ///< as many as Link, one fewer if not closed
+  std::vector<std::uint32_t> Cells; ///< as long as Link; one shorter if not closed
 };
 
 /** The tetrahedra around a vertex. */
@@ -34,11 +36,11 @@ struct VertexStar
 {
   std::uint32_t Vertex = 0;
   std::vector<std::uint32_t> Cells;
-  /** Of each cell its vertices, Vertex first, positively oriented. */
+  /** The vertices of each cell, Vertex first, positively oriented. */
   std::vector<TetrahedralComplex::Vertices> Corners;
 };
 
-/** A tetrahedron to be. */
+/** A tetrahedron to be made. */
 struct NewTetrahedron
 {
   TetrahedralComplex::Vertices V;
@@ -48,11 +50,12 @@ struct NewTetrahedron
 /**
  * @brief Changes a block of a complex: all tetrahedra whose four vertices are in the block.
  *
- * Every vertex belongs to one block. A facet has vertices of its own block only or is in no block, and
- * the entry for it in N of the tetrahedra beside it is read and written by its block's patch alone: facets
- * are found by their vertices, never by looking for an id in N. V, labels and scores of a tetrahedron are
- * written only by the block that has all four vertices. So patches of different blocks can work
- * at the same time without locks, and what each does depends on its own block only.
+ * Every vertex belongs to one block. A facet belongs to a block if all its vertices do; otherwise
+ * it belongs to no block. Only the patch of its block reads and writes the entries for a facet in N
+ * of the tetrahedra beside it: facets are found by their vertices, never by searching for an id in
+ * N. V, label and score of a tetrahedron are written only by the block that has all four vertices.
+ * So patches of different blocks can work at the same time without locks, and the result of each
+ * depends on its own block only.
  *
  * Not thread-safe by itself: one thread uses a patch.
  */
@@ -62,8 +65,8 @@ public:
   static constexpr std::uint32_t None = TetrahedralComplex::None;
 
   /**
-   * @param blocks of each vertex
-   * @param block which one this may change
+   * @param blocks the block of each vertex
+   * @param block the block that this patch may change
    */
   Patch(TetrahedralComplex& complex, std::span<const std::uint32_t> blocks, std::uint32_t block)
     : Complex(complex)
@@ -80,61 +83,62 @@ public:
     return this->Owns(v[0]) && this->Owns(v[1]) && this->Owns(v[2]) && this->Owns(v[3]);
   }
 
-  /** Whether t may become another tetrahedron, or none. */
+  /** Whether t may be changed or deleted. */
   bool MayChange(std::uint32_t t) const
   {
     return this->OwnsAll(this->Complex.Cells[t].V) && !this->Complex.IsKept(t);
   }
 
   /**
-   * The star of v.
-   * @return false if part of it may not change, or if it falls apart in pieces that share no facet and
-   * FindStars() has not found it
+   * Gathers the star of v.
+   * @return false if a part of the star may not change; or if the star consists of pieces that
+   *   share no facet, and FindStars() has not found it
    */
   bool GatherStar(std::uint32_t v, VertexStar& star);
 
   /**
-   * The tetrahedra around the edge from vertex i to vertex j of t.
-   * @return false if there are more than `most` of them, or if part of it may not change. If
-   * the edge is on the mesh's boundary in more than one place, only the part with t is found.
+   * Gathers the tetrahedra around the edge from vertex i to vertex j of t. If the edge is on the
+   * mesh's boundary in more than one place, only the part with t is found.
+   * @return false if there are more than `most` tetrahedra, or if some may not change
    */
   bool GatherRing(std::uint32_t t, unsigned i, unsigned j, std::size_t most, EdgeRing& ring) const;
 
   /**
-   * Deletes tetrahedra and puts others in their place. Facets of neither what is new nor
-   * what stays become the mesh's boundary where only one tetrahedron has them.
+   * Replaces tetrahedra by others. A facet becomes a boundary facet of the mesh if only one
+   * tetrahedron has it afterwards.
    * @return false, with nothing changed, if there are no slots left
    */
   bool Replace(std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh);
 
-  /** Moves the vertex of a star, whose scores become `scores`. */
+  /** Moves the vertex of a star. The scores of the star become `scores`. */
   void Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores);
 
-  /** Slots of dead tetrahedra that new ones may take, the last one first. */
+  /** Sets the slots of dead tetrahedra that new ones may take, the last one first. */
   void SetSlots(std::vector<std::uint32_t> slots) { this->FreeSlots = std::move(slots); }
-  /** Gives the slots back that are left. */
+  /** Returns the slots that are left. */
   std::vector<std::uint32_t> TakeSlots() { return std::exchange(this->FreeSlots, {}); }
 
   /**
-   * Finds the stars of some vertices by looking at all tetrahedra, for GatherStar() to use where a star falls
-   * apart in pieces; until a change around such a vertex. Only for the patch of a whole complex.
+   * Finds the stars of some vertices by searching all tetrahedra. GatherStar() uses them if a star
+   * consists of pieces that share no facet. A found star is valid until a change around its vertex.
+   * Only for the patch of a whole complex.
    */
   void FindStars(std::span<const std::uint32_t> vertices);
 
-  /** A vertex that no tetrahedron has, in this block; None if there is none left. */
+  /** An unused vertex of this block; None if there is none left. */
   std::uint32_t SpareVertex() const
   {
     return this->NextSpare < this->LastSpare ? this->NextSpare : None;
   }
-  /** Puts the spare vertex, as one inside a label, where a tetrahedron is about to have it. */
+  /** Sets the position of the spare vertex and makes it free (inside of a label), before use. */
   void PlaceVertex(std::uint32_t v, const Point<3>& p)
   {
     this->Complex.Points[v] = p;
     this->Complex.Kinds[v] = VertexRole::Free;
   }
-  /** Makes the spare vertex one of the mesh. */
+  /** Makes the spare vertex a vertex of the mesh. */
   void KeepVertex() { ++this->NextSpare; }
-  /** Vertices without tetrahedra that insertions may use; they must be of this block. */
+  /** Sets the unused vertices that insertions may use. They must be in this block. */
   void SetSpareVertices(std::uint32_t first, std::uint32_t last)
   {
     this->NextSpare = first;
@@ -147,7 +151,7 @@ public:
     this->Complex.Labels[t] = label;
   }
 
-  /** Tetrahedra with a score below 1 that changes left, some of them gone since. */
+  /** Tetrahedra that changes left with a score below 1. Some may have been deleted since. */
   std::vector<std::uint32_t> Poor;
 
   /** Counts changes; TetrahedralComplex::Changes refers to it. */
@@ -156,7 +160,7 @@ public:
 private:
   bool UseFoundStar(VertexStar& star) const;
 
-  /** A facet of the hole or of what fills it, sorted. */
+  /** A facet of the hole or of a new tetrahedron, vertices sorted. */
   struct OpenFacet
   {
     std::array<std::uint32_t, 3> V;

@@ -12,7 +12,7 @@ namespace voxplex
 namespace
 {
 
-/** Tetrahedra between two looks at the limits. */
+/** The number of tetrahedra between two checks of the limits. */
 constexpr std::size_t LimitPeriod = 64;
 
 } // namespace
@@ -22,7 +22,8 @@ std::size_t PatchWorker::Pass(Effort effort)
 {
   std::size_t better = 0;
   std::vector<Task> left;
-  // What becomes poor in this pass is appended and so tried in this pass, too, but no more than so often.
+  // A tetrahedron that becomes poor in this pass is appended and tried in this pass, too. The
+  // number of tries is limited.
   const std::size_t most = 4 * this->Work.size() + 1000;
   for (std::size_t k = 0; k < this->Work.size(); ++k)
   {
@@ -60,7 +61,7 @@ std::size_t PatchWorker::Pass(Effort effort)
       left.push_back({ task.Cell, this->Target.Clock });
     }
   }
-  // Once each, and then as tried if it was.
+  // Keep each tetrahedron once; if one of its entries was tried, keep that entry.
   std::sort(left.begin(), left.end(),
     [](const Task& a, const Task& b)
     { return a.Cell < b.Cell || (a.Cell == b.Cell && a.Tried > b.Tried); });
@@ -90,7 +91,7 @@ bool PatchWorker::Mend(std::uint32_t t, Effort effort)
     return true;
   }
   bool better = false;
-  const auto vertices = this->Mesh.Cells[t].V; // smoothing moves them only
+  const auto vertices = this->Mesh.Cells[t].V; // smoothing only moves them
   for (const std::uint32_t v : vertices)
   {
     better = this->Geometry.Improve(v) || better;

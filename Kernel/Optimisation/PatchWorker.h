@@ -22,15 +22,15 @@
 namespace voxplex
 {
 
-/** How much is done to a tetrahedron that flips and smoothing do not mend. */
+/** Additional measures for tetrahedra that flips and smoothing do not improve enough. */
 enum class Effort
 {
   Plain,
-  Insertions,        ///< also other labels for slivers, and new vertices
-  MovesOffInterfaces ///< also moves off interfaces
+  Insertions,        ///< also relabels slivers and inserts vertices
+  MovesOffInterfaces ///< also moves vertices off interfaces
 };
 
-/** When to stop. */
+/** Conditions that end optimisation. */
 struct OptimisationLimits
 {
   std::stop_token Stop;
@@ -58,28 +58,28 @@ public:
   const FlipStatistics& GetFlipStatistics() const { return this->Topology.Counts(); }
   const SmoothingStatistics& GetSmoothingStatistics() const { return this->Geometry.Counts(); }
 
-  /** Another tetrahedron to work on. */
+  /** Adds a tetrahedron to work on. */
   void Add(std::uint32_t t) { this->Work.push_back({ t, 0 }); }
 
   /**
-   * Works on every tetrahedron that was added or has become poor and was not tried since its vertices'
-   * tetrahedra changed last.
-   * @return how many were mended or made better
+   * Works on every tetrahedron that was added or has become poor. Skips those that were tried and
+   * whose vertices' tetrahedra have not changed since.
+   * @return the number of tetrahedra that were improved
    * @throws Cancelled
    */
   std::size_t Pass(Effort effort);
 
-  /** What is to be tried again although nothing changed. */
+  /** Lets the next pass try all tetrahedra again, even if nothing changed. */
   void ForgetTries();
 
-  /** Those that are poor after the last pass, in increasing order. */
+  /** The tetrahedra that are poor after the last pass, in increasing order. */
   std::vector<std::uint32_t> Left() const;
 
 private:
   struct Task
   {
     std::uint32_t Cell;
-    std::uint32_t Tried; ///< the patch's clock then, 0 for never
+    std::uint32_t Tried; ///< the patch's clock at the last try; 0: never tried
   };
 
   bool IsPoor(std::uint32_t t) const

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ShapeScore.h
- * @brief One number for the shape of a tetrahedron: how far it is within its bounds.
+ * @brief One number for the shape of a tetrahedron, relative to its bounds.
  */
 #ifndef voxplex_ShapeScore_h
 #define voxplex_ShapeScore_h
@@ -18,13 +18,16 @@
 namespace voxplex
 {
 
-/** What bounds of shapes are about. */
+/** The measures that shape bounds apply to. */
 struct ShapeExtremes
 {
-  /** Of dihedral angles, cosines times their absolute values: monotone, and need no root. */
+  /**
+   * For dihedral angles: cosine times its absolute value, which is monotone and needs no square
+   * root.
+   */
   double SmallestCosine;
   double LargestCosine;
-  double EdgeRadiusRatio2; ///< squared, shortest edge over circumradius
+  double EdgeRadiusRatio2; ///< the square of shortest edge over circumradius
 };
 
 /** False, with nothing written, if abcd is not positively oriented in double. */
@@ -34,7 +37,7 @@ inline bool MeasureShape(
   const Point<3> ab = Subtract(b, a);
   const Point<3> ac = Subtract(c, a);
   const Point<3> ad = Subtract(d, a);
-  // Normals of the facets opposite to each vertex, inwards.
+  // Inward normals of the facets opposite to each vertex.
   const Point<3> normalB = Cross(ac, ad);
   const double determinant = Dot(ab, normalB);
   if (!(determinant > 0.0))
@@ -50,7 +53,7 @@ inline bool MeasureShape(
   const double perC = 1.0 / Dot(normalC, normalC);
   const double perD = 1.0 / Dot(normalD, normalD);
   const auto signedSquare = [](double x) { return x * std::abs(x); };
-  // The cosine of an angle between facets is minus that between their normals.
+  // The cosine of the angle between two facets is minus the cosine between their normals.
   const double ofAB = signedSquare(Dot(normalC, normalD)) * perC * perD;
   const double ofAC = signedSquare(Dot(normalB, normalD)) * perB * perD;
   const double ofAD = signedSquare(Dot(normalB, normalC)) * perB * perC;
@@ -67,7 +70,7 @@ inline bool MeasureShape(
   const double ad2 = Dot(ad, ad);
   const double shortest2 = std::min({ std::min(ab2, ac2), std::min(ad2, Distance2(b, c)),
     std::min(Distance2(b, d), Distance2(c, d)) });
-  // From a to the centre of the circumball, times twice the determinant.
+  // The vector from a to the centre of the circumball, times twice the determinant.
   Point<3> centre;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -78,28 +81,33 @@ inline bool MeasureShape(
 }
 
 /**
- * @brief The smallest of three ratios, each 1 where a bound is just met and larger where it is met with
- * room to spare: of dihedral angles to a lower and to an upper bound, and of the radius-edge ratio.
+ * @brief The smallest of three ratios: for the lower and the upper bound of dihedral angles, and
+ * for the bound of the radius-edge ratio. A ratio is 1 if its bound is just met, and larger if the
+ * shape is better.
  *
- * Angles are compared by the squares of their sines, which needs no root: with s the cosine times its
- * absolute value, 1 - s is the squared sine of angles up to 90 degrees, and 1 + s that of those above.
- * Both are monotone over 0 to 180 degrees. The score is 0 for a flat tetrahedron and positive for all
- * that are positively oriented, so operations that only ever raise the smallest score near them
- * keep the orientation.
+ * Angles are compared by the squares of their sines, which needs no square root. Let s be the
+ * cosine times its absolute value. Then 1 - s is the squared sine of an angle up to 90 degrees, and
+ * 1 + s is the squared sine of a larger angle. Both are monotone over 0 to 180 degrees. The score
+ * is 0 for a flat tetrahedron, and positive for all positively oriented ones. So operations that
+ * only raise the smallest score near them keep the orientation.
  *
- * What breaks the bound of the radius-edge ratio scores a thousand times less. So angles are not bought
- * with it: only next to tetrahedra that have an angle of less than half a degree can one arise,
- * and those are then poor and worked on in turn.
+ * If a tetrahedron violates the bound of the radius-edge ratio, its score is a thousand times
+ * smaller. So better angles are not bought with a worse ratio. A violation can arise only next to
+ * tetrahedra with an angle of less than half a degree; the new tetrahedra are then poor and are
+ * improved in turn.
  */
 class ShapeScore
 {
 public:
-  /** What is not positively oriented has this score. */
+  /** The score of a tetrahedron that is not positively oriented. */
   static constexpr double Inverted = -1.0;
   /** Factor of the score beyond the bound of the radius-edge ratio. */
   static constexpr double RadiusEdgePenalty = 1e-3;
 
-  /** @param smallest, largest bounds of dihedral angles in degrees: 0 < smallest < 60, 90 < largest < 180 */
+  /**
+   * @param smallest, largest bounds of dihedral angles in degrees: 0 < smallest < 60, 90 < largest
+   *   < 180
+   */
   ShapeScore(double smallest, double largest, double radiusEdge)
     : PerSmallAngle(1.0 / Square(std::sin(smallest / DegreesPerRadian)))
     , PerLargeAngle(1.0 / Square(std::sin(largest / DegreesPerRadian)))

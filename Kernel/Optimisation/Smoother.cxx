@@ -12,23 +12,23 @@ namespace voxplex
 namespace
 {
 
-/** Steps of one call. */
+/** The largest number of steps of one call. */
 constexpr int MostSteps = 8;
-/** Halvings of the length of a step. */
+/** The largest number of halvings of a step. */
 constexpr int MostHalvings = 5;
 /** The longest step, in shortest edges of the star. */
 constexpr double LongestStep = 0.4;
-/** A step has to raise the smallest score by this part of it. */
+/** A step must raise the smallest score by this fraction. */
 constexpr double LeastGain = 0.01;
-/** Scores within this factor of the smallest one count when a direction is chosen. */
+/** A score is active if it is within this factor of the smallest one. */
 constexpr double ActiveFactor = 1.25;
-/** Length of differences for gradients, in shortest edges. */
+/** The step of finite differences for gradients, in shortest edges. */
 constexpr double Difference = 1e-5;
 /** A score that is good enough to stop at. */
 constexpr double Enough = 1.02;
-/** An insertion has to raise the smallest score by this factor. */
+/** An insertion must raise the smallest score by this factor. */
 constexpr double LeastGainOfInsertion = 1.1;
-/** How far beside an interface point its labels are asked, in shortest edges. */
+/** The distance from an interface point at which labels are looked up, in shortest edges. */
 constexpr double Beside = 0.05;
 
 Point<3> Along(const Point<3>& p, double t, const Point<3>& d)
@@ -36,7 +36,9 @@ Point<3> Along(const Point<3>& p, double t, const Point<3>& d)
   return { p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2] };
 }
 
-/** The shortest vector in the convex hull of some, about (Frank and Wolfe's iteration). */
+/**
+ * The shortest vector in the convex hull of some vectors, approximately (Frank-Wolfe iteration).
+ */
 Point<3> ShortestInHull(const std::vector<Point<3>>& vectors)
 {
   Point<3> shortest = vectors[0];
@@ -181,7 +183,7 @@ bool Smoother::Insert(std::uint32_t t, unsigned i, unsigned j)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The interface triangles around the vertex, and their mean normal. */
+/** Gathers the interface triangles around the vertex, and their mean normal. */
 void Smoother::GatherFan()
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -202,7 +204,7 @@ void Smoother::GatherFan()
       }
       this->Sides[0] = mesh.Labels[t];
       this->Sides[1] = other;
-      // Corners are (v, 1, 2, 3): the facet without 3 is (v, 2, 1) as seen from outside.
+      // Corners are (v, 1, 2, 3). Seen from outside, the facet without 3 is (v, 2, 1).
       FanFacet facet;
       facet.First = corners[1 + (i + 1) % 3];
       facet.Second = corners[1 + i % 3];
@@ -220,7 +222,7 @@ void Smoother::GatherFan()
   }
 }
 
-/** Whether the fan's triangles go once around the vertex; makes the normal one of length 1. */
+/** Whether the fan's triangles go once around the vertex. Normalises the normal. */
 bool Smoother::FanIsDisk()
 {
   const double length = std::sqrt(Dot(this->Normal, this->Normal));
@@ -248,7 +250,7 @@ bool Smoother::FanIsDisk()
 }
 
 //------------------------------------------------------------------------------------------------
-/** Ascends in the star and moves its vertex there; false if it does not move. */
+/** Ascends in the star and moves its vertex. False if the vertex does not move. */
 bool Smoother::AscendInStar(Point<3>& p)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -271,7 +273,7 @@ bool Smoother::AscendInStar(Point<3>& p)
   return true;
 }
 
-/** Moves p until the smallest score is enough or no step helps; false if it does not move. */
+/** Moves p until the smallest score is enough or no step helps. False if p does not move. */
 bool Smoother::Ascend(Point<3>& p)
 {
   double shortest2 = Distance2(p, this->Opposite[0]);
@@ -289,7 +291,7 @@ bool Smoother::Ascend(Point<3>& p)
   return moved;
 }
 
-/** The smallest score with the vertex at p, up to Enough; stops once it is below `floor`. */
+/** The smallest score with the vertex at p, up to Enough. Stops early once it is below `floor`. */
 double Smoother::ScoreAt(const Point<3>& p, double floor)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
@@ -308,14 +310,16 @@ double Smoother::ScoreAt(const Point<3>& p, double floor)
   return score;
 }
 
-/** Where the smallest score grows fastest, and how fast; false if nowhere. */
+/**
+ * The direction in which the smallest score grows fastest, and the slope. False if there is none.
+ */
 bool Smoother::Direction(const Point<3>& p, Point<3>& direction, double& slope)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const float smallest = *std::min_element(this->Scores.begin(), this->Scores.end());
   if (!(smallest > 0.0f))
   {
-    return false; // there is no way up from an inverted tetrahedron
+    return false; // an inverted tetrahedron has no useful gradient
   }
   const double h = Difference * this->ShortestEdge;
   this->Gradients.clear();
@@ -385,7 +389,7 @@ bool Smoother::Step(Point<3>& p, double& score)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Moves p to where the vertex may be; false if that is not near or breaks a rule. */
+/** Moves p to an allowed position. False if this is not near or violates a rule. */
 bool Smoother::Constrain(Point<3>& p, double length) const
 {
   if (this->Bound == Constraint::Surface)
@@ -416,7 +420,10 @@ bool Smoother::Constrain(Point<3>& p, double length) const
   return this->FanAllows(p);
 }
 
-/** To the interface of the vertex' two labels; false if the closest one is another, or on another face of the cut. */
+/**
+ * Projects a point to the interface of the vertex's two labels. False if the closest interface is
+ * another one, or if the point is on another face where the image cuts the object.
+ */
 bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();

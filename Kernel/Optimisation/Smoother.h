@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Smoother.h
- * @brief Moves vertices to where the worst tetrahedron around them is best.
+ * @brief Moves vertices to improve the worst tetrahedron around them.
  */
 #ifndef voxplex_Smoother_h
 #define voxplex_Smoother_h
@@ -18,7 +18,7 @@
 namespace voxplex
 {
 
-/** What has been done. */
+/** Counts of changes. */
 struct SmoothingStatistics
 {
   SmoothingStatistics& operator+=(const SmoothingStatistics& other)
@@ -37,27 +37,32 @@ struct SmoothingStatistics
 };
 
 /**
- * @brief Optimisation-based smoothing (Freitag and Ollivier-Gooch, Tetrahedral mesh improvement using swapping and
- * smoothing, 1997): steepest ascent of the smallest score in the star of a vertex.
+ * @brief Optimisation-based smoothing (Freitag and Ollivier-Gooch, Tetrahedral mesh improvement
+ * using swapping and smoothing, 1997): steepest ascent of the smallest score in the star of a
+ * vertex.
  *
- * The smallest of several functions is not smooth. The direction is the shortest vector in the convex hull
- * of the gradients of those that are nearly smallest, along which all of them grow at least as fast as its
- * squared length; a line search follows. A step is taken only if the smallest score grows.
+ * The smallest of several functions is not smooth. The active functions are those that are nearly
+ * smallest. The direction is the shortest vector in the convex hull of their gradients. Along it,
+ * all active functions grow at least as fast as its squared length. A line search follows. A step
+ * is taken only if the smallest score grows.
  *
- * A vertex on a surface of two labels moves along the tangent plane and then to the closest point of the
- * interface. It stays if that point is not between its two labels, if a planar angle of an
- * interface triangle would break its bound, or if a triangle would turn by more than 60 degrees.
+ * A vertex on a surface of two labels moves along the tangent plane and then to the closest point
+ * of the interface. It does not move if that point is not between its two labels, if a planar angle
+ * of an interface triangle would violate its bound, or if a triangle would turn by more than 60
+ * degrees.
  *
- * A vertex on a face where the image cuts the object stays on it, one on an edge of such a face stays where it is.
+ * A vertex on a face where the image cuts the object stays on this face. A vertex on an edge of
+ * such a face does not move.
  *
- * As a last means, a vertex on an interface may be nudged in any direction, within a small distance of
- * where it was, which is then the fidelity that is given up (but where the image cuts the object, in the faces there); and a vertex may be inserted on an edge inside a
- * label, at once moved to where it is best.
+ * There are two last resorts. A vertex on an interface may be moved in any direction, within a
+ * small distance of where it was; this distance is the loss of fidelity. On faces where the image
+ * cuts the object, it moves only within these faces. And a vertex may be inserted on an edge inside
+ * a label, and is moved to its best position at once.
  */
 class Smoother
 {
 public:
-  /** @param reach how far vertices on interfaces may be nudged */
+  /** @param reach how far vertices may be moved off interfaces */
   Smoother(Patch& patch, const Domain<3>& domain, const InterfaceRules& rules, double reach)
     : Target(patch)
     , Image(domain)
@@ -66,13 +71,16 @@ public:
   {
   }
 
-  /** Moves v until no tetrahedron around it is poor or no step helps; false if it does not move. */
+  /**
+   * Moves v until no tetrahedron around it is poor or no step helps. Returns false if v does not
+   * move.
+   */
   bool Improve(std::uint32_t v);
 
-  /** Moves v, a vertex on interfaces, within reach of where it was; false if it does not move. */
+  /** Moves v, a vertex on interfaces, by at most `reach`. Returns false if v does not move. */
   bool MoveOffInterface(std::uint32_t v);
 
-  /** Splits the edge from vertex i to vertex j of t if that helps; false if not. */
+  /** Splits the edge from vertex i to vertex j of t if that helps. Returns false if it does not. */
   bool Insert(std::uint32_t t, unsigned i, unsigned j);
 
   const SmoothingStatistics& Counts() const { return this->Done; }
@@ -81,16 +89,19 @@ private:
   enum class Constraint : std::uint8_t
   {
     Free,
-    Surface, ///< to the tangent plane, then to the interface
-    Anchor   ///< to a ball
+    Surface, ///< moves in the tangent plane, then to the interface
+    Anchor   ///< moves within a ball
   };
 
-  /** An interface triangle of the vertex: its other two vertices, the normal out of the larger label. */
+  /**
+   * An interface triangle of the vertex: its other two vertices, and the normal out of the larger
+   * label.
+   */
   struct FanFacet
   {
     std::uint32_t First;
     std::uint32_t Second;
-    Point<3> Normal; ///< when the smoothing began, of twice the area
+    Point<3> Normal; ///< when smoothing began; its length is twice the area
     double LargestCosine;
   };
 
@@ -112,17 +123,17 @@ private:
   SmoothingStatistics Done;
 
   VertexStar Star;
-  std::vector<Point<3>> Opposite; ///< three points of each tetrahedron of the star
+  std::vector<Point<3>> Opposite; ///< the three other points of each tetrahedron of the star
   std::vector<float> Scores;      ///< at the current point
-  std::vector<float> Tried;       ///< at the point that is being tried
+  std::vector<float> Tried;       ///< at the tried point
   std::vector<Point<3>> Gradients;
   Constraint Bound = Constraint::Free;
   std::vector<FanFacet> Fan;
   Point<3> Normal{};                  ///< of length 1
-  TetrahedralComplex::Label Sides[2]; ///< behind and before the normal
+  TetrahedralComplex::Label Sides[2]; ///< labels behind and in front of the normal
   double ShortestEdge = 0.0;
   Point<3> Anchor{};
-  std::unordered_map<std::uint32_t, Point<3>> Anchors; ///< of vertices that were nudged
+  std::unordered_map<std::uint32_t, Point<3>> Anchors; ///< original positions of moved vertices
   EdgeRing Ring;
   std::vector<NewTetrahedron> Fresh;
 };

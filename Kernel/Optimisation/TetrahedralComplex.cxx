@@ -15,15 +15,15 @@ namespace
 
 constexpr std::size_t Grain = 16384;
 
-/** A facet in the list of its smallest vertex. */
+/** A facet, listed at its smallest vertex. */
 struct ListedFacet
 {
   std::uint64_t Others; ///< the other two vertices, the larger one in the high half
   std::uint32_t Cell;
-  std::uint32_t Index; ///< of the vertex opposite to it
+  std::uint32_t Index; ///< of the opposite vertex
 };
 
-/** Vertices of facet i, sorted. */
+/** The vertices of facet i, sorted. */
 std::array<std::uint32_t, 3> SortedFacet(const TetrahedralComplex::Vertices& v, unsigned i)
 {
   std::array<std::uint32_t, 3> f = { v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3] };
@@ -134,7 +134,10 @@ void TetrahedralComplex::AddVertices(std::size_t number)
   this->Changes.resize(size, 0);
 }
 
-/** Facets are listed by their smallest vertex; in each list, those with equal other vertices are one. */
+/**
+ * Facets are listed at their smallest vertex. Two facets of a list are the same if their other
+ * vertices are equal.
+ */
 void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
 {
   const std::size_t points = this->Points.size();
@@ -183,7 +186,10 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
     stop);
 }
 
-/** A vertex all of whose interface facets separate the same two labels is on a surface of two labels. */
+/**
+ * If all interface facets of a vertex separate the same two labels, it is on a surface of two
+ * labels.
+ */
 void TetrahedralComplex::FindKinds()
 {
   using Pair = std::array<Label, 2>;
@@ -194,7 +200,7 @@ void TetrahedralComplex::FindKinds()
     for (unsigned i = 0; i < 4; ++i)
     {
       const Pair pair = { this->Labels[t], this->LabelOf(this->Cells[t].N[i]) };
-      if (pair[0] <= pair[1]) // the same, or seen from the other side
+      if (pair[0] <= pair[1]) // no interface, or counted from the other side
       {
         continue;
       }
@@ -216,7 +222,10 @@ void TetrahedralComplex::FindKinds()
 }
 
 //------------------------------------------------------------------------------------------------
-/** A vertex is on an edge if it lies on a face on which not all of its triangles towards background do. */
+/**
+ * A vertex is on an edge of a face if it lies on the face, but some of its triangles towards
+ * background do not.
+ */
 void TetrahedralComplex::FindBorderFaces(const Domain<3>& domain)
 {
   const ImageBorder<3>* const border = domain.Border();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file TetrahedralComplex.h
- * @brief A labelled tetrahedral mesh that can be changed: tetrahedra know their neighbours.
+ * @brief A labelled tetrahedral mesh with adjacency, for changes.
  */
 #ifndef voxplex_TetrahedralComplex_h
 #define voxplex_TetrahedralComplex_h
@@ -26,17 +26,18 @@ namespace voxplex
 /** How a vertex may move. */
 enum class VertexRole : std::uint8_t
 {
-  Free,    ///< all around it has one label
-  Surface, ///< on an interface of two labels, of which background may be one
-  Crease,  ///< the same, but on an edge of a face where the image cuts the object
+  Free,    ///< all tetrahedra around it have one label
+  Surface, ///< on an interface of two labels; one of them may be background
+  Crease,  ///< as Surface, but on an edge of a face where the image cuts the object
   Fixed    ///< where three or more labels meet
 };
 
 /**
- * @brief What optimisation works on: a SimplexMesh<3> with adjacency, kinds of vertices and scores.
+ * @brief The data structure of optimisation: a SimplexMesh<3> with adjacency, kinds of vertices and
+ * scores.
  *
- * Tetrahedron: vertices V, positively oriented; N[i] is the neighbour across the facet opposite to V[i],
- * None where the mesh ends. Slots of deleted tetrahedra have V[0] == None.
+ * Tetrahedron: the vertices V are positively oriented. N[i] is the neighbour across the facet
+ * opposite to V[i], or None where the mesh ends. Slots of deleted tetrahedra have V[0] == None.
  *
  * Labels are indices into LabelValues, which is sorted; 0 is background, which no tetrahedron has.
  *
@@ -57,20 +58,24 @@ public:
 
   /**
    * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet
-   * Complexity: linear but for the sorting of label values.
+   *
+   * Complexity: linear, except for sorting label values.
    */
   TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
     const std::stop_token& stop);
 
-  /** Finds out what lies where the image cuts the object; to be called once, before anything changes. */
+  /**
+   * Finds the vertices on faces where the image cuts the object. To be called once, before any
+   * change.
+   */
   void FindBorderFaces(const Domain<3>& domain);
 
-  /** Replaces the mesh by what this has become: points that are used, and interfaces. */
+  /** Replaces the mesh by the current state: used points, tetrahedra and interfaces. */
   void Write(SimplexMesh<3>& mesh) const;
 
-  /** Makes room for more tetrahedra, which are not alive. */
+  /** Adds slots for more tetrahedra. They are not alive. */
   void AddCells(std::size_t number);
-  /** Makes room for more vertices, which no tetrahedron has. */
+  /** Adds unused vertices. */
   void AddVertices(std::size_t number);
 
   bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
@@ -89,7 +94,7 @@ public:
     return this->Points[this->Cells[t].V[i]];
   }
 
-  /** Which vertex of t is v; v must be one. */
+  /** The index of v in t; v must be a vertex of t. */
   unsigned IndexOf(std::uint32_t t, std::uint32_t v) const
   {
     const Vertices& w = this->Cells[t].V;
@@ -105,16 +110,17 @@ public:
   ShapeScore Shape;
   UninitialisedVector<Point<3>> Points;
   /**
-   * Of vertices. Changes of connectivity need not update them: where Flips brings an interface triangle to a vertex, the
-   * vertex has one already between the same two labels, and on the same faces where the image cuts the object. So a
-   * vertex can only become freer than it was; it stays where it is then.
+   * By vertex. Changes of connectivity need not update the kinds. If Flips brings an interface
+   * triangle to a vertex, the vertex already has one between the same two labels, and on the same
+   * faces where the image cuts the object. So a vertex can only become freer than its kind; then it
+   * keeps its kind.
    */
   std::vector<VertexRole> Kinds;
   std::vector<std::uint8_t>
-    BorderFaces; ///< Domain::BorderFaces of vertices, or empty if the image cuts nothing
+    BorderFaces; ///< Domain::BorderFaces by vertex; empty if the image cuts nothing
   std::vector<std::uint32_t> Hosts;   ///< a tetrahedron of each vertex
   std::vector<std::uint32_t> Degrees; ///< number of tetrahedra of each vertex
-  std::vector<std::uint32_t> Changes; ///< when a tetrahedron of each vertex changed last
+  std::vector<std::uint32_t> Changes; ///< the clock when a tetrahedron of each vertex changed last
   UninitialisedVector<Tetrahedron> Cells;
   UninitialisedVector<Label> Labels;
   UninitialisedVector<float> Scores;
@@ -127,7 +133,10 @@ private:
   void FindKinds();
 };
 
-/** The vertices of a positively oriented tetrahedron, v first, in an order that keeps the orientation. */
+/**
+ * The vertices of a positively oriented tetrahedron, v[first] first, in an order that keeps the
+ * orientation.
+ */
 inline TetrahedralComplex::Vertices StartingAt(
   const TetrahedralComplex::Vertices& v, unsigned first)
 {

@@ -18,7 +18,7 @@ namespace
 /** Points measured at a time. Fixed, so that sums do not depend on the number of threads. */
 constexpr std::size_t Grain = 4096;
 
-/** Between the ranks of a list, which it leaves in another order. */
+/** A percentile, interpolated between ranks. Changes the order of the values. */
 double Percentile(std::vector<double>& values, double fraction)
 {
   const double rank = fraction * static_cast<double>(values.size() - 1);
@@ -34,7 +34,9 @@ double Percentile(std::vector<double>& values, double fraction)
   return low + weight * (*std::min_element(at + 1, values.end()) - low);
 }
 
-/** distanceAt(point, hint) for each point; the hint is what a search of the tree starts from. */
+/**
+ * Figures of distanceAt(point, hint) over all points. A search of the tree starts from the hint.
+ */
 template <typename DistanceAt>
 DistanceFigures Measure(const std::vector<Point<3>>& points, unsigned threads,
   const std::stop_token& stop, DistanceAt&& distanceAt)
@@ -104,7 +106,7 @@ std::vector<Point<3>> SamplesOf(const SimplexMesh<3>& mesh)
   return samples;
 }
 
-/** Of p from the point of an interface that the domain finds for it; infinite if it finds none. */
+/** The distance from p to the interface point that the domain finds; infinite if it finds none. */
 double DistanceFrom(const Domain<3>& domain, const Point<3>& p)
 {
   Point<3> z;

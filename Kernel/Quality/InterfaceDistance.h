@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceDistance.h
- * @brief How far the interfaces of a mesh and those of an image are from each other.
+ * @brief Hausdorff distances between the interfaces of a mesh and those of an image.
  */
 #ifndef voxplex_InterfaceDistance_h
 #define voxplex_InterfaceDistance_h
@@ -24,10 +24,10 @@ struct DistanceFigures
 {
   static constexpr double NotApplicable = std::numeric_limits<double>::quiet_NaN();
 
-  double Maximum = NotApplicable; ///< infinite if there is nothing to be distant from
+  double Maximum = NotApplicable; ///< infinite if there is nothing to measure to
   double Mean = NotApplicable;
   double Percentile99 = NotApplicable; ///< interpolated linearly between the two nearest ranks
-  Point<3> Place{};                    ///< the point with the largest distance; the first of such
+  Point<3> Place{};                    ///< the first point with the largest distance
   std::uint64_t Points = 0;
 };
 
@@ -42,18 +42,21 @@ struct HausdorffFigures
 };
 
 /**
- * Measures the distances between the interfaces of a mesh, Facets, and points all over those of an image
- * (InterfacePoints.h).
+ * Measures the distances between the interfaces of a mesh (Facets) and points all over the
+ * interfaces of an image (InterfacePoints.h).
  *
- * - From the image: of each point from the nearest triangle of the mesh, exact but for rounding.
- * - From the mesh: of each vertex and each centroid of the triangles from the nearest point of the image;
- *   so as many as there are points and triangles, whatever the triangles' size.
+ * - From the image to the mesh: the distance of each point to the nearest triangle, exact up to
+ *   rounding.
+ * - From the mesh to the image: the distance of each vertex and each centroid of the triangles to
+ *   the nearest point of the image. Each triangle has one centroid, however large it is.
  *
- * O((n + m) log(n + m)) for n triangles and m points. The result does not depend on the number of threads.
+ * O((n + m) log(n + m)) for n triangles and m points. The result does not depend on the number of
+ * threads.
  *
  * @param image in the mesh's frame; fewer than 2^32
- * @param domain if given, a point of the mesh is no farther than the point of an interface that this finds
- *   for it (ClosestSurfacePoint), which leaves out that the image's points are a voxel apart
+ * @param domain if given, the distance of a point of the mesh is at most the distance to the
+ *   interface point that the domain finds for it (ClosestSurfacePoint). This removes the error that
+ *   the image's points are a voxel apart.
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */

@@ -12,7 +12,7 @@ namespace voxplex
 namespace
 {
 
-/** Points whose lists a thread sorts at once. */
+/** The number of points whose lists a thread sorts at a time. */
 constexpr std::size_t Grain = 4096;
 
 /** Calls function(smaller end, larger end, facet) for the three edges of all facets. */
@@ -93,7 +93,7 @@ std::vector<InterfaceEdge> FindNonManifoldEdges(
   LabelsAtEdge around(labels);
   const auto look = [&](const auto& ends, std::span<const InterfaceEdgeLists::Use> uses)
   {
-    if (uses.size() == 2) // most are: the same two labels on both sides
+    if (uses.size() == 2) // most edges: both facets have the same two labels
     {
       return;
     }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceEdges.h
- * @brief The edges of interfaces with what meets there, and those at which the boundary of a label is no surface.
+ * @brief The edges of interfaces with their facets, and the edges at which the boundary of a label
+ * is not manifold.
  *
- * For whoever mends a mesh and needs to know which edges; how many there are, and junctions and corners as
- * reports have them, is InterfaceTopology's, which goes through the same lists.
+ * Repairs of a mesh use these lists. InterfaceTopology counts such edges, junctions and corners for
+ * reports, from the same lists.
  */
 #ifndef voxplex_InterfaceEdges_h
 #define voxplex_InterfaceEdges_h
@@ -23,12 +24,12 @@ namespace voxplex
 /**
  * @brief The edges of facets, each with the facets that share it.
  *
- * O(n) for n facets of which few share a point.
+ * O(n) for n facets, if few facets share a point.
  */
 class InterfaceEdgeLists
 {
 public:
-  /** An edge in the list of its smaller end, and a facet that has it. */
+  /** An edge, listed at its smaller end, and a facet that has it. */
   struct Use
   {
     std::uint32_t High;
@@ -37,7 +38,7 @@ public:
 
   /**
    * @param facets three point numbers each
-   * @param points all numbers are below
+   * @param points the number of points; all point numbers are smaller
    * @param threads used to sort; 0 means all cores
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
@@ -45,8 +46,8 @@ public:
     unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * Calls visit(ends, uses) for each edge in the order of its ends, which are ascending point numbers; uses is a
-   * std::span<const Use>, in the order of the facets.
+   * Calls visit(ends, uses) for each edge in the order of its ends. The ends are ascending point
+   * numbers. `uses` is a std::span<const Use>, in the order of the facets.
    */
   template <typename Visit>
   void ForEachEdge(Visit&& visit) const
@@ -67,11 +68,11 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> Begins; ///< of the list of each point
+  std::vector<std::uint32_t> Begins; ///< begin of the list of each point
   std::vector<Use> Uses;
 };
 
-/** How many facets at an edge have a label on one side. */
+/** A label, and the number of facets at an edge that have it on one side. */
 struct LabelAtEdge
 {
   std::int64_t Label;
@@ -82,7 +83,7 @@ struct LabelAtEdge
 class LabelsAtEdge
 {
 public:
-  /** @param labels on both sides of each facet */
+  /** @param labels the labels on both sides of each facet */
   explicit LabelsAtEdge(std::span<const std::array<std::int64_t, 2>> labels)
     : Labels(labels)
   {
@@ -96,13 +97,13 @@ private:
   std::vector<LabelAtEdge> Counts;
 };
 
-/** Three labels or more meet at a junction; background counts. */
+/** Whether three or more labels, including background, meet. */
 inline bool IsJunction(std::span<const LabelAtEdge> labels)
 {
   return labels.size() > 2;
 }
 
-/** Whether the boundary of a label is a surface at an edge. */
+/** Whether the boundary of a label is manifold at an edge. */
 inline bool IsManifold(const LabelAtEdge& label)
 {
   return label.Facets == 2;
@@ -116,13 +117,14 @@ struct InterfaceEdge
 };
 
 /**
- * Edges at which some label other than background has another number of boundary facets than two, in the
- * order of their ends. Takes time linear in the numbers of points and facets.
+ * Edges at which the boundary of some label is not manifold: the number of its facets there is not
+ * two. Background does not count. The edges are in the order of their ends. Takes time linear in
+ * the numbers of points and facets.
  *
  * @param facets three point numbers each
- * @param labels on both sides of each
- * @param points all numbers are below
- * @param threads used for some of it; 0 means all cores
+ * @param labels the labels on both sides of each facet
+ * @param points the number of points; all point numbers are smaller
+ * @param threads used for a part of the work; 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<InterfaceEdge> FindNonManifoldEdges(

@@ -15,7 +15,7 @@ namespace voxplex
 namespace
 {
 
-/** What meets at a point of the mesh. */
+/** The labels and junction edges that meet at a point of the mesh. */
 struct PointJunction
 {
   std::array<std::int64_t, 3> Labels{};

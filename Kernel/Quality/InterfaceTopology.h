@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceTopology.h
- * @brief Counts for reports: junctions of the interfaces of a mesh, and edges where the boundary of a label is no
- * manifold. Which edges these are is InterfaceEdges' to say.
+ * @brief Counts for reports: junctions of the interfaces of a mesh, and non-manifold edges of the
+ * boundary of a label. InterfaceEdges.h has the edges themselves.
  */
 #ifndef voxplex_InterfaceTopology_h
 #define voxplex_InterfaceTopology_h
@@ -17,29 +17,32 @@
 namespace voxplex
 {
 
-/** Edges of the boundary of one label: all facets that have it on one side. */
+/**
+ * Edges of the boundary of one label. The boundary consists of all facets with the label on one
+ * side.
+ */
 struct LabelTopology
 {
   std::int64_t Label = 0;
   std::uint64_t BoundaryEdges = 0;
   std::uint64_t NonManifoldEdges =
-    0; ///< of those, edges without exactly two facets of the boundary
-  std::uint64_t NonManifoldEdgesAtJunctions = 0; ///< of those, edges at a junction
+    0; ///< boundary edges that do not have exactly two facets of the boundary
+  std::uint64_t NonManifoldEdgesAtJunctions = 0; ///< non-manifold edges at a junction
 };
 
 /**
- * A junction is where three or more labels, background counted, meet: around an edge by the facets that
- * share it, around a point by the facets that share that.
+ * At a junction, three or more labels meet, including background. The labels at an edge or a point
+ * are those of the facets that share it.
  */
 struct InterfaceTopology
 {
   std::uint64_t InterfaceEdges = 0; ///< of all facets, each once
-  std::uint64_t JunctionEdges = 0;  ///< with three or more labels around
+  std::uint64_t JunctionEdges = 0;  ///< edges where three or more labels meet
   std::uint64_t JunctionPoints = 0; ///< ends of junction edges
   std::uint64_t Corners = 0;        ///< points where four or more labels meet
   /**
-   * Junction points that are no corners and where other than two junction edges meet: ends and
-   * branchings of what should be a polyline.
+   * Junction points, without corners, at which the number of junction edges is not two. Here a
+   * junction that should be a polyline ends or branches.
    */
   std::uint64_t IrregularJunctionPoints = 0;
 
@@ -54,8 +57,8 @@ struct InterfaceTopology
 };
 
 /**
- * Measures the interfaces of a mesh, Facets and FacetLabels. O(n) for n facets of which few share a
- * point; the result does not depend on the number of threads.
+ * Measures the interfaces of a mesh (Facets and FacetLabels). O(n) for n facets, if few facets
+ * share a point. The result does not depend on the number of threads.
  *
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc

@@ -19,7 +19,7 @@ namespace voxplex
 namespace
 {
 
-/** The voxel with the centroid of an element, counted from the first one that is not cropped. */
+/** The voxel that contains the centroid of an element, counted from the first voxel of the crop. */
 template <int D>
 typename GridGeometry<D>::Index VoxelOf(
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, std::size_t simplex)
@@ -41,7 +41,7 @@ typename GridGeometry<D>::Index VoxelOf(
   return voxel;
 }
 
-/** Calls visit with each voxel of the block of 3^D around one. */
+/** Calls visit with each voxel of the block of 3^D voxels around a voxel. */
 template <int D, typename Visit>
 void ForEachAround(const typename GridGeometry<D>::Index& centre, const Visit& visit)
 {
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   using Index = typename GridGeometry<D>::Index;
   const std::vector<Component<D>>& all = components.All();
   const auto found = std::make_unique<std::atomic<bool>[]>(all.size());
-  // Most elements belong to labels of which nothing is missing any more.
+  // Most elements belong to labels whose components have all been found.
   const std::span<const std::int64_t> values = image.Values();
   const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(values.size());
   for (std::size_t c = 0; c < all.size(); ++c)

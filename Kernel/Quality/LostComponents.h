@@ -18,15 +18,17 @@ namespace voxplex
 {
 
 /**
- * Components of which no element of their label has its centroid within a voxel, along each axis.
+ * Finds lost components. A component is lost if no element of its label has its centroid within one
+ * voxel of the component along each axis.
  *
- * O(elements + components): neighbouring voxels are looked at only for labels that seem to miss one.
+ * O(elements + components). Neighbouring voxels are searched only for labels that seem to miss a
+ * component.
  *
- * @param components of `image`
+ * @param components the components of `image`
  * @param mesh in the frame of the image
- * @param wanted which components are looked for (Components::FindWanted)
+ * @param wanted the components to look for (Components::FindWanted)
  * @param threads 0 means all cores; the result does not depend on it
- * @return numbers of components, increasing
+ * @return numbers of the lost components, increasing
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
@@ -35,8 +37,9 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   unsigned threads, const std::stop_token& stop = {});
 
 /**
- * One element for each of some components by which FindLostComponents() finds it: the one with the largest
- * normalized volume. Components that are lost have none.
+ * Finds one witness for each of some components: of all elements that keep FindLostComponents()
+ * from calling the component lost, the one with the largest normalized volume. Lost components have
+ * none.
  *
  * O(elements), by one thread.
  *

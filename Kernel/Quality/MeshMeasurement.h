@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshMeasurement.h
- * @brief All that can be said of a tetrahedral mesh, and of how well it shows the image it was made from.
+ * @brief All measures of a tetrahedral mesh, and of how well it represents the image it was made
+ * from.
  */
 #ifndef voxplex_MeshMeasurement_h
 #define voxplex_MeshMeasurement_h
@@ -25,17 +26,20 @@ namespace voxplex
 /** What to measure. */
 struct MeasurementOptions
 {
-  double RadiusEdgeBound = 2.0;  ///< elements at or above it are counted
-  double FacetAngleBound = 30.0; ///< facets with an angle below it are counted; degrees
-  /** Voxels; smaller connected components are not looked for, but for the largest of each label. */
+  double RadiusEdgeBound = 2.0;  ///< elements at or above this ratio are counted
+  double FacetAngleBound = 30.0; ///< facets with an angle below this are counted; degrees
+  /**
+   * Smaller connected components are not looked for, except the largest component of each label.
+   * Voxels.
+   */
   std::int64_t SmallestComponent = 8;
-  bool Distances = true;       ///< from the interfaces between voxels
-  bool SmoothDistances = true; ///< from the interfaces of the label field; only with Distances
+  bool Distances = true;       ///< to the interfaces between voxels
+  bool SmoothDistances = true; ///< to the interfaces of the label field; only with Distances
   double SmoothingSigma = 1.0; ///< of the label field, voxels
   unsigned Threads = 1;        ///< 0 means all cores
 };
 
-/** A label in an image and in a mesh; in one of them it may be missing. */
+/** A label in an image and in a mesh. It may be missing from one of them. */
 struct LabelComparison
 {
   std::int64_t Label = 0;
@@ -56,11 +60,11 @@ struct ImageComparison
   /** Sum over labels of |volume in the mesh - volume in the image| over the volume in the image. */
   double VolumeError = 0.0;
 
-  std::uint64_t Components = 0; ///< connected through faces, those that are looked for
+  std::uint64_t Components = 0; ///< the components that are looked for, connected through faces
   std::vector<ComponentReport> LostComponents; ///< FindLostComponents()
 
-  HausdorffFigures Voxels; ///< from the centres of the faces between voxels of different labels
-  HausdorffFigures Smooth; ///< from the interfaces of the label field
+  HausdorffFigures Voxels; ///< to the centres of the faces between voxels of different labels
+  HausdorffFigures Smooth; ///< to the interfaces of the label field
 };
 
 struct MeshMeasurement
@@ -71,14 +75,15 @@ struct MeshMeasurement
 };
 
 /**
- * Measures a mesh, Facets and FacetLabels included (FindInterfaces() makes them).
+ * Measures a mesh. The mesh must have Facets and FacetLabels (FindInterfaces() makes them).
  *
- * The result does not depend on the number of threads. Without distances it takes about as long as to write
- * the mesh to a file; with them, a few microseconds for each facet and each face between voxels.
+ * The result does not depend on the number of threads. Without distances, it takes about as long as
+ * writing the mesh to a file. With distances, it takes a few microseconds for each facet and each
+ * face between voxels.
  *
  * @param image in the mesh's frame, or null
- * @throws Cancelled if a stop was requested before the end; InputError if SmoothingSigma is out of range;
- *   std::bad_alloc
+ * @throws Cancelled if a stop was requested before the end; InputError if SmoothingSigma is out of
+ *   range; std::bad_alloc
  */
 MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* image,
   const MeasurementOptions& options, const std::stop_token& stop = {});

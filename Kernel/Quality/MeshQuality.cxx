@@ -20,7 +20,7 @@ namespace
 /** Elements measured at a time. Fixed, so that sums do not depend on the number of threads. */
 constexpr std::size_t Grain = 4096;
 
-/** Mean and standard deviation of numbers that come one by one or in groups. */
+/** Mean and standard deviation of numbers that are added one by one or in groups. */
 class Moments
 {
 public:
@@ -55,12 +55,12 @@ private:
   double SquaredDeviations = 0.0;
 };
 
-/** Counts a value, given in widths of a bin; what lies beyond the last bin counts there. */
+/** Counts a value, given in widths of a bin. A value beyond the last bin counts in the last bin. */
 template <std::size_t N>
 void Count(std::array<std::uint64_t, N>& bins, double value)
 {
   constexpr auto last = static_cast<double>(N - 1);
-  // Not clamp: NaN (a ratio of two zeros) goes to the last bin, too.
+  // Not std::clamp: NaN (a ratio of two zeros) goes to the last bin, too.
   ++bins[value < last ? static_cast<std::size_t>(std::max(0.0, value)) : N - 1];
 }
 
@@ -73,7 +73,7 @@ void Add(std::array<std::uint64_t, N>& bins, const std::array<std::uint64_t, N>&
   }
 }
 
-/** What a run of elements contributes. */
+/** Measures of a range of elements. */
 struct ElementMeasures
 {
   double ShortestEdge2 = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ struct ElementMeasures
   }
 };
 
-/** What a run of facets contributes. */
+/** Measures of a range of facets. */
 struct FacetMeasures
 {
   double MinimumAngleOffJunctions = std::numeric_limits<double>::infinity();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshQuality.h
- * @brief How good a mesh is: shapes, bounds that were promised, volume of each label.
+ * @brief Quality of a mesh: shapes, violations of the promised bounds, volume of each label.
  */
 #ifndef voxplex_MeshQuality_h
 #define voxplex_MeshQuality_h
@@ -27,7 +27,9 @@ struct LabelMeasure
   double Volume = 0.0; ///< D-dimensional, in the mesh's unit of length
 };
 
-/** Angles are in degrees. What does not apply (no element, no facet, not for this D) is NaN or 0.
+/**
+ * Angles are in degrees. A figure that does not apply (no element, no facet, not for this D) is NaN
+ * or 0.
  */
 struct MeshQuality
 {
@@ -40,43 +42,54 @@ struct MeshQuality
   static constexpr std::size_t NumberOfRatioBins = 90;
   static constexpr double AngleBinWidth = 2.0;
   static constexpr double RatioBinWidth = 0.05;
-  /** What facets at junctions are asked for, degrees. */
+  /** The smallest angle required of facets at junctions, degrees. */
   static constexpr double JunctionFacetAngle = ShapeBounds::DefaultJunctionFacetAngle;
 
   double ShortestEdge = NotApplicable; ///< of all elements
 
   double MaximumRadiusEdgeRatio = NotApplicable;
   double MeanRadiusEdgeRatio = NotApplicable;      ///< infinite if some element is flat
-  double RadiusEdgeRatioDeviation = NotApplicable; ///< standard deviation; NaN if one is flat
+  double RadiusEdgeRatioDeviation = NotApplicable; ///< standard deviation; NaN if some are flat
   std::uint64_t RadiusEdgeViolations = 0;          ///< elements at or above the bound
 
   double MinimumDihedralAngle = NotApplicable; ///< 3D only
   double MaximumDihedralAngle = NotApplicable; ///< 3D only
-  /** All six angles of all elements: bin i has those from 2 i to below 2 (i + 1) degrees, the last one
-   * also 180; 3D only. */
+  /**
+   * All six angles of all elements. Bin i counts angles from 2 i to below 2 (i + 1) degrees; the
+   * last bin also counts 180. 3D only.
+   */
   std::array<std::uint64_t, NumberOfAngleBins> DihedralAngles{};
-  /** Elements by radius-edge ratio: bin i has those from i / 20 to below (i + 1) / 20, the last one
-   * also all above. */
+  /**
+   * Elements by radius-edge ratio. Bin i counts ratios from i / 20 to below (i + 1) / 20; the last
+   * bin also counts all ratios above.
+   */
   std::array<std::uint64_t, NumberOfRatioBins> RadiusEdgeRatios{};
 
-  /** Volume over that of the regular simplex with the same circumradius; 1 is best, 0 is flat. */
+  /**
+   * Volume divided by the volume of the regular simplex with the same circumradius; 1 is best, 0 is
+   * flat.
+   */
   double MinimumNormalizedVolume = NotApplicable;
   double MeanNormalizedVolume = NotApplicable;
   double NormalizedVolumeDeviation = NotApplicable; ///< standard deviation
-  /** Elements by normalized volume: bin i has those from i / 20 to below (i + 1) / 20, the last one
-   * also 1. */
+  /**
+   * Elements by normalized volume. Bin i counts volumes from i / 20 to below (i + 1) / 20; the last
+   * bin also counts 1.
+   */
   std::array<std::uint64_t, NumberOfBins> NormalizedVolumes{};
 
   double MinimumFacetAngle = NotApplicable; ///< planar angle of the interface facets; 3D only
   std::uint64_t FacetAngleViolations = 0;   ///< facets with an angle below the bound; 3D only
-  /** Those of them that touch a junction: a vertex where three or more labels, background counted,
-   * meet. */
+  /**
+   * Such facets that touch a junction: a vertex where three or more labels meet, including
+   * background.
+   */
   std::uint64_t FacetAngleViolationsAtJunctions = 0;
-  double MinimumFacetAngleOffJunctions = NotApplicable; ///< of facets that touch none; 3D only
-  double MinimumFacetAngleAtJunctions = NotApplicable;  ///< of the others; 3D only
+  double MinimumFacetAngleOffJunctions = NotApplicable; ///< of facets off junctions; 3D only
+  double MinimumFacetAngleAtJunctions = NotApplicable;  ///< of facets at junctions; 3D only
   /** Facets at junctions with an angle below JunctionFacetAngle. */
   std::uint64_t SmallFacetAnglesAtJunctions = 0;
-  /** All three angles of all interface facets, in bins as those of DihedralAngles; 3D only. */
+  /** All three angles of all interface facets, in the bins of DihedralAngles; 3D only. */
   std::array<std::uint64_t, NumberOfAngleBins> PlanarAngles{};
 
   std::uint64_t InvertedSimplices = 0; ///< not positively oriented, flat ones included; exact
@@ -88,9 +101,10 @@ struct MeshQuality
  * Measures a mesh.
  *
  * Ratios and angles are computed in double (radii of nearly flat elements exactly, see
- * SimplexQuality.h) and compared with the bounds as they are. Standard deviations are those of the
- * elements themselves (the mean square over their number), merged from parts by the formulas of Chan,
- * Golub and LeVeque (1979), which do not cancel. The result does not depend on the number of threads.
+ * SimplexQuality.h) and compared with the bounds without a tolerance. Standard deviations are
+ * population standard deviations: the sum of squares is divided by the number of elements. They are
+ * merged from parts by the formulas of Chan, Golub and LeVeque (1979), which avoid cancellation.
+ * The result does not depend on the number of threads.
  *
  * @param radiusEdgeBound elements with a radius-edge ratio of this or more are counted
  * @param facetAngleBound interface facets with a planar angle below this many degrees are counted
