@@ -25,7 +25,7 @@ enum class ContentionPolicy
 /** The load balancer: how idle threads get work (thesis, sections 3.2.4 and 3.4.1). */
 enum class BalancePolicy
 {
-  Random,      ///< from the first thread that finds an idle thread (random work stealing, RWS)
+  Random,      ///< from the first busy thread that looks for idle ones (random work stealing, RWS)
   Hierarchical ///< from the nearest thread that has work (hierarchical work stealing, HWS)
 };
 
