@@ -40,7 +40,8 @@ LabelId MostFrequentNeighbour(
         }
       }
     });
-  // A neighbour that was dropped before may have this label now; then they are one, for the next round.
+  // A neighbour that was dropped before may now have the same label as this component. Then both
+  // are one component in the next round.
   const auto most = std::max_element(
     faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == faces.end() ? own : most->first;
