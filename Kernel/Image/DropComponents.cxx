@@ -97,8 +97,8 @@ std::vector<ComponentReport> DropComponents(
   if (std::all_of(image.Counts().begin() + 1, image.Counts().end(),
         [](std::int64_t count) { return count == 0; }))
   {
-    throw InputError("every component of the image is smaller than the volume below which they are "
-                     "to be left out; ask for a smaller one");
+    throw InputError("every component of the image is smaller than the smallest volume to keep; "
+                     "choose a smaller volume");
   }
   return dropped;
 }

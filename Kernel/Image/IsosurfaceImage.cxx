@@ -120,8 +120,8 @@ void CheckRange(const Isosurface& surface, const std::array<double, 2>& range, c
 {
   if (range[0] > range[1])
   {
-    throw InputError("No voxel of the image has a number for a value (all are NaN): there is no "
-                     "isosurface to mesh. Choose another array.");
+    throw InputError("All values of the image are NaN, so there is no isosurface to mesh. Choose "
+                     "another array.");
   }
   if (!(surface.Value >= range[0] && surface.Value <= range[1]))
   {
