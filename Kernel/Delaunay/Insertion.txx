@@ -259,8 +259,7 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 }
 
 //------------------------------------------------------------------------------------------------
-// Writes the new simplex on a facet of the boundary, except its ball and its links to new
-// neighbours.
+// Writes the new simplex on a facet of the boundary, without its ball and its new neighbours.
 template <int D>
 inline void Triangulation<D>::PlaceSimplex([[maybe_unused]] const Worker& worker, SimplexId s,
   Simplex& simplex, BoundaryFacet& facet, VertexId apex)
@@ -303,7 +302,7 @@ inline void Triangulation<D>::SetBall(
 }
 
 //------------------------------------------------------------------------------------------------
-// If two new simplices share a ridge, they are neighbours across the facet of this ridge and the
+// If two new simplices share a ridge, they are neighbours. Their common facet is the ridge with the
 // apex.
 template <int D>
 inline void Triangulation<D>::LinkRidges(Worker& worker)
@@ -351,8 +350,7 @@ inline void Triangulation<D>::LinkRidges(Worker& worker)
 
 //------------------------------------------------------------------------------------------------
 // (apex, i, From, To) is an even permutation of the tetrahedron's vertices. So, seen from the apex,
-// the edge opposite i has one direction in this tetrahedron and the other direction in its
-// neighbour.
+// the edge opposite i has opposite directions in this tetrahedron and in its neighbour.
 template <int D>
 inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed) requires(D == 3)
 {

@@ -92,8 +92,7 @@ inline double RadiusEdgeRatio(const Point<D>* const* v)
 
 /**
  * Volume divided by the volume of the regular simplex with the same circumradius (tau-hat in
- * chapter 4 of the thesis, here for any D). It is 1 for the regular simplex and 0 for a flat
- * simplex.
+ * chapter 4 of the thesis, here for any D): 1 for the regular simplex, 0 for a flat one.
  * @param radius2 Circumradius2(v)
  */
 template <int D>

@@ -66,10 +66,7 @@ public:
   /** The component of a voxel of the crop; None for background and outside the crop. */
   std::uint32_t At(const Index& voxel) const;
 
-  /**
-   * Calls visit(first, length) for each run of a component, in order. Runs are along the first
-   * axis.
-   */
+  /** Calls visit(first, length) for each run of a component along the first axis, in order. */
   template <typename Visit>
   void ForEachRun(std::uint32_t component, Visit&& visit) const
   {

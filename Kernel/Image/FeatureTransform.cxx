@@ -59,8 +59,7 @@ std::int64_t SetBitAbove(std::span<const std::uint64_t> words, std::int64_t posi
 
 /**
  * The lower envelope of the parabolas of one line: it keeps only parabolas that are the lowest
- * somewhere. First Push() all parabolas from left to right. Then call LowestAt() from left to
- * right.
+ * somewhere. Push() all parabolas from left to right. Then call LowestAt() from left to right.
  */
 template <int D>
 class FeatureTransform<D>::Envelope

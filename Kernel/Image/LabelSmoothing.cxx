@@ -213,8 +213,7 @@ void PassAcross(const float* __restrict in, std::size_t outer, std::size_t inner
 VOXPLEX_VECTOR_CLONES
 void ToSamples(const float* __restrict in, std::size_t n, std::int16_t* __restrict out)
 {
-  // Adding 1.5 * 2^23 leaves the rounded value in the last bits. GCC vectorises this, but not
-  // lrint.
+  // Adding 1.5 * 2^23 leaves the rounded value in the last bits. GCC vectorises this, not lrint.
   constexpr float shift = 12582912.0f;
   constexpr std::int32_t zero = std::bit_cast<std::int32_t>(shift);
   for (std::size_t i = 0; i < n; ++i)

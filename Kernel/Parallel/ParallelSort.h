@@ -28,8 +28,7 @@ namespace voxplex
  * counted. Then its values are written to their places in the other array. If all values have the
  * same digit, only the counting is done. Time: O(n bits / 10).
  *
- * @param values the values to sort, fewer than 2^32; afterwards in unspecified order, unless
- *   returned
+ * @param values the values to sort, fewer than 2^32; the call may change their order
  * @param scratch as large as values; its contents are overwritten
  * @param bits the keys are below 2^bits; 0 ... 64
  * @param key callable with const T&, from several threads at the same time. It returns an unsigned

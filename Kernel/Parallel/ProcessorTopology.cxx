@@ -61,8 +61,7 @@ HwlocTopology Load(const char* description)
 }
 
 /**
- * The topology of this machine. It is read only once, since that takes up to a tenth of a second.
- * Thread-safe.
+ * The topology of this machine, read only once: that takes up to a tenth of a second. Thread-safe.
  */
 hwloc_topology_t ThisMachine()
 {
