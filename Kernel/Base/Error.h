@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Error.h
- * @brief What the kernel throws.
+ * @brief The exceptions of the kernel.
  *
- * The kernel never prints, exits or aborts. Whatever is wrong with the input is an Error whose
- * message says what is wrong, where, and what to do; callers (filters, command line) show it.
+ * The kernel never prints, exits or aborts. If the input is wrong, it throws an Error. The message
+ * says what is wrong, where it is, and how to correct it. Callers (filters, command line) show it.
  */
 #ifndef voxplex_Error_h
 #define voxplex_Error_h
@@ -17,7 +17,7 @@
 namespace voxplex
 {
 
-/** Base of everything that the kernel throws on purpose. */
+/** Base class of all errors that the kernel throws. */
 class Error : public std::runtime_error
 {
 public:
@@ -27,7 +27,7 @@ public:
   }
 };
 
-/** The image or a parameter cannot be meshed as it is. */
+/** The image cannot be meshed, or a parameter is out of range. */
 class InputError : public Error
 {
 public:
@@ -35,7 +35,7 @@ public:
 };
 
 /**
- * The mesh that was asked for is estimated not to fit in memory; MeshingOptions::Force overrides.
+ * By estimate, the requested mesh does not fit in memory. MeshingOptions::Force skips this check.
  */
 class TooLargeError : public Error
 {
@@ -44,9 +44,9 @@ public:
 };
 
 /**
- * A run was cancelled: thrown inside the kernel, by whatever was given a std::stop_token of which a
- * stop was requested. Nothing is wrong, so it is no Error; it never leaves ImageMesher::Run(),
- * which returns MeshingOutcome::Cancelled instead.
+ * The run was cancelled. Functions of the kernel throw it if a stop was requested through their
+ * std::stop_token. A cancelled run is not a failure, so this class is not an Error. It never leaves
+ * ImageMesher::Run(), which returns MeshingOutcome::Cancelled instead.
  */
 class Cancelled : public std::exception
 {

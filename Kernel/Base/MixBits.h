@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MixBits.h
- * @brief Bits as good as random, always the same for the same number.
+ * @brief A hash of 64-bit integers.
  */
 #ifndef voxplex_MixBits_h
 #define voxplex_MixBits_h
@@ -12,10 +12,13 @@
 namespace voxplex
 {
 
-/** What splitmix64 adds to its state from one number to the next: 2^64 over the golden ratio. */
+/** The increment of splitmix64's state: 2^64 divided by the golden ratio. */
 constexpr std::uint64_t GoldenGamma = 0x9e3779b97f4a7c15ull;
 
-/** One to one; splitmix64's last step (Steele, Lea, Flood, OOPSLA 2014, variant 13 of Stafford). 0 stays 0. */
+/**
+ * The last step of splitmix64 (Steele, Lea, Flood, OOPSLA 2014, variant 13 of Stafford). It is a
+ * bijection, and maps 0 to 0.
+ */
 constexpr std::uint64_t MixBits(std::uint64_t z)
 {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file NumberText.h
- * @brief Numbers in messages.
+ * @brief Formats numbers for messages.
  */
 #ifndef voxplex_NumberText_h
 #define voxplex_NumberText_h
@@ -13,7 +13,7 @@
 namespace voxplex
 {
 
-/** With at most this many significant digits. */
+/** The number as text, with at most `digits` significant digits. */
 inline std::string NumberText(double x, int digits = 6)
 {
   char text[32];

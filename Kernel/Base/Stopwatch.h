@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Stopwatch.h
- * @brief Wall-clock time since it was made.
+ * @brief Measures the wall-clock time since its construction.
  */
 #ifndef voxplex_Stopwatch_h
 #define voxplex_Stopwatch_h

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file UninitialisedVector.h
- * @brief A vector whose memory is first touched by whoever fills it.
+ * @brief A vector whose memory is first touched by the threads that fill it.
  */
 #ifndef voxplex_UninitialisedVector_h
 #define voxplex_UninitialisedVector_h
@@ -16,7 +16,7 @@
 namespace voxplex
 {
 
-/** std::allocator, but elements made without arguments are left as the memory was. */
+/** Like std::allocator, but elements constructed without arguments are not initialised. */
 template <typename T>
 class UninitialisedAllocator : public std::allocator<T>
 {
@@ -45,11 +45,11 @@ public:
 };
 
 /**
- * @brief A std::vector of numbers whose constructor and resize() leave new elements uninitialised:
- * write each before reading it.
+ * @brief A std::vector of numbers whose constructor and resize() leave new elements uninitialised.
  *
- * For large arrays that a parallel loop fills: to write zeros and to take the memory's pages from the
- * operating system would be serial, and takes about as long as what such loops do.
+ * Write each element before you read it. Use it for large arrays that a parallel loop fills. A
+ * std::vector would write zeros first, in one thread, and that thread would fetch the memory pages
+ * from the operating system. This takes about as long as such a loop itself.
  */
 template <typename T>
 using UninitialisedVector = std::vector<T, UninitialisedAllocator<T>>;

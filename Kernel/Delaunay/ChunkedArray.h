@@ -22,11 +22,11 @@ namespace voxplex
 /**
  * @brief Elements 0 ... 2^32 - 2 in chunks of 2^ChunkBits, allocated on demand.
  *
- * Addresses never change, so threads may read elements while others make the array grow. Memory of a
- * chunk is touched only where elements are written, unless an initial value is given.
+ * Addresses never change, so threads may read elements while other threads make the array grow.
+ * Without an initial value, the memory of a chunk is touched only where elements are written.
  *
- * Grow() may be called by several threads at once; two threads that need the same chunk race to
- * install it and the loser frees its own.
+ * Several threads may call Grow() at the same time. If two threads need the same chunk, both
+ * allocate it, one installs it, and the other frees its own.
  */
 template <typename T, unsigned ChunkBits = 14>
 class ChunkedArray
@@ -37,7 +37,7 @@ public:
   static constexpr std::uint32_t ChunkSize = 1u << ChunkBits;
 
   ChunkedArray()
-    // calloc: untouched pages of the table cost nothing, and zero bits are null pointers
+    // calloc: untouched pages of the table cost nothing, and zero bits are null pointers.
     : Chunks(static_cast<std::atomic<T*>*>(std::calloc(NumberOfChunks, sizeof(std::atomic<T*>))))
   {
     if (!this->Chunks)
@@ -45,7 +45,7 @@ public:
       throw std::bad_alloc();
     }
   }
-  /** Every element of a new chunk starts as a copy of `initial`. */
+  /** The elements of a new chunk are copies of `initial`. */
   explicit ChunkedArray(const T& initial)
     : ChunkedArray()
   {
@@ -61,8 +61,8 @@ public:
       T* chunk = this->Chunks[c].load(std::memory_order_relaxed);
       if (!chunk)
       {
-        // Chunks are installed in the order of element numbers, but for races among threads: a gap
-        // is at most a few chunks wide.
+        // Threads install chunks roughly in the order of element numbers. Races among threads may
+        // leave a gap of a few chunks.
         if (c > this->HighestChunk.load(std::memory_order_relaxed))
         {
           break;
@@ -84,7 +84,7 @@ public:
     {
       if (this->Chunks[c].load(std::memory_order_acquire))
       {
-        break; // the chunks below exist or are being made by those who need them
+        break; // the chunks below exist, or the threads that need them make them now
       }
       this->MakeChunk(c);
       if (c == 0)
@@ -116,7 +116,7 @@ private:
       std::uninitialized_fill_n(fresh, ChunkSize, this->Initial);
     }
     T* expected = nullptr;
-    // release: whoever sees the pointer sees the initial values
+    // Release: a thread that sees the pointer sees the initial values.
     if (!this->Chunks[c].compare_exchange_strong(expected, fresh, std::memory_order_acq_rel))
     {
       ::operator delete(fresh, std::align_val_t(Alignment));

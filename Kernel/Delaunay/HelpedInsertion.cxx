@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of an insertion with which threads that wait may help: conflict tests, level by level, and
-// circumballs. What the worker does itself it does in the order of Insertion.txx, with the same result.
-// A translation unit of its own: beside it the compiler inlines less of the insertion that nobody helps
-// with, which then takes 4 % more instructions.
+// The parts of an insertion with which waiting threads may help: conflict tests, level by level,
+// and circumballs. The worker itself works in the order of Insertion.txx, and the result is the
+// same. This is a separate translation unit: in a common one the compiler inlines less of the
+// insertion without help, which then takes 4 % more instructions.
 #include "Delaunay/Insertion.txx"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace voxplex
 {
 
 //------------------------------------------------------------------------------------------------
-// The simplices of a level are those that joined from the level before.
+// The simplices of a level joined the cavity when the previous level was expanded.
 template <int D>
 bool Triangulation<D>::ExpandWithHelp(Worker& worker, const Point<D>& p, unsigned planes)
 {
@@ -31,9 +31,10 @@ bool Triangulation<D>::ExpandWithHelp(Worker& worker, const Point<D>& p, unsigne
 }
 
 //------------------------------------------------------------------------------------------------
-// As a turn of the loop in CollectCavity() for each simplex of the level, but all tests come first: the
-// worker takes the vertices that entitle it to read the neighbours of the whole level, and then lets
-// others test these. If the level is small it tests them alone.
+// Does what the loop in CollectCavity() does for each simplex of the level, but does all conflict
+// tests first. The worker takes the vertices that permit it to read the neighbours of the whole
+// level. Then other threads help to test these neighbours. If the level is small, the worker tests
+// them alone.
 template <int D>
 bool Triangulation<D>::ExpandLevel(
   Worker& worker, const Point<D>& p, unsigned planes, std::size_t first, std::size_t last)
@@ -53,7 +54,8 @@ bool Triangulation<D>::ExpandLevel(
       return false;
     }
   }
-  // Until the answers are there, all count as outside: whatever happens, their marks will be restored.
+  // Until they are tested, all candidates are marked Outside. So their marks are restored if the
+  // operation fails.
   const std::size_t touched = worker.Touched.Size();
   for (std::size_t k = first; k < last; ++k)
   {
@@ -108,7 +110,8 @@ bool Triangulation<D>::ExpandLevel(
 }
 
 //------------------------------------------------------------------------------------------------
-// A chunk runs in the thread of the helper, whose worker has no operation under way: it waits.
+// A chunk runs in the helper's thread, with the helper's worker. This worker is free, since its
+// thread waits.
 template <int D>
 void Triangulation<D>::TestCandidates(Worker& worker, const Point<D>& p, std::size_t level)
 {
@@ -133,8 +136,8 @@ void Triangulation<D>::TestCandidates(Worker& worker, const Point<D>& p, std::si
 }
 
 //------------------------------------------------------------------------------------------------
-// Links take longer than balls, and one thread must make them: others begin with the balls meanwhile.
-// Nothing here throws.
+// One thread must link the new simplices, which takes longer than computing their circumballs.
+// Meanwhile the helpers begin with the circumballs. Nothing here throws.
 template <int D>
 void Triangulation<D>::FillWithHelp(Worker& worker, VertexId apex)
 {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Insertion of a point: the cavity of simplices in conflict (Bowyer, Watson) is collected from a seed,
-// emptied, and filled with the cone from the point over its boundary.
+// Insertion of a point (Bowyer, Watson): the cavity, the simplices in conflict with the point, is
+// collected from a seed. Its simplices are deleted. Then it is filled with the cone from the point
+// over the cavity's boundary.
 #ifndef voxplex_Insertion_txx
 #define voxplex_Insertion_txx
 
@@ -48,7 +49,7 @@ InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, Ver
     }
     this->ReserveSimplices(worker, worker.Boundary.Size());
     this->ReserveVertex(worker);
-    // Each facet has D ridges; two share each, but on the rim that a cavity has at the box.
+    // Each facet has D ridges. Two facets share a ridge, except on the cavity's rim at the box.
     const std::size_t ridges = worker.Boundary.Size() * static_cast<std::size_t>(D);
     worker.Ridges.Begin(this->PlanesOfPoint(p) == 0 ? ridges / 2 : ridges);
     if (worker.Link.Size() > RidgeTable<D>::MostVertices)
@@ -67,10 +68,10 @@ InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, Ver
 }
 
 //------------------------------------------------------------------------------------------------
-// Breadth first over neighbours. Marks: Cavity for simplices in conflict, Outside for those tested
-// and found free of it, so that each is tested once. A simplex that joins brings at most one new vertex.
-// The vertices of a simplex are taken when its neighbours are about to be tested. False if one belongs to
-// another worker.
+// Breadth-first search over neighbours. Simplices in conflict are marked Cavity. Tested simplices
+// without conflict are marked Outside, so that each simplex is tested once. A simplex that joins
+// the cavity adds at most one new vertex. The vertices of a simplex are taken before its neighbours
+// are tested. Returns false if a vertex belongs to another worker.
 template <int D>
 bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed)
 {
@@ -108,7 +109,7 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
     worker.Boundary.MakeRoom(N);
     worker.Joined.MakeRoom(N);
     worker.Owned.MakeRoom(1);
-    if (k > 0 && !this->TryOwn(worker, worker.Joined[k + N - 1])) // the vertex that s brought
+    if (k > 0 && !this->TryOwn(worker, worker.Joined[k + N - 1])) // the vertex that s added
     {
       return false;
     }
@@ -142,7 +143,7 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
       }
       else if (planes != 0 && this->OnPlane(simplex.V, i, planes))
       {
-        continue; // the point lies in this facet of the box: the cone over it would be flat
+        continue; // the point lies in this facet's plane on the box: the cone would be flat
       }
       BoundaryFacet& facet = worker.Boundary.PushUninitialised();
       facet.V = simplex.V;
@@ -156,9 +157,10 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
 }
 
 //------------------------------------------------------------------------------------------------
-// Every vertex of the cavity is on its boundary (no vertex disappears), and Joined has them all, some
-// more than once. Notes where they lie from the apex, for the circumballs. Without a branch, which would
-// be unpredictable: a vertex that has its number already is computed once more beyond the end.
+// Numbers the link's vertices, and stores their offsets from the apex for the circumballs. Every
+// vertex of the cavity is on its boundary (no vertex disappears). Joined has all of them, some more
+// than once. There is no branch, since it would be unpredictable: the data of a vertex that already
+// has a number are computed again, and written beyond the end.
 template <int D>
 inline void Triangulation<D>::NumberLink(Worker& worker, const Point<D>& apex)
 {
@@ -182,8 +184,8 @@ inline void Triangulation<D>::NumberLink(Worker& worker, const Point<D>& apex)
 }
 
 //------------------------------------------------------------------------------------------------
-// The search is bound by the latency of memory: what it will read next is asked for when a simplex
-// joins the cavity.
+// The search is bound by memory latency. When a simplex joins the cavity, this prefetches the data
+// that the search will read next.
 template <int D>
 inline void Triangulation<D>::Prefetch([[maybe_unused]] SimplexId s,
   [[maybe_unused]] const Simplex& simplex, [[maybe_unused]] std::uint32_t newVertex) const
@@ -203,7 +205,7 @@ inline void Triangulation<D>::Prefetch([[maybe_unused]] SimplexId s,
 }
 
 //------------------------------------------------------------------------------------------------
-// The vertex nearest to p is on the boundary of the cavity.
+// It suffices to test the link: the vertex nearest to p is on the boundary of the cavity.
 template <int D>
 bool Triangulation<D>::IsClear(
   Worker& worker, const Point<D>& p, VertexKind kind, double clearance) const
@@ -221,7 +223,7 @@ bool Triangulation<D>::IsClear(
 }
 
 //------------------------------------------------------------------------------------------------
-// Nothing here throws: all room has been made.
+// Nothing here throws, since all memory has been reserved.
 template <int D>
 void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 {
@@ -257,7 +259,7 @@ void Triangulation<D>::FillCavity(Worker& worker, VertexId apex)
 }
 
 //------------------------------------------------------------------------------------------------
-// The new simplex on a facet of the boundary, with all but its ball and its new neighbours.
+// Writes the new simplex on a facet of the boundary, without its ball and its new neighbours.
 template <int D>
 inline void Triangulation<D>::PlaceSimplex([[maybe_unused]] const Worker& worker, SimplexId s,
   Simplex& simplex, BoundaryFacet& facet, VertexId apex)
@@ -300,7 +302,8 @@ inline void Triangulation<D>::SetBall(
 }
 
 //------------------------------------------------------------------------------------------------
-// Two new simplices are neighbours across the facet that their common ridge spans with the apex.
+// If two new simplices share a ridge, they are neighbours. Their common facet is the ridge with the
+// apex.
 template <int D>
 inline void Triangulation<D>::LinkRidges(Worker& worker)
 {
@@ -335,7 +338,7 @@ inline void Triangulation<D>::LinkRidges(Worker& worker)
       const std::uint32_t partner = worker.Ridges.Match(ridge, k * N + i);
       if (partner == RidgeTable<D>::Nothing)
       {
-        simplex.N[i] = None; // until the partner comes; for good on the box
+        simplex.N[i] = None; // until the partner is found; on the box there is none
         continue;
       }
       const SimplexId t = worker.Created[partner / N];
@@ -346,8 +349,8 @@ inline void Triangulation<D>::LinkRidges(Worker& worker)
 }
 
 //------------------------------------------------------------------------------------------------
-// (apex, i, From, To) is an even permutation of the tetrahedron's vertices: seen from the apex the edge
-// opposite i runs one way in this tetrahedron and the other way in its neighbour.
+// (apex, i, From, To) is an even permutation of the tetrahedron's vertices. So, seen from the apex,
+// the edge opposite i has opposite directions in this tetrahedron and in its neighbour.
 template <int D>
 inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed) requires(D == 3)
 {
@@ -381,7 +384,7 @@ inline void Triangulation<D>::LinkEdges(Worker& worker, bool closed) requires(D 
 }
 
 //------------------------------------------------------------------------------------------------
-// Bit 2a: on the lower face of axis a; bit 2a+1: on the upper.
+// Bit 2a is 1 if p is on the lower face of axis a, bit 2a+1 if p is on the upper face.
 template <int D>
 unsigned Triangulation<D>::PlanesOfPoint(const Point<D>& p) const
 {

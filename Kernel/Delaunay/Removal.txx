@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Removal of a vertex: its star is emptied and filled by gift wrapping from its boundary.
+// Removal of a vertex: the simplices of its star are deleted, and the hole is filled by gift
+// wrapping from its boundary.
 //
-// In the Delaunay triangulation without the vertex, the simplex on the inner side of a facet of the
-// hole has its apex in the link and no other point of the link in its circumball; with the symbolic
-// perturbation it is unique. So each open facet finds its apex among the vertices of the link by
-// in-sphere tests alone, and the filling fits whatever lies outside.
+// In the Delaunay triangulation without the vertex, consider the simplex on the inner side of a
+// facet of the hole. Its apex is in the link, and no other point of the link is in its circumball.
+// With the symbolic perturbation this simplex is unique. So in-sphere tests alone find the apex of
+// each open facet among the link's vertices, and the filling fits the simplices outside the hole.
 #ifndef voxplex_Removal_txx
 #define voxplex_Removal_txx
 
@@ -53,8 +54,8 @@ RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
 }
 
 //------------------------------------------------------------------------------------------------
-// Every vertex of the star is taken before the simplices are looked at; false if one belongs to another
-// worker.
+// Takes the vertices of each simplex before its neighbours are read. Returns false if a vertex
+// belongs to another worker.
 template <int D>
 bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
 {
@@ -114,9 +115,9 @@ bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
 }
 
 //------------------------------------------------------------------------------------------------
-// worker.Boundary serves as the list of facets: the first ones bound the star, each simplex of the
-// filling then adds those of its facets that had no partner. What the facets on the box that had the
-// vertex covered is covered by facets of the filling on the same planes.
+// worker.Boundary is the list of facets. The first facets bound the star. Then each simplex of the
+// filling adds its facets that have no partner yet. If the vertex is on the box, the filling's
+// facets on the same planes cover the area of the star's facets there.
 template <int D>
 bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
 {
@@ -164,10 +165,10 @@ bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
       }
       if (planes != 0 && this->OnPlane(facet.V, i, planes))
       {
-        filling.Neighbours[i] = { None, 0, false }; // on the box, as the facets of the vertex were
+        filling.Neighbours[i] = { None, 0, false }; // on the box, as the removed facets were
         continue;
       }
-      // The same facet seen from the other side: an odd permutation, vertex i left open.
+      // The same facet seen from the other side: an odd permutation, and vertex i is still unknown.
       BoundaryFacet next;
       next.V = facet.V;
       next.V[i] = None;
@@ -185,7 +186,7 @@ bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
         worker.Boundary.Push(next);
         continue;
       }
-      // Meets a facet that waited: both sides are known now.
+      // The partner is an open facet in the list. Now both sides of the facet are known.
       const BoundaryFacet& met = worker.Boundary[partner];
       worker.Filling[number].Neighbours[i] = { met.Outer, met.OuterIndex, met.OuterInFilling };
       if (met.OuterInFilling)
@@ -198,7 +199,7 @@ bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
 }
 
 //------------------------------------------------------------------------------------------------
-// The vertex of the link on the inner side of the facet whose circumball is empty.
+// Finds the link's vertex on the inner side of the facet that spans an empty circumball with it.
 template <int D>
 VertexId Triangulation<D>::BestApex(Worker& worker, const BoundaryFacet& facet)
 {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RidgeTable.h
- * @brief Finds which two faces of new simplices coincide.
+ * @brief Finds the pairs of faces of new simplices that coincide.
  *
- * Vertices are named by their small numbers within the operation (VertexRecord::Local), so keys are
- * exact: no face is ever taken for another.
+ * Vertices are identified by their small numbers within the operation (VertexRecord::Local). So
+ * keys are exact: two different faces never have the same key.
  */
 #ifndef voxplex_RidgeTable_h
 #define voxplex_RidgeTable_h
@@ -22,10 +22,10 @@ namespace voxplex
 {
 
 /**
- * @brief Pairs equal sets of K vertex numbers (K at most 4); each set may be offered at most twice.
+ * @brief Pairs equal sets of K vertex numbers (K at most 4). Each set may be given at most twice.
  *
- * Open addressing with stamps: starting over costs nothing. Not safe for concurrent use: one per
- * worker.
+ * A hash table with open addressing. Entries have stamps, so clearing the table costs nothing. Not
+ * thread-safe: each worker has its own table.
  */
 template <unsigned K>
 class FaceTable
@@ -36,7 +36,9 @@ public:
   static constexpr std::uint32_t MostVertices = 1u << 21;
   using Face = std::array<std::uint32_t, K>;
 
-  /** Forgets all and makes room for n distinct sets: Match() allocates only if there are more. */
+  /**
+   * Clears the table, and makes room for n distinct sets. If more come, Match() allocates memory.
+   */
   void Begin(std::size_t n)
   {
     const std::size_t wanted = std::bit_ceil(std::max<std::size_t>(64, 2 * n + 1));
@@ -54,8 +56,8 @@ public:
   }
 
   /**
-   * The payload under which the set was offered before, which is taken out; else remembers this one
-   * and returns Nothing. A set that was taken out must not be offered again.
+   * If the set was given before, takes it out and returns its payload. Otherwise stores the set
+   * with this payload and returns Nothing. A set that was taken out must not be given again.
    */
   std::uint32_t Match(Face face, std::uint32_t payload)
   {
@@ -76,7 +78,7 @@ public:
     return Nothing;
   }
 
-  /** True if the set is waiting for its partner. */
+  /** True if the set was given once, and not yet taken out. */
   bool IsOpen(const Face& face)
   {
     const Entry& e = this->Find(MakeKey(face));
@@ -84,7 +86,7 @@ public:
   }
 
 private:
-  /** Up to three numbers in a word, the smallest first. */
+  /** Up to three vertex numbers per word, the smallest first. */
   using Key = std::array<std::uint64_t, (K + 2) / 3>;
   struct Entry
   {
@@ -95,7 +97,7 @@ private:
 
   static Key MakeKey(Face face)
   {
-    // Insertion sort by exchanges without branches: which number is larger cannot be predicted.
+    // Insertion sort by exchanges without branches, since the comparisons are unpredictable.
     for (unsigned i = 1; i < K; ++i)
     {
       for (unsigned j = i; j > 0; --j)
@@ -148,30 +150,30 @@ private:
   std::size_t Count = 0;
 };
 
-/** Facets of a front: D vertices each. */
+/** Facets of a front, with D vertices each. */
 template <int D>
 using FacetTable = FaceTable<static_cast<unsigned>(D)>;
 
-/** Ridges of a cavity: the D-1 vertices that two of its boundary facets share. */
+/** Ridges of a cavity: sets of D-1 vertices that two boundary facets share. */
 template <int D>
 using RidgeTable = FaceTable<static_cast<unsigned>(D - 1)>;
 
 /**
- * @brief Ridges of a cavity in 3D: directed edges in a square table, without a search or a branch.
+ * @brief Ridges of a cavity in 3D: a square table of directed edges, without a search or a branch.
  *
- * Two neighbouring facets of an oriented surface run through their common edge in opposite
- * directions: each facet stores its number under its three directed edges and finds its neighbours
- * under the reversed ones. On a closed surface every entry that is read was written, so nothing need
- * be cleared; the rim of a cavity at the box is the exception.
+ * Two neighbouring facets of an oriented surface have opposite directions along their common edge.
+ * Each facet stores its simplex under its three directed edges, and finds its neighbours under the
+ * reversed edges. On a closed surface, every entry that is read has been written. So the table is
+ * cleared only if the cavity has a rim at the box.
  */
 class EdgeTable
 {
 public:
   static constexpr std::uint32_t Nothing = 0xffffffffu;
-  /** Most vertices of a cavity for which the table is made; nearly all have fewer. */
+  /** The table is for cavities with at most this number of vertices. Nearly all have fewer. */
   static constexpr std::size_t MostVertices = 64;
 
-  /** @param closed whether the cavity has no rim */
+  /** @param closed true if the cavity has no rim */
   void Begin(std::size_t vertices, bool closed)
   {
     this->Side = vertices;
@@ -184,7 +186,7 @@ public:
   {
     this->Cells[from * this->Side + to] = payload;
   }
-  /** What was stored for the edge in this direction; Nothing on a rim. */
+  /** The payload of the edge in this direction; Nothing on a rim. */
   std::uint32_t Find(std::uint32_t from, std::uint32_t to) const
   {
     return this->Cells[from * this->Side + to];

@@ -16,10 +16,11 @@ namespace voxplex
 {
 
 /**
- * @brief Like std::vector for plain data, but room is made apart from pushing.
+ * @brief Like std::vector for plain data, but making room and pushing are separate operations.
  *
- * Loops ask for room once for all that a turn may push; the pushes are then a store and an increment.
- * (std::vector::push_back calls out of line; in the cavity search that took 5 % of an insertion.)
+ * A loop makes room once for all pushes of an iteration. Then each push is a store and an
+ * increment. (std::vector::push_back calls a function that is not inlined. In the cavity search
+ * this took 5 % of an insertion.)
  */
 template <typename T>
 class Stack
@@ -35,9 +36,9 @@ public:
       this->Grow(n);
     }
   }
-  /** Room must have been made. */
+  /** Call MakeRoom() before. */
   void Push(const T& x) { this->Data[this->Count++] = x; }
-  /** The new top, uninitialised; room must have been made. */
+  /** Returns the new top, which is uninitialised. Call MakeRoom() before. */
   T& PushUninitialised() { return this->Data[this->Count++]; }
   T Pop() { return this->Data[--this->Count]; }
   void Clear() { this->Count = 0; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Construction, pools, walking; insertion, removal and verification have files of their own. This is
-// the one translation unit that instantiates them all.
+// Construction, pools and walking. Insertion, removal and verification have separate files, which
+// are included and instantiated here.
 #include "Delaunay/Triangulation.h"
 
 #include "Delaunay/Insertion.txx"
@@ -17,7 +17,7 @@ namespace voxplex
 
 namespace
 {
-// Ids that a worker takes from the common counter at a time.
+// Number of ids that a worker takes from the common counter at once.
 constexpr std::uint32_t SimplexBlock = 256;
 constexpr std::uint32_t VertexBlock = 64;
 }
@@ -34,8 +34,8 @@ Triangulation<D>::Triangulation(const Box<D>& box)
 }
 
 //------------------------------------------------------------------------------------------------
-// The corners are co-spherical, so only the predicates can say how they are triangulated: of all
-// simplices that they span, those whose perturbed circumball is empty.
+// The corners are co-spherical. The perturbed predicates define their triangulation: it has the
+// simplices of corners whose perturbed circumball is empty.
 template <int D>
 void Triangulation<D>::BuildCorners()
 {
@@ -125,7 +125,7 @@ bool Triangulation<D>::InConflictExactly(Worker& worker, SimplexId s, const Poin
   {
     if (this->Position(v) == p)
     {
-      return false; // on the sphere, and the perturbation is for distinct points only
+      return false; // p is on the sphere, and the perturbation needs distinct points
     }
   }
   return worker.Predicates.InSpherePerturbed(this->Points(simplex.V).data(), p);
@@ -142,7 +142,7 @@ Circumball<D> Triangulation<D>::ComputeBallExactly(SimplexId s) const
 }
 
 //------------------------------------------------------------------------------------------------
-// Afterwards the free list holds n ids beside those that the operation frees, and has room for these.
+// Afterwards the free list has at least n ids, and room for the ids that the operation will free.
 template <int D>
 void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
 {
@@ -151,7 +151,8 @@ void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
   free.MakeRoom(n + SimplexBlock + worker.Deleted.Size());
   while (free.Size() < n)
   {
-    // Ids are handed out when their records exist: whoever goes through all ids meets no others.
+    // Ids are handed out only when their records exist. So a loop over all ids finds only records
+    // that exist.
     SimplexId first = this->NextSimplex.load(std::memory_order_relaxed);
     do
     {
@@ -172,8 +173,9 @@ void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
 }
 
 //------------------------------------------------------------------------------------------------
-// Afterwards the worker owns the vertex on top of its free list. Another may own it for a moment, having
-// guessed wrongly in Lock(); nobody can guess the vertices of a new block.
+// Afterwards the worker owns the vertex on top of its free list. Another worker may own this vertex
+// for a moment, after a wrong guess in Lock(). Then this worker takes a new block: no other worker
+// can guess its vertices.
 template <int D>
 void Triangulation<D>::ReserveVertex(Worker& worker)
 {
@@ -201,9 +203,10 @@ void Triangulation<D>::ReserveVertex(Worker& worker)
 }
 
 //------------------------------------------------------------------------------------------------
-// The plane of the facet between two simplices is the radical plane of their circumspheres, so p lies
-// beyond it exactly where its power to the neighbour's sphere is smaller: a visibility walk that reads
-// one record per neighbour. Rounding can make it circle; then exact orientations take over.
+// A visibility walk that reads one record per neighbour. The plane of the facet between two
+// simplices is the radical plane of their circumspheres. So p lies beyond the facet if and only if
+// its power to the neighbour's sphere is smaller. With rounding, the walk may end in the wrong
+// simplex. Then a walk by exact orientations continues.
 template <int D>
 SimplexId Triangulation<D>::FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const
 {
@@ -251,7 +254,7 @@ SimplexId Triangulation<D>::FindConflictExactly(
     SimplexId next = None;
     for (unsigned k = 0; k < N && next == None; ++k)
     {
-      const unsigned i = (k + turn) % N; // a changing first facet; the walk cannot cycle anyway
+      const unsigned i = (k + turn) % N; // the first facet changes; the walk cannot cycle anyway
       if (simplex.N[i] == None || simplex.N[i] == previous)
       {
         continue;

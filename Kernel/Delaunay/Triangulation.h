@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Triangulation.h
- * @brief The Delaunay triangulation of a box under insertion and removal of points.
+ * @brief The Delaunay triangulation of points in a box, with insertion and removal.
  */
 #ifndef voxplex_Triangulation_h
 #define voxplex_Triangulation_h
@@ -27,17 +27,17 @@ namespace voxplex
 enum class InsertionOutcome
 {
   Inserted,
-  NoConflict, ///< the point does not conflict with the simplex that was given
-  Duplicate,  ///< the point is a vertex already
-  TooClose,   ///< the point is nearer than asked for to a vertex that stays
-  Rejected,   ///< the veto did not accept what the insertion would make
+  NoConflict, ///< the point is not in conflict with the given simplex
+  Duplicate,  ///< the point is already a vertex
+  TooClose,   ///< the point is nearer than the clearance to a vertex that does not give way
+  Rejected,   ///< the veto did not accept the new simplices
   Contended   ///< another worker owns a vertex of the cavity
 };
 
 enum class RemovalOutcome
 {
   Removed,
-  OnBox,    ///< vertices of kind Box stay
+  OnBox,    ///< the vertex is of kind Box, and cannot be removed
   Failed,   ///< the star could not be re-triangulated; the triangulation is unchanged
   Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
 };
@@ -45,44 +45,46 @@ enum class RemovalOutcome
 enum class LockOutcome
 {
   Locked,
-  Dead,     ///< the simplex is no more
+  Dead,     ///< the simplex was deleted
   Contended ///< another worker owns one of its vertices
 };
 
 /**
  * @brief The perturbed Delaunay triangulation of a set of points in a box, corners included.
  *
- * Insertion is Bowyer and Watson's from a simplex already known to be in conflict; removal
- * re-triangulates the star. Ties of the in-sphere test are broken by a symbolic perturbation that
- * depends on the points alone (Devillers and Teillaud 2003), so the triangulation is a function of the
- * set of vertices, whatever the order of insertions and removals.
+ * Insertion is the Bowyer-Watson algorithm. It starts from a simplex that is known to be in
+ * conflict with the point. Removal re-triangulates the star. Ties of the in-sphere test are broken
+ * by a symbolic perturbation that depends only on the points (Devillers and Teillaud 2003). So the
+ * triangulation depends only on the set of vertices, not on the order of insertions and removals.
  *
- * There is no infinite vertex: the domain is the box and facets on it have no neighbour. Points on the
- * box must have coordinates exactly equal to those of its faces.
+ * There is no infinite vertex: the domain is the box, and facets on the box have no neighbour. The
+ * coordinates of points on the box must be exactly equal to those of its faces.
  *
- * What an operation needs of scratch space, free lists and counters is in a Worker, one per thread.
- * Every operation first collects all simplices that it will change, then changes them; nothing is
+ * A Worker, one per thread, has the scratch space, free lists and counters of operations. Every
+ * operation first collects all simplices that it will change, then changes them. Nothing is
  * modified before the first phase has succeeded.
  *
- * **Concurrency** (thesis, section 3.2.2). Workers with distinct numbers may operate at the same time;
- * a worker that is alone has the number 0 and takes no locks. Every vertex has a lock word. A worker
- * owns all vertices of every simplex that it deletes: it takes them while it collects, and gives up
- * (Contended) as soon as one is taken. It keeps what it owns, after a success too, until Unlock().
+ * **Concurrency** (thesis, section 3.2.2). Workers with distinct numbers may operate at the same
+ * time. A worker that is alone has the number 0, and takes no locks. Every vertex has a lock word.
+ * A worker must own all vertices of every simplex that it deletes. It takes them while it collects.
+ * If another worker owns a vertex, the operation stops (Contended). A worker keeps its vertices
+ * until Unlock(), also after a success.
  *
- * Whoever owns D of the D+1 vertices of a simplex may read all of its record, and of its neighbours
- * which they are: neither it nor any neighbour can be deleted by somebody else, since each of its facets
- * has one of these D vertices (D - 1 >= 1 of them). Two workers cannot both own D of D+1 vertices, so
- * the marks and the state of a simplex are written by one worker at a time. All this is ordered by the
- * lock words: taking one acquires what its last owner released.
+ * A worker that owns D of the D+1 vertices of a simplex may read the whole record of the simplex,
+ * and which simplices its neighbours are. No other worker can delete the simplex or a neighbour,
+ * since each facet of the simplex has at least D - 1 >= 1 of the owned vertices. Two workers cannot
+ * both own D of D+1 vertices. So only one worker at a time writes the marks and the state of a
+ * simplex. The lock words order these accesses: taking a lock acquires everything that the last
+ * owner wrote before it released the lock.
  *
- * **Helpers** (thesis, section 4.6.2). A worker may be told of a help sharing (Assistance). Threads that wait
- * there then test simplices of a large cavity for conflict, and compute circumballs of the new ones. They
- * read what the worker may read, write to places that it assigns, and have left before Insert() returns.
- * Marks, locks and links are the worker's own business. Created, Deleted and the new ids are the same, in
- * the same order, whoever helped.
+ * **Helpers** (thesis, section 4.6.2). A worker may have a LoopSharing (Assistance). Then waiting
+ * threads test simplices of a large cavity for conflict, and compute circumballs of new simplices.
+ * They read only data that the worker may read, and write only to places that it assigns. They have
+ * left before Insert() returns. Only the worker itself handles marks, locks and links. Created,
+ * Deleted and the new ids do not depend on the helpers, nor does their order.
  *
- * Complexity: linear in the simplices deleted and created for an insertion; for a removal linear in
- * (simplices created) x (vertices of the link).
+ * Complexity: an insertion is linear in the number of simplices deleted and created. A removal is
+ * linear in (simplices created) x (vertices of the link).
  */
 template <int D>
 class Triangulation
@@ -92,10 +94,12 @@ public:
   using Simplex = SimplexRecord<D>;
   using Vertex = VertexRecord<D>;
 
-  /** Per-thread state: predicates, pools, scratch space, and what the last operation did. */
+  /** Per-thread state: predicates, pools, scratch space, and the results of the last operation. */
   struct Worker
   {
-    /** @param id distinct for workers that operate at the same time; 0 for a worker that is alone */
+    /**
+     * @param id different for workers that operate at the same time; 0 for a worker that is alone
+     */
     explicit Worker(const Triangulation& t, WorkerId id = 0)
       : Predicates(t.GetBox().Min, t.GetBox().Max)
       , Id(id)
@@ -104,32 +108,35 @@ public:
 
     voxplex::Predicates<D> Predicates;
 
-    /** Simplices made by the last successful operation. */
+    /** The simplices that the last successful operation created. */
     Stack<SimplexId> Created;
-    /** The vertex made by the last successful insertion. */
+    /** The vertex that the last successful insertion created. */
     VertexId NewVertex = None;
-    /** The simplices that the last successful operation deleted; their ids may be in Created again. */
+    /** The simplices that the last successful operation deleted. Created may reuse their ids. */
     Stack<SimplexId> Deleted;
-    /** Simplices created so far. */
+    /** Number of simplices created so far. */
     std::uint64_t NumberOfCreated = 0;
-    /** Whom the last operation that was Contended lost to. */
+    /** The owner of the contended vertex in the last operation that was Contended. */
     WorkerId Winner = 0;
-    /** Conflict tests so far, and how many the cached ball left to the predicates. */
+    /** Number of conflict tests so far, and of those that the cached ball could not decide. */
     std::uint64_t BallTests = 0;
     std::uint64_t BallFailures = 0;
 
-    /** Who helps with insertions; nobody as long as there is no sharing. */
+    /** The helpers of insertions. If Sharing is null, there are none. */
     struct Assistance
     {
       LoopSharing* Sharing = nullptr;
-      unsigned Number = 0; ///< of this worker's thread at the sharing
-      /** The workers of the threads at the sharing, by number: a helper counts and computes in its own. */
+      unsigned Number = 0; ///< number of this worker's thread in Sharing
+      /** The workers of the threads in Sharing, by number. A helper uses its own worker. */
       const std::vector<Worker*>* Team = nullptr;
-      /** Fewest simplices of a level of a cavity (equally far from the seed) to ask for help, at least 1. */
+      /**
+       * If a level of a cavity has at least this number of simplices, helpers may test. A level is
+       * the set of simplices at the same distance from the seed. At least 1.
+       */
       std::size_t FewestSimplices = 128;
-      /** Fewest new simplices for help with their circumballs. */
+      /** If there are at least this number of new simplices, helpers may compute circumballs. */
       std::size_t FewestBalls = D == 3 ? 64 : 32;
-      /** Iterations that a helper takes at a time. */
+      /** Iterations of a chunk. */
       std::size_t Grain = 16;
 
       bool Offered() const { return this->Sharing && this->Sharing->SomeoneIdle(); }
@@ -138,16 +145,16 @@ public:
 
     std::size_t NumberOfOwned() const { return this->Owned.Size(); }
 
-    /** For a veto: how many simplices the insertion under way would make. */
+    /** For a veto: the number of simplices that the current insertion would create. */
     std::size_t NumberOfNewSimplices() const { return this->Boundary.Size(); }
-    /** The vertices of the k-th of them; what stands at `apex` is to be the new vertex. */
+    /** For a veto: the vertices of new simplex k. The new vertex will be at position `apex`. */
     const std::array<VertexId, N>& NewSimplex(std::size_t k, std::uint32_t& apex) const
     {
       apex = this->Boundary[k].Apex;
       return this->Boundary[k].V;
     }
 
-    /** All tests of this worker; those that a cached ball decided included. */
+    /** Statistics of all tests of this worker, including tests that a cached ball decided. */
     PredicateStatistics GetPredicateStatistics() const
     {
       PredicateStatistics statistics = this->Predicates.GetStatistics();
@@ -158,13 +165,13 @@ public:
   private:
     friend class Triangulation;
 
-    /** A facet of the boundary of a cavity or star, seen from inside, and the new simplex on it. */
+    /** A facet on the boundary of a cavity or star, seen from inside, and the new simplex on it. */
     struct BoundaryFacet
     {
-      std::array<VertexId, N> V;          ///< vertices of the new simplex; V[Apex] is still to come
-      std::array<std::uint32_t, N> Local; ///< their numbers in Link
+      std::array<VertexId, N> V;          ///< vertices of the new simplex; V[Apex] is set later
+      std::array<std::uint32_t, N> Local; ///< numbers of the vertices in Link
       std::uint32_t Apex;
-      SimplexId Outer;          ///< simplex beyond, or None; a number in Filling if OuterInFilling
+      SimplexId Outer;          ///< outer simplex or None; if OuterInFilling, a number in Filling
       std::uint32_t OuterIndex; ///< number of the facet in Outer
       bool OuterInFilling = false;
     };
@@ -172,11 +179,11 @@ public:
     struct Candidate
     {
       SimplexId Id;
-      SimplexId From;     ///< the simplex of the cavity that it was met from
+      SimplexId From;     ///< the cavity's simplex from which it was found
       std::uint32_t Back; ///< number of From among its neighbours
       bool InConflict;
     };
-    /** A simplex that will fill the star, before it has an id. */
+    /** A new simplex in a star, before it has an id. */
     struct FillingSimplex
     {
       struct Neighbour
@@ -198,7 +205,7 @@ public:
     Stack<BoundaryFacet> Boundary;
     Stack<VertexId> Joined;      ///< vertices of the cavity, with repetitions
     Stack<VertexId> Link;        ///< vertices of Boundary; Link[v.Local] == v
-    Stack<Point<D>> LinkOffsets; ///< of the link's vertices from the new vertex
+    Stack<Point<D>> LinkOffsets; ///< the link's vertices minus the new vertex
     Stack<double> LinkNorms2;    ///< squared norms of the offsets
     RidgeTable<D> Ridges;
     EdgeTable Edges;
@@ -206,11 +213,11 @@ public:
     Stack<FillingSimplex> Filling;
   };
 
-  /** Decides on an insertion by what it would make. */
+  /** Accepts or rejects an insertion by its new simplices. */
   class InsertionVeto
   {
   public:
-    /** Reads the worker's prospects; the worker owns all their vertices. */
+    /** May read the worker's NewSimplex(). The worker owns all their vertices. */
     virtual bool Accepts(const Worker& worker) = 0;
 
   protected:
@@ -223,56 +230,59 @@ public:
   const Box<D>& GetBox() const { return this->Domain; }
 
   /**
-   * Takes all vertices of a simplex.
-   * @param generation State(s).Generation when the caller met the simplex
+   * Locks all vertices of a simplex.
+   * @param generation the value of State(s).Generation when the caller found the simplex
    */
   LockOutcome Lock(Worker& worker, SimplexId s, std::uint32_t generation);
 
-  /** Takes a vertex. @return false if another worker owns it: worker.Winner */
+  /** Locks a vertex. @return false if another worker owns the vertex: worker.Winner */
   bool TryLock(Worker& worker, VertexId v);
 
-  /** Gives back all vertices that the worker owns. */
+  /** Unlocks all vertices that the worker owns. */
   void Unlock(Worker& worker);
 
   /** Whether the worker may change the star of a vertex. A worker that is alone owns everything. */
   bool Owns(const Worker& worker, VertexId v) const;
-  /** Whether it owns all vertices of a simplex: it may delete it. */
+  /** Whether the worker owns all vertices of a simplex. Then it may delete the simplex. */
   bool OwnsAll(const Worker& worker, const std::array<VertexId, N>& v) const;
-  /** Whether it owns all but one: it may mark the simplex, and write its state and its neighbours. */
+  /**
+   * Whether the worker owns at least D vertices of a simplex. Then it may write the simplex's mark,
+   * state and neighbours.
+   */
   bool OwnsFacet(const Worker& worker, SimplexId s) const;
 
   /**
    * Inserts a point.
    * @param p inside or on the box
-   * @param seed a living simplex that should be in conflict with p; the worker owns at least D of
-   *   its vertices, unless it is alone
-   * @param clearance if positive: refuse points nearer than this to a vertex, free ones excepted if
-   *   the point is a feature point (they give way)
-   * @param veto if given: asked before anything is changed
-   * On success worker.Created and worker.NewVertex tell what was made, and the worker owns all their
-   * vertices.
-   * @throws std::bad_alloc with the triangulation unchanged
+   * @param seed a living simplex that should be in conflict with p. Unless the worker is alone, it
+   *   must own at least D vertices of the seed.
+   * @param clearance if positive: the point is refused if it is nearer than this to a vertex. If
+   *   the point is a feature point, free vertices give way and do not count.
+   * @param veto if not null: called before anything is changed
+   * On success, worker.Created and worker.NewVertex have the new simplices and the new vertex, and
+   * the worker owns all their vertices.
+   * @throws std::bad_alloc; then the triangulation is unchanged
    */
   InsertionOutcome Insert(Worker& worker, const Point<D>& p, VertexKind kind, SimplexId seed,
     double clearance = 0.0, InsertionVeto* veto = nullptr);
 
   /**
-   * Removes a living vertex that is not of kind Box; unless the worker is alone it owns the vertex. A
-   * vertex of another kind may lie on the box, but not in a corner. On success worker.Created tells
-   * what was made.
-   * @throws std::bad_alloc with the triangulation unchanged
+   * Removes a living vertex that is not of kind Box. Unless the worker is alone, it must own the
+   * vertex. A vertex of another kind may lie on the box, but not on a corner. On success,
+   * worker.Created has the new simplices.
+   * @throws std::bad_alloc; then the triangulation is unchanged
    */
   RemovalOutcome Remove(Worker& worker, VertexId v);
 
   /**
-   * A simplex in conflict with p, by walking from a living simplex; None if p is a vertex. Nobody may
-   * operate meanwhile.
-   * Expected O(n^(1/D)) from a random start, O(1) from one nearby.
+   * Finds a simplex in conflict with p by a walk from a living simplex. Returns None if p is a
+   * vertex. No worker may change the triangulation meanwhile. Expected time: O(n^(1/D)) from a
+   * random simplex, O(1) from a near one.
    */
   SimplexId FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const;
 
-  /** True if p is in the (perturbed) open circumball of a simplex; never wrong. Inlined by force: a
-   * call costs more than the test. */
+  /** True if p is in the (perturbed) open circumball of a simplex. The answer is exact. Forced
+   * inline, since a call costs more than the test. */
   [[gnu::always_inline]] bool InConflict(Worker& worker, SimplexId s, const Point<D>& p) const
   {
     ++worker.BallTests;
@@ -281,10 +291,10 @@ public:
     {
       return side > 0;
     }
-    return this->InConflictExactly(worker, s, p); // NaN comes here too
+    return this->InConflictExactly(worker, s, p); // also if the cached ball is NaN
   }
 
-  /** The circumball: the cached one if reliable, else computed exactly and rounded. */
+  /** The cached circumball. If it is not reliable, it is computed exactly and rounded. */
   Circumball<D> GetCircumball(SimplexId s) const
   {
     const Circumball<D>& ball = this->Simplices[s].Ball;
@@ -298,7 +308,7 @@ public:
   SimplexState& State(SimplexId s) { return this->States[s]; }
   const SimplexState& State(SimplexId s) const { return this->States[s]; }
   bool IsAlive(SimplexId s) const { return this->Marks[s] != SimplexMark::Unused; }
-  /** The smallest id of a simplex that is. There is always one: the box is filled. */
+  /** The smallest id of a living simplex. There always is one, since the simplices fill the box. */
   SimplexId FirstAlive() const
   {
     SimplexId s = 0;
@@ -309,17 +319,18 @@ public:
     return s;
   }
 
-  /** All simplex ids lie below this one; test each with IsAlive(). */
+  /** All simplex ids are below this one. Test each with IsAlive(). */
   SimplexId SimplexIdEnd() const { return this->NextSimplex.load(std::memory_order_relaxed); }
-  /** All vertex ids lie below this one; test each with GetVertex(v).Alive. */
+  /** All vertex ids are below this one. Test each with GetVertex(v).Alive. */
   VertexId VertexIdEnd() const { return this->NextVertex.load(std::memory_order_relaxed); }
 
-  /** Bytes of the vertex and simplex records in use or ever used. */
+  /** Bytes of the records below VertexIdEnd() and SimplexIdEnd(), including unused records. */
   std::uint64_t MemoryBytes() const;
 
   /**
-   * What is wrong with the triangulation, empty if nothing: orientation, mutual neighbours, facets
-   * shared rightly, hull on the box, local (perturbed) Delaunay property, incidence.
+   * Checks orientations, mutual neighbours, shared facets, the hull on the box, the local
+   * (perturbed) Delaunay property, and incidence.
+   * @return the violations; empty if there are none
    */
   std::vector<std::string> Verify(Worker& worker) const;
 
@@ -340,7 +351,8 @@ private:
   void SetVertices(Simplex& simplex, const std::array<VertexId, N>& v);
   void BuildCorners();
 
-  // Pools. Reserve...() may throw and leaves all as it was; what follows it does not throw.
+  // Pools. The Reserve...() functions may throw, and then change nothing. The functions after them
+  // do not throw.
   void ReserveSimplices(Worker& worker, std::size_t n);
   void ReserveVertex(Worker& worker);
   SimplexId NewSimplex(Worker& worker);
@@ -379,7 +391,7 @@ private:
   Box<D> Domain;
   ChunkedArray<Vertex> Vertices;
   ChunkedArray<Simplex> Simplices;
-  ChunkedArray<SimplexMark, 16> Marks; ///< apart: every step of a cavity search reads one
+  ChunkedArray<SimplexMark, 16> Marks; ///< separate, since every step of a cavity search reads one
   ChunkedArray<SimplexState> States;
   std::atomic<std::uint32_t> NextVertex{ 0 };
   std::atomic<std::uint32_t> NextSimplex{ 0 };
@@ -409,13 +421,13 @@ inline std::uint32_t Triangulation<D>::NumberVertex(Worker& worker, VertexId v)
   if (local >= worker.Link.Size() || worker.Link[local] != v)
   {
     local = static_cast<std::uint32_t>(worker.Link.Size());
-    worker.Link.Push(v); // whoever calls makes room
+    worker.Link.Push(v); // the caller has made room
   }
   return local;
 }
 
 //------------------------------------------------------------------------------------------------
-// Without a branch: which neighbour it is cannot be predicted.
+// Has no branch, since the index is unpredictable.
 template <int D>
 inline std::uint32_t Triangulation<D>::IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour)
 {
@@ -452,7 +464,7 @@ inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, V
 }
 
 //------------------------------------------------------------------------------------------------
-// Whoever asks has made room in Owned.
+// The caller has made room in Owned.
 template <int D>
 inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
 {
@@ -481,7 +493,7 @@ inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
 template <int D>
 inline bool Triangulation<D>::Owns(const Worker& worker, VertexId v) const
 {
-  // const_cast: atomic_ref to const is not in C++20; only read here
+  // const_cast: C++20 has no atomic_ref to const. The value is only read.
   return worker.Id == 0 ||
     std::atomic_ref<WorkerId>(const_cast<WorkerId&>(this->Vertices[v].Owner))
       .load(std::memory_order_relaxed) == worker.Id;
@@ -535,10 +547,11 @@ inline bool Triangulation<D>::TryLockAll(Worker& worker, const std::array<Vertex
 }
 
 //------------------------------------------------------------------------------------------------
-// Before it owns anything the worker can only guess which vertices these are; if the simplex is still
-// the same once they are taken, the guess was right: whoever deleted it owned its vertices then, and
-// whoever reused its record owned the new ones, so one of the vertices that were taken tells of the
-// new generation.
+// Before the worker owns vertices of the simplex, it can only guess them: another worker may reuse
+// the record at the same time. If the generation is unchanged after the vertices are locked, the
+// guess was right. Proof: a worker that deleted the simplex owned its vertices then. A worker that
+// reused the record owned the new vertices. So if the simplex was deleted, one of the locked
+// vertices makes the new generation visible.
 template <int D>
 inline LockOutcome Triangulation<D>::Lock(Worker& worker, SimplexId s, std::uint32_t generation)
 {
@@ -576,7 +589,8 @@ inline void Triangulation<D>::Unlock(Worker& worker)
 }
 
 //------------------------------------------------------------------------------------------------
-// Others may be guessing (Lock): whoever reads a vertex here also sees that it exists.
+// Other workers may guess the vertices at the same time (Lock). By the release, a worker that reads
+// a vertex id here also sees that the vertex exists.
 template <int D>
 inline void Triangulation<D>::SetVertices(Simplex& simplex, const std::array<VertexId, N>& v)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks every invariant of the triangulation, with exact predicates.
+// Checks the invariants of the triangulation with exact predicates.
 #ifndef voxplex_Verification_txx
 #define voxplex_Verification_txx
 

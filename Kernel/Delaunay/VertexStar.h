@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VertexStar.h
- * @brief The tetrahedra at a vertex of a triangulation that nobody changes.
+ * @brief The tetrahedra at a vertex, in a triangulation that no thread changes.
  */
 #ifndef voxplex_VertexStar_h
 #define voxplex_VertexStar_h
@@ -16,9 +16,10 @@ namespace voxplex
 {
 
 /**
- * All tetrahedra with a vertex, that of the start first; takes time quadratic in their number, which is about 24.
+ * The star of a vertex: all tetrahedra that have this vertex. The tetrahedron `from` comes first.
+ * The time is quadratic in their number, which is about 24.
  *
- * @param from one of them
+ * @param from a tetrahedron of the star
  */
 inline std::vector<SimplexId> StarOf(
   const Triangulation<3>& triangulation, VertexId v, SimplexId from)

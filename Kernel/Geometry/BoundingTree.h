@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file BoundingTree.h
- * @brief The nearest of many points or triangles.
+ * @brief A search tree for the nearest of many points or triangles.
  */
 #ifndef voxplex_BoundingTree_h
 #define voxplex_BoundingTree_h
@@ -29,14 +29,15 @@ namespace voxplex
 {
 
 /**
- * @brief A tree of boxes around points or triangles that finds the distance of the nearest.
+ * @brief A bounding volume hierarchy: a tree of boxes around points or triangles, the primitives.
  *
- * Primitives are sorted along a Hilbert curve; each eight of them are a leaf, and the leaves are those of
- * a complete binary tree that is stored as a heap. A search goes into the nearer child first and leaves out
- * boxes that are farther than what it has found: O(log n) on average for points near the primitives. Unlike
- * a uniform grid it is as quick where primitives differ in size or gather in places.
+ * Primitives are sorted along a Hilbert curve, and every eight of them form a leaf. The leaves are
+ * those of a complete binary tree that is stored as a heap. A search visits the nearer child first,
+ * and skips boxes that are farther than the nearest primitive so far. For points near the
+ * primitives a search takes O(log n) on average. Unlike a uniform grid, the tree stays fast if
+ * primitives differ in size or are dense in places.
  *
- * Immutable after construction; safe to ask from any thread.
+ * Immutable after construction. Thread-safe.
  *
  * @tparam Primitive Point<3> or Triangle
  */
@@ -63,8 +64,9 @@ public:
   bool IsEmpty() const { return this->Primitives.empty(); }
 
   /**
-   * Squared distance of p from the nearest primitive; infinity if there is none.
-   * @param hint where the search starts, such as the last one's result; becomes the nearest
+   * Squared distance of p from the nearest primitive; infinity if there are no primitives.
+   * @param hint index of the primitive with which the search starts, such as the result of the last
+   *   search; on return the index of the nearest primitive
    */
   double Distance2To(const Point<3>& p, std::uint32_t& hint) const;
 
@@ -88,7 +90,7 @@ private:
       box.Max[k] = std::max(box.Max[k], other.Max[k]);
     }
   }
-  /** Contains nothing and is infinitely far from everything. */
+  /** A box without points, infinitely far from every point. */
   static Box<3> EmptyBox()
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -112,7 +114,7 @@ private:
   void MakeBoxes(unsigned threads, const std::stop_token& stop);
 
   std::vector<Primitive> Primitives;
-  /** Node i has the children 2 i and 2 i + 1; the root is 1, the first leaf FirstLeaf. */
+  /** Node i has the children 2 i and 2 i + 1. The root is node 1, the first leaf node FirstLeaf. */
   std::vector<Box<3>> Nodes;
   std::size_t FirstLeaf = 1;
 };
@@ -132,7 +134,7 @@ void BoundingTree<Primitive>::Sort(unsigned threads, const std::stop_token& stop
   }
   if (bounds.Min == bounds.Max)
   {
-    return; // all in one place
+    return; // all primitives are the same point
   }
   const std::size_t n = this->Primitives.size();
   std::vector<Ranked> ranked(n);
@@ -219,7 +221,7 @@ double BoundingTree<Primitive>::Distance2To(const Point<3>& p, std::uint32_t& hi
     std::size_t Node;
     double Distance2;
   };
-  std::array<Waiting, 64> stack; // a level adds one, and there are at most 30
+  std::array<Waiting, 64> stack; // each level adds one node, and there are at most 30 levels
   std::size_t depth = 0;
   stack[depth++] = { 1, Distance2From(this->Nodes[1], p) };
   while (depth > 0)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Box.h
- * @brief An axis-aligned box of the mesher's frame.
+ * @brief An axis-aligned box in the mesher's frame.
  */
 #ifndef voxplex_Box_h
 #define voxplex_Box_h
@@ -18,7 +18,7 @@ struct Box
   Point<D> Min;
   Point<D> Max;
 
-  /** Inside or on the box. */
+  /** Whether p is inside the box or on its boundary. */
   bool Contains(const Point<D>& p) const
   {
     for (std::size_t i = 0; i < D; ++i)
@@ -31,7 +31,7 @@ struct Box
     return true;
   }
 
-  /** The point of the box closest to p; coordinates moved are exactly those of the box. */
+  /** The point of the box closest to p. A coordinate outside is set exactly to that of the box. */
   Point<D> Clamp(const Point<D>& p) const
   {
     Point<D> q = p;

@@ -4,39 +4,41 @@
  * @file Circumball.h
  * @brief Circumcentre and squared circumradius of a simplex, with a certificate of their accuracy.
  *
- * With edges a_i = v_i - v_0, i = 1 ... D, the centre relative to v_0 solves a_i . c = |a_i|^2 / 2;
- * by Cramer's rule c = N / (2 det), where N_k is det(a) with column k replaced by the |a_i|^2.
+ * Let a_i = v_i - v_0, i = 1 ... D, be the edges. The centre c relative to v_0 solves
+ * a_i . c = |a_i|^2 / 2. By Cramer's rule c = N / (2 det), where N_k is det(a) with column k
+ * replaced by the |a_i|^2.
  *
- * Error bound. u = 2^-53, r_i = |a_i|, R the circumradius, e the error of the centre as stored.
- * Counting roundings as in Predicates.h: a monomial of N meets k_N = 2 + 3 (difference and sums of
- * |a_i|^2) plus those of a cofactor (2 + 2 in 3D, 3 + 5 in 4D), a product and the sum over rows
- * (2); a monomial of det meets k_det = 8 in 3D, 12 in 4D:
+ * Error bound. Let u = 2^-53, r_i = |a_i|, R the circumradius, and e the error of the stored
+ * centre. Roundings are counted as in Predicates.h. A monomial of N meets k_N roundings: 2 + 3
+ * (difference and sums of |a_i|^2), those of a cofactor (2 + 2 in 3D, 3 + 5 in 4D), those of a
+ * product and of the sum over rows (2). A monomial of det meets k_det roundings, 8 in 3D and 12 in
+ * 4D:
  *
  *   |       | k_N | k_det | g_D     | c_D       |
  *   | D = 3 | 12  | 8     | sqrt(2) | 2/sqrt(3) |
  *   | D = 4 | 16  | 12    | 2       | 3/2       |
  *
- * The absolute monomials of the vector N sum to at most g_D (prod r_i) (sum r_i) in norm: for one
- * row i they are r_i^2 times the permanents of the other rows without column k, each at most
- * c_{D-1} prod_{j != i} |a_j without column k|, and the norm of these over k is largest when the
- * other rows lie along one axis (then D - 1 of the k contribute): g_D = c_{D-1} sqrt(D - 1), c_2
- * = 1. Edges are chords, so sum r_i <= 2 D R. The absolute monomials of det sum to at most c_D prod
- * r_i. Hence
+ * The absolute monomials of the vector N sum to at most g_D (prod r_i) (sum r_i) in norm. Proof:
+ * for one row i they are r_i^2 times the permanents of the other rows without column k. Each
+ * permanent is at most c_{D-1} prod_{j != i} |a_j without column k|. The norm of these over k is
+ * largest if the other rows lie along one axis; then D - 1 of the k contribute. So
+ * g_D = c_{D-1} sqrt(D - 1), with c_2 = 1. Edges are chords, so sum r_i <= 2 D R. The absolute
+ * monomials of det sum to at most c_D prod r_i. Hence
  *
- *   |e| / R <= u (k_N g_D D + k_det c_D) (prod r_i) / |det| + 2 u + u |centre| / R,
+ *   |e| / R <= u (k_N g_D D + k_det c_D) (prod r_i) / |det| + 2 u + u |centre| / R.
  *
- * where 2 u pays for the division and u |centre| / R for rounding the centre to the coordinates'
- * grid. The factor in brackets is 60.2 in 3D and 146 in 4D.
+ * The term 2 u covers the division. The term u |centre| / R covers the rounding of the centre's
+ * coordinates. The factor in brackets is 60.2 in 3D and 146 in 4D.
  *
- * Radius2 is |centre - v_0|^2 of the centre as stored. Then, whatever e is, for every p
+ * Radius2 is |centre - v_0|^2 of the stored centre. Then for any e and every p
  *
- *   |p - centre|^2 - Radius2 = (|p - c|^2 - R^2) - 2 e . (p - v_0),
+ *   |p - centre|^2 - Radius2 = (|p - c|^2 - R^2) - 2 e . (p - v_0).
  *
- * and |p - v_0| <= 2 R (1 + small) where the left side and the bracket differ in sign. With a
- * squared distance computed in double (7 u of roundings on each side) the sign of the left side is
- * right when it exceeds CircumballTolerance x Radius2 and |e| / R <= CircumballTolerance / 4 - 4 u.
- * The certificate asks each of the two large terms to be at most 0.12 CircumballTolerance, which
- * leaves 4 % of slack for the second order.
+ * If the left side and the bracket differ in sign, then |p - v_0| <= 2 R (1 + small). Squared
+ * distances are computed in double, with 7 u of roundings on each side. So the sign of the left
+ * side is right if its absolute value exceeds CircumballTolerance x Radius2 and
+ * |e| / R <= CircumballTolerance / 4 - 4 u. The certificate requires that each of the two large
+ * terms is at most 0.12 CircumballTolerance. This leaves 4 % of slack for second-order terms.
  */
 #ifndef voxplex_Circumball_h
 #define voxplex_Circumball_h
@@ -52,7 +54,7 @@
 namespace voxplex
 {
 
-/** Relative error of squared distances up to which a certified ball may be trusted. */
+/** A certified ball decides only if the relative difference of squared distances exceeds this. */
 constexpr double CircumballTolerance = 1e-9;
 
 template <int D>
@@ -63,8 +65,8 @@ struct Circumball
 };
 
 /**
- * Where p lies against a ball that ComputeCircumball certified, as far as the ball can tell.
- * @return +1 certainly inside, -1 certainly outside, 0 not known: ask Predicates::InSpherePerturbed
+ * The side of p with respect to a ball that ComputeCircumball certified.
+ * @return +1 certainly inside, -1 certainly outside, 0 uncertain: use Predicates::InSpherePerturbed
  */
 template <int D>
 inline int SideOfCircumball(const Circumball<D>& ball, const Point<D>& p)
@@ -78,7 +80,7 @@ inline int SideOfCircumball(const Circumball<D>& ball, const Point<D>& p)
   return excess < -slack ? 1 : 0;
 }
 
-/** N, 2 det and prod |a_i|^2 of the edges a_1, a_2, a_3 with squared norms l. */
+/** N, 2 det and prod |a_i|^2 of the edges a_1, a_2, a_3, whose squared norms are l. */
 inline void CircumcenterByCramer(const std::array<Point<3>, 3>& a, const Point<3>& l,
   Point<3>& numerator, double& twiceDeterminant, double& product2)
 {
@@ -102,8 +104,8 @@ inline void CircumcenterByCramer(const std::array<Point<3>, 3>& a, const Point<3
 inline void CircumcenterByCramer(const std::array<Point<4>, 4>& a, const Point<4>& l,
   Point<4>& numerator, double& twiceDeterminant, double& product2)
 {
-  // The cofactor of row i and column k is the signed 3x3 minor of the other rows and columns,
-  // expanded along the third row; rows 0, 1 and rows 2, 3 share their 2x2 minors.
+  // The cofactor of row i and column k is the signed 3x3 minor of the other rows and columns. It is
+  // expanded along its third row. The 2x2 minors of rows 0, 1 and of rows 2, 3 are used twice.
   using Six = std::array<double, 6>; // columns 01, 02, 03, 12, 13, 23
   const auto minors = [](const Point<4>& x, const Point<4>& y)
   {
@@ -111,7 +113,7 @@ inline void CircumcenterByCramer(const std::array<Point<4>, 4>& a, const Point<4
       Minor2(x[0], x[3], y[0], y[3]), Minor2(x[1], x[2], y[1], y[2]),
       Minor2(x[1], x[3], y[1], y[3]), Minor2(x[2], x[3], y[2], y[3]) };
   };
-  /** Generalised cross product of a row and two others given by their minors. */
+  /** Generalised cross product of a row and two other rows, which are given by their minors. */
   const auto cross = [](const Point<4>& x, const Six& m)
   {
     return Point<4>{ (x[1] * m[5] - x[2] * m[4]) + x[3] * m[3],
@@ -134,14 +136,14 @@ inline void CircumcenterByCramer(const std::array<Point<4>, 4>& a, const Point<4
 }
 
 /**
- * The circumball of the simplex with vertices origin and origin + edges[i], in double.
- * @param edges differences of vertices to the origin, each rounded once
+ * The circumball of the simplex with vertices origin and origin + edges[i], in double. Branch-free.
+ * @param edges vertices minus the origin, each coordinate rounded once
  * @param norms2 squared norms of the edges
  * @param ball always written; infinite or NaN for some flat simplices
- * @return true if the ball is certified: SideOfCircumball then never contradicts the exact
- * in-sphere test. false for nearly flat simplices (D! x volume below about 6e-5 (3D), 1.4e-4 (4D)
- * of the product of the edges) and for simplices smaller than about 1e-6 of their coordinates.
- * Branch-free.
+ * @return true if the ball is certified. Then SideOfCircumball never contradicts the exact
+ *   in-sphere test. False for nearly flat simplices (D! x volume below about 6e-5 (3D), 1.4e-4 (4D)
+ *   of the product of the edge lengths), and for simplices smaller than about 1e-6 of their
+ *   coordinates.
  */
 template <int D>
 inline bool ComputeCircumball(const Point<D>& origin,
@@ -171,17 +173,16 @@ inline bool ComputeCircumball(const Point<D>& origin,
     radius2 += offset * offset;
   }
   ball.Radius2 = radius2;
-  // Not short-circuited: two comparisons without a branch. NaN compares false.
-  constexpr double Floor = 1e-200; // underflow would void the bounds
+  // Not short-circuited, so that there is no branch. Comparisons with NaN are false.
+  constexpr double Floor = 1e-200; // with underflow the bounds would not hold
   const bool shape = twiceDeterminant * twiceDeterminant > 4.0 * Factor * Factor * product2 + Floor;
   const bool grid = radius2 > Grid * Grid * center2 + Floor;
   return shape & grid;
 }
 
 /**
- * The circumball of a simplex in double.
+ * The circumball of a simplex in double: the function above with origin v[0].
  * @param v D + 1 points of either orientation
- * Otherwise as the function above, with origin v[0].
  */
 template <int D>
 inline bool ComputeCircumball(const Point<D>* const* v, Circumball<D>& ball)
@@ -197,11 +198,11 @@ inline bool ComputeCircumball(const Point<D>* const* v, Circumball<D>& ball)
 }
 
 /**
- * The circumball of a simplex that ComputeCircumball could not certify: exact arithmetic, then
- * rounding.
- * @param ball the exact ball within rounding, or, if the simplex is exactly flat, radius infinity
- * @return true if the ball is certified (see ComputeCircumball); false if the simplex is flat or
- * too small against its coordinates Thousands of times slower than ComputeCircumball.
+ * The circumball in exact arithmetic, rounded at the end, for simplices that ComputeCircumball
+ * could not certify. It is thousands of times slower than ComputeCircumball.
+ * @param ball the rounded exact ball; if the simplex is exactly flat, its radius is infinity
+ * @return true if the ball is certified (see ComputeCircumball). False if the simplex is exactly
+ *   flat, or too small relative to its coordinates.
  */
 template <int D>
 inline bool ComputeCircumballExactly(const Point<D>* const* v, Circumball<D>& ball)

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Determinants.h
- * @brief The two polynomials of Delaunay triangulation, written once for floating-point and exact
- * numbers.
+ * @brief The two polynomials of Delaunay triangulation, for floating-point and exact numbers.
  *
- * T is double in the filters (Predicates.h) and an exact number type in ExactPredicates.cxx. The
- * polynomials are homogeneous and every sum below adds terms of one degree, so T may also be a
- * family of types by degree (a fixed-width integer whose products are wider).
+ * T is double in the filters (Predicates.h), and an exact number type in ExactPredicates.cxx. The
+ * polynomials are homogeneous, and every sum below adds terms of the same degree. So T may also be
+ * a family of types, one for each degree (fixed-width integers whose products are wider).
  *
- * Each function states how many roundings any of its monomials meets when T is double. That number
- * is what the error bounds in Predicates.h and Circumball.h rest on: whoever reorders a sum counts
- * again.
+ * Each function states the largest number of roundings that a monomial meets if T is double. The
+ * error bounds in Predicates.h and Circumball.h depend on these numbers. If you reorder a sum,
+ * count the roundings again.
  */
 #ifndef voxplex_Determinants_h
 #define voxplex_Determinants_h
@@ -65,9 +64,8 @@ inline auto Determinant(const std::array<std::array<T, 4>, 4>& m)
 }
 
 /**
- * det of the rows (m_i, lift_i), the lifts as the last column, 3D.
- * Roundings, those of the lifts not counted: 8 (2 in a minor, 1 + 2 in a 3x3 minor, 1 product, 2
- * sums).
+ * det of the rows (m_i, lift_i), where the lifts are the last column, in 3D.
+ * Roundings without those of the lifts: 8 (2 in a minor, 1 + 2 in a 3x3 minor, 1 product, 2 sums).
  */
 template <class T, class Lift>
 inline auto LiftedDeterminant(
@@ -88,16 +86,16 @@ inline auto LiftedDeterminant(
 }
 
 /**
- * det of the rows (m_i, lift_i), the lifts as the last column, 4D.
- * Roundings, those of the lifts not counted: 12 (2 + 2 in the minors, 1 + 3 in a 4x4 minor, 1
- * product, 3 sums).
+ * det of the rows (m_i, lift_i), where the lifts are the last column, in 4D.
+ * Roundings without those of the lifts: 12 (2 + 2 in the minors, 1 + 3 in a 4x4 minor, 1 product, 3
+ * sums).
  */
 template <class T, class Lift>
 inline auto LiftedDeterminant(
   const std::array<std::array<T, 4>, 5>& m, const std::array<Lift, 5>& lift)
 {
   const auto& [a, b, c, d, e] = m;
-  // Minors of the columns 0 and 1, and of the columns 2 and 3.
+  // 2x2 minors of the columns 0 and 1 (XY), and of the columns 2 and 3 (ZW).
   const auto abXY = Minor2(a[0], a[1], b[0], b[1]);
   const auto acXY = Minor2(a[0], a[1], c[0], c[1]);
   const auto adXY = Minor2(a[0], a[1], d[0], d[1]);
@@ -118,7 +116,7 @@ inline auto LiftedDeterminant(
   const auto cdZW = Minor2(c[2], c[3], d[2], d[3]);
   const auto ceZW = Minor2(c[2], c[3], e[2], e[3]);
   const auto deZW = Minor2(d[2], d[3], e[2], e[3]);
-  // 4x4 minors: det of the four rows named.
+  // 4x4 minors, named after their four rows.
   const auto bcde =
     ((bcXY * deZW + deXY * bcZW) + (beXY * cdZW + cdXY * beZW)) - (bdXY * ceZW + ceXY * bdZW);
   const auto acde =

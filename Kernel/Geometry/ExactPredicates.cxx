@@ -27,10 +27,10 @@ using Matrix =
   std::array<std::array<T, static_cast<std::size_t>(D)>, static_cast<std::size_t>(Rows)>;
 
 //------------------------------------------------------------------------------
-// Number types. The determinants of Determinants.h are homogeneous, so a type may carry its degree:
-// the product of degrees A and B has degree A + B and the width that such values need.
+// Number types. The determinants of Determinants.h are homogeneous, so a type may carry its degree.
+// The product of degrees A and B has degree A + B, and a type that is wide enough for its values.
 
-/** Integers whose degree 1 and 2 values fit in 64 bits and whose other values fit in 128. */
+/** Integers: values of degree 1 and 2 have 64 bits, values of higher degree have 128 bits. */
 template <int Degree>
 struct ShortInteger
 {
@@ -49,7 +49,7 @@ inline ShortInteger<A + B> operator*(ShortInteger<A> a, ShortInteger<B> b)
   return { static_cast<Product>(a.Value) * b.Value };
 }
 
-/** Two's complement integers of Words 64-bit words, least significant first. */
+/** Two's complement integers of Words 64-bit words, the least significant word first. */
 template <int Words>
 struct WideInteger
 {
@@ -94,7 +94,7 @@ struct WideInteger
   }
 };
 
-/** r -= b * 2^(64 offset) modulo the width of r, if mask is all ones; nothing if it is zero. */
+/** If mask is all ones: r -= b * 2^(64 offset), modulo the width of r. If mask is 0: no change. */
 template <std::size_t N, std::size_t M>
 inline void SubtractMasked(std::array<std::uint64_t, N>& r, const std::array<std::uint64_t, M>& b,
   std::size_t offset, std::uint64_t mask)
@@ -109,8 +109,8 @@ inline void SubtractMasked(std::array<std::uint64_t, N>& r, const std::array<std
 }
 
 /**
- * The exact product. The words are multiplied as unsigned numbers; an operand that is negative was
- * thereby read as 2^(64 words) too large, which is taken off again.
+ * The exact product. The words are multiplied as unsigned numbers. So a negative operand is read as
+ * a number that is 2^(64 words) too large. The end of the function subtracts this error.
  */
 template <int A, int B>
 inline WideInteger<A + B> operator*(const WideInteger<A>& a, const WideInteger<B>& b)
@@ -133,7 +133,9 @@ inline WideInteger<A + B> operator*(const WideInteger<A>& a, const WideInteger<B
   return r;
 }
 
-/** CGAL's rationals without their expression templates, which `auto` would keep dangling. */
+/**
+ * CGAL's rationals without expression templates: with `auto` these would keep dangling references.
+ */
 struct Rational
 {
   CGAL::Exact_rational Value;
@@ -145,9 +147,9 @@ struct Rational
 };
 
 //------------------------------------------------------------------------------
-// From doubles to integers.
+// Conversion from doubles to integers.
 
-/** |x| = Mantissa * 2^Exponent with an odd mantissa; for zero the mantissa is 0. */
+/** |x| = Mantissa * 2^Exponent with an odd mantissa. If x is 0, the mantissa is 0. */
 struct OddForm
 {
   std::uint64_t Mantissa;
@@ -164,7 +166,7 @@ inline OddForm Decode(double x)
   return { mantissa >> zeros, std::max(biased, 1) - 1075 + zeros };
 }
 
-/** The places from the lowest to the highest bit that is set in any of the numbers. */
+/** The range of bit positions from the lowest to the highest bit that is set in any number. */
 struct BitSpan
 {
   int Lowest = std::numeric_limits<int>::max();
@@ -172,8 +174,7 @@ struct BitSpan
   int Bits() const { return this->End > this->Lowest ? this->End - this->Lowest : 0; }
 };
 
-/** Without branches on the numbers: on a lattice a zero among the differences cannot be foreseen.
- */
+/** Has no branches on the numbers: on a lattice, zeros among the differences are unpredictable. */
 template <std::size_t D, std::size_t Rows>
 BitSpan SpanOf(const std::array<std::array<double, D>, Rows>& m)
 {
@@ -192,7 +193,7 @@ BitSpan SpanOf(const std::array<std::array<double, D>, Rows>& m)
   return span;
 }
 
-/** x / 2^lowest, which is an integer of at most CoordinateBits bits. */
+/** x / 2^lowest. The result is an integer of at most CoordinateBits bits. */
 inline Int128 ToInt128(double x, int lowest)
 {
   const OddForm odd = Decode(x);
@@ -201,7 +202,7 @@ inline Int128 ToInt128(double x, int lowest)
   return x < 0.0 ? -magnitude : magnitude;
 }
 
-/** Number of bits that every |integer| of the matrix fits in. */
+/** Number of bits of the largest |integer| of the matrix. */
 template <std::size_t D, std::size_t Rows>
 int BitsOf(const std::array<std::array<Int128, D>, Rows>& m)
 {
@@ -219,10 +220,10 @@ int BitsOf(const std::array<std::array<Int128, D>, Rows>& m)
 }
 
 //------------------------------------------------------------------------------
-// The two polynomials as policies: how the sign is computed from the rows of differences, and up to
-// how many bits of |difference| each integer type holds every intermediate value.
+// The two polynomials as policies. Sign() computes the sign from the rows of differences. If
+// |differences| have at most ShortBits bits, ShortInteger holds every intermediate value.
 
-/** det of the rows. With |entry| < 2^B: |det| <= D! 2^DB, so < 2^(3B + 2.6) and < 2^(4B + 4.6). */
+/** det of the rows. If |entry| < 2^B, |det| <= D! 2^DB, which is < 2^(3B + 2.6), < 2^(4B + 4.6). */
 template <int D>
 struct OrientationPolynomial
 {
@@ -237,8 +238,8 @@ struct OrientationPolynomial
 };
 
 /**
- * det of the rows (row, |row|^2). With |entry| < 2^B: |det| <= (D + 1)! D 2^((D + 2) B), which is
- * < 2^(5B + 6.2) and < 2^(6B + 9).
+ * det of the rows (row, |row|^2). If |entry| < 2^B, |det| <= (D + 1)! D 2^((D + 2) B), which is
+ * < 2^(5B + 6.2) in 3D and < 2^(6B + 9) in 4D.
  */
 template <int D>
 struct InSpherePolynomial
@@ -254,23 +255,23 @@ struct InSpherePolynomial
     {
       lifts[i] = SquaredNorm(rows[i]);
     }
-    // The determinant is negative in odd dimensions when the base point is inside.
+    // If the base point is inside, the determinant is negative in odd dimensions.
     const int sign = LiftedDeterminant(rows, lifts).Sign();
     return D % 2 == 0 ? sign : -sign;
   }
 };
 
 /**
- * Largest B for which 64 k bits hold all values of degree k, |entry| < 2^B: degree 2 is the
- * tightest, 4 (2^62)^2 = 2^126 < 2^127; the others need 3B + 2.6, 4B + 4.6, 5B + 6.2, 6B + 9 < 64 k
- * - 1. With twice the words, 126 bits.
+ * Largest B such that 64 k bits hold all values of degree k if |entry| < 2^B. Degree 2 is the
+ * tightest: 4 (2^62)^2 = 2^126 < 2^127. The other degrees k need 3B + 2.6, 4B + 4.6, 5B + 6.2 and
+ * 6B + 9 < 64 k - 1. With twice the number of words the limit is 126 bits.
  */
 constexpr int WideBits = 62;
 
-/** Coordinates of at most this many bits are subtracted in 128-bit integers. */
+/** Coordinates of at most this number of bits are subtracted in 128-bit integers. */
 constexpr int CoordinateBits = 125;
 
-/** Copies a matrix with a change of number type. */
+/** Copies a matrix, and converts its number type. */
 template <class To, class From, std::size_t D, std::size_t Rows, class Convert>
 std::array<std::array<To, D>, Rows> Converted(
   const std::array<std::array<From, D>, Rows>& from, Convert convert)
@@ -310,7 +311,7 @@ int SignOfIntegers(
     }));
 }
 
-/** a - b in double; exact is cleared if it was rounded (Knuth's two-sum). */
+/** a - b in double. If the result was rounded, `exact` is set to false (Knuth's two-sum). */
 inline double TwoDifference(double a, double b, bool& exact)
 {
   const double x = a - b;
@@ -329,7 +330,7 @@ int SignOfPolynomial(const Point<D>* const* points, const Point<D>& base)
   constexpr std::size_t RowCount = static_cast<std::size_t>(Rows);
   constexpr std::size_t Columns = static_cast<std::size_t>(D);
 
-  // 1. Differences that are exact in double.
+  // 1. The differences are exact in double.
   Matrix<double, D, Rows> differences;
   bool exact = true;
   for (std::size_t i = 0; i < RowCount; ++i)
@@ -351,7 +352,7 @@ int SignOfPolynomial(const Point<D>* const* points, const Point<D>& base)
     }
   }
 
-  // 2. Coordinates as integers.
+  // 2. The coordinates become integers.
   Matrix<double, D, Rows + 1> coordinates;
   coordinates[RowCount] = base;
   for (std::size_t i = 0; i < RowCount; ++i)
@@ -374,7 +375,7 @@ int SignOfPolynomial(const Point<D>* const* points, const Point<D>& base)
     return SignOfIntegers<Polynomial, D>(integers, BitsOf(integers));
   }
 
-  // 3. Any doubles.
+  // 3. Rationals, for any doubles.
   Matrix<Rational, D, Rows> rationals;
   for (std::size_t i = 0; i < RowCount; ++i)
   {

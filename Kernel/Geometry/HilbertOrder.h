@@ -18,11 +18,12 @@ namespace voxplex
 {
 
 /**
- * @brief How a Hilbert curve runs through the parts of a cube, as a finite automaton.
+ * @brief The path of a Hilbert curve through the parts of a cube, as a finite automaton.
  *
- * A state is the symmetry of the cube that takes the curve through the whole to that through a part: the axes in
- * another order, some of them reversed. J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc. 707 (2004),
- * whose exchanges and inversions of lower bits make the states.
+ * A state is the symmetry of the cube that maps the curve through the whole cube to the curve
+ * through a part: the axes are permuted, and some are reversed. The states follow from the
+ * exchanges and inversions of lower bits in J. Skilling, "Programming the Hilbert curve", AIP Conf.
+ * Proc. 707 (2004).
  */
 template <int D>
 class HilbertAutomaton
@@ -34,7 +35,7 @@ public:
   constexpr HilbertAutomaton()
   {
     std::array<Symmetry, MostStates> states{};
-    std::array<std::uint16_t, MostCodes> numbers{}; // plus 1, of each code; 0: not met yet
+    std::array<std::uint16_t, MostCodes> numbers{}; // by code, state number + 1; 0: no state yet
     for (unsigned a = 0; a < Axes; ++a)
     {
       states[0].Axis[a] = a;
@@ -59,9 +60,9 @@ public:
   }
 
   /**
-   * Where the curve of a state comes to a part, not counting that all bits are reversed behind odd places, and the state
-   * in there.
-   * @param part bit a: the upper half along axis a
+   * The place of a part along the curve, and the state inside the part. After each odd place, all
+   * bits of the following places must be inverted; HilbertIndex() does this.
+   * @param part bit a is 1 in the upper half along axis a
    */
   void Step(unsigned part, unsigned& state, unsigned& place) const
   {
@@ -76,8 +77,8 @@ private:
 
   struct Symmetry
   {
-    std::array<unsigned, Axes> Axis{};    ///< which one of the image takes the place of each
-    std::array<unsigned, Axes> Reverse{}; ///< 0 or 1
+    std::array<unsigned, Axes> Axis{};    ///< for each axis of the curve, the axis of the cube
+    std::array<unsigned, Axes> Reverse{}; ///< 1 if the axis is reversed, else 0
 
     constexpr unsigned Code() const
     {
@@ -88,7 +89,7 @@ private:
       }
       return code;
     }
-    /** A part as the curve sees it. */
+    /** The part in the axes of the curve. */
     constexpr unsigned Apply(unsigned part) const
     {
       unsigned seen = 0;
@@ -98,7 +99,10 @@ private:
       }
       return seen;
     }
-    /** In a part: the first axis is reversed for each one in whose upper half that lies, else exchanged with it. */
+    /**
+     * The symmetry inside a part. For each axis: if the part is in the upper half, the first axis
+     * is reversed; otherwise the first axis is exchanged with this axis.
+     */
     constexpr Symmetry Next(unsigned seen) const
     {
       Symmetry next = *this;
@@ -118,7 +122,7 @@ private:
     }
   };
 
-  /** The first axis has the highest bit. */
+  /** The place of a part: the inverse of the Gray code. The first axis has the highest bit. */
   static constexpr unsigned GrayCode(unsigned seen)
   {
     unsigned code = 0;
@@ -135,9 +139,9 @@ private:
 };
 
 /**
- * @brief Distance along the Hilbert curve that fills a cube around the box, with 63 / D bits per axis.
+ * @brief Distance along the Hilbert curve that fills a cube around the box; 63 / D bits per axis.
  *
- * Points that are near along the curve are near in space.
+ * Points that are close along the curve are close in space.
  */
 template <int D>
 std::uint64_t HilbertIndex(const Point<D>& p, const Box<D>& box)

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Point.h
- * @brief Points of the mesher's frame and the few vector operations that the kernel needs.
+ * @brief Points in the mesher's frame, and the vector operations that the kernel needs.
  *
- * A point is D doubles in the mesher's frame: lengths in the unit of the image's spacing, axes along
- * the image's axes (see GridGeometry). All functions are pure and safe to call from any thread.
+ * A point is D doubles in the mesher's frame (see GridGeometry). Lengths are in the unit of the
+ * image's spacing. All functions are pure and thread-safe.
  */
 #ifndef voxplex_Point_h
 #define voxplex_Point_h
@@ -33,7 +33,7 @@ inline std::array<double, D> Subtract(
   return r;
 }
 
-/** a + t * (b - a); exactly a for t = 0. */
+/** a + t * (b - a). The result is exactly a if t = 0. */
 template <std::size_t D>
 inline std::array<double, D> Interpolate(
   const std::array<double, D>& a, const std::array<double, D>& b, double t)

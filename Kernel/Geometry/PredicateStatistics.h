@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PredicateStatistics.h
- * @brief How often predicates were asked, and what answered.
+ * @brief Counts of predicate calls, by the stage that decided.
  */
 #ifndef voxplex_PredicateStatistics_h
 #define voxplex_PredicateStatistics_h
@@ -12,13 +12,13 @@
 namespace voxplex
 {
 
-/** How often a predicate was asked and what answered. */
+/** Counts of predicate calls, by the stage that decided. */
 struct PredicateStatistics
 {
-  std::uint64_t Calls = 0; ///< orientation and in-sphere tests, the cached-ball filter included
+  std::uint64_t Calls = 0; ///< orientation and in-sphere tests, including the cached-ball filter
   std::uint64_t StaticFailures = 0; ///< not decided by the static or cached-ball filter
-  std::uint64_t ExactCalls = 0;     ///< decided by exact arithmetic only
-  std::uint64_t Perturbed = 0;      ///< exact zeros, decided by the symbolic perturbation
+  std::uint64_t ExactCalls = 0;     ///< decided only by exact arithmetic
+  std::uint64_t Perturbed = 0;      ///< exact zeros, decided by symbolic perturbation
 
   PredicateStatistics& operator+=(const PredicateStatistics& other)
   {

@@ -4,16 +4,17 @@
  * @file Predicates.h
  * @brief Orientation and in-sphere tests with exact answers, for D = 3 and D = 4.
  *
- * Stages, cheapest first; each answers only when its answer is certain:
- *   1. static filter: the determinant in double against a constant that the box gives;
- *   2. semi-static filter: against a bound computed from the rows of this very determinant;
+ * There are three stages, from the cheapest to the most expensive. A stage answers only if its
+ * answer is certain:
+ *   1. static filter: compares the determinant in double with a constant that depends on the box;
+ *   2. semi-static filter: compares it with a bound computed from the rows of this determinant;
  *   3. exact arithmetic (ExactPredicates.h).
  *
- * Error bounds. u = 2^-53. A computed determinant is the sum of its exact monomials, each times at
- * most k factors (1 + d), |d| <= u, where k is the number of roundings that a monomial meets; so
- * its error is at most gamma S with gamma = k u / (1 - k u) and S the sum of the absolute monomials
- * (Higham, Accuracy and Stability, lemma 3.1). k counts the roundings of Determinants.h and one for
- * each difference of coordinates in the monomial:
+ * Error bounds. Let u = 2^-53. A computed determinant is the sum of its exact monomials, each times
+ * at most k factors (1 + d), |d| <= u. Here k is the number of roundings that a monomial meets. So
+ * the error is at most gamma S, with gamma = k u / (1 - k u) and S the sum of the absolute
+ * monomials (Higham, Accuracy and Stability, lemma 3.1). k counts the roundings in Determinants.h,
+ * plus one for each difference of coordinates in the monomial:
  *
  *   |                     | differences | lift | determinant | k  |
  *   | orientation, D = 3  | 3           |      | 5           | 8  |
@@ -21,25 +22,26 @@
  *   | in-sphere,   D = 3  | 3 + 2       | 3    | 8           | 16 |
  *   | in-sphere,   D = 4  | 4 + 2       | 3    | 12          | 21 |
  *
- * S is a permanent of absolute values. With r_i the Euclidean norms of the rows,
- * per|rows| <= D! / D^(D/2) prod r_i (Carlen, Lieb, Loss 2006), which is 2/sqrt(3) for D = 3 and
- * 3/2 for D = 4: c_D below. Hence
+ * S is a permanent of absolute values. Let r_i be the Euclidean norms of the rows, and
+ * c_D = D! / D^(D/2), which is 2/sqrt(3) for D = 3 and 3/2 for D = 4. Then per|rows| <= c_D prod
+ * r_i (Carlen, Lieb, Loss 2006). Hence
  *
- *   orientation: S <= c_D prod r_i over the D rows;
- *   in-sphere:   S <= sum_i r_i^2 c_D prod_{j != i} r_j = c_D (prod r_i) (sum r_i), over D + 1
- * rows.
+ *   orientation: S <= c_D prod r_i, over the D rows;
+ *   in-sphere:   S <= sum_i r_i^2 c_D prod_{j != i} r_j = c_D (prod r_i) (sum r_i), over the D + 1
+ *                rows.
  *
- * The semi-static filter compares squares, so that it needs no root, using
+ * The semi-static filter compares squares, so that it needs no root. It uses
  * (sum r_i)^2 <= (D + 1) sum r_i^2. With L_i = r_i^2:
  *
  *   orientation certain if  det^2 > (k u c_D)^2 prod L_i;
  *   in-sphere   certain if  det^2 > (k u c_D)^2 (D + 1) (sum L_i) (prod L_i).
  *
- * The static filter puts r_i <= diagonal of the box. FilterSlack, a factor 1 + 1e-6, pays for gamma
- * against k u, for rows that are themselves rounded and for the roundings of the bound. FilterFloor
- * pays for underflow: with coordinates below 1e12 all that underflows, in the determinant and in
- * its bound, adds less than 1e-106, and determinants below 1e-100 are left to exact arithmetic.
- * Overflow gives infinity or NaN in the bound, and both compare as uncertain.
+ * The static filter replaces each r_i by the diagonal of the box, which is an upper bound.
+ * FilterSlack, a factor 1 + 1e-6, covers the difference between gamma and k u, the rounding of the
+ * rows, and the roundings of the bound. FilterFloor covers underflow: if coordinates are below
+ * 1e12, all underflows in the determinant and in its bound add less than 1e-106. Determinants below
+ * 1e-100 go to exact arithmetic. Overflow makes the bound infinite or NaN, and both compare as
+ * uncertain.
  */
 #ifndef voxplex_Predicates_h
 #define voxplex_Predicates_h
@@ -59,9 +61,10 @@ namespace voxplex
 
 /**
  * Whether this translation unit does floating-point arithmetic as the error bounds assume: IEEE
- * doubles, round to nearest, no extended precision, no fused multiply-add where the source has none
- * (-ffp-contract=off), gradual underflow. It is static so that each translation unit tests its own
- * compiler flags; the numbers are volatile so that the processor does the sums.
+ * doubles, round to nearest, no extended precision, no fused multiply-add unless the source has one
+ * (-ffp-contract=off), gradual underflow. The function is static, so that each translation unit
+ * tests its own compiler flags. The numbers are volatile, so that the processor computes the sums
+ * at run time.
  */
 [[maybe_unused]] static bool FloatingPointIsStrict()
 {
@@ -71,7 +74,7 @@ namespace voxplex
   volatile double quarterUlp = 0x1p-54;
   volatile double threeQuartersUlp = 0x3p-54;
   volatile double smallest = 0x1p-1022;
-  // Every read is a new value to the compiler; a product with a second use would not be fused.
+  // To the compiler every read is a new value. It would not fuse a product that is used twice.
   const double minusSquare = root * root - square;
   const double plusSquare = square - root * root;
   const bool notFused = minusSquare == 0.0 && plusSquare == 0.0;
@@ -83,13 +86,13 @@ namespace voxplex
 }
 
 /**
- * @brief The predicates of one box, and how often each stage answered.
+ * @brief The predicates for points in one box, with statistics of the stages.
  *
- * One instance per worker thread: calls count into the instance's statistics. The bounds belong to
- * the instance, so meshes of different boxes can be made at once in one process.
+ * Use one instance per thread, since calls change the instance's statistics. The bounds belong to
+ * the instance, so one process can make meshes of different boxes at the same time.
  *
- * All points must lie in the box that the constructor was given; coordinates must be below 1e12.
- * FloatingPointIsStrict() must hold where this is compiled.
+ * All points must lie in the box that the constructor was given. Coordinates must be below 1e12.
+ * FloatingPointIsStrict() must be true in the translation unit that uses this class.
  */
 template <int D>
 class Predicates
@@ -106,7 +109,7 @@ public:
     {
       diagonal2 += (max[i] - min[i]) * (max[i] - min[i]);
     }
-    // The diagonal bounds every row; its D-th power every product of rows.
+    // The diagonal bounds the norm of every row. Its D-th power bounds the product of D norms.
     const double rows = std::pow(diagonal2, 0.5 * D);
     this->OrientationBound =
       FilterSlack * OrientationRoundings * UnitRoundoff * PermanentConstant * rows + FilterFloor;
@@ -147,7 +150,7 @@ public:
   }
 
   /**
-   * Where p lies against the circumsphere, without perturbation.
+   * The side of p with respect to the circumsphere, without perturbation.
    * @param simplex D + 1 points, positively oriented
    * @return +1 strictly inside, 0 on the sphere, -1 outside
    */
@@ -161,7 +164,7 @@ public:
       rows[i] = Subtract(*simplex[i], p);
       lifts[i] = SquaredNorm(rows[i]);
     }
-    // The determinant is negative in odd dimensions when p is inside.
+    // If p is inside, the determinant is negative in odd dimensions.
     const double det = (D % 2 == 0 ? 1.0 : -1.0) * LiftedDeterminant(rows, lifts);
     if (std::abs(det) > this->InSphereBound)
     {
@@ -185,20 +188,21 @@ public:
 
   /**
    * Whether p is in conflict with the simplex: strictly inside the circumsphere after a symbolic
-   * perturbation that moves every point off every sphere through others.
+   * perturbation. The perturbation moves every point off all spheres through other points.
    *
-   * The lifted coordinate of x becomes |x|^2 + eps_x, where eps_x > 0 is infinitely larger than the
-   * eps of every point that is lexicographically smaller (Devillers and Teillaud, Perturbations and
+   * The lifted coordinate of x becomes |x|^2 + eps_x, with eps_x > 0. If x is lexicographically
+   * larger than y, eps_x is infinitely larger than eps_y (Devillers and Teillaud, Perturbations and
    * vertex removal in a 3D Delaunay triangulation, 2003; the argument does not depend on D). On a
-   * tie the point with the largest eps decides: if it is p, p is lifted off the paraboloid and
-   * outside; if it is a vertex, lifting it tilts the hyperplane up on its side of the opposite
-   * facet, so p is below, in conflict, if p lies on that side; if p lies in the facet's hyperplane,
-   * the next point decides.
+   * tie, the point with the largest eps decides:
+   *   - If it is p, then p is lifted off the paraboloid, and is outside.
+   *   - If it is a vertex, lifting it tilts the hyperplane up on the vertex's side of the opposite
+   *     facet. If p lies on that side, it is below the hyperplane, and in conflict. If p lies in
+   *     the facet's hyperplane, the point with the next smaller eps decides.
    *
-   * The answer depends on the set of D + 2 points alone, not on the order of the vertices.
+   * The answer depends only on the set of D + 2 points, not on the order of the vertices.
    *
    * @param simplex D + 1 points, positively oriented
-   * @param p different from all of them
+   * @param p different from all vertices
    */
   bool InSpherePerturbed(const Point<D>* const* simplex, const Point<D>& p)
   {
@@ -210,9 +214,7 @@ public:
     return this->BreakTie(simplex, p);
   }
 
-  /**
-   * InSpherePerturbed for a p that is known to lie exactly on the circumsphere.
-   */
+  /** InSpherePerturbed() for a point p that lies exactly on the circumsphere. */
   bool BreakTie(const Point<D>* const* simplex, const Point<D>& p)
   {
     ++this->Statistics.Perturbed;
@@ -229,7 +231,7 @@ public:
     {
       if (*simplex[i] < p)
       {
-        return false; // p has the largest eps of those left
+        return false; // p has the largest eps of the remaining points
       }
       replaced[i] = &p;
       const int side = this->Orientation(replaced.data());
@@ -245,7 +247,7 @@ public:
   const PredicateStatistics& GetStatistics() const { return this->Statistics; }
   PredicateStatistics& GetStatistics() { return this->Statistics; }
 
-  /** |det| above which the static filter is certain. */
+  /** The static filter is certain if |det| exceeds this bound. */
   double GetOrientationBound() const { return this->OrientationBound; }
   double GetInSphereBound() const { return this->InSphereBound; }
 
@@ -253,13 +255,13 @@ private:
   using Row = Point<D>;
   static constexpr std::size_t Size = static_cast<std::size_t>(D);
 
-  // The constants of the derivation at the top.
+  // The constants of the error bounds at the top of this file.
   static constexpr double UnitRoundoff = 0x1p-53;
   static constexpr int OrientationRoundings = D == 3 ? 8 : 12;
   static constexpr int InSphereRoundings = D == 3 ? 16 : 21;
   static constexpr double PermanentConstant2 = D == 3 ? 4.0 / 3.0 : 9.0 / 4.0;
   static constexpr double PermanentConstant =
-    D == 3 ? 1.1547005383792517 : 1.5; // its root, rounded up
+    D == 3 ? 1.1547005383792517 : 1.5; // square root of PermanentConstant2, rounded up
   static constexpr double FilterSlack = 1.0 + 1e-6;
   static constexpr double FilterFloor = 1e-100;
   static constexpr double FilterFloor2 = 1e-200;

@@ -4,10 +4,9 @@
  * @file SimplexQuality.h
  * @brief Shape measures of one simplex.
  *
- * Simplices are given as D + 1 pointers to points. Angles are in degrees, and accurate near 0 and
- * 180: they come from atan2 of a sine and a cosine that share their scale, never from acos.
- * Measures of shape do not depend on orientation. All functions are pure and safe to call from any
- * thread.
+ * A simplex is given as D + 1 pointers to points. Angles are in degrees. They are accurate near 0
+ * and 180, since they are computed by atan2 of a sine and a cosine with a common factor, never by
+ * acos. Shape measures do not depend on the orientation. All functions are pure and thread-safe.
  */
 #ifndef voxplex_SimplexQuality_h
 #define voxplex_SimplexQuality_h
@@ -61,7 +60,7 @@ inline double ShortestEdge2(const Point<D>* const* v)
   return shortest;
 }
 
-/** Squared circumradius, from exact arithmetic where double is not certain; infinity if flat. */
+/** Squared circumradius; infinity if flat. Uses exact arithmetic if double is not certain. */
 template <int D>
 inline double Circumradius2(const Point<D>* const* v)
 {
@@ -74,9 +73,9 @@ inline double Circumradius2(const Point<D>* const* v)
 }
 
 /**
- * Circumradius over shortest edge (rho of the thesis): sqrt(6)/4 = 0.612 for the regular
- * tetrahedron, sqrt(10)/5 = 0.632 for the regular pentatope, larger for all others; infinity if
- * flat.
+ * Radius-edge ratio: circumradius / shortest edge (rho of the thesis). It is sqrt(6)/4 = 0.612 for
+ * the regular tetrahedron, sqrt(10)/5 = 0.632 for the regular pentatope, larger for all other
+ * simplices, and infinity if flat.
  * @param radius2 Circumradius2(v)
  */
 template <int D>
@@ -92,14 +91,14 @@ inline double RadiusEdgeRatio(const Point<D>* const* v)
 }
 
 /**
- * Volume over that of the regular simplex with the same circumradius (tau-hat of the thesis'
- * chapter 4, for any D): 1 for the regular simplex, 0 for a flat one.
+ * Volume divided by the volume of the regular simplex with the same circumradius (tau-hat in
+ * chapter 4 of the thesis, here for any D): 1 for the regular simplex, 0 for a flat one.
  * @param radius2 Circumradius2(v)
  */
 template <int D>
 inline double NormalizedVolume(const Point<D>* const* v, double radius2)
 {
-  // The regular simplex inscribed in the unit sphere: sqrt(D + 1) / D! ((D + 1) / D)^(D/2).
+  // Regular simplex inscribed in the unit sphere: volume sqrt(D + 1) / D! ((D + 1) / D)^(D/2).
   const double regular = D == 3 ? 8.0 / (9.0 * std::numbers::sqrt3) : 25.0 * std::sqrt(5.0) / 384.0;
   const double radiusPower = D == 3 ? radius2 * std::sqrt(radius2) : radius2 * radius2;
   return std::abs(SignedVolume<D>(v)) / (regular * radiusPower);
@@ -112,8 +111,8 @@ inline double NormalizedVolume(const Point<D>* const* v)
 }
 
 /**
- * The smallest sine of the dihedral angles of a tetrahedron: 0.943 for the regular one, 0 if flat. Small
- * where an angle is small, and where one is near 180 degrees.
+ * The smallest sine of the dihedral angles of a tetrahedron: 0.943 for the regular tetrahedron, 0
+ * if flat. It is small if an angle is near 0 or near 180 degrees.
  */
 inline double SmallestDihedralSine(const Point<3>* const* v)
 {
@@ -130,7 +129,7 @@ inline double SmallestDihedralSine(const Point<3>* const* v)
   const double a1 = norm2(n1);
   const double a2 = norm2(Cross(e01, e03));
   const double a3 = norm2(Cross(e02, e01));
-  // Squares of the sines over that of the determinant.
+  // The squared sines, divided by the squared determinant.
   const double smallest =
     std::min({ norm2(e01) / (a2 * a3), norm2(e02) / (a1 * a3), norm2(e03) / (a1 * a2),
       norm2(e12) / (a0 * a3), norm2(e13) / (a0 * a2), norm2(e23) / (a0 * a1) });
@@ -140,9 +139,10 @@ inline double SmallestDihedralSine(const Point<3>* const* v)
 /**
  * The dihedral angles of a tetrahedron at its edges 01, 02, 03, 12, 13, 23.
  *
- * With N_k the outward normals of the facets opposite to vertex k, of length twice the area, the
- * angle at edge ij between the facets opposite to k and l has the cosine -N_k . N_l and the sine
- * |N_k x N_l| = |edge ij| |det|, both over |N_k| |N_l|.
+ * Let N_k be the outward normal of the facet opposite vertex k. Its length is twice the facet's
+ * area. The dihedral angle at edge ij lies between the facets opposite k and l. Its cosine is
+ * -N_k . N_l / (|N_k| |N_l|), and its sine |N_k x N_l| / (|N_k| |N_l|), with
+ * |N_k x N_l| = |edge ij| |det|.
  */
 inline std::array<double, 6> DihedralAngles(const Point<3>* const* v)
 {

@@ -14,7 +14,7 @@
 namespace voxplex
 {
 
-/** Squared distance of p from the segment ab, which may be a point. */
+/** Squared distance of p from the segment ab. The segment may be a single point. */
 inline double SegmentDistance2(const Point<3>& p, const Point<3>& a, const Point<3>& b)
 {
   const Point<3> ab = Subtract(b, a);
@@ -23,7 +23,7 @@ inline double SegmentDistance2(const Point<3>& p, const Point<3>& a, const Point
   return Distance2(p, Interpolate(a, b, t));
 }
 
-/** A triangle of space, which may be flat. */
+/** A triangle in space. It may be degenerate. */
 struct Triangle
 {
   Point<3> A;
@@ -32,10 +32,10 @@ struct Triangle
 };
 
 /**
- * Squared distance of p from a triangle, its inside included.
+ * Squared distance of p from a triangle, interior included.
  *
- * The nearest point by the regions of the triangle's vertices, edges and inside (C. Ericson, Real-Time
- * Collision Detection, 2005, 5.1.5). Pure.
+ * Finds the nearest point by the Voronoi regions of the triangle's vertices, edges and interior
+ * (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). Pure.
  */
 inline double Distance2(const Point<3>& p, const Triangle& t)
 {
@@ -62,8 +62,8 @@ inline double Distance2(const Point<3>& p, const Triangle& t)
   {
     return Dot(cp, cp);
   }
-  // Twice the signed areas, times the triangle's own, of the triangles that p's projection makes with
-  // the edges.
+  // The projection of p forms a triangle with each edge. These are the signed areas of the three
+  // triangles, times a common factor.
   const double vc = d1 * d4 - d3 * d2;
   const double vb = d5 * d2 - d1 * d6;
   const double va = d3 * d6 - d5 * d4;

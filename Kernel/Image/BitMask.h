@@ -22,8 +22,8 @@ namespace voxplex
 /**
  * @brief One bit per voxel of a D-dimensional grid, all 0 at first.
  *
- * Each row along the first axis begins in a new 64-bit word; the bits past its end are 0. Distinct
- * rows may be written by distinct threads at the same time; reading is thread safe.
+ * Each row along the first axis begins in a new 64-bit word. The bits past the end of a row are 0.
+ * Different threads may write different rows at the same time. Reading is thread-safe.
  */
 template <int D>
 class BitMask
@@ -49,7 +49,7 @@ public:
   std::size_t NumberOfRows() const { return this->Words ? this->Bits.size() / this->Words : 0; }
   std::size_t WordsPerRow() const { return this->Words; }
 
-  /** Row number of an index: its position among the rows, second axis fastest. */
+  /** Row number of an index. The second axis varies fastest. */
   std::size_t RowOf(const Index& index) const
   {
     std::size_t row = 0;
@@ -60,7 +60,7 @@ public:
     return row;
   }
 
-  /** The words of a row; bit i of word w is voxel 64 w + i. */
+  /** The words of a row. Bit i of word w is voxel 64 w + i. */
   std::span<const std::uint64_t> Row(std::size_t row) const
   {
     return { this->Bits.data() + row * this->Words, this->Words };
@@ -83,11 +83,13 @@ public:
   }
 
   /**
-   * Clears a run of voxels along the first axis. Threads may clear what they like at the same time, but see what others
-   * have cleared only after something that orders them, as the end of ParallelFor() does.
+   * Clears a run of voxels along the first axis. Several threads may clear any runs at the same
+   * time. A thread sees the changes of other threads only after a synchronisation, such as the end
+   * of ParallelFor().
    *
    * @param first the run's first voxel, inside the grid
-   * @param last the last one's index along the first axis, inside the grid; nothing is cleared if it is before the first
+   * @param last index of the run's last voxel along the first axis, inside the grid; if it is
+   *   before the first voxel, nothing is cleared
    */
   void ClearRun(const Index& first, std::int64_t last)
   {

@@ -14,11 +14,11 @@ namespace voxplex
 namespace
 {
 
-/** Areas of a voxel's faces across each axis. */
+/** For each axis, the area of a voxel's face that this axis crosses. */
 template <int D>
 Point<D> FaceAreas(const GridGeometry<D>& grid)
 {
-  // The rows of the inverse of IndexToFrame have the length of 1 / height.
+  // Row a of the inverse of IndexToFrame has the length 1 / (height of a voxel over face a).
   Point<D> areas{};
   Point<D> squares{};
   for (std::size_t column = 0; column < D; ++column)
@@ -38,7 +38,7 @@ Point<D> FaceAreas(const GridGeometry<D>& grid)
   return areas;
 }
 
-/** Disjoint sets of runs; the root of a set is its smallest member. */
+/** Disjoint sets of runs. The root of a set is its smallest member. */
 class DisjointSets
 {
 public:
@@ -104,7 +104,8 @@ auto Components<D>::RunIndex(std::size_t run) const -> Index
 }
 
 //------------------------------------------------------------------------------------------------
-// Every row has a run that starts at 0, so the next run ends this one or belongs to the next row.
+// Every row has a run that starts at 0. If the next run starts at 0, it belongs to the next row,
+// and this run ends at the end of its row. Otherwise this run ends where the next run starts.
 template <int D>
 std::uint32_t Components<D>::RunEnd(std::size_t run) const
 {
@@ -117,7 +118,7 @@ template <int D>
 std::vector<bool> Components<D>::FindWanted(std::int64_t fewestVoxels) const
 {
   std::vector<bool> wanted(this->List.size());
-  std::vector<std::uint32_t> largest; // by label
+  std::vector<std::uint32_t> largest; // the largest component of each label
   for (std::uint32_t c = 0; c < this->List.size(); ++c)
   {
     const Component<D>& component = this->List[c];
@@ -221,11 +222,12 @@ Components<D>::Components(const LabelImage<D>& image, unsigned threads, const st
     },
     stop);
 
-  // Runs of neighbouring rows that overlap and have one label belong together. Slabs of rows are joined
-  // in themselves first, each by one thread: no set reaches beyond its slab then.
+  // Runs of neighbouring rows belong together if they overlap and have the same label. First, each
+  // thread joins runs inside its slab of rows, so no set extends beyond a slab. Then runs of
+  // different slabs are joined.
   DisjointSets sets(total);
   const Point<D> areas = FaceAreas(image.Grid());
-  std::vector<double> surface(total); // by run
+  std::vector<double> surface(total); // of each run
   const auto joinRows = [&](std::size_t row, std::size_t stride, double area)
   {
     std::uint32_t a = this->FirstOfRow[row - stride];

@@ -16,23 +16,23 @@
 namespace voxplex
 {
 
-/** A set of voxels of one label that are connected through common faces. */
+/** A connected component: voxels of one label that are connected through common faces. */
 template <int D>
 struct Component
 {
   LabelId Label = 0;
   std::int64_t Voxels = 0;
-  double Surface =
-    0.0; ///< area (3D) of the faces between the set and the rest, of the image's end, too
-  typename GridGeometry<D>::Index First{}; ///< one of its voxels, an index of the crop
+  /** Area (in 3D) of the faces between the component and other voxels or the image's border. */
+  double Surface = 0.0;
+  typename GridGeometry<D>::Index First{}; ///< the index of its first voxel in the crop
 };
 
 /**
- * @brief Connected components of all labels of an image, background left out.
+ * @brief Connected components of all labels of an image, without background.
  *
- * Rows of voxels are kept as runs of one label, so that it takes little memory: about eight bytes a
- * run. Immutable after construction; all methods are const and safe to call from any thread. Ids of
- * components run from 0 in the order of their first voxels, whatever the number of threads.
+ * Rows of voxels are stored as runs of one label. This needs little memory: about eight bytes per
+ * run. Immutable after construction; all methods are const and thread-safe. Components are numbered
+ * from 0 in the order of their first voxels. The numbers do not depend on the number of threads.
  */
 template <int D>
 class Components
@@ -43,26 +43,27 @@ public:
   static constexpr std::uint32_t None = 0xffffffffu;
 
   /**
-   * Time and memory: linear in the number of voxels and of runs.
-   * @param image must live as long as this
+   * Time is linear in the number of voxels, memory in the number of runs.
+   * @param image must live as long as this object
    * @param threads 0 means all cores; the result does not depend on it
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   explicit Components(
     const LabelImage<D>& image, unsigned threads = 1, const std::stop_token& stop = {});
-  /** The components do not keep the image alive. */
+  /** A temporary image is refused, since this object does not keep the image alive. */
   explicit Components(LabelImage<D>&&, unsigned = 1, const std::stop_token& = {}) = delete;
 
   const std::vector<Component<D>>& All() const { return this->List; }
 
   /**
-   * Those that a mesh must not lose: of at least so many voxels, or the largest of their label, the first of several,
-   * so that no label is left without one.
-   * @return by component
+   * The components that a mesh must not lose: those with at least `fewestVoxels` voxels, and the
+   * largest component of each label, so that every label has one. If several components are the
+   * largest, the first one is taken.
+   * @return true or false for each component
    */
   std::vector<bool> FindWanted(std::int64_t fewestVoxels) const;
 
-  /** The component of a voxel of the crop; None for background and beyond the crop. */
+  /** The component of a voxel of the crop; None for background and outside the crop. */
   std::uint32_t At(const Index& voxel) const;
 
   /** Calls visit(first, length) for each run of a component along the first axis, in order. */
@@ -80,7 +81,7 @@ private:
 
   struct Run
   {
-    std::uint32_t Start;     ///< along the first axis
+    std::uint32_t Start;     ///< index of the first voxel along the first axis
     std::uint32_t Component; ///< None for background
   };
 
@@ -92,8 +93,8 @@ private:
   Index Dimensions;
   std::vector<std::uint32_t> FirstOfRow; ///< runs of row r: [FirstOfRow[r], FirstOfRow[r + 1])
   std::vector<Run> Runs;
-  std::vector<std::uint32_t> FirstRun; ///< by component
-  std::vector<std::uint32_t> NextRun;  ///< by run, the next of its component
+  std::vector<std::uint32_t> FirstRun; ///< first run of each component
+  std::vector<std::uint32_t> NextRun;  ///< for each run, the next run of its component, or NoRun
   std::vector<Component<D>> List;
 };
 

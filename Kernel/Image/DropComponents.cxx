@@ -40,7 +40,8 @@ LabelId MostFrequentNeighbour(
         }
       }
     });
-  // A neighbour that was dropped before may have this label now; then they are one, for the next round.
+  // A neighbour that was dropped before may now have the same label as this component. Then both
+  // are one component in the next round.
   const auto most = std::max_element(
     faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == faces.end() ? own : most->first;
@@ -96,8 +97,8 @@ std::vector<ComponentReport> DropComponents(
   if (std::all_of(image.Counts().begin() + 1, image.Counts().end(),
         [](std::int64_t count) { return count == 0; }))
   {
-    throw InputError("every component of the image is smaller than the volume below which they are "
-                     "to be left out; ask for a smaller one");
+    throw InputError("every component of the image is smaller than the smallest volume to keep; "
+                     "choose a smaller volume");
   }
   return dropped;
 }

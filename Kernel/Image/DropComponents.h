@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file DropComponents.h
- * @brief Takes small connected components out of a label image.
+ * @brief Removes small connected components from a label image.
  */
 #ifndef voxplex_DropComponents_h
 #define voxplex_DropComponents_h
@@ -19,22 +19,25 @@ namespace voxplex
 /** A connected component of the image, for reports. */
 struct ComponentReport
 {
-  std::int64_t Label = 0; ///< the image's own value
+  std::int64_t Label = 0; ///< the label's value in the image
   std::int64_t Voxels = 0;
   std::vector<std::int64_t> Voxel; ///< the index of one of its voxels in the whole image
 };
 
 /**
- * Gives every connected component (through faces) that is smaller than a volume the label that most of
- * its faces have on their other side, the smallest such label if there are several: specks become what is
- * around them. Small ones that touch are taken for one, by repeating it until none is left.
+ * Removes the connected components (through faces) that are smaller than a volume. Each takes the
+ * most frequent label of its neighbours, counted by faces; if several labels are the most frequent,
+ * the smallest of them. This is done in rounds until no component changes. So small components that
+ * touch may first become one component.
  *
- * Complexity: linear in the voxels, a few times.
+ * Complexity: linear in the voxels for each round; there are few rounds.
  *
- * @param volume in the unit of length of the grid to the power D; nothing happens if it is not positive
+ * @param volume components below it are removed; in the grid's unit of length to the power D. If it
+ *   is not positive, nothing happens.
  * @param threads 0 means all cores; the result does not depend on it
- * @return what was dropped, in the order of first voxels, the smallest ones of each round first
- * @throws Cancelled if a stop was requested; InputError if nothing but background is left
+ * @return the removed components. In each round the smallest come first; components of equal size
+ *   are in the order of their first voxels.
+ * @throws Cancelled if a stop was requested; InputError if only background is left
  */
 template <int D>
 std::vector<ComponentReport> DropComponents(

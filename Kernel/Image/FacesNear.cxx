@@ -17,10 +17,10 @@ namespace
 
 using Index = GridGeometry<3>::Index;
 
-/** Blocks of so many voxels along each axis, at most, are searched face by face. */
+/** Blocks of at most this number of voxels along each axis are searched face by face. */
 constexpr std::int64_t LeafEdge = 4;
 
-/** Voxels from `Low` to `High`. */
+/** The voxels from `Low` to `High`, both included. */
 struct Block
 {
   Index Low;
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  /** @param first of this->Reaching the balls from there on may reach into the block */
+  /** @param first the balls of this->Reaching from this position on may intersect the block */
   void Visit(const Block& block, std::size_t first)
   {
     const std::size_t own = this->Reaching.size();
@@ -92,7 +92,7 @@ private:
     this->Reaching.resize(own);
   }
 
-  /** In the frame; contains the centres of the block's faces in spite of rounding. */
+  /** A box in the frame that contains the centres of the block's faces, in spite of rounding. */
   Box<3> BoundsOf(const Block& block) const
   {
     constexpr double Slack = 1e-6; // voxels
@@ -114,8 +114,9 @@ private:
   }
 
   /**
-   * Appends those of the balls from `first` on that reach into the box, or just one that contains it.
-   * @return whether one does
+   * Checks the balls of this->Reaching from `first` on. If a ball contains the box, appends only
+   * this ball. Otherwise appends all balls that intersect the box.
+   * @return whether a ball contains the box
    */
   bool KeepReaching(const Box<3>& box, std::size_t first)
   {
@@ -174,7 +175,7 @@ private:
     }
   }
 
-  /** Those on the voxel's upper sides. */
+  /** Adds the faces on the voxel's upper sides. */
   void AddFacesOf(const Index& voxel, std::size_t first)
   {
     for (unsigned a = 0; a < 3; ++a)
@@ -203,7 +204,7 @@ private:
   const BitMask<3>& Sites;
   const std::span<const SearchBall> Balls;
   const std::stop_token Stop;
-  std::vector<std::uint32_t> Reaching; ///< for each block under way the balls that it keeps
+  std::vector<std::uint32_t> Reaching; ///< stack: the balls of each block on the recursion's path
   std::vector<VoxelFace> Found;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FacesNear.h
- * @brief The faces between voxels of different labels that lie in any of many balls.
+ * @brief Finds the faces between voxels of different labels that lie in given balls.
  */
 #ifndef voxplex_FacesNear_h
 #define voxplex_FacesNear_h
@@ -17,7 +17,7 @@
 namespace voxplex
 {
 
-/** Between a voxel of the crop, or one beside it, and the next along an axis. */
+/** The face between a voxel and the next voxel along an axis. At least one is in the crop. */
 struct VoxelFace
 {
   using Index = GridGeometry<3>::Index;
@@ -34,13 +34,13 @@ struct VoxelFace
   }
 };
 
-/** Where the line between the centres of its voxels passes through it, in the frame. */
+/** The midpoint between the centres of the face's two voxels, in the frame. */
 inline Point<3> CentreOf(const VoxelFace& face, const LabelImage<3>& image)
 {
   return Interpolate(image.CentreOf(face.Voxel), image.CentreOf(face.Next()), 0.5);
 }
 
-/** In the frame. */
+/** A ball in the frame. */
 struct SearchBall
 {
   Point<3> Centre;
@@ -48,14 +48,16 @@ struct SearchBall
 };
 
 /**
- * Faces between voxels of different labels whose centre is in at least one of the balls, or on its sphere.
+ * Finds the faces between voxels of different labels whose centre is inside or on at least one of
+ * the balls.
  *
- * Halves the image again and again. A block keeps the balls that reach into it, or just one that contains it, so that
- * many balls in one place cost little more than one: n log n in the number of balls and the faces found, whatever the
+ * The image is halved recursively. Each block keeps the balls that intersect it. If a ball contains
+ * the block, the block keeps only this ball. So many balls in one place cost little more than one.
+ * The time is n log n, where n is the number of balls and of found faces. It does not depend on the
  * radii.
  *
  * @param sites the image's surface voxels (FindSurfaceVoxels)
- * @return ascending, none twice
+ * @return the faces in ascending order, without duplicates
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<VoxelFace> FindFacesNear(const LabelImage<3>& image, const BitMask<3>& sites,

@@ -15,7 +15,7 @@ namespace voxplex
 namespace
 {
 
-/** Largest set bit at or below a position, or -1. */
+/** Position of the last set bit at or below a position; -1 if there is none. */
 std::int64_t SetBitBelow(std::span<const std::uint64_t> words, std::int64_t position)
 {
   if (position < 0)
@@ -35,7 +35,7 @@ std::int64_t SetBitBelow(std::span<const std::uint64_t> words, std::int64_t posi
   return static_cast<std::int64_t>(w * 64) + 63 - std::countl_zero(word);
 }
 
-/** Smallest set bit at or above a position, or -1. */
+/** Position of the first set bit at or above a position; -1 if there is none. */
 std::int64_t SetBitAbove(std::span<const std::uint64_t> words, std::int64_t position)
 {
   auto w = static_cast<std::size_t>(position) / 64;
@@ -58,8 +58,8 @@ std::int64_t SetBitAbove(std::span<const std::uint64_t> words, std::int64_t posi
 } // namespace
 
 /**
- * Parabolas of one line, of which only those are kept that are lowest somewhere. Push() them from
- * left to right, then ask for the lowest ones from left to right.
+ * The lower envelope of the parabolas of one line: it keeps only parabolas that are the lowest
+ * somewhere. Push() all parabolas from left to right. Then call LowestAt() from left to right.
  */
 template <int D>
 class FeatureTransform<D>::Envelope
@@ -68,7 +68,7 @@ public:
   struct Parabola
   {
     double Position;
-    double Height; ///< squared distance along the axes before
+    double Height; ///< squared distance along the axes of earlier passes
     std::uint32_t Site;
   };
 
@@ -96,7 +96,7 @@ public:
     this->Size = size + 1;
   }
 
-  /** The lowest parabola at x and its value; x must not decrease between calls. */
+  /** The lowest parabola at x, and its value. x must not decrease from call to call. */
   const Parabola& LowestAt(double x, double& value)
   {
     const Parabola* const stack = this->Stack.data();
@@ -116,7 +116,7 @@ public:
   }
 
 private:
-  /** Whether v is nowhere below both u and w; positions u < v < w (Maurer's RemoveFT). */
+  /** Whether v is nowhere below both u and w. The positions are u < v < w (Maurer's RemoveFT). */
   static bool Hidden(const Parabola& u, const Parabola& v, const Parabola& w)
   {
     const double a = v.Position - u.Position;
@@ -163,7 +163,7 @@ FeatureTransform<D>::FeatureTransform(const BitMask<D>& sites, const Point<D>& s
   }
 }
 
-/** Along x: the nearest site in the same row, found a word of bits at a time. */
+/** The pass along x: finds the nearest site in the same row, by words of 64 voxels. */
 template <int D>
 void FeatureTransform<D>::FirstPass(
   const BitMask<D>& sites, unsigned threads, const std::stop_token& stop)
@@ -178,7 +178,7 @@ void FeatureTransform<D>::FirstPass(
       {
         const std::span<const std::uint64_t> words = sites.Row(row);
         std::uint32_t* out = this->Features.data() + row * cells;
-        std::int64_t below = -1;                    // last site not above the centre
+        std::int64_t below = -1;                    // last site at or below the centre
         std::int64_t above = SetBitAbove(words, 0); // first site above the centre
         for (std::size_t c = 0; c < cells; ++c)
         {
@@ -199,7 +199,7 @@ void FeatureTransform<D>::FirstPass(
     stop);
 }
 
-/** Squared distance along the first `axes` axes from a query to a partial result. */
+/** Squared distance from a query to a site along the first `axes` axes. */
 template <int D>
 inline double FeatureTransform<D>::LowerDistance2(
   std::size_t axes, std::uint32_t site, const std::array<double, D>& query) const
@@ -216,7 +216,7 @@ inline double FeatureTransform<D>::LowerDistance2(
   return sum;
 }
 
-/** Along another axis: cells along the axes before it, voxels along those after. */
+/** A pass along another axis. Earlier axes already have cells, later axes still have voxels. */
 template <int D>
 void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads, const std::stop_token& stop)
 {

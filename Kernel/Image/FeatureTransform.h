@@ -24,18 +24,20 @@ namespace voxplex
 /**
  * @brief Nearest site of every cell centre of a lattice that may be coarser than the sites' grid.
  *
- * Sites are voxels of a grid. The grid is cut in cells of Stride()[a] voxels along axis a (the last
- * ones may stick out); the query of a cell is its centre. With stride 1 everywhere the cells are
- * the voxels and this is the usual feature transform. The answer is exact for every query whatever
- * the stride: coarser queries make it cheaper, not less precise. Lengths are those of orthogonal
- * axes with the given spacings.
+ * Sites are voxels of a grid. The grid is divided into cells of Stride()[a] voxels along axis a.
+ * The last cells may extend beyond the grid. The query point of a cell is its centre. If all
+ * strides are 1, the cells are the voxels, and this is the usual feature transform. The result is
+ * exact for any stride: larger strides reduce the cost, not the precision. Lengths are those of
+ * orthogonal axes with the given spacings.
  *
- * Separable, one axis after the other, by lower envelopes of parabolas (Maurer, Qi and Raghavan
- * 2003, which the thesis cites in 3.1; Meijster et al. 2000): time linear in the voxels of the
- * first pass (64 at a time), then in the partial results, which shrink by the stride with each
- * axis. Of equally near sites any may be the answer, the same whatever the number of threads.
+ * The algorithm is separable. It treats one axis after the other, by lower envelopes of parabolas
+ * (Maurer, Qi and Raghavan 2003, cited in section 3.1 of the thesis; Meijster et al. 2000). The
+ * time of the first pass is linear in the voxels, of which it reads 64 at once. The time of a later
+ * pass is linear in its partial results. Their number is divided by the stride along each axis. If
+ * several sites are equally near, the result is any of them. The result does not depend on the
+ * number of threads.
  *
- * Immutable after construction, so safe to read from any thread.
+ * Immutable after construction, and thread-safe.
  */
 template <int D>
 class FeatureTransform
@@ -44,16 +46,17 @@ public:
   using Index = typename GridGeometry<D>::Index;
   using Array = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
 
-  /** The site of a query if there are no sites at all. */
+  /** The result of a query if there are no sites. */
   static constexpr std::uint32_t NoSite = std::numeric_limits<std::uint32_t>::max();
 
   /**
-   * @param sites the sites' grid; fewer than 2^32 - 1 voxels
-   * @param spacing lengths of a voxel step along each axis, positive
+   * @param sites marks the voxels that are sites; fewer than 2^32 - 1 voxels
+   * @param spacing length of a voxel along each axis, positive
    * @param stride voxels of a cell along each axis, at least 1
-   * @param threads threads used; 0 means all cores. The result does not depend on it.
-   * @param stop ends the construction early; the default never does
-   * @throws InputError if the grid has too many voxels; Cancelled if stopped; std::bad_alloc
+   * @param threads number of threads; 0 means all cores. The result does not depend on it.
+   * @param stop ends the construction early; the default never stops
+   * @throws InputError if the grid has too many voxels; Cancelled if a stop was requested;
+   *   std::bad_alloc
    */
   FeatureTransform(const BitMask<D>& sites, const Point<D>& spacing, const Array& stride,
     unsigned threads = 1, const std::stop_token& stop = {});
@@ -65,8 +68,8 @@ public:
 
   /** Linear index of the voxel that is the nearest site of a cell's centre, or NoSite. */
   std::uint32_t Site(std::size_t cell) const { return this->Features[cell]; }
-  /** Distance from the cell's centre to its nearest site, to float precision; infinite without
-   * sites. */
+  /** Distance from the cell's centre to its nearest site, to float precision; infinity if there are
+   * no sites. */
   float Distance(std::size_t cell) const { return this->Distances[cell]; }
 
   /** Index of a voxel from its linear index. */
@@ -83,13 +86,13 @@ public:
     return index;
   }
 
-  /** Coordinate (continuous index) along an axis of the centre of the c-th cell. */
+  /** Coordinate (continuous index) of the centre of cell c along an axis. */
   double Centre(std::size_t axis, std::size_t c) const
   {
     return static_cast<double>(c * this->CellStride[axis]) + this->CentreOffset[axis];
   }
 
-  /** The cell, along one axis, whose box contains a coordinate; clamped to the first and last. */
+  /** The cell that contains a coordinate along an axis, clamped to the first and the last cell. */
   std::uint32_t CellOf(std::size_t axis, double coordinate) const
   {
     const double c = (coordinate + 0.5) * this->InverseStride[axis];

@@ -16,7 +16,9 @@ namespace voxplex
 namespace
 {
 
-/** Of two rows of voxels; short, so that it counts in 32 bits and many voxels at once. */
+/**
+ * Adds the pairs of two rows. Sums of parts fit in 32 bits, so that the inner loop is vectorised.
+ */
 void AddPairs(const LabelId* a, const LabelId* b, std::size_t length, NeighbourPairs& pairs)
 {
   constexpr std::size_t AtOnce = 1u << 20;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GreyValues.h
- * @brief Tells a segmentation from grey values that were taken for labels.
+ * @brief Detects grey-value images that were given as segmentations.
  */
 #ifndef voxplex_GreyValues_h
 #define voxplex_GreyValues_h
@@ -15,11 +15,11 @@
 namespace voxplex
 {
 
-/** Pairs of voxels with a common face and a label each, background left out. */
+/** Numbers of pairs of voxels with a common face. Pairs with a background voxel do not count. */
 struct NeighbourPairs
 {
   std::int64_t All = 0;
-  std::int64_t Different = 0; ///< those with two labels
+  std::int64_t Different = 0; ///< pairs with two different labels
 
   /** 0 if there are no pairs. */
   double ShareOfDifferent() const
@@ -30,7 +30,7 @@ struct NeighbourPairs
 };
 
 /**
- * One reading of the image.
+ * Counts the pairs in one pass over the image.
  * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end
  */
@@ -38,32 +38,33 @@ template <int D>
 NeighbourPairs CountNeighbourPairs(
   const LabelImage<D>& image, unsigned threads = 1, const std::stop_token& stop = {});
 
-/** Images with fewer labels, or fewer pairs of neighbours, are never taken for grey values. */
+/** Images with fewer labels, or fewer pairs of neighbours, are never treated as grey values. */
 inline constexpr int FewestGreyValues = 40;
 inline constexpr std::int64_t FewestGreyPairs = 50000;
-/** In grey values more than this share of neighbours differ. */
+/** In grey-value images more than this share of the pairs have different values. */
 inline constexpr double LeastGreyShare = 0.6;
 
 /**
- * Refuses an image whose labels are grey values: many, and most neighbours differ. To mesh it would bound nearly every
- * voxel for itself, in minutes or hours. Labels of a segmentation are regions, however many there are:
+ * Refuses an image whose labels look like grey values: there are many labels, and most neighbours
+ * differ. The mesh would enclose nearly every voxel separately, and take minutes or hours. In a
+ * segmentation, labels form regions, even if there are many labels:
  *
  *     image                                           labels    share of neighbours that differ
  *     atlases of the head, knee, brain (12)           32 to 724            0.01 to 0.18
  *     Voronoi cells of 114 voxels on average          1900                 0.27
  *     blocks of 2 x 2 x 2 voxels                      1000                 0.47
  *     MR images of brains, 1 mm, 8 bits               126 to 248           0.85 to 0.91
- *     one of these, smoothed by 1 or 2 voxels         227 to 242           0.84 to 0.86
- *     the same with twice the resolution              180                  0.74
- *     another one at 0.7 mm, 80 grey values           80                   0.76
+ *     one of these images, smoothed by 1 or 2 voxels  227 to 242           0.84 to 0.86
+ *     the same image with twice the resolution        180                  0.74
+ *     another image at 0.7 mm, 80 grey values         80                   0.76
  *     quantised to 64, 32, 16 grey values             63, 31, 15           0.71, 0.55, 0.38
  *     phantoms of CT images, noise of 5 to 40 HU      59 to 255            0.71 to 0.96
  *     noise smoothed by 4 voxels                      250, 63, 15          0.90, 0.63, 0.20
  *     noise                                           255                  1.00
  *
- * What has few values, or is small, is meshed as it is, also if it is noise.
+ * Images with few labels and small images are accepted, even if they are noise.
  *
- * @throws InputError if it looks like grey values; Cancelled
+ * @throws InputError if the labels look like grey values; Cancelled
  */
 template <int D>
 void CheckSegmented(

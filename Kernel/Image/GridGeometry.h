@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file GridGeometry.h
- * @brief How voxel indices map to the mesher's frame.
+ * @brief The map from voxel indices to the mesher's frame.
  *
- * The mesher's frame has its origin at the centre of voxel (0, ..., 0). Index i lies at
- * `IndexToFrame * i`, where IndexToFrame is upper triangular with a positive diagonal: the R of the QR
- * decomposition of (direction * spacing). For orthogonal axes, the usual case, it is the diagonal
- * matrix of the spacings. The caller keeps Q (a rotation, or a reflection for left-handed axes) and
- * the origin, and applies them to what the mesher returns.
+ * The origin of the mesher's frame is the centre of voxel (0, ..., 0). Index i lies at
+ * `IndexToFrame * i`. IndexToFrame is upper triangular with a positive diagonal: it is the R of the
+ * QR decomposition of (direction * spacing). For orthogonal axes, the usual case, it is the
+ * diagonal matrix of the spacings. The caller keeps the origin and Q (a rotation, or a reflection
+ * for left-handed axes), and applies them to the mesher's output.
  */
 #ifndef voxplex_GridGeometry_h
 #define voxplex_GridGeometry_h
@@ -31,10 +31,10 @@ struct GridGeometry
 
   /** Number of voxels along each axis; the first axis varies fastest in memory. */
   Index Dimensions{};
-  /** Upper triangular, positive diagonal; row r, column c at IndexToFrame[r][c]. */
+  /** Upper triangular, with a positive diagonal. IndexToFrame[r][c] is row r, column c. */
   Matrix IndexToFrame{};
 
-  /** A grid with orthogonal axes and these spacings. */
+  /** A grid with orthogonal axes and the given spacings. */
   static GridGeometry Orthogonal(const Index& dimensions, const Point<D>& spacing)
   {
     GridGeometry g;
@@ -79,8 +79,8 @@ struct GridGeometry
   }
 
   /**
-   * The index between 0 and `last` whose point is nearest to that of another one; if axes are oblique it is not the
-   * nearest index. By coordinate descent, in time linear in D^3.
+   * The index in the box from 0 to `last` whose point is nearest to the point of `index`. If the
+   * axes are oblique, this is not the nearest index. Uses coordinate descent; time O(D^3).
    */
   Point<D> NearestInBox(const Point<D>& index, const Point<D>& last) const
   {
@@ -97,7 +97,7 @@ struct GridGeometry
         Point<D> step = Subtract(nearest, index);
         step[a] = 0.0;
         const Point<D> others = this->ToFrame(step);
-        double product = 0.0; // of them and a step along this axis
+        double product = 0.0; // dot product of `others` and the step along this axis
         double own = 0.0;
         for (std::size_t r = 0; r <= a; ++r)
         {
@@ -110,7 +110,7 @@ struct GridGeometry
     return nearest;
   }
 
-  /** Length of the step of one voxel along an axis. */
+  /** Length of a step of one voxel along an axis. */
   double Spacing(int axis) const
   {
     double s = 0.0;
@@ -123,8 +123,8 @@ struct GridGeometry
   }
 
   /**
-   * By how much each index changes, at most, over a unit of length in any direction. 1 / Spacing() if the axes are
-   * orthogonal, else more.
+   * The largest change of each index over a unit of length in any direction. It is 1 / Spacing() if
+   * the axes are orthogonal, and larger otherwise.
    */
   Point<D> VoxelsPerLength() const
   {
@@ -161,7 +161,7 @@ struct GridGeometry
     return largest;
   }
 
-  /** Of a voxel with right angles and these spacings. */
+  /** Diagonal of a voxel with right angles and these spacings. */
   double VoxelDiagonal() const
   {
     double sum = 0.0;
@@ -172,7 +172,7 @@ struct GridGeometry
     return std::sqrt(sum);
   }
 
-  /** Volume (area, hypervolume) of one voxel. */
+  /** Volume of one voxel; its hypervolume in 4D. */
   double VoxelVolume() const
   {
     double v = 1.0;

@@ -25,7 +25,9 @@ namespace
 /** Voxels that a thread reads at once. */
 constexpr std::size_t Grain = std::size_t{ 1 } << 18;
 
-/** From a value to how far it is inside: exact in its sign, and 0 only for the isovalue itself. */
+/**
+ * The margin of a value, before scaling. Its sign is exact. It is 0 only for the isovalue itself.
+ */
 class MarginOf
 {
 public:
@@ -46,12 +48,12 @@ private:
   double Sign;
 };
 
-/** What a pass over the values finds. */
+/** The result of a pass over the values. */
 struct Census
 {
   double Min = std::numeric_limits<double>::infinity();
   double Max = -std::numeric_limits<double>::infinity();
-  double LargestMargin = 0.0; ///< of the finite ones, its absolute value
+  double LargestMargin = 0.0; ///< largest absolute value of the finite margins
 
   void Join(const Census& other)
   {
@@ -118,8 +120,8 @@ void CheckRange(const Isosurface& surface, const std::array<double, 2>& range, c
 {
   if (range[0] > range[1])
   {
-    throw InputError("No voxel of the image has a number for a value (all are NaN): there is no "
-                     "isosurface to mesh. Choose another array.");
+    throw InputError("All values of the image are NaN, so there is no isosurface to mesh. Choose "
+                     "another array.");
   }
   if (!(surface.Value >= range[0] && surface.Value <= range[1]))
   {
@@ -130,7 +132,9 @@ void CheckRange(const Isosurface& surface, const std::array<double, 2>& range, c
   }
 }
 
-/** The power of two that brings a margin to 0.5 ... 1, so that floats hold all margins. */
+/**
+ * The power of two that scales the largest margin to 0.5 ... 1, so that floats hold all margins.
+ */
 double ScaleOf(const Census& census)
 {
   int exponent = 0;
@@ -138,10 +142,12 @@ double ScaleOf(const Census& census)
   return std::ldexp(1.0, std::clamp(-exponent, -1020, 1020));
 }
 
-/** As a float of the same sign, unless it is 0 or NaN; infinite ones as large ones. */
+/**
+ * The margin as a float of the same sign; 0 and NaN are kept. Infinite margins become large ones.
+ */
 float ToFloat(double margin)
 {
-  constexpr double largest = 16.0; // margins are up to 1, but for infinite values
+  constexpr double largest = 16.0; // finite margins are at most 1
   const double clamped = std::clamp(margin, -largest, largest);
   const auto result = static_cast<float>(std::isnan(margin) ? margin : clamped);
   return result == 0.0f && margin != 0.0
@@ -149,10 +155,10 @@ float ToFloat(double margin)
     : result;
 }
 
-/** Columns of a strip that is smoothed at once. */
+/** Number of columns of a strip, which are smoothed together. */
 constexpr std::size_t StripWidth = 64;
 
-/** Memory for a strip, kept from strip to strip. */
+/** Memory for a strip, reused for the next strip. */
 struct StripBuffers
 {
   std::vector<float> In;
@@ -160,8 +166,8 @@ struct StripBuffers
 };
 
 /**
- * Smooths `width` columns of n values each, in place; one value of a column is `stride` after the other.
- * Beyond their ends the outermost values are repeated.
+ * Smooths `width` columns of n values each, in place. The values of a column are `stride` apart.
+ * Beyond the ends of a column its outermost values are repeated.
  */
 void SmoothStrip(float* values, std::size_t n, std::size_t stride, std::size_t width,
   const std::vector<float>& weights, StripBuffers& buffers)
@@ -224,7 +230,7 @@ void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigm
   }
 }
 
-/** The margins smoothed; those without a number, which count as 0, are NaN again after it. */
+/** The smoothed margins. NaN counts as 0 in the smoothing, and is NaN again in the result. */
 template <int D, typename Function>
 std::vector<float> SmoothedMargins(const Function& read, const GridGeometry<D>& grid,
   std::size_t voxels, double sigma, unsigned threads, const std::stop_token& stop)
@@ -258,7 +264,7 @@ std::vector<float> SmoothedMargins(const Function& read, const GridGeometry<D>& 
   return margins;
 }
 
-/** The range of the values with these margins. */
+/** The smallest and the largest value that belong to these margins. */
 std::array<double, 2> RangeOf(
   const std::vector<float>& margins, const Isosurface& surface, double scale)
 {

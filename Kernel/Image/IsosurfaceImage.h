@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file IsosurfaceImage.h
- * @brief A grey-value image and the isosurface in it that bounds what is meshed.
+ * @brief A grey-value image, and the isosurface that bounds the meshed region.
  */
 #ifndef voxplex_IsosurfaceImage_h
 #define voxplex_IsosurfaceImage_h
@@ -18,23 +18,24 @@
 namespace voxplex
 {
 
-/** Where the values of the inside lie. A voxel that has the isovalue itself is inside in both cases. */
+/** The side of the isovalue that is inside. A voxel with exactly the isovalue is always inside. */
 enum class IsosurfaceSide
 {
   Above, ///< inside is value >= isovalue
   Below  ///< inside is value <= isovalue
 };
 
-/** Which isosurface. */
+/** The isosurface to mesh. */
 struct Isosurface
 {
   double Value = 0.0;
   IsosurfaceSide Inside = IsosurfaceSide::Above;
-  std::int64_t Label = 1; ///< of what is inside; at least 1
+  std::int64_t Label = 1; ///< label of the inside; at least 1
   /**
-   * Standard deviation, voxels along each axis, of a smoothing of the values before anything else, against
-   * noise; 0 to LargestSigma. By default none: grey values say where the surface is to a fraction of a voxel
-   * already, there are no stairs to smooth.
+   * Standard deviation of a smoothing of the values, in voxels along each axis, from 0 to
+   * LargestSigma. It reduces noise, and is done before anything else. The default 0 means no
+   * smoothing: grey values already define the surface to a fraction of a voxel, without the
+   * staircase of a label image.
    */
   double SmoothingSigma = 0.0;
 
@@ -42,15 +43,15 @@ struct Isosurface
 };
 
 /**
- * @brief The voxels inside of an isosurface as a label image, and by how much each is inside or outside.
+ * @brief The voxels inside an isosurface as a label image, and the margins of all voxels.
  *
- * The *margin* of a voxel is value - isovalue (isovalue - value if below is inside), times a power of two
- * that brings the largest one of the image near 1. A voxel is inside if its margin is at least 0. Voxels
- * whose value is not a number are outside; so is everything beyond the image.
+ * The *margin* of a voxel is value - isovalue (isovalue - value if the inside is below), times a
+ * power of two that brings the image's largest margin near 1. If the margin is at least 0, the
+ * voxel is inside. Voxels whose value is NaN are outside, and so is everything beyond the image.
  *
- * Smoothing is the separable kernel (1 + c) g - c g*g of LabelField with a second moment of 0: it
- * leaves linear and quadratic functions as they are, and with them planes and, nearly, curved surfaces.
- * At the image's border the outermost values are repeated.
+ * Smoothing uses the separable kernel (1 + c) g - c g*g of LabelField, with a second moment of 0.
+ * It does not change linear and quadratic functions. So it preserves planes, and nearly preserves
+ * curved surfaces. At the image's border the outermost values are repeated.
  */
 template <int D>
 class IsosurfaceImage
@@ -59,29 +60,30 @@ public:
   using Index = typename GridGeometry<D>::Index;
 
   /**
-   * @param scalars one value per voxel, first axis fastest, any arithmetic type, which is compared as
-   *   double; must live as long as this, unless they are smoothed
-   * @param threads threads used here; 0 means all cores. The result does not depend on it.
-   * @throws InputError: isovalue not finite, or outside of the image's range (says the range); no value is
-   *   a number; label below 1, sigma out of range; what LabelImage::FromScalars says of the grid;
-   *   Cancelled if a stop was requested before the end; std::bad_alloc
+   * @param scalars one value per voxel, first axis fastest, of any arithmetic type; they are
+   *   compared as double. Unless they are smoothed, they must live as long as this object.
+   * @param threads threads of this function; 0 means all cores. The result does not depend on it.
+   * @throws InputError if the isovalue is not finite, or outside the image's range (the message has
+   *   the range); if all values are NaN; if the label is below 1; if sigma is out of range; and for
+   *   the reasons of CheckGrid()
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   template <typename T>
   static IsosurfaceImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
     const Isosurface& surface, unsigned threads = 1, const std::stop_token& stop = {});
 
-  /** What is inside has the id 1, the other voxels are background. */
+  /** Voxels that are inside have the id 1. The other voxels are background. */
   const LabelImage<D>& Labels() const { return this->Inside; }
-  /** To leave components out. What is background there counts as outside, whatever its margin. */
+  /** Write access, to remove components. Background voxels count as outside, for any margin. */
   LabelImage<D>& Labels() { return this->Inside; }
 
   const Isosurface& Surface() const { return this->Which; }
-  /** Smallest and largest value of the image, after smoothing, infinite ones included. */
+  /** Smallest and largest value of the image, after smoothing, including infinite values. */
   const std::array<double, 2>& Range() const { return this->Values; }
 
   /**
-   * Margins of a run of voxels along the first axis, NaN where there is no number.
-   * @param first an index of the whole grid
+   * Margins of a run of voxels along the first axis; NaN if the voxel's value is NaN.
+   * @param first index of the run's first voxel in the whole grid
    */
   void ReadMargins(const Index& first, std::size_t count, float* margins) const
   {

@@ -23,17 +23,17 @@ namespace voxplex
 namespace
 {
 
-/** Types whose values index a table; all others go through a hash. */
+/** Whether values of the type index a table. Values of other types use a hash table. */
 template <typename T>
 inline constexpr bool IsSmall = std::is_integral_v<T> && sizeof(T) <= 2;
 
-/** Whether a scalar can be a label at all. */
+/** Whether a scalar is a valid label. */
 template <typename T>
 bool IsLabelValue(T value)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
-    // 2^63 is exact in both types; NaN fails the first comparison.
+    // 2^63 is exact in float and double. NaN fails the first comparison.
     return value >= T(0) && value < static_cast<T>(9223372036854775808.0) &&
       std::floor(value) == value;
   }
@@ -51,7 +51,7 @@ bool IsLabelValue(T value)
   }
 }
 
-/** Slots of small values: a table over all of them. */
+/** Slots of values of small types: a table with an entry for every value. */
 template <typename T>
 class SlotTable
 {
@@ -70,7 +70,10 @@ private:
   std::vector<std::uint16_t> Slots;
 };
 
-/** Slots of large values: open addressing; at most MaximumNumberOfLabels + 2 are ever inserted. */
+/**
+ * Slots of values of large types: a hash table with open addressing. At most
+ * MaximumNumberOfLabels + 2 values are inserted.
+ */
 template <typename T>
 requires(!IsSmall<T>) class SlotTable<T>
 {
@@ -108,12 +111,12 @@ private:
   std::vector<std::uint16_t> Slots;
 };
 
-/** What one thread learns about the values of the rows that it reads. */
+/** The values in the rows that one thread reads. */
 template <typename T, int D>
 struct Census
 {
   SlotTable<T> Slots;
-  std::vector<T> Values; ///< of each slot
+  std::vector<T> Values; ///< value of each slot
   std::vector<std::int64_t> Counts;
   std::vector<char> Kept;
   std::array<std::int64_t, static_cast<std::size_t>(D)> Min;
@@ -201,7 +204,10 @@ std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
   return values;
 }
 
-/** Throws unless each label that was selected is one of those that occur, in increasing order. */
+/**
+ * Throws if a selected label is 0, or does not occur.
+ * @param occurring the labels of the image, in increasing order
+ */
 void CheckSelected(const std::vector<std::int64_t>& selected,
   const std::vector<std::int64_t>& occurring, const std::string& was, const std::string& purpose)
 {
@@ -296,9 +302,9 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
       !std::binary_search(excluded.begin(), excluded.end(), label);
   };
 
-  // First reading: which values occur how often, and the bounding box of those that are kept. Rows
-  // are read run by run, as segmentations consist of long runs.
-  std::vector<std::unique_ptr<CensusType>> censuses; // of the chunks; idle ones wait in `idle`
+  // First pass: counts the voxels of each value, and finds the bounding box of the labels to mesh.
+  // Rows are read run by run, since segmentations consist of long runs.
+  std::vector<std::unique_ptr<CensusType>> censuses; // those that no chunk uses now are in `idle`
   std::vector<CensusType*> idle;
   std::mutex mutex;
   std::atomic<std::size_t> firstBad{ scalars.size() };
@@ -385,7 +391,7 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     ThrowTooManyLabels<D>(tooMany);
   }
 
-  // Join what the threads learnt: all values in increasing order.
+  // Join the censuses of the threads: all values in increasing order.
   LabelImage image;
   image.WholeGrid = grid;
   std::vector<std::pair<T, std::int64_t>> all;
@@ -450,7 +456,7 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
       " voxels are 0. Choose the array that holds the segmentation.");
   }
 
-  // Second reading: the dense ids of the bounding box.
+  // Second pass: writes the dense ids of the bounding box.
   image.Origin = min;
   std::size_t cropRows = 1;
   for (std::size_t a = 0; a < D; ++a)

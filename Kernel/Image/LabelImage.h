@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LabelImage.h
- * @brief A label image as the kernel keeps it: dense label ids, cropped to the foreground.
+ * @brief The kernel's label image: dense label ids, cropped to the foreground.
  */
 #ifndef voxplex_LabelImage_h
 #define voxplex_LabelImage_h
@@ -22,27 +22,29 @@ namespace voxplex
 /** Dense label id: 0 is background, 1 ... n are the image's labels in increasing order of value. */
 using LabelId = std::uint16_t;
 
-/** More distinct labels than this and the image is taken for a grey-value image. */
+/** An image with more distinct labels is treated as a grey-value image. */
 inline constexpr int MaximumNumberOfLabels = 2000;
 
-/** Which labels of an image to mesh; the others become background. By default all. */
+/** The labels to mesh; all by default. The other labels become background. */
 struct LabelSelection
 {
-  std::vector<std::int64_t> Only; ///< these, in any order; none means all
-  std::vector<std::int64_t> But;  ///< but not these, in any order
+  std::vector<std::int64_t> Only; ///< only these labels, in any order; empty means all
+  std::vector<std::int64_t> But;  ///< without these labels, in any order
 };
 
 /**
- * @throws InputError: fewer than two voxels along an axis, another number of scalars than of voxels, a
- *   spacing that is not positive and finite, a matrix that is not upper triangular
+ * Checks a grid, and that it has as many voxels as scalars.
+ * @throws InputError if there are fewer than two voxels along an axis; if the numbers of scalars
+ *   and voxels differ; if a spacing is not positive and finite; if the matrix is not upper
+ *   triangular
  */
 template <int D>
 void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars);
 
 /**
- * @brief Dense labels of the bounding box of the foreground; everything outside is background.
+ * @brief Dense labels of the bounding box of the foreground. Everything outside is background.
  *
- * Safe to read from any thread while nobody calls Relabel().
+ * Several threads may read it at the same time while no thread changes it.
  */
 template <int D>
 class LabelImage
@@ -51,23 +53,23 @@ public:
   using Index = typename GridGeometry<D>::Index;
 
   /**
-   * Reads the scalars of an image: the first axis varies fastest.
+   * Reads the scalars of an image. The first axis varies fastest.
    *
-   * @param scalars one value per voxel; 0 is background. Any arithmetic type; values must be whole,
-   *   finite and not negative.
-   * @param selection which labels to mesh
-   * @param threads threads used for the conversion; 0 means all cores
+   * @param scalars one value per voxel, of any arithmetic type. Values must be integers, finite and
+   *   not negative. 0 is background.
+   * @param selection the labels to mesh
+   * @param threads number of threads; 0 means all cores
    * @throws Cancelled if a stop was requested before the end
-   * @throws InputError: fewer than two voxels along an axis, spacing not positive and finite,
-   *   fractional, negative or non-finite values (says which value and at which index), no foreground,
-   *   more than MaximumNumberOfLabels labels (a grey-value image?), a selected or excluded label
-   *   that does not occur, no label left
+   * @throws InputError if CheckGrid() fails; if a value is fractional, negative or not finite (the
+   *   message has the value and its index); if there is no foreground; if there are more than
+   *   MaximumNumberOfLabels labels (probably a grey-value image); if a selected or excluded label
+   *   does not occur; if no label is left
    */
   template <typename T>
   static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
     const LabelSelection& selection = {}, unsigned threads = 1, const std::stop_token& stop = {});
 
-  /** The whole grid, as given. */
+  /** The grid of the whole image. */
   const GridGeometry<D>& Grid() const { return this->WholeGrid; }
 
   /** First voxel of the bounding box of the foreground, in indices of the whole grid. */
@@ -75,22 +77,22 @@ public:
   /** Voxels of the bounding box along each axis. */
   const Index& CropDimensions() const { return this->Extent; }
   /**
-   * Gives a run of voxels along the first axis another label. Counts() follow; Values() stay, if with a
-   * count of 0, and so does the bounding box.
-   * @param first an index of the bounding box
+   * Gives a run of voxels along the first axis another label. Counts() are updated. Values() and
+   * the bounding box do not change, even if the count of a label becomes 0.
+   * @param first index of the run's first voxel in the bounding box
    */
   void Relabel(const Index& first, std::int64_t length, LabelId label);
 
   /**
-   * Gives a label another value than that of the image.
-   * @param value above that of the label before and below that of the one after
+   * Changes the value of a label.
+   * @param value must keep the increasing order of Values()
    */
   void SetValue(LabelId label, std::int64_t value) { this->LabelValues[label] = value; }
 
   /** Dense ids of the bounding box, first axis fastest. */
   std::span<const LabelId> Ids() const { return this->Voxels; }
 
-  /** Dense id of a voxel of the bounding box; 0 for all beyond it. */
+  /** Dense id of a voxel of the bounding box; 0 outside the box. */
   LabelId At(const Index& voxel) const
   {
     std::int64_t at = 0;
@@ -106,8 +108,9 @@ public:
   }
 
   /**
-   * The same at an index of the lattice of a field, which begins one layer before the bounding box
-   * (TiledLattice). Fields go on beyond the cut of a space-time image; this does not.
+   * Dense id at an index of a field's lattice, which begins one layer before the bounding box
+   * (TiledLattice). Fields extend beyond a flat end of a space-time image; this function returns 0
+   * there.
    */
   LabelId AtLattice(Index lattice) const
   {
@@ -118,7 +121,7 @@ public:
     return this->At(lattice);
   }
 
-  /** The centre of a voxel of the bounding box, or beyond it, in the frame of Grid(). */
+  /** The centre of a voxel in the frame of Grid(). The index may be outside the bounding box. */
   Point<D> CentreOf(const Index& voxel) const
   {
     Point<D> index;
@@ -130,14 +133,15 @@ public:
   }
 
   /**
-   * Whether the first (0) or last (1) frame of a space-time image has foreground, so that the object
-   * is cut there and ends flat; false in 3D, and if the time axis is not orthogonal to space.
+   * Whether the first (end 0) or last (end 1) frame of a space-time image has foreground. Then the
+   * object is cut there, and has a flat end. False in 3D, and if the time axis is not orthogonal to
+   * space.
    */
   bool ReachesBorderInTime(unsigned end) const { return this->CutInTime[end]; }
 
   /**
-   * Whether the first (0) or last (1) layer of voxels along an axis of a 3D image has foreground, so that
-   * the object is cut by the outer faces of these voxels; false in 4D.
+   * Whether the first (end 0) or last (end 1) layer of voxels along an axis of a 3D image has
+   * foreground. Then the outer faces of these voxels cut the object. False in 4D.
    */
   bool ReachesBorder(std::size_t axis, unsigned end) const
   {
@@ -148,7 +152,7 @@ public:
 
   /** The image's label value of each dense id; Values()[0] = 0. */
   std::span<const std::int64_t> Values() const { return this->LabelValues; }
-  /** Voxels of each dense id (that of background counts the bounding box only). */
+  /** Number of voxels of each dense id. Background is counted in the bounding box only. */
   std::span<const std::int64_t> Counts() const { return this->LabelCounts; }
   int NumberOfLabels() const { return static_cast<int>(this->LabelValues.size()) - 1; }
 

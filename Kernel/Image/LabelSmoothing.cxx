@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <utility>
 
-// The smoothing passes are compiled twice and chosen when the library is loaded. Both give the same
-// result: vectors of another width, but the same operations (no fused multiply-add). Sanitizers
-// cannot instrument the code that chooses. GCC exports such functions from a shared library unless
-// they are local.
+// The smoothing passes are compiled twice, and one version is chosen when the library is loaded.
+// Both give the same result: the vectors differ in width, but the operations are the same (no fused
+// multiply-add). Sanitizers cannot instrument the code that chooses. GCC exports such functions
+// from a shared library unless they are local.
 #if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&       \
   !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define VOXPLEX_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
@@ -24,22 +24,22 @@ namespace voxplex
 namespace
 {
 
-/** Kernel weights are multiples of 2^-14: sums over a constant neighbourhood are exact. */
+/** Kernel weights are multiples of 2^-14, so sums over a constant neighbourhood are exact. */
 constexpr int KernelOne = 1 << 14;
 
 /**
- * Width of the Gaussians of the separable kernel, in sigmas. Along the diagonals the product of
- * 2g - g*g smooths less than 2G - G*G; this width makes up for it: on a ball of radius 20 the
- * product with 1.2 sigma has errors of 0.064 voxel and 4.2 degrees, 2G - G*G with sigma has 0.066
- * and 4.8.
+ * Width of the Gaussians of the separable kernel, in sigmas. Along the diagonals, the product of
+ * the 1D kernels 2g - g*g smooths less than 2G - G*G. A larger width compensates for this. On a
+ * ball of radius 20 the product with 1.2 sigma has errors of 0.064 voxel and 4.2 degrees; 2G - G*G
+ * with sigma has 0.066 voxel and 4.8 degrees.
  */
 constexpr double KernelWidth = 1.2;
 
 /**
- * Second moment of the kernel in sigma^2. With 0 an interface moves by nothing to second order of
- * its curvature; what is left is of higher order and shrinks, and a mesh shrinks besides because
- * its facets are chords. A little less than 0 makes up for both. Mesh of a ball, delta 2 voxels for
- * radius 20, 0.7 for radius 6, sigma 1:
+ * Second moment of the kernel in sigma^2. If it is 0, an interface does not move, to second order
+ * of its curvature. The remaining error is of higher order, and shrinks objects. A mesh also
+ * shrinks since its facets are chords. A slightly negative moment compensates for both. Mesh of a
+ * ball, with delta 2 voxels for radius 20 and 0.7 voxels for radius 6, sigma 1:
  *
  *   moment | mean distance, radius 20 | normals  | volume, radius 20 | volume, radius 6
  *      0   | 0.067 voxel              | 3.1 deg  | -1.20 %           | -5.3 %
@@ -47,9 +47,10 @@ constexpr double KernelWidth = 1.2;
  *   -0.8   | 0.076                    | 3.5      | -0.94             | -2.2
  *   -1.2   | 0.080                    | 3.8      | -0.75             | -1.1
  *
- * In 4D chords cost more. Hypervolume of a 4-ball (radius 12, delta 2), and of the smaller label of a beating
- * ventricle (delta 4.15, time four times as long as given) with its worst volume in a frame, which moves
- * where the interface bends in time:
+ * In 4D the error of the chords is larger. The table has the errors of three volumes: the
+ * hypervolume of a 4-ball (radius 12, delta 2); the hypervolume of the smaller label of a beating
+ * ventricle (delta 4.15, time scaled by four); and the ventricle's volume in its worst frame, where
+ * the interface bends in time:
  *
  *   moment | 4-ball   | ventricle | worst frame
  *   -0.8   | -4.45 %  | -1.90 %   | -3.02 %
@@ -62,12 +63,12 @@ constexpr double KernelMoment(int dimension)
 }
 
 #if defined(__GNUC__)
-// Spelt out because GCC 12 does not vectorise these loops by itself (measured: 3 times slower).
+// Explicit vector types, since GCC 12 does not vectorise these loops (measured: 3 times slower).
 using Floats = float __attribute__((vector_size(32), aligned(4), may_alias));
 using Shorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
 #define VOXPLEX_TO_FLOATS(shorts) __builtin_convertvector(shorts, Floats)
 #else
-/** Eight numbers, by the same name. */
+/** Eight numbers, with the operations of the vector types above. */
 template <typename T>
 struct Eight
 {
@@ -120,8 +121,9 @@ std::vector<int> RoundedKernel(int dimension, double sigma)
 }
 
 /**
- * Tables of the pass along x. A row of indicators is a word of 8 + 2R bits; each of its bytes adds
- * to the 8 results what its bits contribute: table j, byte b, result i at ((j * 256) + b) * 8 + i.
+ * Tables of the pass along x. A row of indicators is a word of 8 + 2R bits. Each byte of the word
+ * contributes to the 8 results. The contribution of value b of byte j to result i is at
+ * ((j * 256) + b) * 8 + i.
  */
 std::vector<std::int16_t> ByteTables(const std::vector<int>& weights)
 {
@@ -152,7 +154,9 @@ std::vector<std::int16_t> ByteTables(const std::vector<int>& weights)
   return tables;
 }
 
-/** Pass along x: words of bits in, 8 results a row out. */
+/**
+ * Pass along x. The input is a word of bits for each row, the output are 8 results for each row.
+ */
 VOXPLEX_VECTOR_CLONES
 void PassAlongX(const std::uint64_t* __restrict words, std::size_t rows, std::size_t bytes,
   const std::int16_t* __restrict tables, float* __restrict out)
@@ -172,8 +176,8 @@ void PassAlongX(const std::uint64_t* __restrict words, std::size_t rows, std::si
 }
 
 /**
- * Pass along another axis: `outer` blocks of 8 + 2 radius slices of `inner` (a multiple of 8)
- * values in, of 8 slices out.
+ * Pass along another axis. The input has `outer` blocks of 8 + 2 radius slices, the output `outer`
+ * blocks of 8 slices. A slice has `inner` values, a multiple of 8.
  */
 VOXPLEX_VECTOR_CLONES
 void PassAcross(const float* __restrict in, std::size_t outer, std::size_t inner,
@@ -205,11 +209,11 @@ void PassAcross(const float* __restrict in, std::size_t outer, std::size_t inner
   }
 }
 
-/** Rounds to 16-bit samples, symmetrically about 0, and clamps to -1 ... 1. */
+/** Rounds to 16-bit samples, symmetrically about 0, and clamps them to -1 ... 1. */
 VOXPLEX_VECTOR_CLONES
 void ToSamples(const float* __restrict in, std::size_t n, std::int16_t* __restrict out)
 {
-  // Adding 1.5 * 2^23 leaves the rounded value in the last bits; GCC vectorises this, not lrint.
+  // Adding 1.5 * 2^23 leaves the rounded value in the last bits. GCC vectorises this, not lrint.
   constexpr float shift = 12582912.0f;
   constexpr std::int32_t zero = std::bit_cast<std::int32_t>(shift);
   for (std::size_t i = 0; i < n; ++i)
@@ -221,7 +225,7 @@ void ToSamples(const float* __restrict in, std::size_t n, std::int16_t* __restri
   }
 }
 
-/** Two labels: makes the difference plane (u_0 - u_1) / 2 win where `own` says so. */
+/** Two labels: corrects the plane (u_0 - u_1) / 2 so that the own label of each voxel wins. */
 VOXPLEX_VECTOR_CLONES
 void KeepOwnOfTwo(const std::uint16_t* __restrict own, const std::int16_t* __restrict margins,
   std::size_t n, std::int16_t* __restrict plane)
@@ -236,7 +240,7 @@ void KeepOwnOfTwo(const std::uint16_t* __restrict own, const std::int16_t* __res
   }
 }
 
-/** Largest sample of the labels that are not the own one, one plane at a time. */
+/** Updates the largest sample of all labels except the own label, by the plane of one label. */
 VOXPLEX_VECTOR_CLONES
 void LargestOther(const std::uint16_t* __restrict own, std::uint16_t label,
   const std::int16_t* __restrict plane, std::size_t n, std::int16_t* __restrict other)
@@ -250,7 +254,7 @@ void LargestOther(const std::uint16_t* __restrict own, std::uint16_t label,
   }
 }
 
-/** Raises a plane where it belongs to the own label and does not win by the margin. */
+/** Raises a label's samples where it is the own label and does not win by the margin. */
 VOXPLEX_VECTOR_CLONES
 void KeepOwn(const std::uint16_t* __restrict own, std::uint16_t label,
   const std::int16_t* __restrict other, const std::int16_t* __restrict margins, std::size_t n,

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalarTypes.h
- * @brief The types of voxels that images are read from.
+ * @brief The scalar types that an image may have.
  */
 #ifndef voxplex_ScalarTypes_h
 #define voxplex_ScalarTypes_h
 
-/** Writes `statement(T);` for each type T that a voxel may have: explicit instantiations of templates. */
+/** Expands to `statement(T);` for each scalar type T, for explicit instantiations of templates. */
 #define VOXPLEX_FOR_EACH_SCALAR_TYPE(statement)                                                    \
   statement(char);                                                                                 \
   statement(signed char);                                                                          \

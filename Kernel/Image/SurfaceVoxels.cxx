@@ -26,7 +26,7 @@ BitMask<D> FindSurfaceVoxels(
   const auto n = static_cast<std::size_t>(crop[0]);
   const std::vector<LabelId> background(n, LabelId{ 0 });
 
-  // The ids of a row of the crop, by its lattice index; background outside.
+  // The ids of a row, by its lattice index; background if the row is outside the crop.
   const auto rowAt = [&](Index index)
   {
     ClampToCut(image, index);
@@ -70,7 +70,7 @@ BitMask<D> FindSurfaceVoxels(
             differs[i] = static_cast<LabelId>(differs[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
           }
         }
-        // Along x the crop's ends have a background voxel beside them, which is a site, too.
+        // Along x, the voxels beyond the crop's two ends are background. They may be sites, too.
         differs[0] = static_cast<LabelId>(differs[0] | own[0]);
         differs[n - 1] = static_cast<LabelId>(differs[n - 1] | own[n - 1]);
         for (std::size_t i = 0; i + 1 < n; ++i)
@@ -92,7 +92,7 @@ BitMask<D> FindSurfaceVoxels(
           {
             std::uint64_t eight = 0;
             std::memcpy(&eight, flags.data() + w * 64 + byte * 8, 8);
-            // Gathers the lowest bits of eight bytes (little endian) in the top byte.
+            // Gathers the lowest bits of eight bytes (little-endian) in the top byte.
             word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
           }
           words[w] = word;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SurfaceVoxels.h
- * @brief Internal to ImageDomain: the voxels next to interfaces, the sites of its feature transform.
+ * @brief Internal to ImageDomain: the surface voxels, which are the sites of the feature transform.
  */
 #ifndef voxplex_SurfaceVoxels_h
 #define voxplex_SurfaceVoxels_h
@@ -16,7 +16,7 @@
 namespace voxplex
 {
 
-/** A lattice index beyond a flat end stands for the one on it. */
+/** Moves a lattice index beyond a flat end of a space-time image to the nearest frame. */
 template <int D>
 inline void ClampToCut(const LabelImage<D>& image, typename GridGeometry<D>::Index& lattice)
 {
@@ -29,8 +29,9 @@ inline void ClampToCut(const LabelImage<D>& image, typename GridGeometry<D>::Ind
 }
 
 /**
- * Voxels of the lattice (the crop and one layer of background around it, at flat ends one that repeats the
- * frame) with a face neighbour of another label.
+ * Finds the surface voxels: voxels of the lattice with a face neighbour of another label. The
+ * lattice is the crop with one more layer around it. This layer is background; at a flat end it
+ * repeats the frame.
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file CacheLine.h
- * @brief What threads that write side by side must know of the memory.
+ * @brief The size of a cache line.
  */
 #ifndef voxplex_CacheLine_h
 #define voxplex_CacheLine_h
@@ -13,9 +13,10 @@ namespace voxplex
 {
 
 /**
- * Bytes that caches move together. What different threads write often is this far apart
- * (`alignas(CacheLineSize)`). A constant of ours, since std::hardware_destructive_interference_size
- * may differ between two sources that are compiled with different flags.
+ * Size of a cache line in bytes. Data that different threads often write are kept in different
+ * cache lines (`alignas(CacheLineSize)`). We do not use
+ * std::hardware_destructive_interference_size: it may differ between two sources that are compiled
+ * with different flags.
  */
 inline constexpr std::size_t CacheLineSize = 64;
 

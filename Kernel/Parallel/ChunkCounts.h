@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ChunkCounts.h
- * @brief How chunks of a parallel loop append to one array.
+ * @brief Lets the chunks of a parallel loop append to one array.
  */
 #ifndef voxplex_ChunkCounts_h
 #define voxplex_ChunkCounts_h
@@ -15,27 +15,30 @@ namespace voxplex
 {
 
 /**
- * @brief Counts the elements that each chunk of a ParallelFor() yields, and says where they belong.
+ * @brief Counts the elements that each chunk of a ParallelFor() yields, and computes their offsets.
  *
- * A first loop sets OfChunk() to the number of elements of each chunk. TurnIntoPlaces() makes of
- * these where each chunk's elements begin in an array that has the elements of all chunks one after
- * the other; a second loop, in the same chunks, writes them there. What comes out is what one thread
- * would have appended.
+ * The output array holds the elements of all chunks, one chunk after the other. A first loop sets
+ * OfChunk() to the number of elements of each chunk. TurnIntoPlaces() replaces each number by the
+ * offset of the chunk's first element in the array. A second loop, with the same chunks, writes the
+ * elements there. The array is the same as if one thread had appended all elements in order.
  */
 class ChunkCounts
 {
 public:
-  static constexpr std::size_t Grain = 8192; ///< for both loops, which begin at 0
+  static constexpr std::size_t Grain = 8192; ///< iterations of a chunk; both loops begin at 0
 
   explicit ChunkCounts(std::size_t iterations = 0)
     : Counts((iterations + Grain - 1) / Grain)
   {
   }
 
-  /** The chunk that begins with this iteration. Threads may access different chunks at once. */
+  /**
+   * The entry of the chunk that begins with iteration `first`. Threads may access different chunks
+   * at the same time.
+   */
   std::size_t& OfChunk(std::size_t first) { return this->Counts[first / Grain]; }
 
-  /** Returns the number of all elements. */
+  /** Replaces the counts by offsets. @return the number of elements of all chunks */
   std::size_t TurnIntoPlaces()
   {
     std::size_t sum = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file CycleClock.h
- * @brief A clock that can be read twice in every operation.
+ * @brief A clock that is cheap enough to be read twice in every operation.
  */
 #ifndef voxplex_CycleClock_h
 #define voxplex_CycleClock_h
@@ -17,10 +17,11 @@ namespace voxplex
 {
 
 /**
- * @brief Counts ticks, and says afterwards how long a tick was.
+ * @brief Counts ticks, and measures the length of a tick.
  *
- * On x86-64 a tick is one of the processor's time stamp counter, which is the same on all cores and reads
- * several times faster than the system's clock; elsewhere it is one of std::chrono::steady_clock.
+ * On x86-64 the ticks are those of the processor's time stamp counter. This counter is the same on
+ * all cores, and reading it is several times faster than reading the system's clock. On other
+ * processors the ticks are those of std::chrono::steady_clock.
  */
 class CycleClock
 {
@@ -36,7 +37,7 @@ public:
 #endif
   }
 
-  /** Seconds of a tick, from what passed since the clock was made. */
+  /** Length of a tick in seconds, averaged over the time since the clock's construction. */
   double SecondsPerTick() const
   {
     const double seconds = this->Seconds();
@@ -44,7 +45,7 @@ public:
     return ticks == 0 ? 0.0 : seconds / static_cast<double>(ticks);
   }
 
-  /** Seconds since the clock was made. */
+  /** Seconds since the clock's construction. */
   double Seconds() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();

@@ -27,7 +27,7 @@ unsigned long ThisThread()
   return static_cast<unsigned long>(pthread_self());
 }
 
-/** Once for the process; not undone, since others in it may use PAPI, too. */
+/** Initialises PAPI once per process. PAPI is never shut down, since other code may use it, too. */
 bool IsPapiReady()
 {
   static const bool ready = []()
@@ -60,7 +60,7 @@ bool HardwareCounters::Start()
   int size = 0;
   for (std::size_t i = 0; i < Events; ++i)
   {
-    // Fails if the processor lacks the event or has no register left for it.
+    // PAPI_add_event fails if the processor lacks the event or has no register left for it.
     this->Position[i] = PAPI_add_event(this->EventSet, events[i]) == PAPI_OK ? size++ : -1;
   }
   if (size == 0 || PAPI_start(this->EventSet) != PAPI_OK)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file HardwareCounters.h
- * @brief What a thread costs the processor (thesis, table 3.5).
+ * @brief Hardware events of a thread (thesis, table 3.5).
  */
 #ifndef voxplex_HardwareCounters_h
 #define voxplex_HardwareCounters_h
@@ -16,12 +16,14 @@ namespace voxplex
 {
 
 /**
- * @brief Counts events of the processor that the calling thread causes, where PAPI is built in and
- * the machine lets us; elsewhere every count is empty.
+ * @brief Counts the processor events that the calling thread causes.
  *
- * All methods of an object, its destructor too, are for one thread. Different threads may use
- * different objects at the same time. Needs VOXPLEX_USE_PAPI; virtual machines often have no
- * counters, and Linux may ask for a lower kernel.perf_event_paranoid.
+ * This needs a build with PAPI (VOXPLEX_USE_PAPI) and a machine that permits it; otherwise every
+ * count is empty. Virtual machines often have no counters. Linux may need a lower value of
+ * kernel.perf_event_paranoid.
+ *
+ * One thread must call all methods of an object, and destroy it. Different threads may use
+ * different objects at the same time.
  */
 class HardwareCounters
 {
@@ -52,19 +54,20 @@ public:
   HardwareCounters& operator=(const HardwareCounters&) = delete;
 
   /**
-   * Counts from 0 on, again if it counts already.
+   * Starts to count from 0. If the object counts already, it starts again.
    * @return false if no event can be counted
    */
   bool Start();
 
-  /** What was counted since Start(); each event that cannot be counted, or was not, is empty. */
+  /** The counts since Start(). The count of an event that was not counted is empty. */
   Counts Stop();
 
 private:
   static constexpr std::size_t Events = 3;
 
-  int EventSet = -1;                                     ///< PAPI's; -1 while not counting
-  std::array<int, Events> Position = { { -1, -1, -1 } }; ///< in the event set; -1: not there
+  int EventSet = -1; ///< handle of PAPI; -1 while the object does not count
+  /** Position of each event in the event set; -1 if the set does not have it. */
+  std::array<int, Events> Position = { { -1, -1, -1 } };
 };
 
 } // namespace voxplex

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LoopSharing.h
- * @brief Threads that wait help those that work with their loops (thesis, section 4.6.2).
+ * @brief Waiting threads help working threads with their loops (thesis, section 4.6.2).
  */
 #ifndef voxplex_LoopSharing_h
 #define voxplex_LoopSharing_h
@@ -27,55 +27,58 @@ namespace voxplex
 {
 
 /**
- * @brief Where a thread, the owner, offers a loop of independent iterations and threads that wait for
+ * @brief A thread, the owner, offers a loop of independent iterations. Threads that wait for
  * something else, the helpers, take chunks of it.
  *
- * Threads are numbered from 0. Each has a slot in which it offers one loop at a time:
+ * Threads are numbered from 0. Each thread has a slot, in which it offers one loop at a time. The
+ * slot's state is the number h of helpers inside, times 2, plus 1 while the door is open:
  *
  *     0 --owner opens--> Open --helpers enter and leave--> Open + 2 h
- *     ^                                                      |  the owner, or a helper who finds
- *     |                                                      v  nothing left, shuts the door
+ *     ^                                                      |  the owner, or a helper that finds
+ *     |                                                      v  no chunk left, shuts the door
  *     +------------- the last helper leaves ---------------- 2 h
  *
- * A helper enters by a compare-and-exchange that succeeds only while the door is open, and takes chunks
- * by an atomic counter, as the owner does. The owner returns when the door is shut and all helpers have
- * left. So a helper touches what the loop refers to only before its owner returns, wherever it was
- * interrupted; between looks and chunks it touches nothing but the slots, which live as long as the sharing.
+ * A helper enters by a compare-and-exchange that succeeds only while the door is open. The owner
+ * and the helpers take chunks by an atomic counter. The owner returns when the door is shut and all
+ * helpers have left. So a helper accesses the loop's data only before the owner returns, even if
+ * the helper is interrupted. Outside of chunks it accesses only the slots, which live as long as
+ * the LoopSharing.
  *
- * **Memory order.** Opening is a release and entering an acquire: a helper sees all that the owner wrote
- * before. Leaving is a release, and the owner's last look at the slot an acquire: the owner sees all that
- * the helpers wrote. Whatever the owner was entitled to read by locks that it took before the loop and
- * gives back after it, the helpers may read in between.
+ * **Memory order.** Opening is a release, and entering is an acquire: a helper sees everything that
+ * the owner wrote before it opened the loop. Leaving is a release, and the owner's last load of the
+ * slot's state is an acquire: the owner sees everything that the helpers wrote. The owner keeps its
+ * locks during the loop. Therefore the helpers may read all data that these locks protect.
  *
- * **Nobody waits for a helper to come,** and helpers never wait: neither for each other nor for an owner.
- * The owner waits for chunks that run to end and for nothing else. So helping adds no edge to the
- * "waits for" graphs of contention managers and load balancers; a helper that is woken goes on after
- * its chunk, and it holds no more locks than it did while it waited, that is, none.
+ * **Progress.** No thread waits for a helper to come. A helper waits neither for another helper nor
+ * for an owner. The owner waits only for running chunks to end. So helping adds no edge to the
+ * "waits for" graphs of contention managers and load balancers. A helper that is woken goes on when
+ * the loop has no chunk left. A helper holds no locks, since a waiting thread holds none.
  *
- * No operation allocates or takes a mutex. An owner that finds nobody idle pays for one relaxed load.
+ * No operation allocates memory or takes a mutex. If no thread is idle, the owner's cost is one
+ * relaxed load.
  *
  * Loops must not be nested, and a chunk must not wait for another thread.
  */
 class LoopSharing
 {
 public:
-  /** Looks without finding a loop after which a helper gives up and sleeps. */
+  /** A helper gives up after this many searches in a row that find no open loop. */
   static constexpr unsigned DefaultPatience = 32768;
-  /** Looks between two offers of the processor to other threads. */
+  /** A helper yields its processor to other threads once in this many searches. */
   static constexpr unsigned LooksBeforeYield = 16;
-  /** Pauses of an owner that waits for the last chunks, before it offers its processor to others. */
+  /** An owner that waits for the last chunks pauses this often before it yields its processor. */
   static constexpr unsigned PausesBeforeYield = 1024;
 
-  /** What an owner got from its helpers. */
+  /** The help that an owner received. */
   struct Counts
   {
-    std::uint64_t Loops = 0;      ///< loops of which helpers did a part
-    std::uint64_t Iterations = 0; ///< done by helpers
+    std::uint64_t Loops = 0;      ///< loops in which helpers took part
+    std::uint64_t Iterations = 0; ///< iterations done by helpers
   };
 
   /**
-   * @param threads how many may be owners or helpers
-   * @param patience looks without finding a loop after which a helper gives up
+   * @param threads number of threads that may be owners or helpers
+   * @param patience a helper gives up after this many searches in a row that find no open loop
    */
   explicit LoopSharing(unsigned threads, unsigned patience = DefaultPatience)
     : Patience(patience)
@@ -85,18 +88,23 @@ public:
   LoopSharing(const LoopSharing&) = delete;
   LoopSharing& operator=(const LoopSharing&) = delete;
 
-  /** True if a thread is ready to help. Only a hint, cheap: a word that changes when waits begin or end. */
+  /**
+   * True if a thread is ready to help. This is only a hint. It is cheap, since the word that it
+   * reads changes only when a thread begins or ends to wait.
+   */
   bool SomeoneIdle() const { return this->Idle.load(std::memory_order_relaxed) != 0; }
 
   /**
-   * Calls body(thread, first, last) on disjoint chunks that together cover [0, count), in the calling
-   * thread and in those that come to help; returns when all are done and all helpers have left.
+   * Calls body(thread, first, last) on disjoint chunks that together cover [0, count), in the
+   * calling thread and in its helpers. Returns when all chunks are done and all helpers have left.
+   * If no thread is idle, the calling thread does the whole loop as one chunk.
    *
    * @param owner the calling thread's number
    * @param grain iterations of a chunk, at least 1
-   * @param body gets the number of the thread that it runs in, for what each thread has of its own
-   * @param meanwhile called by the owner before it takes part itself, while helpers are at work already
-   * @throws what a chunk or `meanwhile` threw first; chunks that had not begun by then are not run
+   * @param body gets the number of the thread in which it runs, to select data of that thread
+   * @param meanwhile the owner calls it before it takes chunks itself; helpers may work meanwhile
+   * @throws the first exception of a chunk or of `meanwhile`; chunks that had not begun by then are
+   *   not run
    */
   template <typename Body, typename Meanwhile>
   void Run(unsigned owner, std::size_t count, std::size_t grain, Body&& body, Meanwhile&& meanwhile)
@@ -135,8 +143,9 @@ public:
   }
 
   /**
-   * Helps whoever offers a loop, until done() or until nobody has offered one for a while. done() is
-   * asked before each look, so that it is late by one chunk at most.
+   * Helps owners with their loops until done() is true, or until many searches in a row found no
+   * open loop. done() is called before each search, so the return is late by at most the chunks of
+   * one loop.
    */
   template <typename Done>
   void HelpUntil(unsigned helper, const Done& done)
@@ -162,7 +171,7 @@ public:
     this->Idle.fetch_sub(1, std::memory_order_relaxed);
   }
 
-  /** Exact when the owner's thread has ended, or for the owner. */
+  /** Exact if the owner calls it, or if the owner's thread has ended. */
   const Counts& GetCounts(unsigned owner) const { return this->Slots[owner].Received; }
 
 private:
@@ -174,18 +183,18 @@ private:
   struct alignas(CacheLineSize) Slot
   {
     std::atomic<std::uint32_t> State{ 0 };
-    // The loop: written by the owner while State is 0, read by the owner and by those inside.
+    // The loop. The owner writes it while State is 0. The owner and the helpers inside read it.
     Function Call = nullptr;
     void* Context = nullptr;
     std::size_t Count = 0;
     std::size_t Grain = 1;
-    std::exception_ptr Error; ///< written by whoever sets Failed
+    std::exception_ptr Error; ///< written by the thread that sets Failed
 
     alignas(CacheLineSize) std::atomic<std::size_t> Next{ 0 }; ///< first iteration not handed out
-    std::atomic<std::size_t> ByHelpers{ 0 };                   ///< iterations
+    std::atomic<std::size_t> ByHelpers{ 0 };                   ///< iterations done by helpers
     std::atomic<bool> Failed{ false };
 
-    alignas(CacheLineSize) Counts Received; ///< touched by the owner only
+    alignas(CacheLineSize) Counts Received; ///< written by the owner only
   };
 
   static void Open(Slot& slot, std::size_t count, std::size_t grain, Function call, void* context)
@@ -197,7 +206,7 @@ private:
     slot.Grain = std::max<std::size_t>(grain, 1);
     slot.Next.store(0, std::memory_order_relaxed);
     slot.ByHelpers.store(0, std::memory_order_relaxed);
-    // Release: publishes the loop, and all that its iterations will read.
+    // Release: publishes the loop, and the data that its iterations will read.
     slot.State.store(OpenDoor, std::memory_order_release);
   }
 
@@ -219,11 +228,11 @@ private:
     }
   }
 
-  /** By someone inside. */
+  /** Called by the owner, or by a helper that has entered. */
   static void Fail(Slot& slot, std::exception_ptr error)
   {
     slot.Next.store(slot.Count, std::memory_order_relaxed);
-    // Relaxed: Error is read when all have left.
+    // Relaxed: the owner reads Error when all helpers have left.
     if (!slot.Failed.exchange(true, std::memory_order_relaxed))
     {
       slot.Error = std::move(error);
@@ -232,12 +241,13 @@ private:
 
   static void Close(Slot& slot)
   {
-    // Acquire, here and below: reads the last of the words that helpers wrote one after the other as they
-    // left, and so synchronises with each of them.
+    // Acquire, here and below: each helper that left has modified State by a release operation. The
+    // load that reads the last of these values synchronises with all of them.
     std::uint32_t state = slot.State.fetch_and(~OpenDoor, std::memory_order_acquire) & ~OpenDoor;
     for (unsigned turn = 0; state != 0; ++turn)
     {
-      // A chunk takes microseconds: whoever is not done by then has lost its processor, and may need this.
+      // A chunk takes microseconds. A helper that is not done after the pauses has probably lost
+      // its processor, and may need this one.
       if (turn < PausesBeforeYield)
       {
         Pause();
@@ -258,15 +268,15 @@ private:
     }
   }
 
-  /** Takes part in the first open loop; false if there is none. Never throws. */
+  /** Takes part in the first open loop. @return false if no loop is open. Never throws. */
   bool HelpOnce(unsigned helper)
   {
     const std::size_t threads = this->Slots.size();
-    for (std::size_t k = 1; k < threads; ++k) // from the next one on, so that helpers spread
+    for (std::size_t k = 1; k < threads; ++k) // from the next slot on, so that helpers spread
     {
       Slot& slot = this->Slots[(helper + k) % threads];
       std::uint32_t state = slot.State.load(std::memory_order_relaxed);
-      // Acquire: pairs with Open(), whatever helpers entered and left since.
+      // Acquire: pairs with the release in Open(), even if helpers entered and left since.
       if ((state & OpenDoor) != 0 &&
         slot.State.compare_exchange_strong(
           state, state + OneHelper, std::memory_order_acquire, std::memory_order_relaxed))
@@ -289,9 +299,10 @@ private:
     {
       Fail(slot, std::current_exception());
     }
-    // Nothing is left: nobody need enter any more.
+    // No chunk is left, so no more helpers need to enter.
     slot.State.fetch_and(~OpenDoor, std::memory_order_relaxed);
-    // Release: the owner sees what was written here. Last touch of what the loop refers to.
+    // Release: the owner sees everything that this helper wrote. From here on the helper does not
+    // access the loop's data.
     slot.State.fetch_sub(OneHelper, std::memory_order_release);
   }
 
@@ -300,14 +311,14 @@ private:
   alignas(CacheLineSize) std::atomic<unsigned> Idle{ 0 };
 };
 
-/** Waits at a spot, and meanwhile helps if there is a sharing. */
+/** Waits at a spot. If `sharing` is not null, the thread helps while it waits. */
 inline void WaitAndHelp(ParkingSpot& spot, LoopSharing* sharing, unsigned thread)
 {
   if (sharing)
   {
     sharing->HelpUntil(thread, [&spot]() { return !spot.IsTaken(); });
   }
-  spot.Wait(); // acquires what was written before the wake-up
+  spot.Wait(); // acquires the data that were written before the wake-up
 }
 
 } // namespace voxplex

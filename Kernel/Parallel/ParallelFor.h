@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ParallelFor.h
- * @brief A loop cut in chunks that threads take one after the other.
+ * @brief A loop in chunks that several threads process.
  */
 #ifndef voxplex_ParallelFor_h
 #define voxplex_ParallelFor_h
@@ -22,13 +22,13 @@
 namespace voxplex
 {
 
-/** The number of threads meant by a request: 0 means all cores. */
+/** The requested number of threads, or the number of cores if 0 is requested. */
 inline unsigned NumberOfThreads(unsigned requested)
 {
   return requested != 0 ? requested : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/** @throws Cancelled if a stop was requested; otherwise costs an atomic load. */
+/** Costs an atomic load. @throws Cancelled if a stop was requested */
 inline void ThrowIfStopped(const std::stop_token& stop)
 {
   if (stop.stop_requested())
@@ -40,20 +40,20 @@ inline void ThrowIfStopped(const std::stop_token& stop)
 /**
  * Calls function(first, last) on disjoint chunks that together cover [begin, end).
  *
- * Chunks have `grain` iterations (the last may have fewer) and are handed out dynamically, so that
- * uneven work balances. With one thread, or a single chunk, everything runs in the calling thread,
- * in order. The calling thread always takes part. Returns when all chunks are done.
+ * A chunk has `grain` iterations (the last chunk may have fewer). Threads take chunks dynamically,
+ * so that uneven work balances. If there is one thread or one chunk, everything runs in the calling
+ * thread, in order. The calling thread always takes part. Returns when all chunks are done.
  *
  * @param grain iterations of a chunk, at least 1
- * @param threads threads that take part, the caller's included; 0 means all cores
+ * @param threads threads that take part, the caller included; 0 means all cores
  * @param function callable as void(std::size_t first, std::size_t last), from several threads at
- * once
+ *   the same time
  * @param stop checked before each chunk; the default never stops
- * @throws Cancelled if a stop was requested before the last chunk was started; chunks that run are
- *   finished first
- * @throws the first exception that a chunk threw, after all threads have stopped; chunks that had
- *   not been started by then are not run. std::system_error never escapes: if a thread cannot be
- *   started, those that run do its work.
+ * @throws Cancelled if a stop was requested before the last chunk was started. Running chunks are
+ *   finished first.
+ * @throws the first exception of a chunk, after all threads have stopped. Chunks that had not been
+ *   started by then are not run. If a thread cannot be started, the running threads do its work:
+ *   its std::system_error does not escape.
  */
 template <typename Function>
 void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned threads,
@@ -72,7 +72,7 @@ void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned
   std::mutex errorMutex;
   auto work = [&]()
   {
-    // Relaxed: the counter only hands out numbers; the joins below order the chunks' results.
+    // Relaxed: the counter only hands out numbers. The joins below order the results of the chunks.
     for (std::size_t chunk = nextChunk.fetch_add(1, std::memory_order_relaxed); chunk < chunks;
          chunk = nextChunk.fetch_add(1, std::memory_order_relaxed))
     {
@@ -106,7 +106,7 @@ void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned
     }
     catch (const std::system_error&)
     {
-      // The machine gives us no more threads: go on with those that we have.
+      // The system cannot start more threads: go on with the threads that run.
     }
     work();
   } // joins

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ParkingSpot.h
- * @brief Where one thread waits until another lets it go on.
+ * @brief A place where one thread waits until another thread wakes it.
  */
 #ifndef voxplex_ParkingSpot_h
 #define voxplex_ParkingSpot_h
@@ -16,39 +16,42 @@ namespace voxplex
 {
 
 /**
- * @brief The place where one thread, its owner, waits.
+ * @brief A place where one thread, its owner, waits.
  *
- * The owner says with Prepare() that it will wait, then lets others know (puts itself into a list),
- * then calls Wait(). Whoever finds it calls Wake(), before or after Wait() was entered: no wake-up
- * is lost, and one that nobody waits for has no effect on later waits.
+ * The owner calls Prepare(), then tells other threads that it waits (for example, puts itself into
+ * a list), then calls Wait(). Another thread calls Wake(), before or after the owner enters Wait().
+ * No wake-up is lost. A wake-up without a waiting owner has no effect on later waits.
  *
  *     Free --Prepare()--> Taken --Wait(), after spinning--> Asleep
  *      ^                    |                                 |
  *      +------- Wake() -----+------------- Wake() ------------+
  *
- * Most waits are either very short or long. Wait() therefore spins for a moment, lets other threads
- * of the processor run a few times, and then sleeps in the operating system, so that threads that
- * wait never take the processors from those that work even if there are many more of them.
+ * Most waits are either very short or long. Wait() therefore spins for a moment, then yields the
+ * processor a few times, and then sleeps in the operating system. So waiting threads do not take
+ * the processors from working threads, even if there are many more threads than processors.
  *
- * A spot must outlive all calls of Wake(): one may still run when Wait() has returned.
+ * A spot must outlive all calls of Wake(): such a call may still run when Wait() has returned.
  */
 class ParkingSpot
 {
 public:
-  static constexpr unsigned Spins = 300; ///< pauses before the processor is offered to others
-  static constexpr unsigned Yields = 8;  ///< offers before the thread sleeps
+  static constexpr unsigned Spins = 300; ///< pauses before the first yield
+  static constexpr unsigned Yields = 8;  ///< yields before the thread sleeps
 
-  /** The owner is about to wait. */
+  /** The owner calls it when it is about to wait. */
   void Prepare()
   {
-    // Relaxed: the owner lets others know afterwards, through a mutex.
+    // Relaxed: afterwards the owner tells other threads through a mutex.
     this->State.store(Taken, std::memory_order_relaxed);
   }
 
-  /** True between Prepare() and Wake(). Exact only under what orders these two. */
+  /** True between Prepare() and Wake(). Exact only if these two calls are ordered with this one. */
   bool IsTaken() const { return this->State.load(std::memory_order_relaxed) != Free; }
 
-  /** Returns once Wake() was called after Prepare(); what its caller wrote before is visible. */
+  /**
+   * Returns once Wake() was called after Prepare(). Everything that the caller of Wake() wrote
+   * before is visible then.
+   */
   void Wait()
   {
     for (unsigned spin = 0; spin < Spins; ++spin)
@@ -67,7 +70,7 @@ public:
       }
       std::this_thread::yield();
     }
-    // Fails if Wake() came in between. From here on Wake() sees that somebody sleeps.
+    // Fails if Wake() was called in the meantime. From here on Wake() sees that the owner sleeps.
     int taken = Taken;
     this->State.compare_exchange_strong(
       taken, Asleep, std::memory_order_relaxed, std::memory_order_relaxed);
@@ -77,11 +80,11 @@ public:
     }
   }
 
-  /** Lets the owner go on. Any thread, any number of times. */
+  /** Lets the owner go on. Any thread may call it, any number of times. */
   void Wake()
   {
-    // Release: publishes what the caller wrote. Sequentially consistent, since the library decides
-    // by a second variable whether there is a sleeper to be notified.
+    // The release publishes the caller's writes. It is sequentially consistent, since the library
+    // uses a second variable to decide whether it must notify a sleeping thread.
     if (this->State.exchange(Free, std::memory_order_seq_cst) == Asleep)
     {
       this->State.notify_one();
@@ -96,7 +99,7 @@ private:
   /** Acquire: pairs with the release in Wake(). */
   bool WasWoken() const { return this->State.load(std::memory_order_acquire) == Free; }
 
-  std::atomic<int> State{ Free }; ///< an int: what a futex compares
+  std::atomic<int> State{ Free }; ///< an int, since a futex compares an int
 };
 
 } // namespace voxplex

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Pause.h
- * @brief What a loop that waits for another thread does in each turn.
+ * @brief The processor's pause instruction, for loops that wait for another thread.
  */
 #ifndef voxplex_Pause_h
 #define voxplex_Pause_h
@@ -10,7 +10,7 @@
 namespace voxplex
 {
 
-/** Tells the processor that this is a waiting loop. */
+/** Tells the processor that the thread is in a spin-wait loop. */
 inline void Pause()
 {
 #if defined(__x86_64__) || defined(__i386__)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Policies.h
- * @brief How threads that refine together get along: names for what the user can choose.
+ * @brief Policies for contention and load balance among refining threads, with their names.
  */
 #ifndef voxplex_Policies_h
 #define voxplex_Policies_h
@@ -13,23 +13,23 @@
 namespace voxplex
 {
 
-/** What a thread does after a rollback (thesis, section 3.3). */
+/** The contention manager: what a thread does after a rollback (thesis, section 3.3). */
 enum class ContentionPolicy
 {
-  Aggressive, ///< tries again at once
-  Random,     ///< sleeps for a random time after several rollbacks in a row
-  Global,     ///< waits in one list until a thread that makes progress wakes it
-  Local       ///< waits in the list of the thread that it lost to
+  Aggressive, ///< the thread tries again at once
+  Random,     ///< after several rollbacks in a row, the thread sleeps for a random time
+  Global,     ///< the thread waits in one common list until a thread that makes progress wakes it
+  Local       ///< the thread waits in the list of the thread that owned the contended vertex
 };
 
-/** From whom an idle thread gets work (thesis, sections 3.2.4 and 3.4.1). */
+/** The load balancer: how idle threads get work (thesis, sections 3.2.4 and 3.4.1). */
 enum class BalancePolicy
 {
-  Random,      ///< from whichever thread looks first (random work stealing, RWS)
-  Hierarchical ///< from the nearest that has some (hierarchical work stealing, HWS)
+  Random,      ///< from the first busy thread that looks for idle ones (random work stealing, RWS)
+  Hierarchical ///< from the nearest thread that has work (hierarchical work stealing, HWS)
 };
 
-/** In the order of the enumerators; as users write them. */
+/** The names that users write, in the order of the enumerators. */
 inline constexpr std::array<std::string_view, 4> ContentionPolicyNames = { "aggressive", "random",
   "global", "local" };
 inline constexpr std::array<std::string_view, 2> BalancePolicyNames = { "rws", "hws" };

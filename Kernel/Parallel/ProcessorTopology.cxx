@@ -40,7 +40,7 @@ struct FreeBitmap
 };
 using Bitmap = std::unique_ptr<std::remove_pointer_t<hwloc_bitmap_t>, FreeBitmap>;
 
-/** This machine, or the one described; null where hwloc fails. */
+/** The topology of this machine, or of the described machine. Null if hwloc fails. */
 HwlocTopology Load(const char* description)
 {
   hwloc_topology_t raw = nullptr;
@@ -60,7 +60,9 @@ HwlocTopology Load(const char* description)
   return topology;
 }
 
-/** This machine, read once: it takes up to a tenth of a second. Reading it is thread-safe. */
+/**
+ * The topology of this machine, read only once: that takes up to a tenth of a second. Thread-safe.
+ */
 hwloc_topology_t ThisMachine()
 {
   static const HwlocTopology machine = Load(nullptr);
@@ -70,16 +72,16 @@ hwloc_topology_t ThisMachine()
 /** A logical processor. */
 struct Processor
 {
-  unsigned Number;     ///< the operating system's
+  unsigned Number;     ///< of the operating system
   unsigned Package;    ///< logical number of the socket
   unsigned Numa;       ///< logical number of the NUMA node
-  unsigned RankInCore; ///< 0 for the first hyper-thread of a core that may be used, ...
+  unsigned RankInCore; ///< among the allowed hyper-threads of its core; 0 for the first one
 };
 
 unsigned NumaNodeOf(hwloc_topology_t topology, hwloc_obj_t processor)
 {
-  // Memory hangs beside the tree of processors. Where a processor has several nodes (fast and large
-  // memory) the first stands for all.
+  // In hwloc, NUMA nodes are not part of the tree of processors. If a processor has several nodes
+  // (fast and large memory), we take the first one.
   for (hwloc_obj_t node = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_NUMANODE, nullptr);
        node != nullptr; node = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_NUMANODE, node))
   {
@@ -91,7 +93,7 @@ unsigned NumaNodeOf(hwloc_topology_t topology, hwloc_obj_t processor)
   return 0;
 }
 
-/** The processors of `allowed`, in the machine's order: those of a socket are together. */
+/** The processors of `allowed`, in the machine's order. Those of one socket are contiguous. */
 std::vector<Processor> AllowedProcessors(hwloc_topology_t topology, hwloc_const_bitmap_t allowed)
 {
   std::vector<Processor> processors;
@@ -125,7 +127,7 @@ bool Nests(
     });
 }
 
-/** Numbers things from 0 in the order in which they come. */
+/** Numbers different values from 0, in the order of their first occurrence. */
 class Numbering
 {
 public:
@@ -151,12 +153,13 @@ ProcessorTopology Spread(std::vector<Processor> processors, unsigned threads)
   {
     std::swap(inner, outer);
     nested = Nests(processors, inner, outer);
-    if (!nested) // no known machine: sockets, then the whole
+    if (!nested) // true for no known machine; then the levels are socket and machine
     {
       inner = &Processor::Package;
     }
   }
-  // One hyper-thread of every core before the second of any; stable, so socket after socket.
+  // The first hyper-thread of every core comes before the second one of any core. The sort is
+  // stable, so within each rank one socket follows the other.
   std::stable_sort(processors.begin(), processors.end(),
     [](const Processor& a, const Processor& b) { return a.RankInCore < b.RankInCore; });
 
@@ -210,8 +213,8 @@ ProcessorTopology DiscoverTopology(unsigned threads)
   {
     return FlatTopology(threads);
   }
-  // What taskset, a batch system or a container leaves to us. (The machine as hwloc loads it is
-  // already without what the control group forbids.)
+  // The processors that taskset, a batch system or a container permits. (The topology that hwloc
+  // loads already lacks the processors that the control group forbids.)
   if (hwloc_get_cpubind(topology, allowed.get(), HWLOC_CPUBIND_PROCESS) != 0)
   {
     hwloc_bitmap_fill(allowed.get());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ProcessorTopology.h
- * @brief Which threads are near each other.
+ * @brief The processors and memory groups on which threads run.
  */
 #ifndef voxplex_ProcessorTopology_h
 #define voxplex_ProcessorTopology_h
@@ -14,35 +14,38 @@ namespace voxplex
 {
 
 /**
- * @brief For each thread the group that it belongs to on each of three levels, the nearest first.
+ * @brief The groups of each thread on three levels, from the innermost to the outermost.
  *
- * Group[t] = { socket, NUMA node, machine } or { NUMA node, socket, machine }, whichever nests;
- * { socket, 0, 0 } if neither does. Numbers are unique on a level and begin with 0. Threads of one
- * group on a level are in one group on all higher levels; Group[t][2] is 0 for all.
+ * Group[t] is { socket, NUMA node, machine } if each socket lies in one NUMA node. It is { NUMA
+ * node, socket, machine } if each NUMA node lies in one socket. Otherwise it is { socket, 0, 0 }.
+ * Numbers are unique on a level and begin with 0. Threads of one group on a level are in one group
+ * on all higher levels. Group[t][2] is 0 for all threads.
  */
 struct ProcessorTopology
 {
   static constexpr unsigned Levels = 3;
   std::vector<std::array<unsigned, Levels>> Group;
-  /** Logical processor of each thread, by the operating system's number; empty where unknown. */
+  /** Logical processor of each thread, as numbered by the operating system; empty if unknown. */
   std::vector<unsigned> Processor;
 };
 
-/** All threads in one socket. */
+/** A topology with all threads in one socket. */
 ProcessorTopology FlatTopology(unsigned threads);
 
 /**
- * Spreads the threads over the processors that this process may use, filling one socket after the
- * other; cores first, then their second hyper-threads; more threads than processors go round. Flat
- * where the machine's topology is not known. Thread-safe. Never throws but std::bad_alloc.
+ * Assigns threads to the processors that this process may use. The first hyper-threads of all cores
+ * come first, one socket after the other, then the second hyper-threads. If there are more threads
+ * than processors, the assignment starts again from the first processor. The result is
+ * FlatTopology() if the machine's topology is not known. Thread-safe.
+ * @throws std::bad_alloc, and no other exception
  */
 ProcessorTopology DiscoverTopology(unsigned threads);
 
 /**
- * Keeps the calling thread on the processor of thread t, for the rest of its life: meant for
- * threads that are made for the purpose. (A main thread that pins itself leaves its process one
- * processor in the eyes of the next DiscoverTopology().)
- * @return false where that is not possible
+ * Pins the calling thread to the processor of thread t, for the rest of its life. Call it from
+ * worker threads only: if the main thread pins itself, the next DiscoverTopology() finds a process
+ * that may use only one processor.
+ * @return false if pinning is not possible
  */
 bool PinThisThread(const ProcessorTopology& topology, unsigned t);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file WaitingList.h
- * @brief Threads that wait, first come, first served.
+ * @brief A first-in, first-out queue of waiting threads.
  */
 #ifndef voxplex_WaitingList_h
 #define voxplex_WaitingList_h
@@ -13,12 +13,12 @@ namespace voxplex
 {
 
 /**
- * @brief A queue of thread numbers, linked through their slots, so that it never allocates.
+ * @brief A queue of thread numbers. It is linked through the threads' slots, so it never allocates.
  *
- * A thread is in at most one queue at a time. Queues are not thread-safe: the mutex that guards a
- * queue guards the NextInList of the threads in it, too.
+ * A thread is in at most one queue at a time. Queues are not thread-safe. The mutex that guards a
+ * queue also guards the NextInList of the threads in it.
  *
- * @tparam Slots has an operator[] whose elements have a member `unsigned NextInList`
+ * @tparam Slots a container whose operator[] returns slots with a member `unsigned NextInList`
  */
 struct WaitingList
 {
