@@ -184,6 +184,62 @@ class Sizes(HostileTestCase):
         path.write_bytes(plain[:spacing] + b"DW" + plain[spacing + 2:])
         self.refuse(r"its element \(0028,0030\) has the value representation 'DW', which DICOM does not have", path.name)
 
+    def test_dicom_grammar(self):
+        """GDCM reads what breaks it by other rules, in which other bytes are lengths, or ends the program."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        pixels = plain.rindex(struct.pack("<2H", 0x7FE0, 0x10))
+
+        def insert(*elements):
+            return plain[:pixels] + b"".join(elements) + plain[pixels:]
+
+        def element(group, number, representation, value):
+            length = struct.pack("<HI", 0, len(value)) if representation in (b"SQ", b"UN") else struct.pack("<H", len(value))
+            return struct.pack("<2H2s", group, number, representation) + length + value
+
+        def item(value, length=None):
+            return struct.pack("<2HI", 0xFFFE, 0xE000, len(value) if length is None else length) + value
+
+        inner = element(0x8, 0x100, b"SH", b"AB")
+        for data, message in (
+                (plain[:132] + b"\0\0", "it is truncated: it ends before its first data element"),
+                (plain[:132] + struct.pack("<2H", 0x2, 0) + b"UV" + plain[138:pixels], "not an image|truncated"),
+                (plain + b"\0" * 6, "it ends within an element"),
+                (insert(b"\0" * 8), r"its element \(0000,0000\) has no value representation"),
+                (insert(struct.pack("<2HI", 0x29, 0x1010, 4) + b"abcd"), r"\(0029,1010\) has no value representation"),
+                (insert(element(0x2, 0x2, b"UI", b"1.")), r"its element \(0002,0002\) is out of place"),
+                (insert(struct.pack("<2HI", 0xFFFE, 0xE00D, 0)), r"its element \(fffe,e00d\) is out of place"),
+                (insert(element(0xFF, 0x4AA5, b"LO", b"ab")), r"its element \(00ff,4aa5\) is out of place"),
+                (insert(element(0x5400, 0x1010, b"OB"[::-1], b"")), "value representation 'BO'"),
+                (insert(element(0x5400, 0x100, b"SQ", b"")), r"its element \(5400,0100\) belongs in a sequence"),
+                (insert(element(0x40, 0xA730, b"SQ", item(inner, 99))), r"its element \(fffe,e000\) claims 99 bytes, and 10 are left"),
+                (insert(element(0x40, 0xA730, b"SQ", item(inner + b"\0" * 4))), r"\(0000,0000\) claims|within an element"),
+                (insert(element(0x40, 0xA730, b"SQ", inner)), r"its element \(0008,0100\) is where an item must be"),
+                (insert(element(0x40, 0xA730, b"UN", item(inner))), r"its element \(0008,0100\) claims"),
+                (insert(element(0x40, 0xA730, b"SQ", item(element(0x8, 0x104, b"LO", b"A")))), "has the odd length 1"),
+                (insert(element(0x40, 0xA730, b"LO", b"AB")), "has the value representation 'LO', and must not have it"),
+                (insert(element(0x28, 0x1052, b"SQ", item(b""))), r"its element \(0028,1052\) is a sequence"),
+                (insert(element(0x28, 0x1052, b"IS", b"1 ")), "has the value representation 'IS', and must not have it"),
+                (insert(element(0x28, 0x12, b"US", b"123")), r"its element \(0028,0012\) has 3 bytes, of numbers of 2"),
+                (insert(element(0x28, 0x6, b"US", b"\2\0")), r"its element \(0028,0006\) has the value '2', which it must not have"),
+                (insert(element(0x8, 0x10, b"SH", b"DICOM ")), r"its element \(0008,0010\) has the value 'DICOM '"),
+                (insert(element(0x28, 0x1053, b"DS", b"1x")), r"its element \(0028,1053\) has the value '1x'"),
+                (insert(element(0x18, 0x88, b"DS", b"1\\")), r"its element \(0018,0088\) has the value"),
+                (insert(element(0x18, 0x50, b"DS", b"1\\1 ")), r"its element \(0018,0050\) has the value '1.1 '"),
+                (plain.replace(b"MONOCHROME2 ", b"PALETTECOLOR"), r"its element \(0028,0004\) says that its voxels are colours of a palette"),
+                (plain.replace(struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 1), struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 9)),
+                 r"its element \(0028,0002\) has the value '9', which it must not have")):
+            with self.subTest(message):
+                self.refuse("cannot read '%s': .*(%s)" % (path.name, message), self.write(path.name, data))
+        # What is like these, but sound.
+        for data in (insert(element(0x40, 0xA730, b"SQ", item(inner) + item(b""))), insert(element(0x9, 0x10, b"LO", b"AB")),
+                     insert(element(0x18, 0x50, b"DS", b" 1.5e+0 "), element(0x18, 0x88, b"DS", b"  ")),
+                     insert(element(0x40, 0xA730, b"UN", item(struct.pack("<2HI", 0x8, 0x100, 2) + b"AB")))):
+            self.write(path.name, data)
+            self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+        # GDCM has readers for files in these formats, and gives them to them before ITK asks for others.
+        self.refuse("it ends before its first data element", self.write("i.nii", struct.pack("<2HI", 2, 16, 42) + bytes(120) + b"DICM\0\0"))
+
     def test_metaimage_without_dimensions(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
         self.write("i.mha", (self.folder / "i.mha").read_bytes().replace(b"NDims =", b"NDims"))
