@@ -7,8 +7,10 @@
 #include "FileChecks.h"
 #include "FileError.h"
 #include "LibraryMessages.h"
+#include "MetaImageCheck.h"
 #include "ReadFrames.h"
 #include "Segments.h"
+#include "TIFFCheck.h"
 
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
@@ -282,6 +284,10 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   else if (format == "NrrdImageIO" || format == "MetaImageIO")
   {
     fault = FindFaultOfNamedFiles(path);
+    if (fault.empty() && format == "MetaImageIO")
+    {
+      fault = FindFaultOfMetaImage(path);
+    }
     fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
   }
   if (!fault.empty())
@@ -342,6 +348,10 @@ ScalarImage ReadFile(
   const std::string& path, LibraryMessages& messages, std::vector<std::string>& warnings)
 {
   if (const std::string fault = FindFaultOfDICOM(path); !fault.empty())
+  {
+    Refuse(path, fault);
+  }
+  if (const std::string fault = FindFaultOfTIFF(path); !fault.empty())
   {
     Refuse(path, fault);
   }

@@ -240,20 +240,79 @@ class Sizes(HostileTestCase):
         # GDCM has readers for files in these formats, and gives them to them before ITK asks for others.
         self.refuse("it ends before its first data element", self.write("i.nii", struct.pack("<2HI", 2, 16, 42) + bytes(120) + b"DICM\0\0"))
 
-    def test_metaimage_without_dimensions(self):
-        images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
-        self.write("i.mha", (self.folder / "i.mha").read_bytes().replace(b"NDims =", b"NDims"))
-        self.refuse("does not give NDims", "i.mha")
+    def tiff(self, name, *entries, form="<", big=False, next_directory=0):
+        """entries: tag, type, count, value or offset."""
+        offset = "Q" if big else "I"
+        head = struct.pack(form + "2sH", b"II" if form == "<" else b"MM", 43 if big else 42)
+        head += struct.pack(form + "2HQ", 8, 0, 16) if big else struct.pack(form + "I", 8)
+        directory = struct.pack(form + ("Q" if big else "H"), len(entries))
+        for tag, kind, count, value in entries:
+            value = struct.pack(form + {3: "H", 4: "I"}[kind], value) if count == 1 else struct.pack(form + offset, value)
+            directory += struct.pack(form + "2H" + offset, tag, kind, count) + value.ljust(struct.calcsize(offset), b"\0")
+        return self.write(name, head + directory + struct.pack(form + offset, next_directory) + bytes(16))
+
+    def test_tiff(self):
+        """libtiff takes memory for what tags claim."""
+        image = [(256, 3, 1, 4), (257, 3, 1, 4), (258, 3, 1, 8), (259, 3, 1, 1), (262, 3, 1, 1), (273, 4, 1, 8),
+                 (277, 3, 1, 1), (278, 3, 1, 4), (279, 4, 1, 16)]
+        for form in "<>":
+            for big in (False, True):
+                with self.subTest(form=form, big=big):
+                    options = {"form": form, "big": big}
+                    tag = {entry[0]: i for i, entry in enumerate(image)}
+
+                    def replace(*entry):
+                        return self.tiff("i.tif", *image[:tag[entry[0]]], entry, *image[tag[entry[0]] + 1:], **options)
+
+                    self.refuse("its tag 273 claims 150994945 values, and the file has", replace(273, 4, 150994945, 8))
+                    self.refuse("its tag 259 claims 536870913 values", replace(259, 3, 536870913, 8))
+                    self.refuse("claims more strips or tiles than the file has bytes",
+                                self.tiff("i.tif", (256, 3, 1, 4), (257, 4, 1, 4000000000), *image[2:7], (278, 3, 1, 1), image[8], **options))
+                    self.refuse("its strips or tiles have no size",
+                                self.tiff("i.tif", *image, (322, 3, 1, 0), (323, 3, 1, 0), **options))
+                    self.refuse("one of its strips or tiles claims more bytes than the file has", replace(279, 4, 1, 4000000000))
+                    self.refuse("its directories form a circle",
+                                self.tiff("i.tif", *image, next_directory=16 if big else 8, **options))
+                    self.refuse("it has no whole directory at byte 9999", self.tiff("i.tif", *image, next_directory=9999, **options))
+        path = self.folder / self.tiff("i.tif", *image)
+        self.refuse("it has no whole directory at byte 8", self.write("i.tif", path.read_bytes()[:60]))
+
+    def change_metaimage(self, old, new):
+        data = Path(images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))).read_bytes()
+        self.assertIn(old, data)
+        return self.write("i.mha", data.replace(old, new))
+
+    def test_lines_of_metaimage(self):
+        """MetaIO takes the next lines for what is missing, and copies texts to where they have no room."""
+        for old, new, message in (
+                (b"NDims =", b"NDims", "the line 'NDims 3' of its header is no field"),
+                (b"NDims = 3", b"Offset = 3\nNDims = 3", "gives Offset before NDims"),
+                (b"DimSize =", b"dimsize =", "has the field 'dimsize', which must be written DimSize"),
+                (b"DimSize = 4 4 4", b"DimSize = 4 4", "gives '4 4' for DimSize, where 3 numbers must be"),
+                (b"DimSize = 4 4 4", b"DimSize = 4 4 x", "gives '4 4 x' for DimSize"),
+                (b"ElementType", b"Color = 1 1 1\nElementType", "gives '1 1 1' for Color, where 4 numbers must be"),
+                (b"ElementType", b"TransformMatrix2 = \0\nElementType", "is no field"),
+                (b"ElementType", b"Comment == a\nElementType", "the line 'Comment == a' of its header is no field"),
+                (b"ElementType", b"= a\nElementType", "the line '= a' of its header is no field"),
+                (b"ElementType", b"a" * 255 + b" = b\nElementType", "has a field with a name of 255 bytes"),
+                (b"ElementType", b"Comment = " + b"a" * 255 + b"\nElementType", "gives a text of 255 bytes for Comment"),
+                (b"NDims", b"NRRD0004 = a\nNDims", "the line 'NRRD0004 = a' of its header is no field"),
+                (b"DimSize", b"Dims", "does not give DimSize")):
+            with self.subTest(new=new[:40]):
+                self.refuse(message, self.change_metaimage(old, new))
+        self.change_metaimage(b"ElementType", b"Comment = " + b"a" * 254 + b"\r\n \nMy Field: b = c\nColor = 1 1 1 1 1\nElementType")
+        self.mesh("--input", "i.mha", "--delta", 1, "--output", "mesh.vtu")
 
     def test_repeated_fields_of_metaimage(self):
-        """MetaImage's reader takes the last, and writes beyond its memory where these differ."""
+        """MetaIO takes the last, and writes beyond its memory where these differ."""
         for key, value in (("NDims", "0"), ("DimSize", "4 4 400"), ("CompressedData", "False")):
             with self.subTest(key):
-                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
-                data = (self.folder / "i.mha").read_bytes()
-                lines = b"%s = 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
-                self.write("i.mha", data.replace(b"ElementType", lines + b"ElementType"))
-                self.refuse("gives %s more than once" % key, "i.mha")
+                lines = b"%s = 3 3 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
+                self.refuse("gives %s more than once" % key, self.change_metaimage(b"ElementType", lines + b"ElementType"))
+
+    def test_compressed_size_of_metaimage(self):
+        self.change_metaimage(b"ElementType", b"CompressedData = True\nCompressedDataSize = 4000000000\nElementType")
+        self.refuse("claims '4000000000' bytes of compressed voxels", "i.mha")
 
     def test_no_voxels(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
@@ -356,6 +415,29 @@ class DataFiles(HostileTestCase):
         path = self.folder / name
         path.write_bytes(path.read_bytes().replace(b"ElementDataFile", b"\n \n  ElementDataFile"))
         self.refuse("is no pattern of names such as", name)  # also after empty lines, which MetaImage skips
+
+    def test_lists_of_metaimage(self):
+        """MetaIO trusts their blanks and numbers, and leaves out what is not there."""
+        ball = images.ball(4, 1.5)
+        for k in range(4):
+            self.write("a%d.raw" % k, ball[k].tobytes())
+        names = "\n".join("a%d.raw" % k for k in range(4))
+        for data_file, message in (
+                ("LIST   2\n" + names, "is no list of data files"), ("LIST -7\n" + names, "is no list of data files"),
+                ("LIST 3\n" + names, "is no list of data files"), ("LISTS\n" + names, "is no list of data files"),
+                ("LIST\na0.raw\n\na1.raw\na2.raw\na3.raw", "the line '' of its header names no data file"),
+                ("LIST\n " + names, "the line ' a0.raw' of its header names no data file"),
+                ("LIST\na0.raw\na1.raw\na2.raw", "lists 3 data files with a line each, and 4 are needed"),
+                ("a%d.raw 0 3", "is no pattern of names"), ("a%d.raw 0  3 1", "is no pattern of names"),
+                ("a%d.raw 0 3 1 1", "is no pattern of names"), ("a%d.raw 3 3 -1", "is no pattern of names"),
+                ("a%d.raw 0 2 1", "names 3 data files, and 4 are needed")):
+            with self.subTest(data_file):
+                self.refuse(message, self.metaimage_header("i.mhd", data_file))
+        for data_file in ("LIST\n" + names, "LIST 2\n" + names + "\n\n", "a%d.raw 0 3 1"):
+            self.mesh("--input", self.metaimage_header("i.mhd", data_file), "--delta", 1, "--output", "mesh.vtu")
+        self.metaimage_header("i.mhd", "LIST\n" + names)
+        self.write("i.mhd", (self.folder / "i.mhd").read_bytes()[:-1])
+        self.refuse("lists 3 data files with a line each, and 4 are needed", "i.mhd")
 
     def test_sound_ones(self):
         ball = images.ball(8, 2.8)
