@@ -8,16 +8,21 @@
 #include <gdcmGlobal.h>
 #include <gdcmVR.h>
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <memory>
 #include <optional>
 #include <span>
 #include <sstream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace voxplex::io
 {
@@ -65,6 +70,9 @@ constexpr std::uint32_t RecognitionCode = 0x00080010;
 constexpr std::array<std::string_view, 3> RecognitionCodes{ "ACR-NEMA", "ACRNEMA", "MIPS 2.0" };
 
 constexpr std::uint32_t PhotometricInterpretation = 0x00280004;
+/** The places of a dose's frames, for which GDCM looks up how many they are. */
+constexpr std::uint32_t GridFrameOffsets = 0x3004000C;
+constexpr std::uint32_t NumberOfFrames = 0x00280008;
 
 struct NumbersInText
 {
@@ -104,12 +112,36 @@ struct Element
   }
 };
 
+/** What was compressed by deflate, without a header; nothing if it is damaged. */
+std::optional<std::string> Unpack(std::vector<char>& packed)
+{
+  z_stream stream{};
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK)
+  {
+    return std::nullopt;
+  }
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string unpacked;
+  std::array<char, 1 << 16> part;
+  int status = Z_OK;
+  while (status == Z_OK)
+  {
+    stream.next_out = reinterpret_cast<Bytef*>(part.data());
+    stream.avail_out = static_cast<uInt>(part.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+    unpacked.append(part.data(), part.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  return status == Z_STREAM_END ? std::optional(std::move(unpacked)) : std::nullopt;
+}
+
 /** Reads elements and stops where the file ends or makes no sense. */
 class ElementReader
 {
 public:
   explicit ElementReader(const std::string& path)
-    : File(path, std::ios::binary)
+    : File(std::make_unique<std::ifstream>(path, std::ios::binary))
   {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -117,18 +149,29 @@ public:
   }
 
   std::uint64_t GetSize() const { return this->Size; }
-  std::uint64_t Position() { return static_cast<std::uint64_t>(this->File.tellg()); }
+  std::uint64_t Position() { return static_cast<std::uint64_t>(this->File->tellg()); }
   bool Skip(std::uint64_t length) { return this->GoTo(this->Position() + length); }
   bool GoTo(std::uint64_t position)
   {
-    this->File.clear(); // seeking fails once the end was met
-    return !!this->File.seekg(static_cast<std::streamoff>(position));
+    this->File->clear(); // seeking fails once the end was met
+    return !!this->File->seekg(static_cast<std::streamoff>(position));
+  }
+
+  /** Goes on in what the rest of the file is when it is unpacked; returns whether it is sound. */
+  bool Inflate()
+  {
+    std::vector<char> packed(static_cast<std::size_t>(this->Size - this->Position()));
+    this->File->read(packed.data(), static_cast<std::streamsize>(packed.size()));
+    const std::optional<std::string> unpacked = Unpack(packed);
+    this->Size = unpacked ? unpacked->size() : 0;
+    this->File = std::make_unique<std::istringstream>(unpacked.value_or(""));
+    return unpacked.has_value();
   }
 
   std::string Text(std::uint32_t length)
   {
     std::string text(length, '\0');
-    this->File.read(text.data(), static_cast<std::streamsize>(length));
+    this->File->read(text.data(), static_cast<std::streamsize>(length));
     return text;
   }
 
@@ -143,7 +186,7 @@ public:
       !syntax.IsExplicit || element.IsDelimiter() || this->TakeRepresentation(element);
     element.Length =
       isLong ? this->Number<std::uint32_t>(syntax) : this->Number<std::uint16_t>(syntax);
-    return this->File ? std::optional(element) : std::nullopt;
+    return *this->File ? std::optional(element) : std::nullopt;
   }
 
 private:
@@ -151,18 +194,18 @@ private:
   bool TakeRepresentation(Element& element)
   {
     std::array<char, 2>& name = element.Representation;
-    this->File.read(name.data(), name.size());
+    this->File->read(name.data(), name.size());
     if (std::any_of(
           name.begin(), name.end(), [](char letter) { return letter < 'A' || letter > 'Z'; }))
     {
       name = {};
-      this->File.seekg(-2, std::ios::cur);
+      this->File->seekg(-2, std::ios::cur);
       return true;
     }
     const bool isLong = element.IsAnyOf(LongOnes);
     if (isLong)
     {
-      this->File.ignore(2);
+      this->File->ignore(2);
     }
     return isLong;
   }
@@ -171,7 +214,7 @@ private:
   std::uint32_t Number(const Syntax& syntax)
   {
     std::array<unsigned char, sizeof(T)> bytes{};
-    this->File.read(reinterpret_cast<char*>(bytes.data()), sizeof(T));
+    this->File->read(reinterpret_cast<char*>(bytes.data()), sizeof(T));
     if (!syntax.IsBigEndian)
     {
       std::reverse(bytes.begin(), bytes.end());
@@ -184,7 +227,7 @@ private:
     return number;
   }
 
-  std::ifstream File;
+  std::unique_ptr<std::istream> File;
   std::uint64_t Size = 0;
 };
 
@@ -287,8 +330,9 @@ bool HoldsNumbers(const std::string& text, std::size_t count)
     word.erase(0, word.find_first_not_of(' '));
     std::istringstream stream(word);
     double number = 0.0;
-    areNumbers =
-      areNumbers && stream >> number && stream.peek() == std::istringstream::traits_type::eof();
+    // GDCM takes a single number from the beginning of a text.
+    areNumbers = areNumbers && stream >> number &&
+      (count == 1 || stream.peek() == std::istringstream::traits_type::eof());
     at = end + 1;
   }
   return (areNumbers && found == count) || text.find_first_not_of(blanks) == std::string::npos;
@@ -316,9 +360,18 @@ public:
   {
     this->Reader.GoTo(start);
     const std::optional<Syntax> syntax = this->ReadFileInformation();
-    if (syntax && !syntax->IsDeflated)
+    if (syntax && syntax->IsDeflated && !this->Reader.Inflate())
+    {
+      this->Fault = "it is truncated or damaged: what is compressed in it does not unpack";
+    }
+    else if (syntax)
     {
       this->WalkElements({ this->Reader.GetSize() }, *syntax, 0);
+      if (this->Fault.empty() && this->HasOffsets && !this->HasFrames)
+      {
+        this->Fault =
+          "it is damaged: its element (3004,000c) needs an element (0028,0008), which is missing";
+      }
     }
     return this->Fault;
   }
@@ -408,6 +461,8 @@ private:
       {
         return true;
       }
+      this->HasOffsets = this->HasOffsets || (depth == 0 && element->Tag == GridFrameOffsets);
+      this->HasFrames = this->HasFrames || (depth == 0 && element->Tag == NumberOfFrames);
       if (!this->IsInPlace(*element, syntax, depth) ||
         !this->WalkValue(*element, enclosure, syntax, depth))
       {
@@ -612,6 +667,8 @@ private:
   }
 
   ElementReader Reader;
+  bool HasOffsets = false;
+  bool HasFrames = false;
   std::string Fault;
 };
 
@@ -638,6 +695,11 @@ std::string FindFaultOfDICOM(const std::string& path)
 {
   const std::optional<std::uint64_t> start = FindStart(path);
   return start ? Walk(path).FindFault(*start) : "";
+}
+
+bool HasPreambleOfDICOM(const std::string& path)
+{
+  return FindStart(path) == PreambleSize + Magic.size();
 }
 
 } // namespace voxplex::io

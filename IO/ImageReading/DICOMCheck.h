@@ -21,11 +21,14 @@ namespace voxplex::io
 /**
  * Walks through the elements of a DICOM file, with or without a preamble, to its end; other files pass. An element must
  * not claim more bytes than there are in what holds it, and must be of the type that the dictionary says, and sequences may
- * be nested 64 deep. Of files that are compressed as a whole (transfer syntax 'deflated') the file information is checked.
+ * be nested 64 deep. Files that are compressed as a whole (transfer syntax 'deflated') are unpacked into memory.
  *
  * @return what is wrong, or an empty string
  */
 std::string FindFaultOfDICOM(const std::string& path);
+
+/** Whether the file says of itself that it is one of DICOM, whatever stands before: there may be the header of a TIFF. */
+bool HasPreambleOfDICOM(const std::string& path);
 
 } // namespace voxplex::io
 

@@ -34,6 +34,7 @@ constexpr std::array<std::uint64_t, 19> SizesOfTypes{ 0, 1, 1, 2, 4, 8, 1, 1, 2,
 
 struct Entry
 {
+  bool IsText = false;
   std::uint64_t SizeOfValue = 0;
   std::uint64_t Count = 0;
   std::uint64_t Position = 0; ///< of the first value
@@ -113,6 +114,11 @@ private:
           std::to_string(entry.Count) + " values, and the file has " + std::to_string(this->Size) +
           " bytes";
       }
+      // ITK reads a text of one byte up to the next 0.
+      if (entry.IsText && entry.Count == 1 && this->Number(entry.Position, 1) != 0)
+      {
+        return "it is damaged: its tag " + std::to_string(tag) + " has a text that does not end";
+      }
       entries.emplace(tag, entry);
     }
     const std::uint64_t end = first + count * sizeOfEntry;
@@ -124,7 +130,9 @@ private:
   {
     const std::uint64_t sizeOfOffset = this->IsBig ? 8 : 4;
     const std::uint64_t type = this->Number(position + 2, 2);
+    constexpr std::uint64_t text = 2;
     Entry entry;
+    entry.IsText = type == text;
     entry.SizeOfValue = type < SizesOfTypes.size() ? SizesOfTypes[type] : 0;
     entry.Count = this->Offset(position + 4);
     entry.Position = position + 4 + sizeOfOffset;
@@ -159,12 +167,11 @@ private:
     }
     for (const Tag tag : { StripByteCounts, TileByteCounts })
     {
-      const auto counts = entries.find(tag);
-      for (std::uint64_t i = 0; counts != entries.end() && i < counts->second.Count; ++i)
+      const auto found = entries.find(tag);
+      const Entry entry = found == entries.end() ? Entry() : found->second;
+      for (std::uint64_t i = 0; entry.SizeOfValue != 0 && i < entry.Count; ++i)
       {
-        const Entry& entry = counts->second;
-        if (entry.SizeOfValue != 0 &&
-          this->Number(entry.Position + i * entry.SizeOfValue, entry.SizeOfValue) > this->Size)
+        if (this->Number(entry.Position + i * entry.SizeOfValue, entry.SizeOfValue) > this->Size)
         {
           return "it is truncated or damaged: one of its strips or tiles claims more bytes than "
                  "the file has";

@@ -7,7 +7,7 @@
  * - It takes memory for the values that a tag claims, and for all strips that the size of the image claims,
  *   before it reads them.
  * - It follows directories in circles.
- * - ITK divides by the sizes of tiles.
+ * - ITK divides by the sizes of tiles, and reads a text of one byte up to the next 0.
  */
 #ifndef voxplex_io_TIFFCheck_h
 #define voxplex_io_TIFFCheck_h

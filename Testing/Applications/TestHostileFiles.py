@@ -10,6 +10,7 @@ import os
 import resource
 import shutil
 import struct
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -223,16 +224,28 @@ class Sizes(HostileTestCase):
                 (insert(element(0x28, 0x12, b"US", b"123")), r"its element \(0028,0012\) has 3 bytes, of numbers of 2"),
                 (insert(element(0x28, 0x6, b"US", b"\2\0")), r"its element \(0028,0006\) has the value '2', which it must not have"),
                 (insert(element(0x8, 0x10, b"SH", b"DICOM ")), r"its element \(0008,0010\) has the value 'DICOM '"),
-                (insert(element(0x28, 0x1053, b"DS", b"1x")), r"its element \(0028,1053\) has the value '1x'"),
+                (insert(element(0x28, 0x1053, b"DS", b"x1")), r"its element \(0028,1053\) has the value 'x1'"),
                 (insert(element(0x18, 0x88, b"DS", b"1\\")), r"its element \(0018,0088\) has the value"),
                 (insert(element(0x18, 0x50, b"DS", b"1\\1 ")), r"its element \(0018,0050\) has the value '1.1 '"),
+                (insert(element(0x3004, 0xC, b"DS", b"0\\1 ")), r"\(3004,000c\) needs an element \(0028,0008\)"),
                 (plain.replace(b"MONOCHROME2 ", b"PALETTECOLOR"), r"its element \(0028,0004\) says that its voxels are colours of a palette"),
                 (plain.replace(struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 1), struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 9)),
                  r"its element \(0028,0002\) has the value '9', which it must not have")):
             with self.subTest(message):
                 self.refuse("cannot read '%s': .*(%s)" % (path.name, message), self.write(path.name, data))
+        # All of it may be compressed.
+        start = plain.index(struct.pack("<2H", 0x8, 0x16))
+        syntax = struct.pack("<2H2sH", 0x2, 0x10, b"UI", 20) + b"1.2.840.10008.1.2.1\0"
+        head = plain[:start].replace(syntax, struct.pack("<2H2sH", 0x2, 0x10, b"UI", 22) + b"1.2.840.10008.1.2.1.99")
+
+        def deflate(data):
+            stream = zlib.compressobj(wbits=-15)
+            return head + stream.compress(data[start:]) + stream.flush()
+
+        self.refuse(r"its element \(0029,1010\) has no value", self.write(path.name, deflate(insert(struct.pack("<2HI", 0x29, 0x1010, 0)))))
+        self.refuse("what is compressed in it does not unpack", self.write(path.name, deflate(plain)[:-20]))
         # What is like these, but sound.
-        for data in (insert(element(0x40, 0xA730, b"SQ", item(inner) + item(b""))), insert(element(0x9, 0x10, b"LO", b"AB")),
+        for data in (deflate(plain), insert(element(0x40, 0xA730, b"SQ", item(inner) + item(b""))), insert(element(0x9, 0x10, b"LO", b"AB")),
                      insert(element(0x18, 0x50, b"DS", b" 1.5e+0 "), element(0x18, 0x88, b"DS", b"  ")),
                      insert(element(0x40, 0xA730, b"UN", item(struct.pack("<2HI", 0x8, 0x100, 2) + b"AB")))):
             self.write(path.name, data)
@@ -247,7 +260,7 @@ class Sizes(HostileTestCase):
         head += struct.pack(form + "2HQ", 8, 0, 16) if big else struct.pack(form + "I", 8)
         directory = struct.pack(form + ("Q" if big else "H"), len(entries))
         for tag, kind, count, value in entries:
-            value = struct.pack(form + {3: "H", 4: "I"}[kind], value) if count == 1 else struct.pack(form + offset, value)
+            value = struct.pack(form + {2: "B", 3: "H", 4: "I"}[kind], value) if count == 1 else struct.pack(form + offset, value)
             directory += struct.pack(form + "2H" + offset, tag, kind, count) + value.ljust(struct.calcsize(offset), b"\0")
         return self.write(name, head + directory + struct.pack(form + offset, next_directory) + bytes(16))
 
@@ -274,8 +287,19 @@ class Sizes(HostileTestCase):
                     self.refuse("its directories form a circle",
                                 self.tiff("i.tif", *image, next_directory=16 if big else 8, **options))
                     self.refuse("it has no whole directory at byte 9999", self.tiff("i.tif", *image, next_directory=9999, **options))
+        self.refuse("its tag 4358 has a text that does not end", self.tiff("i.tif", *image, (4358, 2, 1, 1)))
+        # Values of a type that there is not are skipped, however many.
+        self.assert_refused(1, "not an image|damaged", "--input", self.tiff("i.tif", *image[:8], (279, 99, 4000000000, 8)),
+                            "--output", "mesh.vtu", timeout=60)
         path = self.folder / self.tiff("i.tif", *image)
         self.refuse("it has no whole directory at byte 8", self.write("i.tif", path.read_bytes()[:60]))
+
+    def test_dicom_that_begins_as_tiff(self):
+        """Which is GDCM's alone: the header of the TIFF may be wrong."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        header = Path(self.folder / self.tiff("i.tif", (273, 4, 150994945, 8))).read_bytes()
+        path.write_bytes(header.ljust(128, b"\0") + path.read_bytes()[128:])
+        self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
 
     def change_metaimage(self, old, new):
         data = Path(images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))).read_bytes()
