@@ -7,7 +7,7 @@ set(VOXPLEX_HAVE_IO OFF)
 set(_voxplex_io_components
   CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML hdf5)
 
-find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIOGDCM ITKImageIO)
+find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKGDCM ITKIOGDCM ITKImageIO)
 if (NOT ITK_FOUND)
   voxplex_skip("reading and writing of files" "ITK was not found (apt-get install libinsighttoolkit5-dev libgdcm-tools)")
   return ()

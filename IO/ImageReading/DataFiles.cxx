@@ -380,13 +380,34 @@ std::string DescribeFiles(const FileNames& files, const std::string& path)
   return text.str();
 }
 
+/** MetaIO takes as much memory as the header claims of compressed voxels, from each file. */
+std::string FindFaultOfCompressedSize(const TextHeader& header, const FileNames& files)
+{
+  const std::string* field = header.Find("compresseddatasize");
+  if (!field || EncodingOfMetaImage(header) != Encoding::Deflate)
+  {
+    return "";
+  }
+  const std::vector<double> size = ParseNumbers(*field);
+  const bool fits = !size.empty() && size.front() >= 0 &&
+    std::all_of(files.begin(), files.end(),
+      [&size](const std::string& file) { return size.front() <= SizeOf(file); });
+  return fits ? ""
+              : "it is truncated or damaged: its header claims '" + Excerpt(*field) +
+      "' bytes of compressed voxels";
+}
+
 } // namespace
 
 std::string FindFaultOfNamedFiles(const std::string& path)
 {
   const TextHeader header(path);
-  return header.IsEndless() ? "it is damaged: its header does not end within 1 MiB"
-                            : FindNamedFiles(path, header).Fault;
+  if (header.IsEndless())
+  {
+    return "it is damaged: its header does not end within 1 MiB";
+  }
+  const NamedFiles files = FindNamedFiles(path, header);
+  return files.Fault.empty() ? FindFaultOfCompressedSize(header, files.Paths) : files.Fault;
 }
 
 std::string FindFaultOfSize(const FileNames& files, const itk::ImageIOBase& io)

@@ -205,7 +205,7 @@ bool IsPositive(double number)
 
 constexpr std::size_t TimeAxis = 3;
 
-std::string FindFaultOfMetaImage(const std::string& spacing)
+std::string FindFaultOfSpacings(const std::string& spacing)
 {
   const std::vector<double> numbers = ParseNumbers(spacing);
   const auto fault = std::find_if_not(numbers.begin(), numbers.end(), IsPositive);
@@ -324,30 +324,8 @@ std::string FindFaultOfNIfTI(const std::string& path)
 std::string FindFaultOfTextHeader(const std::string& path)
 {
   const TextHeader header(path);
-  constexpr double mostOfMetaImage = 10;
-  if (const std::string* dimensions = header.Find("ndims"))
-  {
-    const std::vector<double> number = ParseNumbers(*dimensions);
-    if (number.empty() || !(number.front() >= 1 && number.front() <= mostOfMetaImage))
-    {
-      return "it is damaged: its header gives '" + Excerpt(*dimensions) +
-        "' dimensions, and the format has 1 to 10";
-    }
-  }
-  if (header.Find("elementdatafile") && !header.Find("ndims"))
-  {
-    return "it is damaged: its header does not give NDims";
-  }
-  for (const char* key : { "NDims", "DimSize", "ElementType", "ElementNumberOfChannels",
-         "HeaderSize", "BinaryData", "CompressedData" })
-  {
-    if (header.IsRepeated(key))
-    {
-      return "it is damaged: its header gives " + std::string(key) + " more than once";
-    }
-  }
   const std::string* spacing = header.Find("elementspacing");
-  return spacing ? FindFaultOfMetaImage(*spacing) : FindFaultOfNRRD(header);
+  return spacing ? FindFaultOfSpacings(*spacing) : FindFaultOfNRRD(header);
 }
 
 } // namespace voxplex::io

@@ -7,8 +7,7 @@
  * - A spacing of 0, NaN or infinity in a NIfTI or NRRD header is replaced by 1.
  * - So is a time step. 0 in NIfTI and NaN in NRRD stand for 'unknown' there, and pass.
  * - Of a truncated NIfTI file the missing voxels are read as 0.
- * - A NIfTI header with more than 7 dimensions makes it read what is not there, and so does a MetaImage
- *   header with more than 10.
+ * - A NIfTI header with more than 7 dimensions makes it read what is not there.
  */
 #ifndef voxplex_io_FileChecks_h
 #define voxplex_io_FileChecks_h
@@ -36,7 +35,7 @@ struct NIfTITimes
 /** Nothing if it is another file, or has one frame. */
 std::optional<NIfTITimes> ReadTimesOfNIfTI(const std::string& path);
 
-/** Checks spacings and dimensions in the text header of an NRRD or MetaImage file. Returns as above. */
+/** Checks the spacings in the text header of an NRRD or MetaImage file. Returns as above. */
 std::string FindFaultOfTextHeader(const std::string& path);
 
 } // namespace voxplex::io

@@ -7,8 +7,10 @@
 #include "FileChecks.h"
 #include "FileError.h"
 #include "LibraryMessages.h"
+#include "MetaImageCheck.h"
 #include "ReadFrames.h"
 #include "Segments.h"
+#include "TIFFCheck.h"
 
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
@@ -282,6 +284,10 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   else if (format == "NrrdImageIO" || format == "MetaImageIO")
   {
     fault = FindFaultOfNamedFiles(path);
+    if (fault.empty() && format == "MetaImageIO")
+    {
+      fault = FindFaultOfMetaImage(path);
+    }
     fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
   }
   if (!fault.empty())
@@ -338,6 +344,17 @@ bool IsPicture(const itk::ImageIOBase& io)
   return format == "PNGImageIO" || format == "JPEGImageIO" || format == "BMPImageIO";
 }
 
+/** The reader of the file's format; null if there is none. What says that it is DICOM is offered to GDCM alone. */
+itk::ImageIOBase::Pointer FindReader(const std::string& path)
+{
+  if (!HasPreambleOfDICOM(path))
+  {
+    return itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  }
+  const itk::ImageIOBase::Pointer io = itk::GDCMImageIO::New().GetPointer();
+  return io->CanReadFile(path.c_str()) ? io : nullptr;
+}
+
 ScalarImage ReadFile(
   const std::string& path, LibraryMessages& messages, std::vector<std::string>& warnings)
 {
@@ -345,7 +362,11 @@ ScalarImage ReadFile(
   {
     Refuse(path, fault);
   }
-  const auto io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  if (const std::string fault = FindFaultOfTIFF(path); !fault.empty() && !HasPreambleOfDICOM(path))
+  {
+    Refuse(path, fault);
+  }
+  const itk::ImageIOBase::Pointer io = FindReader(path);
   if (!io)
   {
     Refuse(path,

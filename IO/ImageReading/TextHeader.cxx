@@ -102,17 +102,8 @@ bool TextHeader::TakeLine(std::string line)
   const bool isDataOfMetaImage = key == "elementdatafile";
   this->IsInList =
     (isDataOfMetaImage || key == "data file" || key == "datafile") && value.rfind("LIST", 0) == 0;
-  if (!this->Fields.emplace(key, std::move(value)).second)
-  {
-    this->Repeated.push_back(key);
-  }
+  this->Fields.emplace(key, std::move(value));
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
-}
-
-bool TextHeader::IsRepeated(const std::string& key) const
-{
-  return std::find(this->Repeated.begin(), this->Repeated.end(), LowerCase(key)) !=
-    this->Repeated.end();
 }
 
 const std::string* TextHeader::Find(const std::string& key) const

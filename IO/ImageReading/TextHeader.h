@@ -27,9 +27,6 @@ public:
   /** Whether the file goes on after 1 MiB of header. */
   bool IsEndless() const { return this->Endless; }
 
-  /** Whether a field is given more than once; Find() has the first, but some readers take the last. In any case. */
-  bool IsRepeated(const std::string& key) const;
-
   /** The value without surrounding blanks, or null. */
   const std::string* Find(const std::string& key) const;
 
@@ -43,7 +40,6 @@ private:
   std::map<std::string, std::string> Fields;
   std::vector<std::string> List;
   bool IsNRRD = false;
-  std::vector<std::string> Repeated;
   bool IsInList = false;
   bool Endless = false;
 };

@@ -10,6 +10,7 @@ import os
 import resource
 import shutil
 import struct
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -184,20 +185,158 @@ class Sizes(HostileTestCase):
         path.write_bytes(plain[:spacing] + b"DW" + plain[spacing + 2:])
         self.refuse(r"its element \(0028,0030\) has the value representation 'DW', which DICOM does not have", path.name)
 
-    def test_metaimage_without_dimensions(self):
-        images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
-        self.write("i.mha", (self.folder / "i.mha").read_bytes().replace(b"NDims =", b"NDims"))
-        self.refuse("does not give NDims", "i.mha")
+    def test_dicom_grammar(self):
+        """GDCM reads what breaks it by other rules, in which other bytes are lengths, or ends the program."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        plain = path.read_bytes()
+        pixels = plain.rindex(struct.pack("<2H", 0x7FE0, 0x10))
+
+        def insert(*elements):
+            return plain[:pixels] + b"".join(elements) + plain[pixels:]
+
+        def element(group, number, representation, value):
+            length = struct.pack("<HI", 0, len(value)) if representation in (b"SQ", b"UN") else struct.pack("<H", len(value))
+            return struct.pack("<2H2s", group, number, representation) + length + value
+
+        def item(value, length=None):
+            return struct.pack("<2HI", 0xFFFE, 0xE000, len(value) if length is None else length) + value
+
+        inner = element(0x8, 0x100, b"SH", b"AB")
+        for data, message in (
+                (plain[:132] + b"\0\0", "it is truncated: it ends before its first data element"),
+                (plain[:132] + struct.pack("<2H", 0x2, 0) + b"UV" + plain[138:pixels], "not an image|truncated"),
+                (plain + b"\0" * 6, "it ends within an element"),
+                (insert(b"\0" * 8), r"its element \(0000,0000\) has no value representation"),
+                (insert(struct.pack("<2HI", 0x29, 0x1010, 4) + b"abcd"), r"\(0029,1010\) has no value representation"),
+                (insert(element(0x2, 0x2, b"UI", b"1.")), r"its element \(0002,0002\) is out of place"),
+                (insert(struct.pack("<2HI", 0xFFFE, 0xE00D, 0)), r"its element \(fffe,e00d\) is out of place"),
+                (insert(element(0xFF, 0x4AA5, b"LO", b"ab")), r"its element \(00ff,4aa5\) is out of place"),
+                (insert(element(0x5400, 0x1010, b"OB"[::-1], b"")), "value representation 'BO'"),
+                (insert(element(0x5400, 0x100, b"SQ", b"")), r"its element \(5400,0100\) belongs in a sequence"),
+                (insert(element(0x40, 0xA730, b"SQ", item(inner, 99))), r"its element \(fffe,e000\) claims 99 bytes, and 10 are left"),
+                (insert(element(0x40, 0xA730, b"SQ", item(inner + b"\0" * 4))), r"\(0000,0000\) claims|within an element"),
+                (insert(element(0x40, 0xA730, b"SQ", inner)), r"its element \(0008,0100\) is where an item must be"),
+                (insert(element(0x40, 0xA730, b"UN", item(inner))), r"its element \(0008,0100\) claims"),
+                (insert(element(0x40, 0xA730, b"SQ", item(element(0x8, 0x104, b"LO", b"A")))), "has the odd length 1"),
+                (insert(element(0x40, 0xA730, b"LO", b"AB")), "has the value representation 'LO', and must not have it"),
+                (insert(element(0x28, 0x1052, b"SQ", item(b""))), r"its element \(0028,1052\) is a sequence"),
+                (insert(element(0x28, 0x1052, b"IS", b"1 ")), "has the value representation 'IS', and must not have it"),
+                (insert(element(0x28, 0x12, b"US", b"123")), r"its element \(0028,0012\) has 3 bytes, of numbers of 2"),
+                (insert(element(0x28, 0x6, b"US", b"\2\0")), r"its element \(0028,0006\) has the value '2', which it must not have"),
+                (insert(element(0x8, 0x10, b"SH", b"DICOM ")), r"its element \(0008,0010\) has the value 'DICOM '"),
+                (insert(element(0x28, 0x1053, b"DS", b"x1")), r"its element \(0028,1053\) has the value 'x1'"),
+                (insert(element(0x18, 0x88, b"DS", b"1\\")), r"its element \(0018,0088\) has the value"),
+                (insert(element(0x18, 0x50, b"DS", b"1\\1 ")), r"its element \(0018,0050\) has the value '1.1 '"),
+                (insert(element(0x3004, 0xC, b"DS", b"0\\1 ")), r"\(3004,000c\) needs an element \(0028,0008\)"),
+                (plain.replace(b"MONOCHROME2 ", b"PALETTECOLOR"), r"its element \(0028,0004\) says that its voxels are colours of a palette"),
+                (plain.replace(struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 1), struct.pack("<2H2s2H", 0x28, 2, b"US", 2, 9)),
+                 r"its element \(0028,0002\) has the value '9', which it must not have")):
+            with self.subTest(message):
+                self.refuse("cannot read '%s': .*(%s)" % (path.name, message), self.write(path.name, data))
+        # All of it may be compressed.
+        start = plain.index(struct.pack("<2H", 0x8, 0x16))
+        syntax = struct.pack("<2H2sH", 0x2, 0x10, b"UI", 20) + b"1.2.840.10008.1.2.1\0"
+        head = plain[:start].replace(syntax, struct.pack("<2H2sH", 0x2, 0x10, b"UI", 22) + b"1.2.840.10008.1.2.1.99")
+
+        def deflate(data):
+            stream = zlib.compressobj(wbits=-15)
+            return head + stream.compress(data[start:]) + stream.flush()
+
+        self.refuse(r"its element \(0029,1010\) has no value", self.write(path.name, deflate(insert(struct.pack("<2HI", 0x29, 0x1010, 0)))))
+        self.refuse("what is compressed in it does not unpack", self.write(path.name, deflate(plain)[:-20]))
+        # What is like these, but sound.
+        for data in (deflate(plain), insert(element(0x40, 0xA730, b"SQ", item(inner) + item(b""))), insert(element(0x9, 0x10, b"LO", b"AB")),
+                     insert(element(0x18, 0x50, b"DS", b" 1.5e+0 "), element(0x18, 0x88, b"DS", b"  ")),
+                     insert(element(0x40, 0xA730, b"UN", item(struct.pack("<2HI", 0x8, 0x100, 2) + b"AB")))):
+            self.write(path.name, data)
+            self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+        # GDCM has readers for files in these formats, and gives them to them before ITK asks for others.
+        self.refuse("it ends before its first data element", self.write("i.nii", struct.pack("<2HI", 2, 16, 42) + bytes(120) + b"DICM\0\0"))
+
+    def tiff(self, name, *entries, form="<", big=False, next_directory=0):
+        """entries: tag, type, count, value or offset."""
+        offset = "Q" if big else "I"
+        head = struct.pack(form + "2sH", b"II" if form == "<" else b"MM", 43 if big else 42)
+        head += struct.pack(form + "2HQ", 8, 0, 16) if big else struct.pack(form + "I", 8)
+        directory = struct.pack(form + ("Q" if big else "H"), len(entries))
+        for tag, kind, count, value in entries:
+            value = struct.pack(form + {2: "B", 3: "H", 4: "I"}[kind], value) if count == 1 else struct.pack(form + offset, value)
+            directory += struct.pack(form + "2H" + offset, tag, kind, count) + value.ljust(struct.calcsize(offset), b"\0")
+        return self.write(name, head + directory + struct.pack(form + offset, next_directory) + bytes(16))
+
+    def test_tiff(self):
+        """libtiff takes memory for what tags claim."""
+        image = [(256, 3, 1, 4), (257, 3, 1, 4), (258, 3, 1, 8), (259, 3, 1, 1), (262, 3, 1, 1), (273, 4, 1, 8),
+                 (277, 3, 1, 1), (278, 3, 1, 4), (279, 4, 1, 16)]
+        for form in "<>":
+            for big in (False, True):
+                with self.subTest(form=form, big=big):
+                    options = {"form": form, "big": big}
+                    tag = {entry[0]: i for i, entry in enumerate(image)}
+
+                    def replace(*entry):
+                        return self.tiff("i.tif", *image[:tag[entry[0]]], entry, *image[tag[entry[0]] + 1:], **options)
+
+                    self.refuse("its tag 273 claims 150994945 values, and the file has", replace(273, 4, 150994945, 8))
+                    self.refuse("its tag 259 claims 536870913 values", replace(259, 3, 536870913, 8))
+                    self.refuse("claims more strips or tiles than the file has bytes",
+                                self.tiff("i.tif", (256, 3, 1, 4), (257, 4, 1, 4000000000), *image[2:7], (278, 3, 1, 1), image[8], **options))
+                    self.refuse("its strips or tiles have no size",
+                                self.tiff("i.tif", *image, (322, 3, 1, 0), (323, 3, 1, 0), **options))
+                    self.refuse("one of its strips or tiles claims more bytes than the file has", replace(279, 4, 1, 4000000000))
+                    self.refuse("its directories form a circle",
+                                self.tiff("i.tif", *image, next_directory=16 if big else 8, **options))
+                    self.refuse("it has no whole directory at byte 9999", self.tiff("i.tif", *image, next_directory=9999, **options))
+        self.refuse("its tag 4358 has a text that does not end", self.tiff("i.tif", *image, (4358, 2, 1, 1)))
+        # Values of a type that there is not are skipped, however many.
+        self.assert_refused(1, "not an image|damaged", "--input", self.tiff("i.tif", *image[:8], (279, 99, 4000000000, 8)),
+                            "--output", "mesh.vtu", timeout=60)
+        path = self.folder / self.tiff("i.tif", *image)
+        self.refuse("it has no whole directory at byte 8", self.write("i.tif", path.read_bytes()[:60]))
+
+    def test_dicom_that_begins_as_tiff(self):
+        """Which is GDCM's alone: the header of the TIFF may be wrong."""
+        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
+        header = Path(self.folder / self.tiff("i.tif", (273, 4, 150994945, 8))).read_bytes()
+        path.write_bytes(header.ljust(128, b"\0") + path.read_bytes()[128:])
+        self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+
+    def change_metaimage(self, old, new):
+        data = Path(images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))).read_bytes()
+        self.assertIn(old, data)
+        return self.write("i.mha", data.replace(old, new))
+
+    def test_lines_of_metaimage(self):
+        """MetaIO takes the next lines for what is missing, and copies texts to where they have no room."""
+        for old, new, message in (
+                (b"NDims =", b"NDims", "the line 'NDims 3' of its header is no field"),
+                (b"NDims = 3", b"Offset = 3\nNDims = 3", "gives Offset before NDims"),
+                (b"DimSize =", b"dimsize =", "has the field 'dimsize', which must be written DimSize"),
+                (b"DimSize = 4 4 4", b"DimSize = 4 4", "gives '4 4' for DimSize, where 3 numbers must be"),
+                (b"DimSize = 4 4 4", b"DimSize = 4 4 x", "gives '4 4 x' for DimSize"),
+                (b"ElementType", b"Color = 1 1 1\nElementType", "gives '1 1 1' for Color, where 4 numbers must be"),
+                (b"ElementType", b"TransformMatrix2 = \0\nElementType", "is no field"),
+                (b"ElementType", b"Comment == a\nElementType", "the line 'Comment == a' of its header is no field"),
+                (b"ElementType", b"= a\nElementType", "the line '= a' of its header is no field"),
+                (b"ElementType", b"a" * 255 + b" = b\nElementType", "has a field with a name of 255 bytes"),
+                (b"ElementType", b"Comment = " + b"a" * 255 + b"\nElementType", "gives a text of 255 bytes for Comment"),
+                (b"NDims", b"NRRD0004 = a\nNDims", "the line 'NRRD0004 = a' of its header is no field"),
+                (b"DimSize", b"Dims", "does not give DimSize")):
+            with self.subTest(new=new[:40]):
+                self.refuse(message, self.change_metaimage(old, new))
+        self.change_metaimage(b"ElementType", b"Comment = " + b"a" * 254 + b"\r\n \nMy Field: b = c\nColor = 1 1 1 1 1\nElementType")
+        self.mesh("--input", "i.mha", "--delta", 1, "--output", "mesh.vtu")
 
     def test_repeated_fields_of_metaimage(self):
-        """MetaImage's reader takes the last, and writes beyond its memory where these differ."""
+        """MetaIO takes the last, and writes beyond its memory where these differ."""
         for key, value in (("NDims", "0"), ("DimSize", "4 4 400"), ("CompressedData", "False")):
             with self.subTest(key):
-                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))
-                data = (self.folder / "i.mha").read_bytes()
-                lines = b"%s = 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
-                self.write("i.mha", data.replace(b"ElementType", lines + b"ElementType"))
-                self.refuse("gives %s more than once" % key, "i.mha")
+                lines = b"%s = 3 3 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
+                self.refuse("gives %s more than once" % key, self.change_metaimage(b"ElementType", lines + b"ElementType"))
+
+    def test_compressed_size_of_metaimage(self):
+        self.change_metaimage(b"ElementType", b"CompressedData = True\nCompressedDataSize = 4000000000\nElementType")
+        self.refuse("claims '4000000000' bytes of compressed voxels", "i.mha")
 
     def test_no_voxels(self):
         images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
@@ -300,6 +439,29 @@ class DataFiles(HostileTestCase):
         path = self.folder / name
         path.write_bytes(path.read_bytes().replace(b"ElementDataFile", b"\n \n  ElementDataFile"))
         self.refuse("is no pattern of names such as", name)  # also after empty lines, which MetaImage skips
+
+    def test_lists_of_metaimage(self):
+        """MetaIO trusts their blanks and numbers, and leaves out what is not there."""
+        ball = images.ball(4, 1.5)
+        for k in range(4):
+            self.write("a%d.raw" % k, ball[k].tobytes())
+        names = "\n".join("a%d.raw" % k for k in range(4))
+        for data_file, message in (
+                ("LIST   2\n" + names, "is no list of data files"), ("LIST -7\n" + names, "is no list of data files"),
+                ("LIST 3\n" + names, "is no list of data files"), ("LISTS\n" + names, "is no list of data files"),
+                ("LIST\na0.raw\n\na1.raw\na2.raw\na3.raw", "the line '' of its header names no data file"),
+                ("LIST\n " + names, "the line ' a0.raw' of its header names no data file"),
+                ("LIST\na0.raw\na1.raw\na2.raw", "lists 3 data files with a line each, and 4 are needed"),
+                ("a%d.raw 0 3", "is no pattern of names"), ("a%d.raw 0  3 1", "is no pattern of names"),
+                ("a%d.raw 0 3 1 1", "is no pattern of names"), ("a%d.raw 3 3 -1", "is no pattern of names"),
+                ("a%d.raw 0 2 1", "names 3 data files, and 4 are needed")):
+            with self.subTest(data_file):
+                self.refuse(message, self.metaimage_header("i.mhd", data_file))
+        for data_file in ("LIST\n" + names, "LIST 2\n" + names + "\n\n", "a%d.raw 0 3 1"):
+            self.mesh("--input", self.metaimage_header("i.mhd", data_file), "--delta", 1, "--output", "mesh.vtu")
+        self.metaimage_header("i.mhd", "LIST\n" + names)
+        self.write("i.mhd", (self.folder / "i.mhd").read_bytes()[:-1])
+        self.refuse("lists 3 data files with a line each, and 4 are needed", "i.mhd")
 
     def test_sound_ones(self):
         ball = images.ball(8, 2.8)
