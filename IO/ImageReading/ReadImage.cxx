@@ -283,12 +283,13 @@ void CheckFile(const std::string& path, const itk::ImageIOBase& io)
   }
   else if (format == "NrrdImageIO" || format == "MetaImageIO")
   {
+    // What says more comes first: of spacings, the text header's check.
     fault = FindFaultOfNamedFiles(path);
+    fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
     if (fault.empty() && format == "MetaImageIO")
     {
       fault = FindFaultOfMetaImage(path);
     }
-    fault = fault.empty() ? FindFaultOfTextHeader(path) : fault;
   }
   if (!fault.empty())
   {

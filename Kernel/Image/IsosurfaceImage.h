@@ -7,6 +7,7 @@
 #ifndef voxplex_IsosurfaceImage_h
 #define voxplex_IsosurfaceImage_h
 
+#include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
 
 #include <array>
@@ -87,12 +88,7 @@ public:
    */
   void ReadMargins(const Index& first, std::size_t count, float* margins) const
   {
-    std::int64_t at = 0;
-    for (std::size_t a = D; a-- > 0;)
-    {
-      at = at * this->Inside.Grid().Dimensions[a] + first[a];
-    }
-    this->Read(static_cast<std::size_t>(at), count, margins);
+    this->Read(OffsetOf(first, this->Inside.Grid().Dimensions), count, margins);
   }
 
 private:

@@ -3,6 +3,7 @@
 #include "Image/LabelImage.h"
 
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"
 
@@ -129,18 +130,6 @@ struct Census
   }
 };
 
-template <typename Index>
-Index IndexOfVoxel(std::size_t linear, const Index& dimensions)
-{
-  Index index{};
-  for (std::size_t a = 0; a < dimensions.size(); ++a)
-  {
-    index[a] = static_cast<std::int64_t>(linear % static_cast<std::size_t>(dimensions[a]));
-    linear /= static_cast<std::size_t>(dimensions[a]);
-  }
-  return index;
-}
-
 template <typename Array>
 std::string Format(const Array& values, const char* separator = ", ")
 {
@@ -157,8 +146,7 @@ template <typename T, int D>
 {
   std::ostringstream s;
   s.precision(std::numeric_limits<T>::max_digits10);
-  s << "The value " << +value << " at index (" << Format(IndexOfVoxel(voxel, grid.Dimensions))
-    << ") ";
+  s << "The value " << +value << " at index (" << Format(IndexAt(voxel, grid.Dimensions)) << ") ";
   if constexpr (std::is_floating_point_v<T>)
   {
     if (!std::isfinite(value))
@@ -312,7 +300,7 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   const auto readRow = [&](CensusType& census, std::size_t row)
   {
     const T* values = scalars.data() + row * n0;
-    Index index = IndexOfVoxel(row * n0, grid.Dimensions);
+    Index index = IndexAt(row * n0, grid.Dimensions);
     for (std::size_t i = 0; i < n0;)
     {
       const T value = values[i];
@@ -478,14 +466,13 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     {
       for (std::size_t row = begin; row < end; ++row)
       {
-        const Index at = IndexOfVoxel(row * e0, image.Extent);
-        std::size_t from = 0;
-        for (std::size_t a = D; a-- > 0;)
+        const Index at = IndexAt(row * e0, image.Extent);
+        Index from;
+        for (std::size_t a = 0; a < D; ++a)
         {
-          from = from * static_cast<std::size_t>(grid.Dimensions[a]) +
-            static_cast<std::size_t>(at[a] + min[a]);
+          from[a] = at[a] + min[a];
         }
-        const T* in = scalars.data() + from;
+        const T* in = scalars.data() + OffsetOf(from, grid.Dimensions);
         LabelId* out = image.Voxels.data() + row * e0;
         for (std::size_t i = 0; i < e0;)
         {
@@ -510,14 +497,10 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
 template <int D>
 void LabelImage<D>::Relabel(const Index& first, std::int64_t length, LabelId label)
 {
-  std::int64_t at = 0;
-  for (std::size_t a = D; a-- > 0;)
-  {
-    at = at * this->Extent[a] + first[a];
-  }
+  LabelId* const run = this->Voxels.data() + OffsetOf(first, this->Extent);
   for (std::int64_t i = 0; i < length; ++i)
   {
-    LabelId& id = this->Voxels[static_cast<std::size_t>(at + i)];
+    LabelId& id = run[i];
     --this->LabelCounts[id];
     ++this->LabelCounts[label];
     id = label;

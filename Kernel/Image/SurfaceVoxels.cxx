@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/SurfaceVoxels.h"
 
+#include "Base/GridIndex.h"
 #include "Parallel/ParallelFor.h"
 
 #include <cstring>
@@ -49,13 +50,7 @@ BitMask<D> FindSurfaceVoxels(
       std::vector<std::uint8_t> flags(sites.WordsPerRow() * 64, std::uint8_t{ 0 });
       for (std::size_t row = begin; row < end; ++row)
       {
-        Index index{};
-        std::size_t rest = row;
-        for (std::size_t a = 1; a < D; ++a)
-        {
-          index[a] = static_cast<std::int64_t>(rest % static_cast<std::size_t>(lattice[a]));
-          rest /= static_cast<std::size_t>(lattice[a]);
-        }
+        const Index index = IndexAt(row * static_cast<std::size_t>(lattice[0]), lattice);
         const LabelId* own = rowAt(index);
         std::fill(differs.begin(), differs.end(), LabelId{ 0 });
         for (std::size_t a = 1; a < D; ++a)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/LostComponents.h"
 
+#include "Base/GridIndex.h"
 #include "Geometry/SimplexQuality.h"
 #include "Parallel/ParallelFor.h"
 
@@ -45,19 +46,14 @@ typename GridGeometry<D>::Index VoxelOf(
 template <int D, typename Visit>
 void ForEachAround(const typename GridGeometry<D>::Index& centre, const Visit& visit)
 {
-  auto voxel = centre;
+  auto low = centre;
+  auto high = centre;
   for (std::size_t a = 0; a < D; ++a)
   {
-    voxel[a] = centre[a] - 1;
+    --low[a];
+    ++high[a];
   }
-  while (voxel[D - 1] <= centre[D - 1] + 1)
-  {
-    visit(voxel);
-    for (std::size_t a = 0; a < D && ++voxel[a] > centre[a] + 1 && a + 1 < D; ++a)
-    {
-      voxel[a] = centre[a] - 1;
-    }
-  }
+  ForEachIndex(low, high, visit);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #ifndef voxplex_GradedGrid_h
 #define voxplex_GradedGrid_h
 
+#include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
 #include "Parallel/ParallelFor.h"
 
@@ -166,15 +167,12 @@ private:
   void SampleCell(const LabelImage<D>& image, std::size_t cell, Sample& sample)
   {
     const Index& extent = image.CropDimensions();
-    Index first;
+    Index first = IndexAt(cell, this->Cells);
     Index last;
-    std::size_t rest = cell;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const auto n = static_cast<std::size_t>(this->Cells[a]);
-      first[a] = static_cast<std::int64_t>(rest % n) * this->Edge;
+      first[a] *= this->Edge;
       last[a] = std::min(first[a] + this->Edge, extent[a]) - 1;
-      rest /= n;
     }
     double smallest = std::numeric_limits<double>::infinity();
     // The bounding box of the samples, in continuous indices of the foreground's bounding box.
@@ -197,23 +195,15 @@ private:
         }
       }
     };
-    for (Index voxel = first; voxel[D - 1] <= last[D - 1];)
-    {
-      std::size_t offset = 0;
-      for (std::size_t a = D; a-- > 0;)
+    ForEachIndex(first, last,
+      [&](const Index& voxel)
       {
-        offset = offset * static_cast<std::size_t>(extent[a]) + static_cast<std::size_t>(voxel[a]);
-      }
-      const LabelId id = image.Ids()[offset];
-      if (id != 0)
-      {
-        sample(voxel, id, add);
-      }
-      for (std::size_t a = 0; a < D && ++voxel[a] > last[a] && a + 1 < D; ++a)
-      {
-        voxel[a] = first[a];
-      }
-    }
+        const LabelId id = image.Ids()[OffsetOf(voxel, extent)];
+        if (id != 0)
+        {
+          sample(voxel, id, add);
+        }
+      });
     this->Places[cell] = this->MakePlace(smallest, low, high);
   }
 
@@ -350,13 +340,12 @@ private:
 
   Point<D> CentreOf(std::size_t cell) const
   {
+    const Index at = IndexAt(cell, this->Cells);
     Point<D> index;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const auto n = static_cast<std::size_t>(this->Cells[a]);
       index[a] = static_cast<double>(this->Origin[a]) - 0.5 +
-        (static_cast<double>(cell % n) + 0.5) * static_cast<double>(this->Edge);
-      cell /= n;
+        (static_cast<double>(at[a]) + 0.5) * static_cast<double>(this->Edge);
     }
     return this->Grid.ToFrame(index);
   }

@@ -3,6 +3,7 @@
 #include "Sizing/InterfaceSizes.h"
 
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 
 #include <array>
 #include <cmath>
@@ -40,11 +41,7 @@ void ForEachNeighbour(
   const LabelImage<D>& image, const typename GridGeometry<D>::Index& voxel, Visit&& visit)
 {
   const auto& n = image.CropDimensions();
-  std::size_t offset = 0;
-  for (std::size_t a = D; a-- > 0;)
-  {
-    offset = offset * static_cast<std::size_t>(n[a]) + static_cast<std::size_t>(voxel[a]);
-  }
+  const std::size_t offset = OffsetOf(voxel, n);
   std::size_t stride = 1;
   for (std::size_t a = 0; a < D; ++a)
   {
@@ -170,13 +167,7 @@ void InterfaceSizes<D>::Summarise(
       std::unordered_map<std::uint32_t, Faces> found;
       for (std::size_t r = first; r < last; ++r)
       {
-        typename GridGeometry<D>::Index voxel{};
-        std::size_t rest = r;
-        for (std::size_t a = 1; a < D; ++a)
-        {
-          voxel[a] = static_cast<std::int64_t>(rest % static_cast<std::size_t>(n[a]));
-          rest /= static_cast<std::size_t>(n[a]);
-        }
+        typename GridGeometry<D>::Index voxel = IndexAt(r * row, n);
         for (; voxel[0] < n[0]; ++voxel[0])
         {
           const LabelId id = image.Ids()[r * row + static_cast<std::size_t>(voxel[0])];

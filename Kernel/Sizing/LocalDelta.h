@@ -7,6 +7,7 @@
 #ifndef voxplex_LocalDelta_h
 #define voxplex_LocalDelta_h
 
+#include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
 #include "Sizing/GrowthLimit.h"
 
@@ -151,7 +152,7 @@ public:
       reach = std::max(reach, radius * this->VoxelsPerLength[a] / Cell);
       middle[a] = this->CellAlong(a, index[a]);
     }
-    if (reach < this->CellsToLowered[this->Offset(middle)] - 1.0)
+    if (reach < this->CellsToLowered[OffsetOf(middle, this->Cells)] - 1.0)
     {
       return false;
     }
@@ -164,8 +165,8 @@ public:
       high[a] = this->CellAlong(a, index[a] + voxels);
     }
     bool found = false;
-    ForCells(low, high,
-      [&](const Index& cell) { found |= this->CellsToLowered[this->Offset(cell)] == 0; });
+    ForEachIndex(low, high,
+      [&](const Index& cell) { found |= this->CellsToLowered[OffsetOf(cell, this->Cells)] == 0; });
     return found;
   }
 
@@ -229,7 +230,7 @@ private:
       low[a] = std::clamp<std::int64_t>((first[a] - 1) / Cell, 0, this->Cells[a] - 1);
       high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
     }
-    ForCells(low, high, [&](const Index& cell) { function(this->Offset(cell)); });
+    ForEachIndex(low, high, [&](const Index& cell) { function(OffsetOf(cell, this->Cells)); });
   }
 
   void MarkLowered(std::size_t offset)
@@ -240,19 +241,15 @@ private:
     {
       return;
     }
-    Index here;
+    const Index here = IndexAt(offset, this->Cells);
     Index low;
     Index high;
-    std::size_t rest = offset;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const auto n = static_cast<std::size_t>(this->Cells[a]);
-      here[a] = static_cast<std::int64_t>(rest % n);
       low[a] = std::max<std::int64_t>(here[a] - Unknown + 1, 0);
       high[a] = std::min(here[a] + Unknown - 1, this->Cells[a] - 1);
-      rest /= n;
     }
-    ForCells(low, high,
+    ForEachIndex(low, high,
       [&](const Index& cell)
       {
         std::int64_t cells = 0;
@@ -260,7 +257,7 @@ private:
         {
           cells = std::max(cells, std::abs(cell[a] - here[a]));
         }
-        std::uint8_t& known = this->CellsToLowered[this->Offset(cell)];
+        std::uint8_t& known = this->CellsToLowered[OffsetOf(cell, this->Cells)];
         known = std::min(known, static_cast<std::uint8_t>(cells));
       });
   }
@@ -285,20 +282,6 @@ private:
     }
   }
 
-  /** Calls function(cell) for a block of cells. */
-  template <typename Function>
-  static void ForCells(const Index& low, const Index& high, Function&& function)
-  {
-    for (Index cell = low; cell[D - 1] <= high[D - 1];)
-    {
-      function(cell);
-      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
-      {
-        cell[a] = low[a];
-      }
-    }
-  }
-
   /** The cell nearest to p. */
   std::size_t CellOf(const Point<D>& p) const
   {
@@ -308,7 +291,7 @@ private:
     {
       cell[a] = this->CellAlong(a, index[a]);
     }
-    return this->Offset(cell);
+    return OffsetOf(cell, this->Cells);
   }
 
   /** The cell along axis a nearest to a coordinate of the image's index space. */
@@ -316,17 +299,6 @@ private:
   {
     const double x = (index - static_cast<double>(this->Origin[a]) + 0.5) / Cell;
     return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
-  }
-
-  std::size_t Offset(const Index& cell) const
-  {
-    std::size_t offset = 0;
-    for (std::size_t a = D; a-- > 0;)
-    {
-      offset =
-        offset * static_cast<std::size_t>(this->Cells[a]) + static_cast<std::size_t>(cell[a]);
-    }
-    return offset;
   }
 
   GridGeometry<D> Grid;

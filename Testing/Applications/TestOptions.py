@@ -92,7 +92,7 @@ class Options(ProgramTestCase):
 
     def test_a_number_of_elements_out_of_reach(self):
         self.assert_refused(1, "no delta makes a mesh of 3000 elements within 10 %: the nearest of .* has .*; ask for about "
-                            "so many, or for larger sizes",
+                            "that number, or for larger sizes",
                             "--input", self.input, "--size", 0.8, "--elements", 3000, "--output", "m.vtu")
         self.assertFalse((self.folder / "m.vtu").exists())
 

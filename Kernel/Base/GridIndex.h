@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file GridIndex.h
+ * @brief Numbers the cells of a box-shaped grid; the first axis is the fastest.
+ */
+#ifndef voxplex_GridIndex_h
+#define voxplex_GridIndex_h
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace voxplex
+{
+
+/** The number of the cell at an index. @param extent cells along each axis */
+template <std::size_t D>
+std::size_t OffsetOf(
+  const std::array<std::int64_t, D>& index, const std::array<std::int64_t, D>& extent)
+{
+  std::int64_t offset = 0;
+  for (std::size_t a = D; a-- > 0;)
+  {
+    offset = offset * extent[a] + index[a];
+  }
+  return static_cast<std::size_t>(offset);
+}
+
+/** The index of the cell with a number. */
+template <std::size_t D>
+std::array<std::int64_t, D> IndexAt(std::size_t offset, const std::array<std::int64_t, D>& extent)
+{
+  std::array<std::int64_t, D> index;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    index[a] = static_cast<std::int64_t>(offset % static_cast<std::size_t>(extent[a]));
+    offset /= static_cast<std::size_t>(extent[a]);
+  }
+  return index;
+}
+
+/**
+ * Calls visit(index) for all indices from `low` to `high`, both included, in the order of their numbers. There must be one.
+ */
+template <std::size_t D, typename Visit>
+void ForEachIndex(
+  const std::array<std::int64_t, D>& low, const std::array<std::int64_t, D>& high, Visit&& visit)
+{
+  for (std::array<std::int64_t, D> index = low; index[D - 1] <= high[D - 1];)
+  {
+    visit(index);
+    for (std::size_t a = 0; a < D && ++index[a] > high[a] && a + 1 < D; ++a)
+    {
+      index[a] = low[a];
+    }
+  }
+}
+
+} // namespace voxplex
+
+#endif
