@@ -117,7 +117,7 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
   {
     throw UsageError("--" + option + ": " + Quoted(text) +
       " is not of the form LABEL=LENGTH or LABEL,LABEL=LENGTH, such as 3=0.5 or 3,7=0.5; "
-      "--delta is the density of all interfaces");
+      "--delta is the sampling distance of all interfaces");
   }
   return { std::string(text.substr(0, equals)),
     ParseReal(option, text.substr(equals + 1), Lengths) };

@@ -26,7 +26,7 @@ struct LabelSizeText
   double Size;
 };
 
-/** An interface, by the number or name of one label or of two, and its sampling density. */
+/** An interface, by the number or name of one or two labels, and its sampling distance. */
 struct InterfaceSizeText
 {
   std::string Labels;

@@ -2,49 +2,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkImageToSimplexMeshFilter
- * @brief   what the filters that mesh label images have in common
+ * @brief   base class of the filters that mesh label images
  *
  * Superclass of vtkImageToTetMeshFilter (a 3D image becomes tetrahedra) and
  * vtkImageToPentatopeMeshFilter (a series of images becomes space-time pentatopes). It has their
- * common parameters and carries an execution out: errors, abort, statistics, warnings, pieces. The
- * subclasses say what their inputs and outputs are.
+ * common parameters and runs an execution: errors, abort, statistics, warnings, pieces. The
+ * subclasses document their inputs and outputs.
  *
  * @par Element sizes
- * An element's circumradius stays below each bound that is given at its circumcentre: ElementSize,
- * the size of its label (SetLabelSize()), the size image (interpolated linearly; points outside
- * take the nearest value inside), the C++ callable (SetSizeFunction()) and what the subclass adds.
- * The smallest of them applies, and Gradation limits how fast it changes from place to place. Values that are NaN, zero or negative in the image or from a
- * function set no bound there. Very small sizes are raised to a floor, a fraction of Delta, so that
- * refinement always ends.
+ * An element's circumradius stays below each bound that applies at its circumcentre. The bounds are
+ * ElementSize, the size of its label (SetLabelSize()), the size image (interpolated linearly;
+ * points outside take the nearest value inside), the C++ callable (SetSizeFunction()) and the
+ * bounds that the subclass adds. The smallest bound counts, and Gradation limits how fast it
+ * changes in space. If the image or a function gives NaN, zero or a negative value, it sets no
+ * bound there. Very small sizes are raised to a floor, a fraction of Delta, so that refinement
+ * always ends.
  *
  * @par Errors
- * Misuse is reported with vtkErrorMacro and leaves both outputs empty: no or unsuitable scalars,
- * fractional, negative or non-finite labels, no foreground, fewer than two voxels along an axis,
- * thousands of labels (a grey-value image), spacing that is not positive and finite, a singular
- * direction matrix, parameters out of range, a label in SetLabelSize(), SetInterfaceSize(), AddLabel() or
- * ExcludeLabel() that the image does not have, both Delta and NumberOfElements, a NumberOfElements that no Delta makes, a mesh that is estimated not to fit in memory, one that comes out empty, and what
- * the subclass adds. The executive then adds a message of its own and its Update() returns 0.
- * GetErrorMessage() keeps the reason. Labels of the image that the mesh lacks, because Delta is too
- * coarse for them, are named with vtkWarningMacro; so are sizes that were raised, and a
- * ContentionManager that was replaced.
+ * An error is reported with vtkErrorMacro and leaves both outputs empty. GetErrorMessage() keeps
+ * the reason. The executive adds a message of its own, and its Update() returns 0. Errors are:
+ * - no or unsuitable scalars, fractional, negative or non-finite labels, no foreground, fewer than
+ *   two voxels along an axis, thousands of labels (a grey-value image), spacing that is not
+ *   positive and finite, a singular direction matrix;
+ * - parameters out of range, both Delta and NumberOfElements, a NumberOfElements that no Delta
+ *   gives, a label in SetLabelSize(), SetInterfaceSize(), AddLabel() or ExcludeLabel() that the
+ *   image does not have;
+ * - a mesh that is estimated not to fit in memory, an empty mesh;
+ * - the errors that the subclass adds.
+ *
+ * Warnings are reported with vtkWarningMacro: labels of the image that the mesh lacks because Delta
+ * is too coarse for them, sizes that were raised, and a ContentionManager that was replaced.
  *
  * @par Progress and abort
- * Progress is reported from the thread that called Update(), at least ten times a second while
- * meshing and never decreasing. Setting AbortExecute, from a progress observer or from another
- * thread, stops within a second and leaves both outputs empty; GetAborted() then returns true. VTK
- * regards the empty output as up to date: call Modified() to execute again.
+ * Progress is reported from the thread that called Update(), at least ten times a second during
+ * meshing. It never decreases. If a progress observer or another thread sets AbortExecute, the
+ * execution stops within a second and leaves both outputs empty; GetAborted() then returns true.
+ * VTK regards the empty output as up to date: call Modified() to execute again.
  *
  * @par Threads
- * All stages use NumberOfThreads threads. Refinement is speculative: threads lock the vertices that
- * an operation touches, and one that finds a vertex locked gives its operation up (a rollback).
- * ContentionManager, LoadBalancer and PinThreads say how threads get along; the defaults are the
- * right choice but for experiments, and with one thread none of the three matters.
- * vtkMeshingStatistics tells how much time each thread lost, and to what.
+ * All stages use NumberOfThreads threads. Refinement is speculative: a thread locks the vertices
+ * that its operation touches. If it finds a vertex locked, it gives the operation up (a rollback).
+ * ContentionManager, LoadBalancer and PinThreads control how threads cooperate. Change the defaults
+ * only for experiments; with one thread none of the three has an effect. vtkMeshingStatistics tells
+ * how much time each thread lost, and why.
  *
- * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. With more it differs from run to
- * run; the bounds on shapes and sizes hold all the same. Events are sent from the thread that called
- * Update() only. Distinct instances may execute at the same time. Nothing is kept between
- * executions apart from the statistics.
+ * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. With more threads the mesh differs
+ * from run to run, but the bounds on shapes and sizes still hold. Events are sent only from the
+ * thread that called Update(). Distinct instances may execute at the same time. Only the statistics
+ * are kept between executions.
  *
  * @par Pieces
  * The image cannot be meshed in pieces: piece 0 receives the whole mesh, other pieces are empty.
@@ -73,10 +78,10 @@ public:
 
   ///@{
   /**
-   * The sampling density of interfaces, in physical units: the edges of surface triangles are
+   * The sampling distance of interfaces, in physical units. The edges of surface triangles are
    * about one to two times as long. Smaller is finer: the number of elements grows about with the
-   * square of 1 / Delta. 0, the default, derives it from the spacing; GetStatistics()->GetDelta()
-   * tells which was used. GetDefaultDelta() tells it before.
+   * square of 1 / Delta. 0, the default, derives Delta from the spacing: GetDefaultDelta() tells
+   * this value before execution, GetStatistics()->GetDelta() the value that was used.
    */
   vtkSetMacro(Delta, double);
   vtkGetMacro(Delta, double);
@@ -84,10 +89,12 @@ public:
 
   ///@{
   /**
-   * Elements that the mesh is to have, to within a tenth; 0, the default, leaves it to Delta, which must be 0
-   * otherwise, unless DeltaIsSuggestion. Meshing is repeated with one Delta after the other, two or three times as a rule and at most
-   * twelve times, until the number is within 5 %, from the fourth time on within 10 %. All sizes stay what they are. An error
-   * if no Delta makes the number. vtkMeshingStatistics::GetDelta() and what belongs to GetNumberOfRuns() tell how it went.
+   * The number of elements that the mesh shall have, to within a tenth. 0, the default: Delta
+   * determines it. If it is not 0, Delta must be 0, unless DeltaIsSuggestion is on. Meshing is
+   * repeated with different values of Delta, usually two or three times and at most twelve times,
+   * until the number is within 5 %, from the fourth time on within 10 %. Element sizes are not
+   * changed. If no Delta gives the number, this is an error. vtkMeshingStatistics::GetDelta() and
+   * GetNumberOfRuns(), with the methods beside it, describe the search.
    */
   vtkSetClampMacro(NumberOfElements, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(NumberOfElements, vtkTypeInt64);
@@ -95,8 +102,9 @@ public:
 
   ///@{
   /**
-   * Whether Delta is but a suggestion, without effect beside a NumberOfElements, rather than an error. For panels of
-   * applications, which always have a Delta. Default off.
+   * Whether Delta is only a suggestion. If it is, Delta has no effect beside a NumberOfElements;
+   * otherwise both together are an error. For panels of applications, which always have a Delta.
+   * Default off.
    */
   vtkSetMacro(DeltaIsSuggestion, bool);
   vtkGetMacro(DeltaIsSuggestion, bool);
@@ -105,8 +113,8 @@ public:
 
   ///@{
   /**
-   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 it is not
-   * proved that refinement ends, and the value is refused unless Force is on.
+   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 there is no
+   * proof that refinement ends, and the value is refused unless Force is on.
    */
   vtkSetMacro(RadiusEdgeRatio, double);
   vtkGetMacro(RadiusEdgeRatio, double);
@@ -115,9 +123,9 @@ public:
   ///@{
   /**
    * Standard deviation, in voxels along each axis, of the smoothing that turns voxel stairs into
-   * smooth interfaces. It does not shrink objects, and every voxel centre keeps its label. Default
-   * 1; 0 switches it off. Of label images only
-   * (vtkImageToTetMeshFilter::SetIsosurfaceSmoothingSigma()).
+   * smooth interfaces. The smoothing does not shrink objects, and every voxel centre keeps its
+   * label. Default 1; 0 switches it off. It applies to label images only; for grey values see
+   * vtkImageToTetMeshFilter::SetIsosurfaceSmoothingSigma().
    */
   vtkSetMacro(SmoothingSigma, double);
   vtkGetMacro(SmoothingSigma, double);
@@ -131,10 +139,11 @@ public:
 
   ///@{
   /**
-   * Upper bound of the circumradii of one label's elements, in physical units, by the image's own
-   * label value. A label that does not occur in the image is an error when the filter executes.
-   * GetLabelSize() returns 0 for a label without a size. Sized labels are numbered in increasing
-   * order of their value; GetSizedLabel() returns 0 for an index out of range.
+   * Upper bound of the circumradii of one label's elements, in physical units. `label` is the
+   * image's own value. If a label does not occur in the image, this is an error when the filter
+   * executes. GetLabelSize() returns 0 for a label without a size. The labels with a size are
+   * numbered in increasing order of their value; GetSizedLabel() returns 0 if the index is out of
+   * range.
    */
   void SetLabelSize(vtkTypeInt64 label, double size);
   double GetLabelSize(vtkTypeInt64 label) const;
@@ -146,16 +155,19 @@ public:
 
   ///@{
   /**
-   * How much element sizes and interface sizes may change over a unit of length: with 0.3, the default, an element 10 mm
-   * from a place of size 1 mm has a bound of 4 mm at most. So sizes pass into each other instead of stepping, whatever they come
-   * from. It changes nothing if no size is given, or one for all. 0 sets no limit; then a small size beside a large Delta can
-   * take very long.
+   * How much element sizes and interface sizes may change over a unit of length. With 0.3, the
+   * default, an element 10 mm from a point of size 1 mm has a bound of at most 4 mm. So all sizes,
+   * from any source, change smoothly. It has no effect if no size is given, or only one for all
+   * elements. 0 sets no limit; then a small size beside a large Delta can take very long.
    */
   vtkSetMacro(Gradation, double);
   vtkGetMacro(Gradation, double);
   ///@}
 
-  /** In SetInterfaceSize(): all interfaces of the other label. */
+  /**
+   * In SetInterfaceSize(), ANY_LABEL stands for all labels that share an interface with the other
+   * label.
+   */
   enum InterfaceLabels
   {
     ANY_LABEL = -1
@@ -163,13 +175,17 @@ public:
 
   ///@{
   /**
-   * The sampling density of the interface between two labels, or with ANY_LABEL of all interfaces of a label,
-   * in place of Delta; smaller or larger. Labels are the image's own values, 0 is background, the order does not matter. What is
-   * given for a pair counts before what is given for its labels, of which the smaller one counts. Where element sizes at an interface are smaller
-   * they take its place, as they do with Delta. A label that the image does not have is an error when the filter executes.
-   * GetInterfaceSize() returns 0 where none was set. Those that are set are numbered in increasing order of
-   * the larger label, then of the other; GetSizedInterface() gives both, or twice ANY_LABEL for an index out of
-   * range.
+   * The sampling distance of the interface between two labels, in place of Delta. With ANY_LABEL it
+   * applies to all interfaces of a label. It may be smaller or larger than Delta. Labels are the
+   * image's own values, 0 is background; their order does not matter. A size of a pair counts
+   * before the sizes of all interfaces of its labels. If both labels have such a size, the smaller
+   * one counts. If element sizes at an interface are smaller, they replace it, as they replace
+   * Delta.
+   *
+   * If the image does not have a label, this is an error when the filter executes.
+   * GetInterfaceSize() returns 0 if no size was set. The sized interfaces are numbered in
+   * increasing order of the larger label, then of the other label. GetSizedInterface() returns both
+   * labels, or ANY_LABEL twice if the index is out of range.
    */
   void SetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other, double size);
   double GetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other) const;
@@ -182,7 +198,7 @@ public:
   ///@{
   /**
    * Restrict meshing to some labels; the others become background. By default (no label added) all
-   * labels are meshed. A label that does not occur in the image is an error when the filter
+   * labels are meshed. If a label does not occur in the image, this is an error when the filter
    * executes.
    */
   void AddLabel(vtkTypeInt64 label);
@@ -194,10 +210,10 @@ public:
 
   ///@{
   /**
-   * Leave labels out: they become background. Together with AddLabel(), the labels that were added
-   * apart from those that were excluded are meshed. A label that does not occur in the image is an
-   * error when the filter executes; so is it if no label remains. GetExcludedLabel() returns 0 for an index
-   * out of range.
+   * Leave labels out: they become background. Together with AddLabel(), the filter meshes the added
+   * labels without the excluded ones. If a label does not occur in the image, or if no label
+   * remains, this is an error when the filter executes. GetExcludedLabel() returns 0 if the index
+   * is out of range.
    */
   void ExcludeLabel(vtkTypeInt64 label);
   void RemoveExcludedLabel(vtkTypeInt64 label);
@@ -208,10 +224,10 @@ public:
 
   ///@{
   /**
-   * One row of a table of labels, as user interfaces have it: whether the label is meshed, and if so,
-   * the upper bound of its elements' circumradii (0 sets none). The same as SetLabelSize() or
-   * RemoveLabelSize(), and ExcludeLabel() or RemoveExcludedLabel(). ClearLabelRows() removes all sizes
-   * and excludes no label any more. Labels without a row are meshed.
+   * One row of a table of labels, for user interfaces: whether the label is meshed, and the upper
+   * bound of its elements' circumradii (0 sets none). It has the same effect as SetLabelSize() or
+   * RemoveLabelSize(), and ExcludeLabel() or RemoveExcludedLabel(). ClearLabelRows() removes all
+   * sizes and all exclusions. Labels without a row are meshed.
    */
   void SetLabelRow(vtkTypeInt64 label, double size, bool meshed);
   void ClearLabelRows();
@@ -219,8 +235,9 @@ public:
 
   ///@{
   /**
-   * As in vtkAlgorithm, but for an empty name, which means the default: the active point scalars, else the active cell
-   * scalars. So ParaView says it when the arrays of its input are not known yet.
+   * As in vtkAlgorithm, but an empty name means the default: the active point scalars, else the
+   * active cell scalars. ParaView passes an empty name when it does not know the arrays of its
+   * input yet.
    */
   using vtkUnstructuredGridAlgorithm::SetInputArrayToProcess;
   void SetInputArrayToProcess(
@@ -236,28 +253,28 @@ public:
   }
 
   ///@{
-  /** The image of element sizes (input port 1); null removes it. */
+  /** Sets the image of element sizes (input port 1); null removes it. */
   void SetElementSizeConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetElementSizeData(vtkImageData* image);
   ///@}
 
 #ifndef __VTK_WRAP__
   /**
-   * Upper bound of circumradii at a point inside the label with this value. x has three physical
-   * coordinates, and in 4D the time as the fourth.
+   * Upper bound of circumradii at a point inside the label with this value. x has the three
+   * physical coordinates; in 4D the fourth coordinate is the time.
    */
   using SizeFunctionType = std::function<double(const double* x, vtkTypeInt64 label)>;
   /**
-   * An upper bound of circumradii as a C++ callable; an empty one removes it. It is called from
-   * every meshing thread at once and must be safe for that. An exception that it throws ends the
-   * execution and is reported as an error.
+   * An upper bound of circumradii as a C++ callable; an empty one removes it. All meshing threads
+   * call it at the same time, so it must be thread-safe. If it throws an exception, the execution
+   * ends and the exception is reported as an error.
    */
   void SetSizeFunction(SizeFunctionType function);
 #endif
 
   ///@{
   /**
-   * Threads to mesh with, in every stage. 0, the default, means what VTK's SMP setting says:
+   * Number of threads of every stage. 0, the default, uses VTK's SMP setting:
    * vtkSMPTools::GetEstimatedNumberOfThreads() when the filter executes. More threads than cores
    * are allowed, but slower.
    */
@@ -266,9 +283,9 @@ public:
   ///@}
 
   /**
-   * The Delta that 0 means for the present input: twice the edge of a cube (in 4D, of a hypercube) that
-   * is as large as a voxel. Known once the filter or UpdateInformation() has executed, if the input says its
-   * spacing by then; otherwise 0.
+   * The value that Delta = 0 means for the present input: twice the edge of a cube (in 4D, of a
+   * hypercube) with a voxel's volume. It is known once the filter or UpdateInformation() has
+   * executed, if the input announces its spacing by then; otherwise it is 0.
    */
   vtkGetMacro(DefaultDelta, double);
 
@@ -286,13 +303,13 @@ public:
    * What a refinement thread does after a rollback (thesis, section 3.3). Default local.
    * - Aggressive: it tries again at once.
    * - Random: after several rollbacks in a row it sleeps for a random time.
-   * - Global: it waits in one list for all, until a thread that makes progress wakes it.
-   * - Local: it waits in the list of the thread that held the vertex, until that one makes progress.
+   * - Global: it waits in one list for all threads, until a thread that makes progress wakes it.
+   * - Local: it waits in the list of the thread that held the vertex, until that thread makes
+   *   progress.
    *
-   * Global and local cannot livelock. Aggressive and random can; when no thread makes progress any
-   * more the local manager takes over and the filter warns of it
-   * (vtkMeshingStatistics::GetSwitchedToLocal()). The values are those of ContentionManagers, others
-   * are clamped to them.
+   * Global and local cannot livelock. Aggressive and random can. If no thread makes progress any
+   * more, the local manager takes over and the filter warns
+   * (vtkMeshingStatistics::GetSwitchedToLocal()). Values outside of ContentionManagers are clamped.
    */
   vtkSetClampMacro(ContentionManager, int, CONTENTION_AGGRESSIVE, CONTENTION_LOCAL);
   vtkGetMacro(ContentionManager, int);
@@ -325,14 +342,14 @@ public:
 
   ///@{
   /**
-   * From whom a refinement thread without work gets some (thesis, sections 3.2.4 and 3.4.1).
-   * Default hierarchical.
-   * - Random work stealing (RWS): from whichever thread looks first, wherever it runs.
-   * - Hierarchical work stealing (HWS): from one of its socket before one of its NUMA node before
-   *   the rest of the machine, so that less work travels far. On a machine with one socket there is
-   *   little difference.
+   * From which thread a refinement thread without work gets some (thesis, sections 3.2.4 and
+   * 3.4.1). Default hierarchical.
+   * - Random work stealing (RWS): from the thread that looks first, on any core.
+   * - Hierarchical work stealing (HWS): first from a thread of its socket, then from one of its
+   *   NUMA node, then from the rest of the machine, so that less work travels far. On a machine
+   *   with one socket there is little difference.
    *
-   * The values are those of LoadBalancers, others are clamped to them.
+   * Values outside of LoadBalancers are clamped.
    */
   vtkSetClampMacro(LoadBalancer, int, RANDOM_WORK_STEALING, HIERARCHICAL_WORK_STEALING);
   vtkGetMacro(LoadBalancer, int);
@@ -350,8 +367,8 @@ public:
 
   ///@{
   /**
-   * Keep each refinement thread on a core of its own, where the system allows it. Default off. Leave
-   * it off where other programs, or other instances of this filter, share the cores. The thread that
+   * Keep each refinement thread on a core of its own, if the system allows it. Default off. Leave
+   * it off if other programs, or other instances of this filter, share the cores. The thread that
    * called Update() is never pinned.
    */
   vtkSetMacro(PinThreads, bool);
@@ -361,8 +378,10 @@ public:
 
   ///@{
   /**
-   * Go on although the mesh is estimated not to fit in memory, the labels look like grey values (many, and most
-   * neighbouring voxels differ), or RadiusEdgeRatio is below the proved bound. Default off.
+   * Continue in cases that the filter otherwise refuses: the mesh is estimated not to fit in
+   * memory, the labels look like grey values (many, and most neighbouring voxels differ),
+   * RadiusEdgeRatio is below the proved bound, or a parameter of the subclass says that it needs
+   * Force. Default off.
    */
   vtkSetMacro(Force, bool);
   vtkGetMacro(Force, bool);
@@ -371,7 +390,7 @@ public:
 
   ///@{
   /**
-   * Bytes that meshing may plan with; a mesh estimated to need more is refused unless Force is on.
+   * Memory limit in bytes. If a mesh is estimated to need more, it is refused unless Force is on.
    * 0, the default, means the machine's physical memory.
    */
   vtkSetMacro(MemoryLimit, vtkTypeUInt64);
@@ -385,7 +404,7 @@ public:
   vtkBooleanMacro(ComputeQuality, bool);
   ///@}
 
-  /** What the last execution did. Owned by the filter; the same object over its whole life. */
+  /** Statistics of the last execution. The filter owns the object and never replaces it. */
   vtkMeshingStatistics* GetStatistics() const;
 
   /** Why the last execution failed; empty if it did not. */
@@ -415,11 +434,11 @@ protected:
 #ifndef __VTK_WRAP__
   ///@{
   /**
-   * The parts of an execution that are the subclass's. They throw voxplex::Error for what the user
-   * can mend, std::bad_alloc, and what the size function throws. CheckParameters() comes first.
-   * Gather() takes what the pipeline has brought; false asks for another pass of the pipeline
-   * (vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING, which is set in the request of each pass
-   * but the first). Mesh() fills the outputs, unless it is
+   * The subclass's parts of an execution. They throw voxplex::Error for errors that the user can
+   * correct, std::bad_alloc, and the exceptions of the size function. CheckParameters() comes
+   * first. Gather() takes the data that the pipeline delivers. If it returns false, it asks for
+   * another pass of the pipeline (vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING, which is
+   * set in the request of each pass after the first). Mesh() fills the outputs, unless it is
    * stopped.
    */
   virtual void CheckParameters() const;
@@ -428,18 +447,20 @@ protected:
   ///@}
 
   /**
-   * The default Delta for images as the pipeline describes them. It is called by RequestInformation();
-   * 0 if it is not known.
+   * The default Delta for images as the pipeline describes them; 0 if it is unknown.
+   * RequestInformation() calls this.
    */
   virtual double FindDefaultDelta(vtkInformationVector** inputVector) = 0;
 
-  /** Whether a stop was asked for; GetAborted() then stays true. */
+  /** Whether a stop was requested. If so, GetAborted() stays true. */
   bool StopRequested();
 
-  /** The number of threads that NumberOfThreads means now. */
+  /** The number of threads that NumberOfThreads currently stands for. */
   unsigned GetThreads() const;
 
-  /** What the subclasses share of an execution in D dimensions (Private/SimplexMeshRun.h). */
+  /**
+   * The part of an execution in D dimensions that the subclasses share (Private/SimplexMeshRun.h).
+   */
   template <int D>
   class Run;
   struct Internals;

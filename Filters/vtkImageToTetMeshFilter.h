@@ -10,24 +10,24 @@
  * elements (P. Foteinos, "Real-time high-quality image-to-mesh conversion for finite element
  * simulations", 2013, chapters 2 and 3).
  *
- * The input may also be a grey-value image (InputMode): then what an isosurface of it bounds is meshed, as
- * one tissue.
+ * The input may also be a grey-value image (InputMode). Then the filter meshes the region that an
+ * isosurface bounds, as one tissue.
  *
  * @par Inputs
  * - Port 0, vtkImageData: one label per voxel, 0 is background. The array is the one chosen by
  *   `SetInputArrayToProcess(0, 0, 0, association, name)`; by default the active point scalars, else
- *   the active cell scalars. Point scalars lie at the points, cell scalars at the cell centres. One
- *   component, any scalar type; labels are whole values, none of them negative, grey values any numbers
- *   (see InputMode). Scalars that lie contiguous in memory are read in place.
- *   Origin, spacing, direction matrix (skewed and left-handed ones included) and extent are
+ *   the active cell scalars. Point scalars lie at the points, cell scalars at the cell centres. The
+ *   array has one component of any scalar type. Labels are whole values, none of them negative;
+ *   grey values are any numbers (see InputMode). Scalars that are contiguous in memory are read in
+ *   place. Origin, spacing, direction matrix (skewed and left-handed ones included) and extent are
  *   honoured: the mesh lies in physical space, `origin + direction * diag(spacing) * (i, j, k)`.
  * - Port 1, vtkImageData, optional: an upper bound of the element size at every point, in physical
  *   units; see "Element sizes". The array is chosen by `SetInputArrayToProcess(1, 1, 0, ...)`.
  *
  * @par Outputs
- * - Port 0, vtkUnstructuredGrid: `VTK_TETRA` cells, each with positive volume in physical space
- *   whatever the handedness of the image's axes. Points are double precision, each used by a cell,
- *   in an order that keeps neighbours near each other.
+ * - Port 0, vtkUnstructuredGrid: `VTK_TETRA` cells. Each has positive volume in physical space, for
+ *   left-handed and right-handed axes of the image. Points are double precision. Each point is used
+ *   by a cell, and the order of points keeps neighbours near each other.
  *   - Cell array `Label` (1 component, active scalars): the image's own label value. The type is
  *     `vtkIntArray`, or `vtkLongLongArray` if a label does not fit into an int.
  * - Port 1, vtkPolyData: the triangles between two labels, or between a label and the background,
@@ -40,13 +40,14 @@
  * The field data of port 0 is passed to both outputs.
  *
  * @par Parameters
- * Those of vtkImageToSimplexMeshFilter, where element sizes, errors, progress, abort, threads and
- * pieces are explained, Grading, FacetAngle, SliverAngle, SmallestComponent, ExactComponents and MinimumComponentVolume; InputMode and
- * what belongs to it. Two more things bound element sizes: SizeImplicitFunction, and the image at input port 1.
+ * Those of vtkImageToSimplexMeshFilter and those below. Its documentation also explains element
+ * sizes, errors, progress, abort, threads and pieces. SizeImplicitFunction and the image at input
+ * port 1 bound element sizes, too.
  *
  * @par Errors
- * With isosurfaces also: an Isovalue that is not finite or lies outside of the image's range (the message
- * says the range), values none of which is a number, an InsideLabel below 1, labels that were added or excluded.
+ * Those of vtkImageToSimplexMeshFilter. With isosurfaces also: an Isovalue that is not finite or
+ * lies outside of the image's range (the message says the range), an image without any value that
+ * is a number, an InsideLabel below 1, labels that were added or excluded.
  *
  * @sa vtkImageToSimplexMeshFilter vtkImageToPentatopeMeshFilter vtkMeshingStatistics
  * vtkSurfaceNets3D vtkFlyingEdges3D
@@ -79,16 +80,17 @@ public:
 
   ///@{
   /**
-   * What the values of the input are. Default labels.
+   * The kind of values that the input has. Default labels.
    * - Labels: the tissue of each voxel.
-   * - Isosurface: grey values, such as those of a CT, a signed distance, a density. What lies on the Inside
-   *   of the isosurface at Isovalue is meshed, with InsideLabel as its label. Between the voxel
-   *   centres values are interpolated trilinearly, so that the vertices of the interface lie on the surface
-   *   that vtkFlyingEdges3D triangulates, to a thousandth of a voxel. Voxels with the Isovalue itself are inside;
-   *   those that are not a number are outside. What the image's border cuts is closed half a voxel beyond the
-   *   outermost voxels, by a plane.
+   * - Isosurface: grey values, for example of a CT, a signed distance, a density. The filter meshes
+   *   the region on the Inside of the isosurface at Isovalue, with InsideLabel as its label.
+   *   Between the voxel centres values are interpolated trilinearly, so that the vertices of the
+   *   interface lie on the surface that vtkFlyingEdges3D triangulates, to a thousandth of a voxel.
+   *   A voxel with the Isovalue itself is inside; a voxel whose value is not a number is outside.
+   *   If the image's border cuts the object, a plane half a voxel beyond the outermost voxels
+   *   closes it.
    *
-   * The values are those of InputModes, others are clamped to them.
+   * Values outside of InputModes are clamped.
    */
   vtkSetClampMacro(InputMode, int, INPUT_LABELS, INPUT_ISOSURFACE);
   vtkGetMacro(InputMode, int);
@@ -99,7 +101,10 @@ public:
   ///@}
 
   ///@{
-  /** The value of the isosurface (vtkContourFilter's SetValue()), if InputMode is isosurface. Default 0. */
+  /**
+   * If InputMode is isosurface: the value of the isosurface (SetValue() of vtkContourFilter).
+   * Default 0.
+   */
   vtkSetMacro(Isovalue, double);
   vtkGetMacro(Isovalue, double);
   ///@}
@@ -113,9 +118,9 @@ public:
 
   ///@{
   /**
-   * On which side of the isosurface the object lies: where values are at least the Isovalue (above, the
-   * default), or at most (below: signed distances that are negative inside). The values are those of Sides,
-   * others are clamped to them.
+   * The side of the isosurface on which the object lies. Above, the default: where values are at
+   * least the Isovalue. Below: where values are at most the Isovalue, as with signed distances that
+   * are negative inside. Values outside of Sides are clamped.
    */
   vtkSetClampMacro(Inside, int, INSIDE_ABOVE, INSIDE_BELOW);
   vtkGetMacro(Inside, int);
@@ -126,16 +131,17 @@ public:
   ///@}
 
   ///@{
-  /** The label of what is inside of the isosurface, 1 or more. Default 1. */
+  /** The label of the elements inside of the isosurface, 1 or more. Default 1. */
   vtkSetMacro(InsideLabel, vtkTypeInt64);
   vtkGetMacro(InsideLabel, vtkTypeInt64);
   ///@}
 
   ///@{
   /**
-   * Standard deviation, in voxels along each axis, of a smoothing of grey values against noise, if InputMode
-   * is isosurface; SmoothingSigma is about labels only. It moves smooth surfaces hardly, but rounds edges, and specks
-   * and gaps may vanish. 0 to 5; default 0: grey values have no voxel stairs.
+   * If InputMode is isosurface: standard deviation, in voxels along each axis, of a smoothing of
+   * grey values against noise. (SmoothingSigma applies to labels only.) It hardly moves smooth
+   * surfaces, but it rounds edges, and specks and gaps may vanish. 0 to 5; default 0, because grey
+   * values have no voxel stairs.
    */
   vtkSetMacro(IsosurfaceSmoothingSigma, double);
   vtkGetMacro(IsosurfaceSmoothingSigma, double);
@@ -150,10 +156,14 @@ public:
 
   ///@{
   /**
-   * How densely interfaces are sampled. UNIFORM, the default: with Delta everywhere. LOCAL_FEATURE_SIZE (thesis,
-   * sections 2.2 and 2.6.1): with Delta where the shape needs it, and more coarsely elsewhere, at a point z
-   * with max(Delta, FeatureRatio x min(lfs(z), LargestFeature)), where lfs(z) is the distance from z to the
-   * medial axis of the interfaces: about half the thickness of what is thin. Other values are clamped.
+   * The sampling distance of interfaces.
+   * - UNIFORM, the default: Delta everywhere.
+   * - LOCAL_FEATURE_SIZE (thesis, sections 2.2 and 2.6.1): Delta where the shape needs it, and more
+   *   elsewhere. At a point z it is max(Delta, FeatureRatio x min(lfs(z), LargestFeature)). The
+   *   local feature size lfs(z) is the distance from z to the medial axis of the interfaces: about
+   *   half the thickness of a thin part.
+   *
+   * Values outside of GradingModes are clamped.
    */
   vtkSetClampMacro(Grading, int, UNIFORM, LOCAL_FEATURE_SIZE);
   vtkGetMacro(Grading, int);
@@ -165,8 +175,9 @@ public:
 
   ///@{
   /**
-   * Sampling density over local feature size (delta of the thesis, where it is 2); the larger, the coarser are
-   * the meshes. Positive; default 1. Without effect unless Grading is LOCAL_FEATURE_SIZE.
+   * Sampling distance over local feature size (delta of the thesis, where it is 2). A larger value
+   * gives a coarser mesh. Positive; default 1. It has an effect only if Grading is
+   * LOCAL_FEATURE_SIZE.
    */
   vtkSetMacro(FeatureRatio, double);
   vtkGetMacro(FeatureRatio, double);
@@ -174,8 +185,9 @@ public:
 
   ///@{
   /**
-   * Local feature sizes above this count as this (lambda of the thesis): so many edges of a cube with a voxel's
-   * volume. Positive; default 12. Without effect unless Grading is LOCAL_FEATURE_SIZE.
+   * Upper bound of the local feature size (lambda of the thesis), in edges of a cube with a voxel's
+   * volume. Larger local feature sizes are cut to it. Positive; default 12. It has an effect only
+   * if Grading is LOCAL_FEATURE_SIZE.
    */
   vtkSetMacro(LargestFeature, double);
   vtkGetMacro(LargestFeature, double);
@@ -189,12 +201,13 @@ public:
 
   ///@{
   /**
-   * Tetrahedra with a dihedral angle below this, or above 180 degrees less this, are slivers: they are
-   * split, or the interface near them is sampled more densely (thesis, section 2.6.2). Where no point
-   * helps, which is rare, a sliver stays (vtkMeshingStatistics::GetSliversKept()). While Optimise is on without a time
-   * limit, slivers above 3 degrees are left to it, which takes fewer elements, unless they are wedged between interfaces.
-   * Degrees, 0 to 60; default 9, which without Optimise makes about a tenth more elements; 0 leaves slivers alone. Above 15 meshes can become
-   * very large, and the value is refused unless Force is on.
+   * A tetrahedron is a sliver if a dihedral angle is below this, or above 180 degrees minus this. A
+   * sliver is split, or the interface near it is sampled more densely (thesis, section 2.6.2). In
+   * rare cases no point helps, and the sliver stays (vtkMeshingStatistics::GetSliversKept()). If
+   * Optimise is on without a time limit, slivers above 3 degrees are left to the optimisation,
+   * which needs fewer elements, unless they are wedged between interfaces. Degrees, 0 to 59.
+   * Default 9, which without Optimise makes about a tenth more elements. 0 leaves slivers alone.
+   * Above 15 meshes can become very large, and the value is refused unless Force is on.
    */
   vtkSetMacro(SliverAngle, double);
   vtkGetMacro(SliverAngle, double);
@@ -202,11 +215,11 @@ public:
 
   ///@{
   /**
-   * Improve shapes after refinement with flips and smoothing: dihedral angles of 15 to 155 degrees but for
-   * a few, at the price of radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is larger) and of interface
-   * angles down to 20 degrees where three or more labels meet. It takes about a fifth of the time of
-   * refinement. The mesh is no longer Delaunay. Default on.
-   * vtkMeshingStatistics::GetOptimised() and what follows it tell what it did.
+   * Improve shapes after refinement with flips and smoothing. All dihedral angles but a few become
+   * 15 to 155 degrees. The price: radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is
+   * larger), and interface angles down to 20 degrees where three or more labels meet. It takes
+   * about a fifth of the time of refinement. The mesh is no longer Delaunay. Default on.
+   * vtkMeshingStatistics::GetOptimised() and the methods after it describe the result.
    */
   vtkSetMacro(Optimise, bool);
   vtkGetMacro(Optimise, bool);
@@ -215,8 +228,8 @@ public:
 
   ///@{
   /**
-   * Wall-clock seconds after which optimisation stops and leaves the rest as it is; the mesh then depends on the
-   * speed of the machine. Default 0: no limit.
+   * Wall-clock seconds after which optimisation stops and leaves the remaining elements unchanged.
+   * The mesh then depends on the speed of the machine. Default 0: no limit.
    */
   vtkSetMacro(OptimisationTimeLimit, double);
   vtkGetMacro(OptimisationTimeLimit, double);
@@ -224,9 +237,10 @@ public:
 
   ///@{
   /**
-   * Sample the curves where three labels or more meet, and the corners where four do, before all else, so that
-   * edges of tetrahedra follow them; background is a label, too. Default on. Off, vertices of interfaces lie
-   * anywhere beside the junctions, and these zigzag.
+   * Before all else, sample the junctions: the curves where three labels or more meet, and the
+   * corners where four labels meet. Then edges of tetrahedra follow them. Background is a label,
+   * too. Default on. If it is off, vertices of interfaces lie beside the junctions, and the
+   * junctions zigzag.
    */
   vtkSetMacro(SampleJunctions, bool);
   vtkGetMacro(SampleJunctions, bool);
@@ -235,9 +249,10 @@ public:
 
   ///@{
   /**
-   * How often, at most, the mesh is compared with the image and refined where an interface of the image is farther
-   * from those of the mesh than about 1.5 Delta (tips of thin processes, holes), or where the boundary of a
-   * label is not manifold. Default 8, of which mostly 3 to 6 are needed; 0: never.
+   * Largest number of rounds that compare the mesh with the image. A round refines where an
+   * interface of the image is farther than about 1.5 Delta from the interfaces of the mesh (tips of
+   * thin processes, holes), or where the boundary of a label is not manifold. Default 8; usually 3
+   * to 6 rounds are needed. 0: never.
    */
   vtkSetClampMacro(InterfaceRounds, int, 0, 100);
   vtkGetMacro(InterfaceRounds, int);
@@ -245,8 +260,10 @@ public:
 
   ///@{
   /**
-   * Make the boundary of every label manifold: two of its triangles meet at each edge. Where more do, tetrahedra around the
-   * edge go to a neighbouring label, or parts of them where whole ones cannot; these parts are not Delaunay. Default on.
+   * Make the boundary of every label manifold: two of its triangles meet at each edge. If more
+   * triangles meet at an edge, tetrahedra around the edge get a neighbouring label. If whole
+   * tetrahedra cannot, they are split and parts of them get it; these parts are not Delaunay.
+   * Default on.
    */
   vtkSetMacro(Manifold, bool);
   vtkGetMacro(Manifold, bool);
@@ -255,10 +272,11 @@ public:
 
   ///@{
   /**
-   * Every connected component (through voxel faces) of a label that has at least so many voxels gets
-   * tetrahedra, however small or thin it is beside Delta: if it has none, a few points are added where it is thickest. So does the largest component of each label, however few voxels it has. Default 8; 1 keeps all
-   * single voxels, too; 0 leaves all components to chance. What has no
-   * tetrahedron all the same is named with vtkWarningMacro and in the statistics
+   * Smallest number of voxels of a connected component (through voxel faces) that always gets
+   * tetrahedra, even if it is small or thin compared with Delta. If a component has no tetrahedron,
+   * a few points are added where it is thickest. The largest component of each label counts always,
+   * even with fewer voxels. Default 8; 1 keeps single voxels, too; 0 gives no component special
+   * treatment. If a component still has no tetrahedron, vtkWarningMacro and the statistics name it
    * (vtkMeshingStatistics::GetNumberOfLostComponents()).
    */
   vtkSetClampMacro(SmallestComponent, int, 0, VTK_INT_MAX);
@@ -267,8 +285,9 @@ public:
 
   ///@{
   /**
-   * Sample the components that SmallestComponent looks after as finely as they are thin, whatever Delta. Default off:
-   * those that are thin beside Delta are as exact as Delta makes them, and the number of tetrahedra falls as Delta grows.
+   * Sample the components that SmallestComponent selects as finely as their thickness requires, for
+   * any Delta. Default off: thin components are only as exact as Delta allows, and the number of
+   * tetrahedra falls as Delta grows.
    */
   vtkSetMacro(ExactComponents, bool);
   vtkGetMacro(ExactComponents, bool);
@@ -277,9 +296,9 @@ public:
 
   ///@{
   /**
-   * Connected components with less volume than this are left out: they become what most of their
-   * faces touch. In the unit of the spacing to the third power; default 0, nothing is left out. The
-   * statistics list them (vtkMeshingStatistics::GetNumberOfDroppedComponents()).
+   * Connected components with less volume than this are left out: they get the label that most of
+   * their faces touch. The unit is that of the spacing to the third power. Default 0: no component
+   * is left out. The statistics list them (vtkMeshingStatistics::GetNumberOfDroppedComponents()).
    */
   vtkSetMacro(MinimumComponentVolume, double);
   vtkGetMacro(MinimumComponentVolume, double);
@@ -288,8 +307,8 @@ public:
   ///@{
   /**
    * The value of this function at a physical point is an upper bound of circumradii there. Calls
-   * are serialised, because implicit functions in general are not thread safe: with many threads an
-   * image of sizes, or SetSizeFunction(), is faster.
+   * are serialised, because implicit functions in general are not thread-safe. With many threads,
+   * an image of sizes or SetSizeFunction() is faster.
    */
   virtual void SetSizeImplicitFunction(vtkImplicitFunction* function);
   vtkImplicitFunction* GetSizeImplicitFunction() const;
@@ -301,7 +320,7 @@ public:
   vtkAlgorithmOutput* GetInterfacesPort() { return this->GetOutputPort(1); }
   ///@}
 
-  /** Counts the SizeImplicitFunction in. */
+  /** Includes the modification time of the SizeImplicitFunction. */
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -51,7 +51,7 @@ std::string Joined(std::string name, char with)
   return name;
 }
 
-/** As the text of the interface calls a parameter. */
+/** The name of a parameter in texts of the interface. */
 std::string Mention(UserInterface interface, const std::string& name)
 {
   const MeshingParameter& parameter = FindParameter(name);
@@ -66,7 +66,7 @@ std::string Mention(UserInterface interface, const std::string& name)
   }
 }
 
-/** Replaces what is in braces. */
+/** Replaces the names in braces. */
 std::string Resolve(UserInterface interface, const std::string& text)
 {
   std::string resolved;
@@ -80,7 +80,7 @@ std::string Resolve(UserInterface interface, const std::string& text)
   return resolved + text.substr(end);
 }
 
-/** How lists are written. */
+/** The form in which lists are written. */
 const char* FormOf(UserInterface interface, ParameterKind kind)
 {
   struct Form
@@ -113,7 +113,7 @@ const char* FormOf(UserInterface interface, ParameterKind kind)
   return "";
 }
 
-/** The default, or what its absence is called: 0, off, in Python False. */
+/** The default, or the value that switches the parameter off: 0, off, in Python False. */
 std::string ValueText(UserInterface interface, const MeshingParameter& p, bool isDefault)
 {
   if (p.Kind != ParameterKind::Flag)
@@ -145,7 +145,7 @@ std::string ForceNote(UserInterface interface, const MeshingParameter& p)
   return beyond.empty() ? "" : beyond + " only with " + Mention(interface, "force");
 }
 
-/** What is to be known of the values, apart from what applications show by themselves. */
+/** Notes about the values, without those that the application itself shows. */
 std::vector<std::string> Notes(UserInterface interface, const MeshingParameter& p)
 {
   const bool slicer = interface == UserInterface::Slicer;

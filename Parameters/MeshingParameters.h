@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingParameters.h
- * @brief The parameters of meshing: the one table that the command line, the module for 3D Slicer, the Python package and
- * Documentation/Parameters.md are made from.
+ * @brief The table of the parameters of meshing. The command line, the module for 3D Slicer, the
+ *   Python package and
+ * Documentation/Parameters.md are made from it.
  *
- * The VTK filters and the ParaView plugin declare theirs again; Testing/Parameters compares them with the table.
+ * The VTK filters and the ParaView plugin declare their parameters again. Testing/Parameters
+ * compares them with the table.
  */
 #ifndef voxplex_MeshingParameters_h
 #define voxplex_MeshingParameters_h
@@ -26,11 +28,11 @@ enum class ParameterKind
   Real,
   Whole,
   Bytes,
-  Word, ///< one of several
+  Word, ///< one of several words
   Labels,
   LabelSizes,     ///< a length for each of some labels
   InterfaceSizes, ///< a length for each of some interfaces
-  Image           ///< of lengths
+  Image           ///< an image of lengths
 };
 
 /** In the order in which users see them. */
@@ -59,35 +61,43 @@ struct MeshingParameter
   std::string Name{}; ///< words with dashes
   ParameterKind Kind{};
   ///@{
-  /** Where they are not made from Name: LabelOf(), PropertyOf(). */
+  /** Empty if they are made from Name: LabelOf(), PropertyOf(). */
   std::string Property{};
   std::string Label{};
   ///@}
-  /** Of images with so many dimensions only; 0: of all. */
+  /** The parameter applies only to images with this number of dimensions; 0: to all images. */
   int Dimension = 0;
-  /** A number, a word, on or off. Empty: what Zero says is the case where no value is given. */
+  /**
+   * A number, a word, on or off. If it is empty and no value is given, Zero describes the effect.
+   */
   std::string Default{};
   ParameterRange Range{};
-  /** Where sliders begin and end, if they do not have the whole range. */
+  /** The range of sliders, if it is not the whole range. */
   std::optional<ParameterRange> Usual{};
-  double Step = 0.0;                ///< of sliders; 0: it has none
-  std::vector<std::string> Words{}; ///< their places are the values of the filter's enumeration
-  std::string Unit{};               ///< what --help has for the value
+  double Step = 0.0;                ///< step of sliders; 0: none
+  std::vector<std::string> Words{}; ///< their positions are the values of the filter's enumeration
+  std::string Unit{};               ///< the word that --help shows for the value
   /**
-   * What it does; begins with a small letter, has no full stop at its end, and names other parameters in braces. Of
-   * a flag: what it does when it is on, beginning with a verb.
+   * Describes the parameter. The text begins with a small letter, has no full stop at its end, and
+   * names other parameters in braces. The text of a flag begins with a verb and describes the flag
+   * when it is on.
    */
   std::string Help{};
-  std::string Zero{}; ///< what 0, or a flag that is off, means
+  std::string Zero{}; ///< the meaning of 0, or of a flag that is off
   /** Values below or above need Force. */
   std::optional<double> ForceBelow{};
   std::optional<double> ForceAbove{};
   std::string ForceWhy{}; ///< follows "below LIMIT" or "above LIMIT"
-  /** The parameter of grey-value images that is set by this one where users do not have it. */
+  /**
+   * Another parameter, of grey-value images. Where users do not have it, this parameter sets it.
+   */
   std::string StandsFor{};
 
   ///@{
-  /** Where it is not made from Name; None where users do not have it. Slicer has nothing of space-time. */
+  /**
+   * Empty if it is made from Name. None if users do not have the parameter. Slicer has no
+   * space-time parameters.
+   */
   std::string Option{};
   std::string Slicer{};
   std::string Python{};
@@ -98,11 +108,13 @@ struct MeshingParameter
 
   bool IsNumber() const;
   bool IsOnByDefault() const { return this->Default == "on"; }
-  /** Whether a value need not be there, which numbers say by 0 where they always have one. */
+  /**
+   * Whether the value may be absent. Where a number always has a value, 0 means that it is absent.
+   */
   bool IsOptional() const { return this->Default.empty(); }
 };
 
-/** Who names parameters. */
+/** The interfaces in which parameters have names. */
 enum class UserInterface
 {
   CommandLine, ///< facet-angle, no-optimise
@@ -110,23 +122,25 @@ enum class UserInterface
   Python       ///< facet_angle
 };
 
-/** By groups, in the order in which users see them. */
+/** All parameters by groups, in the order in which users see them. */
 const std::vector<MeshingParameter>& MeshingParameters();
 
-/** @throws std::logic_error: there is no such parameter */
+/** @throws std::logic_error if there is no such parameter */
 const MeshingParameter& FindParameter(std::string_view name);
 
-/** Empty where users of the interface do not have the parameter. */
+/** The name; empty if users of the interface do not have the parameter. */
 std::string NameIn(UserInterface interface, const MeshingParameter& parameter);
 
-/** Of a field in a window: Facet angle. */
+/** The label of a field in a window: Facet angle. */
 std::string LabelOf(const MeshingParameter& parameter);
 
-/** Of the VTK filters, what follows Set and Get: FacetAngle. */
+/** The name that follows Set and Get in the VTK filters: FacetAngle. */
 std::string PropertyOf(const MeshingParameter& parameter);
 
-/** Its help, and in parentheses what is to be known of its values. Slicer shows defaults itself. Of the
- * command line it is no sentence. */
+/**
+ * The help, and in parentheses notes about the values. Slicer shows defaults itself. For the
+ * command line the text is not a sentence.
+ */
 std::string Describe(UserInterface interface, const MeshingParameter& parameter);
 
 /** "below 1.93" or "above 15" if the value needs Force; otherwise empty. */
@@ -140,7 +154,8 @@ const char* DescriptionOf(ParameterGroup group);
 std::string NumberText(double value);
 
 /**
- * Values by the names of the parameters; of a word its place, of a flag 0 or 1. What was not given is not there.
+ * Values by the names of the parameters. The value of a word is its position, that of a flag 0 or
+ * 1. Parameters that were not given are absent.
  */
 using ParameterValues = std::map<std::string, double, std::less<>>;
 

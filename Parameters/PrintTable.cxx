@@ -12,7 +12,7 @@ namespace
 
 using namespace voxplex;
 
-/** The texts of the table have no control characters. */
+/** Quotes a text for JSON. The texts of the table have no control characters. */
 std::string Quoted(const std::string& text)
 {
   std::string quoted = "\"";

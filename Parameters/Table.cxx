@@ -18,7 +18,7 @@ constexpr ParameterRange Positive{ 0.0, Infinity, true };
 constexpr ParameterRange NotNegative{ 0.0, Infinity };
 constexpr ParameterRange Sigmas{ 0.0, 5.0 };
 
-/** What all parameters have is in columns: Dimension, Range, Default, Unit, Help. The rest says what is particular. */
+/** The columns that all parameters have are arguments. `rest` has the other members. */
 MeshingParameter Number(Kind kind, const char* name, int dimension, ParameterRange range,
   const char* defaultValue, const char* unit, const char* help, MeshingParameter rest = {})
 {
@@ -55,14 +55,15 @@ Parameters GreyValues()
 {
   return {
     Number(Kind::Real, "isovalue", 3, {}, "", "VALUE",
-      "mesh what the isosurface of a grey-value image at this value bounds, as one label",
+      "mesh the region that the isosurface of a grey-value image at this value bounds, as one "
+      "label",
       { .Usual = ParameterRange{ -1e9, 1e9 }, .Step = 0.1 }),
     Word("inside", 3, "above", { "above", "below" },
-      "on which side of the isosurface the object lies; above: where values are greater"),
+      "side of the isosurface on which the object lies; above: where values are greater"),
     Number(Kind::Whole, "inside-label", 3, { 1.0, LargestWhole }, "1", "LABEL",
       "the label of the elements inside of the isosurface",
       { .Label = "Label of the inside", .Usual = ParameterRange{ 1.0, 65535.0 }, .Step = 1.0 }),
-    // The programs without a name for it set it by smoothing.
+    // Programs that have no name for it set it by smoothing.
     Number(Kind::Real, "grey-smoothing", 3, Sigmas, "0", "VOXELS",
       "standard deviation of the smoothing of noise in grey values, in voxels",
       { .Property = "IsosurfaceSmoothingSigma",
@@ -83,20 +84,23 @@ Parameters Density()
       "as long; the number of elements grows with the square of 1/delta",
       { .Zero = "derived from the spacing" }),
     Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
-      "solve for the delta that makes so many elements, to within a tenth, in place of {delta}; it "
-      "takes two or three times as long",
-      { .Property = "NumberOfElements", .Label = "Number of elements", .Zero = "as delta has it" }),
+      "solve for the delta that gives this number of elements, to within a tenth, in place of "
+      "{delta}; it takes two or three times as long",
+      { .Property = "NumberOfElements",
+        .Label = "Number of elements",
+        .Zero = "it depends on delta" }),
     Word("grading", 3, "uniform", { "uniform", "lfs" },
       "sample interfaces with delta everywhere (uniform), or more coarsely where their shape "
       "allows it, by the local feature size (lfs): the distance to the medial axis, about half the "
-      "thickness of what is thin"),
+      "thickness of a thin part"),
     Number(Kind::Real, "size", 0, Positive, "", "LENGTH",
       "upper bound of the elements' circumradii, everywhere",
       { .Property = "ElementSize", .Label = "Largest element", .Zero = "no bound" }),
-    List(Kind::LabelSizes, "label-size", "LABEL=LENGTH", "the same in single labels",
+    List(Kind::LabelSizes, "label-size", "LABEL=LENGTH",
+      "upper bound of the elements' circumradii in single labels",
       { .Label = "Largest element of labels", .Slicer = "labelSizes", .Python = "label_sizes" }),
     List(Kind::Image, "size-image", "FILE",
-      "the same from an image whose values are lengths, 0 where there is no bound",
+      "image whose values are upper bounds of the elements' circumradii, 0 where there is no bound",
       { .Property = "ElementSizeData", .Label = "Image of sizes", .Slicer = None }),
   };
 }
@@ -113,18 +117,18 @@ Parameters Shapes()
 {
   return {
     Flag("optimise", 3, "on",
-      "improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
+      "improve shapes after refinement: dihedral angles of 15 to 155 degrees, with few exceptions, "
       "radius-edge ratios up to 2.5",
       { .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" }),
     Number(Kind::Whole, "smallest-component", 3, { 0.0, LargestWhole }, "8", "VOXELS",
-      "connected components of at least so many voxels, and the largest of each label, get "
-      "tetrahedra whatever delta",
-      { .Zero = "as it comes" }),
+      "connected components with at least this number of voxels, and the largest of each label, "
+      "get tetrahedra for every delta",
+      { .Zero = "no guarantee" }),
     Flag("exact-components", 3, "off",
-      "sample these components as finely as they are thin, whatever delta; otherwise those that "
-      "are thin beside delta have a few tetrahedra"),
+      "sample these components as finely as their thickness requires, for every delta; otherwise "
+      "components that are thin compared with delta have few tetrahedra"),
     Number(Kind::Real, "min-component-volume", 3, Positive, "", "VOLUME",
-      "leave out connected components that are smaller, such as specks: they become what is around "
+      "leave out connected components that are smaller, such as specks: they get the label around "
       "them",
       { .Property = "MinimumComponentVolume",
         .Label = "Smallest volume",
@@ -137,15 +141,15 @@ Parameters Interfaces()
 {
   return {
     List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
-      "sampling distance of all interfaces of a label, or of the interface between two labels, 0 "
-      "being background, in place of delta, smaller or larger",
+      "sampling distance of all interfaces of a label, or of the interface between two labels (0 "
+      "is background), in place of delta; it may be smaller or larger",
       { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
     Number(Kind::Real, "feature-ratio", 3, Positive, "1", "RATIO",
       "with {grading} lfs: sampling distance over local feature size where that gives more than "
       "delta",
       { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
     Number(Kind::Real, "largest-feature", 3, Positive, "12", "VOXELS",
-      "with {grading} lfs: larger local feature sizes count as this (lambda), in voxels",
+      "with {grading} lfs: upper bound of the local feature size (lambda), in voxels",
       { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0 }),
     Number(Kind::Real, "gradation", 0, NotNegative, "0.3", "SLOPE",
       "how much sizes and interface sizes may change over a unit of length",
@@ -171,26 +175,27 @@ Parameters Quality()
       "its label",
       { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
     Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
-      "dihedral angle below which, or above 180 degrees less which, a tetrahedron is a sliver and "
-      "split; most above 3 degrees are left to optimisation",
+      "a tetrahedron with a dihedral angle below this, or above 180 degrees minus this, is a "
+      "sliver "
+      "and is split; most slivers above 3 degrees are left to optimisation",
       { .Step = 1.0,
         .Zero = "leave slivers",
         .ForceAbove = 15.0,
         .ForceWhy = "meshes can become very large" }),
     Number(Kind::Real, "optimise-seconds", 3, Positive, "", "SECONDS",
-      "stop improving shapes after so long, wherever that is",
+      "stop improving shapes after this time, even if work remains",
       { .Property = "OptimisationTimeLimit", .Label = "Time for optimising", .Zero = "no limit" }),
     Flag("junctions", 3, "on",
       "sample the curves where three labels or more meet before all else, so that edges follow "
       "them",
       { .Property = "SampleJunctions", .Zero = "the curves zigzag", .Python = "sample_junctions" }),
     Number(Kind::Whole, "interface-rounds", 3, { 0.0, 100.0 }, "8", "NUMBER",
-      "how often, at most, to refine again where an interface of the image is farther than 1.5 "
-      "delta from the mesh's, or a label's boundary is not manifold",
+      "largest number of rounds that refine again where an interface of the image is farther than "
+      "1.5 delta from the mesh's interfaces, or a label's boundary is not manifold",
       { .Step = 1.0, .Zero = "never" }),
     Flag("manifold", 3, "on",
-      "mend edges where more than two triangles of a label's boundary meet, if need be with pieces "
-      "of tetrahedra that are not Delaunay",
+      "repair edges where more than two triangles of a label's boundary meet, if necessary with "
+      "pieces of tetrahedra that are not Delaunay",
       { .Zero = "such edges stay", .Slicer = None }),
   };
 }
@@ -199,7 +204,7 @@ Parameters SpaceTime()
 {
   return {
     Number(Kind::Real, "time-scale", 4, Positive, "1", "LENGTH",
-      "the length that one unit of time counts as much as"),
+      "the length that is equivalent to one unit of time"),
     Word("rule-order", 4, "radius-edge", { "radius-edge", "surface" },
       "which rules come first: those that bound the radius-edge ratio, or those that sample the "
       "interfaces",
@@ -233,15 +238,16 @@ Parameters Running()
       "bit, in every run",
       { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
     Word("contention", 0, "local", { "aggressive", "random", "global", "local" },
-      "what a thread does when another holds what it needs: aggressive (try again at once), random "
-      "(sleep now and then), global or local (wait until another thread makes progress)",
+      "what a thread does when another thread holds a vertex that it needs: aggressive (try again "
+      "at once), random (sleep for a random time), global or local (wait until another thread "
+      "makes progress)",
       { .Property = "ContentionManager",
         .Label = "Contention manager",
         .Unit = "MANAGER",
         .Slicer = None,
         .Python = None }),
     Word("balance", 0, "hws", { "rws", "hws" },
-      "from whom a thread without work gets some: whichever thread looks first (rws) or the "
+      "which thread gives work to a thread without work: the one that looks first (rws) or the "
       "nearest (hws)",
       { .Property = "LoadBalancer", .Label = "Load balancer", .Slicer = None, .Python = None }),
     Flag("pin", 0, "off",
@@ -250,7 +256,7 @@ Parameters Running()
     Number(Kind::Bytes, "memory-limit", 0, { 1.0, 1e18 }, "", "BYTES",
       "refuse meshes estimated to need more", { .Zero = "the machine's memory", .Slicer = None }),
     Flag("force", 0, "off",
-      "go on although the mesh is estimated not to fit into memory, the labels look like grey "
+      "continue although the mesh is estimated not to fit into memory, the labels look like grey "
       "values, or the value of another parameter needs it"),
   };
 }

@@ -16,9 +16,10 @@ namespace voxplex
 {
 
 /**
- * Of a point on a cut face: a point near it where an interface meets that face, or where another cut face does; the
- * nearer one. It is looked for in steps of half a voxel along the gradient of the label's margin in the face; where
- * there is none, along the axes and diagonals of the face.
+ * Starts from a point on a cut face. Finds a point near it where an interface, or another cut face,
+ * meets that face. If there are several, it takes the nearest one. The search goes in steps of half
+ * a voxel along the gradient of the label's margin within the face. If there is no gradient, it
+ * goes along the axes and diagonals of the face.
  */
 template <typename Field>
 class BorderEdgeSearch
@@ -26,8 +27,9 @@ class BorderEdgeSearch
 public:
   /**
    * @param field a LabelField<3> or ScalarField<3>
-   * @param x on the faces (bits as of BorderPlanes), lattice coordinates
-   * @param reach how far away, in the frame, the point may be
+   * @param x a point on the faces, in lattice coordinates
+   * @param faces the cut faces of x, as bits (see BorderPlanes)
+   * @param reach the largest distance of the point, in the frame
    */
   BorderEdgeSearch(const Field& field, const GridGeometry<3>& grid, const Point<3>& x,
     unsigned faces, double reach)
@@ -40,7 +42,7 @@ public:
   {
   }
 
-  /** @return false if there is none so near */
+  /** @return false if there is no such point within reach */
   bool Find(Point<3>& edge)
   {
     for (unsigned face = 0; face < 6; ++face)
@@ -78,7 +80,10 @@ private:
   /** Whether the faces leave this axis free. */
   bool IsFree(std::size_t axis) const { return ((this->Faces >> (2 * axis)) & 3) == 0; }
 
-  /** Labels go on beyond other cut faces, the object does not. */
+  /**
+   * Keeps y if it is nearer, unless it is beyond another cut face: labels continue there, the
+   * object does not.
+   */
   void Consider(const Point<3>& y)
   {
     const Point<3> step = this->Grid.ToFrame(Subtract(y, this->From));
@@ -110,7 +115,7 @@ private:
     }
   }
 
-  /** As far as the reach, to where the label ends. */
+  /** Walks until the label ends, at most as far as the reach. */
   void Walk(const Point<3>& direction)
   {
     double longest = 0.0;
@@ -153,7 +158,7 @@ private:
   const GridGeometry<3>& Grid;
   const Point<3> From;
   const unsigned Faces;
-  double Reach; ///< less, once a point is found
+  double Reach; ///< distance of the point, once one is found
   const LabelId Label;
   Point<3> Nearest{};
   bool Found = false;

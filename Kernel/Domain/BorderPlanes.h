@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file BorderPlanes.h
- * @brief The planes on which an image's border cuts the object, and what they do to labels and margins.
+ * @brief The planes on which an image's border cuts the object, and their effect on margins.
  */
 #ifndef voxplex_BorderPlanes_h
 #define voxplex_BorderPlanes_h
@@ -19,14 +19,18 @@ namespace voxplex
 {
 
 /**
- * @brief Where the border of a 3D image cuts the object (LabelImage::ReachesBorder): one plane for each such face of the image.
+ * @brief Where the border of a 3D image cuts the object: one plane for each face of the image that
+ *   the object reaches
+ * (LabelImage::ReachesBorder).
  *
- * They lie half a voxel outside of the outermost voxel centres. A field whose labels go on beyond them asks here what
- * becomes of a margin there. This is constructive solid geometry: the object is the intersection of what goes on and
- * of a box, the background the union of the rest.
+ * The planes lie half a voxel outside of the outermost voxel centres. The labels of a field
+ * continue beyond them; Margin() and Gradient() cut the field's margins there. This is constructive
+ * solid geometry: the object is the intersection of the continued object with a box. The background
+ * is the rest of space.
  *
- * Points are lattice coordinates (TiledLattice), in which the planes are perpendicular to the axes and distances are in
- * voxels. Plane 2 a + end is that at the lower (0) or upper (1) end of axis a; sets of planes are bits of these numbers.
+ * Points are in lattice coordinates (TiledLattice): the planes are perpendicular to the axes, and
+ * distances are in voxels. Plane 2 a + end is the plane at the lower (0) or upper (1) end of axis
+ * a. In a set of planes, the bit with a plane's number stands for it.
  *
  * Immutable after construction: all methods are const and safe to call from any thread, and take O(D).
  */
@@ -34,7 +38,10 @@ template <int D>
 class BorderPlanes
 {
 public:
-  /** @param image not referenced afterwards; one with time is not cut (ReachesBorderInTime is something else) */
+  /**
+   * @param image not referenced afterwards. A 4D image has no planes; for its flat ends see
+   *   ReachesBorderInTime().
+   */
   explicit BorderPlanes(const LabelImage<D>& image)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,10 +54,12 @@ public:
     }
   }
 
-  /** Whether there is one. */
+  /** Whether there is any plane. */
   bool Exist() const { return this->Any; }
 
-  /** From x to the nearest plane; negative beyond it, infinite if there is none. */
+  /**
+   * Distance from x to the nearest plane; negative beyond a plane, infinite if there is no plane.
+   */
   double Distance(const Point<D>& x) const
   {
     std::size_t axis = 0;
@@ -79,7 +88,10 @@ public:
     return plane % 2 == 0 ? x[plane / 2] < at : x[plane / 2] > at;
   }
 
-  /** x moved along the axes onto a set of planes; a coordinate is infinite if there is no such plane. */
+  /**
+   * x moved along the axes onto a set of planes. If a plane does not exist, its coordinate becomes
+   * infinite.
+   */
   Point<D> MoveOnto(Point<D> x, unsigned planes) const
   {
     for (unsigned plane = 0; plane < 2 * D; ++plane)
@@ -92,7 +104,7 @@ public:
     return x;
   }
 
-  /** The margin of a label, of that which it has if the object goes on. */
+  /** The margin of a label in the cut object. `margin` is its margin in the continued object. */
   double Margin(const Point<D>& x, LabelId label, double margin) const
   {
     if (!this->Any)
@@ -104,14 +116,14 @@ public:
     {
       return std::min(margin, cut);
     }
-    // Background has the planes themselves: its margin must be positive there.
+    // The planes themselves belong to the background: its margin must be positive there.
     return margin > 0.0 || cut > 0.0 ? std::max(margin, -cut)
                                      : std::max(-cut, std::numeric_limits<double>::min());
   }
 
   /**
-   * The gradient of Margin() where that is a plane's.
-   * @return false where it is that of the object that goes on; `gradient` stays what it is
+   * The gradient of Margin() where a plane determines it.
+   * @return false if the continued object determines it; `gradient` is then unchanged
    */
   bool Gradient(const Point<D>& x, LabelId label, double margin, Point<D>& gradient) const
   {
@@ -128,10 +140,10 @@ public:
   }
 
 private:
-  /** By how much margins change per voxel at planes. */
+  /** Change of the margin per voxel near a plane. */
   static constexpr double Slope = 2.0;
 
-  /** Distance(), and along which axis with which sign it grows. */
+  /** Distance(), and the axis and sign along which the distance grows. */
   double Distance(const Point<D>& x, std::size_t& axis, double& sign) const
   {
     double nearest = std::numeric_limits<double>::infinity();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file BorderedField.h
- * @brief A field of labels and margins that the border of the image cuts.
+ * @brief A field of labels and margins, cut by the border of the image.
  */
 #ifndef voxplex_BorderedField_h
 #define voxplex_BorderedField_h
@@ -17,27 +17,28 @@ namespace voxplex
 {
 
 /**
- * @brief What LabelField and ScalarField have in common: labels and margins go on beyond the planes of the border
- * (Extended...), and the object ends there.
+ * @brief Base class of LabelField and ScalarField. Their labels and margins (Extended...) continue
+ *   beyond the planes
+ * of the border; this class cuts the object there.
  *
  * Lattice coordinates are those of TiledLattice. Immutable after construction.
  *
- * @tparam Field the derived class: has ExtendedLabelAt(x), ExtendedMarginAt(x, label) and
+ * @tparam Field the derived class. It has ExtendedLabelAt(x), ExtendedMarginAt(x, label) and
  *   ExtendedMarginGradientAt(x, label, gradient)
  */
 template <int D, typename Sample, typename Field>
 class BorderedField : public TiledLattice<D, Sample>
 {
 public:
-  /** Where the image cuts the object; no plane exists in 4D. */
+  /** The planes on which the image cuts the object; in 4D there are none. */
   const BorderPlanes<D>& Borders() const { return this->Planes; }
 
-  /** Label of a point of the frame; background outside of the lattice. */
+  /** Label of a point of the frame. Outside of the lattice it is background. */
   LabelId Label(const Point<D>& p) const { return this->LabelAt(this->ToLattice(p)); }
 
   /**
-   * By how much a label wins (> 0, exactly where Label(p) == label) or loses (<= 0) at a point of the frame; see the
-   * field for its unit.
+   * Margin of a label at a point of the frame: positive exactly where Label(p) == label, else zero
+   * or negative. See ExtendedMarginAt() of the field for its unit.
    */
   double Margin(const Point<D>& p, LabelId label) const
   {
@@ -60,7 +61,8 @@ public:
 
   /**
    * Gradient of MarginAt() with respect to lattice coordinates, or a multiple of it.
-   * @return false if it is not known: in a uniform tile away from borders, or where `label` is not near
+   * @return false if it is unknown: in a uniform tile away from borders, or if the tile does not
+   *   have `label`
    */
   bool MarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const
   {

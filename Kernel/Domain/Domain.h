@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Domain.h
- * @brief All that the refinement rules ask of what is being meshed.
+ * @brief The interface through which the refinement rules see the object to be meshed.
  */
 #ifndef voxplex_Domain_h
 #define voxplex_Domain_h
@@ -24,8 +24,8 @@ struct DistanceInterval
 /**
  * @brief A partition of space into labels, with interfaces between them.
  *
- * The interfaces (the boundary of Omega of the thesis) are where Label() changes. An image is one such
- * domain (ImageDomain), be it one of labels or the inside of an isosurface of a grey-value image. All methods
+ * The interfaces (the boundary of Omega in the thesis) are where Label() changes. ImageDomain is
+ * the domain of a label image, or of the inside of an isosurface of a grey-value image. All methods
  * are const and safe to call from any number of threads.
  */
 template <int D>
@@ -34,29 +34,32 @@ class Domain
 public:
   virtual ~Domain() = default;
 
-  /** Bounding box of everything that is not background; all interfaces lie inside or on it. */
+  /** Bounding box of all labels but background. All interfaces lie inside or on it. */
   virtual Box<D> Bounds() const = 0;
 
   /**
-   * Whether the object ends flat on the lower (0) or upper (1) face of Bounds() along the last axis:
-   * the first and last frame of a space-time image. Beyond such a face all is as on the face: a point
-   * there has the label of its projection, and interface points are those of the projection.
+   * Whether the object has a flat end on the lower (0) or upper (1) face of Bounds() along the last
+   * axis: the first or last frame of a space-time image. A point beyond such a face has the label
+   * and the interface points of its projection onto the face.
    */
   virtual bool HasTimeBorder(unsigned) const { return false; }
 
-  /** Label of a point; 0 (background) outside of Bounds(), but for what lies beyond a flat end. */
+  /**
+   * Label of a point. Outside of Bounds() it is 0 (background), except beyond a flat end
+   * (HasTimeBorder()).
+   */
   virtual LabelId Label(const Point<D>& p) const = 0;
 
-  /** The image's value of a label id. */
+  /** The value that a label id has in the image. */
   virtual std::int64_t LabelValue(LabelId id) const = 0;
 
-  /** Bounds of the distance from p to the nearest interface; cheap: one table look-up. */
+  /** Bounds of the distance from p to the nearest interface. The cost is one table look-up. */
   virtual DistanceInterval DistanceBounds(const Point<D>& p) const = 0;
 
   /**
-   * A quick estimate of cfp(p): an interface point nearly as close to p as the closest lies about
-   * `error` from z. Not a bound: where an interface bends sharply it may be a few times farther. For
-   * a first test that settles most points.
+   * A quick estimate of cfp(p), for a first test that decides most points. An interface point that
+   * is nearly as close to p as the closest one lies within about `error` of z. This is not a bound:
+   * where an interface bends sharply, the distance may be a few times larger.
    * @param label Label(p)
    * @return false if no interface point was found
    */
@@ -64,26 +67,28 @@ public:
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const = 0;
 
   /**
-   * cfp(p) of the thesis: a point of an interface that is closest to p, up to about half a voxel.
+   * cfp(p) of the thesis: the point of an interface that is closest to p, to about half a voxel.
    * @param label Label(p)
    * @return false if no interface point was found
    */
   virtual bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const = 0;
 
   /**
-   * Where the segment from a to b first leaves the label of a (up to features thinner than half a
-   * voxel).
+   * The point where the segment from a to b first leaves the label of a. Features thinner than half
+   * a voxel may be missed.
    * @param labelOfA Label(a)
    * @return false if no change of label was found
    */
   virtual bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const = 0;
 
-  /** Where the border of the image cuts the object; null if it does not. Only in 3D. */
+  /**
+   * The planes on which the border of the image cuts the object; null if it does not. Only in 3D.
+   */
   virtual const ImageBorder<D>* Border() const { return nullptr; }
 
   /**
-   * An interface point on a flat end, near to p and about closest among those on that end.
+   * An interface point on a flat end: about the closest one to p on that end.
    * @param p a point on the flat end, within a few voxels of an interface
    * @return false if none was found
    */

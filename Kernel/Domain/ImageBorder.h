@@ -13,32 +13,35 @@ namespace voxplex
 {
 
 /**
- * @brief The object ends flat on these planes; beyond them all is background.
+ * @brief The planes on which the object ends flat. Beyond them is background only.
  *
- * A set of planes is a number: bit 2 a + end stands for the plane at the lower (0) or upper (1) end of axis a. All methods
- * are const and safe to call from any number of threads.
+ * A set of planes is a number: bit 2 a + end stands for the plane at the lower (0) or upper (1) end
+ * of axis a. All methods are const and safe to call from any number of threads.
  */
 template <int D>
 class ImageBorder
 {
 public:
-  /** The planes that p lies on. Interface points that a Domain finds there lie on them up to rounding. */
+  /**
+   * The planes on which p lies. Interface points that a Domain finds on a plane lie on it up to
+   * rounding.
+   */
   virtual unsigned FacesAt(const Point<D>& p) const = 0;
 
   /** Whether p lies beyond one of the planes. */
   virtual bool IsBeyond(const Point<D>& p) const = 0;
 
-  /** Whether p lies beyond none of the planes by more than rounding. */
+  /** Whether p lies on the object's side of all planes, or on a plane up to rounding. */
   virtual bool IsWithin(const Point<D>& p) const = 0;
 
-  /** The point on all of some planes to which p moves along the axes of the image. */
+  /** p moved along the axes of the image onto all planes of a set. */
   virtual Point<D> MoveOnto(const Point<D>& p, unsigned faces) const = 0;
 
   /**
-   * A point near p where an interface meets the planes of p, or where one of these meets another plane.
-   * @param p on a plane
-   * @param reach how far away the point may be
-   * @return false if none was found
+   * A point near p where an interface, or another plane, meets the planes of p.
+   * @param p a point on a plane
+   * @param reach the largest distance of the point from p
+   * @return false if no such point was found
    */
   virtual bool FindEdge(const Point<D>& p, double reach, Point<D>& z) const = 0;
 

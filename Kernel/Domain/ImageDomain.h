@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ImageDomain.h
- * @brief An image as the rules see it: labels, distances to interfaces, points on interfaces.
+ * @brief An image as the refinement rules see it: labels, distances to interfaces, points on
+ *   interfaces.
  */
 #ifndef voxplex_ImageDomain_h
 #define voxplex_ImageDomain_h
@@ -23,21 +24,23 @@ namespace voxplex
 /**
  * @brief The domain of an image.
  *
- * Labels come from a field: the LabelField of a label image, or the ScalarField of an isosurface. What is
- * said here holds for any field that keeps the labels of the label image at voxel centres and that
- * interpolates multilinearly between them. Distances come from the feature transform of the surface
- * voxels (the sites): those of the crop and of the layer of background around it that have a face
- * neighbour with another label. Every interface point lies in a cell between voxel centres of which
- * two corners that share an edge are sites; and next to every site, on a grid edge, there is an
- * interface point. Distance bounds follow from these two facts and are rigorous. The nearest site
- * is stored for cells of about CoarseCell smallest voxel spacings only.
+ * Labels come from a field: the LabelField of a label image, or the ScalarField of an isosurface.
+ * The algorithms hold for any field that keeps the labels of the image at voxel centres and
+ * interpolates multilinearly between them.
  *
- * cfp (thesis, 3.1): march along the ray through the nearest site and find the root of the
- * label's margin by regula falsi, starting from the site's end; the ray ends at a voxel centre of
- * another label, which the field preserves, so it always crosses an interface.
+ * Distances come from the feature transform of the surface voxels (the sites). A site is a voxel of
+ * the crop, or of the layer of background around it, that has a face neighbour with another label.
+ * Two facts give rigorous distance bounds. First, every interface point lies in a cell between
+ * voxel centres, and one edge of this cell joins two sites. Second, next to every site there is an
+ * interface point on a grid edge. The nearest site is stored only for cells with edges of about
+ * CoarseCell smallest voxel spacings.
  *
- * Where a 3D image cuts the object, points found closer to a cut face than the search is exact are moved onto it,
- * so that faces of the mesh are flat there.
+ * cfp (thesis, 3.1): march along the ray through the nearest site, from the site's end, and find
+ * the root of the label's margin by regula falsi. The ray ends at a voxel centre of another label.
+ * The field keeps that label, so the ray always crosses an interface.
+ *
+ * Where a 3D image cuts the object, a point that is closer to a cut face than the tolerance of the
+ * search is moved onto the face, so that the mesh is flat there.
  *
  * Immutable after construction: all methods are const and safe to call from any thread.
  */
@@ -49,31 +52,31 @@ class ImageDomain final
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  /** Edge of a cell of the feature transform in smallest voxel spacings, about. */
+  /** Approximate edge of a cell of the feature transform, in smallest voxel spacings. */
   static constexpr double CoarseCell = 4.0;
 
   /**
-   * @param image the labels; must live as long as this
+   * @param image the labels; must live as long as this domain
    * @param sigma smoothing in voxels, see LabelField
-   * @param threads threads used for the construction; 0 means all cores. The result does not
-   *   depend on it.
+   * @param threads threads used for the construction; 0 means all cores. The result does not depend
+   *   on it.
    * @param stop ends the construction early; the default never does
    * @throws InputError if sigma is out of range or the image too large; Cancelled if stopped;
    *   std::bad_alloc
    */
   ImageDomain(const LabelImage<D>& image, double sigma, unsigned threads = 1,
     const std::stop_token& stop = {}) requires std::same_as<FieldType, LabelField<D>>;
-  /** The domain does not keep the image alive. */
+  /** Deleted: the domain does not keep the image alive. */
   ImageDomain(LabelImage<D>&&, double, unsigned = 1, const std::stop_token& = {}) = delete;
 
-  /** The same for the inside of an isosurface: label id 1. */
+  /** The same for an isosurface; its inside has label id 1. */
   explicit ImageDomain(const IsosurfaceImage<D>& image, unsigned threads = 1,
     const std::stop_token& stop = {}) requires std::same_as<FieldType, ScalarField<D>>;
   explicit ImageDomain(IsosurfaceImage<D>&&, unsigned = 1, const std::stop_token& = {}) = delete;
 
   /**
-   * The box of the crop and the layer of background around it; interfaces lie strictly inside, but at
-   * flat ends, where the box ends with the image's first or last frame.
+   * The box of the crop and the layer of background around it. Interfaces lie strictly inside. At a
+   * flat end the box ends with the image's first or last frame, and interfaces reach its face.
    */
   Box<D> Bounds() const override { return this->BoundingBox; }
   bool HasTimeBorder(unsigned end) const override { return this->Image.ReachesBorderInTime(end); }
@@ -83,16 +86,17 @@ public:
   {
     return this->DistanceBoundsAt(this->Field.ToLattice(p));
   }
-  /** Where the margin of `label` is below 0.1 on the ray to the nearest site. */
+  /** A point on the ray to the nearest site where the margin of `label` is below 0.1. */
   bool NearSurfacePoint(
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**
-   * The point found lies on an interface of `label` to FieldType::RootTolerance voxels (0.005, or 0.001 for isosurfaces)
-   * and is on average a few hundredths of a voxel farther from p than the nearest one. Outside of the lattice it is near
-   * the voxel nearest to the lattice's nearest point, not to p. False only if p does not have `label`.
+   * The point lies on an interface of `label`, to FieldType::RootTolerance voxels (0.005, or 0.001
+   * for isosurfaces). On average it is a few hundredths of a voxel farther from p than the nearest
+   * interface point. If p is outside of the lattice, the point is near the voxel nearest to the
+   * projection of p onto the lattice. The search fails only if p does not have `label`.
    */
   bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
-  /** Steps of half a voxel, longer ones where the distance bounds allow it. */
+  /** The steps are half a voxel, or longer where the distance bounds allow it. */
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
 
@@ -101,21 +105,23 @@ public:
     return this->Field.Borders().Exist() ? this : nullptr;
   }
 
-  /** Along the gradient of the label's margin in the frame of time, in steps of half a voxel. */
+  /**
+   * Searches at constant time along the gradient of the label's margin, in steps of half a voxel.
+   */
   bool ClosestSurfacePointOnEnd(const Point<D>& p, Point<D>& z) const override;
 
   const LabelImage<D>& GetImage() const { return this->Image; }
   const FieldType& GetLabelField() const { return this->Field; }
-  /** Of the lattice of GetLabelField(). */
+  /** Feature transform of the sites, on the lattice of GetLabelField(). */
   const FeatureTransform<D>& GetFeatureTransform() const { return this->Features; }
   /** The sites, on the lattice of GetLabelField(). */
   const BitMask<D>& GetSites() const { return this->Sites; }
 
-  /** Wall-clock seconds spent in the constructor on the label field. */
+  /** Wall-clock seconds that the constructor spent on the label field. */
   double LabelFieldSeconds() const { return this->FieldSeconds; }
-  /** Wall-clock seconds spent in the constructor on sites and feature transform. */
+  /** Wall-clock seconds that the constructor spent on sites and feature transform. */
   double DistanceSeconds() const { return this->FeatureSeconds; }
-  /** Memory held, without the image, bytes. */
+  /** Memory held in bytes, without the image. */
   std::size_t MemoryBytes() const
   {
     return this->Field.MemoryBytes() + this->Features.MemoryBytes() + this->Sites.MemoryBytes();
@@ -142,7 +148,7 @@ private:
   }
   bool FindEdge(const Point<D>& p, double reach, Point<D>& z) const override;
 
-  /** A field, and the seconds that it took to make it. */
+  /** A field, and the seconds that its construction took. */
   struct TimedField
   {
     FieldType Field;
@@ -153,9 +159,12 @@ private:
   ImageDomain(
     const LabelImage<D>& image, TimedField&& field, unsigned threads, const std::stop_token& stop);
 
-  /** Dense id of a voxel at a lattice index; background outside of the crop, but for flat ends. */
+  /**
+   * Dense id of the voxel at a lattice index. Outside of the crop it is background, except beyond
+   * flat ends.
+   */
   LabelId VoxelId(const Index& lattice) const;
-  /** The point nearest to p that is not beyond a flat end. */
+  /** p, or its projection onto the flat end if it lies beyond one. */
   Point<D> ClampToEnds(Point<D> p) const
   {
     if constexpr (D == 4)
@@ -165,10 +174,15 @@ private:
     }
     return p;
   }
-  /** A point closer than this to a cut face has been found on it, voxels; one on it up to rounding is closer. */
+  /**
+   * In voxels. A search found a point on a cut face if it is closer than NearBorder. OnBorder
+   * allows for rounding.
+   */
   static constexpr double NearBorder = 2.0 * FieldType::RootTolerance;
   static constexpr double OnBorder = 1e-6;
-  /** The frame's coordinates of a point that a search has found, not beyond a flat end. */
+  /**
+   * The frame's coordinates of a point that a search has found, moved onto cut faces and flat ends.
+   */
   Point<D> Found(const Point<D>& x) const
   {
     const unsigned faces = this->Field.Borders().Near(x, NearBorder);
@@ -178,11 +192,11 @@ private:
   DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */
   double Length2(const Point<D>& step) const;
-  /** A site near x, close to the nearest one. */
+  /** The site nearest to x, or one that is about as near. */
   bool NearSite(const Point<D>& x, Index& site) const;
-  /** A voxel near x with another label, next to a site near x. */
+  /** A voxel with another label: the site near x, or a face neighbour of it. */
   bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
-  /** A point x + t d of a line, and by how much a label wins there. */
+  /** A point x + t d of a line, and the margin of a label there. */
   struct Probe
   {
     double T;
@@ -190,19 +204,21 @@ private:
   };
   Probe ProbeAt(const Point<D>& x, const Point<D>& d, LabelId label, double t) const;
   /**
-   * The root of the label's margin on x + t d between `inside` (margin > 0) and `outside`, to
+   * The root t of the label's margin on x + t d between `inside` (margin > 0) and `outside`, to
    * `tolerance` voxels.
    */
   double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, Probe inside, Probe outside,
     double tolerance) const;
   /**
-   * The root of the label's margin on the ray from a voxel near x with another label,
-   * n + t (x - n).
+   * The root t of the label's margin on the ray n + t (x - n), where n is the centre of a voxel
+   * near x with another label.
    */
   bool FindOnRay(const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& t) const;
 
-  /** Replaces z by the interface point straight below p on the tangent plane at z, if that is
-   * nearer. */
+  /**
+   * Looks for an interface point on the line from p to its foot point on the tangent plane at z. If
+   * that point is nearer than z, it replaces z.
+   */
   bool MoveTowardsFoot(const Point<D>& p, const Point<D>& x, LabelId label, Point<D>& z) const;
 
   const LabelImage<D>& Image;
@@ -213,10 +229,10 @@ private:
   Point<D> Spacing;
   FeatureTransform<D> Features;
   bool IsOrthogonal;
-  double SmallestStretch = 1.0; ///< of lengths, from orthogonal axes to the real ones
+  double SmallestStretch = 1.0; ///< least factor from lengths on orthogonal axes to real ones
   double LargestStretch = 1.0;
-  double LowerSlack; ///< from an interface point to the nearest site, at most
-  double UpperSlack; ///< from a site to an interface point, at most
+  double LowerSlack; ///< largest distance from an interface point to the nearest site
+  double UpperSlack; ///< largest distance from a site to an interface point
   double VoxelDiagonal;
   Box<D> BoundingBox;
 };

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ImageDomain.txx
- * @brief Implementation of ImageDomain.h, for the sources that instantiate it. These are one a field: with
- * two in one source the compiler inlines less, and a run on labels executes 2 % more instructions.
+ * @brief Implementation of ImageDomain.h, for the sources that instantiate it. There is one source
+ *   for each field. With
+ * two fields in one source, the compiler inlines less, and a run on labels executes 2 % more
+ * instructions.
  */
 #ifndef voxplex_ImageDomain_txx
 #define voxplex_ImageDomain_txx
@@ -25,16 +27,18 @@ namespace voxplex
 namespace
 {
 
-/** See FieldType::RootTolerance; for what is but an estimate. */
+/** Like FieldType::RootTolerance, but for an estimate. */
 constexpr double QuickTolerance = 0.1;
-/** Steps of ClosestSurfacePoint towards the foot point, at most; and the gain, in voxel diagonals,
- *  below which none is made. */
+/**
+ * Largest number of steps of ClosestSurfacePoint towards the foot point. A step is made only if its
+ * gain is at least FootGain voxel diagonals.
+ */
 constexpr int FootSteps = 2;
 constexpr double FootGain = 0.02;
-/** Relative error of a stored distance and of the few operations on it. */
+/** Bound of the relative error of a stored distance and of the few operations on it. */
 constexpr double DistanceError = 1e-6;
 
-/** Runs a step of the constructor and notes how long it took. */
+/** Runs a step of the constructor and adds its time to `seconds`. */
 template <typename Function>
 auto Timed(double& seconds, Function&& function)
 {
@@ -57,7 +61,10 @@ double LargestComponent(const Point<D>& step)
   return largest;
 }
 
-/** Cells of about ImageDomain::CoarseCell smallest spacings along each axis. */
+/**
+ * Voxels per cell along each axis: the edges are about ImageDomain::CoarseCell smallest spacings
+ * long.
+ */
 template <int D>
 typename FeatureTransform<D>::Array ChooseStride(const Point<D>& spacing)
 {
@@ -82,7 +89,9 @@ Point<D> Spacings(const GridGeometry<D>& grid)
   return spacing;
 }
 
-/** Clang before 16 instantiates a class's constructors even where their constraints fail; those are never called. */
+/**
+ * Clang before 16 instantiates constructors even if their constraints fail. Those are never called.
+ */
 template <typename FieldType, typename... Arguments>
 FieldType Construct(const Arguments&... arguments)
 {
@@ -140,7 +149,7 @@ ImageDomain<D, FieldType>::ImageDomain(
 {
   const GridGeometry<D>& grid = image.Grid();
   this->IsOrthogonal = true;
-  typename GridGeometry<D>::Matrix gram; // of the unit vectors along the axes
+  typename GridGeometry<D>::Matrix gram; // Gram matrix of the unit vectors along the axes
   for (std::size_t r = 0; r < D; ++r)
   {
     for (std::size_t c = 0; c < D; ++c)
@@ -163,8 +172,8 @@ ImageDomain<D, FieldType>::ImageDomain(
     this->LargestStretch = std::sqrt(largest + 1e-12);
   }
 
-  // An interface point lies in a cell two corners of which share an edge and are sites: it is
-  // within half that edge of one of them along the edge.
+  // An interface point lies in a cell with an edge that joins two sites. Along this edge, the point
+  // is at most half of the edge away from one of them.
   const double diagonal2 = Dot(this->Spacing, this->Spacing);
   const double smallest = *std::min_element(this->Spacing.begin(), this->Spacing.end());
   this->LowerSlack = std::sqrt(diagonal2 - 0.75 * smallest * smallest);
@@ -226,9 +235,9 @@ inline double ImageDomain<D, FieldType>::Length2(const Point<D>& step) const
 template <int D, typename FieldType>
 inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<D>& x) const
 {
-  // All lengths as if the axes were orthogonal; stretched at the end.
+  // Lengths are computed as if the axes were orthogonal, and stretched at the end.
   double outside2 = 0.0; // from x to the lattice
-  double offset2 = 0.0;  // from there to the centre of the cell
+  double offset2 = 0.0;  // from the lattice's nearest point to the centre of its cell
   std::size_t cell = 0;
   for (std::size_t a = D; a-- > 0;)
   {
@@ -253,7 +262,7 @@ inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<
   double upper = distance * (1.0 + DistanceError) + offset + this->UpperSlack;
   if (outside2 > 0.0)
   {
-    // All interfaces lie in the lattice's box, so the angle there is at least a right one.
+    // All interfaces lie in the lattice's box, so the angle at the box is at least a right angle.
     lower = std::sqrt(lower * lower + outside2);
     upper += std::sqrt(outside2);
   }
@@ -263,8 +272,8 @@ inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<
 template <int D, typename FieldType>
 inline bool ImageDomain<D, FieldType>::NearSite(const Point<D>& x, Index& site) const
 {
-  // The nearest sites of the 2^D cells around x, or around the point of the lattice that is nearest to x: one of
-  // them is nearest to x, or nearly so.
+  // Compare the stored sites of the 2^D cells around x. If x is outside of the lattice, take the
+  // cells around the lattice point nearest to x. The best site is the nearest to x, or nearly so.
   Point<D> inside = x;
   if (!this->IsOrthogonal)
   {
@@ -377,7 +386,7 @@ inline double ImageDomain<D, FieldType>::FindRoot(const Point<D>& x, const Point
   int last = 0;                                 // which end moved last
   for (int i = 0; i < 40 && std::abs(outside.T - inside.T) * voxels > tolerance; ++i)
   {
-    // Illinois: regula falsi, halving the value of an end that stays twice.
+    // Illinois algorithm: regula falsi that halves the value of an end that stays twice.
     double t =
       inside.T + (outside.T - inside.T) * (inside.Margin / (inside.Margin - outside.Margin));
     if (!((t - inside.T) * (t - outside.T) < 0.0))
@@ -414,7 +423,8 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   {
     return false;
   }
-  // To the frame: the transposed inverse of IndexToFrame, by forward substitution.
+  // Transform the gradient to the frame: multiply by the transposed inverse of IndexToFrame, by
+  // forward substitution.
   const auto& matrix = this->Image.Grid().IndexToFrame;
   for (std::size_t k = 0; k < D; ++k)
   {
@@ -431,13 +441,13 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   {
     return false;
   }
-  // The plane is `foot` away from p, straight against the gradient.
+  // The tangent plane is at the distance `foot` from p, in the direction against the gradient.
   const double foot = -Dot(toZ, gradient) / length;
   if (!(foot > 0.0 && foot < distance - FootGain * this->VoxelDiagonal))
   {
     return false;
   }
-  Point<D> d; // lattice coordinates per unit of length
+  Point<D> d; // step in lattice coordinates per unit of length
   for (std::size_t a = 0; a < D; ++a)
   {
     d[a] = -gradient[a] / length;
@@ -467,7 +477,7 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
   }
   if (this->ClampToEnds(moved) != moved)
   {
-    return false; // what the field has there belongs to the end
+    return false; // beyond a flat end the field repeats the end
   }
   z = this->MoveOnto(moved,
     this->Field.Borders().Exist()
@@ -495,7 +505,7 @@ inline bool ImageDomain<D, FieldType>::FindOnRay(
   Probe inside{ 1.0, 0.0 };
   if (length > 1.5 * this->VoxelDiagonal)
   {
-    // The interface is near n: look for it there in steps of half a voxel.
+    // The interface is near n: search there in steps of half a voxel.
     const double step = 0.5 / LargestComponent<D>(d);
     const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / length);
     for (double t = step; t < end; t += step)
@@ -533,7 +543,7 @@ bool ImageDomain<D, FieldType>::NearSurfacePoint(
     return false;
   }
   z = this->Found(Interpolate(n, x, t));
-  // The margin rises by about 1 per voxel; half of that is allowed for.
+  // The margin rises by about 1 per voxel. The error allows for half of this slope.
   const Point<D> d = Subtract(x, n);
   const double voxels = LargestComponent<D>(d);
   error = voxels > 0.0 ? 2.0 * QuickTolerance * std::sqrt(this->Length2(d)) / voxels : 0.0;
@@ -570,7 +580,7 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
   double end = 1.0;
   for (std::size_t k = 0; k < D; ++k)
   {
-    // Clip to the lattice: all is background outside, but for flat ends.
+    // Clip to the lattice: outside there is only background, except beyond flat ends.
     double first = 0.0;
     auto last = static_cast<double>(this->Field.LatticeDimensions()[k] - 1);
     if (D == 4 && k == 3)
@@ -651,7 +661,8 @@ bool ImageDomain<D, FieldType>::ClosestSurfacePointOnEnd(const Point<D>& p, Poin
   {
     return false;
   }
-  // The steepest way down in space, in lattice coordinates: the inverse metric times the gradient.
+  // The steepest descent in space, in lattice coordinates: minus the inverse metric times the
+  // gradient.
   const auto& grid = this->Image.Grid();
   Point<D> covector = gradient;
   covector[D - 1] = 0.0;
@@ -670,7 +681,7 @@ bool ImageDomain<D, FieldType>::ClosestSurfacePointOnEnd(const Point<D>& p, Poin
   {
     return false;
   }
-  constexpr int Steps = 6; // of half a voxel
+  constexpr int Steps = 6; // steps of half a voxel
   Probe inside = this->ProbeAt(x, d, label, 0.0);
   for (int i = 1; i <= Steps; ++i)
   {

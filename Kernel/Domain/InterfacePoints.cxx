@@ -17,8 +17,8 @@ namespace
 using Index = GridGeometry<3>::Index;
 
 /**
- * pointOf(upper voxel, its label, label of the voxel before it, axis) for each face between different
- * labels; voxels are those of the crop, and the layer behind it.
+ * Returns pointOf(upper voxel, its label, label of the voxel before it, axis) for each face between
+ * different labels. The upper voxels are those of the crop and of the layer behind it.
  */
 template <typename PointOf>
 std::vector<Point<3>> ForEachFace(
@@ -62,8 +62,8 @@ std::vector<Point<3>> ForEachFace(
 }
 
 /**
- * Where on the way from a voxel (0), which has the label, to its neighbour (1) the label stops to win.
- * Margins are piecewise linear there, so that regula falsi needs few steps.
+ * Where the label ends on the line from a voxel that has it (0) to a neighbour (1). Margins are
+ * piecewise linear there, so regula falsi needs few steps.
  */
 double FindCrossing(
   const LabelField<3>& field, const Point<3>& from, const Point<3>& to, LabelId label)
@@ -76,7 +76,7 @@ double FindCrossing(
   double marginOutside = field.MarginAt(to, label);
   for (int step = 0; step < manySteps && outside - inside > tolerance; ++step)
   {
-    // Every third step halves, in case one end does not move.
+    // Every third step halves the interval, in case one end does not move.
     const double fraction = step % 3 == 2 ? 0.5 : marginInside / (marginInside - marginOutside);
     const double t = inside + fraction * (outside - inside);
     const double margin = field.MarginAt(Interpolate(from, to, t), label);
@@ -114,7 +114,7 @@ std::vector<Point<3>> SmoothInterfacePoints(const LabelImage<3>& image, const La
   return ForEachFace(image, threads, stop,
     [&](const Index& voxel, LabelId upper, LabelId, std::size_t axis)
     {
-      Point<3> from; // of the lattice, which begins a layer before the crop
+      Point<3> from; // lattice coordinates; the lattice begins one layer before the crop
       for (std::size_t a = 0; a < 3; ++a)
       {
         from[a] = static_cast<double>(voxel[a] + 1);

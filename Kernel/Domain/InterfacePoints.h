@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfacePoints.h
- * @brief Points all over the interfaces of a label image: to measure distances from a mesh.
+ * @brief Sample points on all interfaces of a label image, for measuring distances to a mesh.
  */
 #ifndef voxplex_InterfacePoints_h
 #define voxplex_InterfacePoints_h
@@ -18,9 +18,9 @@ namespace voxplex
 {
 
 /**
- * The centres of all faces between voxels of different labels, in the image's frame; beyond the image all
- * is background. By axis, then by voxel; the same for any number of threads. Linear in the voxels of the
- * image's crop.
+ * The centres of all faces between voxels of different labels, in the image's frame. Beyond the
+ * image all voxels are background. The centres are ordered by axis, then by voxel; the order does
+ * not depend on the number of threads. The time is linear in the voxels of the image's crop.
  *
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
@@ -29,11 +29,11 @@ std::vector<Point<3>> VoxelFaceCentres(
   const LabelImage<3>& image, unsigned threads, const std::stop_token& stop = {});
 
 /**
- * For each of these faces, where the line between the centres of its two voxels crosses the interface of
- * the label field: as every voxel centre keeps its label, there is such a point. To a thousandth of a
- * voxel.
+ * For each face of VoxelFaceCentres(), the point where the line between the centres of its two
+ * voxels crosses the interface of the label field, to a thousandth of a voxel. This point exists
+ * because every voxel centre keeps its label.
  *
- * @param field made from the image
+ * @param field the label field of the same image
  */
 std::vector<Point<3>> SmoothInterfacePoints(const LabelImage<3>& image, const LabelField<3>& field,
   unsigned threads, const std::stop_token& stop = {});

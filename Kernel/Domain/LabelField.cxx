@@ -19,9 +19,9 @@ namespace
 {
 
 /**
- * By how much the own label of a voxel wins at least, and where its object is one voxel thin: there
- * the voxels beside it lose it by about as much, so that the object comes out about one voxel
- * thick. In samples (SampleOne is 1); even.
+ * The least margin of a voxel's own label, and the least margin where its object is one voxel thin.
+ * In the thin case the label loses by about as much at the voxels beside it, so that the object
+ * becomes about one voxel thick. Both are even and in units of samples (SampleOne is 1).
  */
 constexpr int KeptMargin = 328;
 constexpr int ThinMargin = 16384;
@@ -51,7 +51,7 @@ public:
     this->Halo.resize(this->Rows * this->Width);
   }
 
-  /** The samples of the tile whose first one is at these lattice coordinates. */
+  /** The samples of the tile whose first sample is at these lattice coordinates. */
   const Sample* MakeTile(const Index& first)
   {
     this->GatherHalo(first);
@@ -64,7 +64,7 @@ public:
 private:
   static constexpr std::uint16_t NoSlot = 0xffff;
 
-  /** Copies the ids within reach of the kernel. */
+  /** Copies the ids of the tile and of all voxels within reach of the smoothing kernel. */
   void GatherHalo(Index first)
   {
     for (std::int64_t& i : first)
@@ -116,7 +116,7 @@ private:
     }
   }
 
-  /** The rows of bits of a label; all 0 when it is first met. */
+  /** The rows of bits of a label. They are 0 at the first call for this label. */
   std::uint64_t* WordsOf(LabelId label)
   {
     std::uint16_t slot = this->SlotOf[label];
@@ -135,14 +135,14 @@ private:
     return this->Words.data() + slot * this->Rows;
   }
 
-  /** Samples of one label, before the own label is kept. */
+  /** Makes the samples of one label, before KeepOwnLabels() corrects them. */
   void SmoothLabel(LabelId label, Sample* plane)
   {
     const std::size_t slot = this->SlotOf[label];
     this->Smoothing.Smooth(this->Words.data() + slot * this->Rows, this->Buffers, plane);
   }
 
-  /** All planes of the tile whose labels have been gathered. */
+  /** Makes all planes of the tile. The labels must have been gathered. */
   const Sample* Smooth()
   {
     std::sort(this->Labels.begin(), this->Labels.end());
@@ -166,7 +166,7 @@ private:
     return tile;
   }
 
-  /** Which of the sorted labels each sample has. */
+  /** Finds for each sample which of the sorted labels it has. */
   void GatherOwn()
   {
     for (std::size_t l = 0; l < this->Labels.size(); ++l)
@@ -188,7 +188,7 @@ private:
     }
   }
 
-  /** By how much each sample's own label has to win. */
+  /** Finds for each sample the margin by which its own label must win. */
   void GatherMargins()
   {
     std::fill(this->Margins.begin(), this->Margins.end(), Sample{ KeptMargin });
@@ -225,9 +225,10 @@ private:
   }
 
   /**
-   * Whether a voxel between two others along some axis belongs to something one voxel thin, not to
-   * a bump on something thicker: no face neighbour with its label is thick itself. What is too small to
-   * contain a block of two voxels along each axis is thin all over, also where legs of it meet; but of
+   * For a voxel that lies between two voxels of other labels along some axis. Tells whether it
+   * belongs to an object that is one voxel thin, not to a bump on a thicker object: no face
+   * neighbour with its label is thick. An object that is too small to contain a block of two voxels
+   * along each axis is thin everywhere, even where its legs meet. This does not hold for
    * background, which need not be in the mesh.
    */
   bool IsThinObject(const LabelId* voxel) const
@@ -250,13 +251,16 @@ private:
     return true;
   }
 
-  /** Whether fewer voxels than a block has are connected with one, itself included, within the reach of the kernel. */
+  /**
+   * Whether the connected component of a voxel, within the reach of the kernel, has fewer voxels
+   * than a block of 2^D.
+   */
   bool IsSpeck(const LabelId* voxel) const
   {
     struct Member
     {
       const LabelId* Voxel;
-      std::array<int, static_cast<std::size_t>(D)> Offset; ///< from the one that is asked about
+      std::array<int, static_cast<std::size_t>(D)> Offset; ///< from the given voxel
     };
     std::array<Member, std::size_t{ 1 } << D> members;
     std::size_t count = 0;
@@ -310,9 +314,9 @@ private:
   const LabelSmoothing& Smoothing;
   std::size_t Radius;
   std::size_t Width; ///< samples of the halo along each axis
-  std::size_t Rows;  ///< of the halo
+  std::size_t Rows;  ///< number of rows of the halo
   std::vector<LabelId> Halo;
-  std::vector<LabelId> Labels; ///< of the halo
+  std::vector<LabelId> Labels; ///< labels that occur in the halo
   std::vector<std::uint16_t> SlotOf;
   std::vector<std::uint64_t> Words;
   LabelSmoothing::Buffers Buffers;

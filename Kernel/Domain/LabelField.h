@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LabelField.h
- * @brief Where the interfaces of a label image are, to a fraction of a voxel.
+ * @brief The interfaces of a label image, to a fraction of a voxel.
  */
 #ifndef voxplex_LabelField_h
 #define voxplex_LabelField_h
@@ -22,29 +22,31 @@ namespace voxplex
 
 /**
  * @brief Label of every point of space: the arg max over labels of smoothed, interpolated
- * indicators.
+ *   indicators.
  *
- * **Definition.** For a label l let u_l be +1 at the voxels of l and -1 at all others (background
- * outside of the image), smoothed by the kernel below. At a voxel where the own label lost against
- * another, its value is raised above the other's, so that *every voxel centre keeps its label*;
- * where an object is one voxel thin it is raised by so much that the object stays about one voxel
- * thick. Between the voxels u_l is interpolated multilinearly. Label(p) is the label with the
- * largest u_l(p); the smallest id among equals.
+ * **Definition.** For a label l the indicator u_l is +1 at the voxels of l and -1 at all others.
+ * Voxels outside of the image are background. u_l is smoothed by the kernel below. If another label
+ * wins at a voxel afterwards, the value of the voxel's own label is raised above the winner's, so
+ * that *every voxel centre keeps its label*. Where an object is one voxel thin, the value is raised
+ * farther, so that the object stays about one voxel thick. Between the voxels u_l is interpolated
+ * multilinearly. Label(p) is the label with the largest u_l(p). If several labels have the largest
+ * value, the smallest id wins.
  *
  * **Kernel.** The tensor product of a 1D kernel (1 + c) g - c g*g, where g is a Gaussian of about
- * sigma voxels along each axis. Like 2G - G*G, of which it is a separable form, it hardly moves
- * curved interfaces; it needs one separable pass, not two. Its second moment is not 0 but a little
- * less, which makes up for what remains of the shrinking and for the chords of the mesh.
+ * sigma voxels along each axis. It is a separable form of 2G - G*G and, like it, hardly moves
+ * curved interfaces, but it needs one separable pass, not two. Its second moment is slightly below
+ * 0, which compensates for the remaining shrinkage and for the chords of the mesh.
  * Documentation/Algorithm.md has the measured accuracy.
  *
- * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), labels go on unchanged for the smoothing, and all
- * beyond the outer faces of the outermost voxels is background: the cut is flat, its edges are sharp.
+ * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), labels continue
+ * unchanged for the smoothing. Beyond the outer faces of the outermost voxels there is background
+ * only: the cut is flat, its edges are sharp.
  *
- * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame it goes on
- * unchanged beyond it, for the smoothing and for queries: the ends are flat.
+ * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame, it
+ * continues unchanged beyond that frame, for the smoothing and for queries: the ends are flat.
  *
- * **Storage.** The tiles of a TiledLattice; those outside of the crop are background. A mixed one has 16-bit
- * fixed-point samples:
+ * **Storage.** The tiles of a TiledLattice. Tiles outside of the crop are background. A mixed tile
+ * has 16-bit fixed-point samples:
  *
  *     +---+----------+-----------------------------+
  *     | k | k labels | planes of 8^D samples       |
@@ -52,7 +54,8 @@ namespace voxplex
  *     +---+----------+ k > 2: k, u_l of each label |
  *                    +-----------------------------+
  *
- * In a tile whose samples all have one label no other label can win, by the definition: it is uniform.
+ * If all samples of a tile have one label, no other label can win in it, by the definition: the
+ * tile is uniform.
  *
  * Immutable after construction: all methods are const and safe to call from any thread. A query
  * costs O(1) in a uniform tile, O(2^D k) in a mixed one.
@@ -63,7 +66,9 @@ class LabelField : public BorderedField<D, std::int16_t, LabelField<D>>
 public:
   using typename TiledLattice<D, std::int16_t>::Index;
 
-  /** Root finding along a line ends when the bracket is shorter or the margin smaller, in voxels. */
+  /**
+   * Root finding along a line ends when the bracket, in voxels, or the margin is smaller than this.
+   */
   static constexpr double RootTolerance = 0.005;
   /** Largest standard deviation of the smoothing, voxels. */
   static constexpr double MaximumSigma = 5.0;
@@ -71,9 +76,9 @@ public:
   /**
    * @param image the labels; not referenced after construction
    * @param sigma standard deviation of the smoothing in voxels, 0 (none) to MaximumSigma
-   * @param threads threads used for the construction; 0 means all cores. The result does not
-   *   depend on it.
-   * @param stop ends the construction early, within the time of a tile; the default never does
+   * @param threads threads used for the construction; 0 means all cores. The result does not depend
+   *   on it.
+   * @param stop ends the construction early, within the time of one tile; the default never does
    * @throws InputError if sigma is out of range; Cancelled if stopped; std::bad_alloc
    */
   LabelField(const LabelImage<D>& image, double sigma, unsigned threads = 1,
@@ -81,12 +86,13 @@ public:
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
 
-  /** LabelAt(), but labels go on beyond the faces where the image cuts the object. */
+  /** LabelAt(), but labels continue beyond the faces where the image cuts the object. */
   LabelId ExtendedLabelAt(const Point<D>& x) const;
   /**
-   * MarginAt(), but labels go on beyond the faces where the image cuts the object: u_label(x) - max over the other labels
-   * of u_l(x), between -2 and +2 or a little more. Continuous in a mixed tile and across the faces of mixed
-   * tiles; +2 or -2 in uniform tiles.
+   * MarginAt(), but labels continue beyond the faces where the image cuts the object. The margin is
+   * u_label(x) minus the maximum of u_l(x) over the other labels, from about -2 to about +2. It is
+   * continuous in a mixed tile and across the faces of mixed tiles. In a uniform tile it is +2 or
+   * -2.
    */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
   /** ExtendedMarginAt() of several labels. */
@@ -94,7 +100,10 @@ public:
   std::array<double, N> ExtendedMarginsAt(
     const Point<D>& x, const std::array<LabelId, N>& labels) const;
 
-  /** Gradient of ExtendedMarginAt(). @return false in a uniform tile, or where `label` is not near: it is unknown */
+  /**
+   * Gradient of ExtendedMarginAt().
+   * @return false if it is unknown: the tile is uniform, or does not have `label`
+   */
   bool ExtendedMarginGradientAt(const Point<D>& x, LabelId label, Point<D>& gradient) const;
 
 private:
@@ -111,7 +120,7 @@ private:
   class Builder;
 };
 
-// Four pairs of samples at a time, where the compiler has vectors; the result is the same without.
+// Four pairs of samples at a time, if the compiler supports vectors. The result is the same.
 template <int D>
 inline float LabelField<D>::InterpolatePlane(const Sample* plane, const Cell& cell)
 {
@@ -196,7 +205,7 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
   {
     return cell.Uniform == label ? 2.0 : -2.0;
   }
-  // Of equal values the smallest id wins: the margin of the winner must be positive.
+  // If values are equal, the smallest id wins: the winner's margin must be positive.
   constexpr double tie = std::numeric_limits<double>::min();
   const auto labels = static_cast<std::size_t>(cell.Tile[0]);
   const Sample* planes = cell.Tile + HeaderSize(labels);
@@ -210,9 +219,9 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
     }
     return label == static_cast<LabelId>(cell.Tile[2]) ? -difference : -2.0;
   }
-  float own = -static_cast<float>(SampleOne); // of a label that is not near
+  float own = -static_cast<float>(SampleOne); // value of a label that the tile does not have
   float other = -std::numeric_limits<float>::max();
-  bool first = true; // no smaller id has the largest value of the others
+  bool first = true; // `label` is smaller than the first id with the largest value of the others
   for (std::size_t l = 0; l < labels; ++l)
   {
     const float value = InterpolatePlane(planes + l * PlaneSize, cell);
@@ -231,7 +240,7 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
   return margin != 0.0 || !first ? margin : tie;
 }
 
-// Of all labels the best and the next best, of equal ones the smallest id.
+// Finds the best and the next best of all labels. If values are equal, the smallest id comes first.
 template <int D>
 template <std::size_t N>
 std::array<double, N> LabelField<D>::ExtendedMarginsAt(

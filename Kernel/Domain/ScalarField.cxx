@@ -18,12 +18,13 @@ namespace
 {
 
 /**
- * A sample is at least this times the largest one across a face: so the isosurface keeps a thousandth of a
- * voxel, about, away from voxel centres, which rounding could otherwise put on the other side.
+ * A sample is at least this factor times the largest sample of its face neighbours. So the
+ * isosurface stays about a thousandth of a voxel away from voxel centres. Otherwise rounding could
+ * put a centre on the wrong side.
  */
 constexpr float KeptMargin = 0.001f;
 
-/** Where there is no difference at all. */
+/** The least sample, if the face neighbours give none. */
 constexpr float SmallestSample = std::numeric_limits<float>::min();
 
 } // namespace
@@ -57,7 +58,7 @@ public:
     }
   }
 
-  /** The samples of the tile whose first one is at these lattice coordinates. */
+  /** The samples of the tile whose first sample is at these lattice coordinates. */
   const Sample* MakeTile(const Index& first)
   {
     this->GatherHalo(first);
@@ -80,9 +81,12 @@ public:
   typename Base::Arena Memory;
 
 private:
-  static constexpr std::size_t Width = TileSamples + 2; ///< of the halo
+  static constexpr std::size_t Width = TileSamples + 2; ///< samples of the halo along each axis
 
-  /** Margins and ids of the tile and one sample around it; NaN and background beyond the image. */
+  /**
+   * Gathers margins and ids of the tile and one sample around it; NaN and background beyond the
+   * image.
+   */
   void GatherHalo(Index first)
   {
     for (std::int64_t& i : first)
@@ -108,7 +112,10 @@ private:
       });
   }
 
-  /** Margins of a row of the halo from a lattice point on; where the image cuts the object they go on. */
+  /**
+   * Reads margins of a row of the halo from a lattice point on. Where the image cuts the object,
+   * they continue.
+   */
   void ReadMargins(Index lattice, Sample* margins) const
   {
     ClampToCut(this->Labels, lattice);
@@ -147,7 +154,7 @@ private:
     }
   }
 
-  /** The sample at a place of the halo that is not at its rim. */
+  /** The sample at a position inside the halo, not at its rim. */
   Sample SampleAt(std::ptrdiff_t at) const
   {
     const Sample margin = std::abs(this->Margins[static_cast<std::size_t>(at)]);
@@ -161,17 +168,19 @@ private:
       for (const std::ptrdiff_t step : { -stride, stride })
       {
         const Sample beside = std::abs(this->Margins[static_cast<std::size_t>(at + step)]);
-        largest = beside > largest ? beside : largest; // not if it is NaN
+        largest = beside > largest ? beside : largest; // false for NaN
       }
     }
     const Sample kept = std::max({ margin, KeptMargin * largest, SmallestSample });
     return this->Ids[static_cast<std::size_t>(at)] != 0 ? kept : -kept;
   }
 
-  /** What an object is closed by: the mean margin of the nearest inside voxels around a place. */
+  /**
+   * The mean margin of the nearest inside voxels around a position, which closes an object there.
+   */
   Sample MarginBeside(std::ptrdiff_t at) const
   {
-    std::array<Sample, D + 1> sum{}; // by the number of axes along which they are off
+    std::array<Sample, D + 1> sum{}; // by the number of axes along which the neighbour is offset
     std::array<int, D + 1> count{};
     for (std::size_t i = 0; i < this->Steps.size(); ++i)
     {
@@ -189,7 +198,7 @@ private:
         return std::max(sum[axes] / static_cast<Sample>(count[axes]), SmallestSample);
       }
     }
-    return SmallestSample; // beside nothing that is inside
+    return SmallestSample; // no neighbour is inside
   }
 
   const IsosurfaceImage<D>& Image;
@@ -197,7 +206,10 @@ private:
   std::vector<Sample> Margins;
   std::vector<LabelId> Ids;
   std::array<std::ptrdiff_t, static_cast<std::size_t>(D)> Strides{}; ///< of the halo
-  /** To the 3^D places around one and itself, and along how many axes these lie off. */
+  /**
+   * Offsets to a position's 3^D - 1 neighbours and to itself, and the number of axes along which
+   * each is offset.
+   */
   std::array<std::ptrdiff_t, D == 3 ? 27 : 81> Steps{};
   std::array<std::size_t, D == 3 ? 27 : 81> Axes{};
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalarField.h
- * @brief Where the isosurface of a grey-value image is.
+ * @brief The isosurface of a grey-value image.
  */
 #ifndef voxplex_ScalarField_h
 #define voxplex_ScalarField_h
@@ -19,27 +19,30 @@ namespace voxplex
 {
 
 /**
- * @brief Inside (id 1) or outside (background) of an isosurface for every point of space: the sign of
- * interpolated margins.
+ * @brief Tells for every point of space whether it is inside (id 1) or outside (background) of an
+ *   isosurface, by the
+ * sign of interpolated margins.
  *
- * **Definition.** Every voxel has a sample: its margin (IsosurfaceImage) with the sign that the label
- * image says, positive inside. A sample that is less than a thousandth of one across a face is raised to
- * that, so that *every voxel centre keeps its side*, also one that has the isovalue itself. Between the voxels
- * samples are interpolated multilinearly. Inside is where the result is positive. So the isosurface is that of
- * the multilinear interpolant, which on grid edges is where vtkFlyingEdges3D and marching cubes have
- * their points, to a thousandth of a voxel.
+ * **Definition.** The sample of a voxel is its margin (IsosurfaceImage). Its sign follows from the
+ * label image: positive inside. If a sample is smaller than a thousandth of the sample of a face
+ * neighbour, it is raised to that, so that *every voxel centre keeps its side*, even if its value
+ * is the isovalue itself. Between the voxels samples are interpolated multilinearly. A point is
+ * inside if the result is positive. So the isosurface is that of the multilinear interpolant. On
+ * grid edges it coincides with the points of vtkFlyingEdges3D and marching cubes, to a thousandth
+ * of a voxel.
  *
- * **Without a value.** At voxels that have no number, and in 4D beyond the image, the sample is the mean of
- * the margins of the nearest inside voxels among the 3^D - 1 around (those across a face before those across
- * an edge), with a minus sign: the object is closed halfway, by a plane half a voxel beyond the outermost voxels, as
- * label images are.
+ * **Without a value.** A voxel whose value is not a number, or in 4D a voxel beyond the image,
+ * takes a sample from the nearest inside voxels among the 3^D - 1 around it: minus the mean of
+ * their margins. Face neighbours come before edge neighbours. So the object is closed halfway, by a
+ * plane half a voxel beyond the outermost voxels, as in label images.
  *
- * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), values go on unchanged, and all
- * beyond the outer faces of the outermost voxels is outside: the cut is flat, its edges are sharp.
+ * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), values continue
+ * unchanged. Beyond the outer faces of the outermost voxels all points are outside: the cut is
+ * flat, its edges are sharp.
  *
- * **Time.** In 4D flat ends are as in LabelField.
+ * **Time.** Flat ends in 4D are as in LabelField.
  *
- * **Storage.** The tiles of a TiledLattice; a mixed one has 8^D floats.
+ * **Storage.** The tiles of a TiledLattice. A mixed tile has 8^D floats.
  *
  * Immutable after construction: all methods are const and safe to call from any thread. A query
  * costs O(1) in a uniform tile, O(2^D) in a mixed one.
@@ -50,13 +53,13 @@ class ScalarField : public BorderedField<D, float, ScalarField<D>>
 public:
   using typename TiledLattice<D, float>::Index;
 
-  /** See LabelField; finer here, where images tell surfaces to that. */
+  /** See LabelField. It is finer here because grey values determine the surface more exactly. */
   static constexpr double RootTolerance = 0.001;
 
   /**
    * @param image not referenced after construction
-   * @param threads threads used for the construction; 0 means all cores. The result does not
-   *   depend on it.
+   * @param threads threads used for the construction; 0 means all cores. The result does not depend
+   *   on it.
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   ScalarField(
@@ -64,7 +67,7 @@ public:
   ScalarField(ScalarField&&) noexcept = default;
   ScalarField& operator=(ScalarField&&) noexcept = default;
 
-  /** LabelAt(), but the object goes on beyond the faces where the image cuts it. */
+  /** LabelAt(), but the object continues beyond the faces where the image cuts it. */
   LabelId ExtendedLabelAt(const Point<D>& x) const
   {
     const Cell cell = this->Locate(x);
@@ -72,9 +75,11 @@ public:
   }
 
   /**
-   * MarginAt(), but the object goes on beyond the faces where the image cuts it: the interpolated samples in units of the
-   * difference between the largest and smallest one of the cell, so that it changes by about 1 from voxel to
-   * voxel, whatever the unit of the values; -2 to +2. Continuous in a cell, and across its faces where it is 0.
+   * MarginAt(), but the object continues beyond the faces where the image cuts it. The margin is
+   * the interpolated sample divided by the difference between the largest and the smallest sample
+   * of the cell. So it changes by about 1 from voxel to voxel, independent of the unit of the
+   * values. Its range is -2 to +2. It is continuous in a cell, and across the cell's faces where it
+   * is 0.
    */
   double ExtendedMarginAt(const Point<D>& x, LabelId label) const;
   /** ExtendedMarginAt() of several labels. */
@@ -103,7 +108,7 @@ private:
   struct Interpolation
   {
     float Value;
-    float Range; ///< of the cell's corners
+    float Range; ///< largest minus smallest sample of the cell's corners
   };
   static Interpolation Interpolate(const Cell& cell);
 
@@ -160,7 +165,7 @@ inline double ScalarField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label)
   {
     return margin;
   }
-  // What is not positive is background: its margin must be positive there.
+  // A point whose value is not positive is background: background's margin must be positive there.
   return margin != 0.0 ? -margin : std::numeric_limits<double>::min();
 }
 

@@ -14,7 +14,9 @@ namespace voxplex
 namespace
 {
 
-/** A label is thin along an axis if it is less than this times as thick as along its thinnest. */
+/**
+ * A label is thin along an axis if its width there is at most this factor times its smallest width.
+ */
 constexpr double WidthFactor = 1.6;
 
 } // namespace

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ThinPart.h
- * @brief The fewest interface points that bring out what is thinner than the mesh is fine.
+ * @brief The fewest interface points with which a part thinner than the sampling distance appears
+ *   in the mesh.
  */
 #ifndef voxplex_ThinPart_h
 #define voxplex_ThinPart_h
@@ -17,12 +18,13 @@ namespace voxplex
 {
 
 /**
- * @brief How far the label of a voxel reaches from it along the axes.
+ * @brief How far the label of a voxel extends from it along the axes.
  *
- * Where a label is thin along an axis, the two points where the line through the voxel's centre along that axis leaves it
- * make an edge of the Delaunay triangulation, unless other vertices are near. The circumcentres of all tetrahedra at this
- * edge are in the plane half way between its ends, so in the middle of the label. A sheet needs two points to be seen
- * there, a rod four, a grain six.
+ * The line through the voxel's centre along an axis leaves the label at two points, the ends. If
+ * the label is thin along this axis and no other vertices are near, the ends make an edge of the
+ * Delaunay triangulation. The circumcentres of all tetrahedra at this edge lie in its bisecting
+ * plane, that is, in the middle of the label. So two points are enough for a sheet, four for a rod,
+ * six for a grain.
  *
  * Immutable; safe to read from any thread.
  */
@@ -32,32 +34,37 @@ class ThinPart
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  /** The label is not followed farther than so many voxels along each axis. */
+  /** The label is followed at most this number of voxels along each axis. */
   static constexpr std::int64_t MostSteps = 8;
 
   /**
-   * Takes MostSteps look-ups of voxels and one search for a crossing for each direction, at most.
-   * @param surfaces of the same image
+   * Takes at most MostSteps look-ups of voxels and one search for a crossing in each direction.
+   * @param surfaces the domain of the same image
    * @param voxel an index of the crop
    */
   ThinPart(const LabelImage<D>& image, const Domain<D>& surfaces, const Index& voxel);
 
   const Index& Voxel() const { return this->Middle; }
 
-  /** The least distance between the two ends along an axis, in the unit of the image's spacing. */
+  /**
+   * The smallest distance between the two ends along an axis, in the unit of the image's spacing.
+   */
   double Thickness() const { return this->Least; }
 
-  /** The ends along the axes along which the label is thin, on interfaces; along the others there are none. */
+  /** The ends, which lie on interfaces, but only along the axes along which the label is thin. */
   const std::vector<Point<D>>& Ends() const { return this->Crossings; }
 
-  /** Whether the label is thicker here, or as thick and this voxel is farther from its rim. */
+  /**
+   * Whether the label is thicker here. If it is equally thick: whether this voxel is farther from
+   * its ends.
+   */
   bool IsBetterThan(const ThinPart& other) const;
 
 private:
   Index Middle;
-  double Least;  ///< of the distances between two ends
-  double Margin; ///< of the distances to an end
-  double Total;  ///< of the distances between two ends
+  double Least;  ///< smallest distance between two ends
+  double Margin; ///< smallest distance from the voxel's centre to an end
+  double Total;  ///< sum of the distances between two ends
   std::vector<Point<D>> Crossings;
 };
 

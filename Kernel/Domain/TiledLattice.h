@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file TiledLattice.h
- * @brief Samples at the voxels near interfaces, in tiles that a query reads one of.
+ * @brief Samples at the voxels near interfaces, stored in tiles; a query reads one tile.
  */
 #ifndef voxplex_TiledLattice_h
 #define voxplex_TiledLattice_h
@@ -26,12 +26,12 @@ namespace voxplex
 {
 
 /**
- * @brief What the fields that tell labels between voxel centres have in common: the lattice and its tiles.
+ * @brief The lattice and its tiles, which the fields of labels between voxel centres share.
  *
- * The lattice is the crop of a label image and one layer around it. It is cut in tiles of TileCells cells
- * along each axis. A tile whose samples all have one label is uniform, and so is all of it; the other
- * tiles, mixed ones, store samples on all of their (TileCells + 1)^D corners, so that a query reads one
- * tile only:
+ * The lattice is the crop of a label image and one layer around it. It is cut into tiles of
+ * TileCells cells along each axis. If all samples of a tile have one label, the tile is uniform:
+ * every point in it has this label. The other tiles are mixed. A mixed tile stores samples on all
+ * of its (TileCells + 1)^D corners, so that a query reads one tile only:
  *
  *     directory: one 64-bit word a tile
  *     +--------------------------+
@@ -39,8 +39,8 @@ namespace voxplex
  *     | address          mixed   | ----------> samples, as the field lays them out
  *     +--------------------------+
  *
- * Samples must depend on their neighbourhood alone and not on the tile: then two tiles agree on the face
- * that they share.
+ * A sample must depend on its neighbourhood only, not on the tile. Then two tiles agree on their
+ * common face.
  *
  * Immutable after construction: all methods are const and safe to call from any thread.
  */
@@ -50,7 +50,7 @@ class TiledLattice
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  /** Cells of a tile along each axis; its 8 samples along x fill one vector register. */
+  /** Cells of a tile along each axis. Its 8 samples along x fill one vector register. */
   static constexpr unsigned TileCells = 7;
 
   /** Samples of the lattice along each axis: the crop's voxels + 2. */
@@ -86,11 +86,11 @@ public:
   }
 
   /**
-   * Lattice coordinates of the first and the last frame where the object is cut by them, else
-   * infinite: beyond a cut everything is as on it. Only in 4D; the last axis is time.
+   * Lattice coordinates of the first and the last frame, if they cut the object; otherwise
+   * infinite. Beyond a cut, labels are as on the cut. Only in 4D; the last axis is time.
    */
   const std::array<double, 2>& FlatEnds() const { return this->Ends; }
-  /** The point of the lattice nearest to x that is not beyond a flat end. */
+  /** x, or its projection onto the flat end if it lies beyond one. */
   Point<D> ClampToEnds(Point<D> x) const
   {
     double& time = x[static_cast<std::size_t>(D) - 1];
@@ -98,7 +98,7 @@ public:
     return x;
   }
 
-  /** Memory held, bytes. */
+  /** Memory held in bytes. */
   std::size_t MemoryBytes() const
   {
     return this->BlockBytes + this->Directory.size() * sizeof(std::uintptr_t);
@@ -111,7 +111,7 @@ protected:
   static constexpr unsigned TileSamples = TileCells + 1;
   static constexpr unsigned PlaneSize = D == 3 ? 512 : 4096;
 
-  /** The lattice of an image, which is not referenced afterwards; all tiles are to be made. */
+  /** The lattice of an image, without tiles. The image is not referenced afterwards. */
   explicit TiledLattice(const LabelImage<D>& image);
   TiledLattice(TiledLattice&&) noexcept = default;
   TiledLattice& operator=(TiledLattice&&) noexcept = default;
@@ -122,7 +122,7 @@ protected:
   {
     const Sample* Tile; ///< null in a uniform tile
     LabelId Uniform;
-    unsigned Offset; ///< of the cell's first corner in a plane
+    unsigned Offset; ///< offset of the cell's first corner in a plane
     std::array<float, static_cast<std::size_t>(D)> Fraction;
   };
   Cell Locate(Point<D> x) const;
@@ -130,11 +130,11 @@ protected:
   /** Gradient of the interpolation of a plane's samples in a cell, with respect to lattice coordinates. */
   static Point<D> PlaneGradient(const Sample* plane, const Cell& cell);
 
-  /** Memory for the samples of mixed tiles, taken by one thread at a time. */
+  /** Memory for the samples of mixed tiles. One thread at a time may use an arena. */
   class Arena
   {
   public:
-    /** Uninitialised; 16-byte aligned, since sizes are multiples of 8 samples. */
+    /** Returns uninitialised memory; 16-byte aligned, because sizes are multiples of 8 samples. */
     Sample* Allocate(std::size_t samples);
 
     std::vector<std::unique_ptr<Sample[]>> Blocks;
@@ -147,15 +147,18 @@ protected:
   };
 
   /**
-   * Calls row(in, x0, x1, k) for each row of a box of `width` samples along each axis: row k of the
-   * box, of which the samples x0 ... x1 - 1 lie in the crop, with ids from `in`; x0 == x1 if none
-   * does. Beyond a flat end and where the image cuts the object rows repeat; see RowEnds, too. Returns early
-   * when row returns false.
+   * Calls row(in, x0, x1, k) for each row k of a box of `width` samples along each axis. The
+   * samples x0 ... x1 - 1 of the row lie in the crop; their ids begin at `in`. If no sample lies in
+   * the crop, x0 == x1. Rows repeat beyond a flat end and where the image cuts the object; see also
+   * RowEnds(). If row returns false, the function returns early.
    */
   template <typename Function>
   static void ForEachRow(
     const LabelImage<D>& image, const Index& first, std::size_t width, Function&& row);
-  /** The ids of a row's samples before and after those in the crop: background, or that of the cut object. */
+  /**
+   * The ids of a row's samples before and after the crop: background, or the id at the cut if the
+   * object is cut.
+   */
   static std::array<LabelId, 2> RowEnds(
     const LabelImage<D>& image, const LabelId* in, std::int64_t low, std::int64_t high)
   {
@@ -166,14 +169,17 @@ protected:
     return { image.ReachesBorder(0, 0) ? in[0] : LabelId{ 0 },
       image.ReachesBorder(0, 1) ? in[high - low - 1] : LabelId{ 0 } };
   }
-  /** Whether all samples of the tile that begins there have one label, which it tells. */
+  /**
+   * Whether all samples of the tile that begins at `first` have one label. If so, `label` receives
+   * it.
+   */
   static bool IsUniform(const LabelImage<D>& image, const Index& first, LabelId& label);
 
   /**
-   * Makes all mixed tiles. make() gives a std::unique_ptr of a builder, which serves one thread at a
-   * time: its MakeTile(first) returns the samples of the tile that begins at these lattice coordinates,
-   * in memory of its member Memory, an Arena.
-   * @throws Cancelled if a stop was requested before the end, which takes no longer than a tile
+   * Makes all tiles. make() returns a std::unique_ptr to a builder, which serves one thread at a
+   * time. The builder's MakeTile(first) returns the samples of the mixed tile that begins at these
+   * lattice coordinates, in memory of its member Memory, an Arena.
+   * @throws Cancelled if a stop was requested before the end, within the time of one tile
    */
   template <typename Function>
   void MakeTiles(
@@ -264,7 +270,7 @@ inline typename TiledLattice<D, SampleType>::Cell TiledLattice<D, SampleType>::L
   return cell;
 }
 
-/** One axis after the other, values and derivatives together. */
+/** Interpolates along one axis after the other, values and derivatives together. */
 template <int D, typename SampleType>
 Point<D> TiledLattice<D, SampleType>::PlaneGradient(const Sample* plane, const Cell& cell)
 {
@@ -322,7 +328,7 @@ template <typename Function>
 void TiledLattice<D, SampleType>::ForEachRow(
   const LabelImage<D>& image, const Index& begin, std::size_t width, Function&& row)
 {
-  const Index crop = image.CropDimensions(); // copies, which the compiler can keep in registers
+  const Index crop = image.CropDimensions(); // copies that the compiler can keep in registers
   const Index first = begin;
   const LabelId* const ids = image.Ids().data();
   const auto w = static_cast<std::int64_t>(width);
@@ -422,7 +428,7 @@ void TiledLattice<D, SampleType>::MakeTiles(
       std::size_t mixed = 0;
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        ThrowIfStopped(stop); // a tile in 4D with many labels and much smoothing takes a while
+        ThrowIfStopped(stop); // a 4D tile with many labels and strong smoothing takes a while
         Index first{};
         std::size_t rest = tile;
         for (std::size_t a = 0; a < D; ++a)

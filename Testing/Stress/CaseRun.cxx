@@ -19,7 +19,7 @@ namespace voxplex::stress
 namespace
 {
 
-/** Of all threads of this process. */
+/** Processor time of all threads of this process. */
 double ProcessorSeconds()
 {
   timespec now{};
@@ -32,7 +32,10 @@ double WallSeconds()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/** Wall-clock seconds for one of processor time: the machine may be busy, and threads may wait for each other. */
+/**
+ * Wall-clock seconds per second of processor time: the machine may be busy, and threads may wait
+ * for each other.
+ */
 constexpr double WallFactor = 8.0;
 
 template <int D>
@@ -44,7 +47,7 @@ GridGeometry<D> GridOf(const Volume<D>& image)
   return grid;
 }
 
-/** Ends what takes too long. */
+/** The time limit of a run, in processor time and in wall-clock time. */
 class Deadline
 {
 public:
@@ -60,7 +63,7 @@ private:
   double Wall;
 };
 
-/** One call of the front door. @throws what that throws */
+/** One call of ImageMesher. @throws the exceptions of ImageMesher */
 template <int D>
 MeshingOutcome MeshOnce(
   const StressCase<D>& of, double seconds, SimplexMesh<D>& mesh, MeshingStatistics& statistics)
@@ -107,7 +110,7 @@ bool SameMesh(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
     SameBytes(a.FacetLabels, b.FacetLabels);
 }
 
-/** Runs, and runs again if the case says so. Null if there is no mesh. */
+/** Meshes, and meshes again if the case says so. @return null if there is no mesh */
 template <int D>
 bool MakeMesh(const StressCase<D>& of, const RunLimits& limits, SimplexMesh<D>& mesh,
   MeshingStatistics& statistics, CaseResult& result, Findings& findings)
@@ -172,7 +175,7 @@ bool CaseResult::Has(const std::string& cause) const
 template <int D>
 double TimeLimit(const StressCase<D>& of, const RunLimits& limits)
 {
-  // Ten to a hundred times what meshing takes.
+  // Ten to a hundred times the time that meshing takes.
   const double perElement = D == 3 ? 3e-4 : 1e-2;
   const double runs = of.Options.Elements > 0 ? 12.0 : 1.0;
   return limits.Seconds > 0.0
@@ -205,7 +208,7 @@ CaseResult RunCase(const StressCase<D>& of, const RunLimits& limits)
     result.NonManifold = figures.NonManifold;
     result.Lost = figures.Lost;
   }
-  // What is lost, or all of it, had vertices of its own; in 4D, where each takes more, a few hundred.
+  // Lost components had vertices, too: small meshes count as this many. In 4D a vertex takes more.
   constexpr std::uint64_t fewest = D == 3 ? 100 : 300;
   const double most =
     limits.OperationsPerVertex * static_cast<double>(std::max(result.Vertices, fewest));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file CaseRun.h
- * @brief Meshes one case through the kernel's front door, with limits, and checks the mesh.
+ * @brief Meshes one case through ImageMesher, with limits, and checks the mesh.
  */
 #ifndef voxplex_stress_CaseRun_h
 #define voxplex_stress_CaseRun_h
@@ -17,23 +17,23 @@
 namespace voxplex::stress
 {
 
-/** What counts as a failure, and when a run is ended. */
+/** Limits of a run: beyond them it fails or is ended. */
 struct RunLimits
 {
-  double TimeFactor = 1.0;           ///< of the limits by size
-  double Seconds = 0.0;              ///< of processor time, instead of those by size; 0: by size
-  double OperationsPerVertex = 40.0; ///< more are a failure; 0: no limit
+  double TimeFactor = 1.0;           ///< factor of the time limits by size
+  double Seconds = 0.0;              ///< limit of processor time; 0: limit by size
+  double OperationsPerVertex = 40.0; ///< more operations are a failure; 0: no limit
   bool AllowNonManifold = false;
 };
 
 enum class CaseStatus
 {
   Passed,
-  Refused, ///< with a message: InputError, TooLargeError
+  Refused, ///< InputError or TooLargeError, with a message
   Failed
 };
 
-/** How a case ended. */
+/** The result of a case. */
 struct CaseResult
 {
   CaseStatus Status = CaseStatus::Passed;
@@ -46,8 +46,8 @@ struct CaseResult
   std::uint64_t Operations = 0; ///< insertions and removals
   std::uint64_t NonManifold = 0;
   std::uint64_t Lost = 0;
-  double Seconds = 0.0;      ///< of processor time, meshing only, all threads
-  double CheckSeconds = 0.0; ///< of processor time, for the checks
+  double Seconds = 0.0;      ///< processor time of meshing, all threads
+  double CheckSeconds = 0.0; ///< processor time of the checks
 
   bool Has(const std::string& cause) const;
 };
@@ -56,7 +56,7 @@ struct CaseResult
 template <int D>
 double TimeLimit(const StressCase<D>& of, const RunLimits& limits);
 
-/** Never throws but std::bad_alloc of its own. */
+/** Throws only std::bad_alloc, and only if its own memory fails. */
 template <int D>
 CaseResult RunCase(const StressCase<D>& of, const RunLimits& limits);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries of labels: closed, manifold.
+// Boundaries of labels are closed and manifold.
 #include "Checks.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh beside its image: interfaces, extent, volumes, connected components.
+// Compares a mesh with its image: interfaces, extent, volumes, connected components.
 #include "Checks.h"
 
 #include <algorithm>
@@ -18,12 +18,15 @@ namespace
 template <int D>
 using Index = typename Volume<D>::Index;
 
-/** Interfaces are found to this, in voxels. */
+/** Tolerance of points on interfaces, in voxels. */
 constexpr double SearchPrecision = 0.02;
-/** By how much optimisation moves vertices off interfaces, in the smallest spacing. */
+/** Distance by which optimisation may move vertices off interfaces, in smallest spacings. */
 constexpr double OptimisationTolerance = 0.1;
 
-/** Calls f for each index of a box, ends included, until it returns false. @return whether it never did */
+/**
+ * Calls f for each index of a box, ends included, until f returns false.
+ * @return whether f never returned false
+ */
 template <int D, typename Function>
 bool AllInBox(const Index<D>& low, const Index<D>& high, Function f)
 {
@@ -44,7 +47,7 @@ bool AllInBox(const Index<D>& low, const Index<D>& high, Function f)
   return true;
 }
 
-/** Whether labels are known voxel by voxel: not if grey values were smoothed. */
+/** Whether the label of each voxel is known. It is not if grey values were smoothed. */
 template <int D>
 bool KnowsLabels(const Volume<D>& image)
 {
@@ -52,7 +55,7 @@ bool KnowsLabels(const Volume<D>& image)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Whether the voxels around a point have different labels: else no interface can be there. */
+/** Whether the voxels around a point have different labels. If not, no interface can be there. */
 template <int D>
 bool MayBeOnInterface(const Volume<D>& image, const Vector<D>& p, double tolerance)
 {
@@ -158,17 +161,17 @@ void CheckExtent(const Subject<D>& subject, Findings& findings)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Volumes of labels differ by no more than their boundary times its likely error. */
+/** Volumes of labels differ by at most the area of the boundary times its likely error. */
 template <int D>
 void CheckVolumes(const Subject<D>& subject, Findings& findings)
 {
   const Volume<D>& image = subject.Of.Image;
-  std::map<std::int64_t, Real> volume; // of the mesh, less that of the image
+  std::map<std::int64_t, Real> volume; // volume in the mesh minus volume in the image
   for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
   {
     volume[subject.Mesh.Labels[s]] += VolumeOf<D>(subject.Corners(s));
   }
-  std::map<std::int64_t, Real> area; // of voxel faces
+  std::map<std::int64_t, Real> area; // area of the boundary's voxel faces
   image.ForEach(
     [&](const Index<D>& voxel, std::size_t i)
     {
@@ -259,7 +262,7 @@ public:
     return i;
   }
 
-  /** How many voxels a component has. */
+  /** The number of voxels of a component. */
   std::int64_t SizeOf(std::size_t component) const { return this->Voxels[component]; }
 
 private:
@@ -268,7 +271,7 @@ private:
   std::vector<std::int64_t> Voxels;
 };
 
-/** Components with an element of their label of which the centroid is within about a voxel. */
+/** Components with an element of their label whose centroid is at most about a voxel away. */
 template <int D>
 std::vector<char> FindPresent(const Subject<D>& subject, VoxelComponents<D>& components)
 {

@@ -20,7 +20,7 @@ vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # of NIfTI files with t
 # What the program promises with its default flags: see Documentation/Reference.md.
 LARGEST_RATIO = 2.5
 SMALLEST_COMPONENT = 8
-# Of elements, how many may break a bound of their shape: the optimiser does what it can.
+# Share of elements that may break a bound of their shape: the optimiser cannot repair all of them.
 POOR_SHARE = 1e-4
 
 NRRD_TYPES = {"uchar": "u1", "unsigned char": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -51,14 +51,14 @@ def read_nrrd(path):
 
 
 def read_nifti(path):
-    """The same. VTK's reader turns no axes; its matrices are of RAS space. Where they differ, it is as in ITK's."""
+    """The same. VTK's reader turns no axes; its matrices are of RAS space. If they differ, the choice is ITK's."""
     reader = vtkNIFTIImageReader()
     reader.SetFileName(str(path))
     reader.Update()
     image = reader.GetOutput()
     voxels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[::-1])
     header = reader.GetNIFTIHeader()
-    scanner = 1  # code of coordinates of the scanner
+    scanner = 1  # code of scanner coordinates
     uses_rows = header.GetSFormCode() == scanner or header.GetQFormCode() == 0
     form = reader.GetSFormMatrix() if uses_rows else reader.GetQFormMatrix()
     matrix = np.array([[form.GetElement(r, c) for c in range(4)] for r in range(4)])
@@ -79,7 +79,7 @@ class Image:
         return abs(np.linalg.det(self.matrix[:3, :3]))
 
     def interface_faces(self):
-        """How many faces of voxels are between different labels."""
+        """Number of voxel faces between different labels."""
         padded = np.pad(self.voxels, 1)
         return sum(int(np.count_nonzero(np.diff(padded, axis=axis))) for axis in range(3))
 
@@ -150,7 +150,7 @@ def facets_of(cells):
 
 
 def non_manifold_edges(facets, pairs):
-    """Edges with other than two facets of the boundary of a label, once for each label."""
+    """Edges at which not exactly two facets of a label's boundary meet, once for each label."""
     edges = np.concatenate([facets[:, [0, 1]], facets[:, [1, 2]], facets[:, [0, 2]]])
     pairs = np.concatenate([pairs, pairs, pairs])
     rows = np.concatenate([np.column_stack([edges, pairs[:, side]]) for side in (0, 1)])
@@ -162,7 +162,7 @@ def non_manifold_edges(facets, pairs):
 
 
 def lost_components(image, centroids, labels):
-    """Components of enough voxels without an element whose centroid is within a voxel."""
+    """Components with enough voxels, but without an element of their label whose centroid is within a voxel."""
     index = np.rint(image.to_index(centroids)).astype(np.int64)
     shape = np.array(image.voxels.shape[::-1])
     found = np.zeros(len(image.sizes), dtype=bool)

@@ -17,11 +17,11 @@ namespace
 /** Rounding of ratios and angles. */
 constexpr Real Rounding = 1e-6;
 
-/** What the optimiser takes for poor: dihedral angles, degrees. */
+/** Dihedral angles that the optimiser regards as poor, degrees. */
 constexpr Real SmallestDihedral = 15;
 constexpr Real LargestDihedral = 155;
 
-/** Elements that break a bound, and the worst of them. */
+/** The number of elements that break a bound, and the worst of them. */
 struct Breaches
 {
   std::uint64_t Count = 0;
@@ -86,7 +86,7 @@ void CheckRatios(const Subject<D>& subject, Findings& findings)
 }
 
 //------------------------------------------------------------------------------------------------
-/** What optimisation says of itself, and slivers without it. */
+/** Checks the statistics of optimisation, and slivers if it did not run. */
 void CheckDihedralAngles(const Subject<3>& subject, Findings& findings)
 {
   const OptimisationSummary& said = subject.Stats.Optimisation;
@@ -132,7 +132,10 @@ void CheckDihedralAngles(const Subject<3>& subject, Findings& findings)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Angles of facets between labels; a facet with a vertex at a junction may have smaller ones. */
+/**
+ * Checks the angles of facets between labels. A facet with a vertex at a junction may have smaller
+ * angles.
+ */
 void CheckFacetAngles(const Subject<3>& subject, Findings& findings)
 {
   const SimplexMesh<3>& mesh = subject.Mesh;
@@ -156,7 +159,7 @@ void CheckFacetAngles(const Subject<3>& subject, Findings& findings)
       angles.Note(angle, false);
     }
   }
-  // Optimisation replaces angles by larger ones, or by some above the bound.
+  // Optimisation replaces an angle by a larger one, or by one above the bound.
   angles.Report("facet-angle", subject.Excused(), bound, findings);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of itself.
+// Checks the statistics of a run.
 #include "Checks.h"
 
 #include <cmath>
@@ -46,9 +46,9 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
   const RuleStatistics& rules = stats.Rules;
   const std::uint64_t vertices = subject.Mesh.Points.size();
   const std::uint64_t opened =
-    Subject<D>::PiecesOfAnEdge * stats.Interfaces.NonManifoldOpened; // vertices made there, at most
+    Subject<D>::PiecesOfAnEdge * stats.Interfaces.NonManifoldOpened; // most new vertices
   const std::uint64_t optimised =
-    stats.Optimisation.Ran ? 8 * stats.Optimisation.PoorBefore : 0; // the same
+    stats.Optimisation.Ran ? 8 * stats.Optimisation.PoorBefore : 0; // likewise
   Require(rules.Insertions() + opened + optimised + 1 > vertices || vertices == 0,
     "fewer insertions than the mesh has vertices", findings);
   Require(rules.Created >= subject.Mesh.Simplices.size(),

@@ -14,7 +14,7 @@ namespace voxplex::stress
 namespace
 {
 
-/** Samples of a mesh that are looked for in all of its simplices. */
+/** Number of sample points that are tested against all simplices of a mesh. */
 constexpr std::size_t OverlapSamples = 24;
 
 /** A facet of one simplex. */
@@ -24,12 +24,12 @@ struct Side
   std::array<std::uint32_t, static_cast<std::size_t>(D)> Vertices; ///< sorted
   std::uint32_t Simplex;
   std::uint32_t Opposite;
-  bool IsOdd; ///< of the order of Vertices against the outward one
+  bool IsOdd; ///< parity of Vertices relative to the outward order
 
   bool operator<(const Side& other) const { return this->Vertices < other.Vertices; }
 };
 
-/** Sorts vertices; whether the permutation is odd. */
+/** Sorts vertices. @return whether the permutation is odd */
 template <std::size_t N>
 bool SortWithParity(std::array<std::uint32_t, N>& vertices)
 {
@@ -72,13 +72,13 @@ std::vector<Side<D>> SidesOf(const SimplexMesh<D>& mesh)
   return sides;
 }
 
-/** A facet between labels, in a form that can be compared. */
+/** A facet between labels, in a comparable form. */
 template <int D>
 struct Face
 {
   std::array<std::uint32_t, static_cast<std::size_t>(D)> Vertices; ///< sorted
   std::array<std::int64_t, 2> Labels;
-  bool IsOdd; ///< against the order that points out of the first label
+  bool IsOdd; ///< parity relative to the order that points out of the first label
 
   auto operator<=>(const Face&) const = default;
 };
@@ -189,7 +189,7 @@ void CheckPair(const Subject<D>& subject, const Side<D>& a, const Side<D>& b, bo
   }
 }
 
-/** The facet between labels that sides on the same vertices make. */
+/** The facet between labels that two sides with the same vertices make. */
 template <int D>
 Face<D> FaceOf(const SimplexMesh<D>& mesh, const Side<D>& a, const Side<D>* b)
 {
@@ -257,7 +257,10 @@ bool IsInside(
   return true;
 }
 
-/** Centroids of simplices, spread over the mesh, are in no other one. That of a flat one may be rounded to beyond it. */
+/**
+ * The centroids of sample simplices lie in no other simplex. Rounding may put the centroid of a
+ * flat one outside.
+ */
 template <int D>
 void CheckOverlap(const Subject<D>& subject, Findings& findings)
 {

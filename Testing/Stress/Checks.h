@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Checks.h
- * @brief What must hold of a mesh, by code that shares nothing with the kernel but the types of its results.
+ * @brief The invariants of a mesh, checked by code that shares only the types of the results with
+ *   the kernel.
  *
- * A bound that refinement may give up in favour of its end is checked as far as the statistics allow: what was
- * refused or kept excuses as many elements. Nothing is checked that the headers and Algorithm.md do not promise.
+ * Refinement may give up some bounds in order to end. The number of elements that may break such a
+ * bound follows from the statistics: the operations that were refused and the elements that were
+ * kept. Only promises of the headers and of Algorithm.md are checked.
  */
 #ifndef voxplex_stress_Checks_h
 #define voxplex_stress_Checks_h
@@ -23,7 +25,7 @@
 namespace voxplex::stress
 {
 
-/** A mesh and all that it is measured by. */
+/** A mesh, and the input and statistics against which it is checked. */
 template <int D>
 struct Subject
 {
@@ -41,12 +43,14 @@ struct Subject
     return corners;
   }
 
-  /** Around an edge that was opened so many pieces of tetrahedra, or new vertices, may break a bound. */
+  /**
+   * Number of pieces of tetrahedra, or new vertices, around an opened edge that may break a bound.
+   */
   static constexpr std::uint64_t PiecesOfAnEdge = 40;
 
   /**
-   * Operations that refinement did not do, and pieces around edges that were opened: so many elements may break a bound.
-   * All may where rules gave way.
+   * The number of elements that may break a bound: operations that refinement did not do, and
+   * pieces around opened edges. If rules gave way, all elements may.
    */
   std::uint64_t Excused() const
   {
@@ -58,25 +62,29 @@ struct Subject
   }
 };
 
-/** What is counted but is no failure by itself. */
+/** Counts that are no failure by themselves. */
 struct MeshFigures
 {
   std::uint64_t NonManifold =
-    0;                    ///< edges (4D: triangles) of the boundaries of labels, once a label
+    0;                    ///< edges (4D: triangles) of boundaries of labels, once for each label
   std::uint64_t Lost = 0; ///< components that are listed as lost
 };
 
-/** Arrays fit together, points are finite, used and different, labels are the image's. False: nothing else can be checked. */
+/**
+ * Arrays fit together; points are finite, used and different; labels are the image's.
+ * @return false if nothing else can be checked
+ */
 template <int D>
 bool CheckArrays(const Subject<D>& subject, Findings& findings);
 
-/** Positive volumes, without error. */
+/** Volumes are positive; exact signs. */
 template <int D>
 void CheckOrientation(const Subject<D>& subject, Findings& findings);
 
 /**
- * Each facet has one or two simplices, on its two sides; Facets and FacetLabels are those between different labels;
- * simplices do not overlap, by samples; if the mesh was not optimised it is Delaunay.
+ * Each facet has one or two simplices, on its two sides. Facets and FacetLabels are those between
+ * different labels. Samples show that simplices do not overlap. If the mesh was not optimised, it
+ * is Delaunay.
  */
 template <int D>
 void CheckConformity(const Subject<D>& subject, Findings& findings);
@@ -85,11 +93,17 @@ void CheckConformity(const Subject<D>& subject, Findings& findings);
 template <int D>
 void CheckShapes(const Subject<D>& subject, Findings& findings);
 
-/** Interface vertices are in cells of the image where labels differ, all is near the object, volumes are plausible. */
+/**
+ * Interface vertices are in cells of the image where labels differ; the mesh is near the object;
+ * volumes are plausible.
+ */
 template <int D>
 void CheckAgainstImage(const Subject<D>& subject, Findings& findings);
 
-/** Connected components that are neither there nor listed, and listed ones that are there or do not exist. */
+/**
+ * Finds components that are neither in the mesh nor listed as lost, and listed ones that are in it
+ * or do not exist.
+ */
 template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 
@@ -97,7 +111,7 @@ void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& 
 template <int D>
 void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 
-/** What the statistics say is what was asked for, and what is seen. */
+/** The statistics agree with the options and with the mesh. */
 template <int D>
 void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Findings& findings);
 

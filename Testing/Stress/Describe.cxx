@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// A case in words, and as a call of the program voxplex.
+// Describes a case in words, and as a command line of the program voxplex.
 #include "Findings.h"
 #include "StressCase.h"
 
@@ -13,7 +13,7 @@ namespace voxplex::stress
 namespace
 {
 
-/** Flags of the program, and what it has none for. */
+/** Flags of the program, and the options for which it has no flag. */
 class CommandWriter
 {
 public:
@@ -22,7 +22,7 @@ public:
   {
   }
 
-  /** A flag if the value is not the default. */
+  /** Adds a flag if the value is not the default. */
   template <typename T>
   void Flag(const std::string& flag, T value, T usual)
   {

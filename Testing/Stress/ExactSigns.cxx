@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Signs of determinants in whole numbers: coordinates are doubles, that is, whole multiples of one power of two.
+// Signs of determinants in whole numbers. Coordinates are doubles, that is, whole multiples of one
+// power of two.
 #include "SimplexGeometry.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -48,7 +49,7 @@ Whole WholeDeterminant(const WholeMatrix<N>& m)
   }
 }
 
-/** The least exponent of the last bit of some coordinates. */
+/** The smallest exponent of the last bits of the coordinates. */
 template <int D>
 int LeastExponent(const Vector<D>& p, int least)
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Findings.h
- * @brief What is wrong with a mesh: one entry for each invariant that does not hold.
+ * @brief The errors of a mesh: one entry for each invariant that does not hold.
  */
 #ifndef voxplex_stress_Findings_h
 #define voxplex_stress_Findings_h
@@ -19,8 +19,8 @@ namespace voxplex::stress
 /** One invariant that does not hold. */
 struct Finding
 {
-  std::string Cause;   ///< a word: the class of failure, by which cases are counted and reduced
-  std::string Message; ///< of the first place
+  std::string Cause;   ///< one word for the class of failure; cases are counted and reduced by it
+  std::string Message; ///< describes the first place
   std::uint64_t Count = 0;
 };
 
@@ -52,7 +52,7 @@ private:
   std::vector<Finding> Entries;
 };
 
-/** As short as it can be with so many digits. */
+/** The shortest text with this number of digits. */
 inline std::string Text(double x, int digits = 6)
 {
   char text[40];

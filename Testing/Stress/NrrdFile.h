@@ -15,8 +15,8 @@ namespace voxplex::stress
 {
 
 /**
- * NRRD, raw: labels as int32, grey values as float. In 4D the time step is 1, so that the length of a frame is
- * voxplex's --time-scale.
+ * Raw NRRD: labels as int32, grey values as float. In 4D the time step is 1, so voxplex's
+ * --time-scale is the length of a frame.
  * @throws std::runtime_error
  */
 template <int D>

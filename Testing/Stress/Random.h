@@ -15,7 +15,9 @@
 namespace voxplex::stress
 {
 
-/** SplitMix64 (Steele, Lea and Flood 2014). The distributions are written out, for std's differ. */
+/**
+ * SplitMix64 (Steele, Lea and Flood 2014). The distributions are written out because std's differ.
+ */
 class Random
 {
 public:
@@ -24,7 +26,7 @@ public:
   {
   }
 
-  /** A stream of its own for each pair. */
+  /** Each pair has a stream of its own. */
   Random(std::uint64_t seed, std::uint64_t number)
     : State(Mixed(seed) ^ Mixed(number + 0x632BE59BD9B4E019u))
   {
@@ -43,7 +45,7 @@ public:
   {
     return low * std::exp(this->Uniform() * std::log(high / low));
   }
-  /** From low to high, both included. */
+  /** From low to high, both inclusive. */
   std::int64_t Integer(std::int64_t low, std::int64_t high)
   {
     return low +

@@ -14,7 +14,7 @@ namespace
 template <int D>
 using Index = typename Volume<D>::Index;
 
-/** How many labels: mostly few. */
+/** The number of labels; usually few. */
 std::int32_t RandomLabelCount(Random& random)
 {
   return static_cast<std::int32_t>(
@@ -64,7 +64,7 @@ void SetBox(Volume<D>& image, const Index<D>& low, const Index<D>& high, std::in
 }
 
 //------------------------------------------------------------------------------------------------
-/** Each voxel for itself. */
+/** Each voxel has an independent label. */
 template <int D>
 void FillIid(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -75,7 +75,7 @@ void FillIid(Volume<D>& image, Random& random, std::int32_t labels)
   }
 }
 
-/** Some voxels in background, or in a label. */
+/** Some single voxels in background, or in a label. */
 template <int D>
 void FillSparse(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -88,7 +88,7 @@ void FillSparse(Volume<D>& image, Random& random, std::int32_t labels)
   Set(image, RandomVoxel(image, random), RandomLabel(random, labels));
 }
 
-/** Ellipsoids, the later over the earlier, some of background. */
+/** Ellipsoids; later ones overwrite earlier ones, some are background. */
 template <int D>
 void FillBlobs(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -155,7 +155,7 @@ void FillSheets(Volume<D>& image, Random& random, std::int32_t labels)
   }
 }
 
-/** Voronoi cells, some of background. */
+/** Voronoi cells; some are background. */
 template <int D>
 void FillCells(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -244,7 +244,7 @@ void FillCheckerboard(Volume<D>& image, Random& random, std::int32_t labels)
     });
 }
 
-/** Boxes of which each touches the one before at a corner, an edge or a face only. */
+/** Boxes; each touches the previous one only at a corner, an edge or a face. */
 template <int D>
 void FillTouching(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -269,7 +269,7 @@ void FillTouching(Volume<D>& image, Random& random, std::int32_t labels)
   }
 }
 
-/** Layers across one axis, as of images with thick slices, with shapes that change from slice to slice. */
+/** Layers across one axis, as in images with thick slices; shapes change from slice to slice. */
 template <int D>
 void FillSlices(Volume<D>& image, Random& random, std::int32_t labels)
 {
@@ -348,7 +348,7 @@ const Kind<D>& RandomKind(Random& random)
   return kinds[static_cast<std::size_t>(random.Integer(0, std::int64_t(kinds.size()) - 1))];
 }
 
-/** Background in the outermost layers, where something is left. */
+/** Makes the outermost layers background, if some foreground remains. */
 template <int D>
 void ClearMargin(Volume<D>& image, std::int64_t width)
 {
@@ -368,7 +368,7 @@ void ClearMargin(Volume<D>& image, std::int64_t width)
     });
 }
 
-/** Labels of images are not numbered from 1 on. */
+/** Renumbers labels with gaps: labels of real images are not numbered from 1 on. */
 template <int D>
 void SpreadLabelValues(Volume<D>& image, Random& random)
 {
@@ -395,7 +395,7 @@ std::string FillWithLabels(Volume<D>& image, Random& random)
   const Kind<D>& kind = RandomKind<D>(random);
   kind.Fill(image, random, labels);
   std::string name = kind.Name;
-  if (random.Chance(0.15)) // half of it from another
+  if (random.Chance(0.15)) // half of the image is of another kind
   {
     Volume<D> other = image;
     std::fill(other.Labels.begin(), other.Labels.end(), 0);
@@ -416,7 +416,7 @@ std::string FillWithLabels(Volume<D>& image, Random& random)
   }
   const bool isEmpty = std::all_of(
     image.Labels.begin(), image.Labels.end(), [](std::int32_t label) { return label == 0; });
-  if (isEmpty && !random.Chance(0.02)) // an image without foreground is refused: a few will do
+  if (isEmpty && !random.Chance(0.02)) // an image without foreground is refused: a few are enough
   {
     Set(image, RandomVoxel(image, random), 1);
   }
@@ -429,7 +429,7 @@ template <int D>
 Volume<D> RandomGrid(Random& random)
 {
   Volume<D> image;
-  // How many voxels, and how many a side at most.
+  // The number of voxels, and the largest number along an axis.
   const double voxels = random.Chance(0.995) ? random.LogUniform(8.0, D == 3 ? 6000.0 : 3000.0)
                                              : random.LogUniform(2000.0, 60000.0);
   const std::int64_t most = D == 4 ? 18 : random.Chance(0.98) ? 30 : 80;
@@ -495,7 +495,7 @@ void ClassifyGreyValues(Volume<D>& image)
   {
     const double value = image.Grey[i];
     const bool inside = surface.InsideIsAbove ? value >= surface.Value : value <= surface.Value;
-    image.Labels[i] = inside ? label : 0; // what is not a number is outside
+    image.Labels[i] = inside ? label : 0; // a value that is not a number is outside
   }
 }
 
@@ -513,7 +513,7 @@ std::string FillWithGreyValues(Volume<D>& image, Random& random)
     p[9 + a] = random.Uniform(0.0, static_cast<double>(image.Dimensions[a]));
   }
   const double noise = random.Chance(0.5) ? 0.0 : random.LogUniform(0.001, 1.0);
-  const double step = random.Chance(0.3) ? random.LogUniform(0.01, 1.0) : 0.0; // of whole numbers
+  const double step = random.Chance(0.3) ? random.LogUniform(0.01, 1.0) : 0.0; // of values
   const double holes = random.Chance(0.1) ? 0.05 : 0.0;
   image.Grey.resize(image.Size());
   image.ForEach(
@@ -529,7 +529,7 @@ std::string FillWithGreyValues(Volume<D>& image, Random& random)
       image.Grey[i] =
         random.Chance(holes) ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
     });
-  // An isovalue that some voxel has now and then, else one between two of them.
+  // Sometimes an isovalue that a voxel has, otherwise the mean of two values.
   GreySurface surface;
   const auto any = [&] { return image.Grey[image.At(RandomVoxel(image, random))]; };
   const double a = any();

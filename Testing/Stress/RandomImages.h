@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RandomImages.h
- * @brief Images of all kinds that make meshing hard.
+ * @brief Random images of many kinds that make meshing hard.
  */
 #ifndef voxplex_stress_RandomImages_h
 #define voxplex_stress_RandomImages_h
@@ -16,25 +16,29 @@ namespace voxplex::stress
 {
 
 /**
- * Extent and axes. Mostly some thousand voxels or fewer, seldom up to 80 a side (4D: 2 to 18, and 2 to 8 frames);
- * spacings that differ by up to six times, axes that are sheared now and then. In 4D time is orthogonal to space.
+ * Draws extent and axes. Most grids have some thousand voxels or fewer; few have up to 80 voxels
+ * along an axis (4D: 2 to 18, and 2 to 8 frames). Spacings differ by a factor of up to six. Some
+ * axes are sheared. In 4D time is orthogonal to space.
  */
 template <int D>
 Volume<D> RandomGrid(Random& random);
 
 /**
- * Fills a grid with labels: 1 to some 60, numbered with gaps. About half of the images have a margin of background,
- * in the others the border cuts the object.
+ * Fills a grid with 1 to about 60 labels, numbered with gaps. About half of the images have a
+ * margin of background. In the others the border cuts the object.
  * @return the name of the kind
  */
 template <int D>
 std::string FillWithLabels(Volume<D>& image, Random& random);
 
-/** Fills a grid with grey values and chooses an isosurface. Labels are what is inside. @return the name of the kind */
+/**
+ * Fills a grid with grey values and chooses an isosurface. Labels mark the inside.
+ * @return the name of the kind
+ */
 template <int D>
 std::string FillWithGreyValues(Volume<D>& image, Random& random);
 
-/** Sets Labels by Grey and Surface, smoothing aside. */
+/** Sets Labels from Grey and Surface, without smoothing. */
 template <int D>
 void ClassifyGreyValues(Volume<D>& image);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// All meshing options at random. The order of the draws is what a seed means.
+// Draws all meshing options at random. The order of the draws defines the meaning of a seed.
 #include "StressCase.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace voxplex::stress
 namespace
 {
 
-/** Meshes of more elements than this would make a run slow: delta is raised. */
+/** Larger meshes would make a run slow: delta is raised. */
 constexpr double ElementsOfMostCases = 12000.0;
 constexpr double ElementsOfFewCases = 150000.0;
 constexpr double ElementsInSpaceTime = 4000.0;
 
-/** Bytes that a case may plan with; no case needs as much. */
+/** Memory limit of a case in bytes; no case needs as much. */
 constexpr std::uint64_t MemoryOfCase = std::uint64_t{ 4 } << 30;
 
 template <int D>
@@ -37,7 +37,7 @@ void DrawDelta(StressCase<D>& of, Random& random)
   }
   if (random.Chance(0.06) && of.ExpectedElements() < most)
   {
-    options.Delta = 0.0; // as derived from the spacing
+    options.Delta = 0.0; // derived from the spacing
   }
 }
 
@@ -55,7 +55,7 @@ void DrawRatio(MeshingOptions<D>& options, Random& random)
   options.RadiusEdgeRatio = random.Chance(0.6) ? 2.0
     : random.Chance(0.5)                       ? random.Uniform(1.94, 2.3)
                                                : random.Uniform(2.0, 6.0);
-  if (random.Chance(0.005)) // where termination is not proved
+  if (random.Chance(0.005)) // termination is not proved there
   {
     options.RadiusEdgeRatio = random.Uniform(1.6, 1.93);
     options.Force = true;
@@ -91,7 +91,7 @@ void DrawSizes(StressCase<D>& of, Random& random)
     return;
   }
   const std::vector<std::int32_t> labels = of.Image.LabelValues();
-  const double least = D == 3 ? 0.5 : 1.0; // below delta elements grow by the power D
+  const double least = D == 3 ? 0.5 : 1.0; // elements grow with the power D below delta
   if (random.Chance(0.6))
   {
     of.Size.Everywhere = delta * random.LogUniform(least, 5.0);

@@ -30,14 +30,14 @@ ATLASES = ("spl-head-neck-atlas.nrrd", "spl-knee-atlas.nrrd")
 # Deltas in edges of a cube with a voxel's volume.
 DELTAS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0)
 
-# Elements for each voxel face between labels at a delta of one voxel, about; finer deltas have more by the square.
+# Approximate number of elements per voxel face between labels at a delta of one voxel. It grows with 1/delta squared.
 ELEMENTS_PER_FACE = 4.0
 SECONDS_PER_ELEMENT = 1e-4
 
 
 @dataclasses.dataclass
 class Outcome:
-    """One row of the table; seconds are of processor time, of all threads."""
+    """One row of the table; seconds are processor time of all threads."""
     image: str
     delta: float
     status: str

@@ -21,10 +21,10 @@ double WallSeconds()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/** Wall-clock seconds after which an attempt counts as hanging, beyond its own limit. */
+/** Wall-clock seconds beyond its own limit after which an attempt counts as hanging. */
 constexpr double Grace = 30.0;
 
-/** Single voxels are tried one by one in images of at most so many. */
+/** Single voxels are tried one by one only in images with at most this number of voxels. */
 constexpr std::size_t FewVoxels = 600;
 
 template <int D>
@@ -94,7 +94,7 @@ private:
     return true;
   }
 
-  /** The same for what may be changed already: then nothing is tried. */
+  /** Tries to set a member. If it has the value already, nothing is tried. */
   template <typename T>
   bool TryToSet(T& (*member)(StressCase<D>&), const T& value)
   {
@@ -102,7 +102,7 @@ private:
       this->Try([&](StressCase<D>& c) { member(c) = value; });
   }
 
-  /** The one that leaves a stage out, else the default. */
+  /** Tries the value that leaves a stage out, then the default. */
   template <typename T>
   bool TryToSet(T& (*member)(StressCase<D>&), const T& without, const T& usual)
   {
@@ -230,7 +230,7 @@ bool Reducer<D>::CropTo(std::size_t axis, std::int64_t first, std::int64_t count
     });
 }
 
-/** Halves, quarters, down to single layers at both ends of each axis. */
+/** Removes halves, quarters, down to single layers at both ends of each axis. */
 template <int D>
 bool Reducer<D>::Crop()
 {
@@ -251,7 +251,7 @@ bool Reducer<D>::Crop()
 }
 
 //------------------------------------------------------------------------------------------------
-/** Each label becomes background, or the one before. */
+/** Changes each label to background, or to the previous label. */
 template <int D>
 bool Reducer<D>::MergeLabels()
 {
@@ -272,7 +272,7 @@ bool Reducer<D>::MergeLabels()
     before = gone ? before : label;
     changed |= gone;
   }
-  // Numbered from 1 on.
+  // Renumber the labels from 1 on.
   const std::vector<std::int32_t> values = this->Best.Image.LabelValues();
   if (!values.empty() && values.back() != static_cast<std::int32_t>(values.size()))
   {
@@ -293,7 +293,7 @@ bool Reducer<D>::MergeLabels()
 }
 
 //------------------------------------------------------------------------------------------------
-/** Unit voxels, else orthogonal axes. */
+/** Tries unit voxels, then orthogonal axes. */
 template <int D>
 bool Reducer<D>::SimplifyGrid()
 {
@@ -352,7 +352,7 @@ bool Reducer<D>::SimplifyGrid()
 }
 
 //------------------------------------------------------------------------------------------------
-/** Lengths with few digits. */
+/** Rounds lengths to few digits. */
 template <int D>
 bool Reducer<D>::RoundNumbers()
 {
@@ -373,7 +373,7 @@ bool Reducer<D>::RoundNumbers()
 }
 
 //------------------------------------------------------------------------------------------------
-/** Voxels become background one by one. */
+/** Changes voxels to background, one by one. */
 template <int D>
 bool Reducer<D>::ClearVoxels()
 {

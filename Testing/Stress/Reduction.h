@@ -14,18 +14,19 @@
 namespace voxplex::stress
 {
 
-/** How far reduction goes. */
+/** Limits of a reduction. */
 struct ReductionLimits
 {
-  double Seconds = 300.0; ///< wall-clock, for all attempts
-  unsigned Repeats = 3;   ///< of a case with several threads before it counts as mended
+  double Seconds = 300.0; ///< wall-clock time of all attempts
+  unsigned Repeats = 3;   ///< runs of a case with several threads before it counts as passed
 };
 
 /**
- * Crops the image, gives labels and single voxels to others, resets options to their defaults one by one, down to one
- * thread and orthogonal axes with unit voxels; each step in a process of its own.
+ * Crops the image, changes labels and single voxels to other labels, and resets options to their
+ * defaults one by one, down to one thread and orthogonal axes with unit voxels. Each step runs in a
+ * process of its own.
  *
- * @param cause what must stay
+ * @param cause the cause of failure that must stay
  * @return the smallest case found; `of` itself if it does not fail
  */
 template <int D>

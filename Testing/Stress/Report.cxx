@@ -12,7 +12,7 @@ namespace voxplex::stress
 namespace
 {
 
-constexpr std::size_t CasesOfCause = 6; ///< that are named
+constexpr std::size_t CasesOfCause = 6; ///< largest number that is named for each cause
 constexpr std::size_t CasesOfRanking = 5;
 constexpr double SecondsBetweenLines = 20.0;
 
@@ -27,7 +27,7 @@ std::string Name(const CaseId& id)
     std::to_string(id.Number);
 }
 
-/** The first words of a refusal; one entry for all numbers. */
+/** The first words of a refusal, with N for numbers, so that equal refusals have one entry. */
 std::string Beginning(const std::string& refusal)
 {
   std::string words;

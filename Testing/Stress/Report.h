@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Report.h
- * @brief Counts what became of cases, and prints it.
+ * @brief Counts the results of cases and prints them.
  */
 #ifndef voxplex_stress_Report_h
 #define voxplex_stress_Report_h
@@ -17,13 +17,13 @@
 namespace voxplex::stress
 {
 
-/** The call that repeats a case. */
+/** The command line that repeats a case. */
 std::string RepeatCommand(const CaseId& id);
 
 class Report
 {
 public:
-  /** Prints failures at once, and now and then how far it is. */
+  /** Prints failures at once, and the progress now and then. */
   void Add(const CaseId& id, const CaseResult& result);
 
   /** The summary: counts, causes, the worst cases. */
@@ -32,7 +32,7 @@ public:
   std::uint64_t Failed() const { return this->FailedCases; }
 
 private:
-  /** The worst cases by some figure. */
+  /** The worst cases by one figure. */
   struct Ranking
   {
     std::string Title;
@@ -57,9 +57,9 @@ private:
   std::uint64_t CasesWithLost = 0;
   double Seconds = 0.0;
   double CheckSeconds = 0.0;
-  double LastLine = 0.0; ///< when
+  double LastLine = 0.0; ///< time of the last line of progress
   std::map<std::string, Cause> Causes;
-  std::map<std::string, std::uint64_t> Refusals; ///< by the first words
+  std::map<std::string, std::uint64_t> Refusals; ///< counts by the first words of the message
   std::map<std::string, std::uint64_t> Kinds;
   Ranking Slowest{ "seconds of processor time", {} };
   Ranking SlowestPerElement{ "microseconds per element (meshes of 300 or more)", {} };

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SimplexGeometry.h
- * @brief Signs, volumes, balls and angles of simplices, apart from the kernel's: in long double, and in whole numbers
- * where that does not decide.
+ * @brief Signs, volumes, balls and angles of simplices, independent of the kernel: in long double,
+ *   and in whole numbers
+ * if long double does not decide.
  */
 #ifndef voxplex_stress_SimplexGeometry_h
 #define voxplex_stress_SimplexGeometry_h
@@ -61,8 +62,8 @@ Real Determinant(const RealMatrix<N>& m)
 }
 
 /**
- * A bound of the error of the determinant of a matrix of which each entry is within some ten roundings: the product
- * of the rows' sums is above the sum of all products.
+ * A bound of the error of a determinant whose matrix entries are exact to about ten roundings. It
+ * is based on the product of the rows' sums, which is above the sum of all products.
  */
 template <std::size_t N>
 Real DeterminantError(const RealMatrix<N>& m)
@@ -81,7 +82,7 @@ Real DeterminantError(const RealMatrix<N>& m)
 }
 
 ///@{
-/** In whole numbers; slow. */
+/** Computed in whole numbers; slow. */
 int ExactOrientation(const std::array<Vector<3>, 4>& points);
 int ExactOrientation(const std::array<Vector<4>, 5>& points);
 int ExactInSphere(const std::array<Vector<3>, 4>& points, const Vector<3>& p);
@@ -141,7 +142,7 @@ Real VolumeOf(const std::array<Vector<D>, static_cast<std::size_t>(D + 1)>& poin
   return Determinant(EdgeMatrix<D>(points)) / (D == 3 ? 6 : 24);
 }
 
-/** Infinite if the simplex is flat. By Cramer's rule. */
+/** Computed by Cramer's rule. The radius is infinite if the simplex is flat. */
 template <int D>
 Real CircumcentreOf(const std::array<Vector<D>, static_cast<std::size_t>(D + 1)>& points,
   std::array<Real, static_cast<std::size_t>(D)>& centre)

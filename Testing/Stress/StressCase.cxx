@@ -13,13 +13,13 @@ namespace voxplex::stress
 namespace
 {
 
-/** A stream of its own for each family. */
+/** Each family has a stream of its own. */
 Random StreamOf(const CaseId& id)
 {
   return Random(id.Seed * 3 + static_cast<std::uint64_t>(id.Kind), id.Number);
 }
 
-/** SizeRequest as the kernel asks for it. */
+/** A SizeRequest as the size function that the kernel takes. */
 template <int D>
 class RequestedSize final : public SizeFunction<D>
 {
@@ -80,7 +80,7 @@ void StressCase<D>::Measure()
       voxels += image.Labels[i] != 0 ? 1 : 0;
       for (std::size_t a = 0; a < faces.size(); ++a)
       {
-        // The face before the voxel, and the image's last one, which borders on background.
+        // The face before the voxel, and the image's last face, which borders on background.
         const bool last = voxel[a] + 1 == image.Dimensions[a];
         --voxel[a];
         faces[a] += image.LabelAt(voxel) != image.Labels[i] ? 1 : 0;
@@ -108,7 +108,7 @@ double StressCase<D>::Delta() const
 template <int D>
 double StressCase<D>::ExpectedElements() const
 {
-  // What is thin is sampled at the scale of voxels in 3D, whatever delta.
+  // In 3D, thin parts are sampled at the scale of voxels for every delta.
   const double voxel = std::pow(this->Image.VoxelVolume(), 1.0 / D);
   double delta = this->Delta();
   for (const InterfaceSize& size : this->Options.InterfaceSizes)
@@ -136,7 +136,7 @@ template <int D>
 StressCase<D> MakeCase(const CaseId& id)
 {
   Random random = StreamOf(id);
-  random.Next(); // the one that IsSpaceTime() takes
+  random.Next(); // skip the number that IsSpaceTime() takes
   StressCase<D> made;
   made.Id = id;
   made.Image = RandomGrid<D>(random);

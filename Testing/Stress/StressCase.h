@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file StressCase.h
- * @brief One image and what is asked of it, made from a seed and a number.
+ * @brief One image and its meshing options, made from a seed and a number.
  */
 #ifndef voxplex_stress_StressCase_h
 #define voxplex_stress_StressCase_h
@@ -20,15 +20,15 @@
 namespace voxplex::stress
 {
 
-/** What is meshed. */
+/** The kind of image. */
 enum class Family
 {
   Space,     ///< label images in 3D
   SpaceTime, ///< label images in 4D
-  Isosurface ///< grey-value images, in 3D mostly
+  Isosurface ///< grey-value images, mostly in 3D
 };
 
-/** As users write them: 3, 4, iso. */
+/** The name on the command line: 3, 4, iso. */
 std::string_view NameOf(Family family);
 
 /** The same numbers give the same case, on any machine. */
@@ -39,16 +39,16 @@ struct CaseId
   std::uint64_t Number = 0;
 };
 
-/** A bound of circumradii: by label, and growing along the first axis. */
+/** A bound of circumradii, which depends on the label and grows along the first axis. */
 struct SizeRequest
 {
   double Everywhere = 0.0; ///< 0: none
-  std::int32_t Label = 0;  ///< that has a size of its own, or 0
+  std::int32_t Label = 0;  ///< the label with a size of its own, or 0
   double OfLabel = 0.0;
-  double Slope = 0.0; ///< over a unit of length along the first axis
+  double Slope = 0.0; ///< growth per unit of length along the first axis
 
   bool IsGiven() const { return this->Everywhere > 0.0 || this->OfLabel > 0.0; }
-  /** Infinite where there is no bound. */
+  /** The bound at a point; infinite if there is none. */
   double At(double x, std::int64_t label) const;
 };
 
@@ -56,22 +56,24 @@ template <int D>
 struct StressCase
 {
   CaseId Id;
-  std::string Kind; ///< of the image
+  std::string Kind; ///< kind of the image
   Volume<D> Image;
-  MeshingOptions<D> Options; ///< but for Options.Size
+  MeshingOptions<D> Options; ///< except Options.Size
   SizeRequest Size;
-  bool Twice = false; ///< meshed a second time, to compare bit for bit
+  bool Twice = false; ///< mesh a second time and compare bit for bit
 
   ///@{
-  /** Of the image's voxels; Measure() sets them. */
-  double InterfaceArea = 0.0; ///< of the faces between different labels
+  /** Measures of the image's voxels; Measure() sets them. */
+  double InterfaceArea = 0.0; ///< area of the faces between different labels
   double ObjectVolume = 0.0;
   ///@}
   void Measure();
 
   /** The delta that is used. */
   double Delta() const;
-  /** About how many elements there will be, by the image and the options alone; limits of time are made of it. */
+  /**
+   * Approximate number of elements, from the image and the options only. Time limits depend on it.
+   */
   double ExpectedElements() const;
 
   /** The options with the size function. */
@@ -81,18 +83,18 @@ struct StressCase
 /** Whether a case of a family has four dimensions. */
 bool IsSpaceTime(const CaseId& id);
 
-/** D as IsSpaceTime() says. */
+/** The dimension, according to IsSpaceTime(). */
 template <int D>
 StressCase<D> MakeCase(const CaseId& id);
 
-/** In words: the image, and the options that differ from the defaults. */
+/** Describes in words the image and the options that differ from the defaults. */
 template <int D>
 std::string Describe(const StressCase<D>& of);
 
 /**
- * The call of the program voxplex that makes the same mesh, or almost.
- * @param file the image's
- * @param missing receives what the program has no flag for
+ * The command line of the program voxplex that makes the same mesh, or almost the same.
+ * @param file path of the image
+ * @param missing receives the options for which the program has no flag
  */
 template <int D>
 std::string ShellCommand(

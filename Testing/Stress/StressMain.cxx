@@ -22,7 +22,7 @@ void PrintCase(const StressCase<D>& of, const StressOptions& options)
   std::fflush(stdout);
 }
 
-/** Describes a smaller case that fails for the first cause of failure, too, and writes its image. */
+/** Finds a smaller case that fails for the same first cause, describes it and writes its image. */
 template <int D>
 void PrintReduced(const StressCase<D>& of, const CaseResult& result, const StressOptions& options)
 {
@@ -39,7 +39,7 @@ void PrintReduced(const StressCase<D>& of, const CaseResult& result, const Stres
     "Image written to %s:\n  %s\n", file.c_str(), ShellCommand(smaller, file, missing).c_str());
 }
 
-/** One case, in words and with its figures. */
+/** Runs one case, and prints it in words and with its figures. */
 template <int D>
 int RunOne(const CaseId& id, const StressOptions& options)
 {

@@ -14,24 +14,24 @@ namespace voxplex::stress
 
 const char* const StressHelp = R"(Usage: voxplexStress [options]
 
-Meshes random images with random options and checks every invariant of the meshes, by code that shares
-nothing with the kernel. A case is made of a dimension, a seed and a number: the same three, the same case.
+Meshes random images with random options and checks every invariant of the meshes, by code that is
+independent of the kernel. The same dimension, seed and number give the same case.
 
   --dimension LIST        3, 4, iso (grey-value images), all, or several with commas (default 3)
-  --seed SEED             which cases (default 1)
+  --seed SEED             seed of the cases (default 1)
   --fresh                 a seed that nobody has seen before; it is printed
   --first NUMBER          the first case (default 0)
-  --cases NUMBER          how many, of each dimension (default 1000; 0: no end)
-  --seconds SECONDS       no case begins later than this, in all
+  --cases NUMBER          cases of each dimension (default 1000; 0: no end)
+  --seconds SECONDS       time for all dimensions; no case begins later
   --jobs NUMBER           processes that work at the same time (default 1)
   --case NUMBER           this case only, with a description
   --image FILE            with --case: writes the image (NRRD)
-  --reduce                with --case: makes it smaller as long as it fails for the same cause, and describes that
-  --reduce-seconds NUMBER for that (default 300)
-  --in-process            with --case: not in a process of its own, for a debugger
+  --reduce                with --case: makes it smaller as long as it fails for the same cause, and describes it
+  --reduce-seconds NUMBER time for --reduce (default 300)
+  --in-process            with --case: runs it in this process, for a debugger
   --allow-non-manifold    edges that are not manifold are counted but do not fail a case
   --work-limit NUMBER     more insertions and removals for each vertex of the mesh fail a case (default 40; 0: no limit)
-  --time-limit SECONDS    of processor time for each case (default: by its size)
+  --time-limit SECONDS    processor time for each case (default: depends on its size)
   --time-factor FACTOR    multiplies the limits by size (for sanitizers)
   --help                  prints this
 
@@ -41,7 +41,7 @@ Exit status: 0 if no case failed, 1 if one did, 2 for a wrong command line.
 namespace
 {
 
-/** Smaller seeds are for work: see README.md. */
+/** Seeds below this are for work: see README.md. */
 constexpr std::uint64_t FirstFreshSeed = 1000;
 
 double Number(const std::string& text)

@@ -22,12 +22,12 @@ struct StressOptions
   std::vector<Family> Families{ Family::Space };
   std::uint64_t Seed = 1;
   std::uint64_t First = 0;
-  std::uint64_t Cases = 1000; ///< of each family; 0: no end
-  double Seconds = 0.0;       ///< for all families together; 0: no limit
+  std::uint64_t Cases = 1000; ///< cases of each family; 0: no end
+  double Seconds = 0.0;       ///< time for all families together; 0: no limit
   unsigned Jobs = 1;
-  std::optional<std::uint64_t> Case; ///< only this
-  bool InProcess = false;            ///< for a debugger
-  bool IsReduced = false;            ///< with Case: to a smaller one
+  std::optional<std::uint64_t> Case; ///< run only this case
+  bool InProcess = false;            ///< run the case in this process, for a debugger
+  bool IsReduced = false;            ///< with Case: reduce it to a smaller case
   double ReductionSeconds = 300.0;
   std::string Image; ///< with Case: a file that receives the image
   bool Help = false;

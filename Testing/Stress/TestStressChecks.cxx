@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks of the stress program find what they are for: good meshes are spoilt in one way after the other.
+// Each check of the stress program finds its kind of error. Good meshes are spoilt in one way after
+// the other.
 #include "CaseRun.h"
 #include "Checks.h"
 #include "Mesher/ImageMesher.h"
@@ -86,7 +87,7 @@ void ExpectNothing(const Meshed<D>& meshed)
   ASSERT_GT(meshed.Mesh.Simplices.size(), 100u);
 }
 
-/** A change of a good mesh is found. */
+/** The checks must find a change of a good mesh. */
 template <int D>
 void ExpectFound(const std::string& cause, const std::function<void(Meshed<D>&)>& spoil)
 {
@@ -154,7 +155,7 @@ TEST(StressChecks, FindOverlaps)
   ExpectFound<3>("overlap",
     [](Meshed<3>& m)
     {
-      // The mesh once more, a little beside itself.
+      // A second copy of the mesh, slightly shifted.
       const auto points = static_cast<std::uint32_t>(m.Mesh.Points.size());
       const std::size_t simplices = m.Mesh.Simplices.size();
       for (std::uint32_t v = 0; v < points; ++v)
@@ -236,7 +237,7 @@ TEST(StressChecks, FindWhatIsNotOfTheImage)
         p[0] *= 4.0;
       }
     });
-  ExpectFound<4>("outside", // an end in time is that of the image
+  ExpectFound<4>("outside", // the ends in time are those of the image
     [](Meshed<4>& m)
     {
       for (auto& p : m.Mesh.Points)
@@ -251,7 +252,7 @@ TEST(StressChecks, FindEdgesThatAreNotManifold)
   ExpectFound<3>("non-manifold",
     [](Meshed<3>& m)
     {
-      // Two tetrahedra of a label that share an edge only.
+      // Two tetrahedra of a label that share only an edge.
       m.Mesh = {};
       for (const Point<3>& p : { Point<3>{ 0, 0, 0 }, Point<3>{ 0, 0, 1 }, Point<3>{ 1, 0, 0 },
              Point<3>{ 0, 1, 0 }, Point<3>{ -1, 0, 0 }, Point<3>{ 0, -1, 0 } })
@@ -373,7 +374,7 @@ TEST(StressCases, ReductionKeepsTheCause)
   of.Options.Threads = 2;
   of.Options.Gradation = 1.0;
   RunLimits limits;
-  limits.OperationsPerVertex = 0.01; // whatever it does is too much
+  limits.OperationsPerVertex = 0.01; // any work exceeds the limit
   ASSERT_TRUE(RunCase(of, limits).Has("work"));
   const StressCase<3> smaller = Reduce(of, "work", limits, {});
   EXPECT_TRUE(RunCase(smaller, limits).Has("work"));

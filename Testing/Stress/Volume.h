@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Volume.h
- * @brief An image of labels or grey values, with arithmetic of its own.
+ * @brief An image of labels or grey values, independent of the kernel.
  */
 #ifndef voxplex_stress_Volume_h
 #define voxplex_stress_Volume_h
@@ -18,7 +18,7 @@
 namespace voxplex::stress
 {
 
-/** Which isosurface of grey values bounds the object. */
+/** The isosurface of grey values that bounds the object. */
 struct GreySurface
 {
   double Value = 0.0;
@@ -28,8 +28,8 @@ struct GreySurface
 };
 
 /**
- * Voxels, the first axis fastest. The point of index i is Axes x i; Axes is upper triangular with a positive
- * diagonal.
+ * Voxels; the first axis varies fastest. The point of index i is Axes x i. Axes is upper triangular
+ * with a positive diagonal.
  */
 template <int D>
 struct Volume
@@ -40,7 +40,7 @@ struct Volume
 
   Index Dimensions{};
   std::array<Vector, N> Axes{};     ///< rows
-  std::vector<std::int32_t> Labels; ///< 0 is background; of grey values: what is inside
+  std::vector<std::int32_t> Labels; ///< 0 is background; for grey values, labels mark the inside
   std::vector<float> Grey;          ///< empty for images of labels
   std::optional<GreySurface> Surface;
 
@@ -76,7 +76,7 @@ struct Volume
     return static_cast<std::size_t>(at);
   }
 
-  /** 0 beyond the image. */
+  /** The label of a voxel; 0 beyond the image. */
   std::int32_t LabelAt(const Index& voxel) const
   {
     return this->Contains(voxel) ? this->Labels[this->At(voxel)] : 0;
@@ -141,7 +141,10 @@ struct Volume
     return largest;
   }
 
-  /** The distance from one layer of voxels across an axis to the next: not the spacing if axes are oblique. */
+  /**
+   * The distance between adjacent layers of voxels across an axis. If axes are oblique, it is not
+   * the spacing.
+   */
   double LayerDistance(std::size_t axis) const
   {
     Vector gradient{};

@@ -22,13 +22,13 @@ namespace voxplex::stress
 namespace
 {
 
-/** Between the fields of a message, and at its end. */
+/** Separators: between the fields of a message, and at its end. */
 constexpr char FieldEnd = '\x1f';
 constexpr char MessageEnd = '\x1e';
 
-/** Beyond its own limits of time a case has so many seconds to be cancelled and checked. */
+/** Seconds beyond its own time limits in which a case must be cancelled and checked. */
 constexpr double Grace = 60.0;
-/** A case may run twice, each up to so many times its limit of processor time. */
+/** Wall-clock limit over the limit of processor time. A case may run twice. */
 constexpr double WallOfLimit = 17.0;
 
 double WallSeconds()
@@ -37,7 +37,7 @@ double WallSeconds()
 }
 
 //------------------------------------------------------------------------------------------------
-/** A result as text and back. */
+/** Converts a result to text and back. */
 std::string Packed(const CaseResult& result)
 {
   std::ostringstream text;
@@ -85,13 +85,13 @@ CaseResult FailedWith(const std::string& cause, const std::string& message)
 }
 
 //------------------------------------------------------------------------------------------------
-/** One process that runs cases and tells of them through a pipe: `B limit`, then `R result`. */
+/** One process that runs cases and reports them through a pipe: `B limit`, then `R result`. */
 class Worker
 {
 public:
   using Tell = std::function<void(char kind, const std::string& text)>;
 
-  /** @param body what the process does */
+  /** @param body the function that the process runs */
   explicit Worker(const std::function<void(const Tell&)>& body)
   {
     std::array<int, 2> ends{};
@@ -126,7 +126,7 @@ public:
 
   int Descriptor() const { return this->Pipe; }
 
-  /** Reads what is there. @return false at the end */
+  /** Reads the available data. @return false at the end of the pipe */
   bool Read(const std::function<void(char, const std::string&)>& take)
   {
     std::array<char, 4096> buffer{};
@@ -175,10 +175,10 @@ private:
 
   pid_t Process = 0;
   int Pipe = -1;
-  std::string Text; ///< not yet complete
+  std::string Text; ///< text of an incomplete message
 };
 
-/** What became of a process that ended within a case. */
+/** The result of a case during which its process ended. */
 CaseResult ResultOfDeath(int status)
 {
   if (WIFSIGNALED(status))
@@ -199,7 +199,7 @@ CaseResult RunTelling(const CaseId& id, const RunLimits& limits, const Worker::T
 }
 
 //------------------------------------------------------------------------------------------------
-/** The cases of one job, and the process that runs them now. */
+/** The cases of one job, and the process that currently runs them. */
 class Job
 {
 public:
@@ -237,7 +237,9 @@ public:
   CaseId Current() const { return { this->Range.Kind, this->Range.Seed, this->Next }; }
   Worker* Running() { return this->Process.get(); }
 
-  /** Takes what the process says; starts another if it has ended before its last case. */
+  /**
+   * Takes the messages of the process. If it ended before its last case, starts another process.
+   */
   void Listen(const std::function<void(const CaseId&, const CaseResult&)>& take)
   {
     const bool goesOn = this->Process->Read(
@@ -297,7 +299,7 @@ private:
   unsigned Stride;
   RunLimits Limits;
   double End;
-  double Deadline = 0.0; ///< of the case that runs; 0 if none does
+  double Deadline = 0.0; ///< deadline of the running case; 0 if no case runs
   std::unique_ptr<Worker> Process;
 };
 

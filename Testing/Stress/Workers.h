@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Workers.h
- * @brief Cases in forked processes, so that a crash or a hang of one is a result like others.
+ * @brief Runs cases in forked processes, so that a crash or a hang is a result like any other.
  */
 #ifndef voxplex_stress_Workers_h
 #define voxplex_stress_Workers_h
@@ -16,7 +16,7 @@
 namespace voxplex::stress
 {
 
-/** Which cases of a family. */
+/** A range of cases of a family. */
 struct CaseRange
 {
   Family Kind = Family::Space;
@@ -27,17 +27,21 @@ struct CaseRange
 };
 
 /**
- * Runs cases in `jobs` worker processes, each case after case. Where one dies, its case has failed (cause crash, with
- * the signal), and another goes on. A case that neither ends nor can be cancelled is killed (cause hang). Call it while
- * this process has one thread.
+ * Runs cases in `jobs` worker processes. Each process runs one case after the other. If a process
+ * dies, its case has failed (cause crash, with the signal), and a new process continues. If a case
+ * neither ends nor can be cancelled, its process is killed (cause hang). Call this while the
+ * process has only one thread.
  *
- * @param take receives each result, in the order in which cases end
+ * @param take is called with each result, in the order in which cases end
  * @throws std::runtime_error if no process can be started
  */
 void RunInWorkers(const CaseRange& range, unsigned jobs, const RunLimits& limits,
   const std::function<void(const CaseId&, const CaseResult&)>& take);
 
-/** Runs one case in a process of its own. @param wallLimit seconds after which it counts as hanging */
+/**
+ * Runs one case in a process of its own. @param wallLimit wall-clock seconds after which the case
+ * counts as hanging
+ */
 CaseResult RunInChild(const std::function<CaseResult()>& run, double wallLimit);
 
 } // namespace voxplex::stress

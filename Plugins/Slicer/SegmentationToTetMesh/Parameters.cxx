@@ -192,7 +192,7 @@ ParameterGroup Results()
     .Description = "What is known about the mesh afterwards.",
     .Parameters = {
       Returned(Kind::Integer, "numberOfTetrahedra", "Tetrahedra", "How many there are."),
-      Returned(Kind::Double, "usedDelta", "Delta used", "The sampling density that was used."),
+      Returned(Kind::Double, "usedDelta", "Delta used", "The sampling distance that was used."),
       Returned(Kind::String, "missingLabels", "Labels without elements",
         "Labels of the image that the mesh lacks, because they are too small for delta."),
       Returned(Kind::Integer, "missingComponents", "Components without elements",

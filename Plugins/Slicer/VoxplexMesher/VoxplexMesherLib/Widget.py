@@ -113,14 +113,14 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def buildDensity(self):
         form = self.addSection("Density")
-        self.deltaSpinBox = self.makeSpinBox(0.0, 1000.0, 0.1, 3, "from the spacing", "Sampling density of the "
+        self.deltaSpinBox = self.makeSpinBox(0.0, 1000.0, 0.1, 3, "from the spacing", "Sampling distance of the "
                                              "interfaces: the edges of their triangles are about one to two times as long")
         self.elementsSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 10000, "as delta has it", "So many tetrahedra, to within a tenth, "
                                                      "in place of delta, which is found by trying: it takes two or three times as long")
         self.gradingComboBox = self.makeComboBox(
             {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"}, "With the second, interfaces are sampled by their "
             "local feature size, the distance to the medial axis (about half the thickness of what is thin); delta is then the "
-            "finest density")
+            "shortest sampling distance")
         self.sizeSpinBox = self.makeSpinBox(0.0, 1000.0, 0.5, 3, "no bound",
                                             "Upper bound of the circumradii of all elements")
         form.addRow("Delta (mm):", self.deltaSpinBox)
@@ -164,7 +164,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.interfaceSizesLineEdit.connect("editingFinished()", self.updateParameterNodeFromGUI)
         self.gradationSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "no limit", "How much sizes, and interface sizes, may change over a "
                                                  "millimetre")
-        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling density over local feature size, "
+        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling distance over local feature size, "
                                                     "where that gives more than delta")
         self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: local feature sizes above this count as "
                                                       "this, in voxels")
