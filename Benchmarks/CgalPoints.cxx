@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChildProcess.h"
 #include "PointsRun.h"
-#include "Stopwatch.h"
+#include "CpuStopwatch.h"
 
 #include <CGAL/Delaunay_triangulation.h>
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -112,7 +112,7 @@ PointsRun TriangulateWithCgal(const std::vector<Point<D>>& points)
   const auto corners = ConvertAll<D>(UnitCubeCorners<D>());
   const auto converted = ConvertAll<D>(points);
   PointsRun run;
-  const Stopwatch stopwatch;
+  const CpuStopwatch stopwatch;
   auto triangulation = MakeTriangulation<D>();
   triangulation.insert(corners.begin(), corners.end());
   auto hint = triangulation.infinite_vertex();

@@ -3,7 +3,7 @@
 #include "MesherRun.h"
 
 #include "ChildProcess.h"
-#include "Stopwatch.h"
+#include "CpuStopwatch.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Image_3.h>
@@ -83,13 +83,13 @@ MesherRun Run(const LabelVolume& volume, double size, Optimisation* optimisation
   using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
   MesherRun run;
-  const Stopwatch total;
+  const CpuStopwatch total;
   const CGAL::Image_3 image = MakeImage(volume);
   const MeshDomain domain = MeshDomain::create_labeled_image_mesh_domain(image);
   const Criteria criteria(parameters::facet_angle = 30.0, parameters::facet_size = size,
     parameters::cell_radius_edge_ratio = 2.0);
 
-  const Stopwatch refinement;
+  const CpuStopwatch refinement;
   Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
     parameters::no_exude(), parameters::no_lloyd(), parameters::no_odt());
   run.RefinementSeconds = refinement.Seconds();
@@ -99,10 +99,10 @@ MesherRun Run(const LabelVolume& volume, double size, Optimisation* optimisation
   run.Mesh = ToArrays(complex);
   if (optimisation)
   {
-    const Stopwatch perturbation;
+    const CpuStopwatch perturbation;
     CGAL::perturb_mesh_3(complex, domain);
     optimisation->PerturbSeconds = perturbation.Seconds();
-    const Stopwatch exudation;
+    const CpuStopwatch exudation;
     CGAL::exude_mesh_3(complex);
     optimisation->ExudeSeconds = exudation.Seconds();
     optimisation->Mesh = ToArrays(complex);

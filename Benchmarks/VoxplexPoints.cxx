@@ -4,7 +4,7 @@
 
 #include "ChildProcess.h"
 #include "Delaunay/Triangulation.h"
-#include "Stopwatch.h"
+#include "CpuStopwatch.h"
 
 #include <stdexcept>
 
@@ -19,7 +19,7 @@ PointsRun TriangulateWithVoxplex(const std::vector<Point<D>>& points)
   cube.Max.fill(1.0);
 
   PointsRun run;
-  const Stopwatch stopwatch;
+  const CpuStopwatch stopwatch;
   Triangulation<D> triangulation(cube);
   typename Triangulation<D>::Worker worker(triangulation);
   SimplexId hint = 0;

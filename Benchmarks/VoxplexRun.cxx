@@ -3,7 +3,7 @@
 #include "VoxplexRun.h"
 
 #include "ChildProcess.h"
-#include "Stopwatch.h"
+#include "CpuStopwatch.h"
 
 #include <utility>
 
@@ -14,7 +14,7 @@ VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
 {
   VoxplexRun result;
   MesherRun& run = result.Run;
-  const Stopwatch total;
+  const CpuStopwatch total;
   const auto grid = GridGeometry<3>::Orthogonal(volume.Dimensions, volume.Spacing);
   const auto image =
     LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, options.Threads);

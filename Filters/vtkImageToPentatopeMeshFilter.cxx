@@ -181,7 +181,7 @@ int vtkImageToPentatopeMeshFilter::RequestData(
 bool vtkImageToPentatopeMeshFilter::Gather(
   vtkInformation* request, vtkInformationVector** inputVector)
 {
-  const voxplex::StopWatch copying;
+  const voxplex::Stopwatch copying;
   voxplex::FrameSeries& series = this->Gathered->Series;
   const std::vector<double> times = TimeStepsOf(inputVector[0]->GetInformationObject(0));
   if (times.size() < 2)
@@ -301,7 +301,7 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   {
     return;
   }
-  const voxplex::StopWatch writing;
+  const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), frame, vtkUnstructuredGrid::GetData(outputVector, 0),
     vtkUnstructuredGrid::GetData(outputVector, 1), run.Options.Threads);
   run.Figures().Run.Times.LabelField += this->Gathered->Seconds;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToSimplexMeshFilter.h"
 
+#include "Private/MeshingMessages.h"
 #include "Private/SimplexMeshRun.h"
 #include "Private/SmpThreads.h"
 
@@ -69,110 +70,6 @@ bool IsEmptyPiece(vtkInformation* output)
 }
 
 } // namespace
-
-namespace voxplex
-{
-
-void CheckRange(double value, double low, double high, const char* name, const char* must)
-{
-  if (!(value >= low && value <= high))
-  {
-    std::ostringstream text;
-    text << name << " is " << value << "; it must be " << must << ".";
-    throw InputError(text.str());
-  }
-}
-
-std::string ListLabels(std::span<const std::int64_t> labels)
-{
-  constexpr std::size_t shown = 20;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(shown, labels.size()); ++i)
-  {
-    text.append(i ? ", " : "").append(std::to_string(labels[i]));
-  }
-  if (labels.size() > shown)
-  {
-    text.append(", ... (").append(std::to_string(labels.size())).append(" in all)");
-  }
-  return text;
-}
-
-std::string DescribeVoxel(const std::vector<std::int64_t>& voxel)
-{
-  std::string text;
-  for (const std::int64_t i : voxel)
-  {
-    text += (text.empty() ? "(" : ", ") + std::to_string(i);
-  }
-  return text + ")";
-}
-
-std::string Describe(const ComponentReport& component)
-{
-  return std::to_string(component.Voxels) + " voxels of label " + std::to_string(component.Label) +
-    " at " + DescribeVoxel(component.Voxel);
-}
-
-/** The places of the first few, and how many there are. */
-std::string Describe(const std::vector<YieldingReport>& regions)
-{
-  constexpr std::size_t Most = 5;
-  std::string text;
-  std::size_t count = 0;
-  for (const YieldingReport& region : regions)
-  {
-    if (region.Step == 1 && ++count <= Most)
-    {
-      text += (text.empty() ? "" : ", ") + DescribeVoxel(region.Voxel);
-    }
-  }
-  return std::to_string(count) + (count == 1 ? " region (at voxel " : " regions (at voxels ") +
-    text + (count > Most ? ", ...)" : ")");
-}
-
-std::vector<std::int64_t> FindLostLabels(
-  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements)
-{
-  std::vector<char> found(labels.size(), 0);
-  std::int64_t last = 0;
-  for (const std::int64_t label : elements)
-  {
-    if (label != last) // neighbours in the list mostly have the same label
-    {
-      last = label;
-      found[static_cast<std::size_t>(
-        std::lower_bound(labels.begin(), labels.end(), label) - labels.begin())] = 1;
-    }
-  }
-  std::vector<std::int64_t> lost;
-  for (std::size_t i = 0; i < found.size(); ++i)
-  {
-    if (!found[i])
-    {
-      lost.push_back(labels[i]);
-    }
-  }
-  return lost;
-}
-
-void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
-  std::span<const std::int64_t> labels)
-{
-  for (const std::int64_t label : sized)
-  {
-    if (std::binary_search(labels.begin(), labels.end(), label))
-    {
-      continue;
-    }
-    const std::string where = selected ? "is not among the labels to mesh; these are "
-                                       : "does not occur in the image; its labels are ";
-    throw InputError(method + " gives a size to label " + std::to_string(label) + ", which " +
-      where + ListLabels(labels) + ".");
-  }
-}
-
-} // namespace voxplex
 
 //----------------------------------------------------------------------------------------------------
 vtkImageToSimplexMeshFilter::vtkImageToSimplexMeshFilter()
@@ -546,7 +443,11 @@ int vtkImageToSimplexMeshFilter::RequestData(
     {
       vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
     }
-    this->WarnOfDeviations();
+    for (const std::string& warning : voxplex::WarningsOf(
+           this->Private->Statistics->Edit(), this->GetContentionManagerAsString()))
+    {
+      vtkWarningMacro(<< warning);
+    }
     return 1;
   }
   clearOutputs();
@@ -562,48 +463,6 @@ int vtkImageToSimplexMeshFilter::RequestData(
 bool vtkImageToSimplexMeshFilter::Gather(vtkInformation*, vtkInformationVector**)
 {
   return true;
-}
-
-//----------------------------------------------------------------------------------------------------
-void vtkImageToSimplexMeshFilter::WarnOfDeviations()
-{
-  const vtkMeshingStatistics::Figures& figures = this->Private->Statistics->Edit();
-  if (figures.Run.SizesRaisedTo > 0.0)
-  {
-    vtkWarningMacro(<< "Some element sizes are below a tenth of Delta and were raised to "
-                    << figures.Run.SizesRaisedTo << "; use a smaller Delta for smaller elements.");
-  }
-  if (!figures.LostLabels.empty())
-  {
-    vtkWarningMacro(
-      << "The mesh lacks these labels of the image, which are too small for a Delta of "
-      << figures.Run.Delta << ": " << voxplex::ListLabels(figures.LostLabels) << ".");
-  }
-  if (!figures.Run.Components.Lost.empty())
-  {
-    std::string text;
-    for (const voxplex::ComponentReport& component : figures.Run.Components.Lost)
-    {
-      text += (text.empty() ? "" : ", ") + voxplex::Describe(component);
-    }
-    vtkWarningMacro(<< "The mesh lacks these connected components of the image: " << text << ".");
-  }
-  if (!figures.Run.Yielding.empty())
-  {
-    vtkWarningMacro(
-      << "In " << voxplex::Describe(figures.Run.Yielding)
-      << " refinement took many times the work that it should need, and stopped "
-         "improving shapes there: elements and interface triangles may be out of bounds. "
-         "A smaller Delta, or more smoothing of the labels, helps where the image is "
-         "rougher than Delta.");
-  }
-  if (figures.Run.SwitchedToLocal)
-  {
-    vtkWarningMacro(<< "The threads made no progress with the contention manager '"
-                    << this->GetContentionManagerAsString()
-                    << "', which cannot exclude a livelock, and the local one took over; use "
-                       "SetContentionManagerToLocal().");
-  }
 }
 
 //----------------------------------------------------------------------------------------------------

@@ -487,8 +487,6 @@ private:
   vtkImageToSimplexMeshFilter(const vtkImageToSimplexMeshFilter&) = delete;
   void operator=(const vtkImageToSimplexMeshFilter&) = delete;
 
-  void WarnOfDeviations();
-
   std::string ErrorMessage;
   bool Aborted = false;
 };

@@ -199,7 +199,7 @@ void vtkImageToTetMeshFilter::Mesh(
     run.Figures().Isosurface = { true, this->Isovalue, this->Inside == INSIDE_ABOVE,
       image.Range() };
   }
-  const voxplex::StopWatch writing;
+  const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), input.Frame, vtkUnstructuredGrid::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1), run.Options.Threads);
   run.Figures().Run.Times.Extraction += writing.Seconds();

@@ -5,7 +5,7 @@
 #include "Delaunay/Triangulation.h"
 #include "Geometry/HilbertOrder.h"
 #include "RandomPoints.h"
-#include "Stopwatch.h"
+#include "CpuStopwatch.h"
 
 #include <benchmark/benchmark.h>
 
@@ -108,7 +108,7 @@ void Insertion(benchmark::State& state)
   double created = 0.0;
   for (auto _ : state)
   {
-    const Stopwatch stopwatch;
+    const CpuStopwatch stopwatch;
     Instance<D> instance(Cube<D>(side));
     if (!instance.Insert(points))
     {
@@ -141,7 +141,7 @@ void Removal(benchmark::State& state)
       std::shuffle(vertices.begin(), vertices.end(), std::mt19937_64(2));
     }
     const std::uint64_t before = instance.Worker.NumberOfCreated;
-    const Stopwatch stopwatch;
+    const CpuStopwatch stopwatch;
     if (vertices.empty() || !instance.Remove(vertices))
     {
       state.SkipWithError("a vertex was not removed");

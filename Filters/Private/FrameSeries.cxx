@@ -3,13 +3,13 @@
 #include "Private/FrameSeries.h"
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -29,10 +29,7 @@ constexpr double GridTolerance = 1e-3;
 
 std::string Number(double x)
 {
-  std::ostringstream text;
-  text.precision(10);
-  text << x;
-  return text.str();
+  return NumberText(x, 10);
 }
 
 /** What it takes to hold a value: the index of FrameSeries' alternative, or that it is no label. */

@@ -8,10 +8,12 @@
 #define voxplex_SimplexMeshRun_h
 
 #include "Base/Error.h"
+#include "Base/Stopwatch.h"
 #include "Mesher/ImageMesher.h"
 #include "Private/ChosenArray.h"
 #include "Private/ElementSizes.h"
 #include "Private/MeshingFigures.h"
+#include "Private/MeshingMessages.h"
 #include "Quality/MeshQuality.h"
 
 #include "vtkImageData.h"
@@ -21,7 +23,6 @@
 #include "vtkNew.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <iterator>
 #include <map>
@@ -31,45 +32,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace voxplex
-{
-
-/** Wall-clock time since it was made. */
-class StopWatch
-{
-public:
-  double Seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
-/** Throws InputError unless low <= value <= high; `must` says what it must be. */
-void CheckRange(double value, double low, double high, const char* name, const char* must);
-
-/** At most 20 labels, separated by commas. */
-std::string ListLabels(std::span<const std::int64_t> labels);
-
-/**
- * Throws InputError if a label was given a size but is not among those of the image.
- * @param method by which it was given
- * @param selected whether a part of the image's labels is meshed
- */
-void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
-  std::span<const std::int64_t> labels);
-
-/** "9 voxels of label 3 at (10, 20, 30)". */
-std::string Describe(const ComponentReport& component);
-
-/** Those of `labels`, which is sorted, that no element has. */
-std::vector<std::int64_t> FindLostLabels(
-  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements);
-
-} // namespace voxplex
 
 struct vtkImageToSimplexMeshFilter::Internals
 {
@@ -247,7 +209,7 @@ private:
   static constexpr double KernelProgress = 0.97;
 
   vtkImageToSimplexMeshFilter* Filter;
-  voxplex::StopWatch Watch;
+  voxplex::Stopwatch Watch;
 };
 
 #endif

@@ -7,7 +7,8 @@
 #ifndef voxplex_NumberText_h
 #define voxplex_NumberText_h
 
-#include <cstdio>
+#include <array>
+#include <charconv>
 #include <string>
 
 namespace voxplex
@@ -16,9 +17,10 @@ namespace voxplex
 /** The number as text, with at most `digits` significant digits. */
 inline std::string NumberText(double x, int digits = 6)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.*g", digits, x);
-  return text;
+  std::array<char, 64> text;
+  const std::to_chars_result end = std::to_chars(
+    text.data(), text.data() + text.size(), x, std::chars_format::general, digits);
+  return { text.data(), end.ptr };
 }
 
 } // namespace voxplex

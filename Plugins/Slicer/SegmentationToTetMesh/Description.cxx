@@ -3,6 +3,7 @@
 #include "Description.h"
 
 #include "MeshWriting/XMLText.h"
+#include "MeshingParameters.h"
 #include "Parameters.h"
 
 #include <voxplexVersion.h>
@@ -84,13 +85,6 @@ std::string Attribute(const char* name, const std::string& value)
   return value.empty() ? "" : std::string(" ") + name + "=\"" + io::EscapeForXML(value) + '"';
 }
 
-std::string Number(double value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 void Write(Writer& xml, const Parameter& parameter)
 {
   const char* tag = TagOf(parameter.Type);
@@ -126,9 +120,9 @@ void Write(Writer& xml, const Parameter& parameter)
   if (parameter.Limits)
   {
     xml.Open("constraints");
-    xml.Element("minimum", Number(parameter.Limits->Minimum));
-    xml.Element("maximum", Number(parameter.Limits->Maximum));
-    xml.Element("step", Number(parameter.Limits->Step));
+    xml.Element("minimum", NumberText(parameter.Limits->Minimum));
+    xml.Element("maximum", NumberText(parameter.Limits->Maximum));
+    xml.Element("step", NumberText(parameter.Limits->Step));
     xml.Close("constraints");
   }
   xml.Close(tag);

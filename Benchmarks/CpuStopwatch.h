@@ -1,26 +1,22 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file Stopwatch.h
+ * @file CpuStopwatch.h
  * @brief Measures wall-clock and processor time since its construction, in seconds.
  */
-#ifndef voxplex_Stopwatch_h
-#define voxplex_Stopwatch_h
+#ifndef voxplex_CpuStopwatch_h
+#define voxplex_CpuStopwatch_h
 
-#include <chrono>
+#include "Base/Stopwatch.h"
+
 #include <ctime>
 
 namespace voxplex::benchmarks
 {
 
-class Stopwatch
+class CpuStopwatch : public voxplex::Stopwatch
 {
 public:
-  double Seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
-  }
-
   /**
    * Processor time of all threads. It is more than Seconds() if threads share work, and less if
    * other processes used the cores.
@@ -31,7 +27,6 @@ public:
   }
 
 private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   std::clock_t CpuStart = std::clock();
 };
 

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/MeshingMessages.h"
+
+#include "Base/Error.h"
+#include "Base/NumberText.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace voxplex
+{
+namespace
+{
+
+std::string DescribeVoxel(const std::vector<std::int64_t>& voxel)
+{
+  std::string text;
+  for (const std::int64_t i : voxel)
+  {
+    text += (text.empty() ? "(" : ", ") + std::to_string(i);
+  }
+  return text + ")";
+}
+
+std::string Describe(const ComponentReport& component)
+{
+  return std::to_string(component.Voxels) + " voxels of label " + std::to_string(component.Label) +
+    " at " + DescribeVoxel(component.Voxel);
+}
+
+/** The places of the first few, and how many there are. */
+std::string Describe(const std::vector<YieldingReport>& regions)
+{
+  constexpr std::size_t Most = 5;
+  std::string text;
+  std::size_t count = 0;
+  for (const YieldingReport& region : regions)
+  {
+    if (region.Step == 1 && ++count <= Most)
+    {
+      text += (text.empty() ? "" : ", ") + DescribeVoxel(region.Voxel);
+    }
+  }
+  return std::to_string(count) + (count == 1 ? " region (at voxel " : " regions (at voxels ") +
+    text + (count > Most ? ", ...)" : ")");
+}
+
+} // namespace
+
+void CheckRange(double value, double low, double high, const char* name, const char* must)
+{
+  if (!(value >= low && value <= high))
+  {
+    throw InputError(
+      std::string(name) + " is " + NumberText(value) + "; it must be " + must + ".");
+  }
+}
+
+std::string ListLabels(std::span<const std::int64_t> labels)
+{
+  constexpr std::size_t shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, labels.size()); ++i)
+  {
+    text.append(i ? ", " : "").append(std::to_string(labels[i]));
+  }
+  if (labels.size() > shown)
+  {
+    text.append(", ... (").append(std::to_string(labels.size())).append(" in all)");
+  }
+  return text;
+}
+
+std::vector<std::int64_t> FindLostLabels(
+  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements)
+{
+  std::vector<char> found(labels.size(), 0);
+  std::int64_t last = 0;
+  for (const std::int64_t label : elements)
+  {
+    if (label != last) // neighbours in the list mostly have the same label
+    {
+      last = label;
+      found[static_cast<std::size_t>(
+        std::lower_bound(labels.begin(), labels.end(), label) - labels.begin())] = 1;
+    }
+  }
+  std::vector<std::int64_t> lost;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (!found[i])
+    {
+      lost.push_back(labels[i]);
+    }
+  }
+  return lost;
+}
+
+void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+  std::span<const std::int64_t> labels)
+{
+  for (const std::int64_t label : sized)
+  {
+    if (std::binary_search(labels.begin(), labels.end(), label))
+    {
+      continue;
+    }
+    const std::string where = selected ? "is not among the labels to mesh; these are "
+                                       : "does not occur in the image; its labels are ";
+    throw InputError(method + " gives a size to label " + std::to_string(label) + ", which " +
+      where + ListLabels(labels) + ".");
+  }
+}
+
+std::vector<std::string> WarningsOf(
+  const vtkMeshingStatistics::Figures& figures, const std::string& contentionManager)
+{
+  std::vector<std::string> warnings;
+  const MeshingStatistics& run = figures.Run;
+  if (run.SizesRaisedTo > 0.0)
+  {
+    warnings.push_back("Some element sizes are below a tenth of Delta and were raised to " +
+      NumberText(run.SizesRaisedTo) + "; use a smaller Delta for smaller elements.");
+  }
+  if (!figures.LostLabels.empty())
+  {
+    warnings.push_back(
+      "The mesh lacks these labels of the image, which are too small for a Delta of " +
+      NumberText(run.Delta) + ": " + ListLabels(figures.LostLabels) + ".");
+  }
+  if (!run.Components.Lost.empty())
+  {
+    std::string text;
+    for (const ComponentReport& component : run.Components.Lost)
+    {
+      text += (text.empty() ? "" : ", ") + Describe(component);
+    }
+    warnings.push_back(
+      "The mesh lacks these connected components of the image: " + text + ".");
+  }
+  if (!run.Yielding.empty())
+  {
+    warnings.push_back("In " + Describe(run.Yielding) +
+      " refinement took many times the work that it should need, and stopped improving shapes "
+      "there: elements and interface triangles may be out of bounds. A smaller Delta, or more "
+      "smoothing of the labels, helps where the image is rougher than Delta.");
+  }
+  if (run.SwitchedToLocal)
+  {
+    warnings.push_back("The threads made no progress with the contention manager '" +
+      contentionManager +
+      "', which cannot exclude a livelock, and the local one took over; use "
+      "SetContentionManagerToLocal().");
+  }
+  return warnings;
+}
+
+} // namespace voxplex

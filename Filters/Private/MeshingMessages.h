@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MeshingMessages.h
+ * @brief What the meshing filters refuse, and what they warn of.
+ */
+#ifndef voxplex_MeshingMessages_h
+#define voxplex_MeshingMessages_h
+
+#include "Private/MeshingFigures.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Throws InputError unless low <= value <= high; `must` says what it must be. */
+void CheckRange(double value, double low, double high, const char* name, const char* must);
+
+/** At most 20 labels, separated by commas. */
+std::string ListLabels(std::span<const std::int64_t> labels);
+
+/**
+ * Throws InputError if a label was given a size but is not among those of the image.
+ * @param method by which it was given
+ * @param selected whether a part of the image's labels is meshed
+ */
+void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+  std::span<const std::int64_t> labels);
+
+/** Those of `labels`, which is sorted, that no element has. */
+std::vector<std::int64_t> FindLostLabels(
+  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements);
+
+/**
+ * How the mesh differs from what was asked for, a sentence or two each.
+ * @param contentionManager the one that was asked for
+ */
+std::vector<std::string> WarningsOf(
+  const vtkMeshingStatistics::Figures& figures, const std::string& contentionManager);
+
+} // namespace voxplex
+
+#endif
