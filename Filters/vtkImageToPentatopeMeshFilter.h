@@ -94,9 +94,12 @@ class vtkUnstructuredGrid;
 class VTKVOXPLEX_EXPORT vtkImageToPentatopeMeshFilter : public vtkImageToSimplexMeshFilter
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkImageToPentatopeMeshFilter* New();
   vtkTypeMacro(vtkImageToPentatopeMeshFilter, vtkImageToSimplexMeshFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   ///@{
   /**

@@ -73,8 +73,11 @@ class vtkMeshingStatistics;
 class VTKVOXPLEX_EXPORT vtkImageToSimplexMeshFilter : public vtkUnstructuredGridAlgorithm
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   vtkAbstractTypeMacro(vtkImageToSimplexMeshFilter, vtkUnstructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   ///@{
   /**
@@ -239,9 +242,9 @@ public:
    * active cell scalars. ParaView passes an empty name when it does not know the arrays of its
    * input yet.
    */
-  using vtkUnstructuredGridAlgorithm::SetInputArrayToProcess;
   void SetInputArrayToProcess(
     int index, int port, int connection, int association, const char* name) override;
+  using vtkUnstructuredGridAlgorithm::SetInputArrayToProcess;
   ///@}
 
   /**

@@ -67,9 +67,12 @@ class vtkPolyData;
 class VTKVOXPLEX_EXPORT vtkImageToTetMeshFilter : public vtkImageToSimplexMeshFilter
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkImageToTetMeshFilter* New();
   vtkTypeMacro(vtkImageToTetMeshFilter, vtkImageToSimplexMeshFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   /** Values of InputMode. */
   enum InputModes

@@ -32,9 +32,12 @@
 class VTKVOXPLEX_EXPORT vtkMeshingStatistics : public vtkObject
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkMeshingStatistics* New();
   vtkTypeMacro(vtkMeshingStatistics, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   /** 3 for a mesh of tetrahedra, 4 for one of pentatopes. */
   int GetDimension() const;

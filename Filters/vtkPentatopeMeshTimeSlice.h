@@ -90,9 +90,12 @@ class vtkInformationDoubleVectorKey;
 class VTKVOXPLEX_EXPORT vtkPentatopeMeshTimeSlice : public vtkUnstructuredGridAlgorithm
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkPentatopeMeshTimeSlice* New();
   vtkTypeMacro(vtkPentatopeMeshTimeSlice, vtkUnstructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   ///@{
   /**

@@ -92,9 +92,12 @@ class vtkTable;
 class VTKVOXPLEX_EXPORT vtkSimplexMeshQuality : public vtkUnstructuredGridAlgorithm
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkSimplexMeshQuality* New();
   vtkTypeMacro(vtkSimplexMeshQuality, vtkUnstructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   ///@{
   /** The label image, input port 1. */

@@ -54,9 +54,12 @@
 class VTKVOXPLEXIO_EXPORT vtkSegmentationReader : public vtkImageAlgorithm
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkSegmentationReader* New();
   vtkTypeMacro(vtkSegmentationReader, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   /** Coordinates of the output. LPS are those of DICOM and ITK, RAS those of NIfTI and 3D Slicer's scene. */
   enum

@@ -44,9 +44,12 @@
 class VTKVOXPLEXIO_EXPORT vtkSimplexMeshWriter : public vtkWriter
 {
 public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
   static vtkSimplexMeshWriter* New();
   vtkTypeMacro(vtkSimplexMeshWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
 
   /** What goes into the file. */
   enum
