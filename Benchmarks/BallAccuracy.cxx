@@ -37,7 +37,7 @@ Accuracy Measure(
   const Image& image, const GridGeometry<3>& grid, double radius, double sigma, double delta)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   options.SmoothingSigma = sigma;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;

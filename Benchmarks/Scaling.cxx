@@ -277,12 +277,12 @@ void Experiment::Print() const
 MeshingOptions<3> DefaultsOf(const ScalingOptions& options, unsigned threads)
 {
   MeshingOptions<3> result;
-  result.Threads = threads;
-  result.Contention = options.Managers.front();
-  result.Balance = options.Balancers.front();
-  result.PinThreads = options.Pin;
-  result.SeedsPerThread = options.NoSeeds ? 0 : result.SeedsPerThread;
-  result.RemoveEagerly = options.Eager;
+  result.Team.Threads = threads;
+  result.Team.Contention = options.Managers.front();
+  result.Team.Balance = options.Balancers.front();
+  result.Team.Pin = options.Pin;
+  result.Team.SeedsPerThread = options.NoSeeds ? 0 : result.Team.SeedsPerThread;
+  result.Team.RemoveEagerly = options.Eager;
   return result;
 }
 
@@ -297,7 +297,7 @@ void CompareQuality(
       [&, number](double delta)
       {
         MeshingOptions<3> meshing = DefaultsOf(options, number);
-        meshing.Delta = delta;
+        meshing.Sampling.Delta = delta;
         return RunVoxplex(std::move(image), meshing).Run;
       },
       options.Delta };

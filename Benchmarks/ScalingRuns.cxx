@@ -39,14 +39,14 @@ ThreadStatistics SumOf(const std::vector<ThreadStatistics>& threads)
 ScalingRecord RunOnce(LabelVolume&& image, const Configuration& what)
 {
   MeshingOptions<3> options;
-  options.Delta = what.Delta;
-  options.Threads = what.Threads;
-  options.Contention = what.Contention;
-  options.Balance = what.Balance;
-  options.Synchronise = what.Synchronise;
-  options.PinThreads = what.Pin;
-  options.SeedsPerThread = what.Seeds ? options.SeedsPerThread : 0;
-  options.RemoveEagerly = what.Eager;
+  options.Sampling.Delta = what.Delta;
+  options.Team.Threads = what.Threads;
+  options.Team.Contention = what.Contention;
+  options.Team.Balance = what.Balance;
+  options.Team.Synchronise = what.Synchronise;
+  options.Team.Pin = what.Pin;
+  options.Team.SeedsPerThread = what.Seeds ? options.Team.SeedsPerThread : 0;
+  options.Team.RemoveEagerly = what.Eager;
   const VoxplexRun result = RunVoxplex(std::move(image), options);
 
   ScalingRecord record;

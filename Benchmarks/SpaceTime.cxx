@@ -95,11 +95,11 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
     {
       Series& series = all[(i + static_cast<std::size_t>(round)) % all.size()];
       MeshingOptions<4> meshing;
-      meshing.Delta = delta;
-      meshing.Threads = series.Threads;
-      meshing.Order = series.Order;
-      meshing.Slivers.Fight = series.Picking;
-      meshing.FineGrained = !options.NoFineGrained;
+      meshing.Sampling.Delta = delta;
+      meshing.Team.Threads = series.Threads;
+      meshing.SpaceTime.Order = series.Order;
+      meshing.SpaceTime.Slivers.Fight = series.Picking;
+      meshing.Team.FineGrained = !options.NoFineGrained;
       // One thread makes the same mesh in every round.
       const bool fit = options.Frames && (series.Threads > 1 || round == 0);
       const SpaceTimeRecord record =

@@ -85,7 +85,8 @@ void TakeStatistics(const MeshingStatistics& statistics, SpaceTimeRecord& record
 SpaceTimeRecord MeshPhantom(const std::vector<std::uint8_t>& scalars, const GridGeometry<4>& grid,
   const MeshingOptions<4>& options, bool fit)
 {
-  const auto image = LabelImage<4>::FromScalars<std::uint8_t>(scalars, grid, {}, options.Threads);
+  const auto image =
+    LabelImage<4>::FromScalars<std::uint8_t>(scalars, grid, {}, options.Team.Threads);
   ImageMesher<4> mesher(options);
   SimplexMesh<4> mesh;
   mesher.Run(image, mesh);
@@ -96,7 +97,7 @@ SpaceTimeRecord MeshPhantom(const std::vector<std::uint8_t>& scalars, const Grid
   record.BoundaryTetrahedra = static_cast<double>(mesh.Facets.size());
   record.Vertices = static_cast<double>(mesh.Points.size());
   TakeStatistics(mesher.Statistics(), record);
-  const MeshQuality quality = MeasureQuality<4>(mesh, options.RadiusEdgeRatio, 0.0, 1);
+  const MeshQuality quality = MeasureQuality<4>(mesh, options.Shape.RadiusEdgeRatio, 0.0, 1);
   record.ShortestEdge = quality.ShortestEdge;
   record.RadiusEdgeMax = quality.MaximumRadiusEdgeRatio;
   record.RadiusEdgeMean = quality.MeanRadiusEdgeRatio;

@@ -17,7 +17,7 @@ VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
   const CpuStopwatch total;
   const auto grid = GridGeometry<3>::Orthogonal(volume.Dimensions, volume.Spacing);
   const auto image =
-    LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, options.Threads);
+    LabelImage<3>::FromScalars<std::uint16_t>(volume.Labels, grid, {}, options.Team.Threads);
   volume.Labels = {}; // the kernel has its own copy of the labels
 
   ImageMesher<3> mesher(options);
@@ -33,13 +33,13 @@ VoxplexRun RunVoxplex(LabelVolume&& volume, const MeshingOptions<3>& options)
 MesherRun RunVoxplex(LabelVolume&& volume, double delta, unsigned threads, Care care)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
-  options.Threads = threads;
+  options.Sampling.Delta = delta;
+  options.Team.Threads = threads;
   if (care == Care::Plain)
   {
-    options.TetSlivers.Angle = 0.0;
-    options.SmallestComponent = 0;
-    options.SampleJunctions = false;
+    options.Shape.Slivers.Angle = 0.0;
+    options.Components.Smallest = 0;
+    options.Interfaces.SampleJunctions = false;
     options.Interfaces.Rounds = 0;
     options.Interfaces.Manifold = false;
   }

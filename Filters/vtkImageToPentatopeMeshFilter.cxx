@@ -283,18 +283,18 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   voxplex::FrameSeries& series = this->Gathered->Series;
   const voxplex::SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
   Run<4> run(this, inputVector, frame);
-  run.Options.Order = static_cast<voxplex::RuleOrder>(this->RuleOrder);
-  run.Options.Slivers.Fight = this->PickingRegions;
-  run.Options.Slivers.PickingRadius = this->PickingRadius;
-  run.Options.Slivers.RadiusFactor = this->SliverRadiusFactor;
-  run.Options.Slivers.VolumeBound = this->SliverBound;
-  run.Options.Slivers.Picks = static_cast<unsigned>(this->NumberOfPicks);
-  run.Options.Slivers.Seed = static_cast<std::uint64_t>(this->RandomSeed);
-  run.Options.FineGrained = this->FineGrained;
+  run.Options.SpaceTime.Order = static_cast<voxplex::RuleOrder>(this->RuleOrder);
+  run.Options.SpaceTime.Slivers.Fight = this->PickingRegions;
+  run.Options.SpaceTime.Slivers.PickingRadius = this->PickingRadius;
+  run.Options.SpaceTime.Slivers.RadiusFactor = this->SliverRadiusFactor;
+  run.Options.SpaceTime.Slivers.VolumeBound = this->SliverBound;
+  run.Options.SpaceTime.Slivers.Picks = static_cast<unsigned>(this->NumberOfPicks);
+  run.Options.SpaceTime.Slivers.Seed = static_cast<std::uint64_t>(this->RandomSeed);
+  run.Options.Team.FineGrained = this->FineGrained;
   run.ProgressBefore = GatheringProgress;
 
   const voxplex::LabelImage<4> labels =
-    series.MakeLabelImage(frame.Grid, run.SelectedLabels(), run.Options.Threads);
+    series.MakeLabelImage(frame.Grid, run.SelectedLabels(), run.Options.Team.Threads);
   series.Clear();
   voxplex::SimplexMesh<4> mesh;
   if (!run.Mesh(labels, labels, mesh))
@@ -303,7 +303,7 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   }
   const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), frame, vtkUnstructuredGrid::GetData(outputVector, 0),
-    vtkUnstructuredGrid::GetData(outputVector, 1), run.Options.Threads);
+    vtkUnstructuredGrid::GetData(outputVector, 1), run.Options.Team.Threads);
   run.Figures().Run.Times.LabelField += this->Gathered->Seconds;
   run.Figures().Run.Times.Extraction += writing.Seconds();
 }

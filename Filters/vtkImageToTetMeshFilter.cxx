@@ -146,18 +146,18 @@ void vtkImageToTetMeshFilter::Mesh(
     scalars, association, "image", " For time series, use vtkImageToPentatopeMeshFilter.");
 
   Run<3> run(this, inputVector, input.Frame);
-  run.Options.Grading.Mode = static_cast<voxplex::GradingMode>(this->Grading);
-  run.Options.Grading.Ratio = this->FeatureRatio;
-  run.Options.Grading.Lambda = this->LargestFeature;
-  run.Options.FacetAngle = this->FacetAngle;
-  run.Options.TetSlivers.Angle = this->SliverAngle;
-  run.Options.Optimise = this->Optimise;
-  run.Options.OptimisationSeconds = this->OptimisationTimeLimit;
-  run.Options.SampleJunctions = this->SampleJunctions;
+  run.Options.Sampling.Grading.Mode = static_cast<voxplex::GradingMode>(this->Grading);
+  run.Options.Sampling.Grading.Ratio = this->FeatureRatio;
+  run.Options.Sampling.Grading.Lambda = this->LargestFeature;
+  run.Options.Shape.FacetAngle = this->FacetAngle;
+  run.Options.Shape.Slivers.Angle = this->SliverAngle;
+  run.Options.Optimisation.Run = this->Optimise;
+  run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
+  run.Options.Interfaces.SampleJunctions = this->SampleJunctions;
   run.Options.Interfaces.Rounds = static_cast<unsigned>(this->InterfaceRounds);
   run.Options.Interfaces.Manifold = this->Manifold;
-  run.Options.SmallestComponent = this->SmallestComponent;
-  run.Options.ExactComponents = this->ExactComponents;
+  run.Options.Components.Smallest = this->SmallestComponent;
+  run.Options.Components.Exact = this->ExactComponents;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
   const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
@@ -165,10 +165,10 @@ void vtkImageToTetMeshFilter::Mesh(
     // Noise is dropped before the kernel can see it.
     if (this->InputMode == INPUT_LABELS && this->MinimumComponentVolume > 0.0 && !this->Force)
     {
-      voxplex::CheckSegmented(labels, run.Options.Threads);
+      voxplex::CheckSegmented(labels, run.Options.Team.Threads);
     }
     std::vector<voxplex::ComponentReport> dropped =
-      voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Threads);
+      voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Team.Threads);
     const bool done = run.Mesh(image, labels, mesh);
     if (done)
     {
@@ -178,7 +178,7 @@ void vtkImageToTetMeshFilter::Mesh(
   };
   if (this->InputMode == INPUT_LABELS)
   {
-    auto labels = ReadLabels(input, run.SelectedLabels(), run.Options.Threads);
+    auto labels = ReadLabels(input, run.SelectedLabels(), run.Options.Team.Threads);
     if (!meshImage(labels, labels))
     {
       return;
@@ -191,7 +191,7 @@ void vtkImageToTetMeshFilter::Mesh(
       static_cast<voxplex::IsosurfaceSide>(this->Inside), this->InsideLabel,
       this->IsosurfaceSmoothingSigma };
     const vtkSmartPointer<vtkDataArray> values = voxplex::Contiguous(input.Array);
-    auto image = ReadIsosurface(values, input.Frame, surface, run.Options.Threads);
+    auto image = ReadIsosurface(values, input.Frame, surface, run.Options.Team.Threads);
     if (!meshImage(image, image.Labels()))
     {
       return;
@@ -201,7 +201,7 @@ void vtkImageToTetMeshFilter::Mesh(
   }
   const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), input.Frame, vtkUnstructuredGrid::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1), run.Options.Threads);
+    vtkPolyData::GetData(outputVector, 1), run.Options.Team.Threads);
   run.Figures().Run.Times.Extraction += writing.Seconds();
 }
 

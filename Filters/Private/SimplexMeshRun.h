@@ -75,21 +75,22 @@ public:
       this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
     }
     const bool isDeltaIdle = filter->DeltaIsSuggestion && filter->NumberOfElements > 0;
-    this->Options.Delta = isDeltaIdle ? 0.0 : filter->Delta;
-    this->Options.Elements = static_cast<std::uint64_t>(filter->NumberOfElements);
-    this->Options.Gradation = filter->Gradation;
+    this->Options.Sampling.Delta = isDeltaIdle ? 0.0 : filter->Delta;
+    this->Options.Sampling.Elements = static_cast<std::uint64_t>(filter->NumberOfElements);
+    this->Options.Sampling.Gradation = filter->Gradation;
     for (const auto& [interface, size] : filter->Private->InterfaceSizes)
     {
-      this->Options.InterfaceSizes.push_back({ interface.first, interface.second, size });
+      this->Options.Sampling.InterfaceSizes.push_back({ interface.first, interface.second, size });
     }
-    this->Options.RadiusEdgeRatio = filter->RadiusEdgeRatio;
+    this->Options.Shape.RadiusEdgeRatio = filter->RadiusEdgeRatio;
     this->Options.SmoothingSigma = filter->SmoothingSigma;
-    this->Options.Threads = filter->GetThreads();
-    this->Options.Contention = static_cast<voxplex::ContentionPolicy>(filter->ContentionManager);
-    this->Options.Balance = static_cast<voxplex::BalancePolicy>(filter->LoadBalancer);
-    this->Options.PinThreads = filter->PinThreads;
-    this->Options.Force = filter->Force;
-    this->Options.MemoryLimit = filter->MemoryLimit;
+    this->Options.Team.Threads = filter->GetThreads();
+    this->Options.Team.Contention =
+      static_cast<voxplex::ContentionPolicy>(filter->ContentionManager);
+    this->Options.Team.Balance = static_cast<voxplex::BalancePolicy>(filter->LoadBalancer);
+    this->Options.Team.Pin = filter->PinThreads;
+    this->Options.Limits.Force = filter->Force;
+    this->Options.Limits.Memory = filter->MemoryLimit;
   }
 
   voxplex::MeshingOptions<D> Options;
@@ -119,7 +120,7 @@ public:
     this->CheckLabels(values);
     if (this->Sizes->Any())
     {
-      this->Options.Size = this->Sizes;
+      this->Options.Sampling.Size = this->Sizes;
     }
     const double readingTime = this->Watch.Seconds();
 
@@ -141,7 +142,7 @@ public:
     vtkMeshingStatistics::Figures& figures = this->Figures();
     figures.Dimension = D;
     figures.Run = mesher.Statistics();
-    figures.Threads = static_cast<int>(this->Options.Threads);
+    figures.Threads = static_cast<int>(this->Options.Team.Threads);
     figures.Elements = std::ssize(mesh.Simplices);
     figures.Vertices = std::ssize(mesh.Points);
     figures.InterfaceFacets = std::ssize(mesh.Facets);
@@ -162,7 +163,7 @@ public:
     if (filter->ComputeQuality)
     {
       figures.Quality = voxplex::MeasureQuality(
-        mesh, this->RadiusEdgeBound(), this->Options.FacetAngle, this->Options.Threads);
+        mesh, this->RadiusEdgeBound(), this->Options.Shape.FacetAngle, this->Options.Team.Threads);
       figures.HasQuality = true;
     }
     figures.Run.Times.LabelField += readingTime;
@@ -172,9 +173,9 @@ public:
   /** What the elements are to keep. */
   double RadiusEdgeBound() const
   {
-    return this->Options.Optimise
-      ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.RadiusEdgeRatio)
-      : this->Options.RadiusEdgeRatio;
+    return this->Options.Optimisation.Run
+      ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.Shape.RadiusEdgeRatio)
+      : this->Options.Shape.RadiusEdgeRatio;
   }
 
   vtkMeshingStatistics::Figures& Figures() { return this->Filter->Private->Statistics->Edit(); }

@@ -35,7 +35,7 @@ public:
 };
 
 /**
- * By estimate, the requested mesh does not fit in memory. MeshingOptions::Force skips this check.
+ * By estimate, the requested mesh does not fit in memory. LimitOptions::Force skips this check.
  */
 class TooLargeError : public Error
 {

@@ -9,9 +9,9 @@
 #define voxplex_InterfaceCheck_h
 
 #include "Conformity/ConformityCheck.h"
+#include "Conformity/ConformityOptions.h"
 #include "Conformity/EdgeSpindles.h"
 #include "Conformity/GradedInterfaceCheck.h"
-#include "Conformity/InterfaceOptions.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/InterfaceVertices.h"
 #include "Conformity/ManifoldRepair.h"

@@ -24,7 +24,7 @@ struct InterfaceStatistics
   std::uint64_t NonManifoldOpened =
     0; ///< repaired edges around which tetrahedra were cut in pieces
   std::uint64_t NonManifoldLeft =
-    0; ///< edges that still are not manifold; 0 if not looked for (MeshingOptions::Manifold)
+    0; ///< edges that still are not manifold; 0 if not looked for (InterfaceOptions::Manifold)
 };
 
 } // namespace voxplex

@@ -39,11 +39,11 @@ public:
     , SizeFloor(SpacingFloorFraction * run.Statistics.Delta) // even where grading is coarser
   {
     run.Statistics.LargestDelta = this->Base.Base.Delta;
-    if (!run.Options.InterfaceSizes.empty())
+    if (!run.Options.Sampling.InterfaceSizes.empty())
     {
       const Stopwatch time;
-      this->Interfaces.emplace(run.Prepared.Image, run.Options.InterfaceSizes, this->Base.Base,
-        run.Options.Gradation, run.Options.Threads, run.Stop);
+      this->Interfaces.emplace(run.Prepared.Image, run.Options.Sampling.InterfaceSizes,
+        this->Base.Base, run.Options.Sampling.Gradation, run.Options.Team.Threads, run.Stop);
       run.Statistics.LargestDelta = this->Interfaces->Largest();
       run.Statistics.Times.Grading += time.Seconds();
     }
@@ -72,32 +72,21 @@ RefinementSettings<D> SettingsOf(const MeshingOptions<D>& options, const SizingS
 {
   RefinementSettings<D> settings;
   settings.Sizing = sizing;
-  settings.RadiusEdgeRatio = options.RadiusEdgeRatio;
-  settings.FacetAngle = options.FacetAngle;
-  settings.Order = options.Order;
-  settings.Slivers = options.Slivers;
-  settings.TetSlivers = options.TetSlivers;
-  if (options.Optimise && options.OptimisationSeconds == 0.0)
+  settings.Shape = options.Shape;
+  settings.SpaceTime = options.SpaceTime;
+  if (options.Optimisation.Run && options.Optimisation.Seconds == 0.0)
   {
-    settings.TetSlivers.AngleInside =
-      std::min(settings.TetSlivers.AngleInside, SliversLeftToOptimisation);
+    double& angle = settings.Shape.Slivers.AngleInside;
+    angle = std::min(angle, SliversLeftToOptimisation);
   }
   return settings;
 }
 
-template <int D>
-TeamOptions TeamOf(const MeshingOptions<D>& options)
+/** With the numbers of threads that the machine has. */
+TeamOptions TeamOf(TeamOptions team)
 {
-  TeamOptions team;
-  team.Threads = std::min(NumberOfThreads(options.Threads), MaximumNumberOfWorkers);
-  team.Contention = options.Contention;
-  team.SuccessesToWake = Dimension<D>::SuccessesToWake;
-  team.Balance = options.Balance;
-  team.Pin = options.PinThreads;
-  team.Synchronise = options.Synchronise;
-  team.RemoveEagerly = options.RemoveEagerly;
-  team.FineGrained = options.FineGrained && team.Threads <= NumberOfThreads(0);
-  team.SeedsPerThread = options.SeedsPerThread;
+  team.Threads = std::min(NumberOfThreads(team.Threads), MaximumNumberOfWorkers);
+  team.FineGrained = team.FineGrained && team.Threads <= NumberOfThreads(0);
   return team;
 }
 
@@ -123,12 +112,12 @@ template <int D>
 MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, double sizeFloor)
 {
   const MeshSizeEstimate estimate = EstimateMeshSize<D>(run.Prepared.Image, distance, sizeFloor,
-    run.Prepared.Size.get(), run.Options.Threads, run.Stop);
+    run.Prepared.Size.get(), run.Options.Team.Threads, run.Stop);
   run.Statistics.EstimatedElements = estimate.Elements;
   run.Statistics.SizesRaisedTo = estimate.SizesBelowFloor ? sizeFloor : 0.0;
-  if (!run.Options.Force)
+  if (!run.Options.Limits.Force)
   {
-    CheckMemory(estimate, run.Options.MemoryLimit);
+    CheckMemory(estimate, run.Options.Limits.Memory);
   }
   return estimate;
 }
@@ -158,7 +147,7 @@ bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
   RunProgress& progress)
 {
   const Stopwatch time;
-  Refiner<typename Dimension<D>::Rules> refiner(context, TeamOf(run.Options), seeds, start);
+  Refiner<typename Dimension<D>::Rules> refiner(context, TeamOf(run.Options.Team), seeds, start);
   const bool done = refiner.Run(
     [&](std::uint64_t vertices)
     {

@@ -38,7 +38,7 @@ constexpr double OptimisationTolerance = 0.1;
 //------------------------------------------------------------------------------------------------
 OwnedBaseDistance<3> Dimension<3>::GradeBase(const RunEnvironment<3>& run, double delta)
 {
-  if (run.Options.Grading.Mode != GradingMode::LocalFeatureSize)
+  if (run.Options.Sampling.Grading.Mode != GradingMode::LocalFeatureSize)
   {
     return { BaseDistance<3>{ delta }, nullptr };
   }
@@ -46,13 +46,13 @@ OwnedBaseDistance<3> Dimension<3>::GradeBase(const RunEnvironment<3>& run, doubl
   const GridGeometry<3>& grid = run.Prepared.Image.Grid();
   GradingParameters parameters;
   parameters.Finest = delta;
-  parameters.Ratio = run.Options.Grading.Ratio;
-  parameters.Lambda = run.Options.Grading.Lambda * std::cbrt(grid.VoxelVolume());
+  parameters.Ratio = run.Options.Sampling.Grading.Ratio;
+  parameters.Lambda = run.Options.Sampling.Grading.Lambda * std::cbrt(grid.VoxelVolume());
   parameters.SampleSpacing = GradingSampleSpacing * delta;
   parameters.Salience = std::max(grid.LargestSpacing(), parameters.SampleSpacing);
   parameters.Tolerance = GradingTolerance * GradedInterfaceCheck::LargestDistance(grid, delta);
   auto grading = std::make_shared<const LocalFeatureSize>(
-    run.Prepared.Image, *run.Prepared.Surfaces, parameters, run.Options.Threads, run.Stop);
+    run.Prepared.Image, *run.Prepared.Surfaces, parameters, run.Options.Team.Threads, run.Stop);
   run.Statistics.GradingSamples = grading->Sample().size();
   run.Statistics.GradingPoles = grading->NumberOfPoles();
   run.Statistics.Times.Grading += time.Seconds();
@@ -87,10 +87,10 @@ Dimension<3>::Checks::Checks(
   const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local)
   : Run(run)
   , Source(context.Mesh)
-  , Interfaces(
-      { context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
-        context.Sizing, ShapeBounds::With(run.Options.RadiusEdgeRatio, run.Options.FacetAngle),
-        run.Options.Threads },
+  , Interfaces({ context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+                 context.Sizing,
+                 ShapeBounds::With(run.Options.Shape.RadiusEdgeRatio, run.Options.Shape.FacetAngle),
+                 run.Options.Team.Threads },
       run.Options.Interfaces, local, run.Statistics.Interfaces, run.Statistics.Times.Interfaces,
       run.Stop)
 {
@@ -98,9 +98,9 @@ Dimension<3>::Checks::Checks(
   {
     const Stopwatch time;
     this->Components.emplace(run.Prepared.Image, *run.Prepared.Surfaces,
-      *run.Prepared.AllComponents, context.Sizing, run.Options.SmallestComponent,
-      run.Options.ExactComponents, local, run.Statistics.Components,
-      run.Statistics.Times.Components, run.Options.Threads, run.Stop);
+      *run.Prepared.AllComponents, context.Sizing, run.Options.Components.Smallest,
+      run.Options.Components.Exact, local, run.Statistics.Components,
+      run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
     run.Statistics.Times.Components += time.Seconds();
   }
 }
@@ -125,29 +125,29 @@ std::vector<ConformityCheck<3>*> Dimension<3>::Checks::All()
 void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
 {
   const Domain<3>& surfaces = *this->Run.Prepared.Surfaces;
-  const unsigned threads = this->Run.Options.Threads;
+  const unsigned threads = this->Run.Options.Team.Threads;
   ExtractMesh<3>(this->Source, surfaces, this->Interfaces.Labels(), mesh, threads, this->Run.Stop);
   Subdivide(this->Source, surfaces, this->Interfaces.Parts(), mesh, threads, this->Run.Stop);
 }
 
 void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
 {
-  ExtractMesh<4>(
-    this->Source, *this->Run.Prepared.Surfaces, mesh, this->Run.Options.Threads, this->Run.Stop);
+  ExtractMesh<4>(this->Source, *this->Run.Prepared.Surfaces, mesh, this->Run.Options.Team.Threads,
+    this->Run.Stop);
 }
 
 //------------------------------------------------------------------------------------------------
 void Dimension<3>::Checks::Optimise(SimplexMesh<3>& mesh) const
 {
   const MeshingOptions<3>& asked = this->Run.Options;
-  if (!asked.Optimise || this->Run.Stop.stop_requested())
+  if (!asked.Optimisation.Run || this->Run.Stop.stop_requested())
   {
     return;
   }
   OptimisationOptions options;
-  options.Shape =
-    ShapeBounds::With(std::max(OptimisedRadiusEdgeRatio, asked.RadiusEdgeRatio), asked.FacetAngle);
-  options.Seconds = asked.OptimisationSeconds;
+  options.Shape = ShapeBounds::With(
+    std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
+  options.Seconds = asked.Optimisation.Seconds;
   options.InterfaceTolerance =
     OptimisationTolerance * this->Run.Prepared.Image.Grid().SmallestSpacing();
   if (this->Components)
@@ -156,7 +156,7 @@ void Dimension<3>::Checks::Optimise(SimplexMesh<3>& mesh) const
     { return this->Components->FindWitnesses(mesh, this->Components->FindLost(result)); };
   }
   const OptimisationStatistics done =
-    OptimiseMesh(mesh, *this->Run.Prepared.Surfaces, options, asked.Threads, this->Run.Stop);
+    OptimiseMesh(mesh, *this->Run.Prepared.Surfaces, options, asked.Team.Threads, this->Run.Stop);
   MeshingStatistics& statistics = this->Run.Statistics;
   statistics.Times.Optimisation += done.Seconds;
   statistics.Optimisation = { true, done.OutOfTime, done.Before.SmallestDihedralAngle,

@@ -53,7 +53,6 @@ template <>
 struct Dimension<3>
 {
   using Rules = Rules3D;
-  static constexpr unsigned SuccessesToWake = 10;
   static constexpr bool HasLocalBounds = true;
 
   /** The base distance. Graded by the local feature size if the options request it. */
@@ -97,8 +96,7 @@ template <>
 struct Dimension<4>
 {
   using Rules = Rules4D;
-  static constexpr unsigned SuccessesToWake = 2; ///< an operation takes ten times as long
-  static constexpr bool HasLocalBounds = false;  ///< no check lowers local bounds
+  static constexpr bool HasLocalBounds = false; ///< no check lowers local bounds
 
   static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
   {

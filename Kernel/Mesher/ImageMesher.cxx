@@ -34,13 +34,14 @@ MeshingOutcome ImageMesher<D>::Run(
   mesh = SimplexMesh<D>();
   this->Stats = MeshingStatistics();
   CheckOptions(this->Options);
-  this->Stats.Delta =
-    this->Options.Delta > 0.0 ? this->Options.Delta : DefaultDelta<D>(image.Grid().VoxelVolume());
-  this->Stats.ElementsAskedFor = this->Options.Elements;
+  this->Stats.Delta = this->Options.Sampling.Delta > 0.0
+    ? this->Options.Sampling.Delta
+    : DefaultDelta<D>(image.Grid().VoxelVolume());
+  this->Stats.ElementsAskedFor = this->Options.Sampling.Elements;
   this->Stats.SmoothingSigma =
     isosurface ? isosurface->Surface().SmoothingSigma : this->Options.SmoothingSigma;
-  this->Stats.Contention = this->Options.Contention;
-  this->Stats.Balance = this->Options.Balance;
+  this->Stats.Contention = this->Options.Team.Contention;
+  this->Stats.Balance = this->Options.Team.Balance;
 
   RunProgress progress;
   std::stop_source stop;

@@ -92,45 +92,39 @@ double DefaultDelta(double voxelVolume)
 template <int D>
 void CheckOptions(const MeshingOptions<D>& options)
 {
-  if (!(options.Delta >= 0.0) || std::isinf(options.Delta))
+  if (!(options.Sampling.Delta >= 0.0) || std::isinf(options.Sampling.Delta))
   {
     throw InputError("delta must be a positive length, or 0 to derive it from the spacing; it is " +
-      NumberText(options.Delta));
+      NumberText(options.Sampling.Delta));
   }
-  if (options.Delta > 0.0 && options.Elements > 0)
+  if (options.Sampling.Delta > 0.0 && options.Sampling.Elements > 0)
   {
     throw InputError("give either delta or a number of elements, not both");
   }
-  if (!(options.Gradation >= 0.0) || std::isinf(options.Gradation))
+  if (!(options.Sampling.Gradation >= 0.0) || std::isinf(options.Sampling.Gradation))
+  {
+    throw InputError("the gradation must be positive, or 0 for no limit; it is " +
+      NumberText(options.Sampling.Gradation));
+  }
+  if (!(options.Shape.RadiusEdgeRatio > 0.0) || std::isinf(options.Shape.RadiusEdgeRatio))
   {
     throw InputError(
-      "the gradation must be positive, or 0 for no limit; it is " + NumberText(options.Gradation));
+      "the radius-edge ratio must be positive; it is " + NumberText(options.Shape.RadiusEdgeRatio));
   }
-  if (!(options.RadiusEdgeRatio > 0.0) || std::isinf(options.RadiusEdgeRatio))
+  if (options.Shape.RadiusEdgeRatio < 1.93 && !options.Limits.Force)
   {
-    throw InputError(
-      "the radius-edge ratio must be positive; it is " + NumberText(options.RadiusEdgeRatio));
-  }
-  if (options.RadiusEdgeRatio < 1.93 && !options.Force)
-  {
-    throw InputError("a radius-edge ratio of " + NumberText(options.RadiusEdgeRatio) +
+    throw InputError("a radius-edge ratio of " + NumberText(options.Shape.RadiusEdgeRatio) +
       " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force "
       "it");
   }
-  if (!(options.FacetAngle >= 0.0 && options.FacetAngle <= 30.0))
+  if (!(options.Shape.FacetAngle >= 0.0 && options.Shape.FacetAngle <= 30.0))
   {
-    throw InputError(
-      "the facet angle must be between 0 and 30 degrees; it is " + NumberText(options.FacetAngle));
+    throw InputError("the facet angle must be between 0 and 30 degrees; it is " +
+      NumberText(options.Shape.FacetAngle));
   }
-  if constexpr (D == 4)
-  {
-    CheckSliverOptions(options.Slivers, options.Force);
-  }
-  else
-  {
-    CheckTetSliverOptions(options.TetSlivers, options.Force);
-    CheckGradingOptions(options.Grading);
-  }
+  CheckTetSliverOptions(options.Shape.Slivers, options.Limits.Force);
+  CheckSliverOptions(options.SpaceTime.Slivers, options.Limits.Force);
+  CheckGradingOptions(options.Sampling.Grading);
   if (!FloatingPointIsStrict())
   {
     throw Error("this build of Voxplex fuses or extends floating-point operations, which makes its "

@@ -100,18 +100,19 @@ private:
   {
     const PreparedImage<D>& prepared = this->Run.Prepared;
     const double delta = DefaultDelta<D>(prepared.Image.Grid().VoxelVolume());
-    const MeshSizeEstimate estimate = EstimateMeshSize<D>(prepared.Image, delta,
-      SpacingFloorFraction * delta, prepared.Size.get(), this->Run.Options.Threads, this->Run.Stop);
+    const MeshSizeEstimate estimate =
+      EstimateMeshSize<D>(prepared.Image, delta, SpacingFloorFraction * delta, prepared.Size.get(),
+        this->Run.Options.Team.Threads, this->Run.Stop);
     const double perEstimated =
       this->Run.Options.Optimises() ? OptimisedPerEstimated : ElementsPerEstimated;
-    const auto wanted = static_cast<double>(this->Run.Options.Elements);
+    const auto wanted = static_cast<double>(this->Run.Options.Sampling.Elements);
     const double target = wanted / perEstimated;
     const double interfaces = std::max(static_cast<double>(estimate.InterfaceElements), 1.0);
     const double sizes = static_cast<double>(estimate.Elements) - interfaces;
     const double guess =
       delta * std::pow(interfaces / std::max(target - sizes, 0.25 * target), 1.0 / (D - 1));
     const double smallest = delta * std::pow(interfaces / (LargestExcess * wanted), 1.0 / (D - 1));
-    return DeltaSearch(this->Run.Options.Elements, guess, D - 1, smallest,
+    return DeltaSearch(this->Run.Options.Sampling.Elements, guess, D - 1, smallest,
       std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
   }
 
@@ -131,16 +132,18 @@ private:
   bool IsNearTarget(const SimplexMesh<D>& mesh) const
   {
     const double ratio = static_cast<double>(this->ExpectedElements(mesh)) /
-      static_cast<double>(this->Run.Options.Elements);
+      static_cast<double>(this->Run.Options.Sampling.Elements);
     return !(std::abs(ratio - 1.0) > DeltaSearch::Tolerance);
   }
 
   [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
   {
-    const bool isCoarse = this->Run.Options.Grading.Mode == GradingMode::LocalFeatureSize &&
-      search.Best().Elements < this->Run.Options.Elements;
-    throw InputError("no delta makes a mesh of " + std::to_string(this->Run.Options.Elements) +
-      " elements within " + NumberText(100.0 * DeltaSearch::Tolerance) + " %: the nearest of " +
+    const bool isCoarse =
+      this->Run.Options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize &&
+      search.Best().Elements < this->Run.Options.Sampling.Elements;
+    throw InputError("no delta makes a mesh of " +
+      std::to_string(this->Run.Options.Sampling.Elements) + " elements within " +
+      NumberText(100.0 * DeltaSearch::Tolerance) + " %: the nearest of " +
       std::to_string(search.Runs().size()) + " meshes has " +
       std::to_string(search.Best().Elements) + ", with a delta of " +
       NumberText(search.Best().Delta) +
@@ -168,7 +171,7 @@ bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurfac
     const PreparedImage<D> prepared = Prepare(image, isosurface, options, statistics, stop);
     progress.EndPreparation();
     const RunEnvironment<D> run{ prepared, options, statistics, stop };
-    return options.Elements > 0
+    return options.Sampling.Elements > 0
       ? ElementTarget<D>(run, progress).Mesh(mesh)
       : MeshWithDelta<D>(
           run, [](const SimplexMesh<D>&) { return true; }, progress, mesh);

@@ -43,7 +43,7 @@ struct StageTimes
 struct OptimisationSummary
 {
   bool Ran = false;
-  bool OutOfTime = false; ///< stopped by MeshingOptions::OptimisationSeconds
+  bool OutOfTime = false; ///< stopped by OptimisationStageOptions::Seconds
   double SmallestDihedralBefore = 0.0;
   double LargestDihedralBefore = 0.0;
   double SmallestDihedralAfter = 0.0;
@@ -84,7 +84,7 @@ struct MeshingStatistics
   double Delta = 0.0;          ///< the delta that was used, in the image's unit of length
   double LargestDelta = 0.0; ///< the largest Delta(z); Delta unless graded or with interface sizes
   double SmoothingSigma = 0.0;        ///< voxels
-  std::uint64_t ElementsAskedFor = 0; ///< MeshingOptions::Elements
+  std::uint64_t ElementsAskedFor = 0; ///< SamplingOptions::Elements
   /**
    * If a number of elements was requested, all runs; one of them made the mesh (Delta). Else empty.
    */

@@ -22,13 +22,13 @@ void FindJunctions(const ImageDomain<3, Field>& domain, const MeshingOptions<3>&
   std::optional<JunctionCurves>& junctions, MeshingStatistics& statistics,
   const std::stop_token& stop)
 {
-  if (!options.SampleJunctions)
+  if (!options.Interfaces.SampleJunctions)
   {
     return;
   }
   const Stopwatch time;
   junctions.emplace(
-    domain.GetImage(), domain.GetLabelField(), domain.GetSites(), options.Threads, stop);
+    domain.GetImage(), domain.GetLabelField(), domain.GetSites(), options.Team.Threads, stop);
   statistics.Interfaces.JunctionCurves = junctions->Curves().size();
   statistics.Interfaces.Corners = junctions->NumberOfCorners();
   statistics.Times.Interfaces += time.Seconds();
@@ -66,30 +66,30 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   PreparedImage<D> prepared{ image, nullptr, nullptr, std::nullopt, std::nullopt, nullptr };
   if (isosurface)
   {
-    TakeDomain<D>(
-      std::make_unique<const ImageDomain<D, ScalarField<D>>>(*isosurface, options.Threads, stop),
+    TakeDomain<D>(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
+                    *isosurface, options.Team.Threads, stop),
       options, prepared, statistics, stop);
   }
   else
   {
-    if (!options.Force)
+    if (!options.Limits.Force)
     {
-      CheckSegmented(image, options.Threads, stop);
+      CheckSegmented(image, options.Team.Threads, stop);
     }
-    TakeDomain<D>(
-      std::make_unique<const ImageDomain<D>>(image, options.SmoothingSigma, options.Threads, stop),
+    TakeDomain<D>(std::make_unique<const ImageDomain<D>>(
+                    image, options.SmoothingSigma, options.Team.Threads, stop),
       options, prepared, statistics, stop);
   }
   if (options.LooksAfterComponents())
   {
     const Stopwatch time;
-    prepared.AllComponents.emplace(image, options.Threads, stop);
+    prepared.AllComponents.emplace(image, options.Team.Threads, stop);
     statistics.Components.Found = prepared.AllComponents->All().size();
     statistics.Times.Components += time.Seconds();
   }
   const Stopwatch time;
-  prepared.Size =
-    GradedSize<D>::Limit(options.Size, image, options.Gradation, options.Threads, stop);
+  prepared.Size = GradedSize<D>::Limit(
+    options.Sampling.Size, image, options.Sampling.Gradation, options.Team.Threads, stop);
   statistics.Times.Grading += prepared.Size ? time.Seconds() : 0.0;
   return prepared;
 }

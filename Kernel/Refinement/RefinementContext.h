@@ -40,11 +40,8 @@ template <int D>
 struct RefinementSettings
 {
   SizingSources<D> Sizing;
-  double RadiusEdgeRatio = 2.0;                 ///< rho-bar
-  double FacetAngle = 30.0;                     ///< degrees
-  RuleOrder Order = RuleOrder::RadiusEdgeFirst; ///< 4D only
-  SliverOptions Slivers;                        ///< 4D only
-  TetSliverOptions TetSlivers;                  ///< 3D only
+  ShapeOptions Shape;
+  SpaceTimeRuleOptions SpaceTime;
 };
 
 /** The data that all threads share. */

@@ -299,7 +299,8 @@ protected:
   bool HasBadRatio(const Element& t) const
   {
     return t.Label != 0 &&
-      t.Radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t.Id);
+      t.Radius >=
+      BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t.Id);
   }
 
   bool IsTooLarge(const Element& t) const

@@ -12,6 +12,7 @@
 #include "Parallel/ProcessorTopology.h"
 #include "Refinement/ContentionManager.h"
 #include "Refinement/LoadBalancer.h"
+#include "Refinement/TeamOptions.h"
 
 #include <atomic>
 #include <exception>
@@ -21,31 +22,6 @@
 
 namespace voxplex
 {
-
-/** The number of refinement threads, and how they cooperate. */
-struct TeamOptions
-{
-  unsigned Threads = 1;
-  ContentionPolicy Contention = ContentionPolicy::Local;
-  /** Global and local: number of successes in a row after which a thread wakes a waiting thread. */
-  unsigned SuccessesToWake = 10;
-  BalancePolicy Balance = BalancePolicy::Hierarchical;
-  bool Pin = false;
-  /**
-   * Run the code for several threads even with one thread, to measure the cost of its locks and
-   * clocks.
-   */
-  bool Synchronise = false;
-  /** Take simplices out of the lists of poor elements when they die, not when they are taken. */
-  bool RemoveEagerly = false;
-  /** Let waiting threads help with the insertions of others (thesis, section 4.6.2). */
-  bool FineGrained = false;
-  /**
-   * Approximate number of lattice nodes per thread from which interfaces are sampled before the
-   * start; 0: none.
-   */
-  unsigned SeedsPerThread = 128;
-};
 
 /**
  * @brief Runs one task in several threads, with a contention manager and a load balancer.

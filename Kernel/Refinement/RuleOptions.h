@@ -48,6 +48,20 @@ struct TetSliverOptions
   std::uint64_t Seed = 0;
 };
 
+/** Bounds of the shapes of elements and interface facets. */
+struct ShapeOptions
+{
+  /**
+   * rho-bar: upper bound of circumradius / shortest edge. Below 1.93, termination is not proved
+   * (needs Force).
+   */
+  double RadiusEdgeRatio = 2.0;
+  /** Lower bound of the angles of interface facets, degrees, 0 to 30; 3D only. */
+  double FacetAngle = 30.0;
+  /** 3D only; for 4D see SpaceTimeRuleOptions. */
+  TetSliverOptions Slivers;
+};
+
 /**
  * The largest bound of the normalized volume of slivers with which meshes stayed of moderate size.
  */
@@ -70,6 +84,13 @@ struct SliverOptions
   unsigned Picks = 10;
   /** Seed of the pseudo-random points. */
   std::uint64_t Seed = 0;
+};
+
+/** In 4D. */
+struct SpaceTimeRuleOptions
+{
+  RuleOrder Order = RuleOrder::RadiusEdgeFirst;
+  SliverOptions Slivers;
 };
 
 } // namespace voxplex

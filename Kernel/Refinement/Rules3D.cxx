@@ -15,10 +15,10 @@ namespace voxplex
 Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
   : RefinementRules(context, worker)
   , CosineOfFacetAngle(
-      std::cos(context.Settings.FacetAngle * std::numbers::pi / 180.0) * BoundSafety)
-  , SineOfSliverAngle(std::sin(context.Settings.TetSlivers.Angle * std::numbers::pi / 180.0))
+      std::cos(context.Settings.Shape.FacetAngle * std::numbers::pi / 180.0) * BoundSafety)
+  , SineOfSliverAngle(std::sin(context.Settings.Shape.Slivers.Angle * std::numbers::pi / 180.0))
   , SineInside(std::min(SineOfSliverAngle,
-      std::sin(context.Settings.TetSlivers.AngleInside * std::numbers::pi / 180.0)))
+      std::sin(context.Settings.Shape.Slivers.AngleInside * std::numbers::pi / 180.0)))
 {
 }
 
@@ -36,7 +36,8 @@ bool Rules3D::MayBePoor(SimplexId t)
   if (label != 0)
   {
     const double radius = std::sqrt(ball.Radius2);
-    if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(t) ||
+    if (radius >=
+        BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t) ||
       radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
       this->IsSliver(t))
     {
@@ -136,7 +137,7 @@ public:
     : Candidate(first)
     , Context(context)
     , Bound(bound)
-    , LargestRatio(BoundSafety * tolerance * context.Settings.RadiusEdgeRatio)
+    , LargestRatio(BoundSafety * tolerance * context.Settings.Shape.RadiusEdgeRatio)
     , Only(only)
   {
   }
@@ -221,7 +222,7 @@ RuleOutcome Rules3D::R7(const Element& t)
 // with a free vertex: the thesis' rejection of points that eliminate legal facets.
 RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
 {
-  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
+  const TetSliverOptions& options = this->Context.Settings.Shape.Slivers;
   const double spacing = this->Context.Sizing.Spacing(t.Ball.Center, t.Label);
   if (this->YieldingAt(t.Ball.Center, spacing) != Yielding::Nothing)
   {
@@ -322,7 +323,7 @@ RuleOutcome Rules3D::SampleBeside(const Element& t, double tolerance)
 RuleOutcome Rules3D::SampleNear(
   const Point<3>& z, double radius, double delta, const Element& t, double tolerance)
 {
-  const TetSliverOptions& options = this->Context.Settings.TetSlivers;
+  const TetSliverOptions& options = this->Context.Settings.Shape.Slivers;
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   if (this->YieldingAt(z, spacing) != Yielding::Nothing)
   {

@@ -23,7 +23,8 @@ bool Rules4D::MayBePoor(SimplexId s)
   if (label != 0)
   {
     const double radius = std::sqrt(ball.Radius2);
-    if (radius >= BoundSafety * this->Context.Settings.RadiusEdgeRatio * this->ShortestEdge(s) ||
+    if (radius >=
+        BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(s) ||
       radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
       this->IsSliver(s, ball.Radius2))
     {
@@ -38,7 +39,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   const Element s = this->MakeElement(id);
-  const bool ratioFirst = this->Context.Settings.Order == RuleOrder::RadiusEdgeFirst;
+  const bool ratioFirst = this->Context.Settings.SpaceTime.Order == RuleOrder::RadiusEdgeFirst;
   RuleOutcome outcome = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
   if (outcome == RuleOutcome::Good)
   {
@@ -63,7 +64,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
 //------------------------------------------------------------------------------------------------
 bool Rules4D::IsSliver(SimplexId s, double radius2) const
 {
-  if (!this->Context.Settings.Slivers.Fight)
+  if (!this->Context.Settings.SpaceTime.Slivers.Fight)
   {
     return false;
   }
@@ -73,8 +74,8 @@ bool Rules4D::IsSliver(SimplexId s, double radius2) const
   {
     points[i] = &this->Context.Mesh.Position(v[i]);
   }
-  return !(
-    NormalizedVolume<4>(points.data(), radius2) >= this->Context.Settings.Slivers.VolumeBound);
+  return !(NormalizedVolume<4>(points.data(), radius2) >=
+    this->Context.Settings.SpaceTime.Slivers.VolumeBound);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -94,8 +95,8 @@ public:
   BestPick(const RefinementContext<4>& context, double radius, const Point<4>& first)
     : Candidate(first)
     , Context(context)
-    , Bound(context.Settings.Slivers.VolumeBound)
-    , SmallRadius(context.Settings.Slivers.RadiusFactor * radius)
+    , Bound(context.Settings.SpaceTime.Slivers.VolumeBound)
+    , SmallRadius(context.Settings.SpaceTime.Slivers.RadiusFactor * radius)
   {
   }
 
@@ -150,7 +151,7 @@ private:
 RuleOutcome Rules4D::R4(const Element& s)
 {
   RuleStatistics& statistics = this->Worker.Statistics;
-  const SliverOptions& options = this->Context.Settings.Slivers;
+  const SliverOptions& options = this->Context.Settings.SpaceTime.Slivers;
   ++statistics.SliversFound;
   const double spacing = this->Context.Sizing.Spacing(s.Ball.Center, s.Label);
   if (this->YieldingAt(s.Ball.Center, spacing) != Yielding::Nothing)
@@ -162,7 +163,7 @@ RuleOutcome Rules4D::R4(const Element& s)
   PseudoRandom<4> random(options.Seed, s.Ball.Center);
   BestPick veto(this->Context, s.Radius, s.Ball.Center);
   const RuleOutcome outcome = InsertPick(
-    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, veto,
+    this->Worker.Statistics, this->Context.Settings.SpaceTime.Slivers.Picks, veto,
     [&](Point<4>& p)
     {
       p = random.InBall(s.Ball.Center, options.PickingRadius * s.Radius);
@@ -242,7 +243,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
     ++this->Worker.Statistics.RefusedTooClose;
     return RuleOutcome::Good;
   }
-  return this->Context.Settings.Slivers.Fight
+  return this->Context.Settings.SpaceTime.Slivers.Fight
     ? this->InsertFeaturePick(z, delta, clearance, s, other)
     : this->InsertFeature(z, delta, clearance, s.Id, other, fired);
 }
@@ -253,7 +254,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
 RuleOutcome Rules4D::InsertFeaturePick(
   const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other)
 {
-  const SliverOptions& options = this->Context.Settings.Slivers;
+  const SliverOptions& options = this->Context.Settings.SpaceTime.Slivers;
   const Triangulation<4>& mesh = this->Context.Mesh;
   const auto& v = mesh.GetSimplex(s.Id).V;
   const auto& w = mesh.GetSimplex(other).V;
@@ -263,7 +264,7 @@ RuleOutcome Rules4D::InsertFeaturePick(
   PseudoRandom<4> random(options.Seed, z);
   BestPick veto(this->Context, radius, z);
   return InsertPick(
-    this->Worker.Statistics, this->Context.Settings.Slivers.Picks, veto,
+    this->Worker.Statistics, this->Context.Settings.SpaceTime.Slivers.Picks, veto,
     [&](Point<4>& p)
     {
       Point<4> onEnd;

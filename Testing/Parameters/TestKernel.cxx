@@ -40,32 +40,32 @@ struct Option
 };
 
 const std::vector<Option<3>> Options3{
-  { "delta", [](auto& o) -> decltype(auto) { return (o.Delta); } },
-  { "elements", [](auto& o) -> decltype(auto) { return (o.Elements); } },
-  { "feature-ratio", [](auto& o) -> decltype(auto) { return (o.Grading.Ratio); } },
-  { "largest-feature", [](auto& o) -> decltype(auto) { return (o.Grading.Lambda); } },
-  { "gradation", [](auto& o) -> decltype(auto) { return (o.Gradation); } },
-  { "radius-edge", [](auto& o) -> decltype(auto) { return (o.RadiusEdgeRatio); } },
-  { "facet-angle", [](auto& o) -> decltype(auto) { return (o.FacetAngle); } },
+  { "delta", [](auto& o) -> decltype(auto) { return (o.Sampling.Delta); } },
+  { "elements", [](auto& o) -> decltype(auto) { return (o.Sampling.Elements); } },
+  { "feature-ratio", [](auto& o) -> decltype(auto) { return (o.Sampling.Grading.Ratio); } },
+  { "largest-feature", [](auto& o) -> decltype(auto) { return (o.Sampling.Grading.Lambda); } },
+  { "gradation", [](auto& o) -> decltype(auto) { return (o.Sampling.Gradation); } },
+  { "radius-edge", [](auto& o) -> decltype(auto) { return (o.Shape.RadiusEdgeRatio); } },
+  { "facet-angle", [](auto& o) -> decltype(auto) { return (o.Shape.FacetAngle); } },
   { "smoothing", [](auto& o) -> decltype(auto) { return (o.SmoothingSigma); } },
-  { "sliver-angle", [](auto& o) -> decltype(auto) { return (o.TetSlivers.Angle); } },
-  { "smallest-component", [](auto& o) -> decltype(auto) { return (o.SmallestComponent); } },
-  { "optimise-seconds", [](auto& o) -> decltype(auto) { return (o.OptimisationSeconds); } },
+  { "sliver-angle", [](auto& o) -> decltype(auto) { return (o.Shape.Slivers.Angle); } },
+  { "smallest-component", [](auto& o) -> decltype(auto) { return (o.Components.Smallest); } },
+  { "optimise-seconds", [](auto& o) -> decltype(auto) { return (o.Optimisation.Seconds); } },
   { "interface-rounds", [](auto& o) -> decltype(auto) { return (o.Interfaces.Rounds); } },
-  { "memory-limit", [](auto& o) -> decltype(auto) { return (o.MemoryLimit); } },
+  { "memory-limit", [](auto& o) -> decltype(auto) { return (o.Limits.Memory); } },
 };
 
 const std::vector<Option<4>> Options4{
-  { "picks", [](auto& o) -> decltype(auto) { return (o.Slivers.Picks); } },
-  { "sliver-bound", [](auto& o) -> decltype(auto) { return (o.Slivers.VolumeBound); } },
-  { "seed", [](auto& o) -> decltype(auto) { return (o.Slivers.Seed); } },
+  { "picks", [](auto& o) -> decltype(auto) { return (o.SpaceTime.Slivers.Picks); } },
+  { "sliver-bound", [](auto& o) -> decltype(auto) { return (o.SpaceTime.Slivers.VolumeBound); } },
+  { "seed", [](auto& o) -> decltype(auto) { return (o.SpaceTime.Slivers.Seed); } },
 };
 
 template <int D>
 bool IsAccepted(const Option<D>& option, double value, bool force)
 {
   MeshingOptions<D> options;
-  options.Force = force;
+  options.Limits.Force = force;
   option.Set(options, value);
   try
   {

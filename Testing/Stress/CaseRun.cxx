@@ -82,13 +82,13 @@ MeshingOutcome MeshOnce(
     surface.Label = image.Surface->Label;
     surface.SmoothingSigma = image.Surface->SmoothingSigma;
     const auto grey = IsosurfaceImage<D>::FromScalars(
-      std::span<const float>(image.Grey), grid, surface, of.Options.Threads);
+      std::span<const float>(image.Grey), grid, surface, of.Options.Team.Threads);
     outcome = mesher.Run(grey, mesh);
   }
   else
   {
     const auto labels = LabelImage<D>::FromScalars(
-      std::span<const std::int32_t>(image.Labels), grid, {}, of.Options.Threads);
+      std::span<const std::int32_t>(image.Labels), grid, {}, of.Options.Team.Threads);
     outcome = mesher.Run(labels, mesh);
   }
   statistics = mesher.Statistics();
@@ -177,7 +177,7 @@ double TimeLimit(const StressCase<D>& of, const RunLimits& limits)
 {
   // Ten to a hundred times the time that meshing takes.
   const double perElement = D == 3 ? 3e-4 : 1e-2;
-  const double runs = of.Options.Elements > 0 ? 12.0 : 1.0;
+  const double runs = of.Options.Sampling.Elements > 0 ? 12.0 : 1.0;
   return limits.Seconds > 0.0
     ? limits.Seconds
     : limits.TimeFactor * (3.0 + runs * perElement * of.ExpectedElements());

@@ -97,8 +97,9 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
       onFacet[v] = 1;
     }
   }
-  const double tolerance =
-    D == 3 && subject.Of.Options.Optimise ? OptimisationTolerance * SmallestSpacing(image) : 0.0;
+  const double tolerance = D == 3 && subject.Of.Options.Optimisation.Run
+    ? OptimisationTolerance * SmallestSpacing(image)
+    : 0.0;
   std::uint64_t off = 0;
   std::size_t first = 0;
   for (std::size_t v = 0; v < mesh.Points.size(); ++v)
@@ -315,7 +316,7 @@ template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
 {
   figures.Lost = subject.Stats.Components.Lost.size();
-  const std::int64_t smallest = subject.Of.Options.SmallestComponent;
+  const std::int64_t smallest = subject.Of.Options.Components.Smallest;
   const Volume<D>& image = subject.Of.Image;
   if (D != 3 || smallest == 0 || !KnowsLabels(image))
   {

@@ -49,7 +49,7 @@ struct Breaches
 template <int D>
 bool IsOptimised(const StressCase<D>& of)
 {
-  return D == 3 && of.Options.Optimise;
+  return D == 3 && of.Options.Optimisation.Run;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -58,8 +58,8 @@ void CheckRatios(const Subject<D>& subject, Findings& findings)
 {
   const bool optimised = IsOptimised(subject.Of);
   const Real bound = optimised
-    ? std::max(OptimisedRadiusEdgeRatio, subject.Of.Options.RadiusEdgeRatio)
-    : subject.Of.Options.RadiusEdgeRatio;
+    ? std::max(OptimisedRadiusEdgeRatio, subject.Of.Options.Shape.RadiusEdgeRatio)
+    : subject.Of.Options.Shape.RadiusEdgeRatio;
   Breaches ratios;
   Breaches sizes;
   for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
@@ -90,7 +90,7 @@ void CheckRatios(const Subject<D>& subject, Findings& findings)
 void CheckDihedralAngles(const Subject<3>& subject, Findings& findings)
 {
   const OptimisationSummary& said = subject.Stats.Optimisation;
-  const Real bound = subject.Of.Options.TetSlivers.Angle;
+  const Real bound = subject.Of.Options.Shape.Slivers.Angle;
   Real smallest = 180;
   Real largest = 0;
   std::uint64_t poor = 0;
@@ -106,7 +106,7 @@ void CheckDihedralAngles(const Subject<3>& subject, Findings& findings)
       slivers.Note(std::min(angles[0], 180 - angles[1]), false);
     }
   }
-  if (!subject.Of.Options.Optimise)
+  if (!subject.Of.Options.Optimisation.Run)
   {
     slivers.Report("sliver", subject.Stats.Rules.SliversKept + subject.Excused(), bound, findings);
     return;
@@ -147,7 +147,7 @@ void CheckFacetAngles(const Subject<3>& subject, Findings& findings)
       labels[v].insert(mesh.FacetLabels[f].begin(), mesh.FacetLabels[f].end());
     }
   }
-  const Real bound = subject.Of.Options.FacetAngle;
+  const Real bound = subject.Of.Options.Shape.FacetAngle;
   Breaches angles;
   for (const auto& f : mesh.Facets)
   {

@@ -23,7 +23,7 @@ void Require(bool holds, const std::string& what, Findings& findings)
 template <int D>
 void CheckElementTarget(const Subject<D>& subject, Findings& findings)
 {
-  const std::uint64_t asked = subject.Of.Options.Elements;
+  const std::uint64_t asked = subject.Of.Options.Sampling.Elements;
   Require(subject.Stats.ElementsAskedFor == asked,
     "another number of elements is said to be asked for", findings);
   Require(subject.Stats.Runs.empty() == (asked == 0), "the list of runs", findings);
@@ -54,17 +54,18 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
   Require(rules.Created >= subject.Mesh.Simplices.size(),
     "fewer simplices created than the mesh has", findings);
   Require(rules.Removed <= rules.Insertions(), "more removals than insertions", findings);
-  Require(options.Elements > 0 || stats.Delta == subject.Of.Delta(), "delta", findings);
-  Require(stats.LargestDelta >= stats.Delta || !options.InterfaceSizes.empty(),
+  Require(options.Sampling.Elements > 0 || stats.Delta == subject.Of.Delta(), "delta", findings);
+  Require(stats.LargestDelta >= stats.Delta || !options.Sampling.InterfaceSizes.empty(),
     "the largest delta is below delta", findings);
-  Require(stats.Threads.size() == options.Threads, "the number of threads", findings);
+  Require(stats.Threads.size() == options.Team.Threads, "the number of threads", findings);
   Require(stats.Times.Total() >= 0.0 && std::isfinite(stats.Times.Total()), "times", findings);
   if constexpr (D == 3)
   {
-    Require(stats.Optimisation.Ran == options.Optimise, "whether optimisation ran", findings);
+    Require(
+      stats.Optimisation.Ran == options.Optimisation.Run, "whether optimisation ran", findings);
     Require(
       stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
-    const bool counts = options.Interfaces.Rounds > 0 && !options.Optimise;
+    const bool counts = options.Interfaces.Rounds > 0 && !options.Optimisation.Run;
     Require(!counts || (figures.NonManifold > 0) == (stats.Interfaces.NonManifoldLeft > 0),
       std::to_string(figures.NonManifold) + " edges are not manifold, it says " +
         std::to_string(stats.Interfaces.NonManifoldLeft),

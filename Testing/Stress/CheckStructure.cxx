@@ -299,7 +299,7 @@ void CheckConformity(const Subject<D>& subject, Findings& findings)
 {
   const SimplexMesh<D>& mesh = subject.Mesh;
   const bool isDelaunay =
-    !subject.Of.Options.Optimise && subject.Stats.Interfaces.NonManifoldOpened == 0;
+    !subject.Of.Options.Optimisation.Run && subject.Stats.Interfaces.NonManifoldOpened == 0;
   const std::vector<Side<D>> sides = SidesOf(mesh);
   std::vector<Face<D>> expected;
   for (std::size_t i = 0; i < sides.size();)

@@ -70,25 +70,25 @@ private:
 void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
 {
   const MeshingOptions<3> usual;
-  to.Flag("--facet-angle", options.FacetAngle, usual.FacetAngle);
-  to.Flag("--sliver-angle", options.TetSlivers.Angle, usual.TetSlivers.Angle);
-  to.Flag("--smallest-component", options.SmallestComponent, usual.SmallestComponent);
-  to.Word("--exact-components", options.ExactComponents);
+  to.Flag("--facet-angle", options.Shape.FacetAngle, usual.Shape.FacetAngle);
+  to.Flag("--sliver-angle", options.Shape.Slivers.Angle, usual.Shape.Slivers.Angle);
+  to.Flag("--smallest-component", options.Components.Smallest, usual.Components.Smallest);
+  to.Word("--exact-components", options.Components.Exact);
   to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
-  to.Word("--no-junctions", !options.SampleJunctions);
-  to.Word("--no-optimise", !options.Optimise);
-  to.Flag("--optimise-seconds", options.OptimisationSeconds, usual.OptimisationSeconds);
-  if (options.Grading.Mode == GradingMode::LocalFeatureSize)
+  to.Word("--no-junctions", !options.Interfaces.SampleJunctions);
+  to.Word("--no-optimise", !options.Optimisation.Run);
+  to.Flag("--optimise-seconds", options.Optimisation.Seconds, usual.Optimisation.Seconds);
+  if (options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize)
   {
     to.Word("--grading lfs");
-    to.Flag("--feature-ratio", options.Grading.Ratio, usual.Grading.Ratio);
-    to.Flag("--largest-feature", options.Grading.Lambda, usual.Grading.Lambda);
+    to.Flag("--feature-ratio", options.Sampling.Grading.Ratio, usual.Sampling.Grading.Ratio);
+    to.Flag("--largest-feature", options.Sampling.Grading.Lambda, usual.Sampling.Grading.Lambda);
   }
-  to.Flag("--elements", options.Elements, usual.Elements);
-  to.Unavailable(
-    "TetSlivers.PickingRadius", options.TetSlivers.PickingRadius, usual.TetSlivers.PickingRadius);
-  to.Unavailable("TetSlivers.Picks", options.TetSlivers.Picks, usual.TetSlivers.Picks);
-  to.Unavailable("TetSlivers.Seed", options.TetSlivers.Seed, usual.TetSlivers.Seed);
+  to.Flag("--elements", options.Sampling.Elements, usual.Sampling.Elements);
+  to.Unavailable("Shape.Slivers.PickingRadius", options.Shape.Slivers.PickingRadius,
+    usual.Shape.Slivers.PickingRadius);
+  to.Unavailable("Shape.Slivers.Picks", options.Shape.Slivers.Picks, usual.Shape.Slivers.Picks);
+  to.Unavailable("Shape.Slivers.Seed", options.Shape.Slivers.Seed, usual.Shape.Slivers.Seed);
 }
 
 void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
@@ -96,20 +96,22 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   const MeshingOptions<4>& options = of.Options;
   const MeshingOptions<4> usual;
   to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
-  to.Word("--rule-order surface", options.Order == RuleOrder::SurfaceFirst);
-  to.Word("--no-picking", !options.Slivers.Fight);
-  to.Flag("--picks", options.Slivers.Picks, usual.Slivers.Picks);
-  to.Flag("--sliver-bound", options.Slivers.VolumeBound, usual.Slivers.VolumeBound);
-  to.Flag("--seed", options.Slivers.Seed, usual.Slivers.Seed);
-  to.Unavailable(
-    "Slivers.PickingRadius", options.Slivers.PickingRadius, usual.Slivers.PickingRadius);
-  to.Unavailable("Slivers.RadiusFactor", options.Slivers.RadiusFactor, usual.Slivers.RadiusFactor);
+  to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
+  to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);
+  to.Flag("--picks", options.SpaceTime.Slivers.Picks, usual.SpaceTime.Slivers.Picks);
+  to.Flag(
+    "--sliver-bound", options.SpaceTime.Slivers.VolumeBound, usual.SpaceTime.Slivers.VolumeBound);
+  to.Flag("--seed", options.SpaceTime.Slivers.Seed, usual.SpaceTime.Slivers.Seed);
+  to.Unavailable("Slivers.PickingRadius", options.SpaceTime.Slivers.PickingRadius,
+    usual.SpaceTime.Slivers.PickingRadius);
+  to.Unavailable("Slivers.RadiusFactor", options.SpaceTime.Slivers.RadiusFactor,
+    usual.SpaceTime.Slivers.RadiusFactor);
 }
 
 template <int D>
 void WriteSizes(const StressCase<D>& of, CommandWriter& to)
 {
-  for (const InterfaceSize& size : of.Options.InterfaceSizes)
+  for (const InterfaceSize& size : of.Options.Sampling.InterfaceSizes)
   {
     to.Word("--interface-size " + std::to_string(size.Label) +
       (size.Other == InterfaceSize::AnyLabel ? "" : "," + std::to_string(size.Other)) + "=" +
@@ -130,16 +132,17 @@ template <int D>
 void WriteThreads(const MeshingOptions<D>& options, CommandWriter& to)
 {
   const MeshingOptions<D> usual;
-  to.Word("--threads " + std::to_string(options.Threads));
-  to.Word("--contention " + std::string(ContentionPolicyNames[std::size_t(options.Contention)]),
-    options.Contention != usual.Contention);
-  to.Word("--balance " + std::string(BalancePolicyNames[std::size_t(options.Balance)]),
-    options.Balance != usual.Balance);
-  to.Word("--pin", options.PinThreads);
-  to.Word("--no-fine-grained", D == 4 && !options.FineGrained);
-  to.Unavailable("Synchronise", options.Synchronise, usual.Synchronise);
-  to.Unavailable("RemoveEagerly", options.RemoveEagerly, usual.RemoveEagerly);
-  to.Unavailable("SeedsPerThread", options.SeedsPerThread, usual.SeedsPerThread);
+  to.Word("--threads " + std::to_string(options.Team.Threads));
+  to.Word(
+    "--contention " + std::string(ContentionPolicyNames[std::size_t(options.Team.Contention)]),
+    options.Team.Contention != usual.Team.Contention);
+  to.Word("--balance " + std::string(BalancePolicyNames[std::size_t(options.Team.Balance)]),
+    options.Team.Balance != usual.Team.Balance);
+  to.Word("--pin", options.Team.Pin);
+  to.Word("--no-fine-grained", D == 4 && !options.Team.FineGrained);
+  to.Unavailable("Synchronise", options.Team.Synchronise, usual.Team.Synchronise);
+  to.Unavailable("RemoveEagerly", options.Team.RemoveEagerly, usual.Team.RemoveEagerly);
+  to.Unavailable("SeedsPerThread", options.Team.SeedsPerThread, usual.Team.SeedsPerThread);
 }
 
 } // namespace
@@ -152,7 +155,7 @@ std::string ShellCommand(
   CommandWriter to(missing);
   const MeshingOptions<D>& options = of.Options;
   const MeshingOptions<D> usual;
-  to.Flag("--delta", options.Delta, 0.0);
+  to.Flag("--delta", options.Sampling.Delta, 0.0);
   double usualSmoothing = usual.SmoothingSigma;
   double smoothing = options.SmoothingSigma;
   if (of.Image.Surface)
@@ -164,9 +167,9 @@ std::string ShellCommand(
     smoothing = of.Image.Surface->SmoothingSigma;
   }
   to.Flag("--smoothing", smoothing, usualSmoothing);
-  to.Flag("--radius-edge", options.RadiusEdgeRatio, usual.RadiusEdgeRatio);
-  to.Word("--force", options.Force);
-  to.Flag("--gradation", options.Gradation, usual.Gradation);
+  to.Flag("--radius-edge", options.Shape.RadiusEdgeRatio, usual.Shape.RadiusEdgeRatio);
+  to.Word("--force", options.Limits.Force);
+  to.Flag("--gradation", options.Sampling.Gradation, usual.Sampling.Gradation);
   WriteSizes(of, to);
   if constexpr (D == 3)
   {

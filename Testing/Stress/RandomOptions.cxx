@@ -26,18 +26,18 @@ void DrawDelta(StressCase<D>& of, Random& random)
 {
   const double voxel = std::pow(of.Image.VoxelVolume(), 1.0 / D);
   MeshingOptions<D>& options = of.Options;
-  options.Delta =
+  options.Sampling.Delta =
     voxel * (random.Chance(0.1) ? random.LogUniform(5.0, 40.0) : random.LogUniform(0.5, 6.0));
   const double most = D == 4 ? ElementsInSpaceTime
     : random.Chance(0.98)    ? ElementsOfMostCases
                              : ElementsOfFewCases;
-  while (of.ExpectedElements() > most && options.Delta < 4.0 * voxel)
+  while (of.ExpectedElements() > most && options.Sampling.Delta < 4.0 * voxel)
   {
-    options.Delta *= 1.2;
+    options.Sampling.Delta *= 1.2;
   }
   if (random.Chance(0.06) && of.ExpectedElements() < most)
   {
-    options.Delta = 0.0; // derived from the spacing
+    options.Sampling.Delta = 0.0; // derived from the spacing
   }
 }
 
@@ -52,30 +52,31 @@ void DrawSmoothing(MeshingOptions<D>& options, Random& random)
 template <int D>
 void DrawRatio(MeshingOptions<D>& options, Random& random)
 {
-  options.RadiusEdgeRatio = random.Chance(0.6) ? 2.0
-    : random.Chance(0.5)                       ? random.Uniform(1.94, 2.3)
-                                               : random.Uniform(2.0, 6.0);
+  options.Shape.RadiusEdgeRatio = random.Chance(0.6) ? 2.0
+    : random.Chance(0.5)                             ? random.Uniform(1.94, 2.3)
+                                                     : random.Uniform(2.0, 6.0);
   if (random.Chance(0.005)) // termination is not proved there
   {
-    options.RadiusEdgeRatio = random.Uniform(1.6, 1.93);
-    options.Force = true;
+    options.Shape.RadiusEdgeRatio = random.Uniform(1.6, 1.93);
+    options.Limits.Force = true;
   }
 }
 
 template <int D>
 void DrawThreads(MeshingOptions<D>& options, Random& random)
 {
-  options.Threads = static_cast<unsigned>(random.Chance(0.6) ? 1
-      : random.Chance(0.85)                                  ? random.Integer(2, 4)
-                                                             : random.Integer(5, 16));
-  options.Contention = random.Chance(0.6) ? ContentionPolicy::Local
-                                          : static_cast<ContentionPolicy>(random.Integer(0, 3));
-  options.Balance = random.OneOf({ BalancePolicy::Random, BalancePolicy::Hierarchical });
-  options.PinThreads = random.Chance(0.02);
-  options.Synchronise = random.Chance(0.1);
-  options.RemoveEagerly = random.Chance(0.2);
-  options.FineGrained = random.Chance(0.3);
-  options.SeedsPerThread =
+  options.Team.Threads = static_cast<unsigned>(random.Chance(0.6) ? 1
+      : random.Chance(0.85)                                       ? random.Integer(2, 4)
+                                                                  : random.Integer(5, 16));
+  options.Team.Contention = random.Chance(0.6)
+    ? ContentionPolicy::Local
+    : static_cast<ContentionPolicy>(random.Integer(0, 3));
+  options.Team.Balance = random.OneOf({ BalancePolicy::Random, BalancePolicy::Hierarchical });
+  options.Team.Pin = random.Chance(0.02);
+  options.Team.Synchronise = random.Chance(0.1);
+  options.Team.RemoveEagerly = random.Chance(0.2);
+  options.Team.FineGrained = random.Chance(0.3);
+  options.Team.SeedsPerThread =
     static_cast<unsigned>(random.Chance(0.7) ? 128 : random.OneOf({ 0, 1, 10, 1000 }));
 }
 
@@ -83,9 +84,9 @@ template <int D>
 void DrawSizes(StressCase<D>& of, Random& random)
 {
   const double delta = of.Delta();
-  of.Options.Gradation = random.Chance(0.6) ? DefaultGradation
-    : random.Chance(0.3)                    ? 0.0
-                                            : random.LogUniform(0.05, 2.0);
+  of.Options.Sampling.Gradation = random.Chance(0.6) ? DefaultGradation
+    : random.Chance(0.3)                             ? 0.0
+                                                     : random.LogUniform(0.05, 2.0);
   if (!random.Chance(0.2))
   {
     return;
@@ -129,7 +130,7 @@ void DrawInterfaceSizes(StressCase<D>& of, Random& random)
     size.Size = delta * random.LogUniform(0.5, 5.0);
     if (size.Label != size.Other && given.insert(std::minmax({ size.Label, size.Other })).second)
     {
-      of.Options.InterfaceSizes.push_back(size);
+      of.Options.Sampling.InterfaceSizes.push_back(size);
     }
   }
 }
@@ -137,54 +138,54 @@ void DrawInterfaceSizes(StressCase<D>& of, Random& random)
 void DrawSpaceOptions(StressCase<3>& of, Random& random)
 {
   MeshingOptions<3>& options = of.Options;
-  options.FacetAngle = random.Chance(0.7) ? 30.0
-    : random.Chance(0.3)                  ? 0.0
-                                          : random.Uniform(0.0, 30.0);
-  options.TetSlivers.Angle = random.Chance(0.6) ? 9.0
+  options.Shape.FacetAngle = random.Chance(0.7) ? 30.0
     : random.Chance(0.3)                        ? 0.0
-                                                : random.Uniform(0.0, 15.0);
+                                                : random.Uniform(0.0, 30.0);
+  options.Shape.Slivers.Angle = random.Chance(0.6) ? 9.0
+    : random.Chance(0.3)                           ? 0.0
+                                                   : random.Uniform(0.0, 15.0);
   if (random.Chance(0.1))
   {
-    options.TetSlivers.PickingRadius = random.Uniform(0.05, 0.95);
-    options.TetSlivers.Picks = static_cast<unsigned>(random.Integer(1, 40));
+    options.Shape.Slivers.PickingRadius = random.Uniform(0.05, 0.95);
+    options.Shape.Slivers.Picks = static_cast<unsigned>(random.Integer(1, 40));
   }
-  options.TetSlivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
-  options.SmallestComponent = random.Chance(0.6) ? 8
-    : random.Chance(0.5)                         ? random.Integer(0, 1)
-                                                 : random.Integer(2, 60);
-  options.SampleJunctions = random.Chance(0.8);
+  options.Shape.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
+  options.Components.Smallest = random.Chance(0.6) ? 8
+    : random.Chance(0.5)                           ? random.Integer(0, 1)
+                                                   : random.Integer(2, 60);
+  options.Interfaces.SampleJunctions = random.Chance(0.8);
   options.Interfaces.Rounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
-  options.Optimise = random.Chance(0.5);
-  options.OptimisationSeconds = random.Chance(0.02) ? random.LogUniform(0.001, 1.0) : 0.0;
+  options.Optimisation.Run = random.Chance(0.5);
+  options.Optimisation.Seconds = random.Chance(0.02) ? random.LogUniform(0.001, 1.0) : 0.0;
   if (random.Chance(0.25))
   {
-    options.Grading.Mode = GradingMode::LocalFeatureSize;
-    options.Grading.Ratio = random.Chance(0.3) ? 1.0 : random.LogUniform(0.1, 4.0);
-    options.Grading.Lambda = random.Chance(0.5) ? 12.0 : random.LogUniform(1.0, 50.0);
+    options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+    options.Sampling.Grading.Ratio = random.Chance(0.3) ? 1.0 : random.LogUniform(0.1, 4.0);
+    options.Sampling.Grading.Lambda = random.Chance(0.5) ? 12.0 : random.LogUniform(1.0, 50.0);
   }
   if (random.Chance(0.02))
   {
-    options.Elements = static_cast<std::uint64_t>(
-                         random.LogUniform(0.3, 10.0) * std::min(of.ExpectedElements(), 3000.0)) +
+    options.Sampling.Elements = static_cast<std::uint64_t>(random.LogUniform(0.3, 10.0) *
+                                  std::min(of.ExpectedElements(), 3000.0)) +
       1;
-    options.Delta = 0.0;
+    options.Sampling.Delta = 0.0;
   }
-  options.ExactComponents = random.Chance(0.2);
+  options.Components.Exact = random.Chance(0.2);
 }
 
 void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
 {
   MeshingOptions<4>& options = of.Options;
-  options.Order = random.OneOf({ RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst });
-  options.Slivers.Fight = random.Chance(0.7);
+  options.SpaceTime.Order = random.OneOf({ RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst });
+  options.SpaceTime.Slivers.Fight = random.Chance(0.7);
   if (random.Chance(0.3))
   {
-    options.Slivers.PickingRadius = random.Uniform(0.05, 0.95);
-    options.Slivers.RadiusFactor = random.LogUniform(0.5, 8.0);
-    options.Slivers.VolumeBound = random.Uniform(0.0, LargestSliverBound);
-    options.Slivers.Picks = static_cast<unsigned>(random.Integer(1, 30));
+    options.SpaceTime.Slivers.PickingRadius = random.Uniform(0.05, 0.95);
+    options.SpaceTime.Slivers.RadiusFactor = random.LogUniform(0.5, 8.0);
+    options.SpaceTime.Slivers.VolumeBound = random.Uniform(0.0, LargestSliverBound);
+    options.SpaceTime.Slivers.Picks = static_cast<unsigned>(random.Integer(1, 30));
   }
-  options.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
+  options.SpaceTime.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
 }
 
 } // namespace
@@ -193,7 +194,7 @@ void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
 template <int D>
 void DrawOptions(StressCase<D>& of, Random& random)
 {
-  of.Options.MemoryLimit = MemoryOfCase;
+  of.Options.Limits.Memory = MemoryOfCase;
   DrawDelta(of, random);
   DrawSmoothing(of.Options, random);
   DrawRatio(of.Options, random);
@@ -209,7 +210,7 @@ void DrawOptions(StressCase<D>& of, Random& random)
     DrawSpaceTimeOptions(of, random);
   }
   of.Twice =
-    random.Chance(0.15) && of.Options.Threads == 1 && of.Options.OptimisationSeconds == 0.0;
+    random.Chance(0.15) && of.Options.Team.Threads == 1 && of.Options.Optimisation.Seconds == 0.0;
 }
 
 template void DrawOptions<3>(StressCase<3>&, Random&);

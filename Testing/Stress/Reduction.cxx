@@ -64,7 +64,7 @@ private:
   bool Fails(const StressCase<D>& candidate) const
   {
     const double wall = 8.0 * TimeLimit(candidate, this->Limits) + Grace;
-    const unsigned repeats = candidate.Options.Threads > 1 ? this->Reduction.Repeats : 1;
+    const unsigned repeats = candidate.Options.Team.Threads > 1 ? this->Reduction.Repeats : 1;
     for (unsigned k = 0; k < repeats; ++k)
     {
       const CaseResult result = RunInChild([&] { return RunCase(candidate, this->Limits); }, wall);
@@ -134,24 +134,25 @@ template <int D>
 bool Reducer<D>::ResetOptions()
 {
   const MeshingOptions<D> usual;
-  bool changed = this->TryToSet(VOXPLEX_MEMBER(Options.Threads), 1u);
+  bool changed = this->TryToSet(VOXPLEX_MEMBER(Options.Team.Threads), 1u);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Twice), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Contention), usual.Contention);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Balance), usual.Balance);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.PinThreads), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Synchronise), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.RemoveEagerly), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FineGrained), usual.FineGrained);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SeedsPerThread), usual.SeedsPerThread);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.RadiusEdgeRatio), usual.RadiusEdgeRatio);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Force), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Contention), usual.Team.Contention);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Balance), usual.Team.Balance);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Pin), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Synchronise), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.RemoveEagerly), false);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.FineGrained), usual.Team.FineGrained);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.SeedsPerThread), usual.Team.SeedsPerThread);
+  changed |=
+    this->TryToSet(VOXPLEX_MEMBER(Options.Shape.RadiusEdgeRatio), usual.Shape.RadiusEdgeRatio);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Limits.Force), false);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), 0.0, usual.SmoothingSigma);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Gradation), usual.Gradation);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Gradation), usual.Sampling.Gradation);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Everywhere), 0.0);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Size.OfLabel), 0.0);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Slope), 0.0);
-  while (!this->Best.Options.InterfaceSizes.empty() &&
-    this->Try([](StressCase<D>& c) { c.Options.InterfaceSizes.pop_back(); }))
+  while (!this->Best.Options.Sampling.InterfaceSizes.empty() &&
+    this->Try([](StressCase<D>& c) { c.Options.Sampling.InterfaceSizes.pop_back(); }))
   {
     changed = true;
   }
@@ -165,39 +166,45 @@ bool Reducer<D>::ResetOptionsOfDimension()
   bool changed = false;
   if constexpr (D == 3)
   {
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Mode), usual.Grading.Mode);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Ratio), usual.Grading.Ratio);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Grading.Lambda), usual.Grading.Lambda);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimise), false);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.OptimisationSeconds), 0.0);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FacetAngle), usual.FacetAngle);
     changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Angle), 0.0, usual.TetSlivers.Angle);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Seed), usual.TetSlivers.Seed);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.TetSlivers.Picks), usual.TetSlivers.Picks);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.TetSlivers.PickingRadius), usual.TetSlivers.PickingRadius);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.SmallestComponent), std::int64_t{ 0 }, usual.SmallestComponent);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.ExactComponents), usual.ExactComponents);
+      this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Mode), usual.Sampling.Grading.Mode);
     changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
+      this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Ratio), usual.Sampling.Grading.Ratio);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.Sampling.Grading.Lambda), usual.Sampling.Grading.Lambda);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Run), false);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Seconds), 0.0);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Shape.FacetAngle), usual.Shape.FacetAngle);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Angle), 0.0, usual.Shape.Slivers.Angle);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Seed), usual.Shape.Slivers.Seed);
+    changed |=
+      this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Picks), usual.Shape.Slivers.Picks);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.Shape.Slivers.PickingRadius), usual.Shape.Slivers.PickingRadius);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.Components.Smallest), std::int64_t{ 0 }, usual.Components.Smallest);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Components.Exact), usual.Components.Exact);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.Interfaces.SampleJunctions), false, usual.Interfaces.SampleJunctions);
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Elements), usual.Elements);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Elements), usual.Sampling.Elements);
   }
   else
   {
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Fight), false);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Order), usual.Order);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Seed), usual.Slivers.Seed);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.Picks), usual.Slivers.Picks);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Fight), false);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Order), usual.SpaceTime.Order);
     changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.VolumeBound), usual.Slivers.VolumeBound);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.RadiusFactor), usual.Slivers.RadiusFactor);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Slivers.PickingRadius), usual.Slivers.PickingRadius);
+      this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Seed), usual.SpaceTime.Slivers.Seed);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Picks), usual.SpaceTime.Slivers.Picks);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.VolumeBound), usual.SpaceTime.Slivers.VolumeBound);
+    changed |= this->TryToSet(
+      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.RadiusFactor), usual.SpaceTime.Slivers.RadiusFactor);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.PickingRadius),
+      usual.SpaceTime.Slivers.PickingRadius);
   }
   return changed;
 }
@@ -323,10 +330,10 @@ bool Reducer<D>::SimplifyGrid()
       c.Image.Axes[r].fill(0.0);
       c.Image.Axes[r][r] = 1.0;
     }
-    c.Options.Delta = this->Best.Delta() / voxel;
+    c.Options.Sampling.Delta = this->Best.Delta() / voxel;
     c.Size.Everywhere /= voxel;
     c.Size.OfLabel /= voxel;
-    for (InterfaceSize& size : c.Options.InterfaceSizes)
+    for (InterfaceSize& size : c.Options.Sampling.InterfaceSizes)
     {
       size.Size /= voxel;
     }
@@ -359,12 +366,12 @@ bool Reducer<D>::RoundNumbers()
   const auto rounded = [](double x, int digits) { return std::stod(Text(x, digits)); };
   for (const int digits : { 2, 3, 4 })
   {
-    const double delta = rounded(this->Best.Options.Delta, digits);
-    if (delta == this->Best.Options.Delta)
+    const double delta = rounded(this->Best.Options.Sampling.Delta, digits);
+    if (delta == this->Best.Options.Sampling.Delta)
     {
       return false;
     }
-    if (this->Try([&](StressCase<D>& c) { c.Options.Delta = delta; }))
+    if (this->Try([&](StressCase<D>& c) { c.Options.Sampling.Delta = delta; }))
     {
       return true;
     }

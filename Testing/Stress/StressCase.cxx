@@ -62,7 +62,7 @@ MeshingOptions<D> StressCase<D>::AllOptions() const
   MeshingOptions<D> options = this->Options;
   if (this->Size.IsGiven())
   {
-    options.Size = std::make_shared<const RequestedSize<D>>(this->Size);
+    options.Sampling.Size = std::make_shared<const RequestedSize<D>>(this->Size);
   }
   return options;
 }
@@ -100,8 +100,8 @@ void StressCase<D>::Measure()
 template <int D>
 double StressCase<D>::Delta() const
 {
-  return this->Options.Delta > 0.0 ? this->Options.Delta
-                                   : 2.0 * std::pow(this->Image.VoxelVolume(), 1.0 / D);
+  return this->Options.Sampling.Delta > 0.0 ? this->Options.Sampling.Delta
+                                            : 2.0 * std::pow(this->Image.VoxelVolume(), 1.0 / D);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -111,7 +111,7 @@ double StressCase<D>::ExpectedElements() const
   // In 3D, thin parts are sampled at the scale of voxels for every delta.
   const double voxel = std::pow(this->Image.VoxelVolume(), 1.0 / D);
   double delta = this->Delta();
-  for (const InterfaceSize& size : this->Options.InterfaceSizes)
+  for (const InterfaceSize& size : this->Options.Sampling.InterfaceSizes)
   {
     delta = std::min(delta, size.Size);
   }
@@ -121,7 +121,7 @@ double StressCase<D>::ExpectedElements() const
   const double size = std::min(this->Size.Everywhere > 0.0 ? this->Size.Everywhere : 1e30,
     this->Size.OfLabel > 0.0 ? this->Size.OfLabel : 1e30);
   elements += (D == 3 ? 8.0 : 40.0) * this->ObjectVolume / std::pow(size, D);
-  return std::max(elements, static_cast<double>(this->Options.Elements));
+  return std::max(elements, static_cast<double>(this->Options.Sampling.Elements));
 }
 
 //------------------------------------------------------------------------------------------------

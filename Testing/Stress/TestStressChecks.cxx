@@ -42,7 +42,7 @@ StressCase<D> Boxes()
       of.Image.Labels[i] = !inside || v[0] == 0 || v[0] > 12 ? 0 : v[0] < 5 ? 3 : v[0] < 9 ? 7 : 0;
       of.Image.Labels[i] = inside && v[0] > 10 && v[0] < 13 ? 9 : of.Image.Labels[i];
     });
-  of.Options.Delta = 1.5;
+  of.Options.Sampling.Delta = 1.5;
   of.Measure();
   return of;
 }
@@ -102,7 +102,7 @@ void ExpectFound(const std::string& cause, const std::function<void(Meshed<D>&)>
 TEST(StressChecks, FindNothingInGoodMeshes)
 {
   ExpectNothing(Meshed<3>());
-  ExpectNothing(Meshed<3>([](StressCase<3>& c) { c.Options.Optimise = true; }));
+  ExpectNothing(Meshed<3>([](StressCase<3>& c) { c.Options.Optimisation.Run = true; }));
   ExpectNothing(Meshed<4>());
 }
 
@@ -177,8 +177,8 @@ TEST(StressChecks, FindOverlaps)
 
 TEST(StressChecks, FindWhatIsNotDelaunay)
 {
-  Meshed<3> optimised([](StressCase<3>& c) { c.Options.Optimise = true; });
-  optimised.Of.Options.Optimise = false;
+  Meshed<3> optimised([](StressCase<3>& c) { c.Options.Optimisation.Run = true; });
+  optimised.Of.Options.Optimisation.Run = false;
   EXPECT_TRUE(optimised.Check().Has("delaunay"));
   // A vertex that moves a little changes balls, not orientations.
   ExpectFound<4>("delaunay",
@@ -193,8 +193,8 @@ TEST(StressChecks, FindWhatIsNotDelaunay)
 
 TEST(StressChecks, FindPoorShapes)
 {
-  ExpectFound<3>("ratio", [](Meshed<3>& m) { m.Of.Options.RadiusEdgeRatio = 1.2; });
-  ExpectFound<4>("ratio", [](Meshed<4>& m) { m.Of.Options.RadiusEdgeRatio = 1.0; });
+  ExpectFound<3>("ratio", [](Meshed<3>& m) { m.Of.Options.Shape.RadiusEdgeRatio = 1.2; });
+  ExpectFound<4>("ratio", [](Meshed<4>& m) { m.Of.Options.Shape.RadiusEdgeRatio = 1.0; });
   ExpectFound<3>("size", [](Meshed<3>& m) { m.Of.Size.Everywhere = 0.7; });
   ExpectFound<4>("size",
     [](Meshed<4>& m)
@@ -202,8 +202,8 @@ TEST(StressChecks, FindPoorShapes)
       m.Of.Size.Label = 7;
       m.Of.Size.OfLabel = 0.7;
     });
-  ExpectFound<3>("sliver", [](Meshed<3>& m) { m.Of.Options.TetSlivers.Angle = 25.0; });
-  ExpectFound<3>("facet-angle", [](Meshed<3>& m) { m.Of.Options.FacetAngle = 40.0; });
+  ExpectFound<3>("sliver", [](Meshed<3>& m) { m.Of.Options.Shape.Slivers.Angle = 25.0; });
+  ExpectFound<3>("facet-angle", [](Meshed<3>& m) { m.Of.Options.Shape.FacetAngle = 40.0; });
 }
 
 TEST(StressChecks, FindWhatIsNotOfTheImage)
@@ -280,7 +280,7 @@ TEST(StressChecks, FindWrongStatistics)
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Delta = 2.0; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Rules.Fired = {}; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Interfaces.NonManifoldLeft = 1; });
-  ExpectFound<3>("elements", [](Meshed<3>& m) { m.Of.Options.Elements = 10; });
+  ExpectFound<3>("elements", [](Meshed<3>& m) { m.Of.Options.Sampling.Elements = 10; });
 }
 
 //------------------------------------------------------------------------------------------------
@@ -336,8 +336,8 @@ TEST(StressCases, ASeedRepeatsACase)
 TEST(StressCases, EndlessRunsAreEnded)
 {
   StressCase<3> of = Boxes<3>();
-  of.Options.Delta = 0.02; // millions of elements
-  of.Options.Force = true;
+  of.Options.Sampling.Delta = 0.02; // millions of elements
+  of.Options.Limits.Force = true;
   RunLimits limits;
   limits.Seconds = 0.2;
   EXPECT_TRUE(RunCase(of, limits).Has("endless"));
@@ -346,7 +346,7 @@ TEST(StressCases, EndlessRunsAreEnded)
 TEST(StressCases, RefusalsAreNoFailures)
 {
   StressCase<3> of = Boxes<3>();
-  of.Options.RadiusEdgeRatio = 1.5;
+  of.Options.Shape.RadiusEdgeRatio = 1.5;
   EXPECT_EQ(RunCase(of, {}).Status, CaseStatus::Refused);
 }
 
@@ -371,14 +371,14 @@ TEST(StressCases, CrashesAndHangsAreResults)
 TEST(StressCases, ReductionKeepsTheCause)
 {
   StressCase<3> of = Boxes<3>();
-  of.Options.Threads = 2;
-  of.Options.Gradation = 1.0;
+  of.Options.Team.Threads = 2;
+  of.Options.Sampling.Gradation = 1.0;
   RunLimits limits;
   limits.OperationsPerVertex = 0.01; // any work exceeds the limit
   ASSERT_TRUE(RunCase(of, limits).Has("work"));
   const StressCase<3> smaller = Reduce(of, "work", limits, {});
   EXPECT_TRUE(RunCase(smaller, limits).Has("work"));
-  EXPECT_EQ(smaller.Options.Threads, 1u);
-  EXPECT_EQ(smaller.Options.Gradation, MeshingOptions<3>().Gradation);
+  EXPECT_EQ(smaller.Options.Team.Threads, 1u);
+  EXPECT_EQ(smaller.Options.Sampling.Gradation, MeshingOptions<3>().Sampling.Gradation);
   EXPECT_LT(smaller.Image.Size(), of.Image.Size() / 8);
 }

@@ -429,13 +429,13 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
   for (const unsigned threads : { 1u, 4u })
   {
     MeshingOptions<3> options;
-    options.Delta = 5.0;
-    options.Threads = threads;
-    options.SmallestComponent = 0;
+    options.Sampling.Delta = 5.0;
+    options.Team.Threads = threads;
+    options.Components.Smallest = 0;
     MeshingStatistics statistics;
     EXPECT_LT(CountFound(Mesh(islands.Image, options, statistics), islands.Centres, 2, 1.5), 27u);
 
-    options.SmallestComponent = 8;
+    options.Components.Smallest = 8;
     const SimplexMesh<3> few = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(few, islands.Centres, 2, 1.5), 27u);
     EXPECT_EQ(statistics.Components.Found, 28u);
@@ -443,7 +443,7 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
     EXPECT_GE(statistics.Components.Rounds, 1u);
     EXPECT_TRUE(statistics.Components.Lost.empty());
 
-    options.ExactComponents = true;
+    options.Components.Exact = true;
     const SimplexMesh<3> exact = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(exact, islands.Centres, 2, 1.5), 27u);
     EXPECT_GT(statistics.Components.Seeds, 27u * 8u);
@@ -458,16 +458,16 @@ TEST(ComponentCheck, LeavesSmallerOnesAlone)
 {
   const Islands islands(2);
   MeshingOptions<3> options;
-  options.Delta = 5.0;
-  options.SmallestComponent = 9;
-  options.ExactComponents = true;
+  options.Sampling.Delta = 5.0;
+  options.Components.Smallest = 9;
+  options.Components.Exact = true;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_LT(CountFound(mesh, islands.Centres, 2, 1.5), 27u);
   EXPECT_EQ(statistics.Components.Seeds, 24u)
     << "on one island, the first of the largest of its label";
   EXPECT_TRUE(statistics.Components.Lost.empty());
-  options.SmallestComponent = 0;
+  options.Components.Smallest = 0;
   Mesh(islands.Image, options, statistics);
   EXPECT_EQ(statistics.Components.Found, 0u);
 }
@@ -479,8 +479,8 @@ TEST(ComponentCheck, KeepsSingleVoxelsIfAsked)
   {
     const Islands islands(1, spacing);
     MeshingOptions<3> options;
-    options.Delta = 3.0;
-    options.SmallestComponent = 1;
+    options.Sampling.Delta = 3.0;
+    options.Components.Smallest = 1;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(mesh, islands.Centres, 2, 1.0), 27u);
@@ -492,7 +492,7 @@ TEST(ComponentCheck, KeepsSingleVoxelsIfAsked)
 TEST(ComponentCheck, KeepsASheetThatIsThinBesideDelta)
 {
   MeshingOptions<3> options;
-  options.Delta = 6.0;
+  options.Sampling.Delta = 6.0;
   MeshingStatistics statistics;
   const LabelImage<3> image = phantoms::Sheet(20);
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
@@ -515,9 +515,9 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
   for (const unsigned threads : { 1u, 4u })
   {
     MeshingOptions<3> options;
-    options.Delta = 3.0;
-    options.SmallestComponent = 1;
-    options.Threads = threads;
+    options.Sampling.Delta = 3.0;
+    options.Components.Smallest = 1;
+    options.Team.Threads = threads;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(image, options, statistics);
     EXPECT_GE(statistics.Components.Rounds, 1u);
@@ -545,8 +545,8 @@ TEST(ComponentCheck, LooksAtRepairedInterfaces)
     for (const double delta : { 1.5, 4.0 })
     {
       MeshingOptions<3> options;
-      options.Delta = delta;
-      options.SmallestComponent = 1;
+      options.Sampling.Delta = delta;
+      options.Components.Smallest = 1;
       MeshingStatistics statistics;
       const SimplexMesh<3> mesh = Mesh(image, options, statistics);
       EXPECT_GT(statistics.Interfaces.NonManifoldRepaired, 0u);
@@ -569,7 +569,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   ComponentCheck<3> check(
     islands.Image, domain, components, sizing, 8, false, local, counts, seconds, 2, {});
   MeshingOptions<3> options;
-  options.Delta = 5.0;
+  options.Sampling.Delta = 5.0;
   MeshingStatistics statistics;
   SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_TRUE(check.FindLost(mesh).empty());
@@ -635,12 +635,12 @@ TEST(ComponentCheck, ChangesNothingWhereDeltaIsFineEnough)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
   MeshingOptions<3> options;
-  options.Delta = 1.0;
+  options.Sampling.Delta = 1.0;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
   EXPECT_EQ(statistics.Components.Found, 3u);
   EXPECT_EQ(statistics.Components.Seeds, 0u);
-  options.SmallestComponent = 0;
+  options.Components.Smallest = 0;
   const SimplexMesh<3> without = Mesh(image, options, statistics);
   EXPECT_TRUE(std::equal(mesh.Points.begin(), mesh.Points.end(), without.Points.begin()));
   EXPECT_TRUE(std::equal(mesh.Simplices.begin(), mesh.Simplices.end(), without.Simplices.begin()));

@@ -358,14 +358,14 @@ TEST(ManifoldMeshes, HaveNoBadEdgesOnAnyImage)
   for (unsigned seed = 1; seed <= 24; ++seed)
   {
     MeshingOptions<3> options;
-    options.Delta = 0.9 + 0.25 * (seed % 9);
+    options.Sampling.Delta = 0.9 + 0.25 * (seed % 9);
     options.Interfaces.Rounds = seed % 4 == 0 ? 0 : seed % 3;
-    options.SampleJunctions = seed % 5 != 0;
-    options.SmallestComponent = seed % 3 == 0 ? 0 : 8;
+    options.Interfaces.SampleJunctions = seed % 5 != 0;
+    options.Components.Smallest = seed % 3 == 0 ? 0 : 8;
     options.SmoothingSigma = seed % 2 == 0 ? 0.0 : 1.0;
-    options.Optimise = seed % 2 == 0;
-    options.Threads = seed % 6 == 0 ? 4 : 1;
-    SCOPED_TRACE(testing::Message() << "seed " << seed << ", delta " << options.Delta);
+    options.Optimisation.Run = seed % 2 == 0;
+    options.Team.Threads = seed % 6 == 0 ? 4 : 1;
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", delta " << options.Sampling.Delta);
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(Noise(seed, 8, 1 + seed % 7), mesh), MeshingOutcome::Done);
@@ -383,7 +383,7 @@ TEST(ManifoldMeshes, HaveNoBadEdgesOnAnyImage)
 TEST(ManifoldMeshes, AreLeftAsTheyComeOnRequest)
 {
   MeshingOptions<3> options;
-  options.Delta = 2.0;
+  options.Sampling.Delta = 2.0;
   options.SmoothingSigma = 0.0;
   options.Interfaces.Manifold = false;
   ImageMesher<3> mesher(options);

@@ -148,10 +148,10 @@ TEST(InterfaceDistances, KeepsGradedMeshesNear)
     const std::vector<Point<3>> faces = VoxelFaceCentres(image, 1);
     double distances[2];
     MeshingOptions<3> options;
-    options.Delta = 1.2;
-    options.Grading.Mode = GradingMode::LocalFeatureSize;
-    options.Grading.Ratio = 2.0;
-    options.ExactComponents = true; // the check has less to do then
+    options.Sampling.Delta = 1.2;
+    options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+    options.Sampling.Grading.Ratio = 2.0;
+    options.Components.Exact = true; // the check has less to do then
     for (const unsigned rounds : { 0u, 5u })
     {
       options.Interfaces.Rounds = rounds;
@@ -163,8 +163,8 @@ TEST(InterfaceDistances, KeepsGradedMeshesNear)
       elements[k] += mesh.Simplices.size();
     }
     constexpr double largest = 1.22 * 1.15; // see NearEnough and StairFactor
-    far += distances[0] > largest * options.Delta ? 1 : 0;
-    EXPECT_LE(distances[1], largest * options.Delta) << seed;
+    far += distances[0] > largest * options.Sampling.Delta ? 1 : 0;
+    EXPECT_LE(distances[1], largest * options.Sampling.Delta) << seed;
   }
   EXPECT_GE(far, 6u);
   EXPECT_LT(elements[1], 1.05 * static_cast<double>(elements[0])); // finer only where it has to be
@@ -175,14 +175,14 @@ TEST(InterfaceDistances, KeepsGradedBallsNear)
 {
   const LabelImage<3> image = phantoms::Ball(14.0);
   MeshingOptions<3> options;
-  options.Delta = 1.5;
-  options.Grading.Mode = GradingMode::LocalFeatureSize;
-  options.Grading.Ratio = 2.0;
+  options.Sampling.Delta = 1.5;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Grading.Ratio = 2.0;
   SimplexMesh<3> mesh;
   ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
   const HausdorffFigures figures = MeasureHausdorff(mesh, VoxelFaceCentres(image, 1), nullptr, 1);
-  EXPECT_LE(figures.ImageToMesh.Maximum, 1.1 * 1.15 * options.Delta);
-  options.Grading.Mode = GradingMode::Uniform;
+  EXPECT_LE(figures.ImageToMesh.Maximum, 1.1 * 1.15 * options.Sampling.Delta);
+  options.Sampling.Grading.Mode = GradingMode::Uniform;
   SimplexMesh<3> uniform;
   ASSERT_EQ(ImageMesher<3>(options).Run(image, uniform), MeshingOutcome::Done);
   EXPECT_LT(mesh.Simplices.size(), uniform.Simplices.size() / 3);
@@ -305,7 +305,7 @@ TEST(InterfaceDistances, ReachesAsFarInShearedImages)
       grid, [&](const Point<3>& p) -> std::int16_t { return Distance(p, centre) < 11.0 ? 1 : 0; });
     const ImageDomain<3> domain(image, 1.0);
     MeshingOptions<3> options;
-    options.Delta = delta;
+    options.Sampling.Delta = delta;
     SimplexMesh<3> mesh;
     ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
     const std::vector<Point<3>> vertices = InterfaceVerticesOf(mesh);

@@ -134,12 +134,12 @@ TEST(SmallLabels, AreInTheMesh)
         seed % 2 == 0 ? Point<3>{ 1.0, 1.0, 1.0 } : Point<3>{ 0.5, 1.0, 1.7 };
       const LabelImage<3> image = Specks(seed++, around, spacing);
       MeshingOptions<3> options;
-      options.Delta = delta;
+      options.Sampling.Delta = delta;
       const std::string name = std::to_string(delta) + " in " + std::to_string(around);
       ExpectAllLabels(image, options, name);
-      options.Optimise = true;
+      options.Optimisation.Run = true;
       ExpectAllLabels(image, options, name + ", optimised");
-      options.Grading.Mode = GradingMode::LocalFeatureSize;
+      options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
       ExpectAllLabels(image, options, name + ", graded");
     }
   }
@@ -158,7 +158,7 @@ TEST(SmallLabels, OfAThreeLeggedShapeIsInTheMesh)
   for (const double delta : { 0.5, 1.5, 4.0 })
   {
     MeshingOptions<3> options;
-    options.Delta = delta;
+    options.Sampling.Delta = delta;
     ExpectAllLabels(image, options, std::to_string(delta));
   }
 }
@@ -168,10 +168,10 @@ TEST(SmallLabels, AreLeftToChanceOnRequest)
 {
   const LabelImage<3> image = Specks(9, 1, { 1.0, 1.0, 1.0 });
   MeshingOptions<3> options;
-  options.Delta = 12.0;
-  options.SmallestComponent = 0;
+  options.Sampling.Delta = 12.0;
+  options.Components.Smallest = 0;
   options.Interfaces.Rounds = 0;
-  options.SampleJunctions = false;
+  options.Interfaces.SampleJunctions = false;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

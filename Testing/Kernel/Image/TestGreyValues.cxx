@@ -148,7 +148,7 @@ TEST(GreyValues, AreRefusedByTheMesherUnlessForced)
 {
   const LabelImage<3> image = Noise<3>({ 30, 30, 30 }, 200);
   MeshingOptions<3> options;
-  options.Delta = 20.0;
+  options.Sampling.Delta = 20.0;
   SimplexMesh<3> mesh;
   try
   {
@@ -162,7 +162,7 @@ TEST(GreyValues, AreRefusedByTheMesherUnlessForced)
     EXPECT_NE(message.find("mesh an isosurface of it"), std::string::npos) << message;
     EXPECT_NE(message.find("or force it"), std::string::npos) << message;
   }
-  options.Force = true;
+  options.Limits.Force = true;
   ImageMesher<3> mesher(options);
   mesher.Progress = [](double) { return false; };
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Cancelled);

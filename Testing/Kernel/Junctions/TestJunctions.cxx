@@ -495,8 +495,8 @@ struct AxisFigures
 AxisFigures MeshAxis(bool sample)
 {
   MeshingOptions<3> options;
-  options.Delta = 2.0;
-  options.SampleJunctions = sample;
+  options.Sampling.Delta = 2.0;
+  options.Interfaces.SampleJunctions = sample;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   EXPECT_EQ(mesher.Run(Sectors(), mesh), MeshingOutcome::Done);

@@ -350,7 +350,7 @@ TEST(TimeSlice, MeshOfAnImage)
   const phantoms::SpaceTimePhantom balls = phantoms::MergingBalls();
   const std::vector<std::uint8_t> scalars = balls.Scalars();
   MeshingOptions<4> options;
-  options.Delta = 2.5;
+  options.Sampling.Delta = 2.5;
   ImageMesher<4> mesher(options);
   SimplexMesh<4> simplices;
   mesher.Run(LabelImage<4>::FromScalars<std::uint8_t>(scalars, balls.Grid), simplices);

@@ -102,8 +102,8 @@ namespace
 MeshingOptions<3> Options(unsigned threads)
 {
   MeshingOptions<3> options;
-  options.Delta = 0.7;
-  options.Threads = threads;
+  options.Sampling.Delta = 0.7;
+  options.Team.Threads = threads;
   return options;
 }
 
@@ -155,7 +155,7 @@ void FailEverywhere(const MeshingOptions<3>& options)
   for (std::int64_t n = 1; n <= all; n += step)
   {
     const std::string name =
-      std::to_string(options.Threads) + " threads, failure at allocation " + std::to_string(n);
+      std::to_string(options.Team.Threads) + " threads, failure at allocation " + std::to_string(n);
     SCOPED_TRACE(name);
     const testing::Watchdog watchdog(name);
     failures += RunWithFailure(image, options, n).Done ? 0 : 1;
@@ -165,7 +165,7 @@ void FailEverywhere(const MeshingOptions<3>& options)
     }
   }
   // Threads may happen to make fewer allocations; one makes the same in each run.
-  EXPECT_GE(failures, (options.Threads == 1 ? 1.0 : 0.5) * static_cast<double>(all / step));
+  EXPECT_GE(failures, (options.Team.Threads == 1 ? 1.0 : 0.5) * static_cast<double>(all / step));
 }
 
 } // namespace
@@ -183,8 +183,8 @@ TEST(Allocation, AnyMayFailInFourThreads)
 TEST(Allocation, AnyMayFailInFourPinnedThreads)
 {
   MeshingOptions<3> options = Options(4);
-  options.PinThreads = true;
-  options.RemoveEagerly = true;
+  options.Team.Pin = true;
+  options.Team.RemoveEagerly = true;
   FailEverywhere(options);
 }
 

@@ -29,8 +29,8 @@ LabelImage<3> Halves(const GridGeometry<3>& grid)
 SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, bool optimise)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
-  options.Optimise = optimise;
+  options.Sampling.Delta = delta;
+  options.Optimisation.Run = optimise;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

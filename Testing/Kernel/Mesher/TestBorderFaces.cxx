@@ -195,7 +195,7 @@ SimplexMesh<3> Mesh(const LabelImage<3>& image, const MeshingOptions<3>& options
 MeshingOptions<3> WithDelta(double delta)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   return options;
 }
 
@@ -446,7 +446,7 @@ TEST(BorderFaces, MeshesOfBlocksAreExact)
       {
         SCOPED_TRACE(testing::Message() << delta << (optimise ? ", optimised" : ""));
         MeshingOptions<3> options = WithDelta(delta);
-        options.Optimise = optimise;
+        options.Optimisation.Run = optimise;
         const SimplexMesh<3> mesh = Mesh(image, options);
         EXPECT_NEAR(checks::Volumes(mesh).at(1), volume, 1e-9 * volume);
         const std::array<double, 6> areas = FlatAreas(mesh, domain);
@@ -481,7 +481,7 @@ TEST(BorderFaces, OfTwoLabelsAreFlatInTheMesh)
         SCOPED_TRACE(
           testing::Message() << delta << ", threads: " << threads << ", " << grid.Dimensions[1]);
         MeshingOptions<3> options = WithDelta(delta);
-        options.Threads = threads;
+        options.Team.Threads = threads;
         const SimplexMesh<3> mesh = Mesh(image, options);
         for (const Point<3>& p : mesh.Points)
         {
@@ -495,7 +495,7 @@ TEST(BorderFaces, OfTwoLabelsAreFlatInTheMesh)
           EXPECT_NEAR(areas[face], expected[face], 0.03 * expected[face]) << face;
           EXPECT_EQ(CountUncovered(mesh, image, face / 2), 0) << face;
         }
-        options.SampleJunctions = false;
+        options.Interfaces.SampleJunctions = false;
         const std::array<double, 6> rough = FlatAreas(Mesh(image, options), domain);
         EXPECT_LT(rough[0], areas[0]); // without their edges faces are not whole
       }
@@ -574,7 +574,7 @@ TEST(BorderFaces, HaveEdgesInGradedMeshes)
   const LabelImage<3> image = LargeCutHalves();
   const ImageDomain<3> domain(image, 1.0);
   MeshingOptions<3> options = WithDelta(1.5);
-  options.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
   const std::array<double, 6> areas = FlatAreas(Mesh(image, options), domain);
   const std::array<double, 6> expected = VoxelAreas(image);
   EXPECT_GT(areas[0] + areas[4], 0.94 * (expected[0] + expected[4]));
@@ -591,7 +591,7 @@ TEST(BorderFaces, StayFlatInOptimisation)
       const LabelImage<3> image = block ? phantoms::Block(grid) : CutHalves(grid);
       const ImageDomain<3> domain(image, 1.0);
       MeshingOptions<3> options = WithDelta(1.2);
-      options.Optimise = false;
+      options.Optimisation.Run = false;
       const SimplexMesh<3> before = Mesh(image, options);
       for (const bool wild : { false, true })
       {
@@ -635,7 +635,7 @@ TEST(BorderFaces, KeepTheirVerticesInOptimisation)
     for (const double delta : { 3.0, 3.5, 4.0, 4.5, 5.0 })
     {
       MeshingOptions<3> options = WithDelta(delta);
-      options.Optimise = false;
+      options.Optimisation.Run = false;
       SimplexMesh<3> mesh = Mesh(image, options);
       const std::size_t before = CountOnBorder(mesh, domain);
       EXPECT_GT(before, 15u);

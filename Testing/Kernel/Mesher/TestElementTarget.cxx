@@ -57,8 +57,8 @@ TEST(ElementTarget, IsMetOnPhantoms)
       for (const unsigned threads : { 1u, 4u })
       {
         MeshingOptions<3> options;
-        options.Elements = target;
-        options.Threads = threads;
+        options.Sampling.Elements = target;
+        options.Team.Threads = threads;
         MeshingStatistics statistics;
         const SimplexMesh<3> mesh = Mesh<3>(image, options, &statistics);
         EXPECT_LE(Deviation(mesh.Simplices.size(), target), DeltaSearch::Tolerance)
@@ -77,7 +77,7 @@ TEST(ElementTarget, IsMetOnPhantoms)
         if (threads == 1)
         {
           MeshingOptions<3> direct;
-          direct.Delta = statistics.Delta;
+          direct.Sampling.Delta = statistics.Delta;
           const SimplexMesh<3> same = Mesh<3>(image, direct);
           EXPECT_EQ(same.Points, mesh.Points) << name << ' ' << target;
           EXPECT_EQ(same.Simplices, mesh.Simplices);
@@ -90,7 +90,7 @@ TEST(ElementTarget, IsMetOnPhantoms)
 TEST(ElementTarget, OneThreadIsReproducible)
 {
   MeshingOptions<3> options;
-  options.Elements = 9000;
+  options.Sampling.Elements = 9000;
   const LabelImage<3> image = phantoms::TouchingLabels(20);
   const SimplexMesh<3> a = Mesh<3>(image, options);
   const SimplexMesh<3> b = Mesh<3>(image, options);
@@ -102,9 +102,10 @@ TEST(ElementTarget, SizesStay)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
   MeshingOptions<3> options;
-  options.Elements = 40000;
-  options.Size = Size([](const Point<3>&, std::int64_t label) { return label == 7 ? 1.6 : 9.0; });
-  options.InterfaceSizes = { { 200, 0, 1.2 } };
+  options.Sampling.Elements = 40000;
+  options.Sampling.Size =
+    Size([](const Point<3>&, std::int64_t label) { return label == 7 ? 1.6 : 9.0; });
+  options.Sampling.InterfaceSizes = { { 200, 0, 1.2 } };
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh<3>(image, options, &statistics);
   EXPECT_LE(Deviation(mesh.Simplices.size(), 40000), DeltaSearch::Tolerance);
@@ -117,8 +118,8 @@ TEST(ElementTarget, SizesStay)
 TEST(ElementTarget, CountsWhatOptimisationLeaves)
 {
   MeshingOptions<3> options;
-  options.Elements = 20000;
-  options.Optimise = true;
+  options.Sampling.Elements = 20000;
+  options.Optimisation.Run = true;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh<3>(phantoms::NestedBalls(18.0), options, &statistics);
   EXPECT_LE(Deviation(mesh.Simplices.size(), 20000), DeltaSearch::Tolerance);
@@ -131,14 +132,14 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30);
   MeshingOptions<3> options;
-  options.Elements = 20000;
-  options.InterfaceSizes = { { 1, 2, 0.8 } };
-  options.Optimise = true;
+  options.Sampling.Elements = 20000;
+  options.Sampling.InterfaceSizes = { { 1, 2, 0.8 } };
+  options.Optimisation.Run = true;
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh<3>(image, options, &statistics);
   ASSERT_GT(statistics.Runs.size(), 1u);
-  options.Elements = 0;
-  options.Delta = statistics.Delta;
+  options.Sampling.Elements = 0;
+  options.Sampling.Delta = statistics.Delta;
   MeshingStatistics direct;
   EXPECT_EQ(Mesh<3>(image, options, &direct).Points, mesh.Points);
   EXPECT_EQ(direct.Rules.Insertions(), statistics.Rules.Insertions());
@@ -147,9 +148,9 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
   EXPECT_EQ(direct.Components.Found, statistics.Components.Found);
 
   // A run that is far off is not optimised.
-  options.Delta = statistics.Runs.front().Delta;
-  options.Optimise = false;
-  options.TetSlivers.AngleInside = 3.0; // as with optimisation
+  options.Sampling.Delta = statistics.Runs.front().Delta;
+  options.Optimisation.Run = false;
+  options.Shape.Slivers.AngleInside = 3.0; // as with optimisation
   const auto elements = static_cast<double>(Mesh<3>(image, options).Simplices.size());
   EXPECT_NEAR(static_cast<double>(statistics.Runs.front().Elements), 0.96 * elements, 1.0);
 }
@@ -172,8 +173,8 @@ TEST(ElementTarget, KeepsTheNearestRunNotTheLast)
   for (std::uint64_t target = 2000; target < 3300; target += 97)
   {
     MeshingOptions<3> options;
-    options.Elements = target;
-    options.ExactComponents = true;
+    options.Sampling.Elements = target;
+    options.Components.Exact = true;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     try
@@ -199,16 +200,16 @@ TEST(ElementTarget, GoesWithGradingByLocalFeatureSize)
 {
   const LabelImage<3> image = phantoms::NestedBalls(24.0);
   MeshingOptions<3> options;
-  options.Elements = 7000;
-  options.Grading.Mode = GradingMode::LocalFeatureSize;
-  options.Grading.Ratio = 0.5;
-  options.InterfaceSizes = { { 7, 3, 1.5 } };
+  options.Sampling.Elements = 7000;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Grading.Ratio = 0.5;
+  options.Sampling.InterfaceSizes = { { 7, 3, 1.5 } };
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh<3>(image, options, &statistics);
   EXPECT_LE(Deviation(mesh.Simplices.size(), 7000), DeltaSearch::Tolerance);
   EXPECT_GT(statistics.GradingPoles, 0u);
-  options.Elements = 0;
-  options.Delta = statistics.Delta;
+  options.Sampling.Elements = 0;
+  options.Sampling.Delta = statistics.Delta;
   MeshingStatistics direct;
   const SimplexMesh<3> same = Mesh<3>(image, options, &direct);
   EXPECT_EQ(same.Points, mesh.Points);
@@ -222,8 +223,8 @@ TEST(ElementTarget, EndsWhereGradingAllowsNoMore)
 {
   // The local feature size of a ball is its radius: small deltas change nothing.
   MeshingOptions<3> options;
-  options.Elements = 100000;
-  options.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Elements = 100000;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
   SimplexMesh<3> mesh;
   try
   {
@@ -241,7 +242,7 @@ TEST(ElementTarget, EndsWhereGradingAllowsNoMore)
 TEST(ElementTarget, WorksInSpaceTime)
 {
   MeshingOptions<4> options = checks::SpaceTimeOptions(0.0);
-  options.Elements = 9000;
+  options.Sampling.Elements = 9000;
   const SimplexMesh<4> mesh = Mesh<4>(checks::ImageOf(checks::PulsatingBalls(7, 1.0)), options);
   EXPECT_LE(Deviation(mesh.Simplices.size(), 9000), DeltaSearch::Tolerance);
 }
@@ -249,8 +250,8 @@ TEST(ElementTarget, WorksInSpaceTime)
 TEST(ElementTarget, SaysWhatIsNearestIfThereIsNone)
 {
   MeshingOptions<3> options;
-  options.Elements = 2000;
-  options.Size = Size([](const Point<3>&, std::int64_t) { return 1.0; });
+  options.Sampling.Elements = 2000;
+  options.Sampling.Size = Size([](const Point<3>&, std::int64_t) { return 1.0; });
   SimplexMesh<3> mesh;
   try
   {
@@ -269,8 +270,8 @@ TEST(ElementTarget, SaysWhatIsNearestIfThereIsNone)
 TEST(ElementTarget, GoesWithoutDelta)
 {
   MeshingOptions<3> options;
-  options.Elements = 2000;
-  options.Delta = 1.0;
+  options.Sampling.Elements = 2000;
+  options.Sampling.Delta = 1.0;
   SimplexMesh<3> mesh;
   EXPECT_THROW(ImageMesher<3>(options).Run(phantoms::Ball(10.0), mesh), InputError);
 }
@@ -279,7 +280,7 @@ TEST(ElementTarget, ProgressNeverFallsAndAnyRunCanBeCancelled)
 {
   const LabelImage<3> image = phantoms::NestedBalls(24.0);
   MeshingOptions<3> options;
-  options.Elements = 60000;
+  options.Sampling.Elements = 60000;
   ImageMesher<3> mesher(options);
   double last = 0.0;
   bool falls = false;

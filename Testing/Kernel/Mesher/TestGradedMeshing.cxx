@@ -49,9 +49,9 @@ LabelImage<3> SmallAndLarge()
 MeshingOptions<3> Graded(double delta, double ratio = 1.0)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
-  options.Grading.Mode = GradingMode::LocalFeatureSize;
-  options.Grading.Ratio = ratio;
+  options.Sampling.Delta = delta;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Grading.Ratio = ratio;
   return options;
 }
 
@@ -186,7 +186,7 @@ TEST(GradedMeshing, IsFineWhereTheShapeIs)
 {
   const LabelImage<3> image = SmallAndLarge();
   MeshingOptions<3> uniform;
-  uniform.Delta = 1.5;
+  uniform.Sampling.Delta = 1.5;
   const SimplexMesh<3> plain = Mesh(image, uniform);
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(image, Graded(1.5, 0.5), &statistics);
@@ -216,7 +216,7 @@ TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
     const std::size_t plain = Mesh(image, Graded(2.0, 0.6)).Simplices.size();
     MeshingOptions<3> coarse = Graded(2.0, 2.0);
     const std::size_t ratio = Mesh(image, coarse, &statistics).Simplices.size();
-    coarse.Grading.Lambda = 100.0;
+    coarse.Sampling.Grading.Lambda = 100.0;
     const std::size_t lambda = Mesh(image, coarse).Simplices.size();
     EXPECT_LT(statistics.Interfaces.Seeds, 100u);
     EXPECT_LT(ratio, plain + plain / 5);
@@ -235,7 +235,7 @@ TEST(GradedMeshing, RulesDoNotUndoEachOther)
       static_cast<double>(mesh.Simplices.size());
   };
   MeshingOptions<3> uniform;
-  uniform.Delta = 0.8;
+  uniform.Sampling.Delta = 0.8;
   EXPECT_LT(created(Graded(0.8, 1.0)), 2.5 * created(uniform));
 }
 
@@ -267,7 +267,7 @@ TEST(GradedMeshing, LosesNoLabelAndNoComponent)
   for (const unsigned threads : { 1u, 3u })
   {
     MeshingOptions<3> options = Graded(2.0, 2.0);
-    options.Threads = threads;
+    options.Team.Threads = threads;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(image, options, &statistics);
     EXPECT_TRUE(statistics.Components.Lost.empty());
@@ -327,17 +327,17 @@ TEST(GradedMeshing, UniformIsAsBefore)
 {
   const LabelImage<3> image = SmallAndLarge();
   MeshingOptions<3> options;
-  options.Delta = 2.0;
+  options.Sampling.Delta = 2.0;
   MeshingStatistics statistics;
   const SimplexMesh<3> plain = Mesh(image, options, &statistics);
   EXPECT_EQ(statistics.LargestDelta, 2.0);
   EXPECT_EQ(statistics.GradingSamples, 0u);
-  options.Grading.Ratio = 3.0;
-  options.Grading.Lambda = 1.0;
+  options.Sampling.Grading.Ratio = 3.0;
+  options.Sampling.Grading.Lambda = 1.0;
   EXPECT_EQ(Mesh(image, options).Points, plain.Points);
   // With a lambda that allows nothing above delta grading changes nothing either.
   options = Graded(2.0, 1.0);
-  options.Grading.Lambda = 1.0;
+  options.Sampling.Grading.Lambda = 1.0;
   EXPECT_EQ(Mesh(image, options).Points, plain.Points);
 }
 
@@ -351,7 +351,7 @@ TEST(GradedMeshing, RefusesWrongOptions)
     MeshingOptions<3> options = Graded(2.0, wrong);
     EXPECT_THROW(ImageMesher<3>(options).Run(image, mesh), InputError) << wrong;
     options = Graded(2.0);
-    options.Grading.Lambda = wrong;
+    options.Sampling.Grading.Lambda = wrong;
     EXPECT_THROW(ImageMesher<3>(options).Run(image, mesh), InputError) << wrong;
   }
 }

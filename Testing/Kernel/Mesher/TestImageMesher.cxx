@@ -38,7 +38,7 @@ SimplexMesh<3> Mesh(const LabelImage<3>& image, const MeshingOptions<3>& options
 SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   return Mesh(image, options);
 }
 
@@ -193,8 +193,8 @@ TEST(ImageMesher, TouchingLabelsShareTheirInterface)
   for (const bool junctions : { false, true })
   {
     MeshingOptions<3> options;
-    options.Delta = 1.0;
-    options.SampleJunctions = junctions;
+    options.Sampling.Delta = 1.0;
+    options.Interfaces.SampleJunctions = junctions;
     const SimplexMesh<3> mesh = Mesh(image, options);
     ExpectGood(mesh, 0.0);
     const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
@@ -229,13 +229,13 @@ TEST(ImageMesher, SliversAreSplit)
   for (const LabelImage<3>& image : images)
   {
     MeshingOptions<3> options;
-    options.Delta = 1.0;
-    options.TetSlivers.Angle = 0.0;
+    options.Sampling.Delta = 1.0;
+    options.Shape.Slivers.Angle = 0.0;
     const SimplexMesh<3> with = Mesh(image, options);
-    options.TetSlivers.Angle = 9.0;
+    options.Shape.Slivers.Angle = 9.0;
     for (const unsigned threads : { 1u, 4u })
     {
-      options.Threads = threads;
+      options.Team.Threads = threads;
       const SimplexMesh<3> without = Mesh(image, options);
       ExpectGood(without, &image == &images[1] ? 0.0 : 30.0);
       const MeshQuality before = MeasureQuality<3>(with, 2.0, 30.0, 1);
@@ -286,9 +286,9 @@ TEST(ImageMesher, SliversInsideAreLeftToOptimisation)
       return labels[block(0) + 10 * (block(1) + 10 * block(2))];
     });
   MeshingOptions<3> options;
-  options.Delta = 3.0;
+  options.Sampling.Delta = 3.0;
   const SimplexMesh<3> all = Mesh(image, options);
-  options.TetSlivers.AngleInside = 3.0;
+  options.Shape.Slivers.AngleInside = 3.0;
   const SimplexMesh<3> some = Mesh(image, options);
   EXPECT_LT(some.Simplices.size(), 0.95 * static_cast<double>(all.Simplices.size()));
   EXPECT_LE(CountSlivers(all, 0.0, 9.0), 20u);
@@ -322,7 +322,7 @@ TEST(ImageMesher, SliversBetweenTwoSidesOfASheetAreSplit)
     for (const double delta : { 1.5, 2.0, 2.5 })
     {
       MeshingOptions<3> options;
-      options.Delta = delta;
+      options.Sampling.Delta = delta;
       ImageMesher<3> mesher(options);
       SimplexMesh<3> mesh;
       mesher.Run(image, mesh);
@@ -409,8 +409,8 @@ TEST(ImageMesher, SizesBoundCircumradii)
   const LabelImage<3> image = phantoms::NestedBalls(15.0);
   const std::size_t without = Mesh(image, 2.5).Simplices.size();
   MeshingOptions<3> options;
-  options.Delta = 2.5;
-  options.Size = Size([](const Point<3>&, std::int64_t) { return 1.5; });
+  options.Sampling.Delta = 2.5;
+  options.Sampling.Size = Size([](const Point<3>&, std::int64_t) { return 1.5; });
   SimplexMesh<3> mesh = Mesh(image, options);
   ExpectGood(mesh);
   EXPECT_GT(mesh.Simplices.size(), 2 * without);
@@ -419,7 +419,7 @@ TEST(ImageMesher, SizesBoundCircumradii)
     ASSERT_LT(checks::Circumradius(mesh, t), 1.5 + 1e-9);
   }
 
-  options.Size = Size([](const Point<3>&, std::int64_t label)
+  options.Sampling.Size = Size([](const Point<3>&, std::int64_t label)
     { return label == 7 ? 1.0 : std::numeric_limits<double>::quiet_NaN(); });
   mesh = Mesh(image, options);
   ExpectGood(mesh);
@@ -442,8 +442,9 @@ TEST(ImageMesher, SizesBoundCircumradii)
 TEST(ImageMesher, TinySizesAreRaisedToTheFloor)
 {
   MeshingOptions<3> options;
-  options.Delta = 4.0;
-  options.Size = Size([](const Point<3>& p, std::int64_t) { return p[0] < 6.0 ? 1e-12 : 0.0; });
+  options.Sampling.Delta = 4.0;
+  options.Sampling.Size =
+    Size([](const Point<3>& p, std::int64_t) { return p[0] < 6.0 ? 1e-12 : 0.0; });
   const SimplexMesh<3> mesh = Mesh(phantoms::Ball(4.0), options);
   EXPECT_TRUE(checks::Complaints(mesh).empty());
 }
@@ -493,16 +494,16 @@ TEST(ImageMesher, BadOptionsSaySo)
     { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     options = MeshingOptions<3>();
-    options.Delta = delta;
+    options.Sampling.Delta = delta;
     EXPECT_NE(MessageOf(image, options).find("delta"), std::string::npos) << delta;
   }
   options = MeshingOptions<3>();
-  options.RadiusEdgeRatio = 1.5;
+  options.Shape.RadiusEdgeRatio = 1.5;
   EXPECT_NE(MessageOf(image, options).find("1.93"), std::string::npos);
-  options.Force = true;
+  options.Limits.Force = true;
   EXPECT_EQ(MessageOf(image, options), "");
   options = MeshingOptions<3>();
-  options.FacetAngle = 31.0;
+  options.Shape.FacetAngle = 31.0;
   EXPECT_NE(MessageOf(image, options).find("facet angle"), std::string::npos);
   options = MeshingOptions<3>();
   options.SmoothingSigma = -1.0;
@@ -513,14 +514,14 @@ TEST(ImageMesher, MeshesThatDoNotFitAreRefusedWithTheEstimate)
 {
   const LabelImage<3> image = phantoms::Ball(10.0);
   MeshingOptions<3> options;
-  options.Delta = 1e-4;
+  options.Sampling.Delta = 1e-4;
   const std::string message = MessageOf(image, options);
   EXPECT_NE(message.find("GiB"), std::string::npos) << message;
   EXPECT_NE(message.find("elements"), std::string::npos) << message;
-  options.Delta = 1.0;
-  options.MemoryLimit = 1000;
+  options.Sampling.Delta = 1.0;
+  options.Limits.Memory = 1000;
   EXPECT_NE(MessageOf(image, options).find("larger delta"), std::string::npos);
-  options.Force = true;
+  options.Limits.Force = true;
   EXPECT_EQ(MessageOf(image, options), "");
 }
 
@@ -544,10 +545,10 @@ TEST(ImageMesher, EstimateIsOfTheRightOrder)
       for (const double size : { 0.0, delta })
       {
         MeshingOptions<3> options;
-        options.Delta = delta;
+        options.Sampling.Delta = delta;
         if (size > 0.0)
         {
-          options.Size = Size([=](const Point<3>&, std::int64_t) { return size; });
+          options.Sampling.Size = Size([=](const Point<3>&, std::int64_t) { return size; });
         }
         ImageMesher<3> mesher(options);
         SimplexMesh<3> mesh;
@@ -583,7 +584,7 @@ TEST(ImageMesher, ProgressRisesAndComesFromTheCaller)
 TEST(ImageMesher, WhatTheCallbackThrowsEndsTheRun)
 {
   MeshingOptions<3> options;
-  options.Delta = 0.2;
+  options.Sampling.Delta = 0.2;
   ImageMesher<3> mesher(options);
   mesher.Progress = [](double) -> bool { throw std::runtime_error("enough"); };
   SimplexMesh<3> mesh;
@@ -593,7 +594,7 @@ TEST(ImageMesher, WhatTheCallbackThrowsEndsTheRun)
 TEST(ImageMesher, CancellingGivesAnEmptyMesh)
 {
   MeshingOptions<3> options;
-  options.Delta = 0.2; // far more work than the test waits for
+  options.Sampling.Delta = 0.2; // far more work than the test waits for
   ImageMesher<3> mesher(options);
   int calls = 0;
   mesher.Progress = [&](double) { return ++calls < 4; };
@@ -615,7 +616,7 @@ TEST(ImageMesher, CancellingAtOnceDoesNotWaitForThePreparation)
   {
     MeshingOptions<3> options;
     options.SmoothingSigma = LabelField<3>::MaximumSigma;
-    options.Threads = threads;
+    options.Team.Threads = threads;
     ImageMesher<3> mesher(options);
     int calls = 0;
     mesher.Progress = [&](double)

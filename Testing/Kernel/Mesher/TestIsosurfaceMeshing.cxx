@@ -68,7 +68,7 @@ template <typename T>
 SimplexMesh<3> Mesh(const GreyImage<T>& grey, double delta, MeshingStatistics* statistics = nullptr)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   EXPECT_EQ(mesher.Run(grey.Image, mesh), MeshingOutcome::Done);
@@ -191,7 +191,7 @@ TEST(IsosurfaceMeshing, BallOfASignedDistance)
   EXPECT_NEAR(Volume(mesh), BallVolume(20.0), 0.012 * BallVolume(20.0));
   // What the same voxels give as a label image.
   MeshingOptions<3> options;
-  options.Delta = 2.0;
+  options.Sampling.Delta = 2.0;
   SimplexMesh<3> ofLabels;
   ImageMesher<3>(options).Run(grey.Image.Labels(), ofLabels);
   EXPECT_LT(8.0 * d.Mean, DistancesTo(ofLabels, depth).Mean);
@@ -384,9 +384,9 @@ TEST(IsosurfaceMeshing, SeveralThreads)
   const auto depth = Depth(15.0, { 19.4, 19.5, 19.6 });
   const auto grey = Make(Sample(Cube(40), depth), Cube(40));
   MeshingOptions<3> options;
-  options.Delta = 1.5;
-  options.Threads = 3;
-  options.Optimise = true;
+  options.Sampling.Delta = 1.5;
+  options.Team.Threads = 3;
+  options.Optimisation.Run = true;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   ASSERT_EQ(mesher.Run(grey.Image, mesh), MeshingOutcome::Done);
@@ -415,8 +415,8 @@ TEST(IsosurfaceMeshing, SpaceTime)
   }
   const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, {});
   MeshingOptions<4> options;
-  options.Delta = 1.5;
-  options.Slivers.VolumeBound = 0.0;
+  options.Sampling.Delta = 1.5;
+  options.SpaceTime.Slivers.VolumeBound = 0.0;
   ImageMesher<4> mesher(options);
   SimplexMesh<4> mesh;
   ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

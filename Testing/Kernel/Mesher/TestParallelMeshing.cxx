@@ -85,8 +85,8 @@ std::vector<Case> Cases()
 MeshingOptions<3> Options(double delta, unsigned threads)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
-  options.Threads = threads;
+  options.Sampling.Delta = delta;
+  options.Team.Threads = threads;
   return options;
 }
 
@@ -173,7 +173,7 @@ TEST(ParallelMeshing, SizesAreRespected)
       unknown += label == 3 || label == 7 || label == 200 ? 0 : 1;
       return label == 7 ? 1.0 : p[2] < c ? 1.3 : 2.5;
     };
-    options.Size = std::make_shared<CallableSize>(size);
+    options.Sampling.Size = std::make_shared<CallableSize>(size);
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -192,7 +192,7 @@ TEST(ParallelMeshing, OneThreadIsReproducible)
   for (const bool synchronise : { false, true })
   {
     MeshingOptions<3> options = Options(1.2, 1);
-    options.Synchronise = synchronise;
+    options.Team.Synchronise = synchronise;
     SimplexMesh<3> first;
     SimplexMesh<3> second;
     ImageMesher<3>(options).Run(image, first);
@@ -215,7 +215,7 @@ TEST(ParallelMeshing, AllCoresAndPinnedThreads)
   for (const unsigned threads : { 0u, 3u, 8u })
   {
     MeshingOptions<3> options = Options(1.2, threads);
-    options.PinThreads = true;
+    options.Team.Pin = true;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -278,9 +278,9 @@ TEST(ParallelMeshing, CancelledAtAnyMoment)
     SCOPED_TRACE(name);
     const Watchdog watchdog(name);
     MeshingOptions<3> options = Options(0.3, 8);
-    options.Contention = static_cast<ContentionPolicy>(k % 4);
-    options.Balance = static_cast<BalancePolicy>(k / 4 % 2);
-    options.RemoveEagerly = k % 3 == 0;
+    options.Team.Contention = static_cast<ContentionPolicy>(k % 4);
+    options.Team.Balance = static_cast<BalancePolicy>(k / 4 % 2);
+    options.Team.RemoveEagerly = k % 3 == 0;
     ImageMesher<3> mesher(options);
     std::clock_t cancelled = 0; // processor time of all threads: others may keep the machine busy
     int calls = 0;
@@ -366,8 +366,8 @@ TEST(ParallelMeshing, TheSwitchToTheLocalManagerIsReported)
       const Watchdog watchdog("switch, asleep at query " + std::to_string(sleeping));
       std::atomic<long> queries{ 0 };
       MeshingOptions<3> options = Options(1.2, 4);
-      options.Contention = contention;
-      options.Size = std::make_shared<CallableSize>(
+      options.Team.Contention = contention;
+      options.Sampling.Size = std::make_shared<CallableSize>(
         [&](const Point<3>&, std::int64_t)
         {
           if (++queries == sleeping)
@@ -406,7 +406,7 @@ void ExpectSizeErrorsLeaveRun()
   const auto run = [&](unsigned threads, bool withProgress)
   {
     MeshingOptions<3> options = Options(1.2, threads);
-    options.Size = size;
+    options.Sampling.Size = size;
     ImageMesher<3> mesher(options);
     if (withProgress)
     {

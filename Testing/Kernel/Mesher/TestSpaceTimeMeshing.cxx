@@ -98,7 +98,7 @@ TEST(SpaceTimeMeshing, BothRuleOrders)
   for (const RuleOrder order : { RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst })
   {
     SCOPED_TRACE(order == RuleOrder::SurfaceFirst ? "surface first" : "radius-edge first");
-    options.Order = order;
+    options.SpaceTime.Order = order;
     SimplexMesh<4>& mesh = meshes[static_cast<std::size_t>(order)];
     mesh = Mesh(image, options);
     // Seen: 0 and 4 of some 3,700 facets off, beside a flat end.
@@ -238,10 +238,11 @@ TEST(SpaceTimeMeshing, SizesBoundCircumradii)
   const Tolerances nearEnds = { 2.4, 0.08, true };
   const std::size_t without = Mesh(image, 3.0).Simplices.size();
   MeshingOptions<4> options = SpaceTimeOptions(3.0);
-  options.Gradation = 0.0; // sizes that step; the tolerances are for them
+  options.Sampling.Gradation = 0.0; // sizes that step; the tolerances are for them
   const auto size = [](double (*f)(const Point<4>&, std::int64_t))
   { return std::make_shared<CallableSizeOf<4>>(f); };
-  options.Size = size([](const Point<4>& p, std::int64_t) { return p[3] < 4.0 ? 2.0 : 6.0; });
+  options.Sampling.Size =
+    size([](const Point<4>& p, std::int64_t) { return p[3] < 4.0 ? 2.0 : 6.0; });
   SimplexMesh<4> mesh = Mesh(image, options);
   ExpectGood(mesh, image, nearEnds);
   EXPECT_GT(mesh.Simplices.size(), without * 3 / 2);
@@ -255,7 +256,7 @@ TEST(SpaceTimeMeshing, SizesBoundCircumradii)
     ASSERT_LT(Circumradius(mesh, s), latest < 2.0 ? 2.0 + 1e-9 : 6.0 + 1e-9);
   }
 
-  options.Size = size([](const Point<4>&, std::int64_t label)
+  options.Sampling.Size = size([](const Point<4>&, std::int64_t label)
     { return label == 1 ? 1.6 : std::numeric_limits<double>::quiet_NaN(); });
   mesh = Mesh(image, options);
   ExpectGood(mesh, image, nearEnds);
@@ -297,8 +298,8 @@ TEST(SpaceTimeMeshing, ThreadsManagersAndBalancersMakeGoodMeshes)
         SCOPED_TRACE(name);
         const Watchdog watchdog(name);
         MeshingOptions<4> options = SpaceTimeOptions(2.5, threads);
-        options.Contention = contention;
-        options.Balance = balance;
+        options.Team.Contention = contention;
+        options.Team.Balance = balance;
         const SimplexMesh<4> mesh = Mesh(image, options);
         ExpectGood(mesh, image, { 2.0, 0.005, true });
         const auto volumes = Volumes(mesh);
@@ -332,10 +333,10 @@ TEST(SpaceTimeMeshing, MeshesThatDoNotFitAreRefused)
 {
   const LabelImage<4> image = ImageOf(phantoms::FourBall(5.0));
   MeshingOptions<4> options = SpaceTimeOptions(2.0);
-  options.MemoryLimit = 1000;
+  options.Limits.Memory = 1000;
   SimplexMesh<4> mesh;
   EXPECT_THROW(ImageMesher<4>(options).Run(image, mesh), TooLargeError);
-  options.Force = true;
+  options.Limits.Force = true;
   EXPECT_EQ(ImageMesher<4>(options).Run(image, mesh), MeshingOutcome::Done);
   options = SpaceTimeOptions(1e-3);
   EXPECT_THROW(ImageMesher<4>(options).Run(image, mesh), TooLargeError);

@@ -31,7 +31,7 @@ constexpr double Sigma = 1.0;
 SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   options.SmoothingSigma = Sigma;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;

@@ -279,8 +279,8 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   const LabelImage<3> image = phantoms::CutCells(7, 240, 4, 0); // of three labels and of background
   const ImageDomain<3> domain(image, 1.0);
   MeshingOptions<3> options;
-  options.Delta = 1.2;
-  options.TetSlivers.Angle = 0.0; // leaves many to relabelling
+  options.Sampling.Delta = 1.2;
+  options.Shape.Slivers.Angle = 0.0; // leaves many to relabelling
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

@@ -48,7 +48,7 @@ TEST(FindInterfaces, AgreesWithExtraction)
   for (const bool three : { true, false })
   {
     MeshingOptions<3> options;
-    options.Delta = 3.0;
+    options.Sampling.Delta = 3.0;
     SimplexMesh<3> mesh;
     ImageMesher<3>(options).Run(
       three ? phantoms::NestedBalls(12) : phantoms::TouchingLabels(12), mesh);
@@ -160,7 +160,7 @@ TEST(InterfaceTopology, CubesThatTouchInAnEdge)
 TEST(InterfaceTopology, DoesNotDependOnThreads)
 {
   MeshingOptions<3> options;
-  options.Delta = 1.5;
+  options.Sampling.Delta = 1.5;
   SimplexMesh<3> mesh;
   ImageMesher<3>(options).Run(phantoms::TouchingLabels(20), mesh);
   const InterfaceTopology one = MeasureTopology(mesh, 1);

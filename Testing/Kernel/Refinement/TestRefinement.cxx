@@ -140,8 +140,8 @@ TEST(Refinement, FreeVerticesNearFeatureVerticesAreRemoved)
   const BallDomain ball(5.0);
   RefinementSettings<3> settings;
   settings.Sizing.Base = { 1.0 };
-  settings.RadiusEdgeRatio = 1e9;
-  settings.TetSlivers.Angle = 0.0;
+  settings.Shape.RadiusEdgeRatio = 1e9;
+  settings.Shape.Slivers.Angle = 0.0;
   RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
   Refiner<Rules3D> refiner(context);
   refiner.Run(nullptr);

@@ -102,12 +102,12 @@ TEST(RegionalWork, RulesGiveWayStepByStep)
 TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
 {
   MeshingOptions<3> options;
-  options.Delta = 2.0;
-  options.TetSlivers.Angle = 40.0;
-  options.Force = true;
+  options.Sampling.Delta = 2.0;
+  options.Shape.Slivers.Angle = 40.0;
+  options.Limits.Force = true;
   for (const unsigned threads : { 1u, 4u })
   {
-    options.Threads = threads;
+    options.Team.Threads = threads;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(phantoms::Ball(8.0), mesh), MeshingOutcome::Done);
@@ -126,8 +126,8 @@ TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
 TEST(RegionalWork, IsModestOnPhantoms)
 {
   MeshingOptions<3> options;
-  options.Delta = 1.5;
-  options.Threads = 1;
+  options.Sampling.Delta = 1.5;
+  options.Team.Threads = 1;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   ASSERT_EQ(mesher.Run(phantoms::NestedBalls(9.0), mesh), MeshingOutcome::Done);
@@ -156,12 +156,12 @@ TEST(RegionalWork, IsCountedWherePointsAreMovedTo)
 TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
 {
   MeshingOptions<4> options;
-  options.Delta = 2.0;
-  options.Slivers.VolumeBound = 0.3;
-  options.Force = true;
+  options.Sampling.Delta = 2.0;
+  options.SpaceTime.Slivers.VolumeBound = 0.3;
+  options.Limits.Force = true;
   for (const unsigned threads : { 1u, 3u })
   {
-    options.Threads = threads;
+    options.Team.Threads = threads;
     ImageMesher<4> mesher(options);
     SimplexMesh<4> mesh;
     ASSERT_EQ(mesher.Run(checks::ImageOf(phantoms::FourBall(4.0)), mesh), MeshingOutcome::Done);

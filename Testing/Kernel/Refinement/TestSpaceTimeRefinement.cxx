@@ -47,11 +47,11 @@ SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::ui
   unsigned threads = 1, RuleOrder order = RuleOrder::RadiusEdgeFirst)
 {
   MeshingOptions<4> options;
-  options.Delta = delta;
-  options.Threads = threads;
-  options.Order = order;
-  options.Slivers.Fight = true;
-  options.Slivers.Seed = seed;
+  options.Sampling.Delta = delta;
+  options.Team.Threads = threads;
+  options.SpaceTime.Order = order;
+  options.SpaceTime.Slivers.Fight = true;
+  options.SpaceTime.Slivers.Seed = seed;
   ImageMesher<4> mesher(options);
   SimplexMesh<4> mesh;
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -83,8 +83,8 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
       RefinementSettings<4> settings;
       settings.Sizing.Base = { 1.4 };
       settings.Sizing.Size = sf;
-      settings.Order = order;
-      settings.Slivers.Fight = false;
+      settings.SpaceTime.Order = order;
+      settings.SpaceTime.Slivers.Fight = false;
       RefinementContext<4> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
       Refiner<Rules4D> refiner(context);
       ASSERT_TRUE(refiner.Run(nullptr));

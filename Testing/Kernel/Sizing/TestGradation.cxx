@@ -257,8 +257,8 @@ TEST(Gradation, ElementsOfNeighboursObeyTheBound)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30); // the plane is x = 18.5
   MeshingOptions<3> options;
-  options.Delta = 4.0;
-  options.Size = std::make_shared<CallableSize>(
+  options.Sampling.Delta = 4.0;
+  options.Sampling.Size = std::make_shared<CallableSize>(
     [](const Point<3>&, std::int64_t label) { return label == 1 ? 1.0 : 100.0; });
   const auto excess = [&](double gradation, const SimplexMesh<3>& mesh)
   {
@@ -283,7 +283,7 @@ TEST(Gradation, ElementsOfNeighboursObeyTheBound)
     [&]
     {
       MeshingOptions<3> without = options;
-      without.Gradation = 0.0;
+      without.Sampling.Gradation = 0.0;
       return without;
     }());
   SimplexMesh<3> mesh;
@@ -294,7 +294,7 @@ TEST(Gradation, ElementsOfNeighboursObeyTheBound)
   std::size_t last = std::numeric_limits<std::size_t>::max();
   for (const double gradation : { 0.1, 0.3 })
   {
-    options.Gradation = gradation;
+    options.Sampling.Gradation = gradation;
     ImageMesher<3> mesher(options);
     mesher.Run(image, mesh);
     EXPECT_TRUE(checks::Complaints(mesh).empty());
@@ -310,18 +310,18 @@ TEST(Gradation, MeshesWithoutSizesDoNotKnowIt)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(12);
   MeshingOptions<3> options;
-  options.Delta = 1.5;
+  options.Sampling.Delta = 1.5;
   std::array<SimplexMesh<3>, 3> meshes;
   for (std::size_t i = 0; i < meshes.size(); ++i)
   {
-    options.Gradation = std::array{ 0.0, 0.3, 0.01 }[i];
+    options.Sampling.Gradation = std::array{ 0.0, 0.3, 0.01 }[i];
     ImageMesher<3>(options).Run(image, meshes[i]);
     EXPECT_EQ(meshes[i].Points, meshes[0].Points);
     EXPECT_EQ(meshes[i].Simplices, meshes[0].Simplices);
   }
   for (const double wrong : { -0.1, Infinity, std::numeric_limits<double>::quiet_NaN() })
   {
-    options.Gradation = wrong;
+    options.Sampling.Gradation = wrong;
     EXPECT_THROW(ImageMesher<3>(options).Run(image, meshes[0]), InputError);
   }
 }

@@ -55,10 +55,10 @@ SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, std::vector<Interf
   double gradation = 0.3, unsigned threads = 1)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
-  options.InterfaceSizes = std::move(sizes);
-  options.Gradation = gradation;
-  options.Threads = threads;
+  options.Sampling.Delta = delta;
+  options.Sampling.InterfaceSizes = std::move(sizes);
+  options.Sampling.Gradation = gradation;
+  options.Team.Threads = threads;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -262,10 +262,10 @@ TEST(InterfaceSizes, PassIntoEachOtherAtJunctions)
   const auto meshWith = [&](double gradation)
   {
     MeshingOptions<3> options;
-    options.Delta = 5.0;
-    options.InterfaceSizes = { { 1, 2, 0.8 } };
-    options.Gradation = gradation;
-    options.SampleJunctions = false;
+    options.Sampling.Delta = 5.0;
+    options.Sampling.InterfaceSizes = { { 1, 2, 0.8 } };
+    options.Sampling.Gradation = gradation;
+    options.Interfaces.SampleJunctions = false;
     SimplexMesh<3> mesh;
     EXPECT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
     return mesh;
@@ -289,9 +289,9 @@ TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
   for (const unsigned rounds : { 0u, 5u })
   {
     MeshingOptions<3> options;
-    options.Delta = 1.0;
-    options.InterfaceSizes = { { 200, 0, 6.0 } };
-    options.Gradation = 0.0;
+    options.Sampling.Delta = 1.0;
+    options.Sampling.InterfaceSizes = { { 200, 0, 6.0 } };
+    options.Sampling.Gradation = 0.0;
     options.Interfaces.Rounds = rounds;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
@@ -313,9 +313,9 @@ TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
   for (const auto& [image, sizes] : cases)
   {
     MeshingOptions<3> options;
-    options.Delta = 1.0;
-    options.InterfaceSizes = sizes;
-    options.Gradation = 0.0;
+    options.Sampling.Delta = 1.0;
+    options.Sampling.InterfaceSizes = sizes;
+    options.Sampling.Gradation = 0.0;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -334,9 +334,9 @@ TEST(InterfaceSizes, JunctionsBelongToTheFinestInterface)
   const auto pointsWith = [&](std::vector<InterfaceSize> sizes)
   {
     MeshingOptions<3> options;
-    options.Delta = 4.0;
-    options.InterfaceSizes = std::move(sizes);
-    options.Gradation = 0.0;
+    options.Sampling.Delta = 4.0;
+    options.Sampling.InterfaceSizes = std::move(sizes);
+    options.Sampling.Gradation = 0.0;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -356,9 +356,9 @@ TEST(InterfaceSizes, GoWithGradingByLocalFeatureSize)
   for (const GradingMode mode : { GradingMode::Uniform, GradingMode::LocalFeatureSize })
   {
     MeshingOptions<3> options;
-    options.Delta = 1.5;
-    options.Grading.Mode = mode;
-    options.InterfaceSizes = { { 3, 7, 1.5 } };
+    options.Sampling.Delta = 1.5;
+    options.Sampling.Grading.Mode = mode;
+    options.Sampling.InterfaceSizes = { { 3, 7, 1.5 } };
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
     ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
@@ -376,9 +376,10 @@ TEST(InterfaceSizes, SmallerElementSizesTakeTheirPlace)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
   MeshingOptions<3> options;
-  options.Delta = 3.0;
-  options.InterfaceSizes = { { 200, Any, 6.0 } };
-  options.Size = std::make_shared<CallableSize>([](const Point<3>&, std::int64_t) { return 1.5; });
+  options.Sampling.Delta = 3.0;
+  options.Sampling.InterfaceSizes = { { 200, Any, 6.0 } };
+  options.Sampling.Size =
+    std::make_shared<CallableSize>([](const Point<3>&, std::int64_t) { return 1.5; });
   SimplexMesh<3> mesh;
   ImageMesher<3> mesher(options);
   mesher.Run(image, mesh);

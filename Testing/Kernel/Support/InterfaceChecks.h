@@ -100,10 +100,10 @@ inline SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned ro
   MeshingStatistics* statistics = nullptr, unsigned threads = 1)
 {
   MeshingOptions<3> options;
-  options.Delta = delta;
+  options.Sampling.Delta = delta;
   options.Interfaces.Rounds = rounds;
   options.Interfaces.Manifold = rounds > 0; // without rounds all is as it comes
-  options.Threads = threads;
+  options.Team.Threads = threads;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
   EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);

@@ -135,7 +135,7 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
     }
     if (inside)
     {
-      ASSERT_LT(radius / shortest, context.Settings.RadiusEdgeRatio) << "radius-edge ratio";
+      ASSERT_LT(radius / shortest, context.Settings.Shape.RadiusEdgeRatio) << "radius-edge ratio";
       ASSERT_LT(radius, context.Sizing.ElementSize(c.Center, 1)) << "sizes";
     }
   }

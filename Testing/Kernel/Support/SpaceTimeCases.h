@@ -57,9 +57,9 @@ inline LabelImage<4> ImageOf(const phantoms::SpaceTimePhantom& phantom)
 inline MeshingOptions<4> SpaceTimeOptions(double delta, unsigned threads = 1)
 {
   MeshingOptions<4> options;
-  options.Delta = delta;
-  options.Threads = threads;
-  options.Slivers.Fight = false;
+  options.Sampling.Delta = delta;
+  options.Team.Threads = threads;
+  options.SpaceTime.Slivers.Fight = false;
   return options;
 }
 

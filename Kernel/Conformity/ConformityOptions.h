@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ConformityOptions.h
+ * @brief What the mesh keeps of the image: components and interfaces.
+ */
+#ifndef voxplex_ConformityOptions_h
+#define voxplex_ConformityOptions_h
+
+#include <cstdint>
+
+namespace voxplex
+{
+
+/** The options of the connected components of labels; 3D only. */
+struct ComponentOptions
+{
+  /**
+   * Connected components (through faces) with at least this number of voxels get elements, however
+   * large delta is. So does the largest component of each label, however small it is. 0: components
+   * are not checked. Components that still have no element are in ComponentStatistics::Lost.
+   */
+  std::int64_t Smallest = 8;
+  /**
+   * If true, the components that are checked are sampled as finely as their thickness requires from
+   * the start, however large delta is. If false, a component that is thin compared with delta is
+   * only as exact as delta allows, but has at least one element.
+   */
+  bool Exact = false;
+};
+
+/** The options of interfaces; 3D only. */
+struct InterfaceOptions
+{
+  /**
+   * Start with points on the curves where three or more labels meet, so that edges of the mesh
+   * follow these curves.
+   */
+  bool SampleJunctions = true;
+  /**
+   * How many times, at most, refinement is resumed because interfaces of the image are too far from
+   * those of the mesh (UniformInterfaceCheck, GradedInterfaceCheck), or because interfaces of the
+   * mesh are not manifold. 0: never.
+   */
+  unsigned Rounds = 8;
+  /**
+   * Make the boundary of every label manifold: two of its facets meet at each edge. Some tetrahedra
+   * may be cut in pieces for this (MakeSpindles); the pieces are not Delaunay. Does not depend on
+   * Rounds.
+   */
+  bool Manifold = true;
+};
+
+} // namespace voxplex
+
+#endif
