@@ -86,8 +86,8 @@ po::options_description DescribeFiles()
     ("input", Text("FILE"),
       "the label image, of three or four dimensions: any file that ITK reads (NRRD, NIfTI, "
       "MetaImage, ...) or a folder that holds a DICOM series; 0 is background; or a grey-value "
-      "image (--isovalue)")                                                    //
-    ("series", Text("UID"), "which DICOM series, if the folder holds several") //
+      "image (--isovalue)")                                                          //
+    ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
     ("output", Text("FILE"),
       ("the tetrahedra; the extension chooses the format: " +
         ListExtensions(OutputOption::Output, 3) +
@@ -103,7 +103,7 @@ po::options_description DescribeFiles()
       "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too (3D "
       "only)") //
     ("hausdorff",
-      "as --quality, and the symmetric Hausdorff distance between the interfaces of the mesh and "
+      "like --quality, and the symmetric Hausdorff distance between the interfaces of the mesh and "
       "of the image (3D only)");
   return options;
 }
@@ -127,7 +127,7 @@ void AddOwn(po::options_description& options, ParameterGroup group)
         "write the mesh as it is at several times: PREFIX0.vtu, PREFIX1.vtu, ... and a .pvd file "
         "that ParaView plays") //
       ("slice-count", Text("NUMBER"),
-        "so many slices, equally spaced from the first to the last time, both included (default: "
+        "number of slices, equally spaced from the first to the last time, both included (default: "
         "one for each frame of the image)");
   }
   if (group == ParameterGroup::Running)
@@ -205,8 +205,8 @@ std::string HelpText(const po::options_description& options)
   text
     << "Usage: voxplex --input FILE [--delta LENGTH] [--output FILE] [--plc FILE] [options]\n\n"
        "Turns a segmented 3D image into a conforming mesh of tetrahedra for finite elements, and\n"
-       "one of space and time (4D) into a mesh of pentatopes. What an isosurface of a grey-value\n"
-       "image bounds is meshed with --isovalue.\n"
+       "one of space and time (4D) into a mesh of pentatopes. With --isovalue, it meshes the\n"
+       "region that an isosurface of a grey-value image bounds.\n"
        "Lengths are in the unit of the image, usually millimetres.\n"
     << options << '\n'
     << Examples

@@ -46,7 +46,7 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
 /** "8G": bytes, with K, M, G and T for powers of 1024. */
 std::uint64_t ParseBytes(const std::string& option, const std::string& text);
 
-/** The place of one of several words, whatever the case. */
+/** The place of one of several words. The case of letters does not count. */
 int ParseWord(
   const std::string& option, const std::string& text, const std::vector<std::string>& words);
 

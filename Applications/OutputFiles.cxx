@@ -39,7 +39,7 @@ fs::path Canonical(const fs::path& path)
   return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
 }
 
-/** A hidden name in the folder, of which none exists: a process that was killed may have left some. */
+/** A hidden name that is free in the folder. A process that was killed may have left files there. */
 std::string FreeName(const fs::path& target, std::size_t number)
 {
   const std::string begin = ".voxplex-" + std::to_string(getpid()) + "-" + std::to_string(number);
@@ -145,7 +145,7 @@ void OutputFiles::WriteText(
 void OutputFiles::Commit()
 {
   const Interruption::Deferral deferral;
-  // Whatever happens in between, the halves of a format of two files are never of two meshes.
+  // The two files of a format are never of different meshes, even if the process ends in between.
   for (const auto& [path, temporary] : this->Files)
   {
     if (!vtkSimplexMeshWriter::CompanionOf(path).empty())

@@ -5,8 +5,8 @@
  * @brief Output files that appear whole or not at all.
  *
  * Each file is written beside its final place under a hidden temporary name; when all of them are
- * complete, Commit() renames them. Whatever goes wrong before, the temporaries are removed and
- * older files of the same names are left as they were.
+ * complete, Commit() renames them. If something goes wrong before, the temporaries are removed and
+ * older files of the same names stay as they were.
  */
 #ifndef voxplex_cli_OutputFiles_h
 #define voxplex_cli_OutputFiles_h

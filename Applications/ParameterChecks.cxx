@@ -42,7 +42,7 @@ void CheckForced(const Parameters& p)
 void CheckSpaceTime(const Parameters& p)
 {
   RefuseIf(p.SliceCount && p.Slices.empty(),
-    "--slice-count: of which slices? Give the beginning of their names with --slices");
+    "--slice-count: give the beginning of the slices' names with --slices");
   for (const char* name : { "picks", "sliver-bound", "seed" })
   {
     RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),

@@ -12,7 +12,7 @@ find_package(VTK QUIET
   OPTIONAL_COMPONENTS Python WrappingPythonCore WrappingTools)
 if (NOT TARGET VTK::WrappingPythonCore OR NOT TARGET VTK::Python OR NOT TARGET VTK::WrapPython)
   voxplex_skip("Python"
-    "VTK was found without its Python wrapping (apt-get install python3-vtk9 python3-dev; an interpreter other than VTK's own earlier on the PATH has the same effect: pass -DPython3_EXECUTABLE=/usr/bin/python3)")
+    "VTK was found without its Python wrapping (apt-get install python3-vtk9 python3-dev; if the PATH has another interpreter before VTK's own, pass -DPython3_EXECUTABLE=/usr/bin/python3)")
   return ()
 endif ()
 

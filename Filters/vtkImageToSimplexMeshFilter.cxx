@@ -48,7 +48,7 @@ void CheckSize(double size, const std::string& what)
   }
 }
 
-/** An interface, whatever the order of its labels: the larger comes first, and so ANY_LABEL last. */
+/** The labels of an interface, in the order of the table: the larger first, so ANY_LABEL comes last. */
 std::pair<std::int64_t, std::int64_t> InterfaceOf(std::int64_t label, std::int64_t other)
 {
   return { std::max(label, other), std::min(label, other) };
@@ -443,8 +443,8 @@ int vtkImageToSimplexMeshFilter::RequestData(
     {
       vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
     }
-    for (const std::string& warning : voxplex::WarningsOf(
-           this->Private->Statistics->Edit(), this->GetContentionManagerAsString()))
+    for (const std::string& warning :
+      voxplex::WarningsOf(this->Private->Statistics->Edit(), this->GetContentionManagerAsString()))
     {
       vtkWarningMacro(<< warning);
     }

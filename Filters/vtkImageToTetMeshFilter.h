@@ -205,7 +205,7 @@ public:
   ///@{
   /**
    * A tetrahedron is a sliver if a dihedral angle is below this, or above 180 degrees minus this. A
-   * sliver is split, or the interface near it is sampled more densely (thesis, section 2.6.2). In
+   * sliver is split, or the interface near it is sampled more finely (thesis, section 2.6.2). In
    * rare cases no point helps, and the sliver stays (vtkMeshingStatistics::GetSliversKept()). If
    * Optimise is on without a time limit, slivers above 3 degrees are left to the optimisation,
    * which needs fewer elements, unless they are wedged between interfaces. Degrees, 0 to 59.

@@ -15,7 +15,7 @@ namespace voxplex::io
 {
 
 /**
- * A text from a stranger's file, fit to be shown: at most so many bytes, and question marks for
+ * A text from a stranger's file, fit to be shown: at most `longest` bytes. Question marks stand for
  * control characters, which terminals obey, and for bytes that are not UTF-8.
  */
 std::string Excerpt(std::string_view text, std::size_t longest = 80);

@@ -68,7 +68,7 @@ void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
   }
 }
 
-/** An array with a value for each of so many cells or points. */
+/** An array with one value for each cell or point; there are `count` of them. */
 vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name, int components,
   vtkIdType count, const std::string& what)
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshInput.h
- * @brief From whatever a pipeline delivers to the mesh that the formats' writers rely on.
+ * @brief From the data of a pipeline to the mesh that the formats' writers rely on.
  */
 #ifndef voxplex_io_MeshInput_h
 #define voxplex_io_MeshInput_h

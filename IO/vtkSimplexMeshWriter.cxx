@@ -123,7 +123,7 @@ void vtkSimplexMeshWriter::WriteData()
         companion ? companion->TemporaryPath() : std::string());
       if (companion)
       {
-        // Whatever happens in between, the two are never of two meshes.
+        // The two are never of different meshes, even if the process ends in between.
         file.RemoveOlder();
         companion->Commit();
       }

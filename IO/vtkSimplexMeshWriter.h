@@ -16,12 +16,12 @@
  *
  * @par Output
  * One file; for .xdmf, which keeps its numbers in HDF5, two, see CompanionOf(). The extension of the name,
- * whatever the case of its letters, chooses the format; see ListExtensions(), and
+ * in small or capital letters, chooses the format; see ListExtensions(), and
  * Documentation/FileFormats.md for what each holds. Coordinates are written so that reading them gives the
  * same numbers, except for .stl and .ply, which hold single precision.
  *
  * The file appears whole or not at all: it is written beside its place under a temporary hidden name,
- * which is then changed. Whatever goes wrong before leaves an older file of the same name as it was. Of two
+ * which is then changed. If something goes wrong before, an older file of the same name stays as it was. Of two
  * files the second, the numbers, is moved to its place first, when an older first one is gone: both are never of
  * two meshes.
  *

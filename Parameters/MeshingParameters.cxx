@@ -20,11 +20,13 @@ struct GroupText
 
 /** In the order of ParameterGroup. */
 constexpr GroupText GroupTexts[] = {
-  { "Grey-value images", "Mesh what an isosurface of a grey-value image bounds, as one label." },
-  { "Density", "How fine the mesh is. Lengths are in the unit of the image, usually millimetres." },
+  { "Grey-value images",
+    "Mesh the region that an isosurface of a grey-value image bounds, as one label." },
+  { "Sampling distance and element sizes",
+    "How fine the mesh is. Lengths are in the unit of the image, usually millimetres." },
   { "Labels and coordinates", "What is meshed, and where it lies." },
-  { "Shapes and small objects", "What is looked after besides." },
-  { "Sizes of interfaces", "How density changes from place to place." },
+  { "Shapes and small objects", "Better shapes, and objects that are small compared with delta." },
+  { "Sizes of interfaces", "How delta and element sizes vary from place to place." },
   { "Quality", "The defaults suit finite elements." },
   { "Space-time images (four dimensions, the last is time)",
     "They become one mesh of space and time." },

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingParameters.h
- * @brief The table of the parameters of meshing. The command line, the module for 3D Slicer, the
- *   Python package and
- * Documentation/Parameters.md are made from it.
+ * @brief The table of the parameters of meshing.
+ *
+ * The command line, the module for 3D Slicer, the Python package and Documentation/Parameters.md
+ * are made from it.
  *
  * The VTK filters and the ParaView plugin declare their parameters again. Testing/Parameters
  * compares them with the table.
@@ -39,7 +40,7 @@ enum class ParameterKind
 enum class ParameterGroup
 {
   GreyValues,
-  Density,
+  Sampling,
   Labels,
   Shapes,
   Interfaces,

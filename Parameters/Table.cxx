@@ -75,13 +75,12 @@ Parameters GreyValues()
   };
 }
 
-Parameters Density()
+Parameters Sampling()
 {
   return {
     Number(Kind::Real, "delta", 0, Positive, "", "LENGTH",
       "sampling distance of the interfaces: the edges of their triangles are about one to two "
-      "times "
-      "as long; the number of elements grows with the square of 1/delta",
+      "times as long; the number of elements grows with the square of 1/delta",
       { .Zero = "derived from the spacing" }),
     Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
       "solve for the delta that gives this number of elements, to within a tenth, in place of "
@@ -176,8 +175,7 @@ Parameters Quality()
       { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
     Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
       "a tetrahedron with a dihedral angle below this, or above 180 degrees minus this, is a "
-      "sliver "
-      "and is split; most slivers above 3 degrees are left to optimisation",
+      "sliver and is split; most slivers above 3 degrees are left to optimisation",
       { .Step = 1.0,
         .Zero = "leave slivers",
         .ForceAbove = 15.0,
@@ -287,7 +285,7 @@ const std::vector<MeshingParameter>& MeshingParameters()
 {
   static const Parameters all = Join({
     { Group::GreyValues, GreyValues() },
-    { Group::Density, Density() },
+    { Group::Sampling, Sampling() },
     { Group::Labels, Labels() },
     { Group::Shapes, Shapes() },
     { Group::Interfaces, Interfaces() },

@@ -13,9 +13,9 @@ import sys
 LARGEST_WHOLE = 2**31 - 1
 HEAD = """# Parameters of meshing
 
-Every parameter with what it is called by the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in
-VTK (Set and Get come before it; ParaView's properties are called the same). Lengths are in the unit of the image. This page is made
-from the table in `Parameters/Table.cxx`.
+All parameters, and their names in the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in VTK.
+VTK's methods have Set or Get before the name; ParaView's properties have the name itself. Lengths are in the unit of the image.
+This page is made from the table in `Parameters/Table.cxx`.
 """
 
 

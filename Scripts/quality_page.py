@@ -228,8 +228,8 @@ it and one after it. The percentage is the median of the pairs' ratios. The rate
 - **CGAL** is `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
   Voxplex has, without perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
 - A *junction* is an edge or point where three labels or more meet; background counts as a label. At a *corner* four meet.
-  An *irregular* junction point is no corner and has other than two junction edges. An edge of a label's own boundary is
-  *non-manifold* if other than two facets of the boundary meet there. It counts once for each such label.
+  An *irregular* junction point is no corner and does not have exactly two junction edges. An edge of a label's own
+  boundary is *non-manifold* if more than two facets of the boundary meet there. It counts once for each such label.
 - Distances are symmetric Hausdorff distances between the interfaces of the mesh and those of the image. The interfaces of
   the image are the centres of faces between voxels of different labels, or the smooth interface that Voxplex meshes. CGAL
   does not mesh the latter.

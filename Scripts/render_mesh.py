@@ -94,7 +94,7 @@ def part_of(mesh):
     return surface
 
 
-def add_view(window, viewport, actor, bounds, text):
+def make_view(viewport, actor, bounds, text):
     renderer = vtkRenderer()
     renderer.SetViewport(*viewport)
     renderer.SetBackground(*BACKGROUND)
@@ -113,7 +113,24 @@ def add_view(window, viewport, actor, bounds, text):
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCamera(bounds)
     camera.Zoom(1.35)
-    window.AddRenderer(renderer)
+    return renderer
+
+
+def write_picture(path, size, views):
+    """Draws the views into a PNG file of this size in pixels."""
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetSize(*size)
+    window.SetMultiSamples(8)
+    for view in views:
+        window.AddRenderer(view)
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
 
 
 def main(mesh_path, interfaces_path, picture_path):
@@ -122,24 +139,12 @@ def main(mesh_path, interfaces_path, picture_path):
     if not mesh.GetNumberOfCells() or not interfaces.GetNumberOfCells():
         sys.exit("render_mesh.py: nothing to draw in %s or %s" % (mesh_path, interfaces_path))
     colors = label_colors(int(mesh.GetCellData().GetArray("Label").GetRange()[1]))
-
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetSize(*SIZE)
-    window.SetMultiSamples(8)
     bounds = mesh.GetBounds()
-    add_view(window, (0.0, 0.0, 0.5, 1.0), make_actor(outer_surface(interfaces), "Labels", 0, colors, 1.0), bounds,
-             "{:,} interface triangles".format(interfaces.GetNumberOfCells()))
-    add_view(window, (0.5, 0.0, 1.0, 1.0), make_actor(part_of(mesh), "Label", 0, colors, 1.0), bounds,
-             "{:,} tetrahedra, cut open".format(mesh.GetNumberOfCells()))
-    window.Render()
-
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    writer = vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+    write_picture(picture_path, SIZE, [
+        make_view((0.0, 0.0, 0.5, 1.0), make_actor(outer_surface(interfaces), "Labels", 0, colors, 1.0), bounds,
+                  "{:,} interface triangles".format(interfaces.GetNumberOfCells())),
+        make_view((0.5, 0.0, 1.0, 1.0), make_actor(part_of(mesh), "Label", 0, colors, 1.0), bounds,
+                  "{:,} tetrahedra, cut open".format(mesh.GetNumberOfCells()))])
 
 
 if __name__ == "__main__":

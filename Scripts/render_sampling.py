@@ -9,13 +9,9 @@ Needs a display; without one: xvfb-run --auto-servernum Scripts/render_sampling.
 """
 import sys
 
-import vtkmodules.vtkRenderingFreeType  # noqa: F401 (registers the text renderer)
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (registers the OpenGL classes)
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 
-from render_mesh import add_view, label_colors, make_actor, part_of, read
+from render_mesh import label_colors, make_actor, make_view, part_of, read, write_picture
 
 WIDTH, HEIGHT = 460, 460  # of each view
 # What the views show, in LPS: the left putamen and what lies around it.
@@ -23,25 +19,15 @@ REGION = (0, 30, -35, 25, -25, 25)
 
 
 def main(picture_path, meshes):
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetSize(WIDTH * len(meshes), HEIGHT)
-    window.SetMultiSamples(8)
+    views = []
     for i, (delta, path) in enumerate(meshes):
         mesh = read(vtkXMLUnstructuredGridReader(), path)
         if not mesh.GetNumberOfCells():
             sys.exit("render_sampling.py: nothing to draw in %s" % path)
         colors = label_colors(int(mesh.GetCellData().GetArray("Label").GetRange()[1]))
-        add_view(window, (i / len(meshes), 0.0, (i + 1) / len(meshes), 1.0),
-                 make_actor(part_of(mesh), "Label", 0, colors, 1.0), REGION, "delta %s" % delta)
-    window.Render()
-
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    writer = vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+        views.append(make_view((i / len(meshes), 0.0, (i + 1) / len(meshes), 1.0),
+                               make_actor(part_of(mesh), "Label", 0, colors, 1.0), REGION, "delta %s" % delta))
+    write_picture(picture_path, (WIDTH * len(meshes), HEIGHT), views)
 
 
 if __name__ == "__main__":

@@ -10,18 +10,15 @@ Draws the labels that the mesh has. Needs a display; without one: xvfb-run --aut
 import sys
 
 import numpy as np
-import vtkmodules.vtkRenderingFreeType  # noqa: F401 (registers the text renderer)
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (registers the OpenGL classes)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-from vtkmodules.vtkIOImage import vtkNIFTIImageReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkNIFTIImageReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 
-from render_mesh import add_view, label_colors, make_actor, part_of, read
+from render_mesh import label_colors, make_actor, make_view, part_of, read, write_picture
 
 SIZE = (1650, 600)
 
@@ -86,23 +83,14 @@ def main(labels_path, mesh_path, picture_path):
     mesh = read(vtkXMLUnstructuredGridReader(), mesh_path)
     labels = np.unique(vtk_to_numpy(mesh.GetCellData().GetArray("Label")))
     colors = label_colors(int(labels.max()))
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetSize(*SIZE)
-    window.SetMultiSamples(8)
+    views = []
     for i, (source, text) in enumerate((
             (producer_of(voxel_faces(labels_path, labels)), "label map, %d labels" % len(labels)),
             (surface_of(mesh), "{:,} tetrahedra".format(mesh.GetNumberOfCells())), (part_of(mesh), "cut open"))):
-        add_view(window, (i / 3, 0.0, (i + 1) / 3, 1.0), make_actor(source, "Label", 0, colors, 0.5), mesh.GetBounds(), text)
-    for renderer in window.GetRenderers():
-        renderer.GetActiveCamera().Zoom(0.75)  # three views side by side are narrow
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    writer = vtkPNGWriter()
-    writer.SetFileName(picture_path)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+        view = make_view((i / 3, 0.0, (i + 1) / 3, 1.0), make_actor(source, "Label", 0, colors, 0.5), mesh.GetBounds(), text)
+        view.GetActiveCamera().Zoom(0.75)  # three views side by side are narrow
+        views.append(view)
+    write_picture(picture_path, SIZE, views)
 
 
 if __name__ == "__main__":

@@ -15,11 +15,10 @@ import xml.etree.ElementTree
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkTextActor
 
-from render_mesh import BACKGROUND, EDGES, label_colors, make_actor, read
+from render_mesh import BACKGROUND, EDGES, label_colors, make_actor, read, write_picture
 
 WIDTH, HEIGHT = 220, 330
 
@@ -44,7 +43,7 @@ def cut_open(mesh, bounds):
     return surface
 
 
-def add_view(window, index, count, mesh, bounds, colors, text):
+def make_view(index, count, mesh, bounds, colors, text):
     renderer = vtkRenderer()
     renderer.SetViewport(index / count, 0, (index + 1) / count, 1)
     renderer.SetBackground(*BACKGROUND)
@@ -63,7 +62,7 @@ def add_view(window, index, count, mesh, bounds, colors, text):
     camera.ParallelProjectionOn()
     renderer.ResetCamera(bounds)
     camera.SetParallelScale(0.54 * max(bounds[5] - bounds[4], (bounds[3] - bounds[2]) * HEIGHT / WIDTH))
-    window.AddRenderer(renderer)
+    return renderer
 
 
 def main(collection, picture, number=8):
@@ -79,21 +78,9 @@ def main(collection, picture, number=8):
     bounds = [(min if a % 2 == 0 else max)(b[a] for b in each) for a in range(6)]
     last = max(mesh.GetCellData().GetArray("Label").GetRange()[1] for _, mesh in meshes if mesh.GetNumberOfCells())
 
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetSize(WIDTH * count, HEIGHT)
-    window.SetMultiSamples(8)
     colors = label_colors(int(last))
-    for index, (time, mesh) in enumerate(meshes):
-        add_view(window, index, count, mesh, bounds, colors, "t = %.3g" % time)
-    window.Render()
-
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    writer = vtkPNGWriter()
-    writer.SetFileName(picture)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
+    write_picture(picture, (WIDTH * count, HEIGHT), [
+        make_view(index, count, mesh, bounds, colors, "t = %.3g" % time) for index, (time, mesh) in enumerate(meshes)])
 
 
 if __name__ == "__main__":

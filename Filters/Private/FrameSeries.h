@@ -6,7 +6,7 @@
  *
  * An image of the series is called a frame here. The kernel wants the voxels of all frames in one
  * array: x fastest, then y, z, time. Labels are kept in 8, 16 or 64 bits each, as few as those seen
- * so far need, whatever the type of the images' scalars.
+ * so far need. The type of the images' scalars does not count.
  */
 #ifndef voxplex_FrameSeries_h
 #define voxplex_FrameSeries_h

@@ -64,9 +64,9 @@ struct ImageFrame
  * @throws InputError if the image is empty, the spacing is not positive and finite, the origin or
  * the direction is not finite, or the direction matrix is singular
  *
- * Axes that are orthogonal but for the rounding of a file's header are made exactly so: what is
- * left of R above the diagonal is dropped where it is below 1e-5 of a voxel's width (six digits of
- * text, or single precision), which moves no voxel of an image 500 voxels wide by more than 0.005
+ * If only the rounding of a file's header keeps axes from being orthogonal, they are made exactly
+ * so. An entry of R above the diagonal is dropped if it is below 1e-5 of a voxel's width (six digits
+ * of text, or single precision). In an image 500 voxels wide, this moves no voxel by more than 0.005
  * voxel.
  */
 ImageFrame MakeImageFrame(vtkImageData* image, bool cells, const std::string& what);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SimplexMeshRun.h
- * @brief What the meshing filters share of an execution, whatever the dimension.
+ * @brief What the meshing filters of both dimensions share of an execution.
  */
 #ifndef voxplex_SimplexMeshRun_h
 #define voxplex_SimplexMeshRun_h

@@ -62,7 +62,7 @@ constexpr std::array<std::uint32_t, 14> TagsThatGDCMReads{ 0x00080008, 0x0008001
   0x00080060, 0x00180050, 0x00180088, 0x00181063, 0x0018602C, 0x0018602E, 0x00200013, 0x00200032,
   0x00200037, 0x3004000C, 0x3004000E };
 
-/** Numbers of which GDCM takes some, and aborts at others. */
+/** Elements with numbers. GDCM takes some values and aborts at others. */
 constexpr std::uint32_t SamplesPerPixel = 0x00280002;
 constexpr std::uint32_t PlanarConfiguration = 0x00280006;
 /** Of the predecessors of DICOM. */
@@ -316,7 +316,7 @@ std::string DescribeValue(const std::string& value)
   return " has the value '" + Excerpt(value) + "', which it must not have";
 }
 
-/** So many numbers, separated by backslashes, or blanks only. */
+/** Whether the text is `count` numbers, separated by backslashes, or blanks only. */
 bool HoldsNumbers(const std::string& text, std::size_t count)
 {
   const std::string blanks(" \0", 2);
@@ -486,7 +486,7 @@ private:
         std::to_string(DeepestNesting) + " deep";
       return false;
     }
-    // A sequence of which a writer did not know that it is one has implicit elements.
+    // If a writer did not know that an element is a sequence, its elements are implicit.
     Syntax inner = syntax;
     inner.IsExplicit = syntax.IsExplicit && !element.Is("UN");
     const Enclosure items =

@@ -27,7 +27,7 @@ namespace voxplex::io
  */
 std::string FindFaultOfDICOM(const std::string& path);
 
-/** Whether the file says of itself that it is one of DICOM, whatever stands before: there may be the header of a TIFF. */
+/** Whether the file has the mark of DICOM. The bytes before it do not count: they may be the header of a TIFF. */
 bool HasPreambleOfDICOM(const std::string& path);
 
 } // namespace voxplex::io

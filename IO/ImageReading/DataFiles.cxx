@@ -38,7 +38,7 @@ enum class Encoding
 constexpr double LargestDeflateRatio = 1032.0;
 constexpr double LargestOtherRatio = 65536.0;
 
-/** How many bytes of voxels so many bytes of a file hold at most. */
+/** How many bytes of voxels a file of this size holds at most. */
 double Capacity(double fileSize, Encoding encoding, double componentSize)
 {
   switch (encoding)

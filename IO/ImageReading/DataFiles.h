@@ -4,8 +4,8 @@
  * @file DataFiles.h
  * @brief The files that hold the voxels of an image, and how much they can hold.
  *
- * ITK takes memory for all voxels that a header claims before it looks for them, and opens what the
- * header names, whatever it is. The headers come from strangers.
+ * ITK takes memory for all voxels that a header claims before it looks for them, and opens any
+ * file that the header names. The headers come from strangers.
  */
 #ifndef voxplex_io_DataFiles_h
 #define voxplex_io_DataFiles_h

@@ -37,7 +37,7 @@ public:
   explicit NIfTIHeader(const std::array<char, Size>& bytes)
     : Bytes(bytes)
   {
-    // As ITK tells the byte order: by the number of dimensions, whatever size the header gives itself.
+    // As ITK tells the byte order: by the number of dimensions, not by the size that the header gives itself.
     if (!this->HasDimensions())
     {
       this->Swapped = true;
@@ -276,8 +276,7 @@ std::string FindFaultOfNIfTI(const std::string& path)
   if (header.HasFrames() && !std::isfinite(header.FirstTime()))
   {
     return "the time of the first frame in its header (toffset) is not a finite number: correct "
-           "the "
-           "header";
+           "the header";
   }
   if (header.HasFrames() && !IsPositive(header.Step(4)) && header.Step(4) != 0)
   {

@@ -29,7 +29,7 @@ std::string FindFaultOfNIfTI(const std::string& path);
 struct NIfTITimes
 {
   double First; ///< toffset, which ITK does not read
-  double Step;  ///< pixdim[4]; 0 means 'unknown', of which ITK makes 1
+  double Step;  ///< pixdim[4]; 0 means 'unknown'; ITK makes it 1
 };
 
 /** Nothing if it is another file, or has one frame. */

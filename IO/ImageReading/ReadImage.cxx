@@ -218,8 +218,7 @@ void CheckHeader(const std::string& path, const itk::ImageIOBase& io)
     Refuse(path,
       "it has " + std::to_string(axes) + " dimensions (" + DescribeSize(io) +
         "); voxplex meshes images of three, and of four with time as the last: extract one of "
-        "those "
-        "first");
+        "those first");
   }
   const std::string layers = DescribeLayers(path);
   if (io.GetNumberOfComponents() != 1 && !layers.empty())
@@ -265,9 +264,8 @@ std::string ExplainHeader(const std::string& message)
   if (message.find("#independent axes") != std::string::npos)
   {
     return "its header gives space directions to fewer axes than have the kind 'domain', 'space' "
-           "or "
-           "'time': give the axis of time the kind 'list', or a space of four dimensions such as "
-           "left-posterior-superior-time";
+           "or 'time': give the axis of time the kind 'list', or a space of four dimensions such "
+           "as left-posterior-superior-time";
   }
   return "";
 }
@@ -460,7 +458,7 @@ ScalarImage ReadFolder(const std::string& path, const std::string& wanted,
   return ReadWith(path, files, itk::GDCMImageIO::New(), messages, warnings);
 }
 
-/** What read() returns. @throws FileError naming the path, whatever ITK throws */
+/** What read() returns. @throws FileError naming the path, for any exception of ITK */
 template <typename TRead>
 ScalarImage Translate(const std::string& path, const LibraryMessages& messages, TRead&& read)
 {

@@ -23,8 +23,8 @@ struct ElementFace
 };
 
 /**
- * For each triangle the tetrahedron with the first, larger label of its pair, out of which its
- * normal points. Complexity: expected O(n) in the number of tetrahedra.
+ * For each triangle the tetrahedron with the first, larger label of its pair. Its normal points out
+ * of this tetrahedron. Complexity: expected O(n) in the number of tetrahedra.
  *
  * @throws FileError: a triangle is no face of such a tetrahedron, so these are not the interfaces
  *   of this mesh

@@ -102,7 +102,7 @@ std::string MakeLegal(std::string_view name, const NameRules& rules)
   return lacksLetter ? "set_" + legal : legal;
 }
 
-/** At most so many bytes, and no part of a character. */
+/** The first bytes of a text, at most `size`, without part of a character at the end. */
 std::string_view Cut(std::string_view text, std::size_t size)
 {
   const auto isInside = [&](std::size_t at)

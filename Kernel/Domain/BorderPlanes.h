@@ -19,9 +19,9 @@ namespace voxplex
 {
 
 /**
- * @brief Where the border of a 3D image cuts the object: one plane for each face of the image that
- *   the object reaches
- * (LabelImage::ReachesBorder).
+ * @brief The planes on which the border of a 3D image cuts the object.
+ *
+ * There is a plane for each face of the image that the object reaches (LabelImage::ReachesBorder).
  *
  * The planes lie half a voxel outside of the outermost voxel centres. The labels of a field
  * continue beyond them; Margin() and Gradient() cut the field's margins there. This is constructive

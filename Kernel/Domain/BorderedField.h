@@ -17,9 +17,9 @@ namespace voxplex
 {
 
 /**
- * @brief Base class of LabelField and ScalarField. Their labels and margins (Extended...) continue
- *   beyond the planes
- * of the border; this class cuts the object there.
+ * @brief Base class of LabelField and ScalarField. It cuts the object at the border of the image.
+ *
+ * The labels and margins of the derived classes (Extended...) continue beyond the border's planes.
  *
  * Lattice coordinates are those of TiledLattice. Immutable after construction.
  *

@@ -21,7 +21,7 @@ namespace voxplex
 namespace
 {
 
-/** Like FieldType::RootTolerance, but for an estimate. */
+/** Like FieldType::RootTolerance, where an estimate is enough. */
 constexpr double QuickTolerance = 0.1;
 /**
  * Largest number of steps of ClosestSurfacePoint towards the foot point. A step is made only if its

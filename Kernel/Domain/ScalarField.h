@@ -19,9 +19,9 @@ namespace voxplex
 {
 
 /**
- * @brief Tells for every point of space whether it is inside (id 1) or outside (background) of an
- *   isosurface, by the
- * sign of interpolated margins.
+ * @brief Tells whether a point of space is inside (id 1) or outside (background) of an isosurface.
+ *
+ * The sign of interpolated margins decides.
  *
  * **Definition.** The sample of a voxel is its margin (IsosurfaceImage). Its sign follows from the
  * label image: positive inside. If a sample is smaller than a thousandth of the sample of a face

@@ -32,7 +32,7 @@ namespace voxplex
  *
  * The algorithm is separable. It treats one axis after the other, by lower envelopes of parabolas
  * (Maurer, Qi and Raghavan 2003, cited in section 3.1 of the thesis; Meijster et al. 2000). The
- * time of the first pass is linear in the voxels, of which it reads 64 at once. The time of a later
+ * time of the first pass is linear in the voxels; it reads 64 of them at once. The time of a later
  * pass is linear in its partial results. Their number is divided by the stride along each axis. If
  * several sites are equally near, the result is any of them. The result does not depend on the
  * number of threads.

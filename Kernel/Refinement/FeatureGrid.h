@@ -30,7 +30,7 @@ namespace voxplex
  * them. A query takes the finest grid whose cells are at least twice as wide as its radius. So it
  * visits at most 2^D cells, or more if its radius is larger than that of the first level. Queries
  * are quick even where vertices are much nearer to each other than elsewhere, as around parts that
- * are small beside delta. Every cell is a list whose head is in a table of fixed size.
+ * are small compared with delta. Every cell is a list whose head is in a table of fixed size.
  *
  * Any number of threads may call all methods except Remove() at once. A query sees every vertex
  * that was added before it began. No thread ever waits for another.

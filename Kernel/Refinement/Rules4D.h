@@ -32,7 +32,7 @@
  * keeps cavities small. R4 comes last, when the thread has no other poor element: most slivers die
  * while the interfaces are sampled. In the thesis R4 precedes R5.
  *
- * **Slivers** are pentatopes here, whatever the shape of their faces. A face that is a sliver makes
+ * **Slivers** are pentatopes here. The shape of their faces does not count. A face that is a sliver makes
  * the pentatopes around it slivers, too, or is harmless.
  *
  * **Termination** for every input, as in Rules3D. Feature vertices stay, and none is inserted

@@ -13,7 +13,7 @@ def apply_label_colors(source):
 
     The colour maps of the arrays `Label` and `Labels` become categorical: each label's name is its annotation (its value
     where it has no name), and its colour that of its category. Colour maps belong to names of arrays,
-    so whatever is coloured by these arrays follows. ParaView's window does this by itself.
+    so all that is coloured by these arrays follows. ParaView's window does this by itself.
 
     source: a pipeline object, or one of its output ports. Its pipeline is updated if need be.
     """

@@ -30,7 +30,7 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
             spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
             direction: Optional[ArrayLike] = None, threads: int = 0,
             progress: Optional[Progress] = None) -> Dict[str, Any]:
-    """Measures a mesh of labelled tetrahedra, whoever made it.
+    """Measures a mesh of labelled tetrahedra, made by Voxplex or another program.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     radius_edge, facet_angle
         Elements with this ratio or more, and facets with an angle below, are counted. Default 2 and 30.
     smallest_component
-        Connected components of the image with so many voxels, and the largest of each label, are looked for.
-        Default 8.
+        Connected components of the image with at least this number of voxels, and the largest of each label,
+        are looked for. Default 8.
     spacing, origin, direction
         Of an image that is an array; see :func:`image_from_array`.
     threads, progress

@@ -51,7 +51,7 @@ class Atlases(ProgramTestCase):
         self.assertLess(report["largest_regional_work"], 250)
         self.assertEqual(report["lost_components"], [])
 
-    # Components that are thin beside delta have a few elements, so that coarse meshes are coarse; none is lost.
+    # Components that are thin compared with delta have a few elements, so that coarse meshes are coarse; none is lost.
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_coarse_meshes_are_coarse(self):
         for name, most in (("natbrainlab", 60000), ("inia19-NeuroMaps", 150000)):
@@ -74,7 +74,7 @@ class Atlases(ProgramTestCase):
                 self.assertEqual(promised["optimisation"]["poor_after"], 0)
 
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
-    def test_exact_components_whatever_delta(self):
+    def test_exact_components_with_every_delta(self):
         errors, elements = [], []
         for flags in ((), ("--exact-components",)):
             done = self.call("--input", TEMPLATES / "natbrainlab.nii.gz", "--delta", 4, "--threads", 1, "--quality",

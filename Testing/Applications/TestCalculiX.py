@@ -45,7 +45,7 @@ class CalculiX(LabelledMeshTestCase):
     def setUp(self):
         super().setUp()
         self.write("mesh.inp")
-        # Fixed is the outside of one label, but for the rim: what is applied there is no reaction.
+        # The outside of one label is fixed, without its rim: a load that is applied there is no reaction.
         surfaces = self.triangles_by_name()
         rim = surfaces["label_7__background"]
         self.fixed = np.setdiff1d(surfaces["label_3__background"], rim)

@@ -9,7 +9,7 @@ import numpy as np
 from labelledmesh import LabelledMeshTestCase
 from program import main
 
-# Linear elements hold u = x exactly, whatever the conductivities are if they are the same on both sides.
+# Linear elements hold u = x exactly with any conductivity, if it is the same on both sides.
 SCRIPT = """\
 verbosity = 0;
 mesh3 Th("mesh.mesh");

@@ -411,7 +411,7 @@ class Headers(HostileTestCase):
 
 
 class DataFiles(HostileTestCase):
-    """What a header names is opened by ITK, whatever it is."""
+    """ITK opens any file that a header names."""
 
     def refuse_data_file(self, pattern, data_file):
         for name, write in (("i.nhdr", lambda name: self.nrrd_header(name, data_file=data_file)),

@@ -497,7 +497,7 @@ class Talk(ProgramTestCase):
         self.assertIn("Examples:", done.stdout)
         for line in done.stdout.split("\n"):
             self.assertLessEqual(len(line), 100, line)
-        # --help wins over whatever else is there.
+        # --help wins over all other options.
         self.assertEqual(self.call("--nonsense", "--help").stdout, done.stdout)
 
     def test_version(self):

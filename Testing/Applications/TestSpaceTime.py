@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images of space and time: the mesh lies where and when the frames lie, whatever the format."""
+"""Images of space and time: the mesh lies where and when the frames lie, in all formats."""
 import dataclasses
 
 import numpy as np

@@ -270,7 +270,7 @@ class Flags(SpaceTimeTestCase):
             (("--time-scale", "nan"), "--time-scale: must be a finite number"),
             (("--slices", "s_", "--slice-count", 1), "--slice-count: must be a whole number from 2 to 10000, not '1'"),
             (("--slices", "s_", "--slice-count", "2.5"), "--slice-count: must be a whole number"),
-            (("--slice-count", 3), "--slice-count: of which slices.*--slices"),
+            (("--slice-count", 3), "--slice-count: give the beginning of the slices' names with --slices"),
             (("--rule-order", "quality"), "--rule-order: must be radius-edge or surface, not 'quality'"),
             (("--picks", 0), "--picks: must be a whole number from 1"),
             (("--sliver-bound", -0.1), "--sliver-bound: must lie between 0 and 0.999"),

@@ -147,8 +147,8 @@ class Errors(TableTestCase):
 
 class Occurrence(TableTestCase):
     def test_only_labels_of_the_image(self):
-        """Whatever the type of the voxels. 9, which has no name, is none of the labels that differ from it by 2^8,
-        2^16 and 2^32."""
+        """With all types of voxels. 9, which has no name, is not taken for a label that differs from it by 2^8, 2^16
+        or 2^32."""
         names = "1 a\n5 b\n200 c\n257 d\n70000 e\n5000000000 f\n265 g\n65545 h\n4294967305 i\n"
         for dtype, labels in (("u1", {1, 200}), ("i1", {5}), ("i2", {257, 5}), ("u2", {1, 257}), ("i4", {70000, 1}),
                               ("u4", {70000}), ("i8", {5000000000, 1}), ("u8", {5000000000, 257}), ("f4", {200, 1}),

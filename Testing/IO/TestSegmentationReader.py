@@ -144,7 +144,7 @@ class Errors(FolderTestCase):
                     self.refused("truncated|damaged", self.folder / name)
 
     def test_noise(self):
-        """Whatever is in a header, there is an image or an error, and the process lives on."""
+        """Every header gives an image or an error, and the process lives on."""
         rng = np.random.default_rng(11)
         array = images.ball(8, 3.0)
         for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),

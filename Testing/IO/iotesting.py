@@ -51,7 +51,7 @@ def warnings_of(reader):
 
 
 def table_of(data):
-    """{label: (name, colour or None)} of the field data, of which all arrays are checked."""
+    """{label: (name, colour or None)} of the field data. All its arrays are checked."""
     fields = data.GetFieldData()
     values = fields.GetArray("LabelValues")
     names = fields.GetAbstractArray("LabelNames")

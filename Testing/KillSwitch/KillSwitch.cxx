@@ -30,7 +30,7 @@ long FromEnvironment()
   return text ? std::atol(text) : 0;
 }
 
-/** What is smaller is no step, of which there would be hundreds: VTK and stdio write numbers one by one. */
+/** Smaller blocks are not counted as steps: VTK and stdio write numbers one by one, in hundreds of blocks. */
 constexpr size_t SmallestBlock = 256;
 
 /** Steps that are left; 0 if the switch is off. */

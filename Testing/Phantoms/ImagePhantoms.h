@@ -41,7 +41,7 @@ struct ImagePhantom
   }
 };
 
-/** The voxels of one of the table's images, or so many times fewer along each axis. */
+/** The voxels of one of the table's images, divided by `coarsening` along each axis. */
 inline GridGeometry<3> CoarsenedGrid(
   std::int64_t nx, std::int64_t ny, std::int64_t nz, double spacing, std::int64_t coarsening)
 {
@@ -51,8 +51,8 @@ inline GridGeometry<3> CoarsenedGrid(
 }
 
 /**
- * Label 1, a ball of radius 7.5 mm: 416^3 voxels of 0.04 mm. (The thesis speaks of a radius of 10 mm, which
- * is more than so many voxels hold.)
+ * Label 1, a ball of radius 7.5 mm: 416^3 voxels of 0.04 mm. (The thesis speaks of a radius of 10 mm, but
+ * these voxels span only 16.64 mm.)
  */
 inline ImagePhantom SingleBall(std::int64_t coarsening = 1)
 {

@@ -75,7 +75,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(used[-1], int(quality["max_dihedral"] // 2))
 
     def test_distances_to_voxels(self):
-        """By brute force, but for the inside of triangles: those of VTK's filter, below."""
+        """By brute force, except inside of triangles. For these see the comparison with VTK's filter below."""
         centres = face_centres(self.labels)
         points = voxplex.points(self.interfaces)
         corners = points[voxplex.triangles(self.interfaces)]

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SimplexGeometry.h
- * @brief Signs, volumes, balls and angles of simplices, independent of the kernel: in long double,
- *   and in whole numbers
- * if long double does not decide.
+ * @brief Signs, volumes, balls and angles of simplices, independent of the kernel.
+ *
+ * Arithmetic is in long double, and in whole numbers where long double does not decide.
  */
 #ifndef voxplex_stress_SimplexGeometry_h
 #define voxplex_stress_SimplexGeometry_h

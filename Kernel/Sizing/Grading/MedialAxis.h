@@ -39,7 +39,7 @@ struct MedialBalls
  * The medial axis has a branch into every edge of the interfaces, also where three labels meet, and
  * into every stair of voxels. At its end the local feature size is 0, and no sampling is fine
  * enough. Poles on such branches are recognised by their points of contact and left out (the object
- * angle of Dey and Zhao 2004; the salience takes its place where the ball is small beside a voxel).
+ * angle of Dey and Zhao 2004; for balls of few voxels the salience takes its place).
  *
  * Cost: the triangulation by all threads; about six simplices a point.
  *

@@ -9,7 +9,7 @@
  * is wrongly formed is ignored. Besides, the values that occur in the cell array `Label` are gathered, so that labels without a
  * name can be listed, too.
  *
- * The object to gather from is an algorithm, of which the output is that of PortNumber. Field data does not travel in
+ * The object to gather from is an algorithm; its output PortNumber is taken. Field data does not travel in
  * vtkPVDataInformation, which knows the arrays' names only.
  */
 #ifndef vtkPVLabelInformation_h

@@ -16,9 +16,8 @@ namespace voxplex::slicer
 
 const char* const ModuleSummary =
   "Turns a label map into a conforming mesh of tetrahedra for finite elements. Tissues share the "
-  "nodes of their common interfaces, and the interfaces are smooth rather than voxel stairs. Also "
-  "meshes what an "
-  "isosurface of a volume bounds.";
+  "nodes of their common interfaces, and the interfaces are smooth, not voxel stairs. Also meshes "
+  "the region that an isosurface of a volume bounds.";
 
 namespace
 {

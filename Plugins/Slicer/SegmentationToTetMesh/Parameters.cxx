@@ -196,7 +196,7 @@ ParameterGroup Results()
       Returned(Kind::String, "missingLabels", "Labels without elements",
         "Labels of the image that the mesh lacks, because they are too small for delta."),
       Returned(Kind::Integer, "missingComponents", "Components without elements",
-        "How many connected components the mesh lacks although they were looked after."),
+        "Number of connected components that should have elements but have none."),
       Returned(Kind::Double, "smallestDihedralAngle", "Smallest dihedral angle",
         "Of all tetrahedra, in degrees."),
       Returned(Kind::Double, "largestDihedralAngle", "Largest dihedral angle",
@@ -225,7 +225,7 @@ const std::vector<ParameterGroup>& ParameterGroups()
   {
     using Group = voxplex::ParameterGroup;
     std::vector<ParameterGroup> all{ Files() };
-    for (const Group group : { Group::GreyValues, Group::Density, Group::Labels, Group::Shapes,
+    for (const Group group : { Group::GreyValues, Group::Sampling, Group::Labels, Group::Shapes,
            Group::Interfaces, Group::Quality, Group::Running })
     {
       all.push_back(FromTable(group));

@@ -33,7 +33,7 @@ vtkSmartPointer<vtkImageToPentatopeMeshFilter> FromImage(vtkImageData* image)
   return MakePentatopeFilter(producer);
 }
 
-/** Same labels, same mesh, whichever way the frames come. */
+/** Same labels, same mesh, in both ways to hand over frames. */
 void TestBothKinds()
 {
   for (const bool cells : { false, true })

@@ -65,7 +65,7 @@ struct Opened
     Subdivide(triangulation, domain, this->Result.Parts, this->After, threads);
   }
 
-  /** Of what must hold whatever the labels. */
+  /** Checks what must hold with all labels. */
   void Check() const
   {
     EXPECT_TRUE(this->Result.Left.empty());
@@ -74,7 +74,7 @@ struct Opened
     EXPECT_TRUE(complaints.empty()) << complaints.front();
     const std::set<std::int64_t> labels(this->Before.Labels.begin(), this->Before.Labels.end());
     EXPECT_EQ(std::set<std::int64_t>(this->After.Labels.begin(), this->After.Labels.end()), labels);
-    // Whatever had a label keeps pieces of it: so does each of its parts.
+    // Each tetrahedron keeps pieces with its label, and so does each part of a label.
     EXPECT_GE(this->After.Simplices.size(), this->Before.Simplices.size());
     for (const Point<3>& p : this->Before.Points)
     {
@@ -116,7 +116,7 @@ public:
   const std::unique_ptr<const RefinementContext<3>> Context;
 };
 
-/** iid voxels of so many labels and background. */
+/** Independent voxels with `labels` labels and background, all equally likely. */
 LabelImage<3> Noise(unsigned seed, std::int64_t side, unsigned labels)
 {
   std::mt19937 random(seed);
@@ -132,7 +132,7 @@ LabelImage<3> Noise(unsigned seed, std::int64_t side, unsigned labels)
 } // namespace
 
 // Every sequence of up to three labels and background around an edge of four to seven tetrahedra.
-TEST(EdgeSpindles, OpenEdgesWhateverIsAroundThem)
+TEST(EdgeSpindles, OpenEdgesWithAnyLabelsAround)
 {
   std::size_t bad = 0;
   for (std::size_t n = 4; n < 8; ++n)

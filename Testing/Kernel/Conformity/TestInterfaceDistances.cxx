@@ -450,7 +450,7 @@ TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
       {
         EXPECT_EQ(found[i].Position, expected[i].Position);
       }
-      // The same if labels take the vertex off interfaces, but for that one look only.
+      // The same if labels take the vertex off interfaces. That holds for one inspection only.
       LocalDelta<3> third(image);
       UniformInterfaceCheck before = makeCheck(third);
       vertices.push_back(*inside);

@@ -86,7 +86,7 @@ TEST(InterfaceVertices, AreThoseOfTheFacetsOfTheMesh)
   }
 }
 
-// Points come and go, whatever rules may have asked for it: ids of vertices and simplices are used again.
+// Points come and go, as rules would ask for it, and ids of vertices and simplices are used again.
 TEST(InterfaceVertices, FollowATriangulationThatChanges)
 {
   const LabelImage<3> image = Blobs(1);

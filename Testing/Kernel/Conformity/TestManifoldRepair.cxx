@@ -110,8 +110,8 @@ TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
   EXPECT_TRUE(checks::Complaints(mesh).empty());
 }
 
-// Whoever changes sides here leaves a triangle between itself and its cap, with an angle of 25 degrees in the narrow
-// tetrahedra and of 12 in the wide ones.
+// A tetrahedron that changes its label here leaves a triangle between itself and its cap. This has an angle of
+// 25 degrees at the narrow tetrahedra and of 12 at the wide ones.
 TEST(ManifoldRepair, MakesNoSharpFacets)
 {
   Triangulated ring(SharpRing());

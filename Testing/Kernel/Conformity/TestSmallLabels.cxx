@@ -24,7 +24,7 @@ namespace
 
 using Index = GridGeometry<3>::Index;
 
-/** So many voxels that are connected through faces. */
+/** A shape of `voxels` voxels that are connected through faces. */
 std::set<Index> Shape(std::size_t voxels, std::mt19937& random)
 {
   std::set<Index> shape{ { 0, 0, 0 } };
@@ -163,7 +163,7 @@ TEST(SmallLabels, OfAThreeLeggedShapeIsInTheMesh)
   }
 }
 
-// What is left to chance is: a voxel in a coarse mesh has nothing.
+// Without the guarantee, a label of one voxel has no element in a coarse mesh.
 TEST(SmallLabels, AreLeftToChanceOnRequest)
 {
   const LabelImage<3> image = Specks(9, 1, { 1.0, 1.0, 1.0 });

@@ -198,7 +198,7 @@ TEST_F(TwoWorkers, AWorkerThatIsAloneTakesNoLocks)
   EXPECT_TRUE(LockedVertices(this->T).empty());
 }
 
-// Whichever vertex of the cavity another worker owns: nothing changes, and it can be tried again.
+// If another worker owns any vertex of the cavity, nothing changes, and it can be tried again.
 TEST_F(TwoWorkers, AContendedInsertionChangesNothing)
 {
   const Point<3> p = { 0.45, 0.55, 0.5 };
@@ -309,7 +309,7 @@ TEST_F(TwoWorkers, AFreedVertexThatIsLockedIsNotReused)
   ExpectDelaunay(this->T, 1.0);
 }
 
-// Assertions are on in builds with a sanitizer: whoever changes a simplex without its locks is found out.
+// Assertions are on in builds with a sanitizer. They find a worker that changes a simplex without its locks.
 #ifndef NDEBUG
 using TwoWorkersDeathTest = TwoWorkers;
 

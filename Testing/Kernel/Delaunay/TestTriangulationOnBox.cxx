@@ -108,7 +108,7 @@ void RemoveOneByOne(std::vector<Point<D>> points, double size, unsigned seed)
   }
 }
 
-/** Lattice points of which half at least lie on the box; no corners. */
+/** Lattice points, none at a corner. At least half of them lie on the box. */
 template <int D>
 std::vector<Point<D>> LatticeOnFaces(int n, int side, double spacing, std::mt19937& random)
 {

@@ -247,7 +247,7 @@ void CheckClosestSurfacePoint(
     ASSERT_TRUE(IsOnInterface(domain, z, label, 0.03 * SmallestSpacing(grid)) ||
       std::abs(domain.GetLabelField().Margin(z, label)) < Field::RootTolerance);
     // What is found is near the voxel nearest to c, which is p itself inside of the lattice. If q is the nearest
-    // interface point of p, that voxel is no farther from c than q is, but for a voxel's size.
+    // interface point of p, that voxel is at most a voxel's size farther from c than q is.
     const Point<D> q = NearestSample<D>(samples, p);
     const Point<D> c = NearestInLattice(domain, p);
     const double more = Distance(p, z) - (Distance(p, c) + Distance(c, q));
@@ -279,7 +279,7 @@ void CheckFirstCrossing(
     const LabelId label = domain.Label(a);
     Point<D> z;
     const bool crosses = domain.FirstCrossing(a, label, b, z);
-    // Dense sampling of the segment; what is thinner than half a voxel may be missed.
+    // Samples the segment finely. Parts thinner than half a voxel may be missed.
     const double length = Distance(a, b);
     const int steps = static_cast<int>(length / (0.02 * SmallestSpacing(grid))) + 1;
     double first = std::numeric_limits<double>::infinity();

@@ -247,7 +247,7 @@ void CheckInterpolation(const GridGeometry<D>& grid, std::mt19937& random)
     {
       ASSERT_EQ(field.Label(p), margin > 0.0 ? 1 : 0);
     }
-    // The gradient is that of the interpolation, but for a factor.
+    // The gradient is that of the interpolation times a factor.
     Point<D> gradient;
     Point<D> x = field.ToLattice(p);
     if (!field.ExtendedMarginGradientAt(x, 1, gradient))
@@ -633,8 +633,7 @@ TEST(IsosurfaceImage, SaysWhatIsWrong)
   const auto ramp = Fill(grid, [](const auto& i) { return static_cast<double>(i[0]) - 1.0; });
   EXPECT_EQ(MessageOf(ramp, grid, { 2.5 }),
     "The isovalue 2.5 is outside of the image's range, which is from -1 to 2. Choose an isovalue "
-    "in "
-    "between.");
+    "in between.");
   EXPECT_NE(MessageOf(ramp, grid, { -1.5 }).find("from -1 to 2"), std::string::npos);
   EXPECT_NE(
     MessageOf(ramp, grid, { 2.5, IsosurfaceSide::Below }).find("from -1 to 2"), std::string::npos);

@@ -214,7 +214,7 @@ std::vector<Family<D>> Families(std::mt19937_64& engine)
       return p;
     };
   };
-  // Lattice points of which some coordinates are moved by up to two units in the last place.
+  // Lattice points. Some of their coordinates are moved by up to two units in the last place.
   const auto perturbed = [&engine](std::function<Point<D>()> make)
   {
     return [&engine, make]

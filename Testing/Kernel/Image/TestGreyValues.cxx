@@ -19,7 +19,7 @@ using namespace voxplex;
 namespace
 {
 
-/** Labels from `lowest` on, so many of them, independent of each other. */
+/** Voxels independent of each other, with `labels` labels from `lowest` on. */
 template <int D>
 LabelImage<D> Noise(const typename GridGeometry<D>::Index& dimensions, int labels, int lowest = 1)
 {
@@ -42,7 +42,7 @@ LabelImage<D> Noise(const typename GridGeometry<D>::Index& dimensions, int label
     scalars, GridGeometry<D>::Orthogonal(dimensions, spacing));
 }
 
-/** Cubes of so many voxels a side, each with a label of its own. */
+/** Cubes with sides of `side` voxels, each with a label of its own. */
 LabelImage<3> Blocks(std::int64_t side, std::int64_t along)
 {
   return phantoms::Make(phantoms::Cube(side * along),

@@ -189,7 +189,7 @@ TEST(JunctionCurves, FollowTheAxisOfThreeSectors)
 }
 
 //------------------------------------------------------------------------------------------------
-// Whatever the labels: curves are closed or go from corner to corner, four at each.
+// With all labels, curves are closed or go from corner to corner. Four meet at each corner.
 TEST(JunctionCurves, AreClosedOrEndInCorners)
 {
   for (const unsigned seed : { 1u, 2u, 3u })
@@ -306,7 +306,7 @@ TEST(JunctionLocator, FindsWhereLabelsAreEqual)
   EXPECT_EQ(Locate(two, { 4, 5, 1 }), (Point<3>{ 1.5, 2.5, 3.0 }));
 }
 
-// Margins are kept for the labels and the point that they were computed for, whoever else comes to their place.
+// Known margins belong to the labels and the point that they were computed for, even if others share their place.
 TEST(JunctionLocator, KeepsMarginsApart)
 {
   const LinearField field{
@@ -489,7 +489,7 @@ struct AxisFigures
 {
   double LargestDistance =
     0.0;        ///< of the middle of a junction edge within the cylinder from the axis
-  int Ends = 0; ///< vertices with other than two junction edges there
+  int Ends = 0; ///< vertices there whose number of junction edges is not two
 };
 
 AxisFigures MeshAxis(bool sample)

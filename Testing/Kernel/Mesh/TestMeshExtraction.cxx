@@ -24,7 +24,7 @@ using namespace voxplex;
 namespace
 {
 
-/** Whoever comes first waits until another thread comes, or for longer than any machine is that busy. */
+/** The first thread waits until another one comes. The time limit is longer than any machine is that busy. */
 class Meeting
 {
 public:

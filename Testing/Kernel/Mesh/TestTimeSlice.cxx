@@ -26,8 +26,8 @@ namespace
 {
 
 /**
- * The volume of the section of a pentatope at T: hypervolume times the density of the times of its
- * points, which is a B-spline whose knots are the times of the vertices (Curry and Schoenberg 1966).
+ * The volume of the section of a pentatope at T: the hypervolume times the probability density of its points' times.
+ * The density is a B-spline whose knots are the times of the vertices (Curry and Schoenberg 1966).
  */
 double SectionVolume(const Mesh& mesh, double time)
 {

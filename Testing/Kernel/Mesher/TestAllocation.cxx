@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Whichever allocation of a run fails: Run() throws std::bad_alloc, or gets by without it; it does not
+// If any one allocation of a run fails, Run() throws std::bad_alloc or does without it. It does not
 // hang, crash or leak, and the next run works. A program of its own, since it replaces operator new.
 #include "Image/FacesNear.h"
 #include "Image/SurfaceVoxels.h"

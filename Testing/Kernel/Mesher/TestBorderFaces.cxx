@@ -426,7 +426,7 @@ TEST(BorderFaces, EdgesOfNoiseEndInCorners)
 }
 
 //------------------------------------------------------------------------------------------------
-// A block comes out as it is: its volume, six flat faces, whatever delta. So do some with sheared axes.
+// A block comes out as it is with every delta: its volume, six flat faces. So do some with sheared axes.
 TEST(BorderFaces, MeshesOfBlocksAreExact)
 {
   for (const auto& grid :

@@ -195,7 +195,7 @@ TEST(DeltaSearch, FindsSteps)
   EXPECT_LE(Deviation(search, 60.0), DeltaSearch::Tolerance);
 }
 
-TEST(DeltaSearch, EndsWhateverTheCounts)
+TEST(DeltaSearch, EndsForAllCounts)
 {
   // Neither monotonic nor continuous, nor above 0.
   const Count counts[] = { [](double) { return 0.0; }, [](double) { return 1e15; },

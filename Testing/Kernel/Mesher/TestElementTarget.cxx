@@ -183,7 +183,7 @@ TEST(ElementTarget, KeepsTheNearestRunNotTheLast)
     }
     catch (const InputError&)
     {
-      continue; // no delta makes so many
+      continue; // no delta makes this number
     }
     const std::vector<MeshingRun>& runs = mesher.Statistics().Runs;
     const auto nearest = std::min_element(runs.begin(), runs.end(),

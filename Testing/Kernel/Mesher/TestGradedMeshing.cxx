@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes whose sampling density is graded keep every rule, lose nothing, and have fewer elements.
+// Meshes whose sampling distance is graded keep every rule, lose nothing, and have fewer elements.
 #include "Base/Error.h"
 #include "Image/Components.h"
 #include "MeshChecks.h"
@@ -207,7 +207,7 @@ TEST(GradedMeshing, IsFineWhereTheShapeIs)
   EXPECT_LT(FeaturesNear(mesh, large, 8.0), FeaturesNear(plain, large, 8.0) / 3);
 }
 
-// Too coarse a start is made up for with more elements than a finer one needs: there is to be none.
+// A start that is too coarse costs more elements in the end than a finer one. There must be none.
 TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
 {
   for (const LabelImage<3>& image : { phantoms::Ball(16.0), phantoms::Torus(22.0, 10.0) })
@@ -335,7 +335,7 @@ TEST(GradedMeshing, UniformIsAsBefore)
   options.Sampling.Grading.Ratio = 3.0;
   options.Sampling.Grading.Lambda = 1.0;
   EXPECT_EQ(Mesh(image, options).Points, plain.Points);
-  // With a lambda that allows nothing above delta grading changes nothing either.
+  // If lambda allows nothing above delta, grading changes nothing.
   options = Graded(2.0, 1.0);
   options.Sampling.Grading.Lambda = 1.0;
   EXPECT_EQ(Mesh(image, options).Points, plain.Points);
@@ -356,7 +356,7 @@ TEST(GradedMeshing, RefusesWrongOptions)
   }
 }
 
-// A point or two of the interfaces are all that there is to measure local feature sizes by.
+// Only one or two points of the interfaces are left to measure local feature sizes by.
 TEST(GradedMeshing, OfImagesThatAreSmallBesideDelta)
 {
   const std::array<std::function<std::int16_t(const Point<3>&)>, 3> labels = {

@@ -176,7 +176,7 @@ TEST(ImageMesher, NestedBallsKeepTheirLabels)
 TEST(ImageMesher, TouchingLabelsShareTheirInterface)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(16);
-  // The two labels are alike: their interface lies in the plane between them, but for a groove along its rim, where
+  // The two labels are alike: their interface lies in the plane between them, except for a groove along its rim. There
   // background wins against each of the two alone.
   const LabelField<3> field(image, MeshingOptions<3>().SmoothingSigma);
   constexpr int samples = 480; // along each axis of the image's section

@@ -190,7 +190,7 @@ TEST(SpaceTimeMeshing, TiltedAxes)
   ExpectVolumes(mesh, image, 2, 0.2, 0.07);
 }
 
-/** So many frames so far apart, with delta 3. */
+/** Meshes `frames` frames, `timeScale` apart, with delta 3. */
 void ExpectGoodDuration(std::int64_t frames, double timeScale, double radiusEdge)
 {
   const std::string name =

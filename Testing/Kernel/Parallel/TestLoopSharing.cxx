@@ -137,7 +137,7 @@ TEST(LoopSharing, AnIdleThreadTakesChunks)
   EXPECT_EQ(sharing.GetCounts(1).Loops, 0u);
 }
 
-// The loop's memory is the owner's stack: a helper that stayed would write to whatever comes there next.
+// The loop's memory is the owner's stack. A helper that stayed would write over what comes there next.
 TEST(LoopSharing, NoHelperIsLeftBehind)
 {
   const Watchdog watchdog("no helper is left behind");

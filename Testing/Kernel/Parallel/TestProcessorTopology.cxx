@@ -223,7 +223,7 @@ TEST(ProcessorTopology, PinsTheCallingThreadOnly)
 namespace
 {
 
-/** Work of which a machine with counters notices something. */
+/** Work that shows in the counters of a machine that has them. */
 double TouchMemory()
 {
   std::vector<double> values(std::size_t(1) << 20, 1.0);

@@ -315,7 +315,7 @@ TEST(MeshQuality, FlatElements)
   EXPECT_EQ(quality.NormalizedVolumes.back(), 2U);
 }
 
-// Deviations that are small beside the mean survive, over more chunks than one.
+// Deviations that are small compared with the mean survive, over more chunks than one.
 TEST(MeshQuality, DeviationsDoNotCancel)
 {
   SimplexMesh<3> mesh;

@@ -109,7 +109,7 @@ TEST(RandomWorkStealing, FirstComeFirstServed)
     scene.Begs(beggar);
   }
   EXPECT_TRUE(scene.Balancer.SomeoneBegs());
-  // Whoever gives; the levels are told all the same.
+  // The order does not depend on the thread that gives. The level of each gift is told nevertheless.
   scene.ExpectGift(0, 4, 2);
   scene.ExpectGift(0, 1, 0);
   scene.ExpectGift(0, 2, 1);
@@ -248,7 +248,7 @@ TEST_P(BothBalancers, OneThreadAlone)
   EXPECT_FALSE(balancer->Beg(0));
 }
 
-/** One has work, all others beg: each of them gets some, whoever sits where, in any order. */
+/** One thread has work, all others beg. Each of them gets some, in any order and on any processor. */
 TEST_P(BothBalancers, EverybodyGetsWorkFromOne)
 {
   const Watchdog watchdog("work from one");
@@ -265,7 +265,7 @@ TEST_P(BothBalancers, EverybodyGetsWorkFromOne)
     {
       scene.Begs(beggar);
     }
-    // Whoever has work serves all that it may, and so do those that it serves.
+    // A thread with work serves all that it may, and so do those that it serves.
     std::vector<unsigned> givers = { rich };
     for (std::size_t i = 0; i < givers.size(); ++i)
     {

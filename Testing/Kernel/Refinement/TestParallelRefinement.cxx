@@ -40,7 +40,7 @@ struct Custom : std::exception
 {
 };
 
-/** A ball whose n-th query fails, in whichever thread it is made. */
+/** A ball whose n-th query fails. Queries of all threads are counted. */
 template <typename Exception>
 class FailingBall final : public BallDomain
 {

@@ -256,7 +256,7 @@ TEST(HilbertOrder, VisitsNeighbouringCellsOfALattice)
   ExpectHilbertOrderVisitsNeighbours<4>(4);
 }
 
-// Skilling's algorithm, of which the automaton is the table.
+// The automaton is a table of Skilling's algorithm.
 TEST(HilbertOrder, IsTheCurveOfSkilling)
 {
   const auto expect = []<int D>(std::integral_constant<int, D>)

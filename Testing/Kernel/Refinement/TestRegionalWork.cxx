@@ -20,7 +20,7 @@ using namespace voxplex;
 namespace
 {
 
-/** R1 keeps Delta(z) from all others: there is room for so many of its points in a region. */
+/** Points of R1 keep Delta(z) from all others: a region has room for no more than this number of them. */
 constexpr std::uint64_t MostSampled = 1000;
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Sampling densities of single interfaces: the table, how they pass into each other, and meshes.
+// Sampling distances of single interfaces: the table, how they pass into each other, and meshes.
 #include "Base/Error.h"
 #include "CallableSize.h"
 #include "Domain/ImageDomain.h"
@@ -125,7 +125,7 @@ TEST(InterfaceSizes, RefusesWhatMakesNoSense)
 }
 
 //------------------------------------------------------------------------------------------------
-// Delta grows from left to right; what is given takes its place, what is not follows it.
+// Delta grows from left to right. Interfaces with a size take that, the others follow delta.
 TEST(InterfaceSizes, DeltaMayBeGraded)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30);
@@ -184,7 +184,7 @@ TEST(InterfaceSizes, EachInterfaceHasItsOwn)
     const auto edges =
       MeanEdges(Mesh(image, 2.5, { { 3, 7, 1.0 }, { 0, Any, 4.0 } }, 0.3, threads));
     ASSERT_EQ(edges.size(), 3u);
-    // Edges are as much shorter or longer as densities are.
+    // Edges are shorter or longer by the same factor as the sampling distances.
     EXPECT_NEAR(edges.at({ 7, 3 }) / uniform.at({ 7, 3 }), 1.0 / 2.5, 0.08);
     EXPECT_NEAR(edges.at({ 200, 7 }) / uniform.at({ 200, 7 }), 1.0, 0.12);
     EXPECT_NEAR(edges.at({ 200, 0 }) / uniform.at({ 200, 0 }), 1.6, 0.25);
@@ -193,7 +193,7 @@ TEST(InterfaceSizes, EachInterfaceHasItsOwn)
 
 TEST(InterfaceSizes, DeltaOfNoInterfaceDoesNotMatter)
 {
-  // All interfaces have a size: what delta is, or the size of a pair that does not touch, is of no account.
+  // All interfaces have a size, so delta has no effect. Nor has the size of a pair that does not touch.
   const LabelImage<3> image = phantoms::NestedBalls(15.0);
   const auto uniform = MeanEdges(Mesh(image, 2.0, {}));
   for (const double delta : { 0.7, 2.0, 6.0 })
@@ -207,7 +207,7 @@ TEST(InterfaceSizes, DeltaOfNoInterfaceDoesNotMatter)
   }
 }
 
-// Where the label beyond is not found, as at the rim of a spike, a tiny delta counted that no interface had.
+// Where the label beyond was not found, as at the rim of a spike, a tiny delta was taken that no interface had.
 TEST(InterfaceSizes, TheSameLabelTwiceHasTheSpacingThere)
 {
   const LabelImage<3> image = phantoms::NestedBalls(15.0);
@@ -258,7 +258,7 @@ TEST(InterfaceSizes, PassIntoEachOtherAtJunctions)
     }
     return longest;
   };
-  // Points along the rim would make the facets beside it smaller whatever the gradation.
+  // Points along the rim would make the facets beside it smaller with every gradation.
   const auto meshWith = [&](double gradation)
   {
     MeshingOptions<3> options;
@@ -272,7 +272,7 @@ TEST(InterfaceSizes, PassIntoEachOtherAtJunctions)
   };
   const SimplexMesh<3> graded = meshWith(0.2);
   const SimplexMesh<3> stepping = meshWith(0.0);
-  // Edges are two or three times as long as the density, 0.8 + 0.2 x, at most.
+  // Edges are at most two or three times as long as the sampling distance, 0.8 + 0.2 x.
   EXPECT_LT(longestNear(graded, 1.0, 3.0), 2.7 * (0.8 + 0.2 * 4.0));
   EXPECT_LT(longestNear(graded, 4.0, 7.0), 2.7 * (0.8 + 0.2 * 8.0));
   EXPECT_GT(longestNear(stepping, 1.0, 3.0), 2.7 * (0.8 + 0.2 * 4.0));
@@ -281,7 +281,7 @@ TEST(InterfaceSizes, PassIntoEachOtherAtJunctions)
 }
 
 //------------------------------------------------------------------------------------------------
-// Far from the mesh is what is farther than the density of that interface: a coarse one is no reason to go on.
+// What is farther from the mesh than its sampling distance is too far. A coarse interface alone is no reason to go on.
 TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
 {
   const LabelImage<3> image = phantoms::NestedBalls(24.0);
@@ -303,7 +303,7 @@ TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
   EXPECT_NEAR(static_cast<double>(elements[1]) / static_cast<double>(elements[0]), 1.0, 0.01);
 }
 
-// R6 of a coarse interface leaves alone what a finer one beside it needs; else the two undo each other's work.
+// R6 of a coarse interface leaves vertices that a finer one beside it needs. Otherwise the two undo each other's work.
 TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
 {
   const std::pair<LabelImage<3>, std::vector<InterfaceSize>> cases[] = {
@@ -322,12 +322,13 @@ TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
     const RuleStatistics& rules = mesher.Statistics().Rules;
     EXPECT_GT(rules.Removed, 20u) << "no test";
     EXPECT_LT(
-      rules.Removed, mesh.Simplices.size() / 20); // else 40 % of them, or more than there are
-    EXPECT_LT(rules.Created, 10 * mesh.Simplices.size()); // else 39 and more for each that stays
+      rules.Removed, mesh.Simplices.size() / 20); // otherwise 40 % of them, or more than there are
+    EXPECT_LT(
+      rules.Created, 10 * mesh.Simplices.size()); // otherwise 39 and more for each that stays
   }
 }
 
-// The finest of the interfaces that meet counts, whichever of the three it is.
+// The finest of the interfaces that meet counts. Each of the three is the finest in turn.
 TEST(InterfaceSizes, JunctionsBelongToTheFinestInterface)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30);
@@ -348,7 +349,7 @@ TEST(InterfaceSizes, JunctionsBelongToTheFinestInterface)
   EXPECT_EQ(pointsWith({ { 0, 2, 1.0 } }), fine);
 }
 
-// What delta is graded to elsewhere is of no account for a pair that has its own density.
+// The graded delta has no effect on a pair that has its own sampling distance.
 TEST(InterfaceSizes, GoWithGradingByLocalFeatureSize)
 {
   const LabelImage<3> image = phantoms::NestedBalls(24.0);

@@ -169,8 +169,8 @@ TEST(InterfaceSamples, BothSidesOfASheetNotTheBorder)
   EXPECT_GE(above, 25);
   EXPECT_GE(below, 25);
 
-  // The image ends at the ball's equator. Its face there is flat, whatever the density: no points but those of
-  // the ball's own surface, up to the face.
+  // The image ends at the ball's equator. The face there is flat with every sampling distance, so the only points
+  // are those of the ball's own surface, up to the face.
   const LabelImage<3> cut = phantoms::CutBall(12);
   int beside = 0;
   for (const Point<3>& p : Sample(cut, 2.0))
@@ -227,7 +227,7 @@ TEST(InterfaceSamples, CanBeStopped)
   EXPECT_THROW(SampleLabelChanges(image, domain, 1.0, 2, stop.get_token()), Cancelled);
 }
 
-TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWhateverTheThreads)
+TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
 {
   std::vector<Point<3>> points = RandomPoints(9000, 1);
   const std::vector<Point<3>> sphere = Sphere({ 5.0, 5.0, 5.0 }, 4.0, 9000);
@@ -286,7 +286,7 @@ TEST(MedialAxis, OfASphereIsItsCentre)
   EXPECT_TRUE(FindPoles(Sphere(centre, 7.0, 2000), balls, 1, {}).empty()) << "lambda";
 }
 
-// Where delta is large beside the image one cell holds it all, and there is a point or two.
+// If delta is large compared with the image, one cell holds all of it, with one or two points.
 TEST(MedialAxis, OfFewOrFlatPointsIsEmpty)
 {
   const Point<3> p = { 3.0, 1.0, 2.0 };
@@ -622,7 +622,7 @@ TEST(LocalFeatureSize, DeltaIsBoundedAndLipschitz)
   }
 }
 
-// A ball of radius R may have triangles with a circumradius of sqrt(2 R Tolerance), whatever the ratio.
+// A ball of radius R may have triangles with a circumradius of sqrt(2 R Tolerance), with every ratio.
 TEST(LocalFeatureSize, DeltaIsBoundedByTheBend)
 {
   GradingParameters parameters = Parameters(1.5, 100.0);

@@ -45,7 +45,7 @@ public:
     this->Mesh.Labels.push_back(label);
   }
 
-  /** The six tetrahedra of Kuhn's split, all of which share the diagonal from min to max. */
+  /** The six tetrahedra of Kuhn's split. They all share the diagonal from min to max. */
   void AddBox(const Point<3>& min, const Point<3>& max, std::int64_t label)
   {
     constexpr std::array<std::array<std::size_t, 3>, 6> orders{ { { 0, 1, 2 }, { 0, 2, 1 },

@@ -55,7 +55,7 @@ void ForEachFace(const LabelImage<3>& image, Function&& function)
   }
 }
 
-/** Edges at which a label other than background has not two facets of its boundary, counted apart. */
+/** Edges at which the number of facets of a label's boundary is not two; background does not count as a label. */
 inline std::set<std::array<std::uint32_t, 2>> BadEdges(const SimplexMesh<3>& mesh)
 {
   std::set<std::array<std::uint32_t, 2>> bad;
@@ -102,7 +102,7 @@ inline SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned ro
   MeshingOptions<3> options;
   options.Sampling.Delta = delta;
   options.Interfaces.Rounds = rounds;
-  options.Interfaces.Manifold = rounds > 0; // without rounds all is as it comes
+  options.Interfaces.Manifold = rounds > 0; // without rounds nothing is repaired
   options.Team.Threads = threads;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> mesh;
@@ -245,7 +245,7 @@ inline void Append(const SimplexMesh<3>& other, double offset, SimplexMesh<3>& m
     mesh.FacetLabels.end(), other.FacetLabels.begin(), other.FacetLabels.end());
 }
 
-/** Four tetrahedra around an edge that is not manifold; whoever changes sides there makes a facet with 25 degrees. */
+/** Four tetrahedra around an edge that is not manifold. If one changes its label, a facet with 25 degrees appears. */
 inline SimplexMesh<3> SharpRing()
 {
   RingShape shape;

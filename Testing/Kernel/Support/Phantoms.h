@@ -125,8 +125,8 @@ inline LabelImage<3> Sheet(std::int64_t side)
 }
 
 /**
- * Cells around random points that fill an image of 28 voxels a side, so that its border cuts them; in turn of so many
- * labels from `first` on.
+ * Cells around random points that fill an image of 28 voxels a side, so that its border cuts them. The cells have
+ * `labels` labels from `first` on, in turn.
  */
 inline LabelImage<3> CutCells(unsigned seed, std::size_t cells, std::size_t labels, int first)
 {

@@ -64,8 +64,8 @@ inline SimplexMesh<3> ExtractSphere(const RefinementContext<3>& context, const B
   return mesh;
 }
 
-/** Every rule of the thesis' section 3.1 (3D) or 4.2 (4D, but for slivers), stated anew, on every
- * simplex. */
+/** Checks every rule of the thesis' section 3.1 (3D) or 4.2 (4D, without slivers), stated anew, on
+ * every simplex. */
 template <int D>
 void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf<D>& ball)
 {

@@ -40,7 +40,7 @@ inline phantoms::SpaceTimePhantom PulsatingBalls(GridGeometry<4> grid, double sw
     } };
 }
 
-/** So many frames, so far apart, of unit voxels. */
+/** Frames of unit voxels: `frames` of them, `timeScale` apart. */
 inline phantoms::SpaceTimePhantom PulsatingBalls(
   std::int64_t frames, double timeScale, double swing = 1.0)
 {
@@ -71,7 +71,7 @@ struct Tolerances
   bool Manifold = true;            ///< boundaries, away from junctions
 };
 
-/** What holds of every mesh of an image, whatever the options. */
+/** What holds of every mesh of an image, with all options. */
 inline void ExpectGood(
   const SimplexMesh<4>& mesh, const LabelImage<4>& image, const Tolerances& tolerances = {})
 {

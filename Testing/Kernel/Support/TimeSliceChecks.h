@@ -107,7 +107,7 @@ inline double TetrahedronVolume(
   return Determinant<double>({ Subtract(b, a), Subtract(c, a), Subtract(d, a) }) / 6.0;
 }
 
-/** By the tetrahedra that VTK splits the cell into, each of which must not be inverted. */
+/** Measured by the tetrahedra that VTK splits the cell into. None of them may be inverted. */
 inline double VolumeOf(const TimeSlice& slice, std::size_t cell, double& smallest)
 {
   static const std::map<SliceCellType, std::vector<std::array<std::size_t, 4>>> splits = {

@@ -57,7 +57,7 @@ public:
 
   using Team = std::vector<typename Kernel::Worker*>;
 
-  /** From now on threads that would wait help, with whatever there is to do. */
+  /** From now on a thread that would wait helps another one. */
   void HelpEachOther(LoopSharing& sharing, Team& team)
   {
     this->Worker.Help.Sharing = &sharing;
@@ -133,7 +133,7 @@ private:
 
   bool Chance(unsigned oneIn) { return this->Random() % oneIn == 0; }
 
-  /** Others are likely to run now, whatever this one holds. */
+  /** Others are likely to run now, even if this one holds locks. */
   void MayYield()
   {
     if (this->Chance(8))

@@ -118,7 +118,7 @@ def test_density_and_shapes():
         return cells
 
     plain = count()
-    check(abs(count(NumberOfElements=9000) / 9000 - 1) <= 0.1, "a number of elements, whatever Delta")
+    check(abs(count(NumberOfElements=9000) / 9000 - 1) <= 0.1, "a number of elements, in place of Delta")
     check_equal(count(), plain, "and Delta again")
     graded = count(Grading="Local feature size")
     check(graded < 0.8 * plain, "graded", graded, plain)

@@ -121,7 +121,7 @@ class Rules(ModuleTestCase):
         self.assert_fault("<category>Segmentation.Meshing</category>", "", "elements")
         self.assert_fault("<license>BSD-3-Clause</license>", "<license></license>", "license> is empty")
         self.assert_fault("<parameters>", "<parameters advanced='maybe'>", "of a group")
-        self.assert_fault("<label>Density</label>", "", "begins with label")
+        self.assert_fault("<label>Quality</label>", "", "begins with label")
         self.assert_fault("<boolean>", "<bool>", "well-formed|unknown")
 
     def test_parameters(self):

@@ -188,7 +188,7 @@ class Library(ModuleTestCase):
         self.assertEqual({told[0] for told in host.told}, {"Reading the label map"})
 
     def test_several_runs(self):
-        """Nothing stays behind, whatever the run before did."""
+        """A run leaves nothing behind for the next one, even if it failed or was stopped."""
         host = Host()
         host.abort()
         self.assert_aborted(host)

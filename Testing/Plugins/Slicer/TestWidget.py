@@ -367,7 +367,7 @@ class Runs(PanelTestCase):
         self.widget.smallestComponentSpinBox.value = 0
         self.apply()
         self.assertRegex("\n".join(self.log()), lost)
-        self.widget.smallestComponentSpinBox.value = 8  # but a segment's largest one counts whatever its size
+        self.widget.smallestComponentSpinBox.value = 8  # but a segment's largest one counts at any size
         self.apply()
         self.assertRegex("\n".join(self.log()), found)
         self.widget.minimumVolumeSpinBox.value = 2.0  # a voxel has 1

@@ -3,8 +3,8 @@
 """What the module decides, computes and says; needs VTK but not Slicer.
 
 One run is: choose segments and settings, hand the parameters of the CLI module SegmentationToTetMesh to a runner, follow
-its progress, and give the finished mesh the names and colours of the segments. A runner is whatever can carry the CLI
-module out: in Slicer, Scene.CommandLineRunner; in the tests, a process. It has two methods:
+its progress, and give the finished mesh the names and colours of the segments. A runner carries the CLI module out: in
+Slicer it is Scene.CommandLineRunner, in the tests a process. It has two methods:
 
     start(parameters, onChange)   begins, and calls onChange(RunState) until the state is final
     cancel()                      asks for an end
@@ -44,8 +44,8 @@ class Settings:
     grading: str = "uniform"  # or lfs: by the local feature size
     size: float = 0.0  # 0: no bound
     optimise: str = "on"  # or off
-    smallestComponent: int = 8  # in voxels; 0: left to chance
-    exactComponents: bool = False  # whatever delta
+    smallestComponent: int = 8  # in voxels; 0: no guarantee
+    exactComponents: bool = False  # for every delta
     quality: bool = False  # compare with the label map
     interfaceSizes: str = ""  # see parseInterfaceSizes()
     gradation: float = 0.3  # 0: no limit

@@ -45,7 +45,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.buildNodes()
         self.buildSegments()
         self.buildIsosurface()
-        self.buildDensity()
+        self.buildSampling()
         self.buildShapes()
         self.buildAdvanced()
         self.buildRun()
@@ -111,16 +111,16 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         form.addRow("Inside:", self.insideComboBox)
         form.addRow("Smoothing (voxels):", self.greySmoothingSpinBox)
 
-    def buildDensity(self):
-        form = self.addSection("Density")
+    def buildSampling(self):
+        form = self.addSection("Sampling distance and element sizes")
         self.deltaSpinBox = self.makeSpinBox(0.0, 1000.0, 0.1, 3, "from the spacing", "Sampling distance of the "
                                              "interfaces: the edges of their triangles are about one to two times as long")
-        self.elementsSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 10000, "as delta has it", "So many tetrahedra, to within a tenth, "
-                                                     "in place of delta, which is found by trying: it takes two or three times as long")
+        self.elementsSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 10000, "from delta", "The number of tetrahedra, to within a tenth. "
+                                                     "Delta is then found by trying, which takes two or three times as long")
         self.gradingComboBox = self.makeComboBox(
-            {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"}, "With the second, interfaces are sampled by their "
-            "local feature size, the distance to the medial axis (about half the thickness of what is thin); delta is then the "
-            "shortest sampling distance")
+            {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"}, "The second samples interfaces by their local "
+            "feature size, the distance to the medial axis: about half the thickness of a thin part. Delta is then the shortest "
+            "sampling distance")
         self.sizeSpinBox = self.makeSpinBox(0.0, 1000.0, 0.5, 3, "no bound",
                                             "Upper bound of the circumradii of all elements")
         form.addRow("Delta (mm):", self.deltaSpinBox)
@@ -130,18 +130,18 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def buildShapes(self):
         form = self.addSection("Shapes and small objects")
-        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 15 to 155 degrees but for a few, "
-                                                  "radius-edge ratios up to 2.5")
-        self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "left to chance", "Connected components of a segment "
-                                                              "with at least so many voxels, and its largest one, get tetrahedra, "
-                                                              "however small they are beside delta")
-        self.exactComponentsCheckBox = self.makeCheckBox("Sample these components as finely as they are thin. Otherwise "
-                                                         "those that are thin beside delta have a few tetrahedra")
+        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 15 to 155 degrees, with few "
+                                                  "exceptions, radius-edge ratios up to 2.5")
+        self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "no guarantee", "Connected components of a segment "
+                                                              "with at least this number of voxels, and its largest one, get "
+                                                              "tetrahedra for every delta")
+        self.exactComponentsCheckBox = self.makeCheckBox("Sample these components as finely as their thickness requires, for every "
+                                                         "delta. Otherwise those that are thin compared with delta have few tetrahedra")
         self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
                                                  "non-manifold edges. The log has the figures")
         form.addRow("Optimise:", self.optimiseCheckBox)
         form.addRow("Smallest component (voxels):", self.smallestComponentSpinBox)
-        form.addRow("Exact whatever delta:", self.exactComponentsCheckBox)
+        form.addRow("Exact for every delta:", self.exactComponentsCheckBox)
         form.addRow("Compare with the segments:", self.qualityCheckBox)
 
     def buildAdvanced(self):
@@ -164,10 +164,10 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.interfaceSizesLineEdit.connect("editingFinished()", self.updateParameterNodeFromGUI)
         self.gradationSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "no limit", "How much sizes, and interface sizes, may change over a "
                                                  "millimetre")
-        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling distance over local feature size, "
+        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling distance over local feature size "
                                                     "where that gives more than delta")
-        self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: local feature sizes above this count as "
-                                                      "this, in voxels")
+        self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: upper bound of the local feature size, in "
+                                                      "voxels")
         self.smoothingSpinBox = self.makeSpinBox(0.0, 5.0, 0.1, 2, "off", "How far voxel stairs are smoothed, in voxels")
         self.junctionsCheckBox = self.makeCheckBox("Sample the curves where three segments meet before all else, so that edges "
                                                    "follow them")
@@ -188,10 +188,10 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.facetAngleSpinBox = self.makeSpinBox(0.0, 30.0, 1.0, 1, "", "Lower bound of the angles of triangles on the "
                                                   "interfaces, in degrees")
         self.sliverAngleSpinBox = self.makeSpinBox(0.0, 59.0, 1.0, 1, "slivers stay", "Tetrahedra with a dihedral angle below this, or "
-                                                   "above 180 less this, are split, in degrees; above 15 only with Force")
-        self.optimiseSecondsSpinBox = self.makeSpinBox(0.0, 1e6, 10.0, 1, "no limit", "Stop optimising after so many seconds")
+                                                   "above 180 minus this, are split, in degrees; above 15 only with Force")
+        self.optimiseSecondsSpinBox = self.makeSpinBox(0.0, 1e6, 10.0, 1, "no limit", "Stop optimising after this time")
         self.minimumVolumeSpinBox = self.makeSpinBox(0.0, 1e9, 1.0, 3, "none is left out", "Connected components with less volume, such "
-                                                     "as specks, become what is around them")
+                                                     "as specks, get the label around them")
         form.addRow("Radius-edge ratio:", self.radiusEdgeSpinBox)
         form.addRow("Facet angle:", self.facetAngleSpinBox)
         form.addRow("Sliver angle:", self.sliverAngleSpinBox)
