@@ -14,22 +14,20 @@
 namespace voxplex::cli
 {
 
+namespace
+{
+
 /**
  * Read by the signal handler, which may come at any time: entries of a list that only grows, and
  * that lives to the very end.
  */
-class Interruption::TemporaryFile
+struct TemporaryFile
 {
-public:
   const std::string Path;
-  std::atomic<bool> Exists = true;
-  TemporaryFile* Next = nullptr;
+  TemporaryFile* const Next;
 };
 
-namespace
-{
-
-std::atomic<Interruption::TemporaryFile*> Temporaries = nullptr;
+std::atomic<TemporaryFile*> Temporaries = nullptr;
 std::atomic<int> SignalNumber = 0;
 /** A duplicate of standard error: the original may be redirected while a library reads. */
 std::atomic<int> MessageDescriptor = STDERR_FILENO;
@@ -40,12 +38,9 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 /** Only calls that POSIX allows in a signal handler. */
 void RemoveTemporaries()
 {
-  for (const Interruption::TemporaryFile* file = Temporaries; file; file = file->Next)
+  for (const TemporaryFile* file = Temporaries; file; file = file->Next)
   {
-    if (file->Exists)
-    {
-      unlink(file->Path.c_str());
-    }
+    unlink(file->Path.c_str());
   }
 }
 
@@ -140,17 +135,9 @@ void Interruption::Exit()
   RemoveTemporariesAndExit();
 }
 
-Interruption::TemporaryFile* Interruption::AddTemporary(const std::string& path)
+void Interruption::AddTemporary(const std::string& path)
 {
-  auto* file = new TemporaryFile{ path };
-  file->Next = Temporaries;
-  Temporaries = file;
-  return file;
-}
-
-void Interruption::ForgetTemporary(TemporaryFile* file)
-{
-  file->Exists = false;
+  Temporaries = new TemporaryFile{ path, Temporaries };
 }
 
 Interruption::CancellableStep::CancellableStep()

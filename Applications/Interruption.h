@@ -32,11 +32,8 @@ public:
   /** Tell the user, remove the temporary files and end the program. */
   [[noreturn]] static void Exit();
 
-  /** A file to remove on the way out. */
-  class TemporaryFile;
-  /** @return to be given to ForgetTemporary() when the file is no longer to be removed */
-  static TemporaryFile* AddTemporary(const std::string& path);
-  static void ForgetTemporary(TemporaryFile* file);
+  /** A file to remove on the way out, if it is there then. */
+  static void AddTemporary(const std::string& path);
 
   /** While one lives, a signal sets the flag instead of ending the program. */
   class CancellableStep

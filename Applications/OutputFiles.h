@@ -2,64 +2,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file OutputFiles.h
- * @brief Output files that appear whole or not at all.
+ * @brief Output files of a program that may be interrupted, and meshes among them.
  *
- * Each file is written beside its final place under a hidden temporary name; when all of them are
- * complete, Commit() renames them. If something goes wrong before, the temporaries are removed and
- * older files of the same names stay as they were.
+ * An interrupted program leaves all files or none, and no temporary file.
  */
 #ifndef voxplex_cli_OutputFiles_h
 #define voxplex_cli_OutputFiles_h
 
-#include "Interruption.h"
-#include "MeshWriting/TextFile.h"
-
-#include <functional>
-#include <map>
-#include <set>
 #include <string>
+
+class vtkDataObject;
+
+namespace voxplex::io
+{
+class WholeFiles;
+}
 
 namespace voxplex::cli
 {
 
-class OutputFiles
-{
-public:
-  OutputFiles() = default;
-  ~OutputFiles();
-  OutputFiles(const OutputFiles&) = delete;
-  OutputFiles& operator=(const OutputFiles&) = delete;
+/** Announces a file that is no mesh. @throws io::OutputError */
+void AnnounceFile(io::WholeFiles& files, const std::string& path);
 
-  /**
-   * Announces a file and checks at once that it can be written.
-   *
-   * @throws RunError: the folder does not exist or is not writable, the name is that of a folder or
-   *   device, or of a file announced before
-   */
-  void Add(const std::string& path);
+/** Announces a mesh or its interfaces: two files if the format has two. @throws io::OutputError */
+void AnnounceMesh(io::WholeFiles& files, const std::string& path);
 
-  /** Refuses to overwrite a file that is read. @throws RunError */
-  void ForbidOverwriting(const std::string& inputPath) const;
+/**
+ * Has vtkSimplexMeshWriter write a mesh or its interfaces, which must have been announced.
+ *
+ * @param interfaces may be null
+ * @param content of vtkSimplexMeshWriter
+ * @throws RunError with the writer's reason
+ */
+void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
+  const std::string& path, const io::WholeFiles& files);
 
-  /** Where to write the content of an announced file; same extension as path. */
-  const std::string& TemporaryPath(const std::string& path) const;
-
-  /** Writes a text file that was announced. @throws RunError */
-  void WriteText(
-    const std::string& path, const std::function<void(io::TextFile& file)>& write) const;
-
-  /** Moves all files to their places. @throws RunError */
-  void Commit();
-
-private:
-  struct Temporary
-  {
-    std::string Path;
-    Interruption::TemporaryFile* Record;
-  };
-  std::map<std::string, Temporary> Files; ///< by the path that was given
-  std::set<std::string> Targets;          ///< the same files, absolute and without links
-};
+/** Moves all files to their places. @throws io::OutputError */
+void CommitFiles(io::WholeFiles& files);
 
 } // namespace voxplex::cli
 

@@ -3,9 +3,9 @@
 #include "SliceFiles.h"
 
 #include "Errors.h"
-#include "MeshFile.h"
 #include "MeshWriting/XMLText.h"
 #include "OutputFiles.h"
+#include "WholeFiles.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -93,7 +93,7 @@ Slicer::Slicer(vtkUnstructuredGrid* mesh)
 
 Slicer::~Slicer() = default;
 
-void Slicer::Write(double time, const std::string& path, const OutputFiles& files)
+void Slicer::Write(double time, const std::string& path, const io::WholeFiles& files)
 {
   this->Filter->UpdateTimeStep(time);
   if (!this->Filter->GetErrorMessage().empty())
@@ -110,7 +110,7 @@ void Slicer::Write(double time, const std::string& path, const OutputFiles& file
   WriteMeshFile(slice, nullptr, vtkSimplexMeshWriter::CONTENT_MESH, path, files);
 }
 
-void WriteCollection(const SliceFiles& slices, const OutputFiles& files)
+void WriteCollection(const SliceFiles& slices, const io::WholeFiles& files)
 {
   files.WriteText(slices.Collection,
     [&slices](io::TextFile& file)

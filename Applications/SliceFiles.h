@@ -16,10 +16,13 @@
 class vtkPentatopeMeshTimeSlice;
 class vtkUnstructuredGrid;
 
+namespace voxplex::io
+{
+class WholeFiles;
+}
+
 namespace voxplex::cli
 {
-
-class OutputFiles;
 
 /** The names of the files, with the folder that the user gave. */
 struct SliceFiles
@@ -56,14 +59,14 @@ public:
    *
    * @throws RunError
    */
-  void Write(double time, const std::string& path, const OutputFiles& files);
+  void Write(double time, const std::string& path, const io::WholeFiles& files);
 
 private:
   vtkSmartPointer<vtkPentatopeMeshTimeSlice> Filter;
 };
 
-/** Writes the collection; it names the slices relative to its own place. @throws RunError */
-void WriteCollection(const SliceFiles& slices, const OutputFiles& files);
+/** Writes the collection; it names the slices relative to its own place. @throws io::OutputError */
+void WriteCollection(const SliceFiles& slices, const io::WholeFiles& files);
 
 } // namespace voxplex::cli
 

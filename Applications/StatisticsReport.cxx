@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StatisticsReport.h"
 
-#include "OutputFiles.h"
 #include "Version.h"
+#include "WholeFiles.h"
 
 #include <vtkMeshingStatistics.h>
 
@@ -246,7 +246,7 @@ ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& para
   return report;
 }
 
-void WriteReport(const ordered_json& report, const std::string& path, const OutputFiles& files)
+void WriteReport(const ordered_json& report, const std::string& path, const io::WholeFiles& files)
 {
   files.WriteText(path,
     [&report](io::TextFile& file)

@@ -18,10 +18,13 @@
 
 class vtkMeshingStatistics;
 
+namespace voxplex::io
+{
+class WholeFiles;
+}
+
 namespace voxplex::cli
 {
-
-class OutputFiles;
 
 /** What is known of the labels. */
 struct LabelReport
@@ -45,9 +48,9 @@ struct InputOutputTimes
 nlohmann::ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
   const LabelReport& labels, const InputOutputTimes& times);
 
-/** @throws RunError */
+/** @throws io::OutputError */
 void WriteReport(
-  const nlohmann::ordered_json& report, const std::string& path, const OutputFiles& files);
+  const nlohmann::ordered_json& report, const std::string& path, const io::WholeFiles& files);
 
 /** How the mesh or the run deviates from what was asked for, from a report: one line each. */
 std::vector<std::string> Warnings(const nlohmann::ordered_json& report);

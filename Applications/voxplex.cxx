@@ -6,13 +6,13 @@
 #include "Errors.h"
 #include "Interruption.h"
 #include "Measuring.h"
-#include "MeshFile.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
 #include "ProgressBar.h"
 #include "SliceFiles.h"
 #include "StatisticsReport.h"
+#include "WholeFiles.h"
 
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -66,7 +66,7 @@ private:
 };
 
 /** So that nothing that is read is overwritten. */
-void ProtectInputs(const OutputFiles& files, const Parameters& p)
+void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
 {
   files.ForbidOverwriting(p.Input);
   for (const std::string& path : { p.SizeImage, p.LabelTable })
@@ -79,26 +79,25 @@ void ProtectInputs(const OutputFiles& files, const Parameters& p)
 }
 
 /** Announces all outputs but slices, so that what cannot be written is known before any work. */
-void Announce(OutputFiles& files, const Parameters& p)
+void Announce(io::WholeFiles& files, const Parameters& p)
 {
-  for (const std::string& path : { p.Output, p.Interfaces, p.Statistics })
+  for (const std::string& path : { p.Output, p.Interfaces })
   {
     if (!path.empty())
     {
-      files.Add(path);
+      AnnounceMesh(files, path);
     }
   }
-  const std::string companion = vtkSimplexMeshWriter::CompanionOf(p.Output);
-  if (!companion.empty())
+  if (!p.Statistics.empty())
   {
-    files.Add(companion);
+    AnnounceFile(files, p.Statistics);
   }
   ProtectInputs(files, p);
 }
 
 /** Slices are known only when the image has been read. */
 std::optional<SliceFiles> AnnounceSlices(
-  OutputFiles& files, const Parameters& p, vtkSegmentationReader* reader)
+  io::WholeFiles& files, const Parameters& p, vtkSegmentationReader* reader)
 {
   if (p.Slices.empty())
   {
@@ -110,10 +109,10 @@ std::optional<SliceFiles> AnnounceSlices(
     times.push_back(reader->GetTimeOfFrame(frame));
   }
   SliceFiles slices(p.Slices, times, p.SliceCount);
-  files.Add(slices.Collection);
+  AnnounceFile(files, slices.Collection);
   for (const std::string& path : slices.Slices)
   {
-    files.Add(path);
+    AnnounceMesh(files, path);
   }
   ProtectInputs(files, p);
   return slices;
@@ -215,7 +214,8 @@ nlohmann::ordered_json MeasureOrExit(
 }
 
 /** Writes both results if their names were given. */
-void WriteMesh(vtkImageToSimplexMeshFilter* filter, const Parameters& p, const OutputFiles& files)
+void WriteMesh(
+  vtkImageToSimplexMeshFilter* filter, const Parameters& p, const io::WholeFiles& files)
 {
   const auto write = [&](const std::string& path, int content)
   {
@@ -228,7 +228,7 @@ void WriteMesh(vtkImageToSimplexMeshFilter* filter, const Parameters& p, const O
   write(p.Interfaces, vtkSimplexMeshWriter::CONTENT_INTERFACES);
 }
 
-void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const OutputFiles& files)
+void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::WholeFiles& files)
 {
   Slicer slicer(mesh);
   for (std::size_t i = 0; i < slices.Slices.size(); ++i)
@@ -240,7 +240,7 @@ void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const Outp
 
 void Run(const Parameters& p)
 {
-  OutputFiles files;
+  io::WholeFiles files;
   Announce(files, p);
 
   InputOutputTimes times;
@@ -281,7 +281,7 @@ void Run(const Parameters& p)
   {
     WriteReport(report, p.Statistics, files);
   }
-  files.Commit();
+  CommitFiles(files);
   Warn(Warnings(report));
   std::cout << Summarize(report) << (measurement.is_null() ? "" : SummarizeMeasurement(report))
             << std::flush;

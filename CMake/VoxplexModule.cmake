@@ -11,6 +11,7 @@ endif ()
 
 find_package(Threads REQUIRED)
 find_package(CGAL REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
 if (NOT TARGET VoxplexKernel)
   add_subdirectory(Kernel)
 endif ()
@@ -30,7 +31,6 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
     Filters/Private/ImageLabels.h
-    Filters/Private/JsonWriter.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
     Filters/Private/MeshingMessages.h
@@ -85,6 +85,7 @@ get_target_property(voxplex_kernel_libraries VoxplexKernel INTERFACE_LINK_LIBRAR
 vtk_module_link(VTK::Voxplex
   PRIVATE
     "$<LINK_ONLY:CGAL::CGAL>"
+    "$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>" # header files only
     ${voxplex_kernel_libraries})
 
 # What is not exported by name stays inside, as in the kernel.

@@ -6,7 +6,7 @@
 find_package(ParaView 5.11 QUIET)
 voxplex_require("${ParaView_FOUND}" "ParaView 5.11 with its development files"
   "paraview-dev, or Scripts/install-paraview where libvtk9-dev is installed, too" ParaView_DIR)
-voxplex_find_cgal()
+voxplex_find_libraries()
 include(CMake/VoxplexFindIO.cmake) # sets VOXPLEX_HAVE_IO: whether the plugin reads segmentations
 
 if (VOXPLEX_BUILD_TESTING)

@@ -10,9 +10,11 @@ function (voxplex_require found what debian_package variable)
   endif ()
 endfunction ()
 
-macro (voxplex_find_cgal)
+macro (voxplex_find_libraries)
   find_package(CGAL 5.0 QUIET)
   voxplex_require("${CGAL_FOUND}" "CGAL 5 (its kernels only)" "libcgal-dev" CGAL_DIR)
+  find_package(nlohmann_json 3.11 QUIET)
+  voxplex_require("${nlohmann_json_FOUND}" "nlohmann's JSON for C++ 3.11" "nlohmann-json3-dev" nlohmann_json_DIR)
 endmacro ()
 
 macro (voxplex_find_vtk)

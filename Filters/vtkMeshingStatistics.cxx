@@ -2,97 +2,86 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshingStatistics.h"
 
-#include "Private/JsonWriter.h"
 #include "Private/MeshingFigures.h"
 #include "Private/QualityJson.h"
 
 #include "vtkObjectFactory.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+using nlohmann::ordered_json;
+
 vtkStandardNewMacro(vtkMeshingStatistics);
 
 namespace
 {
 
-void AddIsosurface(voxplex::JsonWriter& json, const IsosurfaceFigures& isosurface)
+/** Null for labels. */
+ordered_json IsosurfaceToJson(const IsosurfaceFigures& isosurface)
 {
   if (!isosurface.Meshed)
   {
-    json.AddNull("isosurface");
-    return;
+    return nullptr;
   }
-  json.Begin("isosurface");
-  json.Add("value", isosurface.Value);
-  json.Add("inside", std::string_view(isosurface.InsideIsAbove ? "above" : "below"));
-  json.BeginList("range");
-  for (const double value : isosurface.Range)
-  {
-    json.AddItem(value);
-  }
-  json.EndList();
-  json.End();
+  return {
+    { "value", isosurface.Value },
+    { "inside", isosurface.InsideIsAbove ? "above" : "below" },
+    { "range", isosurface.Range },
+  };
 }
 
 /** The search for a number of elements; null and empty if none was asked for. */
-void AddRuns(voxplex::JsonWriter& json, const voxplex::MeshingStatistics& run)
+void AddRuns(ordered_json& json, const voxplex::MeshingStatistics& run)
 {
+  ordered_json& elements = json["elements_asked_for"];
   if (run.ElementsAskedFor > 0)
   {
-    json.Add("elements_asked_for", run.ElementsAskedFor);
+    elements = run.ElementsAskedFor;
   }
-  else
-  {
-    json.AddNull("elements_asked_for");
-  }
-  json.BeginList("runs");
+  ordered_json& runs = json["runs"] = ordered_json::array();
   for (const voxplex::MeshingRun& one : run.Runs)
   {
-    json.BeginItem();
-    json.Add("delta", one.Delta);
-    json.Add("elements", one.Elements);
-    json.End();
+    runs.push_back({ { "delta", one.Delta }, { "elements", one.Elements } });
   }
-  json.EndList();
 }
 
-void AddYielding(voxplex::JsonWriter& json, const voxplex::MeshingStatistics& run)
+ordered_json YieldingToJson(const std::vector<voxplex::YieldingReport>& yielding)
 {
-  json.Add("largest_regional_work", run.Rules.LargestRegionalWork);
-  json.BeginList("yielding_regions");
-  for (const voxplex::YieldingReport& region : run.Yielding)
+  ordered_json regions = ordered_json::array();
+  for (const voxplex::YieldingReport& region : yielding)
   {
-    json.BeginItem();
-    json.Add("step", static_cast<std::int64_t>(region.Step));
-    json.Add<std::int64_t>("voxel", region.Voxel);
-    json.End();
+    regions.push_back({ { "step", region.Step }, { "voxel", region.Voxel } });
   }
-  json.EndList();
+  return regions;
 }
 
-void AddRules(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
+ordered_json RulesToJson(const voxplex::RuleStatistics& rules)
 {
-  json.Begin("rules");
+  ordered_json json;
   for (std::size_t i = 0; i < rules.Fired.size(); ++i)
   {
-    json.Add(std::string("R").append(std::to_string(i + 1)), rules.Fired[i]);
+    json["R" + std::to_string(i + 1)] = rules.Fired[i];
   }
-  json.Add("R6", rules.Removed);
-  json.Add("R7_split", rules.SliversSplit);
-  json.Add("R7_sampled", rules.SliversSampled);
-  json.Add("size", rules.FiredBySize);
-  json.Add("projected", rules.Projected);
-  json.Add("refused_too_close", rules.RefusedTooClose);
-  json.Add("refused_no_conflict", rules.RefusedNoConflict);
-  json.Add("refused_duplicate", rules.RefusedDuplicate);
-  json.Add("removals_failed", rules.RemovalsFailed);
-  json.Add("closest_surface_point_calls", rules.ClosestSurfacePointCalls);
-  json.Add("evaluated", rules.Evaluated);
-  json.Add("created", rules.Created);
-  json.End();
+  json.update({
+    { "R6", rules.Removed },
+    { "R7_split", rules.SliversSplit },
+    { "R7_sampled", rules.SliversSampled },
+    { "size", rules.FiredBySize },
+    { "projected", rules.Projected },
+    { "refused_too_close", rules.RefusedTooClose },
+    { "refused_no_conflict", rules.RefusedNoConflict },
+    { "refused_duplicate", rules.RefusedDuplicate },
+    { "removals_failed", rules.RemovalsFailed },
+    { "closest_surface_point_calls", rules.ClosestSurfacePointCalls },
+    { "evaluated", rules.Evaluated },
+    { "created", rules.Created },
+  });
+  return json;
 }
 
 /** An empty report for an index out of range. */
@@ -110,32 +99,32 @@ void CopyVoxel(const voxplex::ComponentReport& report, vtkTypeInt64 voxel[3])
   }
 }
 
-void AddInterfaces(voxplex::JsonWriter& json, const voxplex::InterfaceStatistics& figures)
+ordered_json InterfacesToJson(const voxplex::InterfaceStatistics& figures)
 {
-  json.Begin("interfaces");
-  json.Add("junction_curves", figures.JunctionCurves);
-  json.Add("junction_corners", figures.Corners);
-  json.Add("junction_points", figures.JunctionSeeds);
-  json.Add("rounds", static_cast<std::uint64_t>(figures.Rounds));
-  json.Add("points", figures.Seeds);
-  json.Add("nonmanifold_edges_repaired", figures.NonManifoldRepaired);
-  json.Add("nonmanifold_edges_opened", figures.NonManifoldOpened);
-  json.Add("nonmanifold_edges_left", figures.NonManifoldLeft);
-  json.End();
+  return {
+    { "junction_curves", figures.JunctionCurves },
+    { "junction_corners", figures.Corners },
+    { "junction_points", figures.JunctionSeeds },
+    { "rounds", figures.Rounds },
+    { "points", figures.Seeds },
+    { "nonmanifold_edges_repaired", figures.NonManifoldRepaired },
+    { "nonmanifold_edges_opened", figures.NonManifoldOpened },
+    { "nonmanifold_edges_left", figures.NonManifoldLeft },
+  };
 }
 
-void AddOptimisation(voxplex::JsonWriter& json, const voxplex::OptimisationSummary& figures)
+ordered_json OptimisationToJson(const voxplex::OptimisationSummary& figures)
 {
-  json.Begin("optimisation");
-  json.Add("ran", figures.Ran);
-  json.Add("out_of_time", figures.OutOfTime);
-  json.Add("min_dihedral_before", figures.SmallestDihedralBefore);
-  json.Add("max_dihedral_before", figures.LargestDihedralBefore);
-  json.Add("poor_before", figures.PoorBefore);
-  json.Add("min_dihedral_after", figures.SmallestDihedralAfter);
-  json.Add("max_dihedral_after", figures.LargestDihedralAfter);
-  json.Add("poor_after", figures.PoorAfter);
-  json.End();
+  return {
+    { "ran", figures.Ran },
+    { "out_of_time", figures.OutOfTime },
+    { "min_dihedral_before", figures.SmallestDihedralBefore },
+    { "max_dihedral_before", figures.LargestDihedralBefore },
+    { "poor_before", figures.PoorBefore },
+    { "min_dihedral_after", figures.SmallestDihedralAfter },
+    { "max_dihedral_after", figures.LargestDihedralAfter },
+    { "poor_after", figures.PoorAfter },
+  };
 }
 
 /** NaN without insertions. */
@@ -144,51 +133,37 @@ double MeanCavitySize(const voxplex::RuleStatistics& rules)
   return static_cast<double>(rules.CavitySimplices) / static_cast<double>(rules.Insertions());
 }
 
-void AddCavities(voxplex::JsonWriter& json, const voxplex::RuleStatistics& rules)
-{
-  json.Begin("cavities");
-  json.Add("mean", MeanCavitySize(rules));
-  json.Add("largest", rules.LargestCavity);
-  json.End();
-  json.Begin("slivers");
-  json.Add("found", rules.SliversFound);
-  json.Add("picks", rules.PicksTried);
-  json.Add("kept", rules.SliversKept);
-  json.End();
-}
-
-void AddIfCounted(
-  voxplex::JsonWriter& json, const char* key, const std::optional<std::uint64_t>& count)
+void AddIfCounted(ordered_json& json, const char* key, const std::optional<std::uint64_t>& count)
 {
   if (count)
   {
-    json.Add(key, *count);
+    json[key] = *count;
   }
 }
 
-void AddThreads(voxplex::JsonWriter& json, const std::vector<voxplex::ThreadStatistics>& threads)
+ordered_json ThreadsToJson(const std::vector<voxplex::ThreadStatistics>& threads)
 {
-  json.BeginList("thread_statistics");
+  ordered_json list = ordered_json::array();
   for (const auto& thread : threads)
   {
-    json.BeginItem();
-    json.Add("insertions", thread.Insertions);
-    json.Add("removals", thread.Removals);
-    json.Add("rollbacks", thread.Rollbacks);
-    json.Add("waits", thread.Waits);
-    json.Add("contention_seconds", thread.ContentionSeconds);
-    json.Add("load_balance_seconds", thread.LoadBalanceSeconds);
-    json.Add("rollback_seconds", thread.RollbackSeconds);
-    json.Add<std::uint64_t>("received", thread.Received);
-    json.Add("received_elements", thread.ReceivedElements);
-    json.Add("helped_loops", thread.HelpedLoops);
-    json.Add("helped_iterations", thread.HelpedIterations);
+    ordered_json& json = list.emplace_back(ordered_json{
+      { "insertions", thread.Insertions },
+      { "removals", thread.Removals },
+      { "rollbacks", thread.Rollbacks },
+      { "waits", thread.Waits },
+      { "contention_seconds", thread.ContentionSeconds },
+      { "load_balance_seconds", thread.LoadBalanceSeconds },
+      { "rollback_seconds", thread.RollbackSeconds },
+      { "received", thread.Received },
+      { "received_elements", thread.ReceivedElements },
+      { "helped_loops", thread.HelpedLoops },
+      { "helped_iterations", thread.HelpedIterations },
+    });
     AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
     AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
     AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
-    json.End();
   }
-  json.EndList();
+  return list;
 }
 
 } // namespace
@@ -468,73 +443,69 @@ int vtkMeshingStatistics::GetNumberOfYieldingRegions() const
 std::string vtkMeshingStatistics::ToJSON() const
 {
   const Figures& v = *this->Values;
-  voxplex::JsonWriter json;
-  json.Add("dimension", static_cast<std::int64_t>(v.Dimension));
-  json.Add("elements", v.Elements);
-  json.Add("vertices", v.Vertices);
-  json.Add("interface_facets", v.InterfaceFacets);
-  json.Add("delta", v.Run.Delta);
-  json.Add("largest_delta", v.Run.LargestDelta);
-  json.Begin("grading");
-  json.Add("samples", v.Run.GradingSamples);
-  json.Add("poles", v.Run.GradingPoles);
-  json.End();
+  ordered_json json = {
+    { "dimension", v.Dimension },
+    { "elements", v.Elements },
+    { "vertices", v.Vertices },
+    { "interface_facets", v.InterfaceFacets },
+    { "delta", v.Run.Delta },
+    { "largest_delta", v.Run.LargestDelta },
+    { "grading", { { "samples", v.Run.GradingSamples }, { "poles", v.Run.GradingPoles } } },
+  };
   AddRuns(json, v.Run);
-  json.Add("smoothing_sigma", v.Run.SmoothingSigma);
-  json.Add("threads", static_cast<std::int64_t>(v.Threads));
-  json.Add(
-    "contention", voxplex::ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)]);
-  json.Add("balance", voxplex::BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)]);
-  json.Add("switched_to_local", v.Run.SwitchedToLocal);
-  json.Add("seeding_seconds", v.Run.SeedingSeconds);
-  json.Add("estimated_elements", v.Run.EstimatedElements);
-  json.Add("sizes_raised_to", v.Run.SizesRaisedTo);
-  AddIsosurface(json, v.Isosurface);
-  json.Add<std::int64_t>("lost_labels", v.LostLabels);
-  json.Add("components", v.Run.Components.Found);
-  voxplex::AddComponents(json, "lost_components", v.Run.Components.Lost);
-  voxplex::AddComponents(json, "dropped_components", v.DroppedComponents);
-  AddYielding(json, v.Run);
-  AddInterfaces(json, v.Run.Interfaces);
-  AddOptimisation(json, v.Run.Optimisation);
+  json.update({
+    { "smoothing_sigma", v.Run.SmoothingSigma },
+    { "threads", v.Threads },
+    { "contention", voxplex::ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)] },
+    { "balance", voxplex::BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)] },
+    { "switched_to_local", v.Run.SwitchedToLocal },
+    { "seeding_seconds", v.Run.SeedingSeconds },
+    { "estimated_elements", v.Run.EstimatedElements },
+    { "sizes_raised_to", v.Run.SizesRaisedTo },
+    { "isosurface", IsosurfaceToJson(v.Isosurface) },
+    { "lost_labels", v.LostLabels },
+    { "components", v.Run.Components.Found },
+    { "lost_components", voxplex::ComponentsToJson(v.Run.Components.Lost) },
+    { "dropped_components", voxplex::ComponentsToJson(v.DroppedComponents) },
+    { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
+    { "yielding_regions", YieldingToJson(v.Run.Yielding) },
+    { "interfaces", InterfacesToJson(v.Run.Interfaces) },
+    { "optimisation", OptimisationToJson(v.Run.Optimisation) },
+  });
   if (v.HasQuality)
   {
-    json.Begin("labels");
+    ordered_json& labels = json["labels"] = ordered_json::object();
     for (const auto& label : v.Quality.Labels)
     {
-      json.Begin(std::to_string(label.Label));
-      json.Add("elements", label.Elements);
-      json.Add("volume", label.Volume);
-      json.End();
+      voxplex::AppendLabel(
+        labels, label.Label, { { "elements", label.Elements }, { "volume", label.Volume } });
     }
-    json.End();
-    voxplex::AddQuality(json, v.Quality);
+    json["quality"] = voxplex::QualityToJson(v.Quality);
   }
-  AddRules(json, v.Run.Rules);
-  AddCavities(json, v.Run.Rules);
-  json.Begin("predicates");
-  json.Add("calls", v.Run.Predicates.Calls);
-  json.Add("filter_failures", v.Run.Predicates.StaticFailures);
-  json.Add("exact", v.Run.Predicates.ExactCalls);
-  json.Add("perturbed", v.Run.Predicates.Perturbed);
-  json.End();
-  json.Begin("time");
-  json.Add("label_field", v.Run.Times.LabelField);
-  json.Add("distance_transform", v.Run.Times.DistanceTransform);
-  json.Add("grading", v.Run.Times.Grading);
-  json.Add("components", v.Run.Times.Components);
-  json.Add("interfaces", v.Run.Times.Interfaces);
-  json.Add("refinement", v.Run.Times.Refinement);
-  json.Add("extraction", v.Run.Times.Extraction);
-  json.Add("optimisation", v.Run.Times.Optimisation);
-  json.Add("total", v.Run.Times.Total());
-  json.End();
-  json.Begin("memory");
-  json.Add("label_field_bytes", v.Run.LabelFieldBytes);
-  json.Add("distance_bytes", v.Run.DistanceBytes);
-  json.End();
-  AddThreads(json, v.Run.Threads);
-  return json.Finish();
+  const auto& rules = v.Run.Rules;
+  const auto& predicates = v.Run.Predicates;
+  const auto& times = v.Run.Times;
+  json.update({
+    { "rules", RulesToJson(rules) },
+    { "cavities", { { "mean", MeanCavitySize(rules) }, { "largest", rules.LargestCavity } } },
+    { "slivers",
+      { { "found", rules.SliversFound }, { "picks", rules.PicksTried },
+        { "kept", rules.SliversKept } } },
+    { "predicates",
+      { { "calls", predicates.Calls }, { "filter_failures", predicates.StaticFailures },
+        { "exact", predicates.ExactCalls }, { "perturbed", predicates.Perturbed } } },
+    { "time",
+      { { "label_field", times.LabelField }, { "distance_transform", times.DistanceTransform },
+        { "grading", times.Grading }, { "components", times.Components },
+        { "interfaces", times.Interfaces }, { "refinement", times.Refinement },
+        { "extraction", times.Extraction }, { "optimisation", times.Optimisation },
+        { "total", times.Total() } } },
+    { "memory",
+      { { "label_field_bytes", v.Run.LabelFieldBytes },
+        { "distance_bytes", v.Run.DistanceBytes } } },
+    { "thread_statistics", ThreadsToJson(v.Run.Threads) },
+  });
+  return json.dump();
 }
 
 void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)

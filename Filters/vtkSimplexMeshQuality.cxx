@@ -8,7 +8,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Private/ChosenArray.h"
 #include "Private/ImageLabels.h"
-#include "Private/JsonWriter.h"
 #include "Private/QualityJson.h"
 #include "Private/QualityTables.h"
 #include "Private/SmpThreads.h"
@@ -26,6 +25,8 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVersion.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -479,13 +480,14 @@ vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostComponents() const
 std::string vtkSimplexMeshQuality::ToJSON() const
 {
   const Internals& figures = *this->Private;
-  voxplex::JsonWriter json;
-  json.Add("elements", figures.Elements);
-  json.Add("vertices", figures.Vertices);
-  json.Add("interface_facets", figures.InterfaceFacets);
-  json.Add("faces_of_three_elements", figures.FacesOfThreeElements);
+  nlohmann::ordered_json json = {
+    { "elements", figures.Elements },
+    { "vertices", figures.Vertices },
+    { "interface_facets", figures.InterfaceFacets },
+    { "faces_of_three_elements", figures.FacesOfThreeElements },
+  };
   voxplex::AddMeasurement(json, figures.Figures);
-  return json.Finish();
+  return json.dump();
 }
 
 void vtkSimplexMeshQuality::PrintSelf(ostream& os, vtkIndent indent)

@@ -4,7 +4,7 @@
 
 #include "FileError.h"
 #include "MeshInput.h"
-#include "WholeFile.h"
+#include "WholeFiles.h"
 
 #include "vtkCommand.h"
 #include "vtkErrorCode.h"
@@ -113,27 +113,21 @@ void vtkSimplexMeshWriter::WriteData()
     }
     else
     {
-      voxplex::io::WholeFile file(this->FileName);
-      std::optional<voxplex::io::WholeFile> companion;
-      if (!companionName.empty())
-      {
-        companion.emplace(companionName);
-      }
-      input.Write(content, this->FileName, file.TemporaryPath(),
-        companion ? companion->TemporaryPath() : std::string());
-      if (companion)
-      {
-        // The two are never of different meshes, even if the process ends in between.
-        file.RemoveOlder();
-        companion->Commit();
-      }
-      file.Commit();
+      voxplex::io::WholeFiles files;
+      files.Add(this->FileName, companionName);
+      input.Write(content, this->FileName, files.TemporaryPath(this->FileName),
+        companionName.empty() ? "" : files.TemporaryPath(companionName));
+      files.Commit();
     }
     this->Written = true;
   }
   catch (const std::bad_alloc&)
   {
     this->Fail("there is not enough memory");
+  }
+  catch (const voxplex::io::OutputError& error)
+  {
+    this->Report(error.what());
   }
   catch (const std::exception& error)
   {
@@ -143,9 +137,14 @@ void vtkSimplexMeshWriter::WriteData()
 
 void vtkSimplexMeshWriter::Fail(const std::string& reason)
 {
-  this->ErrorMessage = this->FileName && *this->FileName
-    ? "cannot write '" + std::string(this->FileName) + "': " + reason
-    : reason;
+  this->Report(this->FileName && *this->FileName
+      ? "cannot write '" + std::string(this->FileName) + "': " + reason
+      : reason);
+}
+
+void vtkSimplexMeshWriter::Report(const std::string& error)
+{
+  this->ErrorMessage = error;
   this->SetErrorCode(vtkErrorCode::UnknownError);
   vtkErrorMacro(<< this->ErrorMessage);
 }

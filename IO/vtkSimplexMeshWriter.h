@@ -125,7 +125,9 @@ private:
   vtkSimplexMeshWriter(const vtkSimplexMeshWriter&) = delete;
   void operator=(const vtkSimplexMeshWriter&) = delete;
 
+  /** Reports that the file cannot be written, and why. */
   void Fail(const std::string& reason);
+  void Report(const std::string& error);
 
   std::string ErrorMessage;
   bool Written = false;

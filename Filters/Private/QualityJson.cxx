@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/QualityJson.h"
 
-#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
 #include <map>
+#include <string>
+#include <utility>
+
+using nlohmann::ordered_json;
 
 namespace voxplex
 {
@@ -40,133 +46,135 @@ std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measur
   return labels;
 }
 
-void AddLabels(JsonWriter& json, const MeshMeasurement& measurement)
+ordered_json LabelsToJson(const MeshMeasurement& measurement)
 {
-  json.Begin("labels");
+  ordered_json labels = ordered_json::object();
   for (const auto& [label, figures] : CollectLabels(measurement))
   {
-    json.Begin(std::to_string(label));
-    json.Add("elements", figures.Comparison.Elements);
-    json.Add("volume", figures.Comparison.Volume);
+    ordered_json one = { { "elements", figures.Comparison.Elements },
+      { "volume", figures.Comparison.Volume } };
     if (measurement.Image)
     {
       const double volume = figures.Comparison.ImageVolume;
-      json.Add("voxels", figures.Comparison.Voxels);
-      json.Add("image_volume", volume);
-      json.Add("volume_error", (figures.Comparison.Volume - volume) / volume);
+      one["voxels"] = figures.Comparison.Voxels;
+      one["image_volume"] = volume;
+      one["volume_error"] = (figures.Comparison.Volume - volume) / volume;
     }
-    json.Add("boundary_edges", figures.Topology.BoundaryEdges);
-    json.Add("non_manifold_edges", figures.Topology.NonManifoldEdges);
-    json.Add("non_manifold_edges_at_junctions", figures.Topology.NonManifoldEdgesAtJunctions);
-    json.End();
+    one["boundary_edges"] = figures.Topology.BoundaryEdges;
+    one["non_manifold_edges"] = figures.Topology.NonManifoldEdges;
+    one["non_manifold_edges_at_junctions"] = figures.Topology.NonManifoldEdgesAtJunctions;
+    AppendLabel(labels, label, std::move(one));
   }
-  json.End();
+  return labels;
 }
 
-void AddTopology(JsonWriter& json, const InterfaceTopology& topology)
+ordered_json TopologyToJson(const InterfaceTopology& topology)
 {
-  json.Begin("topology");
-  json.Add("interface_edges", topology.InterfaceEdges);
-  json.Add("junction_edges", topology.JunctionEdges);
-  json.Add("junction_points", topology.JunctionPoints);
-  json.Add("corners", topology.Corners);
-  json.Add("irregular_junction_points", topology.IrregularJunctionPoints);
-  json.Add("boundary_edges", topology.BoundaryEdges);
-  json.Add("non_manifold_edges", topology.NonManifoldEdges);
-  json.Add("non_manifold_edges_at_junctions", topology.NonManifoldEdgesAtJunctions);
-  json.End();
+  return {
+    { "interface_edges", topology.InterfaceEdges },
+    { "junction_edges", topology.JunctionEdges },
+    { "junction_points", topology.JunctionPoints },
+    { "corners", topology.Corners },
+    { "irregular_junction_points", topology.IrregularJunctionPoints },
+    { "boundary_edges", topology.BoundaryEdges },
+    { "non_manifold_edges", topology.NonManifoldEdges },
+    { "non_manifold_edges_at_junctions", topology.NonManifoldEdgesAtJunctions },
+  };
 }
 
-void AddDistances(JsonWriter& json, const std::string& name, const DistanceFigures& figures)
+ordered_json DistancesToJson(const DistanceFigures& figures)
 {
-  json.Begin(name);
-  json.Add("max", figures.Maximum);
-  json.Add("mean", figures.Mean);
-  json.Add("p99", figures.Percentile99);
-  json.Add<double>("place", figures.Place);
-  json.Add("points", figures.Points);
-  json.End();
+  return {
+    { "max", figures.Maximum },
+    { "mean", figures.Mean },
+    { "p99", figures.Percentile99 },
+    { "place", figures.Place },
+    { "points", figures.Points },
+  };
 }
 
-void AddHausdorff(JsonWriter& json, const std::string& name, const HausdorffFigures& figures)
+void AddHausdorff(ordered_json& json, const char* name, const HausdorffFigures& figures)
 {
   if (figures.MeshToImage.Points == 0 && figures.ImageToMesh.Points == 0)
   {
     return; // was not measured
   }
-  json.Begin(name);
-  json.Add("distance", figures.Distance());
-  AddDistances(json, "mesh_to_image", figures.MeshToImage);
-  AddDistances(json, "image_to_mesh", figures.ImageToMesh);
-  json.End();
+  json[name] = {
+    { "distance", figures.Distance() },
+    { "mesh_to_image", DistancesToJson(figures.MeshToImage) },
+    { "image_to_mesh", DistancesToJson(figures.ImageToMesh) },
+  };
 }
 
-void AddImage(JsonWriter& json, const ImageComparison& image)
+void AddImage(ordered_json& json, const ImageComparison& image)
 {
-  json.Begin("image");
-  json.Add<std::int64_t>("lost_labels", image.LostLabels);
-  json.Add<std::int64_t>("extra_labels", image.ExtraLabels);
-  json.Add("volume", image.ImageVolume);
-  json.Add("mesh_volume", image.Volume);
-  json.Add("label_volume_error", image.VolumeError);
-  json.Add("components", image.Components);
-  AddComponents(json, "lost_components", image.LostComponents);
-  json.End();
-  json.Begin("hausdorff");
-  AddHausdorff(json, "voxels", image.Voxels);
-  AddHausdorff(json, "smooth", image.Smooth);
-  json.End();
+  json["image"] = {
+    { "lost_labels", image.LostLabels },
+    { "extra_labels", image.ExtraLabels },
+    { "volume", image.ImageVolume },
+    { "mesh_volume", image.Volume },
+    { "label_volume_error", image.VolumeError },
+    { "components", image.Components },
+    { "lost_components", ComponentsToJson(image.LostComponents) },
+  };
+  ordered_json& distances = json["hausdorff"] = ordered_json::object();
+  AddHausdorff(distances, "voxels", image.Voxels);
+  AddHausdorff(distances, "smooth", image.Smooth);
 }
 
 } // namespace
 
-void AddQuality(JsonWriter& json, const MeshQuality& quality)
+ordered_json QualityToJson(const MeshQuality& quality)
 {
-  json.Begin("quality");
-  json.Add("shortest_edge", quality.ShortestEdge);
-  json.Add("max_radius_edge", quality.MaximumRadiusEdgeRatio);
-  json.Add("mean_radius_edge", quality.MeanRadiusEdgeRatio);
-  json.Add("radius_edge_deviation", quality.RadiusEdgeRatioDeviation);
-  json.Add("min_dihedral", quality.MinimumDihedralAngle);
-  json.Add("max_dihedral", quality.MaximumDihedralAngle);
-  json.Add("min_planar", quality.MinimumFacetAngle);
-  json.Add("min_normalized_volume", quality.MinimumNormalizedVolume);
-  json.Add("mean_normalized_volume", quality.MeanNormalizedVolume);
-  json.Add("normalized_volume_deviation", quality.NormalizedVolumeDeviation);
-  json.Add<std::uint64_t>("normalized_volume_histogram", quality.NormalizedVolumes);
-  json.Add("inverted_elements", quality.InvertedSimplices);
-  json.Add("radius_edge_violations", quality.RadiusEdgeViolations);
-  json.Add("facet_angle_violations", quality.FacetAngleViolations);
-  json.Add("facet_angle_violations_at_junctions", quality.FacetAngleViolationsAtJunctions);
-  json.Add("min_planar_off_junctions", quality.MinimumFacetAngleOffJunctions);
-  json.Add("min_planar_at_junctions", quality.MinimumFacetAngleAtJunctions);
-  json.Add("small_facet_angles_at_junctions", quality.SmallFacetAnglesAtJunctions);
-  json.Add<std::uint64_t>("dihedral_histogram", quality.DihedralAngles);
-  json.Add<std::uint64_t>("planar_histogram", quality.PlanarAngles);
-  json.Add<std::uint64_t>("radius_edge_histogram", quality.RadiusEdgeRatios);
-  json.End();
+  return {
+    { "shortest_edge", quality.ShortestEdge },
+    { "max_radius_edge", quality.MaximumRadiusEdgeRatio },
+    { "mean_radius_edge", quality.MeanRadiusEdgeRatio },
+    { "radius_edge_deviation", quality.RadiusEdgeRatioDeviation },
+    { "min_dihedral", quality.MinimumDihedralAngle },
+    { "max_dihedral", quality.MaximumDihedralAngle },
+    { "min_planar", quality.MinimumFacetAngle },
+    { "min_normalized_volume", quality.MinimumNormalizedVolume },
+    { "mean_normalized_volume", quality.MeanNormalizedVolume },
+    { "normalized_volume_deviation", quality.NormalizedVolumeDeviation },
+    { "normalized_volume_histogram", quality.NormalizedVolumes },
+    { "inverted_elements", quality.InvertedSimplices },
+    { "radius_edge_violations", quality.RadiusEdgeViolations },
+    { "facet_angle_violations", quality.FacetAngleViolations },
+    { "facet_angle_violations_at_junctions", quality.FacetAngleViolationsAtJunctions },
+    { "min_planar_off_junctions", quality.MinimumFacetAngleOffJunctions },
+    { "min_planar_at_junctions", quality.MinimumFacetAngleAtJunctions },
+    { "small_facet_angles_at_junctions", quality.SmallFacetAnglesAtJunctions },
+    { "dihedral_histogram", quality.DihedralAngles },
+    { "planar_histogram", quality.PlanarAngles },
+    { "radius_edge_histogram", quality.RadiusEdgeRatios },
+  };
 }
 
-void AddComponents(
-  JsonWriter& json, const std::string& name, const std::vector<ComponentReport>& components)
+ordered_json ComponentsToJson(const std::vector<ComponentReport>& components)
 {
-  json.BeginList(name);
+  ordered_json list = ordered_json::array();
   for (const ComponentReport& component : components)
   {
-    json.BeginItem();
-    json.Add("label", component.Label);
-    json.Add("voxels", component.Voxels);
-    json.Add<std::int64_t>("voxel", component.Voxel);
-    json.End();
+    list.push_back({
+      { "label", component.Label },
+      { "voxels", component.Voxels },
+      { "voxel", component.Voxel },
+    });
   }
-  json.EndList();
+  return list;
 }
 
-void AddMeasurement(JsonWriter& json, const MeshMeasurement& measurement)
+void AppendLabel(ordered_json& labels, std::int64_t label, ordered_json figures)
 {
-  AddLabels(json, measurement);
-  AddQuality(json, measurement.Quality);
-  AddTopology(json, measurement.Topology);
+  labels.get_ref<ordered_json::object_t&>().emplace_back(std::to_string(label), std::move(figures));
+}
+
+void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
+{
+  json["labels"] = LabelsToJson(measurement);
+  json["quality"] = QualityToJson(measurement.Quality);
+  json["topology"] = TopologyToJson(measurement.Topology);
   if (measurement.Image)
   {
     AddImage(json, *measurement.Image);

@@ -8,25 +8,32 @@
 #define voxplex_QualityJson_h
 
 #include "Image/DropComponents.h"
-#include "Private/JsonWriter.h"
 #include "Quality/MeshMeasurement.h"
 #include "Quality/MeshQuality.h"
 
-#include <string>
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
 #include <vector>
 
 namespace voxplex
 {
 
-/** An object "quality". */
-void AddQuality(JsonWriter& json, const MeshQuality& quality);
+/** The object "quality". */
+nlohmann::ordered_json QualityToJson(const MeshQuality& quality);
 
 /** A list of objects with label, voxels and the index of a voxel. */
-void AddComponents(
-  JsonWriter& json, const std::string& name, const std::vector<ComponentReport>& components);
+nlohmann::ordered_json ComponentsToJson(const std::vector<ComponentReport>& components);
 
-/** Objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
-void AddMeasurement(JsonWriter& json, const MeshMeasurement& measurement);
+/**
+ * Appends the figures of a label, which must not be there yet. operator[] would compare the new key
+ * with all others: 10 s for 60,000 labels, instead of 0.1 s.
+ */
+void AppendLabel(
+  nlohmann::ordered_json& labels, std::int64_t label, nlohmann::ordered_json figures);
+
+/** Adds objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
+void AddMeasurement(nlohmann::ordered_json& json, const MeshMeasurement& measurement);
 
 } // namespace voxplex
 

@@ -6,10 +6,10 @@
 #include "Description.h"
 #include "Errors.h"
 #include "FilterParameters.h"
-#include "MeshFile.h"
 #include "OutputFiles.h"
 #include "ProgressReport.h"
 #include "Results.h"
+#include "WholeFiles.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkExecutive.h>
@@ -200,7 +200,7 @@ std::optional<Comparison> Compare(const Arguments& arguments, vtkAlgorithmOutput
 }
 
 void WriteMesh(vtkImageToTetMeshFilter* filter, int content, const std::string& path,
-  const cli::OutputFiles& files)
+  const io::WholeFiles& files)
 {
   if (!path.empty())
   {
@@ -209,15 +209,18 @@ void WriteMesh(vtkImageToTetMeshFilter* filter, int content, const std::string& 
 }
 
 /** Announces all outputs, so that what cannot be written is known before any work. */
-void Announce(cli::OutputFiles& files, const Arguments& arguments)
+void Announce(io::WholeFiles& files, const Arguments& arguments)
 {
-  for (const std::string& path :
-    { arguments.Text("outputMesh"), arguments.Text("outputSurfaces"), arguments.ReturnFile })
+  for (const std::string& path : { arguments.Text("outputMesh"), arguments.Text("outputSurfaces") })
   {
     if (!path.empty())
     {
-      files.Add(path);
+      cli::AnnounceMesh(files, path);
     }
+  }
+  if (!arguments.ReturnFile.empty())
+  {
+    cli::AnnounceFile(files, arguments.ReturnFile);
   }
   files.ForbidOverwriting(arguments.Text("inputLabels"));
 }
@@ -240,7 +243,7 @@ void RunJob(const Arguments& arguments)
   const std::string& surfacesPath = arguments.Text("outputSurfaces");
   RequireFormat(meshPath, vtkSimplexMeshWriter::CONTENT_MESH);
   RequireFormat(surfacesPath, vtkSimplexMeshWriter::CONTENT_INTERFACES);
-  cli::OutputFiles files;
+  io::WholeFiles files;
   Announce(files, arguments);
 
   ProgressReport report(arguments.Host);
@@ -257,7 +260,7 @@ void RunJob(const Arguments& arguments)
   WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_INTERFACES, surfacesPath, files);
   WriteResults(filter->GetStatistics(), comparison, arguments.ReturnFile, files);
   report.Finish();
-  files.Commit();
+  cli::CommitFiles(files);
   PrintResults(filter->GetStatistics(), comparison);
 }
 

@@ -3,7 +3,7 @@
 #include "Results.h"
 
 #include "Description.h"
-#include "OutputFiles.h"
+#include "WholeFiles.h"
 
 #include <vtkMeshingStatistics.h>
 #include <vtkSimplexMeshQuality.h>
@@ -49,7 +49,7 @@ Comparison CompareWithImage(vtkSimplexMeshQuality* filter)
 }
 
 void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison,
-  const std::string& path, const cli::OutputFiles& files)
+  const std::string& path, const io::WholeFiles& files)
 {
   if (path.empty())
   {

@@ -13,9 +13,9 @@
 class vtkMeshingStatistics;
 class vtkSimplexMeshQuality;
 
-namespace voxplex::cli
+namespace voxplex::io
 {
-class OutputFiles;
+class WholeFiles;
 }
 
 namespace voxplex::slicer
@@ -40,7 +40,7 @@ Comparison CompareWithImage(vtkSimplexMeshQuality* filter);
  * @param path empty: the application wants none
  */
 void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison,
-  const std::string& path, const cli::OutputFiles& files);
+  const std::string& path, const io::WholeFiles& files);
 
 /** Lines for people, on standard output; on standard error what the mesh lacks. */
 void PrintResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison);

@@ -70,7 +70,7 @@ void TestQuality()
   vtkNew<vtkMeshingStatistics> s;
   CHECK(s->GetDimension() == 3);
   CHECK(std::isnan(s->GetShortestEdge()) && std::isnan(s->GetMeanCavitySize()));
-  CHECK(s->ToJSON().find(R"("cavities": {"mean": null, "largest": 0})") != std::string::npos);
+  CHECK(s->ToJSON().find(R"("cavities":{"mean":null,"largest":0})") != std::string::npos);
 
   auto& figures = s->Edit();
   figures.Dimension = 4;
@@ -109,13 +109,13 @@ void TestQuality()
   CHECK(s->GetSliversFound() == 71 && s->GetPicksTried() == 72 && s->GetSliversKept() == 73);
 
   const std::string json = s->ToJSON();
-  for (const char* part : { R"({"dimension": 4, "elements": )", R"("shortest_edge": 0.5, )",
-         R"("mean_radius_edge": 1.25, "radius_edge_deviation": 0.125, )",
-         R"("mean_normalized_volume": 0.375, "normalized_volume_deviation": 0.0625, )"
-         R"("normalized_volume_histogram": [100, 101, )",
-         R"("R5": 5, "R6": 0, "R7_split": 0, "R7_sampled": 0, "size": 1, )",
-         R"("cavities": {"mean": 2.5, "largest": 9}, )"
-         R"("slivers": {"found": 71, "picks": 72, "kept": 73})" })
+  for (const char* part : { R"({"dimension":4,"elements":)", R"("shortest_edge":0.5,)",
+         R"("mean_radius_edge":1.25,"radius_edge_deviation":0.125,)",
+         R"("mean_normalized_volume":0.375,"normalized_volume_deviation":0.0625,)"
+         R"("normalized_volume_histogram":[100,101,)",
+         R"("R5":5,"R6":0,"R7_split":0,"R7_sampled":0,"size":1,)",
+         R"("cavities":{"mean":2.5,"largest":9},)"
+         R"("slivers":{"found":71,"picks":72,"kept":73})" })
   {
     CHECK(json.find(part) != std::string::npos, part, json);
   }
@@ -168,7 +168,7 @@ void TestRange()
   CHECK(s->GetNumberOfRefinementThreads() == 0 && s->GetThreadInsertions(0) == 0);
   CHECK(s->GetRollbacks() == 0 && s->GetContentionTime() == 0.0 && s->GetReceived(0) == 0);
   CHECK(!s->GetSwitchedToLocal() && s->GetSeedingTime() == 0.0);
-  CHECK(s->ToJSON().find("\"thread_statistics\": []") != std::string::npos);
+  CHECK(s->ToJSON().find("\"thread_statistics\":[]") != std::string::npos);
 }
 
 void TestJSON()
@@ -176,16 +176,15 @@ void TestJSON()
   vtkNew<vtkMeshingStatistics> s;
   FillThreads(s);
   const std::string json = s->ToJSON();
-  for (const char* part :
-    { R"("contention": "random", "balance": "rws", "switched_to_local": true, )"
-      R"("seeding_seconds": 0.125)",
-      R"("thread_statistics": [{"insertions": 1001, "removals": 11, "rollbacks": 21, "waits": 31, )"
-      R"("contention_seconds": 0.5, "load_balance_seconds": 1.5, "rollback_seconds": 2.5, )"
-      R"("received": [41, 42, 43], "received_elements": 51, )"
-      R"("helped_loops": 71, "helped_iterations": 81}, {"insertions": 1002, )",
-      R"("received": [44, 45, 46], "received_elements": 52, )"
-      R"("helped_loops": 72, "helped_iterations": 82, )"
-      R"("tlb_misses": 61, "resource_stall_cycles": 63}])" })
+  for (const char* part : { R"("contention":"random","balance":"rws","switched_to_local":true,)"
+                            R"("seeding_seconds":0.125)",
+         R"("thread_statistics":[{"insertions":1001,"removals":11,"rollbacks":21,"waits":31,)"
+         R"("contention_seconds":0.5,"load_balance_seconds":1.5,"rollback_seconds":2.5,)"
+         R"("received":[41,42,43],"received_elements":51,)"
+         R"("helped_loops":71,"helped_iterations":81},{"insertions":1002,)",
+         R"("received":[44,45,46],"received_elements":52,)"
+         R"("helped_loops":72,"helped_iterations":82,)"
+         R"("tlb_misses":61,"resource_stall_cycles":63}])" })
   {
     CHECK(json.find(part) != std::string::npos, part, json);
   }

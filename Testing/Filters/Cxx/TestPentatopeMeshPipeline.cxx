@@ -333,7 +333,7 @@ void TestStatistics()
   }
   CHECK(sum == s->GetNumberOfElements(), sum);
   CHECK(std::isnan(s->GetMinimumDihedralAngle()));
-  CHECK(s->ToJSON().find("\"dimension\": 4") != std::string::npos);
+  CHECK(s->ToJSON().find("\"dimension\":4") != std::string::npos);
 
   // Figures are those of the space in which a unit of time counts as TimeScale units of length.
   const auto scaled = MakePentatopeFilter(MakeSource(EqualTimes(12, 0.5)));

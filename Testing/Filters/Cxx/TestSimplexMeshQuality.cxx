@@ -164,7 +164,7 @@ void TestPlacements()
     CHECK(Near(c.Filter->GetMaximumDihedralAngle(), 90));
     CHECK(Near(c.Filter->GetMaximumRadiusEdgeRatio(), std::sqrt(0.75)));
     CHECK(Near(c.Filter->GetMinimumPlanarAngle(), 45));
-    CHECK(c.Filter->ToJSON().find("\"inverted_elements\": 0") != std::string::npos);
+    CHECK(c.Filter->ToJSON().find("\"inverted_elements\":0") != std::string::npos);
     vtkTable* const histograms = c.Filter->GetHistograms();
     CHECK(histograms->GetNumberOfRows() == 90);
     CHECK(Value(histograms, "Angle", 45) == 90);
@@ -196,8 +196,8 @@ void TestLabels()
   c.Filter->SetSmallestComponent(3);
   c.Filter->Update();
   CHECK(c.Filter->GetNumberOfLostComponents() == 1);
-  CHECK(c.Filter->ToJSON().find(
-          "\"lost_components\": [{\"label\": 9, \"voxels\": 3, \"voxel\": [0, 0, 0]}]") !=
+  CHECK(
+    c.Filter->ToJSON().find("\"lost_components\":[{\"label\":9,\"voxels\":3,\"voxel\":[0,0,0]}]") !=
       std::string::npos,
     c.Filter->ToJSON());
   c.Filter->SetSmallestComponent(2);
@@ -212,7 +212,7 @@ void TestLabels()
   c.Filter->Update();
   CHECK(c.Filter->GetNumberOfLostLabels() == 1);
   CHECK(std::isnan(c.Filter->GetHausdorffDistance()));
-  CHECK(c.Filter->ToJSON().find("\"hausdorff\": {}") != std::string::npos);
+  CHECK(c.Filter->ToJSON().find("\"hausdorff\":{}") != std::string::npos);
   c.Filter->SetImageData(nullptr);
   c.Filter->Update();
   CHECK(c.Filter->GetErrorMessage().empty());
@@ -235,7 +235,7 @@ void TestAgreesWithTheMesher()
   filter->Update();
   const vtkMeshingStatistics* const statistics = mesher->GetStatistics();
   const auto json = filter->ToJSON();
-  CHECK(json.find("\"interface_facets\": " +
+  CHECK(json.find("\"interface_facets\":" +
           std::to_string(statistics->GetNumberOfInterfaceFacets()) + ",") != std::string::npos);
   CHECK(Near(filter->GetMinimumDihedralAngle(), statistics->GetMinimumDihedralAngle(), 1e-6));
   CHECK(Near(filter->GetMaximumRadiusEdgeRatio(), statistics->GetMaximumRadiusEdgeRatio(), 1e-6));
@@ -266,8 +266,8 @@ void TestSmoothInterfaceOfABall()
   const std::string json = filter->ToJSON();
   const auto fromImage = [&](const std::string& interfaces)
   {
-    const std::string key = "\"image_to_mesh\": {\"max\": ";
-    const std::size_t at = json.find(key, json.find("\"" + interfaces + "\": {\"distance\""));
+    const std::string key = "\"image_to_mesh\":{\"max\":";
+    const std::size_t at = json.find(key, json.find("\"" + interfaces + "\":{\"distance\""));
     return at == std::string::npos ? 0.0 : std::strtod(json.c_str() + at + key.size(), nullptr);
   };
   CHECK(fromImage("smooth") > 0.05 && fromImage("smooth") < 0.25, fromImage("smooth"));

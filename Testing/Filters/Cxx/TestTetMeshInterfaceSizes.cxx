@@ -144,7 +144,7 @@ void TestNumberOfElements()
     CHECK(taken);
     CHECK(statistics->GetRunDelta(-1) == 0.0 && statistics->GetRunElements(runs) == 0);
     CHECK(
-      statistics->ToJSON().find("\"elements_asked_for\": 20000, \"runs\": [{") != std::string::npos,
+      statistics->ToJSON().find("\"elements_asked_for\":20000,\"runs\":[{") != std::string::npos,
       statistics->ToJSON());
   }
   // Beside it a Delta that is but a suggestion changes nothing; without it, it counts.
@@ -163,7 +163,7 @@ void TestNumberOfElements()
   CHECK(filter->GetStatistics()->GetDelta() == 4.0, filter->GetStatistics()->GetDelta());
   CHECK(filter->GetStatistics()->GetNumberOfRuns() == 0);
   CHECK(filter->GetStatistics()->GetElementsAskedFor() == 0);
-  CHECK(filter->GetStatistics()->ToJSON().find("\"elements_asked_for\": null, \"runs\": []") !=
+  CHECK(filter->GetStatistics()->ToJSON().find("\"elements_asked_for\":null,\"runs\":[]") !=
     std::string::npos);
 }
 

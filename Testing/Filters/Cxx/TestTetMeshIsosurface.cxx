@@ -76,9 +76,8 @@ void TestDistance()
   statistics->GetScalarRange(range);
   double* exact = image->GetScalarRange();
   CHECK(range[0] == exact[0] && range[1] == exact[1], range[0], range[1]);
-  CHECK(
-    statistics->ToJSON().find(
-      "\"isosurface\": {\"value\": 0, \"inside\": \"above\", \"range\": [-") != std::string::npos);
+  CHECK(statistics->ToJSON().find(
+          "\"isosurface\":{\"value\":0.0,\"inside\":\"above\",\"range\":[-") != std::string::npos);
 
   filter->SetIsovalue(2.0); // a smaller ball
   filter->Update();
@@ -219,7 +218,7 @@ void TestParameters()
   filter->SetInputModeToLabels();
   filter->Update();
   CHECK(!filter->GetStatistics()->GetMeshedIsosurface());
-  CHECK(filter->GetStatistics()->ToJSON().find("\"isosurface\": null") != std::string::npos);
+  CHECK(filter->GetStatistics()->ToJSON().find("\"isosurface\":null") != std::string::npos);
 }
 
 } // namespace

@@ -169,7 +169,7 @@ void TestLostLabels()
   else
   {
     CHECK(statistics->GetNumberOfLostLabels() == 1 && statistics->GetLostLabel(0) == 9);
-    CHECK(statistics->ToJSON().find("\"lost_labels\": [9]") != std::string::npos);
+    CHECK(statistics->ToJSON().find("\"lost_labels\":[9]") != std::string::npos);
     CHECK(errors->FromFilter.size() == 1 &&
       errors->FromFilter.front().find("lacks") != std::string::npos);
   }

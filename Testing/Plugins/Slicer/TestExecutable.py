@@ -62,6 +62,11 @@ class Runs(ModuleTestCase):
         np.testing.assert_allclose(np.sort([signs * low, signs * high], axis=0),
                                    [lps.points.min(axis=0), lps.points.max(axis=0)], atol=0.5)
 
+    def test_format_of_two_files(self):
+        self.run_module("--delta", 3, self.input, "mesh.xdmf")
+        self.assertIn(b">mesh.h5:/mesh/topology<", (self.folder / "mesh.xdmf").read_bytes())
+        self.assertTrue((self.folder / "mesh.h5").read_bytes().startswith(b"\x89HDF"))
+
     def test_legacy_file_says_its_space_in_the_header(self):
         """Slicer reads the coordinate system of .vtk files from the second line."""
         for space in ("LPS", "RAS"):
