@@ -75,6 +75,7 @@ void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
   to.Flag("--smallest-component", options.SmallestComponent, usual.SmallestComponent);
   to.Word("--exact-components", options.ExactComponents);
   to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
+  to.Word("--no-manifold", !options.Interfaces.Manifold);
   to.Word("--no-junctions", !options.SampleJunctions);
   to.Word("--no-optimise", !options.Optimise);
   to.Flag("--optimise-seconds", options.OptimisationSeconds, usual.OptimisationSeconds);

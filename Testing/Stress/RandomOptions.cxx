@@ -210,6 +210,10 @@ void DrawOptions(StressCase<D>& of, Random& random)
   }
   of.Twice =
     random.Chance(0.15) && of.Options.Threads == 1 && of.Options.OptimisationSeconds == 0.0;
+  if constexpr (D == 3)
+  {
+    of.Options.Interfaces.Manifold = random.Chance(0.9);
+  }
 }
 
 template void DrawOptions<3>(StressCase<3>&, Random&);

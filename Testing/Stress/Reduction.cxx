@@ -184,6 +184,7 @@ bool Reducer<D>::ResetOptionsOfDimension()
       this->TryToSet(VOXPLEX_MEMBER(Options.SampleJunctions), false, usual.SampleJunctions);
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Elements), usual.Elements);
   }
   else
