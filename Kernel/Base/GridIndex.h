@@ -41,12 +41,20 @@ std::array<std::int64_t, D> IndexAt(std::size_t offset, const std::array<std::in
 }
 
 /**
- * Calls visit(index) for all indices from `low` to `high`, both included, in the order of their numbers. There must be one.
+ * Calls visit(index) for all indices from `low` to `high`, both included, in the order of their
+ * numbers. There is none if `high` is below `low` along any axis.
  */
 template <std::size_t D, typename Visit>
 void ForEachIndex(
   const std::array<std::int64_t, D>& low, const std::array<std::int64_t, D>& high, Visit&& visit)
 {
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    if (high[a] < low[a])
+    {
+      return;
+    }
+  }
   for (std::array<std::int64_t, D> index = low; index[D - 1] <= high[D - 1];)
   {
     visit(index);

@@ -65,11 +65,15 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
       stats.Optimisation.Ran == options.Optimisation.Run, "whether optimisation ran", findings);
     Require(
       stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
-    const bool counts = options.Interfaces.Rounds > 0 && !options.Optimisation.Run;
+    const bool counts = options.Interfaces.Manifold && !options.Optimisation.Run;
     Require(!counts || (figures.NonManifold > 0) == (stats.Interfaces.NonManifoldLeft > 0),
       std::to_string(figures.NonManifold) + " edges are not manifold, it says " +
         std::to_string(stats.Interfaces.NonManifoldLeft),
       findings);
+    const std::uint64_t looked = stats.Interfaces.NonManifoldRepaired +
+      stats.Interfaces.NonManifoldOpened + stats.Interfaces.NonManifoldLeft;
+    Require(options.Interfaces.Manifold || looked == 0,
+      "edges are made manifold, which was not asked for", findings);
   }
   CheckElementTarget(subject, findings);
 }

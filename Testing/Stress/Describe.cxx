@@ -75,6 +75,7 @@ void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
   to.Flag("--smallest-component", options.Components.Smallest, usual.Components.Smallest);
   to.Word("--exact-components", options.Components.Exact);
   to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
+  to.Word("--no-manifold", !options.Interfaces.Manifold);
   to.Word("--no-junctions", !options.Interfaces.SampleJunctions);
   to.Word("--no-optimise", !options.Optimisation.Run);
   to.Flag("--optimise-seconds", options.Optimisation.Seconds, usual.Optimisation.Seconds);

@@ -211,6 +211,10 @@ void DrawOptions(StressCase<D>& of, Random& random)
   }
   of.Twice =
     random.Chance(0.15) && of.Options.Team.Threads == 1 && of.Options.Optimisation.Seconds == 0.0;
+  if constexpr (D == 3)
+  {
+    of.Options.Interfaces.Manifold = random.Chance(0.9);
+  }
 }
 
 template void DrawOptions<3>(StressCase<3>&, Random&);

@@ -189,6 +189,7 @@ bool Reducer<D>::ResetOptionsOfDimension()
       VOXPLEX_MEMBER(Options.Interfaces.SampleJunctions), false, usual.Interfaces.SampleJunctions);
     changed |=
       this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Elements), usual.Sampling.Elements);
   }
   else

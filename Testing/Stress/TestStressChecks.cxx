@@ -272,6 +272,10 @@ TEST(StressChecks, FindEdgesThatAreNotManifold)
       }
       EXPECT_FALSE(m.Check().Has("facets"));
       EXPECT_FALSE(m.Check().Has("orientation"));
+      m.Of.Options.Interfaces.Manifold = false;
+      EXPECT_FALSE(m.Check().Has("non-manifold"));
+      m.Of.Options.Interfaces.Manifold = true;
+      m.Of.Options.Interfaces.Rounds = 0; // does not matter
     });
 }
 
@@ -280,6 +284,13 @@ TEST(StressChecks, FindWrongStatistics)
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Delta = 2.0; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Rules.Fired = {}; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Interfaces.NonManifoldLeft = 1; });
+  ExpectFound<3>("statistics",
+    [](Meshed<3>& m)
+    {
+      m.Of.Options.Interfaces.Manifold = false;
+      EXPECT_FALSE(m.Check().Has("statistics"));
+      m.Stats.Interfaces.NonManifoldRepaired = 1;
+    });
   ExpectFound<3>("elements", [](Meshed<3>& m) { m.Of.Options.Sampling.Elements = 10; });
 }
 

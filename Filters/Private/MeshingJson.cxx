@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/MeshingJson.h"
+
+#include "Private/QualityJson.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+using nlohmann::ordered_json;
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Null for labels. */
+ordered_json IsosurfaceToJson(const IsosurfaceFigures& isosurface)
+{
+  if (!isosurface.Meshed)
+  {
+    return nullptr;
+  }
+  return {
+    { "value", isosurface.Value },
+    { "inside", isosurface.InsideIsAbove ? "above" : "below" },
+    { "range", isosurface.Range },
+  };
+}
+
+/** The search for a number of elements; null and empty if none was asked for. */
+void AddRuns(ordered_json& json, const MeshingStatistics& run)
+{
+  ordered_json& elements = json["elements_asked_for"];
+  if (run.ElementsAskedFor > 0)
+  {
+    elements = run.ElementsAskedFor;
+  }
+  ordered_json& runs = json["runs"] = ordered_json::array();
+  for (const MeshingRun& one : run.Runs)
+  {
+    runs.push_back({ { "delta", one.Delta }, { "elements", one.Elements } });
+  }
+}
+
+ordered_json YieldingToJson(const std::vector<YieldingReport>& yielding)
+{
+  ordered_json regions = ordered_json::array();
+  for (const YieldingReport& region : yielding)
+  {
+    regions.push_back({ { "step", region.Step }, { "voxel", region.Voxel } });
+  }
+  return regions;
+}
+
+ordered_json RulesToJson(const RuleStatistics& rules)
+{
+  ordered_json json;
+  for (std::size_t i = 0; i < rules.Fired.size(); ++i)
+  {
+    json["R" + std::to_string(i + 1)] = rules.Fired[i];
+  }
+  json.update({
+    { "R6", rules.Removed },
+    { "R7_split", rules.SliversSplit },
+    { "R7_sampled", rules.SliversSampled },
+    { "size", rules.FiredBySize },
+    { "projected", rules.Projected },
+    { "refused_too_close", rules.RefusedTooClose },
+    { "refused_no_conflict", rules.RefusedNoConflict },
+    { "refused_duplicate", rules.RefusedDuplicate },
+    { "removals_failed", rules.RemovalsFailed },
+    { "closest_surface_point_calls", rules.ClosestSurfacePointCalls },
+    { "evaluated", rules.Evaluated },
+    { "created", rules.Created },
+  });
+  return json;
+}
+
+ordered_json InterfacesToJson(const InterfaceStatistics& figures)
+{
+  return {
+    { "junction_curves", figures.JunctionCurves },
+    { "junction_corners", figures.Corners },
+    { "junction_points", figures.JunctionSeeds },
+    { "rounds", figures.Rounds },
+    { "points", figures.Seeds },
+    { "nonmanifold_edges_repaired", figures.NonManifoldRepaired },
+    { "nonmanifold_edges_opened", figures.NonManifoldOpened },
+    { "nonmanifold_edges_left", figures.NonManifoldLeft },
+  };
+}
+
+ordered_json OptimisationToJson(const OptimisationSummary& figures)
+{
+  return {
+    { "ran", figures.Ran },
+    { "out_of_time", figures.OutOfTime },
+    { "min_dihedral_before", figures.SmallestDihedralBefore },
+    { "max_dihedral_before", figures.LargestDihedralBefore },
+    { "poor_before", figures.PoorBefore },
+    { "min_dihedral_after", figures.SmallestDihedralAfter },
+    { "max_dihedral_after", figures.LargestDihedralAfter },
+    { "poor_after", figures.PoorAfter },
+  };
+}
+
+/** NaN without insertions. */
+double MeanCavitySize(const RuleStatistics& rules)
+{
+  return static_cast<double>(rules.CavitySimplices) / static_cast<double>(rules.Insertions());
+}
+
+void AddIfCounted(ordered_json& json, const char* key, const std::optional<std::uint64_t>& count)
+{
+  if (count)
+  {
+    json[key] = *count;
+  }
+}
+
+ordered_json ThreadsToJson(const std::vector<ThreadStatistics>& threads)
+{
+  ordered_json list = ordered_json::array();
+  for (const auto& thread : threads)
+  {
+    ordered_json& json = list.emplace_back(ordered_json{
+      { "insertions", thread.Insertions },
+      { "removals", thread.Removals },
+      { "rollbacks", thread.Rollbacks },
+      { "waits", thread.Waits },
+      { "contention_seconds", thread.ContentionSeconds },
+      { "load_balance_seconds", thread.LoadBalanceSeconds },
+      { "rollback_seconds", thread.RollbackSeconds },
+      { "received", thread.Received },
+      { "received_elements", thread.ReceivedElements },
+      { "helped_loops", thread.HelpedLoops },
+      { "helped_iterations", thread.HelpedIterations },
+    });
+    AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
+    AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
+    AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
+  }
+  return list;
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
+ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
+{
+  ordered_json json = {
+    { "dimension", v.Dimension },
+    { "elements", v.Elements },
+    { "vertices", v.Vertices },
+    { "interface_facets", v.InterfaceFacets },
+    { "delta", v.Run.Delta },
+    { "largest_delta", v.Run.LargestDelta },
+    { "grading", { { "samples", v.Run.GradingSamples }, { "poles", v.Run.GradingPoles } } },
+  };
+  AddRuns(json, v.Run);
+  json.update({
+    { "smoothing_sigma", v.Run.SmoothingSigma },
+    { "threads", v.Threads },
+    { "contention", ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)] },
+    { "balance", BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)] },
+    { "switched_to_local", v.Run.SwitchedToLocal },
+    { "seeding_seconds", v.Run.SeedingSeconds },
+    { "estimated_elements", v.Run.EstimatedElements },
+    { "sizes_raised_to", v.Run.SizesRaisedTo },
+    { "isosurface", IsosurfaceToJson(v.Isosurface) },
+    { "lost_labels", v.LostLabels },
+    { "components", v.Run.Components.Found },
+    { "lost_components", ComponentsToJson(v.Run.Components.Lost) },
+    { "dropped_components", ComponentsToJson(v.DroppedComponents) },
+    { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
+    { "yielding_regions", YieldingToJson(v.Run.Yielding) },
+    { "interfaces", InterfacesToJson(v.Run.Interfaces) },
+    { "optimisation", OptimisationToJson(v.Run.Optimisation) },
+  });
+  if (v.HasQuality)
+  {
+    ordered_json& labels = json["labels"] = ordered_json::object();
+    for (const auto& label : v.Quality.Labels)
+    {
+      AppendLabel(
+        labels, label.Label, { { "elements", label.Elements }, { "volume", label.Volume } });
+    }
+    json["quality"] = QualityToJson(v.Quality);
+  }
+  const auto& rules = v.Run.Rules;
+  const auto& predicates = v.Run.Predicates;
+  const auto& times = v.Run.Times;
+  json.update({
+    { "rules", RulesToJson(rules) },
+    { "cavities", { { "mean", MeanCavitySize(rules) }, { "largest", rules.LargestCavity } } },
+    { "slivers",
+      { { "found", rules.SliversFound }, { "picks", rules.PicksTried },
+        { "kept", rules.SliversKept } } },
+    { "predicates",
+      { { "calls", predicates.Calls }, { "filter_failures", predicates.StaticFailures },
+        { "exact", predicates.ExactCalls }, { "perturbed", predicates.Perturbed } } },
+    { "time",
+      { { "label_field", times.LabelField }, { "distance_transform", times.DistanceTransform },
+        { "grading", times.Grading }, { "components", times.Components },
+        { "interfaces", times.Interfaces }, { "refinement", times.Refinement },
+        { "extraction", times.Extraction }, { "optimisation", times.Optimisation },
+        { "total", times.Total() } } },
+    { "memory",
+      { { "label_field_bytes", v.Run.LabelFieldBytes },
+        { "distance_bytes", v.Run.DistanceBytes } } },
+    { "thread_statistics", ThreadsToJson(v.Run.Threads) },
+  });
+  return json;
+}
+
+} // namespace voxplex
