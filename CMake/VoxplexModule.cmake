@@ -33,6 +33,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/ImageLabels.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
+    Filters/Private/MeshingJson.h
     Filters/Private/MeshingMessages.h
     Filters/Private/OutputArrays.h
     Filters/Private/PentatopeOutput.h
@@ -49,6 +50,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/ImageFrame.cxx
     Filters/Private/ImageLabels.cxx
     Filters/Private/MeshOutput.cxx
+    Filters/Private/MeshingJson.cxx
     Filters/Private/MeshingMessages.cxx
     Filters/Private/PentatopeOutput.cxx
     Filters/Private/QualityJson.cxx

@@ -25,9 +25,6 @@ namespace
 
 using voxplex::InputError;
 
-/** voxplex::ProvedRadiusEdgeRatio, rounded down to what one types. */
-constexpr double ProvedRadiusEdgeRatio = 1.93;
-
 // The class's constants are the kernel's: casts lead from one to the other.
 using Filter = vtkImageToSimplexMeshFilter;
 static_assert(Filter::CONTENTION_RANDOM == static_cast<int>(voxplex::ContentionPolicy::Random) &&
@@ -475,11 +472,11 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   CheckRange(
     this->SmoothingSigma, 0.0, largest, "SmoothingSigma", "positive and finite, or 0 for none");
   CheckRange(this->ElementSize, 0.0, largest, "ElementSize", "positive and finite, or 0 for none");
-  CheckRange(this->RadiusEdgeRatio, this->Force ? 1.0 : ProvedRadiusEdgeRatio, largest,
+  CheckRange(this->RadiusEdgeRatio, this->Force ? 1.0 : voxplex::SmallestRadiusEdgeRatio, largest,
     "RadiusEdgeRatio",
     this->Force ? "at least 1"
-                : "at least 1.93, because below it is not proved that refinement ends; Force goes "
-                  "down to 1");
+                : "at least 1.93, because below meshes can become very large; Force goes down "
+                  "to 1");
   for (const auto& [label, size] : this->Private->LabelSizes)
   {
     CheckSize(size, "The size of label " + std::to_string(label));

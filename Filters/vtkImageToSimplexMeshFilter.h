@@ -97,7 +97,7 @@ public:
    * repeated with different values of Delta, usually two or three times and at most twelve times,
    * until the number is within 5 %, from the fourth time on within 10 %. Element sizes are not
    * changed. If no Delta gives the number, this is an error. vtkMeshingStatistics::GetDelta() and
-   * GetNumberOfRuns(), with the methods beside it, describe the search.
+   * GetNumberOfRuns() describe the search.
    */
   vtkSetClampMacro(NumberOfElements, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(NumberOfElements, vtkTypeInt64);
@@ -116,8 +116,8 @@ public:
 
   ///@{
   /**
-   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93 there is no
-   * proof that refinement ends, and the value is refused unless Force is on.
+   * Upper bound of circumradius / shortest edge of every element. Default 2. Below 1.93
+   * meshes can become very large, and the value is refused unless Force is on.
    */
   vtkSetMacro(RadiusEdgeRatio, double);
   vtkGetMacro(RadiusEdgeRatio, double);

@@ -206,7 +206,7 @@ public:
   /**
    * A tetrahedron is a sliver if a dihedral angle is below this, or above 180 degrees minus this. A
    * sliver is split, or the interface near it is sampled more finely (thesis, section 2.6.2). In
-   * rare cases no point helps, and the sliver stays (vtkMeshingStatistics::GetSliversKept()). If
+   * rare cases no point helps, and the sliver stays ("/slivers/kept" of the statistics). If
    * Optimise is on without a time limit, slivers above 3 degrees are left to the optimisation,
    * which needs fewer elements, unless they are wedged between interfaces. Degrees, 0 to 59.
    * Default 9, which without Optimise makes about a tenth more elements. 0 leaves slivers alone.
@@ -222,7 +222,7 @@ public:
    * 15 to 155 degrees. The price: radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is
    * larger), and interface angles down to 20 degrees where three or more labels meet. It takes
    * about a fifth of the time of refinement. The mesh is no longer Delaunay. Default on.
-   * vtkMeshingStatistics::GetOptimised() and the methods after it describe the result.
+   * "/optimisation" of vtkMeshingStatistics::ToJSON() describes the result.
    */
   vtkSetMacro(Optimise, bool);
   vtkGetMacro(Optimise, bool);

@@ -55,47 +55,13 @@ public:
   /** The delta that was used: the requested one, or the one derived from the spacing. */
   double GetDelta() const;
   /**
-   * The largest sampling distance of any interface. This is delta, unless sampling distances are
-   * graded (vtkImageToTetMeshFilter::SetGrading()) or interfaces have their own
-   * (vtkImageToSimplexMeshFilter::SetInterfaceSize()).
+   * If a number of elements was requested (vtkImageToSimplexMeshFilter::SetNumberOfElements()), the
+   * number of refinement runs to find delta; otherwise 0. ToJSON() lists the runs. Times are the
+   * sums over all runs. All other figures are those of the run whose mesh was taken.
    */
-  double GetLargestDelta() const;
-  ///@{
-  /**
-   * The interface points from which local feature sizes were measured, and the points of the medial
-   * axis derived from them. Both are 0 unless sampling distances are graded.
-   */
-  vtkTypeInt64 GetGradingSamples() const;
-  vtkTypeInt64 GetGradingPoles() const;
-  ///@}
-  ///@{
-  /**
-   * If a number of elements was requested (vtkImageToSimplexMeshFilter::SetNumberOfElements()):
-   * that number, the number of refinement runs to find delta, and the delta and the number of
-   * elements of each run, in order. Times are the sums over all runs. All other figures are those
-   * of the run whose mesh was taken. If no number was requested, or the index is out of range, the
-   * result is 0.
-   */
-  vtkTypeInt64 GetElementsAskedFor() const;
   int GetNumberOfRuns() const;
-  double GetRunDelta(int index) const;
-  vtkTypeInt64 GetRunElements(int index) const;
-  ///@}
-
   /** The requested number of threads, or the number that VTK's SMP setting gave. */
   int GetNumberOfThreads() const;
-  /** The number of elements estimated before meshing. */
-  vtkTypeInt64 GetEstimatedNumberOfElements() const;
-
-  ///@{
-  /**
-   * Whether the inside of an isosurface was meshed (vtkImageToTetMeshFilter::SetInputMode()). If
-   * so, the isovalue, and the smallest and the largest value of the image after smoothing.
-   */
-  bool GetMeshedIsosurface() const;
-  double GetIsovalue() const;
-  void GetScalarRange(double range[2]) const;
-  ///@}
 
   ///@{
   /**
@@ -111,19 +77,12 @@ public:
    * Connected components (through voxel faces) of all labels; 0 if components were not searched for
    * (vtkImageToTetMeshFilter::SetSmallestComponent()). A lost component has no element, although
    * the filter tried to keep it. A dropped component was left out on request
-   * (vtkImageToTetMeshFilter::SetMinimumComponentVolume()). For each: the label, the number of
-   * voxels, and the index of one voxel in the image, from 0 to the dimensions less 1, in an array
-   * of three. If the index is out of range, the result is 0.
+   * (vtkImageToTetMeshFilter::SetMinimumComponentVolume()). ToJSON() lists them: the label, the
+   * number of voxels and the index of one voxel.
    */
   vtkTypeInt64 GetNumberOfComponents() const;
   int GetNumberOfLostComponents() const;
-  vtkTypeInt64 GetLostComponentLabel(int index) const;
-  vtkTypeInt64 GetLostComponentVoxels(int index) const;
-  void GetLostComponentVoxel(int index, vtkTypeInt64 voxel[3]) const;
   int GetNumberOfDroppedComponents() const;
-  vtkTypeInt64 GetDroppedComponentLabel(int index) const;
-  vtkTypeInt64 GetDroppedComponentVoxels(int index) const;
-  void GetDroppedComponentVoxel(int index, vtkTypeInt64 voxel[3]) const;
   ///@}
 
   /** Whether the labels and the quality below were measured. */
@@ -145,128 +104,22 @@ public:
    * Quality of the whole mesh.
    * - The radius-edge ratio is circumradius / shortest edge of an element.
    * - The planar angle is the smallest angle of an interface facet.
-   * - The normalized volume is the volume of an element divided by the volume of the regular
-   *   element with the same circumradius (1 is best, 0 is flat).
-   * - Deviations are standard deviations over all elements.
    * - Dihedral and planar angles apply to 3D; in 4D they are NaN.
    * - Inverted elements have no positive volume. There are none unless something is wrong.
    * - Violations are elements whose ratio is not below the filter's RadiusEdgeRatio, and interface
-   *   facets with an angle below its FacetAngle. Such facets that touch a junction of three or more
-   *   labels are also counted separately.
+   *   facets with an angle below its FacetAngle.
    */
-  double GetShortestEdge() const;
   double GetMaximumRadiusEdgeRatio() const;
-  double GetMeanRadiusEdgeRatio() const;
-  double GetRadiusEdgeRatioDeviation() const;
   double GetMinimumDihedralAngle() const;
   double GetMaximumDihedralAngle() const;
   double GetMinimumPlanarAngle() const;
-  double GetMinimumNormalizedVolume() const;
-  double GetMeanNormalizedVolume() const;
-  double GetNormalizedVolumeDeviation() const;
   vtkTypeInt64 GetInvertedElements() const;
   vtkTypeInt64 GetRadiusEdgeViolations() const;
   vtkTypeInt64 GetFacetAngleViolations() const;
-  vtkTypeInt64 GetFacetAngleViolationsAtJunctions() const;
   ///@}
 
-  ///@{
-  /**
-   * Histogram of normalized volumes. Bin i, from 0 to GetNumberOfNormalizedVolumeBins() - 1 = 19,
-   * counts the elements from i / 20 to below (i + 1) / 20. The last bin also counts the elements
-   * with 1. If i is out of range, the result is 0.
-   */
-  int GetNumberOfNormalizedVolumeBins() const;
-  vtkTypeInt64 GetNormalizedVolumeBin(int bin) const;
-  ///@}
-
-  ///@{
-  /**
-   * Cavity sizes: the mean (NaN without insertions) and the largest number of simplices that an
-   * insertion deleted.
-   */
-  double GetMeanCavitySize() const;
-  vtkTypeInt64 GetLargestCavity() const;
-  ///@}
-
-  ///@{
-  /**
-   * Sliver removal (vtkImageToTetMeshFilter::SetSliverAngle(),
-   * vtkImageToPentatopeMeshFilter::SetPickingRegions()): slivers found, points tried in picking
-   * regions, and slivers kept because no tried point was good.
-   */
-  vtkTypeInt64 GetSliversFound() const;
-  vtkTypeInt64 GetPicksTried() const;
-  vtkTypeInt64 GetSliversKept() const;
-  ///@}
-
-  ///@{
-  /**
-   * How often each rule changed the mesh, and why changes were refused. GetRuleFired(i) counts the
-   * insertions by rule R_i, i = 1 ... 5. GetVerticesRemoved() counts the vertices removed by R6. In
-   * 3D, R5 makes the insertions because of element sizes. In 4D, GetFiredBySize() counts them
-   * separately. In 3D, R7 inserts free points (GetSliversSplit()) or interface points
-   * (GetSliversSampled()).
-   */
-  vtkTypeInt64 GetRuleFired(int rule) const;
-  vtkTypeInt64 GetFiredBySize() const;
-  vtkTypeInt64 GetSliversSplit() const;
-  vtkTypeInt64 GetSliversSampled() const;
-  vtkTypeInt64 GetPointsProjected() const;
-  vtkTypeInt64 GetVerticesRemoved() const;
-  vtkTypeInt64 GetRefusedTooClose() const;
-  vtkTypeInt64 GetRefusedNoConflict() const;
-  vtkTypeInt64 GetRefusedDuplicate() const;
-  vtkTypeInt64 GetRemovalsFailed() const;
-  vtkTypeInt64 GetElementsEvaluated() const;
-  vtkTypeInt64 GetElementsCreated() const;
-  vtkTypeInt64 GetClosestSurfacePointCalls() const;
-  ///@}
-
-  ///@{
-  /**
-   * Junctions and interfaces (vtkImageToTetMeshFilter::SetSampleJunctions() and
-   * SetInterfaceRounds()).
-   * - Curves where three labels meet, corners where four labels meet, and points inserted on them.
-   * - How many times refinement was resumed to correct interfaces.
-   * - Non-manifold edges of a label's boundary: those repaired, those of the repaired around which
-   *   tetrahedra were cut in pieces (opened), and those left.
-   */
-  vtkTypeInt64 GetNumberOfJunctionCurves() const;
-  vtkTypeInt64 GetNumberOfJunctionCorners() const;
-  vtkTypeInt64 GetNumberOfJunctionPoints() const;
-  int GetInterfaceRounds() const;
-  vtkTypeInt64 GetNonManifoldEdgesRepaired() const;
-  vtkTypeInt64 GetNonManifoldEdgesOpened() const;
-  vtkTypeInt64 GetNonManifoldEdgesLeft() const;
-  ///@}
-
-  ///@{
-  /**
-   * Optimisation after refinement (vtkImageToTetMeshFilter::SetOptimise()): whether it ran; the
-   * smallest and largest dihedral angle before and after it, in degrees; and the number of poor
-   * elements before and after it. A tetrahedron is poor if one of its angles is outside of 15 to
-   * 155 degrees, or if its radius-edge ratio is too large.
-   */
+  /** Whether optimisation ran after refinement (vtkImageToTetMeshFilter::SetOptimise()). */
   bool GetOptimised() const;
-  double GetMinimumDihedralAngleBefore() const;
-  double GetMaximumDihedralAngleBefore() const;
-  double GetMinimumDihedralAngleAfter() const;
-  double GetMaximumDihedralAngleAfter() const;
-  vtkTypeInt64 GetPoorElementsBefore() const;
-  vtkTypeInt64 GetPoorElementsAfter() const;
-  ///@}
-
-  ///@{
-  /**
-   * Geometric predicates: all calls, calls that the fast filter could not decide, calls decided by
-   * exact arithmetic, and exact ties decided by the symbolic perturbation.
-   */
-  vtkTypeInt64 GetPredicateCalls() const;
-  vtkTypeInt64 GetPredicateFilterFailures() const;
-  vtkTypeInt64 GetPredicateExactCalls() const;
-  vtkTypeInt64 GetPredicatePerturbedCalls() const;
-  ///@}
 
   ///@{
   /**
@@ -287,11 +140,6 @@ public:
   ///@}
 
   /**
-   * Seconds from the start of refinement until all threads have work; part of GetRefinementTime().
-   */
-  double GetSeedingTime() const;
-
-  /**
    * Regions in which refinement took many times the expected work, and stopped improving shapes.
    * The filter warns of them. ToJSON() has their positions.
    */
@@ -303,72 +151,18 @@ public:
    */
   bool GetSwitchedToLocal() const;
 
-  ///@{
   /**
-   * Operations of each refinement thread. There are GetNumberOfThreads() threads, or fewer if the
-   * system gave no more. The index runs from 0 to GetNumberOfRefinementThreads() - 1. If it is out
-   * of range, the result is 0. Insertions and removals are operations that succeeded. A rollback is
-   * an operation that was given up because another thread held a vertex. A wait is a rollback after
-   * which the contention manager made the thread wait.
-   */
-  int GetNumberOfRefinementThreads() const;
-  vtkTypeInt64 GetThreadInsertions(int thread) const;
-  vtkTypeInt64 GetThreadRemovals(int thread) const;
-  vtkTypeInt64 GetThreadRollbacks(int thread) const;
-  vtkTypeInt64 GetThreadWaits(int thread) const;
-  ///@}
-
-  ///@{
-  /**
-   * The three overheads of a refinement thread, in seconds (thesis, section 3.3.5). Contention is
-   * the time in the contention manager. Load balance is the time without work. Rollback is the time
-   * spent on operations that were given up.
-   */
-  double GetThreadContentionTime(int thread) const;
-  double GetThreadLoadBalanceTime(int thread) const;
-  double GetThreadRollbackTime(int thread) const;
-  ///@}
-
-  ///@{
-  /**
-   * How many times an idle refinement thread received work from another thread, and the elements
-   * received. The level says where the other thread runs: 0 in the same socket, 1 in the same NUMA
-   * node, 2 elsewhere in the machine.
-   */
-  vtkTypeInt64 GetThreadReceived(int thread, int level) const;
-  vtkTypeInt64 GetThreadReceivedElements(int thread) const;
-  ///@}
-
-  ///@{
-  /**
-   * Sums over all refinement threads. A sum of times can be up to GetNumberOfRefinementThreads()
-   * times as long as refinement took.
-   */
-  vtkTypeInt64 GetRollbacks() const;
-  vtkTypeInt64 GetWaits() const;
-  double GetContentionTime() const;
-  double GetLoadBalanceTime() const;
-  double GetRollbackTime() const;
-  vtkTypeInt64 GetReceived(int level) const;
-  vtkTypeInt64 GetReceivedElements() const;
-  ///@}
-
-  /**
-   * All figures as one JSON object: `{"dimension", "elements", "vertices", "interface_facets",
-   * "delta", "largest_delta", "grading": {"samples", "poles"}, "threads", "contention", "balance",
-   * "switched_to_local", "seeding_seconds", "sizes_raised_to", "isosurface": {"value", "inside",
-   * "range": [least, largest]} (null for labels), "lost_labels": [...], "labels": {"3":
-   * {"elements", "volume"}, ...}, "quality": {...}, "rules": {...}, "cavities": {"mean",
-   * "largest"}, "slivers": {"found", "picks", "kept"}, "predicates": {...}, "time": {...},
-   * "thread_statistics": [{"insertions", "removals", "rollbacks", "waits", "contention_seconds",
-   * "load_balance_seconds", "rollback_seconds", "received": [socket, NUMA node, machine],
-   * "received_elements", "helped_loops", "helped_iterations"}, ...]}`. If the processor's counters
-   * can be read (a build with PAPI), the objects of "thread_statistics" also have "tlb_misses",
-   * "last_level_cache_misses" and "resource_stall_cycles". "contention" and "balance" name the
-   * requested policies. "labels" and "quality" are left out if they were not measured. A figure
-   * that is not finite is null.
+   * All figures as one JSON object. Documentation/Reference.md lists its keys. "labels" and
+   * "quality" are left out if they were not measured. A figure that is not finite is null.
    */
   std::string ToJSON() const;
+
+  /**
+   * One figure of ToJSON(), by its JSON pointer: "/rules/R1", "/thread_statistics/0/rollbacks". A
+   * boolean is 0 or 1. For a list or an object, the number of its entries. NaN if there is no such
+   * figure, and if it is null or text. Takes as long as ToJSON().
+   */
+  double GetFigure(const char* path) const;
 
   /** Set every figure to zero. */
   void Initialize();

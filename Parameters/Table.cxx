@@ -166,7 +166,7 @@ Parameters Quality()
         .Usual = ParameterRange{ 1.0, 10.0 },
         .Step = 0.1,
         .ForceBelow = 1.93,
-        .ForceWhy = "it is not proved that refinement ends" }),
+        .ForceWhy = "meshes can become very large" }),
     Number(Kind::Real, "facet-angle", 3, { 0.0, 30.0 }, "30", "DEGREES",
       "lower bound of the angles of triangles on the interfaces, in degrees", { .Step = 1.0 }),
     Number(Kind::Real, "smoothing", 0, Sigmas, "1", "VOXELS",

@@ -237,6 +237,7 @@ private:
   {
     const std::vector<std::size_t> runs = RunsOf(ring);
     std::vector<LabelId> labels;
+    labels.reserve(runs.size());
     for (const std::size_t k : runs)
     {
       labels.push_back(ring.Sectors[k].Label);
@@ -456,7 +457,7 @@ private:
         std::array<VertexId, 3> facet{ piece.V[(i + 1) % 4], piece.V[(i + 2) % 4],
           piece.V[(i + 3) % 4] };
         std::sort(facet.begin(), facet.end());
-        facets.push_back({ facet, piece.Label });
+        facets.emplace_back(facet, piece.Label);
       }
     }
     std::sort(facets.begin(), facets.end());

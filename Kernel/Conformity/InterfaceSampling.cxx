@@ -69,6 +69,7 @@ std::vector<FeatureSeed<3>> InterfaceSampling::Around(
   const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges)
 {
   std::vector<SearchBall> balls;
+  balls.reserve(far.size() + edges.size());
   for (const VoxelFace& face : far)
   {
     balls.push_back({ CentreOf(face, this->Image), RadiusAtFace * this->FirstDistance(face) });

@@ -107,7 +107,7 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
   {
     if (isOnInterface[v] != 0)
     {
-      this->Known.push_back({ v, this->Source.Position(v) });
+      this->Known.emplace_back(v, this->Source.Position(v));
       changes.Added.push_back(this->Source.Position(v));
     }
   }
@@ -152,7 +152,7 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
     }
     if (isOn)
     {
-      now.push_back({ v, position });
+      now.emplace_back(v, position);
     }
     if (isOn && !isSame)
     {

@@ -155,6 +155,7 @@ std::vector<VoxelFace> UniformInterfaceCheck::FindAllFar(
 std::vector<VoxelFace> UniformInterfaceCheck::FindFarAgain(const std::vector<Point<3>>& gone) const
 {
   std::vector<SearchBall> balls;
+  balls.reserve(gone.size());
   for (const Point<3>& p : gone)
   {
     balls.push_back({ p, this->Reach + 1e-6 * this->VoxelDiagonal }); // tolerates rounding

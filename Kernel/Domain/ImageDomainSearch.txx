@@ -376,7 +376,7 @@ bool ImageDomain<D, FieldType>::NearSurfacePoint(
 {
   const Point<D> x = this->Field.ToLattice(this->ClampToEnds(p));
   Point<D> n;
-  double t;
+  double t = 0.0;
   if (!this->FindOnRay(x, label, QuickTolerance, n, t))
   {
     return false;
@@ -396,7 +396,7 @@ bool ImageDomain<D, FieldType>::ClosestSurfacePoint(
   const Point<D> q = this->ClampToEnds(p);
   const Point<D> x = this->Field.ToLattice(q);
   Point<D> n;
-  double t;
+  double t = 0.0;
   if (!this->FindOnRay(x, label, FieldType::RootTolerance, n, t))
   {
     return false;

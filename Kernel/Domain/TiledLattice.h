@@ -265,7 +265,7 @@ inline typename TiledLattice<D, SampleType>::Cell TiledLattice<D, SampleType>::L
   }
   else
   {
-    cell.Tile = reinterpret_cast<const Sample*>(entry);
+    cell.Tile = reinterpret_cast<const Sample*>(entry); // NOLINT(performance-no-int-to-ptr): tagged
   }
   return cell;
 }

@@ -158,8 +158,8 @@ inline bool ComputeCircumball(const Point<D>& origin,
   constexpr double Grid = UnitRoundoff / Share;
 
   Point<D> numerator;
-  double twiceDeterminant;
-  double product2;
+  double twiceDeterminant = 0.0;
+  double product2 = 0.0;
   CircumcenterByCramer(edges, norms2, numerator, twiceDeterminant, product2);
   const double inverse = 1.0 / twiceDeterminant;
   double center2 = 0.0;

@@ -172,7 +172,7 @@ std::uint64_t HilbertIndex(const Point<D>& p, const Box<D>& box)
     {
       part |= ((x[a] >> b) & 1u) << a;
     }
-    unsigned place;
+    unsigned place = 0;
     Automaton.Step(part, state, place);
     index = index << Axes | (place ^ reversed);
     reversed ^= (0u - (place & 1u)) & (HilbertAutomaton<D>::Parts - 1u);

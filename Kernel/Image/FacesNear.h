@@ -25,7 +25,7 @@ struct VoxelFace
   Index Voxel;
   unsigned Axis;
 
-  auto operator<=>(const VoxelFace&) const = default;
+  auto operator<=>(const VoxelFace&) const = default; // NOLINT(modernize-use-nullptr): not a null
   Index Next() const
   {
     Index next = this->Voxel;

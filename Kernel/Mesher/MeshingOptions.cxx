@@ -111,11 +111,10 @@ void CheckOptions(const MeshingOptions<D>& options)
     throw InputError(
       "the radius-edge ratio must be positive; it is " + NumberText(options.Shape.RadiusEdgeRatio));
   }
-  if (options.Shape.RadiusEdgeRatio < 1.93 && !options.Limits.Force)
+  if (options.Shape.RadiusEdgeRatio < SmallestRadiusEdgeRatio && !options.Limits.Force)
   {
     throw InputError("a radius-edge ratio of " + NumberText(options.Shape.RadiusEdgeRatio) +
-      " is below 1.93, where it is not proved that meshing ends; ask for 1.93 or more, or force "
-      "it");
+      " is below 1.93, where meshes can become very large; ask for 1.93 or more, or force it");
   }
   if (!(options.Shape.FacetAngle >= 0.0 && options.Shape.FacetAngle <= 30.0))
   {

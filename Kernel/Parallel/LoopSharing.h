@@ -119,7 +119,7 @@ public:
       return;
     }
     Slot& slot = this->Slots[owner];
-    this->Open(
+    Open(
       slot, count, grain,
       [](void* context, unsigned thread, std::size_t first, std::size_t last)
       { (*static_cast<std::remove_reference_t<Body>*>(context))(thread, first, last); },
@@ -127,13 +127,13 @@ public:
     try
     {
       meanwhile();
-      this->TakeChunks(slot, owner);
+      TakeChunks(slot, owner);
     }
     catch (...)
     {
-      this->Fail(slot, std::current_exception());
+      Fail(slot, std::current_exception());
     }
-    this->Close(slot);
+    Close(slot);
   }
 
   template <typename Body>
@@ -281,7 +281,7 @@ private:
         slot.State.compare_exchange_strong(
           state, state + OneHelper, std::memory_order_acquire, std::memory_order_relaxed))
       {
-        this->HelpInside(slot, helper);
+        HelpInside(slot, helper);
         return true;
       }
     }

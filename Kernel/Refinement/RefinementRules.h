@@ -242,7 +242,7 @@ protected:
   bool IsSampled(const Element& t) const
   {
     Point<D> z;
-    double error;
+    double error = 0.0;
     if (t.Radius >= 2.0 * this->Context.Sizing.Largest() ||
       !this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error))
     {

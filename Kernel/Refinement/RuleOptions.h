@@ -52,8 +52,8 @@ struct TetSliverOptions
 struct ShapeOptions
 {
   /**
-   * rho-bar: upper bound of circumradius / shortest edge. Below 1.93, termination is not proved
-   * (needs Force).
+   * rho-bar: upper bound of circumradius / shortest edge. Below 1.93 (SmallestRadiusEdgeRatio)
+   * meshes can become very large.
    */
   double RadiusEdgeRatio = 2.0;
   /** Lower bound of the angles of interface facets, degrees, 0 to 30; 3D only. */

@@ -34,31 +34,16 @@ void TestThreads()
 {
   vtkNew<vtkMeshingStatistics> s;
   FillThreads(s);
-  CHECK(s->GetNumberOfRefinementThreads() == 2);
-  CHECK(s->GetThreadInsertions(0) == 1001 && s->GetThreadInsertions(1) == 1002);
-  CHECK(s->GetThreadRemovals(0) == 11 && s->GetThreadRemovals(1) == 12);
-  CHECK(s->GetThreadRollbacks(0) == 21 && s->GetThreadRollbacks(1) == 22);
-  CHECK(s->GetThreadWaits(0) == 31 && s->GetThreadWaits(1) == 32);
-  CHECK(s->GetThreadContentionTime(0) == 0.5 && s->GetThreadContentionTime(1) == 0.25);
-  CHECK(s->GetThreadLoadBalanceTime(0) == 1.5 && s->GetThreadLoadBalanceTime(1) == 1.25);
-  CHECK(s->GetThreadRollbackTime(0) == 2.5 && s->GetThreadRollbackTime(1) == 2.25);
-  for (int level = 0; level < 3; ++level)
-  {
-    CHECK(s->GetThreadReceived(0, level) == 41 + level, level);
-    CHECK(s->GetThreadReceived(1, level) == 44 + level, level);
-    CHECK(s->GetReceived(level) == 85 + 2 * level, level);
-  }
-  CHECK(s->GetThreadReceivedElements(0) == 51 && s->GetThreadReceivedElements(1) == 52);
-
-  CHECK(s->GetRollbacks() == 43 && s->GetWaits() == 63 && s->GetReceivedElements() == 103);
-  CHECK(s->GetContentionTime() == 0.75);
-  CHECK(s->GetLoadBalanceTime() == 2.75);
-  CHECK(s->GetRollbackTime() == 4.75);
-  CHECK(s->GetSwitchedToLocal() && s->GetSeedingTime() == 0.125);
+  CHECK(s->GetFigure("/thread_statistics") == 2.0);
+  CHECK(s->GetFigure("/thread_statistics/0/insertions") == 1001.0);
+  CHECK(s->GetFigure("/thread_statistics/1/insertions") == 1002.0);
+  CHECK(s->GetFigure("/thread_statistics/1/received/2") == 46.0);
+  CHECK(s->GetFigure("/thread_statistics/1/rollback_seconds") == 2.25);
+  CHECK(s->GetSwitchedToLocal() && s->GetFigure("/seeding_seconds") == 0.125);
 
   std::ostringstream text;
   s->Print(text);
-  for (const char* line : { "NumberOfRefinementThreads: 2", "Rollbacks: 43", "SwitchedToLocal: 1" })
+  for (const char* line : { "NumberOfRuns: 0", "SwitchedToLocal: 1", "\"insertions\":1002" })
   {
     CHECK(text.str().find(line) != std::string::npos, line);
   }
@@ -69,7 +54,7 @@ void TestQuality()
 {
   vtkNew<vtkMeshingStatistics> s;
   CHECK(s->GetDimension() == 3);
-  CHECK(std::isnan(s->GetShortestEdge()) && std::isnan(s->GetMeanCavitySize()));
+  CHECK(std::isnan(s->GetFigure("/quality")) && std::isnan(s->GetFigure("/cavities/mean")));
   CHECK(s->ToJSON().find(R"("cavities":{"mean":null,"largest":0})") != std::string::npos);
 
   auto& figures = s->Edit();
@@ -95,18 +80,17 @@ void TestQuality()
   rules.SliversKept = 73;
 
   CHECK(s->GetDimension() == 4);
-  CHECK(s->GetShortestEdge() == 0.5);
-  CHECK(s->GetMeanRadiusEdgeRatio() == 1.25 && s->GetRadiusEdgeRatioDeviation() == 0.125);
-  CHECK(s->GetMeanNormalizedVolume() == 0.375 && s->GetNormalizedVolumeDeviation() == 0.0625);
-  CHECK(s->GetNumberOfNormalizedVolumeBins() == 20);
-  for (int i = 0; i < 20; ++i)
-  {
-    CHECK(s->GetNormalizedVolumeBin(i) == 100 + i, i);
-  }
-  CHECK(s->GetNormalizedVolumeBin(-1) == 0 && s->GetNormalizedVolumeBin(20) == 0);
-  CHECK(s->GetFiredBySize() == 1);
-  CHECK(s->GetMeanCavitySize() == 2.5 && s->GetLargestCavity() == 9);
-  CHECK(s->GetSliversFound() == 71 && s->GetPicksTried() == 72 && s->GetSliversKept() == 73);
+  CHECK(s->GetFigure("/quality/shortest_edge") == 0.5);
+  CHECK(s->GetFigure("/quality/mean_radius_edge") == 1.25 &&
+    s->GetFigure("/quality/radius_edge_deviation") == 0.125);
+  CHECK(s->GetFigure("/quality/mean_normalized_volume") == 0.375 &&
+    s->GetFigure("/quality/normalized_volume_deviation") == 0.0625);
+  CHECK(s->GetFigure("/quality/normalized_volume_histogram") == 20);
+  CHECK(s->GetFigure("/quality/normalized_volume_histogram/19") == 119);
+  CHECK(s->GetFigure("/rules/size") == 1);
+  CHECK(s->GetFigure("/cavities/mean") == 2.5 && s->GetFigure("/cavities/largest") == 9);
+  CHECK(s->GetFigure("/slivers/found") == 71 && s->GetFigure("/slivers/picks") == 72 &&
+    s->GetFigure("/slivers/kept") == 73);
 
   const std::string json = s->ToJSON();
   for (const char* part : { R"({"dimension":4,"elements":)", R"("shortest_edge":0.5,)",
@@ -142,32 +126,24 @@ void TestSumOfRules()
   CHECK(b.LargestCavity == 20);
 }
 
-/** An index out of range is 0, not a crash; so is everything after Initialize(). */
+/** A figure that does not exist is NaN, not a crash. After Initialize() all figures are zero. */
 void TestRange()
 {
   vtkNew<vtkMeshingStatistics> s;
   FillThreads(s);
-  for (const int thread : { -1, 2, VTK_INT_MAX, VTK_INT_MIN })
+  for (const char* path : { "/thread_statistics/2/insertions", "/thread_statistics/-1/insertions",
+         "/thread_statistics/x", "/nothing", "nothing", "/delta/", "/contention", "~2", "/~" })
   {
-    CHECK(s->GetThreadInsertions(thread) == 0 && s->GetThreadRemovals(thread) == 0, thread);
-    CHECK(s->GetThreadRollbacks(thread) == 0 && s->GetThreadWaits(thread) == 0, thread);
-    CHECK(s->GetThreadContentionTime(thread) == 0.0, thread);
-    CHECK(s->GetThreadLoadBalanceTime(thread) == 0.0, thread);
-    CHECK(s->GetThreadRollbackTime(thread) == 0.0, thread);
-    CHECK(s->GetThreadReceived(thread, 0) == 0, thread);
-    CHECK(s->GetThreadReceivedElements(thread) == 0, thread);
+    CHECK(std::isnan(s->GetFigure(path)), path, s->GetFigure(path));
   }
-  for (const int level : { -1, 3, VTK_INT_MAX })
-  {
-    CHECK(s->GetThreadReceived(0, level) == 0 && s->GetReceived(level) == 0, level);
-  }
+  CHECK(s->GetFigure("") > 20.0 && s->GetFigure(nullptr) == s->GetFigure("")); // all entries
+  CHECK(s->GetFigure("/switched_to_local") == 1.0);
 
   const vtkMTimeType before = s->GetMTime();
   s->Initialize();
   CHECK(s->GetMTime() > before);
-  CHECK(s->GetNumberOfRefinementThreads() == 0 && s->GetThreadInsertions(0) == 0);
-  CHECK(s->GetRollbacks() == 0 && s->GetContentionTime() == 0.0 && s->GetReceived(0) == 0);
-  CHECK(!s->GetSwitchedToLocal() && s->GetSeedingTime() == 0.0);
+  CHECK(s->GetFigure("/thread_statistics") == 0.0);
+  CHECK(!s->GetSwitchedToLocal() && s->GetFigure("/seeding_seconds") == 0.0);
   CHECK(s->ToJSON().find("\"thread_statistics\":[]") != std::string::npos);
 }
 

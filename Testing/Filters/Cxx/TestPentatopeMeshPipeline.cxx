@@ -20,6 +20,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 
 using namespace testing;
 
@@ -283,7 +284,7 @@ void TestThreads()
       CHECK(std::abs(found / expected - 1.0) < 0.05, threads, picking, found, expected);
       vtkMeshingStatistics* statistics = filter->GetStatistics();
       CHECK(statistics->GetNumberOfThreads() == threads);
-      CHECK(statistics->GetNumberOfRefinementThreads() == threads);
+      CHECK(statistics->GetFigure("/thread_statistics") == threads);
       CHECK(statistics->GetInvertedElements() == 0 && statistics->GetRadiusEdgeViolations() == 0);
     }
   }
@@ -322,16 +323,19 @@ void TestStatistics()
       }
     }
   }
-  CHECK(std::abs(s->GetShortestEdge() / shortest - 1.0) < 1e-9, shortest);
+  CHECK(std::abs(s->GetFigure("/quality/shortest_edge") / shortest - 1.0) < 1e-9, shortest);
   CHECK(s->GetMaximumRadiusEdgeRatio() <= 2.0);
-  CHECK(s->GetMeanRadiusEdgeRatio() > 0.63 && s->GetMeanRadiusEdgeRatio() < 2.0);
-  CHECK(s->GetRadiusEdgeRatioDeviation() > 0.0 && s->GetNormalizedVolumeDeviation() > 0.0);
-  vtkTypeInt64 sum = 0;
-  for (int i = 0; i < s->GetNumberOfNormalizedVolumeBins(); ++i)
+  CHECK(s->GetFigure("/quality/mean_radius_edge") > 0.63 &&
+    s->GetFigure("/quality/mean_radius_edge") < 2.0);
+  CHECK(s->GetFigure("/quality/radius_edge_deviation") > 0.0 &&
+    s->GetFigure("/quality/normalized_volume_deviation") > 0.0);
+  double sum = 0.0;
+  for (int i = 0; i < 20; ++i)
   {
-    sum += s->GetNormalizedVolumeBin(i);
+    const std::string bin = "/quality/normalized_volume_histogram/" + std::to_string(i);
+    sum += s->GetFigure(bin.c_str());
   }
-  CHECK(sum == s->GetNumberOfElements(), sum);
+  CHECK(sum == static_cast<double>(s->GetNumberOfElements()), sum);
   CHECK(std::isnan(s->GetMinimumDihedralAngle()));
   CHECK(s->ToJSON().find("\"dimension\":4") != std::string::npos);
 
@@ -341,7 +345,8 @@ void TestStatistics()
   scaled->ComputeQualityOn();
   scaled->Update();
   CHECK(scaled->GetStatistics()->GetLabelVolume(0) == s->GetLabelVolume(0));
-  CHECK(scaled->GetStatistics()->GetShortestEdge() == s->GetShortestEdge());
+  CHECK(scaled->GetStatistics()->GetFigure("/quality/shortest_edge") ==
+    s->GetFigure("/quality/shortest_edge"));
 }
 
 /** Field data of the input goes to both outputs, without the time of a frame. */

@@ -71,9 +71,9 @@ void TestDistance()
   CHECK(LabelsOf(filter) == std::set<long long>({ 1 }));
   CHECK(LargestDistance(filter) < 0.05, LargestDistance(filter));
   vtkMeshingStatistics* statistics = filter->GetStatistics();
-  CHECK(statistics->GetMeshedIsosurface() && statistics->GetIsovalue() == 0.0);
-  double range[2];
-  statistics->GetScalarRange(range);
+  CHECK(statistics->GetFigure("/isosurface/value") == 0.0);
+  const double range[2] = { statistics->GetFigure("/isosurface/range/0"),
+    statistics->GetFigure("/isosurface/range/1") };
   double* exact = image->GetScalarRange();
   CHECK(range[0] == exact[0] && range[1] == exact[1], range[0], range[1]);
   CHECK(statistics->ToJSON().find(
@@ -217,7 +217,6 @@ void TestParameters()
   }
   filter->SetInputModeToLabels();
   filter->Update();
-  CHECK(!filter->GetStatistics()->GetMeshedIsosurface());
   CHECK(filter->GetStatistics()->ToJSON().find("\"isosurface\":null") != std::string::npos);
 }
 

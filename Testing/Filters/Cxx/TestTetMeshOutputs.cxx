@@ -74,11 +74,12 @@ void TestStatistics()
   CHECK(statistics->GetNumberOfInterfaceFacets() == filter->GetInterfaces()->GetNumberOfCells());
   CHECK(statistics->GetNumberOfThreads() == 1);
   CHECK(statistics->GetDelta() > 0.0);
-  CHECK(statistics->GetLargestDelta() == statistics->GetDelta());
-  CHECK(statistics->GetGradingSamples() == 0 && statistics->GetGradingPoles() == 0);
-  CHECK(statistics->GetRuleFired(1) > 0);
-  CHECK(statistics->GetRuleFired(0) == 0 && statistics->GetRuleFired(6) == 0);
-  CHECK(statistics->GetPredicateCalls() > statistics->GetPredicateExactCalls());
+  CHECK(statistics->GetFigure("/largest_delta") == statistics->GetDelta());
+  CHECK(
+    statistics->GetFigure("/grading/samples") == 0 && statistics->GetFigure("/grading/poles") == 0);
+  CHECK(statistics->GetFigure("/rules/R1") > 0);
+  CHECK(std::isnan(statistics->GetFigure("/rules/R8")));
+  CHECK(statistics->GetFigure("/predicates/calls") > statistics->GetFigure("/predicates/exact"));
   CHECK(statistics->GetRefinementTime() > 0.0);
   CHECK(std::abs(statistics->GetTotalTime() -
           (statistics->GetLabelFieldTime() + statistics->GetDistanceTransformTime() +
@@ -95,13 +96,14 @@ void TestStatistics()
   CHECK(statistics->GetMaximumRadiusEdgeRatio() > 0.6);
   CHECK(statistics->GetRadiusEdgeViolations() == 0);
   CHECK(statistics->GetInvertedElements() == 0);
-  CHECK(statistics->GetMinimumNormalizedVolume() > 0.0);
-  CHECK(statistics->GetMeanNormalizedVolume() < 1.0);
+  CHECK(statistics->GetFigure("/quality/min_normalized_volume") > 0.0);
+  CHECK(statistics->GetFigure("/quality/mean_normalized_volume") < 1.0);
   CHECK(statistics->GetMinimumDihedralAngle() > 0.0);
   CHECK(statistics->GetMaximumDihedralAngle() < 180.0);
   CHECK(statistics->GetMinimumDihedralAngle() < statistics->GetMaximumDihedralAngle());
   CHECK(statistics->GetMinimumPlanarAngle() > 0.0 && statistics->GetMinimumPlanarAngle() <= 60.0);
-  CHECK(statistics->GetFacetAngleViolations() >= statistics->GetFacetAngleViolationsAtJunctions());
+  CHECK(static_cast<double>(statistics->GetFacetAngleViolations()) >=
+    statistics->GetFigure("/quality/facet_angle_violations_at_junctions"));
   if (CHECK(statistics->GetNumberOfLabels() == 2))
   {
     const Tetrahedra mesh = Read(filter->GetOutput());

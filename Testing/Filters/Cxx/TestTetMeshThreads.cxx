@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -87,38 +88,45 @@ void TestProperties()
 void CheckThreads(vtkMeshingStatistics* statistics, int threads)
 {
   CHECK(statistics->GetNumberOfThreads() == threads);
-  CHECK(statistics->GetNumberOfRefinementThreads() == threads, threads,
-    statistics->GetNumberOfRefinementThreads());
-  vtkTypeInt64 insertions = 0;
-  vtkTypeInt64 removals = 0;
-  for (int t = 0; t < statistics->GetNumberOfRefinementThreads(); ++t)
+  const double found = statistics->GetFigure("/thread_statistics");
+  CHECK(found == threads, threads, found);
+  double insertions = 0.0;
+  double removals = 0.0;
+  double rollbacks = 0.0;
+  double received = 0.0;
+  for (int t = 0; t < threads; ++t)
   {
-    insertions += statistics->GetThreadInsertions(t);
-    removals += statistics->GetThreadRemovals(t);
-    CHECK(statistics->GetThreadWaits(t) <= statistics->GetThreadRollbacks(t), t);
-    const vtkTypeInt64 gifts = statistics->GetThreadReceived(t, 0) +
-      statistics->GetThreadReceived(t, 1) + statistics->GetThreadReceived(t, 2);
-    CHECK(statistics->GetThreadReceivedElements(t) >= gifts, t, gifts);
-    for (const double seconds : { statistics->GetThreadContentionTime(t),
-           statistics->GetThreadLoadBalanceTime(t), statistics->GetThreadRollbackTime(t) })
+    const auto figure = [&](const char* key)
+    {
+      const std::string path = "/thread_statistics/" + std::to_string(t) + "/" + key;
+      return statistics->GetFigure(path.c_str());
+    };
+    insertions += figure("insertions");
+    removals += figure("removals");
+    rollbacks += figure("rollbacks");
+    received += figure("received_elements");
+    CHECK(figure("waits") <= figure("rollbacks"), t);
+    const double gifts = figure("received/0") + figure("received/1") + figure("received/2");
+    CHECK(figure("received_elements") >= gifts, t, gifts);
+    for (const double seconds :
+      { figure("contention_seconds"), figure("load_balance_seconds"), figure("rollback_seconds") })
     {
       // Measured by another clock than the stage.
       CHECK(seconds >= 0.0 && seconds <= 1.05 * statistics->GetRefinementTime() + 0.01, t, seconds);
     }
   }
-  vtkTypeInt64 fired = statistics->GetSliversSplit() + statistics->GetSliversSampled();
-  for (int rule = 1; rule <= 5; ++rule)
+  double fired = 0.0;
+  for (const char* rule : { "R1", "R2", "R3", "R4", "R5", "R7_split", "R7_sampled" })
   {
-    fired += statistics->GetRuleFired(rule);
+    fired += statistics->GetFigure((std::string("/rules/") + rule).c_str());
   }
   CHECK(insertions == fired, insertions, fired);
-  CHECK(removals == statistics->GetVerticesRemoved(), removals, statistics->GetVerticesRemoved());
-  CHECK(statistics->GetSeedingTime() >= 0.0 &&
-    statistics->GetSeedingTime() <= statistics->GetRefinementTime());
+  CHECK(removals == statistics->GetFigure("/rules/R6"), removals);
+  CHECK(statistics->GetFigure("/seeding_seconds") >= 0.0 &&
+    statistics->GetFigure("/seeding_seconds") <= statistics->GetRefinementTime());
   if (threads == 1)
   {
-    CHECK(statistics->GetRollbacks() == 0 && statistics->GetWaits() == 0);
-    CHECK(statistics->GetReceivedElements() == 0 && !statistics->GetSwitchedToLocal());
+    CHECK(rollbacks == 0.0 && received == 0.0 && !statistics->GetSwitchedToLocal());
   }
 }
 

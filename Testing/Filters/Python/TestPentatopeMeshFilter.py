@@ -156,13 +156,13 @@ class Outputs(unittest.TestCase):
         self.assertEqual(set(figures["labels"]), {"3", "7"})
         quality = figures["quality"]
         self.assertLessEqual(quality["max_radius_edge"], 2.0)
-        self.assertEqual(quality["shortest_edge"], statistics.GetShortestEdge())
-        self.assertEqual(quality["mean_radius_edge"], statistics.GetMeanRadiusEdgeRatio())
+        self.assertEqual(quality["shortest_edge"], statistics.GetFigure("/quality/shortest_edge"))
+        self.assertEqual(quality["mean_radius_edge"], statistics.GetFigure("/quality/mean_radius_edge"))
         self.assertEqual(
-            quality["radius_edge_deviation"], statistics.GetRadiusEdgeRatioDeviation())
+            quality["radius_edge_deviation"], statistics.GetFigure("/quality/radius_edge_deviation"))
         self.assertEqual(sum(quality["normalized_volume_histogram"]), figures["elements"])
         self.assertEqual(len(quality["normalized_volume_histogram"]),
-                         statistics.GetNumberOfNormalizedVolumeBins())
+                         statistics.GetFigure("/quality/normalized_volume_histogram"))
         self.assertIsNone(quality["min_dihedral"])
 
     def test_repr(self):

@@ -115,9 +115,7 @@ class Isosurface(unittest.TestCase):
         mesher.SetInputModeToIsosurface()
         mesher.SetIsovalue(30.0)
         mesher.Update()
-        value_range = [0.0, 0.0]
-        mesher.GetStatistics().GetScalarRange(value_range)
-        self.assertEqual(value_range, list(self.grey_image().GetScalarRange()))
+        value_range = list(self.grey_image().GetScalarRange())
         self.assertEqual(json.loads(mesher.GetStatistics().ToJSON())["isosurface"],
                          {"value": 30.0, "inside": "above", "range": value_range})
 
@@ -158,15 +156,15 @@ class Grading(unittest.TestCase):
             self.assertEqual(mesher.GetErrorMessage(), "")
             statistics = mesher.GetStatistics()
             self.assertEqual(statistics.GetDelta(), 0.8)
-            self.assertGreater(statistics.GetLargestDelta(), 0.9)
-            self.assertLess(statistics.GetLargestDelta(), ratio * largest * 0.5 ** (1 / 3) + 1e-6)
-            self.assertGreater(statistics.GetGradingSamples(), 500)
-            self.assertGreater(statistics.GetGradingPoles(), 10)
+            self.assertGreater(statistics.GetFigure("/largest_delta"), 0.9)
+            self.assertLess(statistics.GetFigure("/largest_delta"), ratio * largest * 0.5 ** (1 / 3) + 1e-6)
+            self.assertGreater(statistics.GetFigure("/grading/samples"), 500)
+            self.assertGreater(statistics.GetFigure("/grading/poles"), 10)
             self.assertGreater(statistics.GetGradingTime(), 0.0)
             figures = json.loads(statistics.ToJSON())
-            self.assertEqual(figures["largest_delta"], statistics.GetLargestDelta())
-            self.assertEqual(figures["grading"], {"samples": statistics.GetGradingSamples(),
-                                                  "poles": statistics.GetGradingPoles()})
+            self.assertEqual(figures["largest_delta"], statistics.GetFigure("/largest_delta"))
+            self.assertEqual(figures["grading"], {"samples": statistics.GetFigure("/grading/samples"),
+                                                  "poles": statistics.GetFigure("/grading/poles")})
             counts.append(statistics.GetNumberOfElements())
         self.assertLess(counts[0], counts[2], counts)
         self.assertLess(counts[2], counts[1], counts)
@@ -220,7 +218,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(
             figures["quality"]["max_radius_edge"], statistics.GetMaximumRadiusEdgeRatio())
         self.assertGreater(figures["rules"]["R1"], 0)
-        self.assertEqual(figures["rules"]["R1"], statistics.GetRuleFired(1))
+        self.assertEqual(figures["rules"]["R1"], statistics.GetFigure("/rules/R1"))
         self.assertGreater(figures["time"]["refinement"], 0.0)
         self.assertGreater(figures["predicates"]["calls"], 0)
 
@@ -323,22 +321,14 @@ class Components(unittest.TestCase):
         self.assertEqual(dropped, [{"label": 5, "voxels": 1, "voxel": [6, 7, 8]},
                                    {"label": 2, "voxels": 8, "voxel": [10, 10, 10]}])
         self.assertEqual(statistics.GetNumberOfDroppedComponents(), 2)
-        for i, component in enumerate(dropped):
-            voxel = [0, 0, 0]
-            statistics.GetDroppedComponentVoxel(i, voxel)
-            self.assertEqual(voxel, component["voxel"])
-            self.assertEqual(statistics.GetDroppedComponentLabel(i), component["label"])
-            self.assertEqual(statistics.GetDroppedComponentVoxels(i), component["voxels"])
-        self.assertEqual(statistics.GetDroppedComponentVoxels(2), 0)
-        self.assertEqual(statistics.GetLostComponentLabel(0), 0)
         mesher, _, _ = self.mesh(MinimumComponentVolume=1e6)
         self.assertIn("every component", mesher.GetErrorMessage())
 
     def test_slivers(self):
         sharp = self.mesh(SliverAngle=0.0, Delta=1.0, Optimise=False)[0].GetStatistics()
         blunt = self.mesh(SliverAngle=9.0, Delta=1.0, Optimise=False)[0].GetStatistics()
-        self.assertEqual(sharp.GetSliversFound(), 0)
-        self.assertGreater(blunt.GetSliversSplit() + blunt.GetSliversSampled(), 0)
+        self.assertEqual(sharp.GetFigure("/slivers/found"), 0)
+        self.assertGreater(blunt.GetFigure("/rules/R7_split") + blunt.GetFigure("/rules/R7_sampled"), 0)
         self.assertLess(sharp.GetMinimumDihedralAngle(), 4)
         self.assertGreater(blunt.GetMinimumDihedralAngle(), 4.6)
         self.assertIn("Force", self.mesh(SliverAngle=16.0)[0].GetErrorMessage())
@@ -348,13 +338,13 @@ class Components(unittest.TestCase):
         mesher, found, _ = self.mesh(Delta=2.0, SmallestComponent=0)
         self.assertEqual(found, {1, 2, 5})
         statistics = mesher.GetStatistics()
-        self.assertGreater(statistics.GetInterfaceRounds(), 0)
+        self.assertGreater(statistics.GetFigure("/interfaces/rounds"), 0)
         self.assertGreater(statistics.GetInterfacesTime(), 0)
-        self.assertEqual(statistics.GetNonManifoldEdgesLeft(), 0)
-        self.assertEqual(statistics.GetNumberOfJunctionCurves(), 0)
+        self.assertEqual(statistics.GetFigure("/interfaces/nonmanifold_edges_left"), 0)
+        self.assertEqual(statistics.GetFigure("/interfaces/junction_curves"), 0)
         mesher, found, _ = self.mesh(Delta=2.0, SmallestComponent=0, InterfaceRounds=0)
         self.assertEqual(found, {1})
-        self.assertEqual(mesher.GetStatistics().GetInterfaceRounds(), 0)
+        self.assertEqual(mesher.GetStatistics().GetFigure("/interfaces/rounds"), 0)
         self.assertIn("OptimisationTimeLimit", self.mesh(OptimisationTimeLimit=-1.0)[0].GetErrorMessage())
 
     def test_junctions(self):
@@ -364,9 +354,9 @@ class Components(unittest.TestCase):
             mesher.SetSampleJunctions(sample)
             mesher.Update()
             return mesher.GetStatistics()
-        self.assertGreaterEqual(figures(True).GetNumberOfJunctionCurves(), 1)
-        self.assertGreater(figures(True).GetNumberOfJunctionPoints(), 10)
-        self.assertEqual(figures(False).GetNumberOfJunctionPoints(), 0)
+        self.assertGreaterEqual(figures(True).GetFigure("/interfaces/junction_curves"), 1)
+        self.assertGreater(figures(True).GetFigure("/interfaces/junction_points"), 10)
+        self.assertEqual(figures(False).GetFigure("/interfaces/junction_points"), 0)
 
 
 class Optimisation(unittest.TestCase):
@@ -389,22 +379,25 @@ class Optimisation(unittest.TestCase):
         after = mesher.GetStatistics()
         self.assertTrue(after.GetOptimised())
         self.assertGreater(after.GetOptimisationTime(), 0)
-        self.assertAlmostEqual(after.GetMinimumDihedralAngleBefore(), sharpest, delta=1e-6)
-        self.assertAlmostEqual(after.GetMinimumDihedralAngleAfter(), after.GetMinimumDihedralAngle(), delta=1e-6)
-        self.assertAlmostEqual(after.GetMaximumDihedralAngleAfter(), after.GetMaximumDihedralAngle(), delta=1e-6)
-        self.assertGreater(after.GetMaximumDihedralAngleBefore(), 171)
+        self.assertAlmostEqual(after.GetFigure("/optimisation/min_dihedral_before"), sharpest, delta=1e-6)
+        self.assertAlmostEqual(after.GetFigure("/optimisation/min_dihedral_after"),
+                               after.GetMinimumDihedralAngle(), delta=1e-6)
+        self.assertAlmostEqual(after.GetFigure("/optimisation/max_dihedral_after"),
+                               after.GetMaximumDihedralAngle(), delta=1e-6)
+        self.assertGreater(after.GetFigure("/optimisation/max_dihedral_before"), 171)
         self.assertGreater(after.GetMinimumDihedralAngle(), 12)
         self.assertLess(after.GetMaximumDihedralAngle(), 160)
-        self.assertGreater(after.GetPoorElementsBefore(), after.GetPoorElementsAfter())
+        self.assertGreater(after.GetFigure("/optimisation/poor_before"), after.GetFigure("/optimisation/poor_after"))
         self.assertLess(after.GetMaximumRadiusEdgeRatio(), 2.5 + 1e-9)
         self.assertEqual(after.GetRadiusEdgeViolations(), 0)
         self.assertEqual(after.GetInvertedElements(), 0)
-        self.assertEqual(after.GetFacetAngleViolations(), after.GetFacetAngleViolationsAtJunctions())
+        self.assertEqual(after.GetFacetAngleViolations(),
+                         after.GetFigure("/quality/facet_angle_violations_at_junctions"))
         for i, volume in enumerate(volumes):
             self.assertAlmostEqual(after.GetLabelVolume(i), volume, delta=0.003 * volume)
         figures = json.loads(after.ToJSON())
         self.assertTrue(figures["optimisation"]["ran"])
-        self.assertEqual(figures["optimisation"]["poor_after"], after.GetPoorElementsAfter())
+        self.assertEqual(figures["optimisation"]["poor_after"], after.GetFigure("/optimisation/poor_after"))
 
 
 class Threads(unittest.TestCase):
@@ -453,29 +446,17 @@ class Threads(unittest.TestCase):
         figures = json.loads(statistics.ToJSON())
         self.assertEqual(figures["threads"], 4)
         self.assertIs(figures["switched_to_local"], False)
-        self.assertEqual(figures["seeding_seconds"], statistics.GetSeedingTime())
+        self.assertEqual(figures["seeding_seconds"], statistics.GetFigure("/seeding_seconds"))
         entries = figures["thread_statistics"]
         self.assertEqual(len(entries), 4)
-        self.assertEqual(statistics.GetNumberOfRefinementThreads(), 4)
-        getters = {
-            "insertions": statistics.GetThreadInsertions,
-            "removals": statistics.GetThreadRemovals,
-            "rollbacks": statistics.GetThreadRollbacks,
-            "waits": statistics.GetThreadWaits,
-            "contention_seconds": statistics.GetThreadContentionTime,
-            "load_balance_seconds": statistics.GetThreadLoadBalanceTime,
-            "rollback_seconds": statistics.GetThreadRollbackTime,
-            "received_elements": statistics.GetThreadReceivedElements,
-        }
+        self.assertEqual(statistics.GetFigure("/thread_statistics"), 4)
         for thread, entry in enumerate(entries):
-            self.assertEqual({name: getter(thread) for name, getter in getters.items()},
-                             {name: entry[name] for name in getters})
-            self.assertEqual([statistics.GetThreadReceived(thread, level) for level in range(3)],
-                             entry["received"])
+            for name in ("insertions", "rollbacks", "contention_seconds"):
+                self.assertEqual(statistics.GetFigure(f"/thread_statistics/{thread}/{name}"), entry[name])
+            for level in range(3):
+                self.assertEqual(statistics.GetFigure(f"/thread_statistics/{thread}/received/{level}"),
+                                 entry["received"][level])
         self.assertGreater(sum(entry["insertions"] for entry in entries), 0)
-        self.assertEqual(statistics.GetRollbacks(), sum(entry["rollbacks"] for entry in entries))
-        self.assertEqual([statistics.GetReceived(level) for level in range(3)],
-                         [sum(entry["received"][level] for entry in entries) for level in range(3)])
 
     def test_default_is_the_setting_of_vtk(self):
         before = vtkSMPTools.GetEstimatedNumberOfThreads()
@@ -489,7 +470,7 @@ class Threads(unittest.TestCase):
             mesher.Update()
             statistics = mesher.GetStatistics()
             self.assertEqual(statistics.GetNumberOfThreads(), expected)
-            self.assertEqual(statistics.GetNumberOfRefinementThreads(), expected)
+            self.assertEqual(statistics.GetFigure("/thread_statistics"), expected)
             self.assertEqual(mesher.GetNumberOfThreads(), 0)
 
 
