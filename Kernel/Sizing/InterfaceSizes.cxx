@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
+#include "Base/NumberText.h"
 
 #include <array>
 #include <cmath>
@@ -126,7 +127,7 @@ void InterfaceSizes<D>::Take(const LabelImage<D>& image, const std::vector<Inter
     if (!(size.Size > 0.0) || std::isinf(size.Size))
     {
       throw InputError("the interface size of " + name + " must be positive and finite; it is " +
-        std::to_string(size.Size));
+        NumberText(size.Size));
     }
     bool isNew = false;
     if (size.Other == InterfaceSize::AnyLabel)

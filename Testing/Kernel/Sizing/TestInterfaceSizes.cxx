@@ -121,6 +121,7 @@ TEST(InterfaceSizes, RefusesWhatMakesNoSense)
   {
     EXPECT_NE(ErrorOf({ { 7, 3, wrong } }).find("positive and finite"), std::string::npos) << wrong;
   }
+  EXPECT_NE(ErrorOf({ { 7, 3, -1e-9 } }).find("it is -1e-09"), std::string::npos);
   EXPECT_EQ(ErrorOf({ { 7, 3, 1.0 }, { 7, Any, 2.0 }, { 7, 0, 3.0 } }), "");
 }
 
