@@ -8,6 +8,7 @@
 #define voxplex_SimplexMeshRun_h
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
 #include "Mesher/ImageMesher.h"
 #include "Private/ChosenArray.h"
@@ -158,7 +159,7 @@ public:
     {
       throw voxplex::InputError(
         "The mesh is empty, because every label is too small for a Delta of " +
-        std::to_string(figures.Run.Delta) + "; use a smaller one.");
+        voxplex::NumberText(figures.Run.Delta) + "; use a smaller one.");
     }
     if (filter->ComputeQuality)
     {
