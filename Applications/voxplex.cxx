@@ -52,6 +52,7 @@ void SilenceVTK()
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
+/** Its clock is never set back, unlike that of vtkTimerLog, which is gettimeofday(). */
 class Stopwatch
 {
 public:

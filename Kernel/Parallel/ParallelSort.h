@@ -3,6 +3,9 @@
 /**
  * @file ParallelSort.h
  * @brief A stable parallel sort by integer keys.
+ *
+ * With one thread and 0.3 M records, std::sort takes 6 times as long for keys of 20 bits and twice as
+ * long for 63 bits; Boost's stable parallel sorts (sample_sort, parallel_stable_sort) take longer still.
  */
 #ifndef voxplex_ParallelSort_h
 #define voxplex_ParallelSort_h
@@ -44,7 +47,7 @@ std::span<T> ParallelRadixSort(std::span<T> values, std::span<T> scratch, unsign
 {
   // With more bins, the places that are written do not stay in the cache. With fewer bins, there
   // are more passes. Measured for digits of 8 to 13 bits and 0.1 M to 8 M values: 10 bits are the
-  // fastest, or nearly so. For keys of 63 bits this is five times faster than std::sort.
+  // fastest, or nearly so.
   constexpr unsigned LongestDigit = 10;
   constexpr std::size_t SmallestBlock = std::size_t{ 1 } << 16; // below, a thread does not pay off
   ThrowIfStopped(stop);
