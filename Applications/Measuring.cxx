@@ -3,6 +3,7 @@
 #include "Measuring.h"
 
 #include "Errors.h"
+#include "StatisticsText.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -12,7 +13,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cstdint>
-#include <iomanip>
 #include <numeric>
 #include <sstream>
 #include <vector>
@@ -32,17 +32,6 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
   {
     filter->SetAbortExecute(1);
   }
-}
-
-std::string Rounded(const ordered_json& number, int decimals)
-{
-  if (!number.is_number())
-  {
-    return "-";
-  }
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(decimals) << number.get<double>();
-  return text.str();
 }
 
 /** The bins of a histogram joined by fives, in percent of all. */

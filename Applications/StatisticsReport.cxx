@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StatisticsReport.h"
 
+#include "StatisticsText.h"
 #include "Version.h"
 #include "WholeFiles.h"
 
@@ -128,17 +129,6 @@ std::string Grouped(std::int64_t number)
     text.insert(i, ",");
   }
   return text;
-}
-
-std::string Rounded(const ordered_json& number, int decimals)
-{
-  if (!number.is_number())
-  {
-    return "-";
-  }
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(decimals) << number.get<double>();
-  return text.str();
 }
 
 std::string Significant(const ordered_json& number)

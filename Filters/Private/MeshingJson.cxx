@@ -141,6 +141,7 @@ ordered_json ThreadsToJson(const std::vector<ThreadStatistics>& threads)
       { "received_elements", thread.ReceivedElements },
       { "helped_loops", thread.HelpedLoops },
       { "helped_iterations", thread.HelpedIterations },
+      { "helping_seconds", thread.HelpingSeconds },
     });
     AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
     AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);

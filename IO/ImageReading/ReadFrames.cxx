@@ -45,18 +45,9 @@ ScalarType ScalarTypeOf(const std::string& path, const itk::ImageIOBase& io)
     type == Component::UINT || type == Component::ULONG || type == Component::ULONGLONG;
   if (isSigned || isUnsigned)
   {
-    switch (io.GetComponentSize())
+    if (const auto integer = IntegerType(io.GetComponentSize(), isSigned))
     {
-      case 1:
-        return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-      case 2:
-        return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-      case 4:
-        return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-      case 8:
-        return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-      default:
-        break;
+      return *integer;
     }
   }
   Refuse(path, "its scalar type is not supported");

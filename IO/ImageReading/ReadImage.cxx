@@ -57,18 +57,7 @@ constexpr ScalarType ScalarTypeOf()
   }
   else
   {
-    constexpr bool isSigned = std::is_signed_v<T>;
-    switch (sizeof(T))
-    {
-      case 1:
-        return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-      case 2:
-        return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-      case 4:
-        return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-      default:
-        return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-    }
+    return IntegerType(sizeof(T), std::is_signed_v<T>).value();
   }
 }
 

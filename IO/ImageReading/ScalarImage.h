@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 namespace voxplex::io
 {
@@ -28,6 +29,24 @@ enum class ScalarType
   Float32,
   Float64
 };
+
+/** The type of integers of 1, 2, 4 or 8 bytes; empty for other sizes. */
+constexpr std::optional<ScalarType> IntegerType(std::size_t bytes, bool isSigned)
+{
+  switch (bytes)
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    case 8:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+    default:
+      return std::nullopt;
+  }
+}
 
 /**
  * One scalar a voxel and frame, first axis fastest, time slowest. Voxel (i, j, k) lies at Origin +

@@ -21,10 +21,10 @@ struct InterfaceStatistics
   unsigned Rounds = 0;                   ///< times refinement was resumed to correct interfaces
   std::uint64_t Seeds = 0;               ///< feature points inserted in these rounds, at most
   std::uint64_t NonManifoldRepaired = 0; ///< edges that were not manifold on a label's boundary
-  std::uint64_t NonManifoldOpened =
-    0; ///< repaired edges around which tetrahedra were cut in pieces
-  std::uint64_t NonManifoldLeft =
-    0; ///< edges that still are not manifold; 0 if not looked for (InterfaceOptions::Manifold)
+  /** Repaired edges around which tetrahedra were cut in pieces. */
+  std::uint64_t NonManifoldOpened = 0;
+  /** Edges that still are not manifold; 0 if not looked for (InterfaceOptions::Manifold). */
+  std::uint64_t NonManifoldLeft = 0;
 };
 
 } // namespace voxplex

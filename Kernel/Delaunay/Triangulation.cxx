@@ -6,7 +6,6 @@
 
 #include "Delaunay/Insertion.txx"
 #include "Delaunay/Removal.txx"
-#include "Delaunay/Verification.txx"
 
 #include <algorithm>
 #include <new>

@@ -18,7 +18,6 @@
 #include <cassert>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace voxplex
@@ -327,14 +326,10 @@ public:
   /** Bytes of the records below VertexIdEnd() and SimplexIdEnd(), including unused records. */
   std::uint64_t MemoryBytes() const;
 
-  /**
-   * Checks orientations, mutual neighbours, shared facets, the hull on the box, the local
-   * (perturbed) Delaunay property, and incidence.
-   * @return the violations; empty if there are none
-   */
-  std::vector<std::string> Verify(Worker& worker) const;
-
 private:
+  template <int>
+  friend class TriangulationVerifier; // of the tests
+
   using BoundaryFacet = typename Worker::BoundaryFacet;
   using FillingSimplex = typename Worker::FillingSimplex;
   using Candidate = typename Worker::Candidate;
@@ -342,7 +337,6 @@ private:
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
   Circumball<D> ComputeBallExactly(SimplexId s) const;
   SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
-  void VerifySimplex(Worker& worker, SimplexId s, std::vector<std::string>& complaints) const;
   std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
   static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
   std::uint32_t NumberVertex(Worker& worker, VertexId v);

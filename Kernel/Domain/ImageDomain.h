@@ -91,9 +91,10 @@ public:
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
   /**
    * The point lies on an interface of `label`, to FieldType::RootTolerance voxels (0.005, or 0.001
-   * for isosurfaces). On average it is a few hundredths of a voxel farther from p than the nearest
-   * interface point. If p is outside of the lattice, the point is near the voxel nearest to the
-   * projection of p onto the lattice. The search fails only if p does not have `label`.
+   * for isosurfaces), or where the margin is smaller than that. On average it
+   * is a few hundredths of a voxel farther from p than the nearest interface point. If p is outside
+   * of the lattice, the point is near the voxel nearest to the projection of p onto the lattice. The
+   * search fails only if p does not have `label`.
    */
   bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
   /** The steps are half a voxel, or longer where the distance bounds allow it. */

@@ -8,6 +8,7 @@
 #define voxplex_LoopSharing_h
 
 #include "Parallel/CacheLine.h"
+#include "Parallel/CycleClock.h"
 #include "Parallel/ParkingSpot.h"
 #include "Parallel/Pause.h"
 
@@ -174,6 +175,9 @@ public:
   /** Exact if the owner calls it, or if the owner's thread has ended. */
   const Counts& GetCounts(unsigned owner) const { return this->Slots[owner].Received; }
 
+  /** Time that a thread spent in loops of others. Exact if it calls this, or if it has ended. */
+  CycleClock::Ticks TicksOfHelp(unsigned helper) const { return this->Slots[helper].Given; }
+
 private:
   using Function = void (*)(void* context, unsigned thread, std::size_t first, std::size_t last);
 
@@ -195,6 +199,7 @@ private:
     std::atomic<bool> Failed{ false };
 
     alignas(CacheLineSize) Counts Received; ///< written by the owner only
+    CycleClock::Ticks Given = 0; ///< of the owner, in loops of others; written by the owner only
   };
 
   static void Open(Slot& slot, std::size_t count, std::size_t grain, Function call, void* context)
@@ -281,7 +286,9 @@ private:
         slot.State.compare_exchange_strong(
           state, state + OneHelper, std::memory_order_acquire, std::memory_order_relaxed))
       {
+        const CycleClock::Ticks start = CycleClock::Now();
         HelpInside(slot, helper);
+        this->Slots[helper].Given += CycleClock::Now() - start;
         return true;
       }
     }

@@ -25,8 +25,8 @@ struct LabelTopology
 {
   std::int64_t Label = 0;
   std::uint64_t BoundaryEdges = 0;
-  std::uint64_t NonManifoldEdges =
-    0; ///< boundary edges that do not have exactly two facets of the boundary
+  /** Boundary edges that do not have exactly two facets of the boundary. */
+  std::uint64_t NonManifoldEdges = 0;
   std::uint64_t NonManifoldEdgesAtJunctions = 0; ///< non-manifold edges at a junction
 };
 

@@ -134,6 +134,7 @@ struct ThreadStatistics
   std::uint64_t ReceivedElements = 0;                   ///< poor elements in these gifts
   std::uint64_t HelpedLoops = 0;       ///< loops of its insertions in which other threads helped
   std::uint64_t HelpedIterations = 0;  ///< iterations that other threads did in these loops
+  double HelpingSeconds = 0.0;         ///< in such loops of other threads; part of no overhead
   HardwareCounters::Counts Hardware{}; ///< empty if there are no counters
 
   ThreadStatistics& operator+=(const ThreadStatistics& other)
@@ -152,6 +153,7 @@ struct ThreadStatistics
     this->ReceivedElements += other.ReceivedElements;
     this->HelpedLoops += other.HelpedLoops;
     this->HelpedIterations += other.HelpedIterations;
+    this->HelpingSeconds += other.HelpingSeconds;
     this->Hardware += other.Hardware;
     return *this;
   }

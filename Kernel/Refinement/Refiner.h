@@ -152,6 +152,7 @@ public:
       {
         statistics.HelpedLoops = sharing->GetCounts(static_cast<unsigned>(t)).Loops;
         statistics.HelpedIterations = sharing->GetCounts(static_cast<unsigned>(t)).Iterations;
+        statistics.HelpingSeconds = this->Seconds(sharing->TicksOfHelp(static_cast<unsigned>(t)));
       }
       const RuleStatistics& rules = this->Workers[t]->Statistics;
       statistics.Insertions = rules.Insertions();
@@ -358,11 +359,12 @@ private:
       if (outcome == RuleOutcome::Contended)
       {
         const CycleClock::Ticks rollback = CycleClock::Now();
+        const CycleClock::Ticks helped = this->TicksOfHelp(thread);
         overhead.Rollback += rollback - start;
         ++overhead.Counts.Rollbacks;
         const bool waited = this->Team.Contention().RollbackOccurred(thread, me.Kernel.Winner - 1u);
         overhead.Counts.Waits += waited ? 1 : 0;
-        overhead.Contention += CycleClock::Now() - rollback;
+        overhead.Contention += CycleClock::Now() - rollback - (this->TicksOfHelp(thread) - helped);
         continue;
       }
       if (outcome == RuleOutcome::Changed)
@@ -442,6 +444,7 @@ private:
   bool Beg(unsigned thread)
   {
     const CycleClock::Ticks start = CycleClock::Now();
+    const CycleClock::Ticks helped = this->TicksOfHelp(thread);
     this->Context.Mesh.Unlock(this->Workers[thread]->Kernel);
     this->Team.Contention().BecomesIdle(thread);
     const bool goOn = this->Team.Balance().Beg(thread);
@@ -449,7 +452,8 @@ private:
     {
       this->Team.Contention().BecomesBusy(thread);
     }
-    this->Overheads[thread]->LoadBalance += CycleClock::Now() - start;
+    this->Overheads[thread]->LoadBalance +=
+      CycleClock::Now() - start - (this->TicksOfHelp(thread) - helped);
     return goOn;
   }
 
@@ -480,6 +484,13 @@ private:
   bool IsAlive(const PoorElementList::Entry& e) const
   {
     return this->Context.Mesh.State(e.Id).CurrentGeneration() == e.Generation;
+  }
+
+  /** What the thread has spent on insertions of others so far: work, not overhead. */
+  CycleClock::Ticks TicksOfHelp(unsigned thread) const
+  {
+    const LoopSharing* sharing = this->Team.Help();
+    return sharing ? sharing->TicksOfHelp(thread) : 0;
   }
 
   double Seconds(CycleClock::Ticks ticks) const

@@ -245,9 +245,8 @@ private:
     {
       values[c] = static_cast<float>(this->From(static_cast<std::uint32_t>(c), this->CentreOf(c)));
     }
-    constexpr int MostRounds =
-      // three rounds are enough for the atlases of Documentation/Benchmarks.md
-      16;
+    // Three rounds are enough for the atlases of Documentation/Benchmarks.md.
+    constexpr int MostRounds = 16;
     std::atomic<bool> changed{ true };
     for (int round = 0; round < MostRounds && changed; ++round)
     {

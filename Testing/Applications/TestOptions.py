@@ -388,7 +388,8 @@ class Threads(ProgramTestCase):
         for entry in entries:
             self.assertEqual(set(entry), {
                 "insertions", "removals", "rollbacks", "waits", "contention_seconds", "load_balance_seconds",
-                "rollback_seconds", "received", "received_elements", "helped_loops", "helped_iterations"})
+                "rollback_seconds", "received", "received_elements", "helped_loops", "helped_iterations",
+                "helping_seconds"})
             self.assertEqual(len(entry["received"]), 3)
             for count in [*entry["received"], *(entry[name] for name in (
                     "insertions", "removals", "rollbacks", "waits", "received_elements"))]:

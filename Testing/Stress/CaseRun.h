@@ -22,7 +22,7 @@ struct RunLimits
 {
   double TimeFactor = 1.0;           ///< factor of the time limits by size
   double Seconds = 0.0;              ///< limit of processor time; 0: limit by size
-  double OperationsPerVertex = 40.0; ///< more operations are a failure; 0: no limit
+  double OperationsPerVertex = 25.0; ///< more operations are a failure; 0: no limit
   bool AllowNonManifold = false;
 };
 
@@ -41,7 +41,7 @@ struct CaseResult
   std::vector<Finding> Failures;
   std::string Kind;
   std::uint64_t Elements = 0;
-  std::uint64_t Vertices = 0;
+  std::uint64_t Vertices = 0; ///< of the mesh, or of the triangulation if those are more
   std::uint64_t Created = 0;
   std::uint64_t Operations = 0; ///< insertions and removals
   std::uint64_t NonManifold = 0;

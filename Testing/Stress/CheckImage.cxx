@@ -20,6 +20,12 @@ using Index = typename Volume<D>::Index;
 
 /** Tolerance of points on interfaces, in voxels. */
 constexpr double SearchPrecision = 0.02;
+/**
+ * The same for isosurfaces. A search ends where the interpolant differs from the isovalue by a
+ * thousandth of the cell's range. At a corner where the isovalue is nearly reached this can be a
+ * tenth of a voxel away, the cube root of it.
+ */
+constexpr double SearchPrecisionOfIsosurfaces = 0.1;
 /** Distance by which optimisation may move vertices off interfaces, in smallest spacings. */
 constexpr double OptimisationTolerance = 0.1;
 
@@ -57,14 +63,15 @@ bool KnowsLabels(const Volume<D>& image)
 //------------------------------------------------------------------------------------------------
 /** Whether the voxels around a point have different labels. If not, no interface can be there. */
 template <int D>
-bool MayBeOnInterface(const Volume<D>& image, const Vector<D>& p, double tolerance)
+bool MayBeOnInterface(
+  const Volume<D>& image, const Vector<D>& p, double precision, double tolerance)
 {
   const Vector<D> at = image.ToIndex(p);
   Index<D> low;
   Index<D> high;
   for (std::size_t a = 0; a < low.size(); ++a)
   {
-    const double reach = SearchPrecision + tolerance / image.LayerDistance(a);
+    const double reach = precision + tolerance / image.LayerDistance(a);
     low[a] = static_cast<std::int64_t>(std::floor(at[a] - reach));
     high[a] = static_cast<std::int64_t>(std::floor(at[a] + reach)) + 1;
   }
@@ -100,11 +107,12 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
   const double tolerance = D == 3 && subject.Of.Options.Optimisation.Run
     ? OptimisationTolerance * SmallestSpacing(image)
     : 0.0;
+  const double precision = image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision;
   std::uint64_t off = 0;
   std::size_t first = 0;
   for (std::size_t v = 0; v < mesh.Points.size(); ++v)
   {
-    if (onFacet[v] && !MayBeOnInterface<D>(image, mesh.Points[v], tolerance))
+    if (onFacet[v] && !MayBeOnInterface<D>(image, mesh.Points[v], precision, tolerance))
     {
       first = off++ == 0 ? v : first;
     }

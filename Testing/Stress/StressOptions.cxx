@@ -30,7 +30,7 @@ independent of the kernel. The same dimension, seed and number give the same cas
   --reduce-seconds NUMBER time for --reduce (default 300)
   --in-process            with --case: runs it in this process, for a debugger
   --allow-non-manifold    edges that are not manifold are counted but do not fail a case
-  --work-limit NUMBER     more insertions and removals for each vertex of the mesh fail a case (default 40; 0: no limit)
+  --work-limit NUMBER     more insertions and removals for each vertex fail a case (default 25; 0: no limit)
   --time-limit SECONDS    processor time for each case (default: depends on its size)
   --time-factor FACTOR    multiplies the limits by size (for sanitizers)
   --help                  prints this

@@ -21,8 +21,8 @@ void FillThreads(vtkMeshingStatistics* statistics)
 {
   auto& run = statistics->Edit().Run;
   run.Threads.resize(2);
-  run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51, 71, 81 };
-  run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52, 72, 82 };
+  run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51, 71, 81, 3.5 };
+  run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52, 72, 82, 3.25 };
   run.Threads[1].Hardware = { 61, {}, 63 };
   run.Contention = voxplex::ContentionPolicy::Random;
   run.Balance = voxplex::BalancePolicy::Random;
@@ -157,9 +157,9 @@ void TestJSON()
          R"("thread_statistics":[{"insertions":1001,"removals":11,"rollbacks":21,"waits":31,)"
          R"("contention_seconds":0.5,"load_balance_seconds":1.5,"rollback_seconds":2.5,)"
          R"("received":[41,42,43],"received_elements":51,)"
-         R"("helped_loops":71,"helped_iterations":81},{"insertions":1002,)",
+         R"("helped_loops":71,"helped_iterations":81,"helping_seconds":3.5},{"insertions":1002,)",
          R"("received":[44,45,46],"received_elements":52,)"
-         R"("helped_loops":72,"helped_iterations":82,)"
+         R"("helped_loops":72,"helped_iterations":82,"helping_seconds":3.25,)"
          R"("tlb_misses":61,"resource_stall_cycles":63}])" })
   {
     CHECK(json.find(part) != std::string::npos, part, json);

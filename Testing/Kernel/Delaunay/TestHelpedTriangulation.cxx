@@ -365,10 +365,15 @@ TEST(FineGrainedRefinement, FourBall)
     EXPECT_TRUE(LockedVertices(context.Mesh).empty());
     EXPECT_GT(refiner.GetRuleStatistics().Created, 1000u);
     std::uint64_t helped = 0;
+    double helping = 0.0;
     for (const ThreadStatistics& thread : refiner.GetThreadStatistics())
     {
       helped += thread.HelpedLoops;
+      helping += thread.HelpingSeconds;
+      EXPECT_GE(thread.ContentionSeconds, 0.0);
+      EXPECT_GE(thread.LoadBalanceSeconds, 0.0);
     }
+    EXPECT_TRUE(helped == 0 || helping > 0.0);
     RecordProperty("HelpedLoops" + std::to_string(threads), static_cast<int>(helped));
   }
 }
@@ -387,6 +392,7 @@ TEST(FineGrainedRefinement, NobodyHelpsUnlessAsked)
   {
     EXPECT_EQ(thread.HelpedLoops, 0u);
     EXPECT_EQ(thread.HelpedIterations, 0u);
+    EXPECT_EQ(thread.HelpingSeconds, 0.0);
   }
 }
 

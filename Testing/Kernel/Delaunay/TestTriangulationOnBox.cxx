@@ -6,6 +6,7 @@
 #include "Sanitizers.h"
 #include "TriangulationChecks.h"
 #include "TriangulationStorm.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -90,7 +91,7 @@ void RemoveOneByOne(std::vector<Point<D>> points, double size, unsigned seed)
     ASSERT_EQ(t.Remove(worker, FindVertex<D>(t, p)), RemovalOutcome::Removed);
     ++removed[planes];
     ASSERT_EQ(FindVertex<D>(t, p), None);
-    const std::vector<std::string> complaints = t.Verify(worker);
+    const std::vector<std::string> complaints = checks::Verify(t);
     ASSERT_TRUE(complaints.empty()) << complaints.front();
     for (const SimplexId s : worker.Created)
     {

@@ -11,6 +11,7 @@
 #include "Refinement/Rules3D.h"
 #include "RefinementChecks.h"
 #include "Sizing/GradedDelta.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -172,8 +173,7 @@ TEST(GradedMeshing, NoRuleAppliesAfterwards)
     team.Threads = threads;
     Refiner<Rules3D> refiner(context, team);
     ASSERT_TRUE(refiner.Run(nullptr));
-    Triangulation<3>::Worker worker(context.Mesh);
-    const std::vector<std::string> complaints = context.Mesh.Verify(worker);
+    const std::vector<std::string> complaints = checks::Verify(context.Mesh);
     ASSERT_TRUE(complaints.empty()) << complaints.front();
     checks::ExpectNoRuleApplies(context, ball);
     const SimplexMesh<3> mesh = checks::ExtractSphere(context, ball);

@@ -103,7 +103,7 @@ TEST(LoopSharing, AnIdleThreadTakesChunks)
 {
   const Watchdog watchdog("an idle thread takes chunks");
   LoopSharing sharing(2, Patient);
-  const Helpers helpers(sharing, 1, 2);
+  auto helpers = std::make_unique<const Helpers>(sharing, 1, 2);
   for (const std::size_t count : { 1u, 5u, 6u, 7u, 100u })
   {
     std::atomic<bool> taken{ false };
@@ -133,8 +133,11 @@ TEST(LoopSharing, AnIdleThreadTakesChunks)
     EXPECT_EQ(sharing.GetCounts(0).Iterations - before,
       static_cast<std::uint64_t>(std::count(by.begin(), by.end(), 1u)));
   }
+  helpers.reset(); // they have ended
   EXPECT_EQ(sharing.GetCounts(0).Loops, 5u);
   EXPECT_EQ(sharing.GetCounts(1).Loops, 0u);
+  EXPECT_EQ(sharing.TicksOfHelp(0), 0u);
+  EXPECT_GT(sharing.TicksOfHelp(1), 0u);
 }
 
 // The loop's memory is the owner's stack. A helper that stayed would write over what comes there next.

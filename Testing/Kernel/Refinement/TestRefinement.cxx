@@ -11,6 +11,7 @@
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 #include "RefinementChecks.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -61,8 +62,7 @@ TEST(Refinement, NoRuleAppliesAfterwards)
       EXPECT_EQ(rules.RemovalsFailed, 0u);
       EXPECT_GT(rules.Fired[0], 0u);
       EXPECT_GT(rules.Fired[1], 0u);
-      Triangulation<3>::Worker worker(context.Mesh);
-      const std::vector<std::string> complaints = context.Mesh.Verify(worker);
+      const std::vector<std::string> complaints = checks::Verify(context.Mesh);
       ASSERT_TRUE(complaints.empty()) << complaints.front();
       ExpectNoRuleApplies(context, ball);
 

@@ -10,6 +10,7 @@
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
 #include "SpaceTimeCases.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -94,8 +95,7 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
       EXPECT_GT(rules.Fired[0], 0u);
       EXPECT_GT(rules.Fired[1], 0u);
       EXPECT_EQ(rules.FiredBySize > 0, sf != nullptr);
-      Triangulation<4>::Worker worker(context.Mesh);
-      const std::vector<std::string> complaints = context.Mesh.Verify(worker);
+      const std::vector<std::string> complaints = checks::Verify(context.Mesh);
       ASSERT_TRUE(complaints.empty()) << complaints.front();
       ExpectNoRuleApplies<4>(context, ball);
 

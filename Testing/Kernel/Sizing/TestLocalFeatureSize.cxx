@@ -10,6 +10,7 @@
 #include "Sizing/Grading/MedialAxis.h"
 #include "Sizing/Grading/PointBounds.h"
 #include "Sizing/Grading/SampleTriangulation.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -237,8 +238,7 @@ TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
   {
     const SampleTriangulation triangulation(points, 1.0, threads, {});
     const Triangulation<3>& mesh = triangulation.Mesh();
-    Triangulation<3>::Worker worker(mesh);
-    const std::vector<std::string> complaints = mesh.Verify(worker);
+    const std::vector<std::string> complaints = checks::Verify(mesh);
     ASSERT_TRUE(complaints.empty()) << complaints.front();
     std::set<Point<3>> vertices;
     for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)

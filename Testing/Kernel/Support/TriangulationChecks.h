@@ -5,6 +5,7 @@
 #define voxplex_TriangulationChecks_h
 
 #include "Delaunay/Triangulation.h"
+#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -69,9 +70,9 @@ std::vector<Point<D>> Points(const Triangulation<D>& t)
 template <int D>
 void ExpectDelaunay(const Triangulation<D>& t, double size)
 {
-  typename Triangulation<D>::Worker worker(t);
-  const std::vector<std::string> complaints = t.Verify(worker);
+  const std::vector<std::string> complaints = checks::Verify(t);
   ASSERT_TRUE(complaints.empty()) << complaints.front();
+  typename Triangulation<D>::Worker worker(t);
   const std::vector<Point<D>> points = Points(t);
   double volume = 0.0;
   std::set<Point<D>> used;
@@ -222,8 +223,7 @@ std::vector<VertexId> LockedVertices(const Triangulation<D>& t)
 template <int D>
 void ExpectSound(const Triangulation<D>& t)
 {
-  typename Triangulation<D>::Worker worker(t);
-  const std::vector<std::string> complaints = t.Verify(worker);
+  const std::vector<std::string> complaints = checks::Verify(t);
   EXPECT_TRUE(complaints.empty()) << complaints.size()
                                   << " complaints, first: " << complaints.front();
 }
