@@ -13,6 +13,7 @@
 #include "Refinement/RefinementContext.h"
 #include "Refinement/RefinementTeam.h"
 #include "Refinement/Seeding.h"
+#include "Sizing/LoweredCells.h"
 
 #include <functional>
 #include <memory>
@@ -219,14 +220,18 @@ private:
     RefinementWorker<D>& worker = *this->Workers[0];
     InsertSeeds<Rules>(this->Context, worker, this->Seeds);
     std::vector<SimplexId> changed;
-    for (SimplexId s = 0; local && local->HasLowered() && s < mesh.SimplexIdEnd(); ++s)
+    if (local && local->HasLowered())
     {
-      if (mesh.State(s).NearSurface && mesh.IsAlive(s))
+      const LoweredCells<D> lowered(*local);
+      for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
       {
-        const Circumball<D> ball = mesh.GetCircumball(s);
-        if (local->HasLoweredWithin(ball.Center, std::sqrt(ball.Radius2)))
+        if (mesh.State(s).NearSurface && mesh.IsAlive(s))
         {
-          changed.push_back(s);
+          const Circumball<D> ball = mesh.GetCircumball(s);
+          if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
+          {
+            changed.push_back(s);
+          }
         }
       }
     }

@@ -13,8 +13,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -68,7 +71,8 @@ public:
         if (delta < bound.Delta)
         {
           bound = { static_cast<float>(delta), label };
-          this->MarkLowered(cell);
+          this->IsLowered.resize(this->Values.size(), 0);
+          this->IsLowered[cell] = 1;
         }
       });
     this->SetSpacing(first, length, delta);
@@ -135,46 +139,29 @@ public:
   }
 
   /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
-  bool HasLowered() const { return this->AnyLowered; }
+  bool HasLowered() const { return !this->IsLowered.empty(); }
 
-  /** The same for the cells that a ball in the frame may reach. */
-  bool HasLoweredWithin(const Point<D>& centre, double radius) const
+  /** Whether each cell was lowered since then; empty if none was. */
+  const std::vector<std::uint8_t>& Lowered() const { return this->IsLowered; }
+
+  /** The number of cells along each axis. */
+  const Index& NumberOfCells() const { return this->Cells; }
+
+  /** The first and the last cell along each axis that a ball in the frame may reach. */
+  std::pair<Index, Index> CellsAround(const Point<D>& centre, double radius) const
   {
-    if (!this->AnyLowered)
-    {
-      return false;
-    }
     const Point<D> index = this->Grid.ToIndex(centre);
-    Index middle;
-    double reach = 0.0; // in cells
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      reach = std::max(reach, radius * this->VoxelsPerLength[a] / Cell);
-      middle[a] = this->CellAlong(a, index[a]);
-    }
-    if (reach < this->CellsToLowered[OffsetOf(middle, this->Cells)] - 1.0)
-    {
-      return false;
-    }
-    Index low;
-    Index high;
+    std::pair<Index, Index> cells;
     for (std::size_t a = 0; a < D; ++a)
     {
       const double voxels = radius * this->VoxelsPerLength[a];
-      low[a] = this->CellAlong(a, index[a] - voxels);
-      high[a] = this->CellAlong(a, index[a] + voxels);
+      cells.first[a] = this->CellAlong(a, index[a] - voxels);
+      cells.second[a] = this->CellAlong(a, index[a] + voxels);
     }
-    bool found = false;
-    ForEachIndex(low, high,
-      [&](const Index& cell) { found |= this->CellsToLowered[OffsetOf(cell, this->Cells)] == 0; });
-    return found;
+    return cells;
   }
 
-  void ForgetLowered()
-  {
-    this->CellsToLowered.clear();
-    this->AnyLowered = false;
-  }
+  void ForgetLowered() { this->IsLowered.clear(); }
 
   /** Growth of bounds over a unit of length. */
   static constexpr double Slope = 0.25;
@@ -233,35 +220,6 @@ private:
     ForEachIndex(low, high, [&](const Index& cell) { function(OffsetOf(cell, this->Cells)); });
   }
 
-  void MarkLowered(std::size_t offset)
-  {
-    this->CellsToLowered.resize(this->Values.size(), Unknown);
-    this->AnyLowered = true;
-    if (this->CellsToLowered[offset] == 0)
-    {
-      return;
-    }
-    const Index here = IndexAt(offset, this->Cells);
-    Index low;
-    Index high;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      low[a] = std::max<std::int64_t>(here[a] - Unknown + 1, 0);
-      high[a] = std::min(here[a] + Unknown - 1, this->Cells[a] - 1);
-    }
-    ForEachIndex(low, high,
-      [&](const Index& cell)
-      {
-        std::int64_t cells = 0;
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          cells = std::max(cells, std::abs(cell[a] - here[a]));
-        }
-        std::uint8_t& known = this->CellsToLowered[OffsetOf(cell, this->Cells)];
-        known = std::min(known, static_cast<std::uint8_t>(cells));
-      });
-  }
-
   /**
    * Lowers each cell of a block to the smaller value of its two neighbours along an axis. The block
    * has n rows of cells.
@@ -305,17 +263,10 @@ private:
   Index Origin;
   Index Cells{};
   Point<D> VoxelsPerLength;
-  std::vector<Bound> Values;   ///< empty: no bound is set
-  std::vector<float> Spacings; ///< the values at which GradedAt() starts
-  std::vector<float> Graded;   ///< the values of GradedAt() at the centres of cells
-  /** This distance or a larger one. */
-  static constexpr std::uint8_t Unknown = 3;
-  /**
-   * Lower bound of the distance, in cells along an axis, to the next cell that was lowered since
-   * ForgetLowered().
-   */
-  std::vector<std::uint8_t> CellsToLowered;
-  bool AnyLowered = false;
+  std::vector<Bound> Values;           ///< empty: no bound is set
+  std::vector<float> Spacings;         ///< the values at which GradedAt() starts
+  std::vector<float> Graded;           ///< the values of GradedAt() at the centres of cells
+  std::vector<std::uint8_t> IsLowered; ///< see Lowered()
   double SmallestBound = std::numeric_limits<double>::infinity();
 };
 

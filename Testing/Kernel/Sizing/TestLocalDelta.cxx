@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/LabelImage.h"
 #include "Sizing/LocalDelta.h"
+#include "Sizing/LoweredCells.h"
 
 #include <gtest/gtest.h>
 
@@ -39,30 +40,31 @@ TEST(LocalDelta, HoldsAboutRunsAndGrowsWithDistance)
   EXPECT_TRUE(std::isinf(local.At(grid.ToFrame({ 36.0, 20.0, 20.0 })).Delta));
   const Point<3> middle = grid.ToFrame({ 25.0, 20.0, 20.0 });
   EXPECT_TRUE(local.HasLowered());
-  EXPECT_TRUE(local.HasLoweredWithin(middle, 0.0));
-  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 10.0));
-  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 7.0));
-  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.5));
-  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
-  EXPECT_FALSE(local.HasLoweredWithin(grid.ToFrame({ 25.0, 40.0, 20.0 }), 9.0));
-  EXPECT_TRUE(local.HasLoweredWithin({ -1000.0, 0.0, 0.0 }, 2000.0));
+  const LoweredCells<3> lowered(local);
+  EXPECT_TRUE(lowered.AnyWithin(middle, 0.0));
+  EXPECT_TRUE(lowered.AnyWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 10.0));
+  EXPECT_FALSE(lowered.AnyWithin(grid.ToFrame({ 40.0, 20.0, 20.0 }), 7.0));
+  EXPECT_TRUE(lowered.AnyWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.5));
+  EXPECT_FALSE(lowered.AnyWithin(grid.ToFrame({ 25.0, 20.0, 40.0 }), 9.0));
+  EXPECT_FALSE(lowered.AnyWithin(grid.ToFrame({ 25.0, 40.0, 20.0 }), 9.0));
+  EXPECT_TRUE(lowered.AnyWithin({ -1000.0, 0.0, 0.0 }, 2000.0));
   // The cells along the first axis end half a voxel behind voxel 31, however far the point and large the ball.
   for (double i = 32.0; i < 64.0; i += 0.5)
   {
     for (double radius = 0.25; radius < 40.0; radius += 0.5)
     {
-      ASSERT_EQ(local.HasLoweredWithin(grid.ToFrame({ i, 20.0, 20.0 }), radius), i - radius < 31.5)
+      ASSERT_EQ(lowered.AnyWithin(grid.ToFrame({ i, 20.0, 20.0 }), radius), i - radius < 31.5)
         << i << " " << radius;
     }
   }
   local.ForgetLowered();
   EXPECT_FALSE(local.HasLowered());
-  EXPECT_FALSE(local.HasLoweredWithin(middle, 100.0));
+  EXPECT_FALSE(LoweredCells<3>(local).AnyWithin(middle, 100.0));
   local.SetBound({ 20, 20, 20 }, 10, 3, 0.5); // is less there already
   EXPECT_FALSE(local.HasLowered());
   local.SetBound({ 60, 60, 60 }, 1, 3, 0.5);
-  EXPECT_TRUE(local.HasLoweredWithin(grid.ToFrame({ 60.0, 60.0, 60.0 }), 0.0));
-  EXPECT_FALSE(local.HasLoweredWithin(middle, 0.0));
+  EXPECT_TRUE(LoweredCells<3>(local).AnyWithin(grid.ToFrame({ 60.0, 60.0, 60.0 }), 0.0));
+  EXPECT_FALSE(LoweredCells<3>(local).AnyWithin(middle, 0.0));
   // As of Grade(): cells 9 to 15 and 9 to 10, and those next to them, have the bound; from these it grows.
   constexpr double cell = LocalDelta<3>::Cell;
   const auto cells = [](double c, double first, double last) {
