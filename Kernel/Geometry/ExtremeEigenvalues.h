@@ -17,21 +17,28 @@
 namespace voxplex
 {
 
-/** Smallest and largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. */
+/**
+ * Smallest and largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. They end when
+ * the elements off the diagonal are far below the rounding errors of the diagonal.
+ */
 template <int D>
 void ExtremeEigenvalues(
   std::array<Point<D>, static_cast<std::size_t>(D)> m, double& smallest, double& largest)
 {
-  for (int sweep = 0; sweep < 50; ++sweep)
+  constexpr double negligible = 1e-20;
+  bool rotated = true;
+  for (int sweep = 0; sweep < 50 && rotated; ++sweep)
   {
+    rotated = false;
     for (std::size_t p = 0; p < D; ++p)
     {
       for (std::size_t q = p + 1; q < D; ++q)
       {
-        if (m[p][q] == 0.0)
+        if (std::abs(m[p][q]) <= negligible * (std::abs(m[p][p]) + std::abs(m[q][q])))
         {
           continue;
         }
+        rotated = true;
         const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
         const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
         const double c = 1.0 / std::hypot(t, 1.0);

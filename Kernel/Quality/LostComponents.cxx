@@ -145,6 +145,10 @@ template <int D>
 std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& components,
   const Components<D>& all, const LabelImage<D>& image, const SimplexMesh<D>& mesh)
 {
+  if (components.empty())
+  {
+    return {};
+  }
   struct Witness
   {
     double Shape = -1.0;
