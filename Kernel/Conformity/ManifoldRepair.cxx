@@ -129,7 +129,10 @@ public:
     return true;
   }
 
-  bool IsBad(const Edge& edge) const { return this->Near.CountBad(edge, nullptr) != 0; }
+  bool IsBad(const Edge& edge) const
+  {
+    return this->Near.CountBad(edge, this->Near.StarOf(edge).front(), nullptr) != 0;
+  }
 
   const std::set<SimplexId>& GetChanged() const { return this->Changed; }
 
@@ -141,20 +144,22 @@ public:
   std::vector<InterfaceEdge> FindLeft(const std::vector<InterfaceEdge>& before) const
   {
     std::vector<InterfaceEdge> left;
-    const std::vector<Edge> changed = this->EdgesOf(this->Changed);
+    const std::vector<CellEdge> changed = this->EdgesOf(this->Changed);
     for (const InterfaceEdge& edge : before)
     {
-      if (!std::binary_search(changed.begin(), changed.end(), edge.Ends))
+      const auto at = std::lower_bound(changed.begin(), changed.end(), edge.Ends,
+        [](const CellEdge& e, const Edge& ends) { return e.Ends < ends; });
+      if (at == changed.end() || at->Ends != edge.Ends)
       {
         left.push_back(edge);
       }
     }
-    for (const Edge& edge : changed)
+    for (const CellEdge& edge : changed)
     {
-      const Neighbourhood::State state = this->Near.StateOf(edge, nullptr);
+      const Neighbourhood::State state = this->Near.StateOf(edge.Ends, edge.Cell, nullptr);
       if (state.Bad > 0)
       {
-        left.push_back({ edge, state.IsJunction });
+        left.push_back({ edge.Ends, state.IsJunction });
       }
     }
     std::sort(left.begin(), left.end(),
@@ -227,11 +232,18 @@ private:
     return changes;
   }
 
+  /** An edge, and a tetrahedron that has it. */
+  struct CellEdge
+  {
+    Edge Ends;
+    SimplexId Cell;
+  };
+
   /** The edges of some tetrahedra, ascending. */
   template <typename Cells>
-  std::vector<Edge> EdgesOf(const Cells& cells) const
+  std::vector<CellEdge> EdgesOf(const Cells& cells) const
   {
-    std::vector<Edge> edges;
+    std::vector<CellEdge> edges;
     for (const SimplexId t : cells)
     {
       const auto& v = this->Near.VerticesOf(t);
@@ -239,12 +251,15 @@ private:
       {
         for (unsigned j = 0; j < i; ++j)
         {
-          edges.push_back(MakeEdge(v[i], v[j]));
+          edges.push_back({ MakeEdge(v[i], v[j]), t });
         }
       }
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::sort(edges.begin(), edges.end(),
+      [](const CellEdge& a, const CellEdge& b) { return a.Ends < b.Ends; });
+    edges.erase(std::unique(edges.begin(), edges.end(),
+                  [](const CellEdge& a, const CellEdge& b) { return a.Ends == b.Ends; }),
+      edges.end());
     return edges;
   }
 
@@ -252,9 +267,10 @@ private:
   int GainOf(const Change& change) const
   {
     int gain = 0;
-    for (const Edge& edge : this->EdgesOf(change.Cells))
+    for (const CellEdge& edge : this->EdgesOf(change.Cells))
     {
-      gain += this->Near.CountBad(edge, nullptr) - this->Near.CountBad(edge, &change);
+      gain += this->Near.CountBad(edge.Ends, edge.Cell, nullptr) -
+        this->Near.CountBad(edge.Ends, edge.Cell, &change);
     }
     return gain;
   }

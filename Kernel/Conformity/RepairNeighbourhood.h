@@ -11,6 +11,8 @@
 #include "Delaunay/Triangulation.h"
 #include "Delaunay/VertexStar.h"
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -35,14 +37,6 @@ struct Change
     return std::find(this->Cells.begin(), this->Cells.end(), t) != this->Cells.end();
   }
 };
-
-/** The first element for which is() is true. If there is none, `added` is appended. */
-template <typename T, typename Predicate>
-T& FindOrAdd(std::vector<T>& few, Predicate&& is, const T& added)
-{
-  const auto found = std::find_if(few.begin(), few.end(), is);
-  return found != few.end() ? *found : few.emplace_back(added);
-}
 
 //------------------------------------------------------------------------------------------------
 /** Access to the labelled tetrahedra of a triangulation by their vertices. */
@@ -112,67 +106,87 @@ public:
     int Bad; ///< labels, except background, with boundary facets at the edge, but not exactly two
     bool IsJunction; ///< three or more labels meet there
   };
-  State StateOf(const Edge& edge, const Change* change) const
+  /** @param t a tetrahedron at the edge; the time is linear in the number of those */
+  State StateOf(const Edge& edge, SimplexId t, const Change* change) const
   {
-    // The lists are short, so a linear search is enough. A Side has the labels on both sides of a
-    // facet at the edge.
-    struct Side
-    {
-      VertexId Third;
-      std::array<LabelId, 2> Labels;
-    };
     struct Count
     {
       LabelId Label;
       int Facets;
     };
-    constexpr std::size_t Most = 16; // enough for most edges
-    std::vector<Side> sides;
-    std::vector<Count> facets;
-    sides.reserve(Most);
-    facets.reserve(Most);
-    for (const SimplexId t : this->StarOf(edge[0]))
-    {
-      const auto& corners = this->VerticesOf(t);
-      if (std::find(corners.begin(), corners.end(), edge[1]) == corners.end())
+    constexpr std::size_t most = 8; // enough for nearly all edges; the list is searched linearly
+    boost::container::small_vector<Count, most> counts;
+    this->ForEachFacetAround(edge, t, change,
+      [&](LabelId a, LabelId b)
       {
-        continue;
-      }
-      const LabelId label = this->LabelOf(t, change);
-      for (const VertexId v : corners)
-      {
-        if (v != edge[0] && v != edge[1])
+        if (a == b)
         {
-          Side& side = FindOrAdd(
-            sides, [&](const Side& known) { return known.Third == v; }, Side{ v, { 0, 0 } });
-          side.Labels = { label, side.Labels[0] };
+          return;
         }
-      }
-    }
-    for (const Side& side : sides)
-    {
-      for (const LabelId label : side.Labels)
-      {
-        if (side.Labels[0] != side.Labels[1])
+        for (const LabelId label : { a, b })
         {
-          const auto hasLabel = [&](const Count& known) { return known.Label == label; };
-          ++FindOrAdd(facets, hasLabel, Count{ label, 0 }).Facets;
+          const auto known = std::find_if(
+            counts.begin(), counts.end(), [&](const Count& count) { return count.Label == label; });
+          ++(known != counts.end() ? *known : counts.emplace_back(Count{ label, 0 })).Facets;
         }
-      }
-    }
-    const auto bad = std::count_if(facets.begin(), facets.end(),
+      });
+    const auto bad = std::count_if(counts.begin(), counts.end(),
       [](const Count& count) { return count.Label != 0 && count.Facets != 2; });
-    return { static_cast<int>(bad), facets.size() > 2 };
+    return { static_cast<int>(bad), counts.size() > 2 };
   }
 
   /** The weighted number of defects at an edge. A defect off junctions has a larger weight. */
-  int CountBad(const Edge& edge, const Change* change) const
+  int CountBad(const Edge& edge, SimplexId t, const Change* change) const
   {
-    const State state = this->StateOf(edge, change);
+    const State state = this->StateOf(edge, t, change);
     return state.Bad * (state.IsJunction ? AtJunction : OffJunction);
   }
 
 private:
+  /** Calls visit with the labels on both sides of each facet at an edge of t. */
+  template <typename Visit>
+  void ForEachFacetAround(const Edge& edge, SimplexId t, const Change* change, Visit&& visit) const
+  {
+    const auto isEnd = [&](VertexId v) { return v == edge[0] || v == edge[1]; };
+    std::array<VertexId, 2> others;
+    unsigned found = 0;
+    for (const VertexId v : this->VerticesOf(t))
+    {
+      if (!isEnd(v))
+      {
+        others[found++] = v;
+      }
+    }
+    // If one turn ends at the hull, the other one begins at t as well.
+    for (unsigned turn = 0; turn < 2; ++turn)
+    {
+      SimplexId here = t;
+      LabelId label = this->LabelOf(here, change);
+      VertexId behind = others[turn]; // the next facet is opposite to it
+      VertexId ahead = others[1 - turn];
+      do
+      {
+        const auto& v = this->VerticesOf(here);
+        here = this->Beside(
+          here, static_cast<unsigned>(std::find(v.begin(), v.end(), behind) - v.begin()));
+        const LabelId next = here == None ? LabelId{ 0 } : this->LabelOf(here, change);
+        visit(label, next);
+        if (here == None)
+        {
+          break;
+        }
+        const auto& w = this->VerticesOf(here);
+        behind = std::exchange(ahead,
+          *std::find_if(w.begin(), w.end(), [&](VertexId x) { return !isEnd(x) && x != ahead; }));
+        label = next;
+      } while (here != t);
+      if (here == t)
+      {
+        return;
+      }
+    }
+  }
+
   static constexpr int AtJunction = 2;
   static constexpr int OffJunction = 3;
 
