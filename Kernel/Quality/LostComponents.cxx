@@ -4,6 +4,7 @@
 
 #include "Base/GridIndex.h"
 #include "Geometry/SimplexQuality.h"
+#include "Image/BitMask.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -55,6 +56,55 @@ void ForEachAround(const typename GridGeometry<D>::Index& centre, const Visit& v
   }
   ForEachIndex(low, high, visit);
 }
+
+/** The voxels whose block of 3^D voxels contains a voxel of some components. */
+template <int D>
+class Surroundings
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  explicit Surroundings(const Index& dimensions)
+    : Mask(Shifted(dimensions, 2))
+  {
+  }
+
+  void Add(const Components<D>& components, std::uint32_t component)
+  {
+    components.ForEachRun(component,
+      [this](const Index& first, std::int64_t length)
+      {
+        Index high = Shifted(first, 2); // one voxel farther, in a mask that begins at -1
+        high[0] += length - 1;
+        ForEachIndex(first, high, [this](const Index& at) { this->Mask.Set(at); });
+      });
+  }
+
+  bool Contain(const Index& voxel) const
+  {
+    const Index at = Shifted(voxel, 1);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      if (at[a] < 0 || at[a] >= this->Mask.Dimensions()[a])
+      {
+        return false;
+      }
+    }
+    return this->Mask.Test(at);
+  }
+
+private:
+  static Index Shifted(Index index, std::int64_t by)
+  {
+    for (std::int64_t& i : index)
+    {
+      i += by;
+    }
+    return index;
+  }
+
+  BitMask<D> Mask;
+};
 
 } // namespace
 
@@ -112,32 +162,44 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
     },
     stop);
 
-  const bool seemsLost = std::any_of(missing.get(), missing.get() + values.size(),
-    [](const std::atomic<std::uint32_t>& n) { return n.load(std::memory_order_relaxed) != 0; });
+  const auto findLost = [&]
+  {
+    std::vector<std::uint32_t> lost;
+    for (std::size_t c = 0; c < all.size(); ++c)
+    {
+      if (wanted[c] && !found[c].load(std::memory_order_relaxed))
+      {
+        lost.push_back(static_cast<std::uint32_t>(c));
+      }
+    }
+    return lost;
+  };
+  const std::vector<std::uint32_t> seemLost = findLost();
+  if (seemLost.empty())
+  {
+    return {};
+  }
+  Surroundings<D> near(image.CropDimensions());
+  for (const std::uint32_t c : seemLost)
+  {
+    near.Add(components, c);
+  }
   ParallelFor(
-    0, seemsLost ? mesh.Simplices.size() : 0, SimplicesAtOnce, threads,
+    0, mesh.Simplices.size(), SimplicesAtOnce, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t s = begin; s < end; ++s)
       {
-        const LabelId label = idOf(mesh.Labels[s]);
-        if (missing[label].load(std::memory_order_relaxed) != 0)
+        const Index centre = VoxelOf(image, mesh, s);
+        if (near.Contain(centre))
         {
-          ForEachAround<D>(
-            VoxelOf(image, mesh, s), [&](const Index& voxel) { mark(voxel, label); });
+          const LabelId label = idOf(mesh.Labels[s]);
+          ForEachAround<D>(centre, [&](const Index& voxel) { mark(voxel, label); });
         }
       }
     },
     stop);
-  std::vector<std::uint32_t> lost;
-  for (std::size_t c = 0; c < all.size(); ++c)
-  {
-    if (wanted[c] && !found[c].load(std::memory_order_relaxed))
-    {
-      lost.push_back(static_cast<std::uint32_t>(c));
-    }
-  }
-  return lost;
+  return findLost();
 }
 
 //------------------------------------------------------------------------------------------------

@@ -21,8 +21,8 @@ namespace voxplex
  * Finds lost components. A component is lost if no element of its label has its centroid within one
  * voxel of the component along each axis.
  *
- * O(elements + components). Neighbouring voxels are searched only for labels that seem to miss a
- * component.
+ * O(elements + components). Neighbouring voxels are searched only near components that contain no
+ * centroid; for these, a bit per voxel of the crop is needed.
  *
  * @param components the components of `image`
  * @param mesh in the frame of the image

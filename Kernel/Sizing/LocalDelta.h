@@ -222,20 +222,20 @@ private:
 
   /**
    * Lowers each cell of a block to the smaller value of its two neighbours along an axis. The block
-   * has n rows of cells.
+   * has n rows of `length` cells across the axis.
    */
-  void TakeLeastOfNeighbours(std::size_t first, std::size_t stride, std::size_t n)
+  void TakeLeastOfNeighbours(std::size_t first, std::size_t length, std::size_t n)
   {
-    for (std::size_t c = first; c < first + stride; ++c)
+    float* row = this->Graded.data() + first;
+    std::vector<float> before(row, row + length); // values of the row before, not yet lowered
+    for (std::size_t k = 0; k < n; ++k, row += length)
     {
-      float before = this->Graded[c];
-      for (std::size_t k = 0; k < n; ++k)
+      const float* const behind = k + 1 < n ? row + length : row;
+      for (std::size_t c = 0; c < length; ++c)
       {
-        float& value = this->Graded[c + k * stride];
-        const float own = value;
-        const float behind = k + 1 < n ? this->Graded[c + (k + 1) * stride] : own;
-        value = std::min({ before, own, behind });
-        before = own;
+        const float own = row[c];
+        row[c] = std::min(std::min(before[c], own), behind[c]);
+        before[c] = own;
       }
     }
   }
