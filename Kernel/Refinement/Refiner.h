@@ -10,6 +10,7 @@
 #include "Parallel/CacheLine.h"
 #include "Parallel/CycleClock.h"
 #include "Parallel/HardwareCounters.h"
+#include "Parallel/ParallelFor.h"
 #include "Refinement/RefinementContext.h"
 #include "Refinement/RefinementTeam.h"
 #include "Refinement/Seeding.h"
@@ -215,27 +216,42 @@ private:
   /** Pushes the simplices at the seeds and at lowered bounds, all to the first worker. */
   void StartAtSeeds()
   {
-    const Triangulation<D>& mesh = this->Context.Mesh;
     const LocalDelta<D>* const local = this->Context.Sizing.Sources().Local;
     RefinementWorker<D>& worker = *this->Workers[0];
     InsertSeeds<Rules>(this->Context, worker, this->Seeds);
-    std::vector<SimplexId> changed;
-    if (local && local->HasLowered())
-    {
-      const LoweredCells<D> lowered(*local);
-      for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+    const std::vector<SimplexId> changed =
+      local && local->HasLowered() ? this->FindReaching(*local) : std::vector<SimplexId>();
+    this->Screen(worker, changed.data(), changed.data() + changed.size());
+  }
+
+  /** The simplices whose circumball reaches a lowered bound, ascending. */
+  std::vector<SimplexId> FindReaching(const LocalDelta<D>& local) const
+  {
+    const Triangulation<D>& mesh = this->Context.Mesh;
+    const LoweredCells<D> lowered(local);
+    constexpr std::size_t grain = 8192;
+    std::vector<std::vector<SimplexId>> parts(mesh.SimplexIdEnd() / grain + 1);
+    ParallelFor(0, mesh.SimplexIdEnd(), grain, static_cast<unsigned>(this->Workers.size()),
+      [&](std::size_t first, std::size_t last)
       {
-        if (mesh.State(s).NearSurface && mesh.IsAlive(s))
+        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
-          const Circumball<D> ball = mesh.GetCircumball(s);
-          if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
+          if (mesh.State(s).NearSurface && mesh.IsAlive(s))
           {
-            changed.push_back(s);
+            const Circumball<D> ball = mesh.GetCircumball(s);
+            if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
+            {
+              parts[first / grain].push_back(s);
+            }
           }
         }
-      }
+      });
+    std::vector<SimplexId> reaching;
+    for (const std::vector<SimplexId>& part : parts)
+    {
+      reaching.insert(reaching.end(), part.begin(), part.end());
     }
-    this->Screen(worker, changed.data(), changed.data() + changed.size());
+    return reaching;
   }
 
   /** Makes the workers 1, 2 ..., each with its share of a seeded triangulation. */
