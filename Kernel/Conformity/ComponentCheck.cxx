@@ -225,13 +225,6 @@ std::vector<std::uint32_t> ComponentCheck<D>::FindLost(const SimplexMesh<D>& mes
   return FindLostComponents(this->All, this->Image, mesh, this->Wanted, this->Threads, this->Stop);
 }
 
-template <int D>
-std::vector<std::uint32_t> ComponentCheck<D>::FindWitnesses(
-  const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const
-{
-  return FindWitnessesOf(components, this->All, this->Image, mesh);
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)

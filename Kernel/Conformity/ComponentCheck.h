@@ -81,18 +81,10 @@ public:
   std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
 
   /**
-   * For each of these components that the mesh has, the element of best shape. Others are skipped.
-   */
-  std::vector<std::uint32_t> FindWitnesses(
-    const SimplexMesh<D>& mesh, const std::vector<std::uint32_t>& components) const;
-
-  /**
    * Adds seeds for these components, and bounds near them.
    * @return false if none of them can be sampled more finely
    */
   bool SampleFiner(const std::vector<std::uint32_t>& lost);
-
-  const Components<D>& GetComponents() const { return this->All; }
 
 private:
   using Index = typename GridGeometry<D>::Index;

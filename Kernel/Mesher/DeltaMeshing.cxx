@@ -206,12 +206,10 @@ Remedy<D> InspectAndExtract(
   return remedy;
 }
 
-} // namespace
-
 //------------------------------------------------------------------------------------------------
+/** Refines until no check needs a remedy. @return false if stopped */
 template <int D>
-bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,
-  RunProgress& progress, SimplexMesh<D>& mesh)
+bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, SimplexMesh<D>& mesh)
 {
   MeshSizing<D> sizing(run);
   const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
@@ -234,16 +232,30 @@ bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isW
     Remedy<D> remedy = InspectAndExtract(run, checks, mesh);
     if (!remedy.IsNeeded)
     {
-      if (isWorthOptimising(mesh))
-      {
-        checks.Optimise(mesh);
-      }
-      return !run.Stop.stop_requested();
+      return true;
     }
     seeds = std::move(remedy.Points);
     context.Sizing.FollowLocalBounds();
   }
   return false;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,
+  RunProgress& progress, SimplexMesh<D>& mesh)
+{
+  if (!RefineAndCheck(run, progress, mesh))
+  {
+    return false;
+  }
+  if (isWorthOptimising(mesh))
+  {
+    Dimension<D>::Optimise(run, mesh);
+  }
+  return !run.Stop.stop_requested();
 }
 
 template bool MeshWithDelta<3>(

@@ -6,6 +6,7 @@
 #include "Junctions/JunctionSeeds.h"
 #include "Mesh/MeshExtraction.h"
 #include "Optimisation/MeshOptimiser.h"
+#include "Quality/LostComponents.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 
 #include <algorithm>
@@ -137,27 +138,33 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
 }
 
 //------------------------------------------------------------------------------------------------
-void Dimension<3>::Checks::Optimise(SimplexMesh<3>& mesh) const
+void Dimension<3>::Optimise(const RunEnvironment<3>& run, SimplexMesh<3>& mesh)
 {
-  const MeshingOptions<3>& asked = this->Run.Options;
-  if (!asked.Optimisation.Run || this->Run.Stop.stop_requested())
+  const MeshingOptions<3>& asked = run.Options;
+  if (!asked.Optimisation.Run || run.Stop.stop_requested())
   {
     return;
   }
+  const LabelImage<3>& image = run.Prepared.Image;
   OptimisationOptions options;
   options.Shape = ShapeBounds::With(
     std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
   options.Seconds = asked.Optimisation.Seconds;
-  options.InterfaceTolerance =
-    OptimisationTolerance * this->Run.Prepared.Image.Grid().SmallestSpacing();
-  if (this->Components)
+  options.InterfaceTolerance = OptimisationTolerance * image.Grid().SmallestSpacing();
+  if (run.Prepared.AllComponents)
   {
-    options.ShouldHaveStayed = [&mesh, this](const SimplexMesh<3>& result)
-    { return this->Components->FindWitnesses(mesh, this->Components->FindLost(result)); };
+    const Components<3>& components = *run.Prepared.AllComponents;
+    options.ShouldHaveStayed = [&, wanted = components.FindWanted(asked.Components.Smallest)](
+                                 const SimplexMesh<3>& result)
+    {
+      return FindWitnessesOf(
+        FindLostComponents(components, image, result, wanted, asked.Team.Threads, run.Stop),
+        components, image, mesh);
+    };
   }
   const OptimisationStatistics done =
-    OptimiseMesh(mesh, *this->Run.Prepared.Surfaces, options, asked.Team.Threads, this->Run.Stop);
-  MeshingStatistics& statistics = this->Run.Statistics;
+    OptimiseMesh(mesh, *run.Prepared.Surfaces, options, asked.Team.Threads, run.Stop);
+  MeshingStatistics& statistics = run.Statistics;
   statistics.Times.Optimisation += done.Seconds;
   statistics.Optimisation = { true, done.OutOfTime, done.Before.SmallestDihedralAngle,
     done.Before.LargestDihedralAngle, done.After.SmallestDihedralAngle,

@@ -62,7 +62,13 @@ struct Dimension<3>
   static std::vector<FeatureSeed<3>> SampleJunctions(
     const RunEnvironment<3>& run, const SizingField<3>& sizing);
 
-  /** Checks components, then interfaces. Extracts and optimises the mesh. */
+  /**
+   * Improves shapes if the options request it. Keeps the components that the mesh has. The
+   * triangulation is not needed any more, so its memory can be free by then.
+   */
+  static void Optimise(const RunEnvironment<3>& run, SimplexMesh<3>& mesh);
+
+  /** Checks components, then interfaces. Extracts the mesh. */
   class Checks
   {
   public:
@@ -77,9 +83,6 @@ struct Dimension<3>
 
     /** Extracts the mesh with the labels and pieces that the checks have found. */
     void Extract(SimplexMesh<3>& mesh) const;
-
-    /** Improves shapes if the options request it. Keeps the components that the mesh has. */
-    void Optimise(SimplexMesh<3>& mesh) const;
 
   private:
     const RunEnvironment<3> Run;
@@ -108,6 +111,8 @@ struct Dimension<4>
     return {};
   }
 
+  static void Optimise(const RunEnvironment<4>&, SimplexMesh<4>&) {}
+
   class Checks
   {
   public:
@@ -119,7 +124,6 @@ struct Dimension<4>
     std::vector<FeatureSeed<4>> TakeSeeds() { return {}; }
     std::vector<ConformityCheck<4>*> All() { return {}; }
     void Extract(SimplexMesh<4>& mesh) const;
-    void Optimise(SimplexMesh<4>&) const {}
 
   private:
     const RunEnvironment<4> Run;

@@ -529,7 +529,7 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
     double seconds = 0.0;
     const ComponentCheck<3> check(
       image, domain, components, sizing, 1, false, local, statistics.Components, seconds, 1, {});
-    EXPECT_GT(check.GetComponents().All().size(), 100u);
+    EXPECT_GT(components.All().size(), 100u);
     EXPECT_TRUE(check.FindLost(mesh).empty());
   }
 }
@@ -583,7 +583,8 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
       }) -
     components.All().begin());
   ASSERT_LT(island, components.All().size());
-  const std::vector<std::uint32_t> witnesses = check.FindWitnesses(mesh, { island });
+  const std::vector<std::uint32_t> witnesses =
+    FindWitnessesOf({ island }, components, islands.Image, mesh);
   ASSERT_EQ(witnesses.size(), 1u);
   EXPECT_EQ(mesh.Labels[witnesses[0]], 2);
   for (const std::uint32_t v : mesh.Simplices[witnesses[0]])
@@ -592,7 +593,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   }
 
   // Take the elements of the island around one centre away.
-  const auto& all = check.GetComponents().All();
+  const auto& all = components.All();
   for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
   {
     const Point<3>& p = mesh.Points[mesh.Simplices[t][0]];
@@ -603,7 +604,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   }
   const std::vector<std::uint32_t> lost = check.FindLost(mesh);
   EXPECT_EQ(lost, std::vector<std::uint32_t>{ island });
-  EXPECT_TRUE(check.FindWitnesses(mesh, lost).empty());
+  EXPECT_TRUE(FindWitnessesOf(lost, components, islands.Image, mesh).empty());
   EXPECT_EQ(all[lost[0]].Voxels, 8);
   for (std::size_t a = 0; a < 3; ++a) // indices of the crop, which begins at 2
   {
