@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/DeltaMeshing.h"
 
+#include "Base/FreeMemory.h"
 #include "Base/Stopwatch.h"
 #include "Mesher/MeshSizeEstimate.h"
 #include "Parallel/ParallelFor.h"
@@ -253,6 +254,7 @@ bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isW
   }
   if (isWorthOptimising(mesh))
   {
+    ReturnFreeMemory(); // the triangulation's, which is as large as what optimisation needs
     Dimension<D>::Optimise(run, mesh);
   }
   return !run.Stop.stop_requested();
