@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file ExtremeEigenvalues.h
- * @brief The smallest and the largest eigenvalue of a small symmetric matrix.
+ * @file SmallestEigenvalue.h
+ * @brief The smallest eigenvalue of a small symmetric matrix.
  */
-#ifndef voxplex_ExtremeEigenvalues_h
-#define voxplex_ExtremeEigenvalues_h
+#ifndef voxplex_SmallestEigenvalue_h
+#define voxplex_SmallestEigenvalue_h
 
 #include "Geometry/Point.h"
 
@@ -17,10 +17,9 @@
 namespace voxplex
 {
 
-/** Smallest and largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. */
+/** By cyclic Jacobi rotations. */
 template <int D>
-void ExtremeEigenvalues(
-  std::array<Point<D>, static_cast<std::size_t>(D)> m, double& smallest, double& largest)
+double SmallestEigenvalue(std::array<Point<D>, static_cast<std::size_t>(D)> m)
 {
   for (int sweep = 0; sweep < 50; ++sweep)
   {
@@ -53,12 +52,12 @@ void ExtremeEigenvalues(
       }
     }
   }
-  smallest = largest = m[0][0];
+  double smallest = m[0][0];
   for (std::size_t a = 1; a < D; ++a)
   {
     smallest = std::min(smallest, m[a][a]);
-    largest = std::max(largest, m[a][a]);
   }
+  return smallest;
 }
 
 } // namespace voxplex
