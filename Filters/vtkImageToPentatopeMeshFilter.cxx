@@ -231,10 +231,10 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
       (hasTimeStep ? "one time step only" : "no time steps") +
       " and its array has one component; for one image, use vtkImageToTetMeshFilter.");
   }
-  std::vector<double> times;
+  std::vector<double> times(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k)
   {
-    times.push_back(this->TimeOrigin + k * this->TimeSpacing);
+    times[static_cast<std::size_t>(k)] = this->TimeOrigin + k * this->TimeSpacing;
   }
   voxplex::CheckTimes(times);
   this->Gathered->Series.Start(times);

@@ -130,7 +130,7 @@ vtkSmartPointer<vtkCellArray> WideCells(vtkCellArray* cells)
   {
     return cells;
   }
-  const auto wide = vtkSmartPointer<vtkCellArray>::New();
+  auto wide = vtkSmartPointer<vtkCellArray>::New();
   wide->DeepCopy(cells);
   wide->ConvertTo64BitStorage();
   return wide;
@@ -139,7 +139,7 @@ vtkSmartPointer<vtkCellArray> WideCells(vtkCellArray* cells)
 //----------------------------------------------------------------------------------------------------
 vtkSmartPointer<vtkTypeInt64Array> CopyIds(const std::vector<long long>& ids)
 {
-  const auto array = vtkSmartPointer<vtkTypeInt64Array>::New();
+  auto array = vtkSmartPointer<vtkTypeInt64Array>::New();
   array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
   std::copy(ids.begin(), ids.end(), array->GetPointer(0));
   return array;

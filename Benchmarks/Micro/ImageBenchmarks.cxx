@@ -102,7 +102,7 @@ void BuildLabelField(benchmark::State& state)
   for (auto _ : state)
   {
     const LabelField<D> field(image, Sigma);
-    benchmark::DoNotOptimize(field.NumberOfTiles());
+    benchmark::DoNotOptimize(field.MemoryBytes());
   }
   state.SetItemsProcessed(state.iterations() * NumberOfVoxels<D>());
 }
@@ -188,11 +188,11 @@ void Label(benchmark::State& state)
 }
 
 template <int D, Where where>
-void DistanceBounds(benchmark::State& state)
+void DistanceBound(benchmark::State& state)
 {
   RunQuery<D, where>(state,
     [](const ImageDomain<D>& domain, const Point<D>& p, LabelId)
-    { return domain.DistanceBounds(p); });
+    { return domain.DistanceBound(p); });
 }
 
 template <int D, Where where>
@@ -215,10 +215,10 @@ BENCHMARK(Label<3, Where::Anywhere>);
 BENCHMARK(Label<3, Where::AtInterface>);
 BENCHMARK(Label<4, Where::Anywhere>);
 BENCHMARK(Label<4, Where::AtInterface>);
-BENCHMARK(DistanceBounds<3, Where::Anywhere>);
-BENCHMARK(DistanceBounds<3, Where::AtInterface>);
-BENCHMARK(DistanceBounds<4, Where::Anywhere>);
-BENCHMARK(DistanceBounds<4, Where::AtInterface>);
+BENCHMARK(DistanceBound<3, Where::Anywhere>);
+BENCHMARK(DistanceBound<3, Where::AtInterface>);
+BENCHMARK(DistanceBound<4, Where::Anywhere>);
+BENCHMARK(DistanceBound<4, Where::AtInterface>);
 BENCHMARK(ClosestSurfacePoint<3, Where::Anywhere>);
 BENCHMARK(ClosestSurfacePoint<3, Where::AtInterface>);
 BENCHMARK(ClosestSurfacePoint<4, Where::Anywhere>);

@@ -81,11 +81,7 @@ void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellDat
     {
       for (std::size_t s = first; s < last; ++s)
       {
-        std::array<const Point<3>*, 4> v;
-        for (std::size_t i = 0; i < v.size(); ++i)
-        {
-          v[i] = &mesh.Points[mesh.Simplices[s][i]];
-        }
+        const auto v = mesh.PointsOf(s);
         const std::array<double, 6> angles = DihedralAngles(v.data());
         smallest[s] = *std::min_element(angles.begin(), angles.end());
         largest[s] = *std::max_element(angles.begin(), angles.end());

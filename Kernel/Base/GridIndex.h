@@ -14,27 +14,46 @@
 namespace voxplex
 {
 
-/** The number of the cell at an index. @param extent cells along each axis */
-template <std::size_t D>
-std::size_t OffsetOf(
-  const std::array<std::int64_t, D>& index, const std::array<std::int64_t, D>& extent)
+/** The number of cells. @param extent cells along each axis, here and below */
+template <typename Integer, std::size_t D>
+std::size_t CountCells(const std::array<Integer, D>& extent)
 {
-  std::int64_t offset = 0;
-  for (std::size_t a = D; a-- > 0;)
+  std::size_t count = 1;
+  for (const Integer n : extent)
   {
-    offset = offset * extent[a] + index[a];
+    count *= static_cast<std::size_t>(n);
   }
-  return static_cast<std::size_t>(offset);
+  return count;
+}
+
+/** The number of a row of cells along the first axis. */
+template <typename Integer, std::size_t D>
+std::size_t RowOf(const std::array<Integer, D>& index, const std::array<Integer, D>& extent)
+{
+  std::size_t row = 0;
+  for (std::size_t a = D; a-- > 1;)
+  {
+    row = row * static_cast<std::size_t>(extent[a]) + static_cast<std::size_t>(index[a]);
+  }
+  return row;
+}
+
+/** The number of the cell at an index. */
+template <typename Integer, std::size_t D>
+std::size_t OffsetOf(const std::array<Integer, D>& index, const std::array<Integer, D>& extent)
+{
+  return RowOf(index, extent) * static_cast<std::size_t>(extent[0]) +
+    static_cast<std::size_t>(index[0]);
 }
 
 /** The index of the cell with a number. */
-template <std::size_t D>
-std::array<std::int64_t, D> IndexAt(std::size_t offset, const std::array<std::int64_t, D>& extent)
+template <typename Integer, std::size_t D>
+std::array<Integer, D> IndexAt(std::size_t offset, const std::array<Integer, D>& extent)
 {
-  std::array<std::int64_t, D> index;
+  std::array<Integer, D> index;
   for (std::size_t a = 0; a < D; ++a)
   {
-    index[a] = static_cast<std::int64_t>(offset % static_cast<std::size_t>(extent[a]));
+    index[a] = static_cast<Integer>(offset % static_cast<std::size_t>(extent[a]));
     offset /= static_cast<std::size_t>(extent[a]);
   }
   return index;

@@ -323,6 +323,9 @@ public:
   /** All vertex ids are below this one. Test each with GetVertex(v).Alive. */
   VertexId VertexIdEnd() const { return this->NextVertex.load(std::memory_order_relaxed); }
 
+  /** The positions of vertices, for the functions of Geometry/. */
+  std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
+
   /** Bytes of the records below VertexIdEnd() and SimplexIdEnd(), including unused records. */
   std::uint64_t MemoryBytes() const;
 
@@ -337,7 +340,6 @@ private:
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
   Circumball<D> ComputeBallExactly(SimplexId s) const;
   SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
-  std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
   static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
   std::uint32_t NumberVertex(Worker& worker, VertexId v);
   bool TryOwn(Worker& worker, VertexId v);

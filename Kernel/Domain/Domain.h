@@ -14,13 +14,6 @@
 namespace voxplex
 {
 
-/** Bounds of a distance: Lower <= distance <= Upper. */
-struct DistanceInterval
-{
-  double Lower;
-  double Upper;
-};
-
 /**
  * @brief A partition of space into labels, with interfaces between them.
  *
@@ -53,8 +46,8 @@ public:
   /** The value that a label id has in the image. */
   virtual std::int64_t LabelValue(LabelId id) const = 0;
 
-  /** Bounds of the distance from p to the nearest interface. The cost is one table look-up. */
-  virtual DistanceInterval DistanceBounds(const Point<D>& p) const = 0;
+  /** Lower bound of the distance from p to the nearest interface. The cost is one table look-up. */
+  virtual double DistanceBound(const Point<D>& p) const = 0;
 
   /**
    * A quick estimate of cfp(p), for a first test that decides most points. An interface point that

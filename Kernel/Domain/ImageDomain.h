@@ -82,9 +82,9 @@ public:
   bool HasTimeBorder(unsigned end) const override { return this->Image.ReachesBorderInTime(end); }
   LabelId Label(const Point<D>& p) const override { return this->Field.Label(p); }
   std::int64_t LabelValue(LabelId id) const override { return this->Image.Values()[id]; }
-  DistanceInterval DistanceBounds(const Point<D>& p) const override
+  double DistanceBound(const Point<D>& p) const override
   {
-    return this->DistanceBoundsAt(this->Field.ToLattice(p));
+    return this->DistanceBoundAt(this->Field.ToLattice(p));
   }
   /** A point on the ray to the nearest site where the margin of `label` is below 0.1. */
   bool NearSurfacePoint(
@@ -190,7 +190,7 @@ private:
     return this->ClampToEnds(
       this->Field.ToFrame(faces == 0 ? x : this->Field.Borders().MoveOnto(x, faces)));
   }
-  DistanceInterval DistanceBoundsAt(const Point<D>& x) const;
+  double DistanceBoundAt(const Point<D>& x) const;
   /** Squared length in the frame of a step in lattice coordinates. */
   double Length2(const Point<D>& step) const;
   /** The site nearest to x, or one that is about as near. */
@@ -231,9 +231,7 @@ private:
   FeatureTransform<D> Features;
   bool IsOrthogonal;
   double SmallestStretch = 1.0; ///< least factor from lengths on orthogonal axes to real ones
-  double LargestStretch = 1.0;
-  double LowerSlack; ///< largest distance from an interface point to the nearest site
-  double UpperSlack; ///< largest distance from a site to an interface point
+  double SiteDistance;          ///< largest distance from an interface point to the nearest site
   double VoxelDiagonal;
   Box<D> BoundingBox;
 };

@@ -15,7 +15,7 @@
 
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomainSearch.txx"
-#include "Geometry/ExtremeEigenvalues.h"
+#include "Geometry/SmallestEigenvalue.h"
 #include "Image/SurfaceVoxels.h"
 
 #include <algorithm>
@@ -142,19 +142,14 @@ ImageDomain<D, FieldType>::ImageDomain(
   }
   if (!this->IsOrthogonal)
   {
-    double smallest = 1.0;
-    double largest = 1.0;
-    ExtremeEigenvalues<D>(gram, smallest, largest);
-    this->SmallestStretch = std::sqrt(std::max(0.0, smallest - 1e-12));
-    this->LargestStretch = std::sqrt(largest + 1e-12);
+    this->SmallestStretch = std::sqrt(std::max(0.0, SmallestEigenvalue<D>(gram) - 1e-12));
   }
 
   // An interface point lies in a cell with an edge that joins two sites. Along this edge, the point
   // is at most half of the edge away from one of them.
   const double diagonal2 = Dot(this->Spacing, this->Spacing);
   const double smallest = *std::min_element(this->Spacing.begin(), this->Spacing.end());
-  this->LowerSlack = std::sqrt(diagonal2 - 0.75 * smallest * smallest);
-  this->UpperSlack = *std::max_element(this->Spacing.begin(), this->Spacing.end());
+  this->SiteDistance = std::sqrt(diagonal2 - 0.75 * smallest * smallest);
   this->VoxelDiagonal = std::sqrt(diagonal2);
 
   this->BoundingBox.Min.fill(std::numeric_limits<double>::max());

@@ -72,7 +72,7 @@ inline double ImageDomain<D, FieldType>::Length2(const Point<D>& step) const
 }
 
 template <int D, typename FieldType>
-inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<D>& x) const
+inline double ImageDomain<D, FieldType>::DistanceBoundAt(const Point<D>& x) const
 {
   // Lengths are computed as if the axes were orthogonal, and stretched at the end.
   double outside2 = 0.0; // from x to the lattice
@@ -96,16 +96,14 @@ inline DistanceInterval ImageDomain<D, FieldType>::DistanceBoundsAt(const Point<
     cell = cell * this->Features.CellDimensions()[a] + c;
   }
   const double distance = static_cast<double>(this->Features.Distance(cell));
-  const double offset = std::sqrt(offset2);
-  double lower = std::max(0.0, distance * (1.0 - DistanceError) - offset - this->LowerSlack);
-  double upper = distance * (1.0 + DistanceError) + offset + this->UpperSlack;
+  double lower =
+    std::max(0.0, distance * (1.0 - DistanceError) - std::sqrt(offset2) - this->SiteDistance);
   if (outside2 > 0.0)
   {
     // All interfaces lie in the lattice's box, so the angle at the box is at least a right angle.
     lower = std::sqrt(lower * lower + outside2);
-    upper += std::sqrt(outside2);
   }
-  return { this->SmallestStretch * lower, this->LargestStretch * upper };
+  return this->SmallestStretch * lower;
 }
 
 template <int D, typename FieldType>
@@ -460,7 +458,7 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
   Probe before = this->ProbeAt(x, d, labelOfA, begin);
   while (before.T < end)
   {
-    const double free = this->DistanceBoundsAt(pointAt(before.T)).Lower * perLength;
+    const double free = this->DistanceBoundAt(pointAt(before.T)) * perLength;
     const Probe probe =
       this->ProbeAt(x, d, labelOfA, std::min(end, before.T + std::max(step, free)));
     if (!(probe.Margin > 0.0))

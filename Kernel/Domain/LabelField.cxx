@@ -166,6 +166,17 @@ private:
     return tile;
   }
 
+  /** The labels of the samples in a row of the tile. */
+  const LabelId* HaloOf(std::size_t row) const
+  {
+    std::size_t at = 0;
+    for (std::size_t a = D; a-- > 1;)
+    {
+      at = at * this->Width + ((row >> (3 * (a - 1))) & 7) + this->Radius;
+    }
+    return this->Halo.data() + at * this->Width + this->Radius;
+  }
+
   /** Finds for each sample which of the sorted labels it has. */
   void GatherOwn()
   {
@@ -175,12 +186,7 @@ private:
     }
     for (std::size_t row = 0; row < PlaneSize / 8; ++row)
     {
-      std::size_t at = 0;
-      for (std::size_t a = D; a-- > 1;)
-      {
-        at = at * this->Width + ((row >> (3 * (a - 1))) & 7) + this->Radius;
-      }
-      const LabelId* in = this->Halo.data() + at * this->Width + this->Radius;
+      const LabelId* in = this->HaloOf(row);
       for (std::size_t i = 0; i < 8; ++i)
       {
         this->OwnSlots[row * 8 + i] = this->SlotOf[in[i]];
@@ -198,12 +204,7 @@ private:
     }
     for (std::size_t row = 0; row < PlaneSize / 8; ++row)
     {
-      std::size_t at = 0;
-      for (std::size_t a = D; a-- > 1;)
-      {
-        at = at * this->Width + ((row >> (3 * (a - 1))) & 7) + this->Radius;
-      }
-      const LabelId* in = this->Halo.data() + at * this->Width + this->Radius;
+      const LabelId* in = this->HaloOf(row);
       std::array<LabelId, 8> thin{};
       std::size_t stride = 1;
       for (int a = 0; a < D; ++a, stride *= this->Width)

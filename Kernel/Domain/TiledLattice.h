@@ -103,8 +103,6 @@ public:
   {
     return this->BlockBytes + this->Directory.size() * sizeof(std::uintptr_t);
   }
-  std::size_t NumberOfTiles() const { return this->Directory.size(); }
-  std::size_t NumberOfMixedTiles() const { return this->MixedTiles; }
 
 protected:
   using Sample = SampleType;
@@ -198,7 +196,6 @@ private:
   std::vector<std::uintptr_t> Directory;
   std::vector<std::unique_ptr<Sample[]>> Blocks;
   std::size_t BlockBytes = 0;
-  std::size_t MixedTiles = 0;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -425,7 +422,6 @@ void TiledLattice<D, SampleType>::MakeTiles(
         builder = idle.back();
         idle.pop_back();
       }
-      std::size_t mixed = 0;
       for (std::size_t tile = begin; tile < end; ++tile)
       {
         ThrowIfStopped(stop); // a 4D tile with many labels and strong smoothing takes a while
@@ -444,12 +440,10 @@ void TiledLattice<D, SampleType>::MakeTiles(
         }
         else
         {
-          ++mixed;
           this->Directory[tile] = reinterpret_cast<std::uintptr_t>(builder->MakeTile(first));
         }
       }
       const std::scoped_lock lock(mutex);
-      this->MixedTiles += mixed;
       idle.push_back(builder);
     },
     stop);

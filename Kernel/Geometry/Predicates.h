@@ -247,10 +247,6 @@ public:
   const PredicateStatistics& GetStatistics() const { return this->Statistics; }
   PredicateStatistics& GetStatistics() { return this->Statistics; }
 
-  /** The static filter is certain if |det| exceeds this bound. */
-  double GetOrientationBound() const { return this->OrientationBound; }
-  double GetInSphereBound() const { return this->InSphereBound; }
-
 private:
   using Row = Point<D>;
   static constexpr std::size_t Size = static_cast<std::size_t>(D);
@@ -273,6 +269,7 @@ private:
   static int SignOf(double x) { return x > 0.0 ? 1 : -1; }
 
   PredicateStatistics Statistics;
+  // The static filters are certain if |det| exceeds these bounds.
   double OrientationBound;
   double InSphereBound;
 };

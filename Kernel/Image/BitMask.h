@@ -7,6 +7,7 @@
 #ifndef voxplex_BitMask_h
 #define voxplex_BitMask_h
 
+#include "Base/GridIndex.h"
 #include "Image/GridGeometry.h"
 
 #include <algorithm>
@@ -37,12 +38,8 @@ public:
     : Extent(dimensions)
     , Words((static_cast<std::size_t>(dimensions[0]) + 63) / 64)
   {
-    std::size_t rows = 1;
-    for (std::size_t a = 1; a < D; ++a)
-    {
-      rows *= static_cast<std::size_t>(dimensions[a]);
-    }
-    this->Bits.resize(rows * this->Words);
+    this->Bits.resize(
+      CountCells(dimensions) / static_cast<std::size_t>(dimensions[0]) * this->Words);
   }
 
   const Index& Dimensions() const { return this->Extent; }
@@ -50,15 +47,7 @@ public:
   std::size_t WordsPerRow() const { return this->Words; }
 
   /** Row number of an index. The second axis varies fastest. */
-  std::size_t RowOf(const Index& index) const
-  {
-    std::size_t row = 0;
-    for (std::size_t a = D; a-- > 1;)
-    {
-      row = row * static_cast<std::size_t>(this->Extent[a]) + static_cast<std::size_t>(index[a]);
-    }
-    return row;
-  }
+  std::size_t RowOf(const Index& index) const { return voxplex::RowOf(index, this->Extent); }
 
   /** The words of a row. Bit i of word w is voxel 64 w + i. */
   std::span<const std::uint64_t> Row(std::size_t row) const

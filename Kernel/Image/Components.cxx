@@ -3,6 +3,7 @@
 #include "Image/Components.h"
 
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -18,28 +19,20 @@ namespace
 template <int D>
 Point<D> FaceAreas(const GridGeometry<D>& grid)
 {
-  // Row a of the inverse of IndexToFrame has the length 1 / (height of a voxel over face a).
-  Point<D> areas{};
-  Point<D> squares{};
-  for (std::size_t column = 0; column < D; ++column)
+  // The height of a voxel over face a is 1 / VoxelsPerLength().
+  Point<D> areas = grid.VoxelsPerLength();
+  for (double& area : areas)
   {
-    Point<D> unit{};
-    unit[column] = 1.0;
-    const Point<D> x = grid.ToIndex(unit);
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      squares[a] += x[a] * x[a];
-    }
-  }
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    areas[a] = grid.VoxelVolume() * std::sqrt(squares[a]);
+    area *= grid.VoxelVolume();
   }
   return areas;
 }
 
+} // namespace
+
 /** Disjoint sets of runs. The root of a set is its smallest member. */
-class DisjointSets
+template <int D>
+class Components<D>::DisjointSets
 {
 public:
   explicit DisjointSets(std::size_t size)
@@ -72,34 +65,15 @@ private:
   std::vector<std::uint32_t> Parent;
 };
 
-} // namespace
-
-//------------------------------------------------------------------------------------------------
-template <int D>
-std::size_t Components<D>::RowOf(const Index& voxel) const
-{
-  std::size_t row = 0;
-  for (std::size_t a = D; a-- > 1;)
-  {
-    row = row * static_cast<std::size_t>(this->Dimensions[a]) + static_cast<std::size_t>(voxel[a]);
-  }
-  return row;
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 auto Components<D>::RunIndex(std::size_t run) const -> Index
 {
   const auto after = std::upper_bound(
     this->FirstOfRow.begin(), this->FirstOfRow.end(), static_cast<std::uint32_t>(run));
-  std::int64_t row = after - this->FirstOfRow.begin() - 1;
-  Index index{};
+  const auto row = static_cast<std::size_t>(after - this->FirstOfRow.begin() - 1);
+  Index index = IndexAt(row * static_cast<std::size_t>(this->Dimensions[0]), this->Dimensions);
   index[0] = this->Runs[run].Start;
-  for (std::size_t a = 1; a < D; ++a)
-  {
-    index[a] = row % this->Dimensions[a];
-    row /= this->Dimensions[a];
-  }
   return index;
 }
 
@@ -151,7 +125,7 @@ std::uint32_t Components<D>::At(const Index& voxel) const
       return None;
     }
   }
-  const std::size_t row = this->RowOf(voxel);
+  const std::size_t row = RowOf(voxel, this->Dimensions);
   const auto begin = this->Runs.begin() + this->FirstOfRow[row];
   const auto end = this->Runs.begin() + this->FirstOfRow[row + 1];
   const auto after = std::upper_bound(begin, end, static_cast<std::uint32_t>(voxel[0]),
@@ -164,15 +138,22 @@ template <int D>
 Components<D>::Components(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
   : Dimensions(image.CropDimensions())
 {
+  const std::vector<LabelId> labels = this->FindRuns(image, threads, stop);
+  DisjointSets sets(this->Runs.size());
+  const std::vector<double> surface =
+    this->JoinRuns(FaceAreas(image.Grid()), labels, sets, threads, stop);
+  this->MakeList(labels, surface, sets);
+}
+
+//------------------------------------------------------------------------------------------------
+/** @return the label of each run */
+template <int D>
+std::vector<LabelId> Components<D>::FindRuns(
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+{
   const LabelId* ids = image.Ids().data();
   const auto length = static_cast<std::size_t>(this->Dimensions[0]);
-  std::size_t rows = 1;
-  for (std::size_t a = 1; a < D; ++a)
-  {
-    rows *= static_cast<std::size_t>(this->Dimensions[a]);
-  }
-  constexpr std::size_t RowsAtOnce = 256;
-
+  const std::size_t rows = CountCells(this->Dimensions) / length;
   this->FirstOfRow.resize(rows + 1, 0);
   ParallelFor(
     0, rows, RowsAtOnce, threads,
@@ -221,13 +202,23 @@ Components<D>::Components(const LabelImage<D>& image, unsigned threads, const st
       }
     },
     stop);
+  return labels;
+}
 
-  // Runs of neighbouring rows belong together if they overlap and have the same label. First, each
-  // thread joins runs inside its slab of rows, so no set extends beyond a slab. Then runs of
-  // different slabs are joined.
-  DisjointSets sets(total);
-  const Point<D> areas = FaceAreas(image.Grid());
-  std::vector<double> surface(total); // of each run
+//------------------------------------------------------------------------------------------------
+/**
+ * Runs of neighbouring rows belong together if they overlap and have the same label. First, each
+ * thread joins runs inside its slab of rows, so no set extends beyond a slab. Then runs of
+ * different slabs are joined.
+ * @return the surface of each run, without the faces between joined runs
+ */
+template <int D>
+std::vector<double> Components<D>::JoinRuns(const Point<D>& areas,
+  const std::vector<LabelId>& labels, DisjointSets& sets, unsigned threads,
+  const std::stop_token& stop)
+{
+  const std::size_t rows = this->NumberOfRows();
+  std::vector<double> surface(this->Runs.size());
   const auto joinRows = [&](std::size_t row, std::size_t stride, double area)
   {
     std::uint32_t a = this->FirstOfRow[row - stride];
@@ -290,10 +281,17 @@ Components<D>::Components(const LabelImage<D>& image, unsigned threads, const st
       joinAxes(row, begin, false);
     }
   }
+  return surface;
+}
 
-  this->NextRun.assign(total, NoRun);
+//------------------------------------------------------------------------------------------------
+template <int D>
+void Components<D>::MakeList(
+  const std::vector<LabelId>& labels, const std::vector<double>& surface, DisjointSets& sets)
+{
+  this->NextRun.assign(this->Runs.size(), NoRun);
   std::vector<std::uint32_t> lastRun;
-  for (std::uint32_t r = 0; r < total; ++r)
+  for (std::uint32_t r = 0; r < this->Runs.size(); ++r)
   {
     if (labels[r] == 0)
     {

@@ -78,6 +78,7 @@ public:
 
 private:
   static constexpr std::uint32_t NoRun = 0xffffffffu;
+  static constexpr std::size_t RowsAtOnce = 256;
 
   struct Run
   {
@@ -85,8 +86,15 @@ private:
     std::uint32_t Component; ///< None for background
   };
 
-  /** Rows are numbered with the second axis fastest. */
-  std::size_t RowOf(const Index& voxel) const;
+  class DisjointSets;
+
+  std::vector<LabelId> FindRuns(
+    const LabelImage<D>& image, unsigned threads, const std::stop_token& stop);
+  std::vector<double> JoinRuns(const Point<D>& areas, const std::vector<LabelId>& labels,
+    DisjointSets& sets, unsigned threads, const std::stop_token& stop);
+  void MakeList(
+    const std::vector<LabelId>& labels, const std::vector<double>& surface, DisjointSets& sets);
+  std::size_t NumberOfRows() const { return this->FirstOfRow.size() - 1; }
   Index RunIndex(std::size_t run) const;
   std::uint32_t RunEnd(std::size_t run) const;
 

@@ -3,6 +3,7 @@
 #include "Image/FeatureTransform.h"
 
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -245,11 +246,10 @@ void FeatureTransform<D>::Pass(std::size_t axis, unsigned threads, const std::st
       for (std::size_t line = begin; line < end; ++line)
       {
         const std::size_t outer = line / inner;
-        std::size_t rest = line % inner;
+        const auto cell = IndexAt(line % inner, this->Cells);
         for (std::size_t a = 0; a < axis; ++a)
         {
-          query[a] = this->Centre(a, rest % this->Cells[a]);
-          rest /= this->Cells[a];
+          query[a] = this->Centre(a, cell[a]);
         }
         const std::uint32_t* in = this->Features.data() + outer * n * inner + line % inner;
         envelope.Clear();

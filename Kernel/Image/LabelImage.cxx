@@ -112,6 +112,12 @@ private:
   std::vector<std::uint16_t> Slots;
 };
 
+/** The number of rows that a thread reads at once. */
+std::size_t RowsAtOnce(std::size_t rowLength)
+{
+  return std::max<std::size_t>(1, (std::size_t{ 1 } << 18) / rowLength);
+}
+
 /** The values in the rows that one thread reads. */
 template <typename T, int D>
 struct Census
@@ -185,12 +191,36 @@ template <int D>
     ", or choose the array that holds the segmentation.");
 }
 
-std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
+/** A LabelSelection that can be asked quickly. */
+class Choice
 {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
+public:
+  explicit Choice(const LabelSelection& selection)
+    : Only(SortedOnce(selection.Only))
+    , But(SortedOnce(selection.But))
+  {
+  }
+
+  template <typename T>
+  bool Keeps(T value) const
+  {
+    const auto label = static_cast<std::int64_t>(value);
+    return label != 0 &&
+      (this->Only.empty() || std::binary_search(this->Only.begin(), this->Only.end(), label)) &&
+      !std::binary_search(this->But.begin(), this->But.end(), label);
+  }
+
+  const std::vector<std::int64_t> Only;
+  const std::vector<std::int64_t> But;
+
+private:
+  static std::vector<std::int64_t> SortedOnce(std::vector<std::int64_t> values)
+  {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }
+};
 
 /**
  * Throws if a selected label is 0, or does not occur.
@@ -216,6 +246,123 @@ void CheckSelected(const std::vector<std::int64_t>& selected,
     }
   }
 }
+
+/**
+ * @brief The first pass: counts the voxels of each value, and finds the bounding box of the labels
+ * to mesh. Rows are read run by run, since segmentations consist of long runs.
+ */
+template <typename T, int D>
+class CensusTaker
+{
+public:
+  CensusTaker(std::span<const T> scalars, const GridGeometry<D>& grid, const Choice& choice)
+    : Scalars(scalars)
+    , Grid(grid)
+    , RowLength(static_cast<std::size_t>(grid.Dimensions[0]))
+    , Labels(choice)
+    , FirstBad(scalars.size())
+  {
+  }
+
+  /** @throws InputError if a value is not a label, or there are too many */
+  std::vector<std::unique_ptr<Census<T, D>>> Run(unsigned threads, const std::stop_token& stop)
+  {
+    std::vector<std::unique_ptr<Census<T, D>>> all; // those that no chunk uses now are in `idle`
+    std::vector<Census<T, D>*> idle;
+    std::mutex mutex;
+    ParallelFor(
+      0, this->Scalars.size() / this->RowLength, RowsAtOnce(this->RowLength), threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        Census<T, D>* census = nullptr;
+        {
+          const std::scoped_lock lock(mutex);
+          if (idle.empty())
+          {
+            all.push_back(std::make_unique<Census<T, D>>());
+            idle.push_back(all.back().get());
+          }
+          census = idle.back();
+          idle.pop_back();
+        }
+        for (std::size_t row = begin;
+             row < end && this->TooMany.load(std::memory_order_relaxed) == 0; ++row)
+        {
+          this->ReadRow(*census, row);
+        }
+        const std::scoped_lock lock(mutex);
+        idle.push_back(census);
+      },
+      stop);
+    if (this->FirstBad != this->Scalars.size())
+    {
+      ThrowBadValue<T, D>(this->Scalars[this->FirstBad], this->FirstBad, this->Grid);
+    }
+    if (this->TooMany != 0)
+    {
+      ThrowTooManyLabels<D>(this->TooMany);
+    }
+    return all;
+  }
+
+private:
+  void ReadRow(Census<T, D>& census, std::size_t row)
+  {
+    const std::size_t n = this->RowLength;
+    const T* values = this->Scalars.data() + row * n;
+    auto index = IndexAt(row * n, this->Grid.Dimensions);
+    for (std::size_t i = 0; i < n;)
+    {
+      const T value = values[i];
+      std::size_t end = i + 1;
+      while (end < n && values[end] == value)
+      {
+        ++end;
+      }
+      if (!IsLabelValue(value))
+      {
+        std::size_t bad = this->FirstBad.load(std::memory_order_relaxed);
+        while (row * n + i < bad && !this->FirstBad.compare_exchange_weak(bad, row * n + i))
+        {
+        }
+        return;
+      }
+      std::uint16_t slot = census.Slots.Find(value);
+      if (slot == SlotTable<T>::None)
+      {
+        if (census.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels) + 1)
+        {
+          this->TooMany.store(census.Values.size() - 1, std::memory_order_relaxed);
+          return;
+        }
+        slot = static_cast<std::uint16_t>(census.Values.size());
+        census.Slots.Insert(value, slot);
+        census.Values.push_back(value);
+        census.Counts.push_back(0);
+        census.Kept.push_back(this->Labels.Keeps(value) ? 1 : 0);
+      }
+      census.Counts[slot] += static_cast<std::int64_t>(end - i);
+      if (census.Kept[slot])
+      {
+        index[0] = static_cast<std::int64_t>(i);
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          census.Min[a] = std::min(census.Min[a], index[a]);
+          census.Max[a] = std::max(census.Max[a], index[a]);
+        }
+        census.Max[0] = std::max(census.Max[0], static_cast<std::int64_t>(end) - 1);
+      }
+      i = end;
+    }
+  }
+
+  const std::span<const T> Scalars;
+  const GridGeometry<D>& Grid;
+  const std::size_t RowLength;
+  const Choice& Labels;
+  std::atomic<std::size_t> FirstBad; ///< the first voxel without a label, or the number of voxels
+  std::atomic<std::size_t> TooMany{ 0 };
+};
 
 } // namespace
 
@@ -276,108 +423,9 @@ template <typename T>
 LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
   const LabelSelection& selection, unsigned threads, const std::stop_token& stop)
 {
-  using CensusType = Census<T, D>;
   CheckGrid(grid, scalars.size());
-  const auto n0 = static_cast<std::size_t>(grid.Dimensions[0]);
-  const std::size_t rows = scalars.size() / n0;
-
-  const std::vector<std::int64_t> kept = SortedOnce(selection.Only);
-  const std::vector<std::int64_t> excluded = SortedOnce(selection.But);
-  const auto isKept = [&](T value)
-  {
-    const auto label = static_cast<std::int64_t>(value);
-    return value != T(0) && (kept.empty() || std::binary_search(kept.begin(), kept.end(), label)) &&
-      !std::binary_search(excluded.begin(), excluded.end(), label);
-  };
-
-  // First pass: counts the voxels of each value, and finds the bounding box of the labels to mesh.
-  // Rows are read run by run, since segmentations consist of long runs.
-  std::vector<std::unique_ptr<CensusType>> censuses; // those that no chunk uses now are in `idle`
-  std::vector<CensusType*> idle;
-  std::mutex mutex;
-  std::atomic<std::size_t> firstBad{ scalars.size() };
-  std::atomic<std::size_t> tooMany{ 0 };
-  const auto readRow = [&](CensusType& census, std::size_t row)
-  {
-    const T* values = scalars.data() + row * n0;
-    Index index = IndexAt(row * n0, grid.Dimensions);
-    for (std::size_t i = 0; i < n0;)
-    {
-      const T value = values[i];
-      std::size_t end = i + 1;
-      while (end < n0 && values[end] == value)
-      {
-        ++end;
-      }
-      if (!IsLabelValue(value))
-      {
-        std::size_t bad = firstBad.load(std::memory_order_relaxed);
-        while (row * n0 + i < bad && !firstBad.compare_exchange_weak(bad, row * n0 + i))
-        {
-        }
-        return;
-      }
-      std::uint16_t slot = census.Slots.Find(value);
-      if (slot == SlotTable<T>::None)
-      {
-        if (census.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels) + 1)
-        {
-          tooMany.store(census.Values.size() - 1, std::memory_order_relaxed);
-          return;
-        }
-        slot = static_cast<std::uint16_t>(census.Values.size());
-        census.Slots.Insert(value, slot);
-        census.Values.push_back(value);
-        census.Counts.push_back(0);
-        census.Kept.push_back(isKept(value) ? 1 : 0);
-      }
-      census.Counts[slot] += static_cast<std::int64_t>(end - i);
-      if (census.Kept[slot])
-      {
-        index[0] = static_cast<std::int64_t>(i);
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          census.Min[a] = std::min(census.Min[a], index[a]);
-          census.Max[a] = std::max(census.Max[a], index[a]);
-        }
-        census.Max[0] = std::max(census.Max[0], static_cast<std::int64_t>(end) - 1);
-      }
-      i = end;
-    }
-  };
-  const std::size_t grain = std::max<std::size_t>(1, (std::size_t{ 1 } << 18) / n0);
-  ParallelFor(
-    0, rows, grain, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      CensusType* census = nullptr;
-      {
-        const std::scoped_lock lock(mutex);
-        if (idle.empty())
-        {
-          censuses.push_back(std::make_unique<CensusType>());
-          idle.push_back(censuses.back().get());
-        }
-        census = idle.back();
-        idle.pop_back();
-      }
-      for (std::size_t row = begin; row < end && tooMany.load(std::memory_order_relaxed) == 0;
-           ++row)
-      {
-        readRow(*census, row);
-      }
-      const std::scoped_lock lock(mutex);
-      idle.push_back(census);
-    },
-    stop);
-  if (firstBad != scalars.size())
-  {
-    ThrowBadValue<T, D>(scalars[firstBad], firstBad, grid);
-  }
-  if (tooMany != 0)
-  {
-    ThrowTooManyLabels<D>(tooMany);
-  }
+  const Choice choice(selection);
+  const auto censuses = CensusTaker<T, D>(scalars, grid, choice).Run(threads, stop);
 
   // Join the censuses of the threads: all values in increasing order.
   LabelImage image;
@@ -404,7 +452,6 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   std::vector<std::int64_t> occurring;
   image.LabelValues.push_back(0);
   image.LabelCounts.push_back(0);
-  std::size_t distinct = 0;
   for (std::size_t i = 0; i < all.size();)
   {
     const T value = all[i].first;
@@ -413,27 +460,24 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     {
       count += all[i].second;
     }
-    if (value == T(0))
+    if (value != T(0))
     {
-      ids.Insert(value, 0);
-      continue;
+      occurring.push_back(static_cast<std::int64_t>(value));
     }
-    if (++distinct > static_cast<std::size_t>(MaximumNumberOfLabels))
+    if (occurring.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
     {
-      ThrowTooManyLabels<D>(distinct);
+      ThrowTooManyLabels<D>(occurring.size());
     }
-    occurring.push_back(static_cast<std::int64_t>(value));
-    if (!isKept(value))
+    const bool kept = choice.Keeps(value);
+    ids.Insert(value, kept ? static_cast<std::uint16_t>(image.LabelValues.size()) : LabelId{ 0 });
+    if (kept)
     {
-      ids.Insert(value, 0);
-      continue;
+      image.LabelValues.push_back(static_cast<std::int64_t>(value));
+      image.LabelCounts.push_back(count);
     }
-    ids.Insert(value, static_cast<std::uint16_t>(image.LabelValues.size()));
-    image.LabelValues.push_back(static_cast<std::int64_t>(value));
-    image.LabelCounts.push_back(count);
   }
-  CheckSelected(kept, occurring, "asked for", "to keep");
-  CheckSelected(excluded, occurring, "excluded", "to exclude");
+  CheckSelected(choice.Only, occurring, "asked for", "to keep");
+  CheckSelected(choice.But, occurring, "excluded", "to exclude");
   if (image.LabelValues.size() == 1)
   {
     if (!occurring.empty())
@@ -446,11 +490,9 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
 
   // Second pass: writes the dense ids of the bounding box.
   image.Origin = min;
-  std::size_t cropRows = 1;
   for (std::size_t a = 0; a < D; ++a)
   {
     image.Extent[a] = max[a] - min[a] + 1;
-    cropRows *= a > 0 ? static_cast<std::size_t>(image.Extent[a]) : 1;
   }
   if constexpr (D == 4)
   {
@@ -459,9 +501,9 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     image.CutInTime = { upright && min[3] == 0, upright && max[3] == grid.Dimensions[3] - 1 };
   }
   const auto e0 = static_cast<std::size_t>(image.Extent[0]);
-  image.Voxels.resize(e0 * cropRows);
+  image.Voxels.resize(CountCells(image.Extent));
   ParallelFor(
-    0, cropRows, grain, threads,
+    0, image.Voxels.size() / e0, RowsAtOnce(e0), threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t row = begin; row < end; ++row)

@@ -26,7 +26,7 @@ constexpr double Clearance = 0.75;
  * Closed curves shorter than this, in arc lengths, are left out: they surround a part smaller than
  * delta.
  */
-constexpr double ShortestLoop = 4.0;
+constexpr std::size_t ShortestLoop = 4;
 
 /** Visits points in equal steps along a curve, without its ends. */
 template <typename Function>
@@ -34,30 +34,30 @@ void WalkAlong(const JunctionCurves::Curve& curve, const JunctionDelta& delta, F
 {
   const std::size_t n = curve.Points.size();
   const std::size_t pieces = curve.IsClosed ? n : n - 1;
+  const auto after = [&](std::size_t i) { return curve.Points[i + 1 < n ? i + 1 : 0]; };
   std::vector<double> steps{ 0.0 }; // number of steps from the beginning
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const Point<3>& a = curve.Points[i];
-    const Point<3>& b = curve.Points[(i + 1) % n];
+    const Point<3> b = after(i);
     const double step = ArcLength * delta(Interpolate(a, b, 0.5), curve.Labels);
     steps.push_back(steps.back() + Distance(a, b) / step);
   }
-  const double count = std::round(steps.back());
+  const auto count = static_cast<std::size_t>(std::round(steps.back()));
   if (curve.IsClosed && count < ShortestLoop)
   {
     return;
   }
   std::size_t i = 0;
-  for (double k = curve.IsClosed ? 0.0 : 1.0; k < count; k += 1.0)
+  for (std::size_t k = curve.IsClosed ? 0 : 1; k < count; ++k)
   {
-    const double at = k * steps.back() / count;
+    const double at = static_cast<double>(k) * steps.back() / static_cast<double>(count);
     while (i + 2 < steps.size() && steps[i + 1] < at)
     {
       ++i;
     }
     const double piece = steps[i + 1] - steps[i];
-    visit(Interpolate(
-      curve.Points[i], curve.Points[(i + 1) % n], piece > 0.0 ? (at - steps[i]) / piece : 0.0));
+    visit(Interpolate(curve.Points[i], after(i), piece > 0.0 ? (at - steps[i]) / piece : 0.0));
   }
 }
 

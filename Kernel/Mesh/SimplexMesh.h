@@ -41,6 +41,17 @@ struct SimplexMesh
   UninitialisedVector<std::int64_t> Labels;
   UninitialisedVector<std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
   UninitialisedVector<std::array<std::int64_t, 2>> FacetLabels;
+
+  /** The points of a simplex, for the functions of Geometry/. */
+  std::array<const Point<D>*, static_cast<std::size_t>(D + 1)> PointsOf(std::size_t simplex) const
+  {
+    std::array<const Point<D>*, static_cast<std::size_t>(D + 1)> points;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      points[i] = &this->Points[this->Simplices[simplex][i]];
+    }
+    return points;
+  }
 };
 
 /** The triangles of a mesh's interfaces. */

@@ -87,8 +87,9 @@ struct TimeSlice
  * on points alone, and not on edges or positions, so all cells agree. If a pentatope between two
  * interfaces is dropped, the interfaces meet: the polygons of both stay and coincide.
  *
- * A point counts as lying at T if its time is within GetTolerance() of T: times of frames that are
- * computed in two ways differ by roundings.
+ * A point counts as lying at T if its time differs by no more than 1e-12 of the mesh's duration, or
+ * four roundings of its largest time if that is more: times of frames that are computed in two ways
+ * differ by roundings.
  *
  * **Orientation.** Let the columns of a determinant be in the order x, y, z, t. A pentatope with
  * det(p_1 - p_0, ..., p_4 - p_0) > 0 gives cells of positive volume, up to the rounding of corners,
@@ -121,12 +122,6 @@ public:
   double GetFirstTime() const { return this->First; }
   double GetLastTime() const { return this->Last; }
   ///@}
-
-  /**
-   * Tolerance of T: a point lies at T if its time differs by no more. It is 1e-12 of the mesh's
-   * duration, or four roundings of its largest time if that is more.
-   */
-  double GetTolerance() const { return this->Tolerance; }
 
   /**
    * The cut at a time. It is empty if the time is outside the mesh's times or is not a number. O(k

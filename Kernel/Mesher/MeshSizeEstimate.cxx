@@ -3,6 +3,7 @@
 #include "Mesher/MeshSizeEstimate.h"
 
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Base/NumberText.h"
 #include "Parallel/ParallelFor.h"
 
@@ -75,26 +76,23 @@ std::array<std::uint64_t, static_cast<std::size_t>(D)> CountInterfaceFaces(
         {
           count[0] += voxels[i] != voxels[i - 1];
         }
+        const auto index = IndexAt(r * row, n);
         std::size_t stride = row;
-        std::size_t rest = r;
         for (std::size_t a = 1; a < D; ++a)
         {
-          const std::size_t extent = static_cast<std::size_t>(n[a]);
-          const std::size_t position = rest % extent;
-          rest /= extent;
           const bool time = D == 4 && a == 3;
           const LabelId* before = voxels - stride;
           for (std::size_t i = 0;
-               i < row && !(time && position == 0 && image.ReachesBorderInTime(0)); ++i)
+               i < row && !(time && index[a] == 0 && image.ReachesBorderInTime(0)); ++i)
           {
-            count[a] += voxels[i] != (position == 0 ? LabelId(0) : before[i]);
+            count[a] += voxels[i] != (index[a] == 0 ? LabelId(0) : before[i]);
           }
-          if (position + 1 == extent && !(time && image.ReachesBorderInTime(1)))
+          if (index[a] + 1 == n[a] && !(time && image.ReachesBorderInTime(1)))
           {
             count[a] += static_cast<std::uint64_t>(
               row - static_cast<std::size_t>(std::count(voxels, voxels + row, LabelId(0))));
           }
-          stride *= extent;
+          stride *= static_cast<std::size_t>(n[a]);
         }
       }
       for (std::size_t a = 0; a < D; ++a)
@@ -128,15 +126,8 @@ void CountBalls(const LabelImage<D>& image, const SizeFunction<D>& size, double 
   {
     return;
   }
-  Point<D> index;
-  std::size_t rest = voxel;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    const std::size_t extent = static_cast<std::size_t>(image.CropDimensions()[a]);
-    index[a] = static_cast<double>(rest % extent) + static_cast<double>(image.CropOrigin()[a]);
-    rest /= extent;
-  }
-  const double s = size.Evaluate(image.Grid().ToFrame(index), image.Values()[id]);
+  const Point<D> p = image.CentreOf(IndexAt(voxel, image.CropDimensions()));
+  const double s = size.Evaluate(p, image.Values()[id]);
   if (s > 0.0 && std::isfinite(s))
   {
     count.Smallest = std::min(count.Smallest, s);

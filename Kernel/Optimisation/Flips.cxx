@@ -129,7 +129,7 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
 
   // Rotate the ring so that a run of one label begins with the first cell.
   const std::size_t cells = ring.Cells.size();
-  const auto labelAt = [&](std::size_t k) { return mesh.Labels[ring.Cells[k % cells]]; };
+  const auto labelAt = [&](std::size_t k) { return mesh.Labels[ring.Cells[k < cells ? k : 0]]; };
   std::size_t changes = 0;
   std::size_t start = 0;
   for (std::size_t k = 0; k + (ring.Closed ? 0 : 1) < cells; ++k)

@@ -357,7 +357,7 @@ bool Smoother::Direction(const Point<3>& p, Point<3>& direction, double& slope)
 bool Smoother::Step(Point<3>& p, double& score)
 {
   Point<3> direction;
-  double slope;
+  double slope = 0.0;
   if (!this->Direction(p, direction, slope))
   {
     return false;

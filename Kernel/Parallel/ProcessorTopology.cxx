@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/ProcessorTopology.h"
 
-#include "Parallel/ProcessorTopologyDiscovery.h"
-
 #ifdef VOXPLEX_HAVE_HWLOC
-#include <hwloc.h>
+#include "Parallel/HwlocTopology.h"
 
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #endif
 
 namespace voxplex
@@ -40,8 +39,8 @@ struct FreeBitmap
 };
 using Bitmap = std::unique_ptr<std::remove_pointer_t<hwloc_bitmap_t>, FreeBitmap>;
 
-/** The topology of this machine, or of the described machine. Null if hwloc fails. */
-HwlocTopology Load(const char* description)
+/** Null if hwloc fails. */
+HwlocTopology LoadTopology()
 {
   hwloc_topology_t raw = nullptr;
   if (hwloc_topology_init(&raw) != 0)
@@ -49,15 +48,7 @@ HwlocTopology Load(const char* description)
     return nullptr;
   }
   HwlocTopology topology(raw);
-  if (description != nullptr && hwloc_topology_set_synthetic(raw, description) != 0)
-  {
-    return nullptr;
-  }
-  if (hwloc_topology_load(raw) != 0)
-  {
-    return nullptr;
-  }
-  return topology;
+  return hwloc_topology_load(raw) == 0 ? std::move(topology) : nullptr;
 }
 
 /**
@@ -65,7 +56,7 @@ HwlocTopology Load(const char* description)
  */
 hwloc_topology_t ThisMachine()
 {
-  static const HwlocTopology machine = Load(nullptr);
+  static const HwlocTopology machine = LoadTopology();
   return machine.get();
 }
 
@@ -140,8 +131,12 @@ private:
   std::map<unsigned, unsigned> Numbers;
 };
 
-ProcessorTopology Spread(std::vector<Processor> processors, unsigned threads)
+} // namespace
+
+ProcessorTopology SpreadThreads(
+  hwloc_topology_t machine, hwloc_const_bitmap_t allowed, unsigned threads)
 {
+  std::vector<Processor> processors = AllowedProcessors(machine, allowed);
   if (processors.empty())
   {
     return FlatTopology(threads);
@@ -178,33 +173,6 @@ ProcessorTopology Spread(std::vector<Processor> processors, unsigned threads)
   return spread;
 }
 
-} // namespace
-
-bool CanDiscoverTopology()
-{
-  return true;
-}
-
-ProcessorTopology DescribedTopology(
-  const std::string& description, const std::vector<unsigned>& allowed, unsigned threads)
-{
-  const HwlocTopology topology = Load(description.c_str());
-  const Bitmap set(hwloc_bitmap_alloc());
-  if (!topology || !set)
-  {
-    return FlatTopology(threads);
-  }
-  if (allowed.empty())
-  {
-    hwloc_bitmap_fill(set.get());
-  }
-  for (const unsigned processor : allowed)
-  {
-    hwloc_bitmap_set(set.get(), processor);
-  }
-  return Spread(AllowedProcessors(topology.get(), set.get()), threads);
-}
-
 ProcessorTopology DiscoverTopology(unsigned threads)
 {
   const hwloc_topology_t topology = ThisMachine();
@@ -219,7 +187,7 @@ ProcessorTopology DiscoverTopology(unsigned threads)
   {
     hwloc_bitmap_fill(allowed.get());
   }
-  return Spread(AllowedProcessors(topology, allowed.get()), threads);
+  return SpreadThreads(topology, allowed.get(), threads);
 }
 
 bool PinThisThread(const ProcessorTopology& topology, unsigned t)
@@ -235,17 +203,6 @@ bool PinThisThread(const ProcessorTopology& topology, unsigned t)
 }
 
 #else // without hwloc
-
-bool CanDiscoverTopology()
-{
-  return false;
-}
-
-ProcessorTopology DescribedTopology(
-  const std::string&, const std::vector<unsigned>&, unsigned threads)
-{
-  return FlatTopology(threads);
-}
 
 ProcessorTopology DiscoverTopology(unsigned threads)
 {

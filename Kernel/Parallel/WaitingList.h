@@ -7,6 +7,7 @@
 #ifndef voxplex_WaitingList_h
 #define voxplex_WaitingList_h
 
+#include <atomic>
 #include <limits>
 
 namespace voxplex
@@ -15,18 +16,17 @@ namespace voxplex
 /**
  * @brief A queue of thread numbers. It is linked through the threads' slots, so it never allocates.
  *
- * A thread is in at most one queue at a time. Queues are not thread-safe. The mutex that guards a
- * queue also guards the NextInList of the threads in it.
+ * A thread is in at most one queue at a time. A mutex must guard each queue; it also guards the
+ * NextInList of the threads in the queue. Only IsEmpty() may be called without it, as a hint.
  *
  * @tparam Slots a container whose operator[] returns slots with a member `unsigned NextInList`
  */
-struct WaitingList
+class WaitingList
 {
+public:
   static constexpr unsigned Nobody = std::numeric_limits<unsigned>::max();
-  unsigned First = Nobody;
-  unsigned Last = Nobody;
 
-  bool IsEmpty() const { return this->First == Nobody; }
+  bool IsEmpty() const { return this->First.load(std::memory_order_relaxed) == Nobody; }
 
   template <typename Slots>
   void Append(Slots& slots, unsigned thread)
@@ -34,7 +34,7 @@ struct WaitingList
     slots[thread].NextInList = Nobody;
     if (this->IsEmpty())
     {
-      this->First = thread;
+      this->First.store(thread, std::memory_order_relaxed);
     }
     else
     {
@@ -47,13 +47,17 @@ struct WaitingList
   template <typename Slots>
   unsigned TakeFirst(const Slots& slots)
   {
-    const unsigned first = this->First;
+    const unsigned first = this->First.load(std::memory_order_relaxed);
     if (first != Nobody)
     {
-      this->First = slots[first].NextInList;
+      this->First.store(slots[first].NextInList, std::memory_order_relaxed);
     }
     return first;
   }
+
+private:
+  std::atomic<unsigned> First{ Nobody }; ///< relaxed, here and above: the mutex orders the rest
+  unsigned Last = Nobody;
 };
 
 } // namespace voxplex

@@ -226,12 +226,7 @@ std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& com
     {
       return;
     }
-    std::array<const Point<D>*, D + 1> points;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      points[i] = &mesh.Points[mesh.Simplices[element][i]];
-    }
-    const double shape = NormalizedVolume<D>(points.data());
+    const double shape = NormalizedVolume<D>(mesh.PointsOf(element).data());
     Witness& best = witnesses[static_cast<std::size_t>(at - components.begin())];
     best = shape > best.Shape ? Witness{ shape, element } : best;
   };

@@ -166,11 +166,7 @@ void MeasureElements(const SimplexMesh<D>& mesh, std::size_t first, std::size_t 
 {
   for (std::size_t s = first; s < last; ++s)
   {
-    std::array<const Point<D>*, static_cast<std::size_t>(D + 1)> v;
-    for (std::size_t i = 0; i < v.size(); ++i)
-    {
-      v[i] = &mesh.Points[mesh.Simplices[s][i]];
-    }
+    const auto v = mesh.PointsOf(s);
     measures.InvertedSimplices += predicates.Orientation(v.data()) <= 0;
 
     const double radius2 = Circumradius2<D>(v.data());

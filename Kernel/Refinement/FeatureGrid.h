@@ -7,6 +7,7 @@
 #ifndef voxplex_FeatureGrid_h
 #define voxplex_FeatureGrid_h
 
+#include "Base/GridIndex.h"
 #include "Delaunay/ChunkedArray.h"
 #include "Geometry/Point.h"
 
@@ -213,18 +214,11 @@ private:
       low[a] = static_cast<std::int64_t>(this->CellAlong(a, p[a] - distance, 0));
       high[a] = static_cast<std::int64_t>(this->CellAlong(a, p[a] + distance, 0));
     }
-    for (Cell cell = low; cell[D - 1] <= high[D - 1];)
-    {
-      if (const Point<D>* const found = this->FindInCell(cell, 0, p, distance * distance))
-      {
-        return found;
-      }
-      for (std::size_t a = 0; a < D && ++cell[a] > high[a] && a + 1 < D; ++a)
-      {
-        cell[a] = low[a];
-      }
-    }
-    return nullptr;
+    const Point<D>* found = nullptr;
+    ForEachIndex(low, high,
+      [&](const Cell& cell)
+      { found = found ? found : this->FindInCell(cell, 0, p, distance * distance); });
+    return found;
   }
 
   const Point<D>* FindInCell(

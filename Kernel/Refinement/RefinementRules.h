@@ -8,6 +8,7 @@
 #ifndef voxplex_RefinementRules_h
 #define voxplex_RefinementRules_h
 
+#include "Geometry/SimplexQuality.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * @brief The base of a set of rules: one instance per thread. It has no state except references and
  * scratch memory.
  *
- * The derived class Rules has `bool MayBePoor(SimplexId)`, which screens new simplices.
+ * The derived class Rules has `bool IsSliver(SimplexId, double radius2)`, where radius2 is the squared
+ * circumradius.
  *
  * **Flat ends** (Domain::HasTimeBorder, in 4D). Elements near a flat end are good under two
  * conditions. No vertex lies near the end without being on it. No vertex of the end lies near an
@@ -69,7 +71,7 @@ public:
     this->Worker.RemoveDeleted(this->Context.Mesh);
     for (const SimplexId t : this->Worker.Kernel.Created)
     {
-      if (static_cast<Rules*>(this)->MayBePoor(t))
+      if (this->MayBePoor(t))
       {
         this->Worker.Poor.Push(t, this->Context.Mesh.State(t).Generation);
       }
@@ -185,27 +187,44 @@ protected:
 
   double ShortestEdge(SimplexId t) const
   {
-    const auto& v = this->Context.Mesh.GetSimplex(t).V;
-    double shortest2 = std::numeric_limits<double>::infinity();
-    for (unsigned i = 0; i < v.size(); ++i)
-    {
-      for (unsigned j = 0; j < i; ++j)
-      {
-        shortest2 = std::min(shortest2,
-          Distance2(this->Context.Mesh.Position(v[i]), this->Context.Mesh.Position(v[j])));
-      }
-    }
-    return std::sqrt(shortest2);
+    const Triangulation<D>& mesh = this->Context.Mesh;
+    return std::sqrt(ShortestEdge2<D>(mesh.Points(mesh.GetSimplex(t).V).data()));
   }
 
-  /** Whether the circumball may meet an interface, by the distance bounds; remembers it. */
+  /**
+   * Cheap: one look-up of the distance bound, and labels only away from the interfaces, where a
+   * label costs one look-up, too. Nearly all screened simplices die before they would be evaluated.
+   */
+  bool MayBePoor(SimplexId t)
+  {
+    if (this->ScreenDistance(t))
+    {
+      return true;
+    }
+    const Circumball<D>& ball = this->Context.Mesh.GetSimplex(t).Ball;
+    const LabelId label = this->LabelOf(t, ball.Center);
+    if (label != 0)
+    {
+      const double radius = std::sqrt(ball.Radius2);
+      if (radius >=
+          BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t) ||
+        radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
+        static_cast<const Rules*>(this)->IsSliver(t, ball.Radius2))
+      {
+        return true;
+      }
+    }
+    return this->MayRestrictNeighbour(t, label);
+  }
+
+  /** Whether the circumball may meet an interface, by the distance bound; remembers it. */
   bool ScreenDistance(SimplexId t)
   {
     const Circumball<D>& ball = this->Context.Mesh.GetSimplex(t).Ball;
     bool near = true; // without a reliable ball the evaluation decides
     if (ball.Radius2 >= 0.0)
     {
-      const double lower = this->Context.Image.DistanceBounds(ball.Center).Lower;
+      const double lower = this->Context.Image.DistanceBound(ball.Center);
       near = lower * lower <= ball.Radius2 || lower <= 0.0;
     }
     if (near)

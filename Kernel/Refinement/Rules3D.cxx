@@ -23,31 +23,6 @@ Rules3D::Rules3D(RefinementContext<3>& context, RefinementWorker<3>& worker)
 }
 
 //------------------------------------------------------------------------------------------------
-// Cheap: one look-up of the distance bounds, and labels only away from the interfaces, where a
-// label costs one look-up, too. Nearly all screened simplices die before they would be evaluated.
-bool Rules3D::MayBePoor(SimplexId t)
-{
-  if (this->ScreenDistance(t))
-  {
-    return true;
-  }
-  const Circumball<3>& ball = this->Context.Mesh.GetSimplex(t).Ball;
-  const LabelId label = this->LabelOf(t, ball.Center);
-  if (label != 0)
-  {
-    const double radius = std::sqrt(ball.Radius2);
-    if (radius >=
-        BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t) ||
-      radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
-      this->IsSliver(t))
-    {
-      return true;
-    }
-  }
-  return this->MayRestrictNeighbour(t, label);
-}
-
-//------------------------------------------------------------------------------------------------
 RuleOutcome Rules3D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
@@ -102,24 +77,15 @@ bool Rules3D::IsWedged(const Element& t)
   return inside <= 1;
 }
 
-bool Rules3D::IsSliver(SimplexId t) const
+bool Rules3D::IsSliver(SimplexId t, double) const
 {
-  if (this->SineOfSliverAngle <= 0.0)
-  {
-    return false;
-  }
-  return !(this->DihedralSine(t) >= this->SineOfSliverAngle);
+  return this->SineOfSliverAngle > 0.0 && !(this->DihedralSine(t) >= this->SineOfSliverAngle);
 }
 
 double Rules3D::DihedralSine(SimplexId t) const
 {
-  const auto& v = this->Context.Mesh.GetSimplex(t).V;
-  std::array<const Point<3>*, 4> points;
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    points[i] = &this->Context.Mesh.Position(v[i]);
-  }
-  return SmallestDihedralSine(points.data());
+  const Triangulation<3>& mesh = this->Context.Mesh;
+  return SmallestDihedralSine(mesh.Points(mesh.GetSimplex(t).V).data());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -156,7 +122,7 @@ public:
     double smallest = 1.0;
     for (std::size_t k = 0; k < worker.NumberOfNewSimplices(); ++k)
     {
-      std::uint32_t apex;
+      std::uint32_t apex = 0;
       const auto& v = worker.NewSimplex(k, apex);
       std::array<const Point<3>*, 4> points;
       for (unsigned i = 0; i < 4; ++i)

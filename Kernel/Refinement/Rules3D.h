@@ -84,10 +84,9 @@ private:
    */
   static constexpr double CutClearance = 0.25;
 
-  bool MayBePoor(SimplexId t);
   class BetterStar;
   RuleOutcome R3(const Element& t);
-  bool IsSliver(SimplexId t) const;
+  bool IsSliver(SimplexId t, double radius2) const;
   RuleOutcome R7(const Element& t);
   RuleOutcome SplitSliver(const Element& t, double tolerance);
   RuleOutcome SampleAtSliver(const Element& t, double tolerance);

@@ -12,29 +12,6 @@ namespace voxplex
 {
 
 //------------------------------------------------------------------------------------------------
-bool Rules4D::MayBePoor(SimplexId s)
-{
-  if (this->ScreenDistance(s))
-  {
-    return true;
-  }
-  const Circumball<4>& ball = this->Context.Mesh.GetSimplex(s).Ball;
-  const LabelId label = this->LabelOf(s, ball.Center);
-  if (label != 0)
-  {
-    const double radius = std::sqrt(ball.Radius2);
-    if (radius >=
-        BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(s) ||
-      radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
-      this->IsSliver(s, ball.Radius2))
-    {
-      return true;
-    }
-  }
-  return this->MayRestrictNeighbour(s, label);
-}
-
-//------------------------------------------------------------------------------------------------
 RuleOutcome Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
@@ -64,18 +41,11 @@ RuleOutcome Rules4D::Refine(SimplexId id)
 //------------------------------------------------------------------------------------------------
 bool Rules4D::IsSliver(SimplexId s, double radius2) const
 {
-  if (!this->Context.Settings.SpaceTime.Slivers.Fight)
-  {
-    return false;
-  }
-  const auto& v = this->Context.Mesh.GetSimplex(s).V;
-  std::array<const Point<4>*, 5> points;
-  for (unsigned i = 0; i < 5; ++i)
-  {
-    points[i] = &this->Context.Mesh.Position(v[i]);
-  }
-  return !(NormalizedVolume<4>(points.data(), radius2) >=
-    this->Context.Settings.SpaceTime.Slivers.VolumeBound);
+  const Triangulation<4>& mesh = this->Context.Mesh;
+  const auto& slivers = this->Context.Settings.SpaceTime.Slivers;
+  return slivers.Fight &&
+    !(NormalizedVolume<4>(mesh.Points(mesh.GetSimplex(s).V).data(), radius2) >=
+      slivers.VolumeBound);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -115,7 +85,7 @@ public:
     double smallest = 1.0;
     for (std::size_t k = 0; k < worker.NumberOfNewSimplices() && smallest > this->BestVolume; ++k)
     {
-      std::uint32_t apex;
+      std::uint32_t apex = 0;
       const auto& v = worker.NewSimplex(k, apex);
       std::array<const Point<4>*, 5> points;
       for (unsigned i = 0; i < 5; ++i)

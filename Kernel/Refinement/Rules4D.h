@@ -79,7 +79,6 @@ private:
    */
   static constexpr double SliverSpacing = 0.5;
 
-  bool MayBePoor(SimplexId s);
   bool IsSliver(SimplexId s, double radius2) const;
   RuleOutcome R3(const Element& s);
   RuleOutcome R4(const Element& s);

@@ -7,6 +7,7 @@
 #ifndef voxplex_Seeding_h
 #define voxplex_Seeding_h
 
+#include "Base/GridIndex.h"
 #include "Geometry/HilbertOrder.h"
 #include "Refinement/RefinementContext.h"
 
@@ -45,29 +46,25 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
   const double spacing =
     std::max(FewestDeltas * finest, std::pow(volume / static_cast<double>(number), 1.0 / D));
   std::array<std::size_t, static_cast<std::size_t>(D)> nodes;
-  std::size_t count = 1;
   for (std::size_t a = 0; a < D; ++a)
   {
     nodes[a] =
       std::max<std::size_t>(1, static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) / spacing));
-    count *= nodes[a];
   }
   std::vector<FeatureSeed<D>> sample;
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t k = 0; k < CountCells(nodes); ++k)
   {
+    const auto node = IndexAt(k, nodes);
     Point<D> p;
-    std::size_t rest = k;
     for (std::size_t a = 0; a < D; ++a)
     {
-      const double fraction =
-        (static_cast<double>(rest % nodes[a]) + 0.5) / static_cast<double>(nodes[a]);
+      const double fraction = (static_cast<double>(node[a]) + 0.5) / static_cast<double>(nodes[a]);
       p[a] = bounds.Min[a] + fraction * (bounds.Max[a] - bounds.Min[a]);
-      rest /= nodes[a];
     }
     Point<D> z;
     Point<D> onEnd;
     const LabelId label = context.Image.Label(p);
-    if (context.Image.DistanceBounds(p).Lower < spacing &&
+    if (context.Image.DistanceBound(p) < spacing &&
       context.Image.ClosestSurfacePoint(p, label, z) &&
       !context.IsNearEnd(z, context.Sizing.Base().Delta, onEnd))
     {

@@ -7,7 +7,7 @@
 #ifndef voxplex_GradedDelta_h
 #define voxplex_GradedDelta_h
 
-#include "Geometry/Box.h"
+#include "Geometry/CellGrid.h"
 #include "Sizing/GrowthLimit.h"
 
 #include <algorithm>
@@ -38,23 +38,15 @@ public:
    * @throws std::bad_alloc
    */
   GradedDelta(const Box<D>& bounds, double cell)
-    : Origin(bounds.Min)
-    , InverseCell(1.0 / cell)
+    : Grid(bounds, cell)
+    , Values(CountCells(this->Grid.Cells), std::numeric_limits<float>::infinity())
   {
-    std::size_t count = 1;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      this->Cells[a] =
-        static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) * this->InverseCell) + 1;
-      count *= this->Cells[a];
-    }
-    this->Values.assign(count, std::numeric_limits<float>::infinity());
   }
 
   /** Lowers the value of the cell of p. */
   void Lower(const Point<D>& p, double delta)
   {
-    float& value = this->Values[this->CellOf(p)];
+    float& value = this->Values[this->Grid.CellOf(p)];
     value = std::min(value, static_cast<float>(delta));
     this->FinestDelta = std::min(this->FinestDelta, delta);
   }
@@ -66,8 +58,8 @@ public:
   void Grade(double slope, unsigned threads, const std::stop_token& stop)
   {
     std::array<float, static_cast<std::size_t>(D)> steps;
-    steps.fill(static_cast<float>(slope / this->InverseCell));
-    LimitGrowth(std::span<float>(this->Values), this->Cells, steps, threads, stop);
+    steps.fill(static_cast<float>(slope / this->Grid.CellsPerLength));
+    LimitGrowth(std::span<float>(this->Values), this->Grid.Cells, steps, threads, stop);
   }
 
   /** Lowers all values to `largest`. */
@@ -80,7 +72,7 @@ public:
   }
 
   /** The sampling distance at a point of the frame. */
-  double At(const Point<D>& p) const { return this->Values[this->CellOf(p)]; }
+  double At(const Point<D>& p) const { return this->Values[this->Grid.CellOf(p)]; }
 
   /** The smallest value that was set. */
   double Finest() const { return this->FinestDelta; }
@@ -88,22 +80,7 @@ public:
   std::size_t MemoryBytes() const { return this->Values.size() * sizeof(float); }
 
 private:
-  /** The cell nearest to p. */
-  std::size_t CellOf(const Point<D>& p) const
-  {
-    std::size_t offset = 0;
-    for (std::size_t a = D; a-- > 0;)
-    {
-      const double x = (p[a] - this->Origin[a]) * this->InverseCell;
-      offset = offset * this->Cells[a] +
-        static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
-    }
-    return offset;
-  }
-
-  Point<D> Origin;
-  double InverseCell;
-  std::array<std::size_t, static_cast<std::size_t>(D)> Cells{};
+  const CellGrid<D> Grid;
   std::vector<float> Values;
   double FinestDelta = std::numeric_limits<double>::infinity();
 };

@@ -79,20 +79,16 @@ public:
     , Origin(image.CropOrigin())
     , Slope(slope)
   {
-    std::size_t count = 0;
-    for (this->Edge = SmallestCell;; ++this->Edge)
+    this->Edge = SmallestCell - 1;
+    do
     {
-      count = 1;
+      ++this->Edge;
       for (std::size_t a = 0; a < D; ++a)
       {
         this->Cells[a] = (image.CropDimensions()[a] - 1) / this->Edge + 1;
-        count *= static_cast<std::size_t>(this->Cells[a]);
       }
-      if (count <= MostCells)
-      {
-        break;
-      }
-    }
+    } while (CountCells(this->Cells) > MostCells);
+    const std::size_t count = CountCells(this->Cells);
     this->Places.resize(count);
     this->Source.resize(count);
     std::iota(this->Source.begin(), this->Source.end(), 0u);

@@ -201,11 +201,7 @@ private:
   {
     if (this->Values.empty())
     {
-      std::size_t count = 1;
-      for (const std::int64_t n : this->Cells)
-      {
-        count *= static_cast<std::size_t>(n);
-      }
+      const std::size_t count = CountCells(this->Cells);
       this->Values.assign(count, Bound());
       this->Spacings.assign(count, std::numeric_limits<float>::infinity());
     }

@@ -2,44 +2,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refinement/Contention/GlobalContentionManager.h"
 
-#include <cassert>
-
 namespace voxplex
 {
 
-GlobalContentionManager::GlobalContentionManager(
-  unsigned threads, LoopSharing* sharing, unsigned successesToWake)
-  : Threshold(successesToWake)
-  , Slots(threads)
-  , Sharing(sharing)
-  , Active(threads)
+bool GlobalContentionManager::Enlist(unsigned thread, unsigned)
 {
+  const std::scoped_lock lock(this->Mutex);
+  if (this->Stopped || this->Active <= 1)
+  {
+    return false;
+  }
+  --this->Active;
+  this->Slots[thread].Spot.Prepare();
+  this->Losers.Append(this->Slots, thread);
+  return true;
 }
 
-bool GlobalContentionManager::RollbackOccurred(unsigned thread, [[maybe_unused]] unsigned winner)
+void GlobalContentionManager::WakeOne(unsigned)
 {
-  assert(thread != winner && winner < this->Slots.size());
-  Slot& own = this->Slots[thread];
-  own.Successes = 0;
+  // Without the mutex this is only a hint. A thread that is overlooked now is seen ten successes
+  // later, or by BecomesIdle().
+  if (!this->Losers.IsEmpty())
   {
     const std::scoped_lock lock(this->Mutex);
-    if (this->Stopped || this->Active <= 1)
-    {
-      return false;
-    }
-    --this->Active;
-    own.Spot.Prepare();
-    this->Losers.Append(this->Slots, thread);
-    this->SomeoneWaits.store(true, std::memory_order_relaxed);
+    this->WakeFirst();
   }
-  WaitAndHelp(own.Spot, this->Sharing, thread);
-  return true;
 }
 
 void GlobalContentionManager::WakeFirst()
 {
   const unsigned first = this->Losers.TakeFirst(this->Slots);
-  this->SomeoneWaits.store(!this->Losers.IsEmpty(), std::memory_order_relaxed);
   if (first != WaitingList::Nobody)
   {
     ++this->Active;

@@ -8,14 +8,10 @@
 #define voxplex_GlobalContentionManager_h
 
 #include "Parallel/CacheLine.h"
-#include "Parallel/LoopSharing.h"
-#include "Parallel/ParkingSpot.h"
 #include "Parallel/WaitingList.h"
-#include "Refinement/ContentionManager.h"
+#include "Refinement/Contention/BlockingContentionManager.h"
 
-#include <atomic>
 #include <mutex>
-#include <vector>
 
 namespace voxplex
 {
@@ -38,64 +34,30 @@ namespace voxplex
  * no other thread, because waiting and idle threads hold no vertex. So there are at most n
  * rollbacks, and then a thread succeeds or runs out of work. The latter happens at most n times,
  * because gifts follow successes.
- *
- * **Help.** The proofs stay valid if waiting threads help at a shared loop: see LoopSharing.
  */
-class GlobalContentionManager final : public ContentionManager
+class GlobalContentionManager final : public BlockingContentionManager
 {
 public:
-  static constexpr unsigned SuccessesToWake = 10; ///< s+ of the thesis, the default
-
-  /**
-   * @param sharing the loops at which waiting threads help, or null
-   * @param successesToWake number of successes in a row after which a thread wakes another
-   */
   explicit GlobalContentionManager(
-    unsigned threads, LoopSharing* sharing = nullptr, unsigned successesToWake = SuccessesToWake);
-
-  bool RollbackOccurred(unsigned thread, unsigned winner) override;
-
-  /** Inline; nine times out of ten it only increments a counter of the thread's own. */
-  void RollbackNotOccurred(unsigned thread) override
+    unsigned threads, LoopSharing* sharing = nullptr, unsigned successesToWake = SuccessesToWake)
+    : BlockingContentionManager(threads, sharing, successesToWake)
+    , Active(threads)
   {
-    Slot& own = this->Slots[thread];
-    if (++own.Successes >= this->Threshold)
-    {
-      own.Successes = 0;
-      // Relaxed: only a hint. A thread that is overlooked now is seen ten successes later, or by
-      // BecomesIdle().
-      if (this->SomeoneWaits.load(std::memory_order_relaxed))
-      {
-        const std::scoped_lock lock(this->Mutex);
-        this->WakeFirst();
-      }
-    }
   }
 
   void BecomesIdle(unsigned thread) override;
   void BecomesBusy(unsigned thread) override;
   void Stop() override;
 
-  /** True if the thread waits now; for tests and for observers of a run. */
-  bool IsWaiting(unsigned thread) const { return this->Slots[thread].Spot.IsTaken(); }
-
 private:
-  struct alignas(CacheLineSize) Slot
-  {
-    unsigned Successes = 0; ///< since the last rollback or wake-up; touched by its thread only
-    alignas(CacheLineSize) ParkingSpot Spot;
-    unsigned NextInList = WaitingList::Nobody;
-  };
+  bool Enlist(unsigned thread, unsigned winner) override;
+  void WakeOne(unsigned thread) override;
 
   /** Call this under the mutex. */
   void WakeFirst();
 
-  const unsigned Threshold; ///< successes in a row
-  std::vector<Slot> Slots;
-  LoopSharing* const Sharing;
-  alignas(CacheLineSize) std::atomic<bool> SomeoneWaits{ false }; ///< Losers is not empty
-  alignas(CacheLineSize) std::mutex Mutex;                        ///< guards the members below
-  WaitingList Losers;
+  alignas(CacheLineSize) WaitingList Losers; ///< guarded by the mutex, like the members below it
+  alignas(CacheLineSize) std::mutex Mutex;
   unsigned Active;
   bool Stopped = false;
 };

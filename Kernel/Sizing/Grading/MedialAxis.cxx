@@ -50,11 +50,7 @@ bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
 /** Takes the vertices in an order that does not depend on how the triangulation was made. */
 VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const MedialBalls& which)
 {
-  std::array<const Point<3>*, 4> points;
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    points[i] = &mesh.Position(mesh.GetSimplex(s).V[i]);
-  }
+  std::array<const Point<3>*, 4> points = mesh.Points(mesh.GetSimplex(s).V);
   std::sort(
     points.begin(), points.end(), [](const Point<3>* a, const Point<3>* b) { return *a < *b; });
   Circumball<3> ball;

@@ -3,7 +3,7 @@
 #include "Sizing/Grading/SampleCurvature.h"
 
 #include "Base/MixBits.h"
-#include "Geometry/ExtremeEigenvalues.h"
+#include "Geometry/SmallestEigenvalue.h"
 #include "Sizing/Grading/PointBounds.h"
 
 #include <algorithm>
@@ -72,12 +72,10 @@ public:
       }
       trace += covariance[a][a];
     }
-    double smallest;
-    double largest;
-    ExtremeEigenvalues<3>(covariance, smallest, largest);
+    const double smallest = SmallestEigenvalue<3>(covariance);
     const double along = trace - std::max(smallest, 0.0); // r^2 / 2
-    smallest = std::max(smallest - roughness * roughness, 0.0);
-    return along > 0.0 ? std::sqrt(12.0 * smallest) / along : 0.0;
+    const double bend = std::max(smallest - roughness * roughness, 0.0);
+    return along > 0.0 ? std::sqrt(12.0 * bend) / along : 0.0;
   }
 
 private:
@@ -90,45 +88,20 @@ private:
 
 //------------------------------------------------------------------------------------------------
 SampleCurvature::Level::Level(const std::vector<Member>& members, const Box<3>& bounds, double cell)
-  : Origin(bounds.Min)
+  : Grid(bounds, CellEdge(bounds, cell))
+  , First(CountCells(this->Grid.Cells) + 1)
   , Members(members.size())
 {
-  this->InverseCell = 1.0 / CellEdge(bounds, cell);
-  std::size_t count = 1;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    this->Cells[a] =
-      static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) * this->InverseCell) + 1;
-    count *= this->Cells[a];
-  }
-  this->First.assign(count + 1, 0);
   for (const Member& member : members)
   {
-    ++this->First[this->CellOf(member.Position) + 1];
+    ++this->First[this->Grid.CellOf(member.Position) + 1];
   }
   std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
   std::vector<std::uint32_t> next = this->First;
   for (const Member& member : members)
   {
-    this->Members[next[this->CellOf(member.Position)]++] = member;
+    this->Members[next[this->Grid.CellOf(member.Position)]++] = member;
   }
-}
-
-std::size_t SampleCurvature::Level::CellAlong(std::size_t axis, double x) const
-{
-  const double cell = (x - this->Origin[axis]) * this->InverseCell;
-  return static_cast<std::size_t>(
-    std::clamp(cell, 0.0, static_cast<double>(this->Cells[axis] - 1)));
-}
-
-std::size_t SampleCurvature::Level::CellOf(const Point<3>& p) const
-{
-  std::size_t cell = 0;
-  for (std::size_t a = 3; a-- > 0;)
-  {
-    cell = cell * this->Cells[a] + this->CellAlong(a, p[a]);
-  }
-  return cell;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -174,15 +147,15 @@ double SampleCurvature::At(
   std::array<std::size_t, 3> high;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    low[a] = level.CellAlong(a, p[a] - radius);
-    high[a] = level.CellAlong(a, p[a] + radius);
+    low[a] = level.Grid.CellAlong(a, p[a] - radius);
+    high[a] = level.Grid.CellAlong(a, p[a] + radius);
   }
   Moments moments;
   for (std::size_t z = low[2]; z <= high[2]; ++z)
   {
     for (std::size_t y = low[1]; y <= high[1]; ++y)
     {
-      const std::size_t row = (z * level.Cells[1] + y) * level.Cells[0];
+      const std::size_t row = OffsetOf({ 0, y, z }, level.Grid.Cells);
       for (std::size_t k = level.First[row + low[0]]; k < level.First[row + high[0] + 1]; ++k)
       {
         const Point<3> offset = Subtract(level.Members[k].Position, p);

@@ -7,7 +7,7 @@
 #ifndef voxplex_SampleCurvature_h
 #define voxplex_SampleCurvature_h
 
-#include "Geometry/Box.h"
+#include "Geometry/CellGrid.h"
 #include "Image/LabelImage.h"
 
 #include <array>
@@ -65,12 +65,7 @@ private:
   {
     Level(const std::vector<Member>& members, const Box<3>& bounds, double cell);
 
-    std::size_t CellAlong(std::size_t axis, double x) const;
-    std::size_t CellOf(const Point<3>& p) const;
-
-    Point<3> Origin;
-    double InverseCell;
-    std::array<std::size_t, 3> Cells;
+    CellGrid<3> Grid;
     std::vector<std::uint32_t> First; ///< of each cell's members; the last entry is their number
     std::vector<Member> Members;
   };

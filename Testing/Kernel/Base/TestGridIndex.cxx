@@ -109,16 +109,26 @@ TEST(GridIndex, NumbersAndIndicesAreInverse)
   ExpectNumbersOf<4>({ 1, 1, 1, 9 });
 }
 
+TEST(GridIndex, RowsLieAlongTheFirstAxis)
+{
+  const Index<4> extent{ 4, 3, 5, 2 };
+  EXPECT_EQ(CountCells(extent), 120u);
+  for (std::size_t k = 0; k < CountCells(extent); ++k)
+  {
+    EXPECT_EQ(RowOf(IndexAt(k, extent), extent), k / 4);
+  }
+}
+
 TEST(GridIndex, NumbersMayNeedMoreThan32Bits)
 {
   const Index<3> extent{ 70000, 80000, 90000 };
   const Index<3> last{ 69999, 79999, 89999 };
   EXPECT_EQ(OffsetOf(last, extent), 503999999999999u);
-  EXPECT_EQ(IndexAt<3>(503999999999999u, extent), last);
+  EXPECT_EQ(IndexAt(503999999999999u, extent), last);
   const Index<4> extent4{ 2000, 3000, 4000, 5000 };
   const Index<4> last4{ 1999, 2999, 3999, 4999 };
   EXPECT_EQ(OffsetOf(last4, extent4), 119999999999999u);
-  EXPECT_EQ(IndexAt<4>(119999999999999u, extent4), last4);
+  EXPECT_EQ(IndexAt(119999999999999u, extent4), last4);
 }
 
 TEST(GridIndex, VisitsEachIndexOnceInOrder)

@@ -237,8 +237,7 @@ TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
     for (const FeatureSeed<3>& seed : seeds)
     {
       EXPECT_DOUBLE_EQ(seed.Delta, spacing);
-      const DistanceInterval bounds = domain.DistanceBounds(seed.Position);
-      EXPECT_LE(bounds.Lower, 1e-6);
+      EXPECT_LE(domain.DistanceBound(seed.Position), 1e-6);
     }
     EXPECT_LE(local.GradedAt(seeds.front().Position), spacing + 1e-6);
     // From the second time on R1 is to keep twice that spacing, too, and at last the spacing.

@@ -212,10 +212,9 @@ public:
   Box<4> Bounds() const override { return { { -R, -R, -R, -R }, { R, R, R, R } }; }
   LabelId Label(const Point<4>& p) const override { return SquaredNorm(p) < R * R ? 1 : 0; }
   std::int64_t LabelValue(LabelId id) const override { return id; }
-  DistanceInterval DistanceBounds(const Point<4>& p) const override
+  double DistanceBound(const Point<4>& p) const override
   {
-    const double d = std::abs(std::sqrt(SquaredNorm(p)) - R);
-    return { d, d };
+    return std::abs(std::sqrt(SquaredNorm(p)) - R);
   }
   bool ClosestSurfacePoint(const Point<4>& p, LabelId, Point<4>& z) const override
   {

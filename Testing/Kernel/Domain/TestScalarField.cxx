@@ -532,7 +532,6 @@ TEST(ScalarField, ThreadsMakeNoDifference)
     const ScalarField<3> a(one, 1);
     const ScalarField<3> b(four, 4);
     EXPECT_EQ(a.MemoryBytes() > 0, b.MemoryBytes() > 0);
-    EXPECT_EQ(a.NumberOfMixedTiles(), b.NumberOfMixedTiles());
     for (int i = 0; i < 3000; ++i)
     {
       const Point<3> p = RandomIndex(grid, 1.0, random);

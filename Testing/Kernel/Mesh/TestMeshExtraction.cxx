@@ -86,7 +86,7 @@ public:
     }
     return 10 * id;
   }
-  DistanceInterval DistanceBounds(const Point<D>&) const override { return { 0.0, 1.0 }; }
+  double DistanceBound(const Point<D>&) const override { return 0.0; }
   bool NearSurfacePoint(const Point<D>&, LabelId, Point<D>&, double&) const override
   {
     return false;

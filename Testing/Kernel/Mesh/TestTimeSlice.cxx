@@ -146,7 +146,7 @@ public:
   Box<4> Bounds() const override { return { { 0, 0, 0, 0 }, { 1, 1, 1, 1 } }; }
   LabelId Label(const Point<4>& p) const override { return p[0] + 0.2 * p[3] < 0.6 ? 1 : 2; }
   std::int64_t LabelValue(LabelId id) const override { return id; }
-  DistanceInterval DistanceBounds(const Point<4>&) const override { return { 0.0, 1.0 }; }
+  double DistanceBound(const Point<4>&) const override { return 0.0; }
   bool NearSurfacePoint(const Point<4>&, LabelId, Point<4>&, double&) const override
   {
     return false;

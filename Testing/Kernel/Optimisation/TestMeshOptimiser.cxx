@@ -539,10 +539,7 @@ TEST(MeshOptimiser, IsCancelledWhileItWorks)
       return this->Inner.Label(p);
     }
     std::int64_t LabelValue(LabelId id) const override { return this->Inner.LabelValue(id); }
-    DistanceInterval DistanceBounds(const Point<3>& p) const override
-    {
-      return this->Inner.DistanceBounds(p);
-    }
+    double DistanceBound(const Point<3>& p) const override { return this->Inner.DistanceBound(p); }
     bool NearSurfacePoint(const Point<3>& p, LabelId l, Point<3>& z, double& e) const override
     {
       return this->Inner.NearSurfacePoint(p, l, z, e);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/ParkingSpot.h"
 #include "Refinement/Contention/AggressiveContentionManager.h"
+#include "Refinement/Contention/BlockingContentionManager.h"
 #include "Refinement/Contention/GlobalContentionManager.h"
 #include "Refinement/Contention/LocalContentionManager.h"
 #include "Refinement/Contention/RandomContentionManager.h"
@@ -35,9 +36,7 @@ namespace
 /** Enough successes in a row to wake one thread. */
 void Succeed(ContentionManager& manager, unsigned thread, unsigned wakeUps = 1)
 {
-  static_assert(
-    GlobalContentionManager::SuccessesToWake == LocalContentionManager::SuccessesToWake);
-  for (unsigned i = 0; i < wakeUps * LocalContentionManager::SuccessesToWake; ++i)
+  for (unsigned i = 0; i < wakeUps * BlockingContentionManager::SuccessesToWake; ++i)
   {
     manager.RollbackNotOccurred(thread);
   }

@@ -55,10 +55,10 @@ public:
     this->Count();
     return this->BallDomain::Label(p);
   }
-  DistanceInterval DistanceBounds(const Point<3>& p) const override
+  double DistanceBound(const Point<3>& p) const override
   {
     this->Count();
-    return this->BallDomain::DistanceBounds(p);
+    return this->BallDomain::DistanceBound(p);
   }
   bool ClosestSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z) const override
   {
@@ -95,10 +95,10 @@ public:
     MayYield();
     return this->BallDomain::Label(p);
   }
-  DistanceInterval DistanceBounds(const Point<3>& p) const override
+  double DistanceBound(const Point<3>& p) const override
   {
     MayYield();
-    return this->BallDomain::DistanceBounds(p);
+    return this->BallDomain::DistanceBound(p);
   }
   bool NearSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
   {

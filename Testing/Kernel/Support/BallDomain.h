@@ -30,10 +30,9 @@ public:
   }
   LabelId Label(const Point<D>& p) const override { return Norm(p) < this->R ? 1 : 0; }
   std::int64_t LabelValue(LabelId id) const override { return id == 1 ? 5 : 0; }
-  DistanceInterval DistanceBounds(const Point<D>& p) const override
+  double DistanceBound(const Point<D>& p) const override
   {
-    const double d = std::abs(Norm(p) - this->R);
-    return { std::max(0.0, d - this->Slack), d + this->Slack };
+    return std::max(0.0, std::abs(Norm(p) - this->R) - this->Slack);
   }
   bool ClosestSurfacePoint(const Point<D>& p, LabelId, Point<D>& z) const override
   {

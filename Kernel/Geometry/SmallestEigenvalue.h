@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file ExtremeEigenvalues.h
- * @brief The smallest and the largest eigenvalue of a small symmetric matrix.
+ * @file SmallestEigenvalue.h
+ * @brief The smallest eigenvalue of a small symmetric matrix.
  */
-#ifndef voxplex_ExtremeEigenvalues_h
-#define voxplex_ExtremeEigenvalues_h
+#ifndef voxplex_SmallestEigenvalue_h
+#define voxplex_SmallestEigenvalue_h
 
 #include "Geometry/Point.h"
 
@@ -18,12 +18,11 @@ namespace voxplex
 {
 
 /**
- * Smallest and largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. They end when
- * the elements off the diagonal are far below the rounding errors of the diagonal.
+ * By cyclic Jacobi rotations. They end when the elements off the diagonal are far below the
+ * rounding errors of the diagonal.
  */
 template <int D>
-void ExtremeEigenvalues(
-  std::array<Point<D>, static_cast<std::size_t>(D)> m, double& smallest, double& largest)
+double SmallestEigenvalue(std::array<Point<D>, static_cast<std::size_t>(D)> m)
 {
   constexpr double negligible = 1e-20;
   bool rotated = true;
@@ -60,12 +59,12 @@ void ExtremeEigenvalues(
       }
     }
   }
-  smallest = largest = m[0][0];
+  double smallest = m[0][0];
   for (std::size_t a = 1; a < D; ++a)
   {
     smallest = std::min(smallest, m[a][a]);
-    largest = std::max(largest, m[a][a]);
   }
+  return smallest;
 }
 
 } // namespace voxplex
