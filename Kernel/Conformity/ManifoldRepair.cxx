@@ -319,13 +319,47 @@ private:
       {
         const bool isNew = this->Near.LabelBeside(t, i) == own &&
           !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
-        if (isNew && !this->HasGoodAngles(t, i))
+        if (isNew && !this->HasGoodAngles(t, i, change))
         {
           return false;
         }
       }
     }
-    return leavesSome;
+    return leavesSome && !this->UncoversSharpFacet(change);
+  }
+
+  /**
+   * Whether a change takes a junction away from an interface facet whose angles are allowed at
+   * junctions only.
+   */
+  bool UncoversSharpFacet(const Change& change) const
+  {
+    for (const SimplexId t : change.Cells)
+    {
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        if (!this->IsAtJunction(v, nullptr) || this->IsAtJunction(v, &change))
+        {
+          continue;
+        }
+        for (const SimplexId s : this->Near.StarOf(v))
+        {
+          for (unsigned i = 0; i < 4; ++i)
+          {
+            const SimplexId beside = this->Near.Beside(s, i);
+            const LabelId other =
+              beside == None ? LabelId{ 0 } : this->Near.LabelOf(beside, &change);
+            if (this->Near.VerticesOf(s)[i] != v && other < this->Near.LabelOf(s, &change) &&
+              this->SharpnessOf(s, i) == Sharpness::AtJunctionsOnly &&
+              !this->HasJunction(s, i, change))
+            {
+              return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
   }
 
   /** Whether a tetrahedron is larger than the elements of a label may be. */
@@ -369,10 +403,17 @@ private:
     return false;
   }
 
-  bool HasGoodAngles(SimplexId t, unsigned i) const
+  /** Where a facet with these angles may be. */
+  enum class Sharpness
+  {
+    Anywhere,
+    AtJunctionsOnly,
+    Nowhere
+  };
+  Sharpness SharpnessOf(SimplexId t, unsigned i) const
   {
     const Facet facet = this->FacetOf(t, i);
-    bool isSharp = false; // allowed at junctions only
+    Sharpness sharpness = Sharpness::Anywhere;
     for (unsigned k = 0; k < 3; ++k)
     {
       const Point<3>& p = this->Near.Position(facet[k]);
@@ -381,23 +422,46 @@ private:
       const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
       if (Dot(a, b) > this->JunctionCosine * lengths)
       {
-        return false;
+        return Sharpness::Nowhere;
       }
-      isSharp |= Dot(a, b) > this->FacetCosine * lengths;
+      sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
     }
-    return !isSharp ||
-      std::any_of(facet.begin(), facet.end(), [this](VertexId v) { return this->IsAtJunction(v); });
+    return sharpness;
+  }
+
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Sharpness sharpness = this->SharpnessOf(t, i);
+    return sharpness == Sharpness::Anywhere ||
+      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
+  }
+
+  /** Whether a vertex of a facet is at a junction after a change. */
+  bool HasJunction(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Facet facet = this->FacetOf(t, i);
+    return std::any_of(
+      facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
   }
 
   /** Whether three or more labels, including background, meet at a vertex. */
-  bool IsAtJunction(VertexId v) const
+  bool IsAtJunction(VertexId v, const Change* change) const
   {
-    std::set<LabelId> labels;
+    std::array<LabelId, 2> known{};
+    unsigned count = 0;
     for (const SimplexId t : this->Near.StarOf(v))
     {
-      labels.insert(this->Labels[t]);
+      const LabelId label = this->Near.LabelOf(t, change);
+      if (std::find(known.begin(), known.begin() + count, label) == known.begin() + count)
+      {
+        if (count == known.size())
+        {
+          return true;
+        }
+        known[count++] = label;
+      }
     }
-    return labels.size() > 2;
+    return false;
   }
 
   const std::span<LabelId> Labels; ///< by simplex id

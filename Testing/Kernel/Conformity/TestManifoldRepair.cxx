@@ -48,6 +48,30 @@ struct RefinedBlobs
   SimplexLabels Labels;
 };
 
+/** The facets off junctions that have an angle below a bound, by the positions of their vertices. */
+std::set<std::set<Point<3>>> SharpFacetsOffJunctions(const SimplexMesh<3>& mesh, double bound)
+{
+  std::map<std::uint32_t, std::set<std::int64_t>> labels;
+  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  {
+    for (const std::uint32_t v : mesh.Facets[f])
+    {
+      labels[v].insert(mesh.FacetLabels[f].begin(), mesh.FacetLabels[f].end());
+    }
+  }
+  std::set<std::set<Point<3>>> sharp;
+  for (const auto& facet : mesh.Facets)
+  {
+    if (checks::SmallestAngle(mesh, facet) < bound &&
+      std::none_of(
+        facet.begin(), facet.end(), [&](std::uint32_t v) { return labels[v].size() > 2; }))
+    {
+      sharp.insert({ mesh.Points[facet[0]], mesh.Points[facet[1]], mesh.Points[facet[2]] });
+    }
+  }
+  return sharp;
+}
+
 } // namespace
 
 TEST(InterfaceEdges, AreFoundByTheirLabels)
@@ -308,6 +332,26 @@ TEST(ManifoldRepair, MakesNoElementLargerThanItsNewLabelAllows)
     ASSERT_EQ(result.Relabelled.size(), 1u);
     EXPECT_EQ(ring.Labels[result.Relabelled[0]], size < 1.0 ? 1 : 2);
   }
+}
+
+// A facet beside a tetrahedron that gets another label stays, but its vertex may be at a junction no more.
+TEST(ManifoldRepair, TakesNoJunctionFromASharpFacet)
+{
+  constexpr double bound = 38.0;
+  std::size_t repaired = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+  {
+    RefinedBlobs blobs(seed);
+    const auto before = SharpFacetsOffJunctions(blobs.Extract(), bound);
+    const ManifoldRepairResult result =
+      blobs.Repair({ .Shape = { .FacetAngle = bound, .JunctionFacetAngle = 10.0 } });
+    repaired += result.Relabelled.size();
+    for (const auto& facet : SharpFacetsOffJunctions(blobs.Extract(), bound))
+    {
+      EXPECT_TRUE(before.contains(facet)) << seed;
+    }
+  }
+  EXPECT_GT(repaired, 20u);
 }
 
 TEST(ManifoldRepair, MendsRealMeshes)
