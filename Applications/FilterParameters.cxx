@@ -61,6 +61,7 @@ const std::map<std::string, Setter, std::less<>>& Setters()
     { "contention", To(&Filter::SetContentionManager) },
     { "balance", To(&Filter::SetLoadBalancer) },
     { "pin", To(&Filter::SetPinThreads) },
+    { "reproducible", To(&Filter::SetReproducible) },
     { "memory-limit", To(&Filter::SetMemoryLimit) },
     { "force", To(&Filter::SetForce) },
   };

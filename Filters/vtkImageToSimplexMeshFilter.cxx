@@ -557,6 +557,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ContentionManager: " << this->GetContentionManagerAsString() << "\n";
   os << indent << "LoadBalancer: " << this->GetLoadBalancerAsString() << "\n";
   os << indent << "PinThreads: " << (this->PinThreads ? "On" : "Off") << "\n";
+  os << indent << "Reproducible: " << (this->Reproducible ? "On" : "Off") << "\n";
   os << indent << "Force: " << (this->Force ? "On" : "Off") << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "ComputeQuality: " << (this->ComputeQuality ? "On" : "Off") << "\n";

@@ -47,7 +47,8 @@
  * how much time each thread lost, and why.
  *
  * With NumberOfThreads = 1 the mesh is bit-for-bit reproducible. With more threads the mesh differs
- * from run to run, but the bounds on shapes and sizes still hold. Events are sent only from the
+ * from run to run, but the bounds on shapes and sizes still hold. With Reproducible the mesh is the
+ * same for any number of threads. Events are sent only from the
  * thread that called Update(). Distinct instances may execute at the same time. Only the statistics
  * are kept between executions.
  *
@@ -285,6 +286,18 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * Make the same mesh, bit for bit, with any number of threads. Default off. The threads then
+   * refine different parts of space, not one part together; ContentionManager, LoadBalancer and
+   * PinThreads have no effect. The mesh is as good as without this option, but another one, also
+   * with one thread. If optimisation has a time limit, the mesh depends on the machine all the same.
+   */
+  vtkSetMacro(Reproducible, bool);
+  vtkGetMacro(Reproducible, bool);
+  vtkBooleanMacro(Reproducible, bool);
+  ///@}
+
   /**
    * The value that Delta = 0 means for the present input: twice the edge of a cube (in 4D, of a
    * hypercube) with a voxel's volume. It is known once the filter or UpdateInformation() has
@@ -482,6 +495,7 @@ protected:
   int ContentionManager = CONTENTION_LOCAL;
   int LoadBalancer = HIERARCHICAL_WORK_STEALING;
   bool PinThreads = false;
+  bool Reproducible = false;
   bool Force = false;
   vtkTypeUInt64 MemoryLimit = 0;
   bool ComputeQuality = false;

@@ -235,6 +235,8 @@ Parameters Running()
       "threads to use in every stage, refinement included; with 1 the mesh is the same, bit for "
       "bit, in every run",
       { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
+    Flag("reproducible", 0, "off", "make the same mesh, bit for bit, with any number of threads",
+      { .Property = "Reproducible", .Label = "Reproducible" }),
     Word("contention", 0, "local", { "aggressive", "random", "global", "local" },
       "what a thread does when another thread holds a vertex that it needs: aggressive (try again "
       "at once), random (sleep for a random time), global or local (wait until another thread "

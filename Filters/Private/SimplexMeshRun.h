@@ -90,6 +90,7 @@ public:
       static_cast<voxplex::ContentionPolicy>(filter->ContentionManager);
     this->Options.Team.Balance = static_cast<voxplex::BalancePolicy>(filter->LoadBalancer);
     this->Options.Team.Pin = filter->PinThreads;
+    this->Options.Team.Reproducible = filter->Reproducible;
     this->Options.Limits.Force = filter->Force;
     this->Options.Limits.Memory = filter->MemoryLimit;
   }

@@ -179,7 +179,7 @@ template <int D>
 void Triangulation<D>::ReserveVertex(Worker& worker)
 {
   Stack<VertexId>& free = worker.FreeVertices;
-  if (!free.Empty() && this->TryLock(worker, free.Back()))
+  if (!free.Empty() && (worker.Id == 0 || this->TryLock(worker, free.Back())))
   {
     return;
   }
@@ -198,7 +198,10 @@ void Triangulation<D>::ReserveVertex(Worker& worker)
   {
     free.Push(first + i);
   }
-  this->TryLock(worker, free.Back());
+  if (worker.Id != 0)
+  {
+    this->TryLock(worker, free.Back());
+  }
 }
 
 //------------------------------------------------------------------------------------------------

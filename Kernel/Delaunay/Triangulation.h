@@ -76,6 +76,10 @@ enum class LockOutcome
  * simplex. The lock words order these accesses: taking a lock acquires everything that the last
  * owner wrote before it released the lock.
  *
+ * **Zones.** Workers without locks may operate at the same time if each has a zone (Worker::Zone)
+ * and the zones are disjoint. A worker owns the vertices inside its zone, and no others. All that is
+ * said about owners holds. So what a worker does in its zone does not depend on the other workers.
+ *
  * **Helpers** (thesis, section 4.6.2). A worker may have a LoopSharing (Assistance). Then waiting
  * threads test simplices of a large cavity for conflict, and compute circumballs of new simplices.
  * They read only data that the worker may read, and write only to places that it assigns. They have
@@ -115,6 +119,12 @@ public:
     Stack<SimplexId> Deleted;
     /** Number of simplices created so far. */
     std::uint64_t NumberOfCreated = 0;
+    /**
+     * If not null: where the worker, which then has the number 0, may operate. An operation that
+     * needs a vertex outside is Contended. The zones of workers that operate at the same time must
+     * be disjoint.
+     */
+    const HalfOpenBox<D>* Zone = nullptr;
     /** The owner of the contended vertex in the last operation that was Contended. */
     WorkerId Winner = 0;
     /** Number of conflict tests so far, and of those that the cached ball could not decide. */
@@ -230,7 +240,9 @@ public:
 
   /**
    * Locks all vertices of a simplex.
-   * @param generation the value of State(s).Generation when the caller found the simplex
+   * @param generation the value of State(s).Generation when the caller found the simplex. If the
+   *   worker has a zone, a living simplex must have a vertex in it: otherwise another worker may
+   *   delete the simplex meanwhile.
    */
   LockOutcome Lock(Worker& worker, SimplexId s, std::uint32_t generation);
 
@@ -272,6 +284,17 @@ public:
    * @throws std::bad_alloc; then the triangulation is unchanged
    */
   RemovalOutcome Remove(Worker& worker, VertexId v);
+
+  /**
+   * Gives vertices and simplices the numbers 0, 1, ... in an order that depends on the points
+   * alone: vertices along a Hilbert curve, simplices by their vertices. So neighbours lie near each
+   * other in memory. Ids from before the call are void. The generation of every simplex is one that
+   * no simplex has had. No worker from before the call may operate again.
+   *
+   * Takes time O(n log n), and about 45 bytes for each simplex while it runs.
+   * @throws std::bad_alloc; then the triangulation cannot be used any more
+   */
+  void Renumber(unsigned threads);
 
   /**
    * Finds a simplex in conflict with p by a walk from a living simplex. Returns None if p is a
@@ -449,7 +472,7 @@ template <int D>
 inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, VertexKind kind)
 {
   const VertexId v = worker.FreeVertices.Pop();
-  assert(this->Owns(worker, v));
+  assert(worker.Zone || this->Owns(worker, v)); // an unused vertex is in no zone
   Vertex& vertex = this->Vertices[v];
   vertex.Position = p;
   vertex.Incident = None;
@@ -462,11 +485,11 @@ inline VertexId Triangulation<D>::NewVertex(Worker& worker, const Point<D>& p, V
 //------------------------------------------------------------------------------------------------
 // The caller has made room in Owned.
 template <int D>
-inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
+[[gnu::always_inline]] inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
 {
   if (worker.Id == 0)
   {
-    return true;
+    return !worker.Zone || worker.Zone->Contains(this->Vertices[v].Position);
   }
   const std::atomic_ref<WorkerId> owner(this->Vertices[v].Owner);
   WorkerId current = owner.load(std::memory_order_relaxed);
@@ -489,10 +512,13 @@ inline bool Triangulation<D>::TryOwn(Worker& worker, VertexId v)
 template <int D>
 inline bool Triangulation<D>::Owns(const Worker& worker, VertexId v) const
 {
+  if (worker.Id == 0)
+  {
+    return !worker.Zone || worker.Zone->Contains(this->Vertices[v].Position);
+  }
   // const_cast: C++20 has no atomic_ref to const. The value is only read.
-  return worker.Id == 0 ||
-    std::atomic_ref<WorkerId>(const_cast<WorkerId&>(this->Vertices[v].Owner))
-      .load(std::memory_order_relaxed) == worker.Id;
+  return std::atomic_ref<WorkerId>(const_cast<WorkerId&>(this->Vertices[v].Owner))
+           .load(std::memory_order_relaxed) == worker.Id;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -529,7 +555,8 @@ inline bool Triangulation<D>::TryLock(Worker& worker, VertexId v)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-inline bool Triangulation<D>::TryLockAll(Worker& worker, const std::array<VertexId, N>& v)
+[[gnu::always_inline]] inline bool Triangulation<D>::TryLockAll(
+  Worker& worker, const std::array<VertexId, N>& v)
 {
   worker.Owned.MakeRoom(N);
   for (const VertexId w : v)
@@ -558,7 +585,8 @@ inline LockOutcome Triangulation<D>::Lock(Worker& worker, SimplexId s, std::uint
   }
   if (worker.Id == 0)
   {
-    return LockOutcome::Locked;
+    return !worker.Zone || this->TryLockAll(worker, this->Simplices[s].V) ? LockOutcome::Locked
+                                                                          : LockOutcome::Contended;
   }
   std::array<VertexId, N> v;
   for (unsigned i = 0; i < N; ++i)

@@ -43,6 +43,37 @@ struct Box
   }
 };
 
+/**
+ * A box without its upper faces, so that boxes can tile space. Bounds may be infinite.
+ */
+template <int D>
+struct HalfOpenBox
+{
+  Point<D> Min;
+  Point<D> Max;
+
+  bool Contains(const Point<D>& p) const
+  {
+    bool inside = true;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      inside &= p[a] >= this->Min[a] && p[a] < this->Max[a];
+    }
+    return inside;
+  }
+
+  /** Whether all points nearer to p than a radius are in the box. */
+  bool ContainsBall(const Point<D>& p, double radius) const
+  {
+    bool inside = true;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      inside &= p[a] - radius >= this->Min[a] && p[a] + radius < this->Max[a];
+    }
+    return inside;
+  }
+};
+
 } // namespace voxplex
 
 #endif

@@ -7,6 +7,7 @@
 #include "Mesher/MeshSizeEstimate.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/Refiner.h"
+#include "Refinement/Tiles/TiledRefiner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ public:
   /** @throws Cancelled; InputError from interface sizes */
   explicit MeshSizing(const RunEnvironment<D>& run)
     : Base(Dimension<D>::GradeBase(run, run.Statistics.Delta))
-    , Local(run.Prepared.Image)
+    , Local(run.Prepared.Image, run.Options.Team.Threads)
     , Size(run.Prepared.Size.get())
     , SizeFloor(SpacingFloorFraction * run.Statistics.Delta) // even where grading is coarser
   {
@@ -141,14 +142,12 @@ void AddYielding(MeshingStatistics& statistics, const GridGeometry<D>& grid,
   }
 }
 
-/** @return false if stopped */
-template <int D>
-bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
-  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices,
+/** Runs a refiner. @return false if stopped */
+template <int D, typename AnyRefiner>
+bool RunRefiner(const RunEnvironment<D>& run, AnyRefiner& refiner, std::uint64_t expectedVertices,
   RunProgress& progress)
 {
   const Stopwatch time;
-  Refiner<typename Dimension<D>::Rules> refiner(context, TeamOf(run.Options.Team), seeds, start);
   const bool done = refiner.Run(
     [&](std::uint64_t vertices)
     {
@@ -166,8 +165,26 @@ bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
     statistics.Threads[t] += threads[t];
   }
   AddYielding(statistics, run.Prepared.Image.Grid(), refiner.GetYielded());
-  statistics.SeedingSeconds += refiner.GetSecondsToSeed();
-  statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
+  return done;
+}
+
+/** @return false if stopped */
+template <int D>
+bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
+  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices,
+  RunProgress& progress)
+{
+  using Rules = typename Dimension<D>::Rules;
+  const TeamOptions team = TeamOf(run.Options.Team);
+  if (team.Reproducible)
+  {
+    TiledRefiner<Rules> refiner(context, team, seeds, start);
+    return RunRefiner(run, refiner, expectedVertices, progress);
+  }
+  Refiner<Rules> refiner(context, team, seeds, start);
+  const bool done = RunRefiner(run, refiner, expectedVertices, progress);
+  run.Statistics.SeedingSeconds += refiner.GetSecondsToSeed();
+  run.Statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
   return done;
 }
 

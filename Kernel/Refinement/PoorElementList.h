@@ -130,6 +130,16 @@ public:
     return e;
   }
 
+  /** Moves all entries to the ends of two vectors, in the order in which they were pushed. */
+  void TakeAll(std::vector<Entry>& entries, std::vector<Entry>& last)
+  {
+    const Guard guard(*this);
+    entries.insert(entries.end(), this->Entries.begin(), this->Entries.end());
+    last.insert(last.end(), this->Last.begin(), this->Last.end());
+    this->Entries.clear();
+    this->Last.clear();
+  }
+
   /**
    * With eager removal: takes a dead simplex out if it is in this list. Any thread may call this.
    */

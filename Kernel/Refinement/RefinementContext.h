@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 namespace voxplex
@@ -107,11 +108,32 @@ enum class RuleOutcome
 };
 
 /** A removal by R6 that was given up because of another thread. */
+template <int D>
 struct PendingRemoval
 {
   VertexId Vertex;
-  VertexId Feature; ///< the vertex is removed if it is free and nearer than ...
-  double Radius;    ///< ... this to the feature vertex
+  Point<D> Position; ///< of the vertex; if it is elsewhere, the id belongs to another one
+  VertexId Feature;  ///< the vertex is removed if it is nearer than ...
+  double Radius;     ///< ... this to the feature vertex
+};
+
+/**
+ * @brief Where a worker may refine while others refine in their zones (TiledRefiner).
+ *
+ * What the worker does must not depend on the others. So it reads nothing that they may write: no
+ * vertex, no feature point and no count outside of its zone. If an evaluation needs to know
+ * something there, it changes nothing, and the element is put off.
+ */
+template <int D>
+struct WorkerZone
+{
+  HalfOpenBox<D> Extent;
+  /** R7 waits until the rest of the box has been refined. */
+  bool PutsSliversOff = false;
+  /** The current evaluation needs to know something outside. */
+  bool HasLeft = false;
+  /** The insertions that this worker has counted here, by region. RegionalWork gets them later. */
+  std::unordered_map<typename RegionalWork<D>::Region, std::uint32_t> Work;
 };
 
 /** A region where rules give way, given by a point in it. */
@@ -167,8 +189,9 @@ struct alignas(CacheLineSize) RefinementWorker
   EagerRemoval* Eager = nullptr;                ///< null if removal is lazy
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
-  std::vector<PendingRemoval> PendingRemovals;
+  std::vector<PendingRemoval<D>> PendingRemovals;
   std::vector<YieldingRegion<D>> Yielded; ///< the regions where rules began to give way
+  WorkerZone<D>* Zone = nullptr;          ///< null: the worker may refine everywhere
   /** New simplices are not screened now. The caller screens them at the end. */
   bool ScreensLater = false;
   RuleStatistics Statistics;

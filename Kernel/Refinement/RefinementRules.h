@@ -87,7 +87,7 @@ public:
   void InsertSeed(const FeatureSeed<D>& seed, SimplexId& near)
   {
     Point<D> onEnd;
-    if (this->Context.Features.AnyWithin(seed.Position, seed.Delta) ||
+    if (this->AnyFeatureWithin(seed.Position, seed.Delta) ||
       this->Context.IsNearEnd(seed.Position, seed.Delta, onEnd))
     {
       return;
@@ -105,22 +105,20 @@ public:
   }
 
   /**
-   * Tries the last of the worker's pending removals again. The id may belong to another vertex by
-   * now. That vertex is removed, too, if it is free and within the radius. Vertices that a removal
-   * brings within reach are removed after it.
+   * Tries the last of the worker's pending removals again. Vertices that a removal brings within
+   * reach are removed after it.
    */
   RuleOutcome RemovePending()
   {
-    const PendingRemoval pending = this->Worker.PendingRemovals.back();
-    if (!this->Context.Mesh.TryLock(this->Worker.Kernel, pending.Vertex))
+    const PendingRemoval<D> pending = this->Worker.PendingRemovals.back();
+    if ((this->Worker.Zone && !this->Worker.Zone->Extent.Contains(pending.Position)) ||
+      !this->Context.Mesh.TryLock(this->Worker.Kernel, pending.Vertex))
     {
       return RuleOutcome::Contended;
     }
     const Vertex& vertex = this->Context.Mesh.GetVertex(pending.Vertex);
     RuleOutcome verdict = RuleOutcome::Good;
-    if (vertex.Alive && vertex.Kind == VertexKind::Free &&
-      Distance2(vertex.Position, this->Context.Mesh.Position(pending.Feature)) <
-        pending.Radius * pending.Radius)
+    if (vertex.Alive && vertex.Kind == VertexKind::Free && vertex.Position == pending.Position)
     {
       const RemovalOutcome outcome = this->Remove(pending.Vertex);
       if (outcome == RemovalOutcome::Contended)
@@ -136,7 +134,8 @@ public:
       this->FindVerticesToRemove(pending.Feature, pending.Radius);
       for (const VertexId v : this->ToRemove)
       {
-        this->Worker.PendingRemovals.push_back({ v, pending.Feature, pending.Radius });
+        this->Worker.PendingRemovals.push_back(
+          { v, this->Context.Mesh.Position(v), pending.Feature, pending.Radius });
       }
     }
     return verdict;
@@ -354,8 +353,32 @@ protected:
 
   bool FeatureVertexNear(const Element& t, const Point<D>& z, double distance) const
   {
-    return this->OwnFeatureVertexNear(t, z, distance) ||
-      this->Context.Features.AnyWithin(z, distance);
+    return this->OwnFeatureVertexNear(t, z, distance) || this->AnyFeatureWithin(z, distance);
+  }
+
+  /**
+   * Whether a feature vertex is nearer to p than a distance. If that cannot be known inside of the
+   * worker's zone, the evaluation is put off.
+   */
+  bool AnyFeatureWithin(const Point<D>& p, double distance) const
+  {
+    if (this->Worker.Zone && !this->Worker.Zone->Extent.ContainsBall(p, distance))
+    {
+      this->Worker.Zone->HasLeft = true;
+      return true;
+    }
+    return this->Context.Features.AnyWithin(p, distance);
+  }
+
+  /** Inserts a point, unless the evaluation is put off. */
+  InsertionOutcome Insert(const Point<D>& p, VertexKind kind, SimplexId seed, double clearance,
+    typename Mesh::InsertionVeto* veto = nullptr)
+  {
+    if (this->Worker.Zone && this->Worker.Zone->HasLeft)
+    {
+      return InsertionOutcome::Contended;
+    }
+    return this->Context.Mesh.Insert(this->Worker.Kernel, p, kind, seed, clearance, veto);
   }
 
   /**
@@ -418,8 +441,7 @@ protected:
     // The circumball is empty, so only a point that was moved can be near a vertex.
     const double clearance =
       place.Moved ? SpacingFloorFraction * this->Context.Sizing.Spacing(place.Position) : 0.0;
-    const InsertionOutcome outcome =
-      this->Context.Mesh.Insert(this->Worker.Kernel, place.Position, place.Kind, t.Id, clearance);
+    const InsertionOutcome outcome = this->Insert(place.Position, place.Kind, t.Id, clearance);
     const RuleOutcome verdict = this->CountOutcome(outcome, fired);
     if (verdict == RuleOutcome::Changed)
     {
@@ -438,13 +460,10 @@ protected:
   RuleOutcome InsertFeature(const Point<D>& z, double delta, double clearance, SimplexId seed,
     SimplexId otherSeed, std::uint64_t& fired, typename Mesh::InsertionVeto* veto = nullptr)
   {
-    Mesh& mesh = this->Context.Mesh;
-    InsertionOutcome outcome =
-      mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, seed, clearance, veto);
+    InsertionOutcome outcome = this->Insert(z, VertexKind::Feature, seed, clearance, veto);
     if (outcome == InsertionOutcome::NoConflict && otherSeed != None)
     {
-      outcome =
-        mesh.Insert(this->Worker.Kernel, z, VertexKind::Feature, otherSeed, clearance, veto);
+      outcome = this->Insert(z, VertexKind::Feature, otherSeed, clearance, veto);
     }
     const RuleOutcome verdict = this->CountOutcome(outcome, fired);
     if (verdict == RuleOutcome::Changed)
@@ -533,7 +552,7 @@ private:
       const VertexId v = this->ToRemove[done++];
       if (this->Remove(v) == RemovalOutcome::Contended)
       {
-        this->Worker.PendingRemovals.push_back({ v, z, radius });
+        this->Worker.PendingRemovals.push_back({ v, this->Context.Mesh.Position(v), z, radius });
       }
     }
   }
@@ -591,7 +610,19 @@ protected:
   /** How far the rules give way in the region of a point. */
   Yielding YieldingAt(const Point<D>& place, double spacing) const
   {
-    return YieldingOf(this->Context.Work.At(place, spacing), Rules::WorkLimit);
+    const auto region = RegionalWork<D>::RegionOf(place, spacing);
+    return YieldingOf(this->Context.Work.At(region) + this->OwnWork(region), Rules::WorkLimit);
+  }
+
+  /** The insertions in a region that the worker has counted for itself. */
+  std::uint32_t OwnWork(typename RegionalWork<D>::Region region) const
+  {
+    if (!this->Worker.Zone)
+    {
+      return 0;
+    }
+    const auto own = this->Worker.Zone->Work.find(region);
+    return own == this->Worker.Zone->Work.end() ? 0 : own->second;
   }
 
   /** The clearance of a feature point that is inserted for the sake of facets. */
@@ -603,7 +634,10 @@ protected:
   /** Counts an insertion in the region of a point. */
   void CountWork(const Point<D>& place, double spacing)
   {
-    const std::uint32_t work = this->Context.Work.Add(place, spacing) + 1;
+    const auto region = RegionalWork<D>::RegionOf(place, spacing);
+    const std::uint32_t work = this->Worker.Zone
+      ? this->Context.Work.At(region) + ++this->Worker.Zone->Work[region]
+      : this->Context.Work.Add(region) + 1;
     std::uint64_t& most = this->Worker.Statistics.LargestRegionalWork;
     most = std::max<std::uint64_t>(most, work);
     const Yielding step = YieldingOf(work, Rules::WorkLimit);

@@ -10,25 +10,15 @@
 #include "Parallel/CacheLine.h"
 #include "Parallel/CycleClock.h"
 #include "Parallel/HardwareCounters.h"
-#include "Parallel/ParallelFor.h"
-#include "Refinement/RefinementContext.h"
 #include "Refinement/RefinementTeam.h"
+#include "Refinement/RefinerBase.h"
 #include "Refinement/Seeding.h"
-#include "Sizing/LoweredCells.h"
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 namespace voxplex
 {
-
-/** The simplices that are judged by the rules first. */
-enum class RefinementStart
-{
-  Everywhere,
-  AtSeeds ///< and where LocalDelta has lowered bounds
-};
 
 /**
  * @brief Refines the triangulation of a context by a set of rules, with any number of threads.
@@ -44,16 +34,12 @@ enum class RefinementStart
  * single thread takes no locks, and its mesh is the same bit for bit in every run.
  */
 template <typename Rules>
-class Refiner
+class Refiner : public RefinerBase<Rules::Dimension>
 {
 public:
   static constexpr int D = Rules::Dimension;
 
-  /**
-   * Called every few hundred evaluations with the number of vertices so far. Several threads may
-   * call it at once. If it returns false, refinement stops.
-   */
-  using Monitor = std::function<bool(std::uint64_t vertices)>;
+  using typename RefinerBase<D>::Monitor;
 
   /**
    * @param seeds feature points that are inserted before the rules are applied
@@ -63,7 +49,7 @@ public:
    */
   explicit Refiner(RefinementContext<D>& context, const TeamOptions& options = {},
     std::vector<FeatureSeed<D>> seeds = {}, RefinementStart start = RefinementStart::Everywhere)
-    : Context(context)
+    : RefinerBase<D>(context)
     , Options(options)
     , Seeds(std::move(seeds))
     , Start(start)
@@ -107,36 +93,6 @@ public:
     return !this->Team.Stopped();
   }
 
-  /** The sum over all threads. */
-  RuleStatistics GetRuleStatistics() const
-  {
-    RuleStatistics sum;
-    for (const auto& worker : this->Workers)
-    {
-      sum += worker->Statistics;
-      sum.Created += worker->Kernel.NumberOfCreated;
-    }
-    return sum;
-  }
-  /** The regions where rules began to give way, of all threads. */
-  std::vector<YieldingRegion<D>> GetYielded() const
-  {
-    std::vector<YieldingRegion<D>> regions;
-    for (const auto& worker : this->Workers)
-    {
-      regions.insert(regions.end(), worker->Yielded.begin(), worker->Yielded.end());
-    }
-    return regions;
-  }
-  PredicateStatistics GetPredicateStatistics() const
-  {
-    PredicateStatistics sum;
-    for (const auto& worker : this->Workers)
-    {
-      sum += worker->Kernel.GetPredicateStatistics();
-    }
-    return sum;
-  }
   std::vector<ThreadStatistics> GetThreadStatistics() const
   {
     std::vector<ThreadStatistics> threads;
@@ -210,48 +166,17 @@ private:
         simplices.push_back(s);
       }
     }
-    this->Screen(*this->Workers[0], simplices.data(), simplices.data() + simplices.size());
+    this->template Screen<Rules>(
+      *this->Workers[0], simplices.data(), simplices.data() + simplices.size());
   }
 
   /** Pushes the simplices at the seeds and at lowered bounds, all to the first worker. */
   void StartAtSeeds()
   {
-    const LocalDelta<D>* const local = this->Context.Sizing.Sources().Local;
     RefinementWorker<D>& worker = *this->Workers[0];
     InsertSeeds<Rules>(this->Context, worker, this->Seeds);
-    const std::vector<SimplexId> changed =
-      local && local->HasLowered() ? this->FindReaching(*local) : std::vector<SimplexId>();
-    this->Screen(worker, changed.data(), changed.data() + changed.size());
-  }
-
-  /** The simplices whose circumball reaches a lowered bound, ascending. */
-  std::vector<SimplexId> FindReaching(const LocalDelta<D>& local) const
-  {
-    const Triangulation<D>& mesh = this->Context.Mesh;
-    const LoweredCells<D> lowered(local);
-    constexpr std::size_t grain = 8192;
-    std::vector<std::vector<SimplexId>> parts(mesh.SimplexIdEnd() / grain + 1);
-    ParallelFor(0, mesh.SimplexIdEnd(), grain, static_cast<unsigned>(this->Workers.size()),
-      [&](std::size_t first, std::size_t last)
-      {
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-        {
-          if (mesh.State(s).NearSurface && mesh.IsAlive(s))
-          {
-            const Circumball<D> ball = mesh.GetCircumball(s);
-            if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
-            {
-              parts[first / grain].push_back(s);
-            }
-          }
-        }
-      });
-    std::vector<SimplexId> reaching;
-    for (const std::vector<SimplexId>& part : parts)
-    {
-      reaching.insert(reaching.end(), part.begin(), part.end());
-    }
-    return reaching;
+    const std::vector<SimplexId> changed = this->FindReaching();
+    this->template Screen<Rules>(worker, changed.data(), changed.data() + changed.size());
   }
 
   /** Makes the workers 1, 2 ..., each with its share of a seeded triangulation. */
@@ -282,7 +207,8 @@ private:
     const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh);
     for (std::size_t t = 0; t < threads; ++t)
     {
-      this->Screen(*this->Workers[t], simplices.data() + simplices.size() * t / threads,
+      this->template Screen<Rules>(*this->Workers[t],
+        simplices.data() + simplices.size() * t / threads,
         simplices.data() + simplices.size() * (t + 1) / threads);
     }
   }
@@ -309,17 +235,6 @@ private:
       worker->Kernel.Help.Team = &this->Helpers;
       this->Helpers.push_back(&worker->Kernel);
     }
-  }
-
-  void Screen(RefinementWorker<D>& worker, const SimplexId* first, const SimplexId* last)
-  {
-    worker.Kernel.Created.Clear();
-    for (; first != last; ++first)
-    {
-      worker.Kernel.Created.MakeRoom(1);
-      worker.Kernel.Created.Push(*first);
-    }
-    Rules(this->Context, worker).ScreenCreated();
   }
 
   bool WorkAlone(const Monitor& goOn)
@@ -502,11 +417,6 @@ private:
     this->Team.Balance().Wake(beggar.Thread);
   }
 
-  bool IsAlive(const PoorElementList::Entry& e) const
-  {
-    return this->Context.Mesh.State(e.Id).CurrentGeneration() == e.Generation;
-  }
-
   /** What the thread has spent on insertions of others so far: work, not overhead. */
   CycleClock::Ticks TicksOfHelp(unsigned thread) const
   {
@@ -519,13 +429,11 @@ private:
     return static_cast<double>(ticks) * this->SecondsPerTick;
   }
 
-  RefinementContext<D>& Context;
   const TeamOptions Options;
   const std::vector<FeatureSeed<D>> Seeds;
   const RefinementStart Start;
   RefinementTeam Team;
   EagerRemoval Eager;
-  std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
   std::vector<typename Triangulation<D>::Worker*> Helpers; ///< of all threads, if FineGrained
   std::vector<std::unique_ptr<Overhead>> Overheads;
   std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end

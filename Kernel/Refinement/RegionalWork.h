@@ -75,30 +75,27 @@ public:
     this->Counts = std::make_unique<std::atomic<std::uint32_t>[]>(entries); // zeros
   }
 
-  /** Counts an insertion. Returns the number that was counted before in the region. */
-  std::uint32_t Add(const Point<D>& place, double spacing)
+  /** Identifies a region. */
+  using Region = std::uint64_t;
+
+  /** Counts insertions. Returns the number that was counted before in the region. */
+  std::uint32_t Add(Region region, std::uint32_t insertions = 1)
   {
-    const std::uint64_t hash = this->Hash(place, spacing);
-    const std::uint32_t a = this->Entry(hash).fetch_add(1, std::memory_order_relaxed);
-    const std::uint32_t b = this->Entry(hash >> 32).fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t a = this->Entry(region).fetch_add(insertions, std::memory_order_relaxed);
+    const std::uint32_t b =
+      this->Entry(region >> 32).fetch_add(insertions, std::memory_order_relaxed);
     return std::min(a, b);
   }
 
-  /** The number of insertions that were counted in the region of a point. */
-  std::uint32_t At(const Point<D>& place, double spacing) const
+  /** The number of insertions that were counted in a region. */
+  std::uint32_t At(Region region) const
   {
-    const std::uint64_t hash = this->Hash(place, spacing);
-    return std::min(this->Entry(hash).load(std::memory_order_relaxed),
-      this->Entry(hash >> 32).load(std::memory_order_relaxed));
+    return std::min(this->Entry(region).load(std::memory_order_relaxed),
+      this->Entry(region >> 32).load(std::memory_order_relaxed));
   }
 
-private:
-  std::atomic<std::uint32_t>& Entry(std::uint64_t hash) const
-  {
-    return this->Counts[(hash & 0xffffffffu) & this->Mask];
-  }
-
-  std::uint64_t Hash(const Point<D>& place, double spacing) const
+  /** The region of a point. @param spacing at the point */
+  static Region RegionOf(const Point<D>& place, double spacing)
   {
     const double step = std::floor(4.0 * std::log2(spacing));
     const double cells = std::exp2(-0.25 * step) / 3.0; // per unit of length
@@ -110,6 +107,12 @@ private:
       hash = MixBits(hash + static_cast<std::uint64_t>(cell));
     }
     return hash;
+  }
+
+private:
+  std::atomic<std::uint32_t>& Entry(std::uint64_t hash) const
+  {
+    return this->Counts[(hash & 0xffffffffu) & this->Mask];
   }
 
   std::uint64_t Mask = 0;

@@ -41,7 +41,7 @@ RuleOutcome Rules3D::Refine(SimplexId id)
   }
   if (outcome == RuleOutcome::Good && t.Label != 0 && this->IsToSplit(t))
   {
-    if (this->Worker.Poor.OnlyLast())
+    if (this->Worker.Poor.OnlyLast() && !(this->Worker.Zone && this->Worker.Zone->PutsSliversOff))
     {
       return this->R7(t);
     }
@@ -206,9 +206,9 @@ RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
     },
     [&](const Point<3>& p)
     {
-      const RuleOutcome inserted = this->CountOutcome(
-        this->Context.Mesh.Insert(this->Worker.Kernel, p, VertexKind::Free, t.Id, clearance, &veto),
-        this->Worker.Statistics.SliversSplit);
+      const RuleOutcome inserted =
+        this->CountOutcome(this->Insert(p, VertexKind::Free, t.Id, clearance, &veto),
+          this->Worker.Statistics.SliversSplit);
       if (inserted == RuleOutcome::Changed)
       {
         this->CountWork(t.Ball.Center, spacing);
@@ -308,7 +308,7 @@ RuleOutcome Rules3D::SampleNear(
     },
     [&](const Point<3>& p)
     {
-      return this->Context.Features.AnyWithin(p, clearance)
+      return this->AnyFeatureWithin(p, clearance)
         ? RuleOutcome::Good
         : this->InsertFeature(
             p, delta, clearance, t.Id, None, this->Worker.Statistics.SliversSampled, &veto);
@@ -358,7 +358,7 @@ RuleOutcome Rules3D::R3(const Element& t)
       clearance = std::max(clearance, CutClearance * delta);
       this->MoveToBorderEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance);
     }
-    if (this->Context.Features.AnyWithin(z, clearance))
+    if (this->AnyFeatureWithin(z, clearance))
     {
       ++this->Worker.Statistics.RefusedTooClose;
       continue;
@@ -443,8 +443,7 @@ bool Rules3D::FacetIsFlat(
 void Rules3D::MoveToBorderEdge(Point<3>& z, double reach, double clearance) const
 {
   Point<3> edge;
-  if (this->Context.Border->FindEdge(z, reach, edge) &&
-    !this->Context.Features.AnyWithin(edge, clearance))
+  if (this->Context.Border->FindEdge(z, reach, edge) && !this->AnyFeatureWithin(edge, clearance))
   {
     z = edge;
   }

@@ -143,9 +143,9 @@ RuleOutcome Rules4D::R4(const Element& s)
     {
       const Place place = this->PlaceOf(p, CentreMargin * s.Radius);
       p = place.Position;
-      const RuleOutcome inserted = this->CountOutcome(
-        this->Context.Mesh.Insert(this->Worker.Kernel, p, place.Kind, s.Id, clearance, &veto),
-        statistics.Fired[RuleNumber<4>::Sliver]);
+      const RuleOutcome inserted =
+        this->CountOutcome(this->Insert(p, place.Kind, s.Id, clearance, &veto),
+          statistics.Fired[RuleNumber<4>::Sliver]);
       if (inserted == RuleOutcome::Changed)
       {
         this->CountWork(s.Ball.Center, spacing);
@@ -208,7 +208,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
   {
     return this->InsertFeatureOnEnd(snapped, delta, s, other, fired);
   }
-  if (this->Context.Features.AnyWithin(z, clearance))
+  if (this->AnyFeatureWithin(z, clearance))
   {
     ++this->Worker.Statistics.RefusedTooClose;
     return RuleOutcome::Good;
@@ -242,8 +242,7 @@ RuleOutcome Rules4D::InsertFeaturePick(
       ++this->Worker.Statistics.ClosestSurfacePointCalls;
       return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p) &&
         Distance(p, z) < options.PickingRadius * radius &&
-        !this->Context.IsNearEnd(p, delta, onEnd) &&
-        !this->Context.Features.AnyWithin(p, clearance);
+        !this->Context.IsNearEnd(p, delta, onEnd) && !this->AnyFeatureWithin(p, clearance);
     },
     [&](const Point<4>& p)
     {

@@ -26,6 +26,12 @@ struct TeamOptions
   unsigned SuccessesToWake = 10;
   /** Which threads give work to an idle thread. */
   BalancePolicy Balance = BalancePolicy::Hierarchical;
+  /**
+   * One mesh for any number of threads: tiles of space are refined side by side (TiledRefiner). The
+   * mesh differs from the one that a single thread makes without this. Only Threads and FineGrained
+   * have an effect besides.
+   */
+  bool Reproducible = false;
   /** Keep each thread on a core of its own, where the system allows it. */
   bool Pin = false;
   /**

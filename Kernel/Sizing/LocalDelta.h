@@ -9,6 +9,7 @@
 
 #include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
+#include "Parallel/ParallelFor.h"
 #include "Sizing/GrowthLimit.h"
 
 #include <algorithm>
@@ -40,8 +41,10 @@ public:
   /** Edge of a cell in voxels. */
   static constexpr std::int64_t Cell = 2;
 
-  explicit LocalDelta(const LabelImage<D>& image)
-    : Grid(image.Grid())
+  /** @param threads of Grade(); 0 means all cores; bounds do not depend on it */
+  explicit LocalDelta(const LabelImage<D>& image, unsigned threads = 1)
+    : Threads(threads)
+    , Grid(image.Grid())
     , Origin(image.CropOrigin())
     , VoxelsPerLength(image.Grid().VoxelsPerLength())
   {
@@ -182,13 +185,10 @@ public:
     {
       cells[a] = static_cast<std::size_t>(this->Cells[a]);
       steps[a] = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
-      for (std::size_t first = 0; first < this->Graded.size(); first += stride * cells[a])
-      {
-        this->TakeLeastOfNeighbours(first, stride, cells[a]);
-      }
+      this->TakeLeastOfNeighbours(stride, cells[a]);
       stride *= cells[a];
     }
-    LimitGrowth(std::span<float>(this->Graded), cells, steps);
+    LimitGrowth(std::span<float>(this->Graded), cells, steps, this->Threads);
   }
 
   /** The smallest bound that was set; infinite if none was. */
@@ -217,23 +217,36 @@ private:
   }
 
   /**
-   * Lowers each cell of a block to the smaller value of its two neighbours along an axis. The block
-   * has n rows of `length` cells across the axis.
+   * Lowers each cell to the smaller value of its two neighbours along an axis of n cells. The next
+   * cell along the axis is `stride` values away.
    */
-  void TakeLeastOfNeighbours(std::size_t first, std::size_t length, std::size_t n)
+  void TakeLeastOfNeighbours(std::size_t stride, std::size_t n)
   {
-    float* row = this->Graded.data() + first;
-    std::vector<float> before(row, row + length); // values of the row before, not yet lowered
-    for (std::size_t k = 0; k < n; ++k, row += length)
-    {
-      const float* const behind = k + 1 < n ? row + length : row;
-      for (std::size_t c = 0; c < length; ++c)
+    constexpr std::size_t longest = 4096; // cells beside each other that a thread handles at once
+    const std::size_t strips = (stride - 1) / longest + 1;
+    ParallelFor(0, this->Graded.size() / (stride * n) * strips,
+      std::max<std::size_t>(longest / (stride * n), 1), this->Threads,
+      [&](std::size_t begin, std::size_t end)
       {
-        const float own = row[c];
-        row[c] = std::min(std::min(before[c], own), behind[c]);
-        before[c] = own;
-      }
-    }
+        std::vector<float> before; // values of the cells before, not yet lowered
+        for (std::size_t s = begin; s < end; ++s)
+        {
+          const std::size_t offset = s % strips * longest;
+          const std::size_t length = std::min(longest, stride - offset);
+          float* row = this->Graded.data() + s / strips * stride * n + offset;
+          before.assign(row, row + length);
+          for (std::size_t k = 0; k < n; ++k, row += stride)
+          {
+            const float* const behind = k + 1 < n ? row + stride : row;
+            for (std::size_t c = 0; c < length; ++c)
+            {
+              const float own = row[c];
+              row[c] = std::min(std::min(before[c], own), behind[c]);
+              before[c] = own;
+            }
+          }
+        }
+      });
   }
 
   /** The cell nearest to p. */
@@ -255,6 +268,7 @@ private:
     return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
   }
 
+  const unsigned Threads;
   GridGeometry<D> Grid;
   Index Origin;
   Index Cells{};

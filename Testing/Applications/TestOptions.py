@@ -475,6 +475,13 @@ class Threads(ProgramTestCase):
             meshes.add((self.folder / "m.mesh").read_bytes())
         self.assertEqual(len(meshes), 1)
 
+    def test_reproducible(self):
+        meshes = set()
+        for threads in (1, 2, 5):
+            self.mesh("--input", self.input, "--delta", 0.6, "--threads", threads, "--reproducible", "--output", "m.mesh")
+            meshes.add((self.folder / "m.mesh").read_bytes())
+        self.assertEqual(len(meshes), 1)
+
     def test_quiet_about_rollbacks(self):
         """They are the business of --stats, unless something is wrong."""
         done = self.mesh("--input", self.input, "--delta", 0.6, "--threads", 8)
@@ -487,7 +494,7 @@ class Talk(ProgramTestCase):
     def test_help(self):
         done = self.call("--help")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        for flag in ("--threads", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
+        for flag in ("--threads", "--reproducible", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--exact-components", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",

@@ -139,6 +139,7 @@ void WriteThreads(const MeshingOptions<D>& options, CommandWriter& to)
     options.Team.Contention != usual.Team.Contention);
   to.Word("--balance " + std::string(BalancePolicyNames[std::size_t(options.Team.Balance)]),
     options.Team.Balance != usual.Team.Balance);
+  to.Word("--reproducible", options.Team.Reproducible);
   to.Word("--pin", options.Team.Pin);
   to.Word("--no-fine-grained", D == 4 && !options.Team.FineGrained);
   to.Unavailable("Synchronise", options.Team.Synchronise, usual.Team.Synchronise);

@@ -215,6 +215,11 @@ void DrawOptions(StressCase<D>& of, Random& random)
   {
     of.Options.Interfaces.Manifold = random.Chance(0.9);
   }
+  of.Options.Team.Reproducible = random.Chance(0.2);
+  if (of.Options.Team.Reproducible)
+  {
+    of.Twice = random.Chance(0.5) && of.Options.Optimisation.Seconds == 0.0;
+  }
 }
 
 template void DrawOptions<3>(StressCase<3>&, Random&);

@@ -138,6 +138,7 @@ bool Reducer<D>::ResetOptions()
   changed |= this->TryToSet(VOXPLEX_MEMBER(Twice), false);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Contention), usual.Team.Contention);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Balance), usual.Team.Balance);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Reproducible), false);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Pin), false);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Synchronise), false);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.RemoveEagerly), false);

@@ -60,7 +60,8 @@ struct StressCase
   Volume<D> Image;
   MeshingOptions<D> Options; ///< except Options.Size
   SizeRequest Size;
-  bool Twice = false; ///< mesh a second time and compare bit for bit
+  /** Mesh a second time and compare bit for bit; if reproducible, with another number of threads. */
+  bool Twice = false;
 
   ///@{
   /** Measures of the image's voxels; Measure() sets them. */

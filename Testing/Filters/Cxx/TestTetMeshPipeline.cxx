@@ -122,6 +122,7 @@ void TestExecutions()
   expectExecution("ContentionManager", [&] { filter->SetContentionManagerToGlobal(); });
   expectExecution("LoadBalancer", [&] { filter->SetLoadBalancerToRandomWorkStealing(); });
   expectExecution("PinThreads", [&] { filter->PinThreadsOn(); });
+  expectExecution("Reproducible", [&] { filter->ReproducibleOn(); });
   expectExecution("the image", [&] { image->Modified(); });
 
   executions = 0;
@@ -129,6 +130,7 @@ void TestExecutions()
   filter->SetContentionManagerToGlobal();
   filter->SetLoadBalancerToRandomWorkStealing();
   filter->PinThreadsOn();
+  filter->ReproducibleOn();
   filter->SetLabelSize(7, 1.0);
   filter->RemoveLabelSize(7);
   filter->RemoveLabel(99);
@@ -201,8 +203,8 @@ void TestPrintSelf()
       "LargestFeature: 12", "FacetAngle: 30", "SmoothingSigma: 1", "ElementSize: 0",
       "LabelSizes: 1=3.5", "SelectedLabels: 1", "SizeImplicitFunction:", "SizeFunction: (none)",
       "NumberOfThreads: 1", "ContentionManager: local", "LoadBalancer: hws", "PinThreads: Off",
-      "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off", "ErrorMessage: (none)",
-      "Aborted: No", "Statistics:", "NumberOfElements:" })
+      "Reproducible: Off", "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off",
+      "ErrorMessage: (none)", "Aborted: No", "Statistics:", "NumberOfElements:" })
   {
     CHECK(text.str().find(line) != std::string::npos, line);
   }

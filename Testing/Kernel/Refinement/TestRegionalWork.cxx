@@ -23,6 +23,12 @@ namespace
 /** Points of R1 keep Delta(z) from all others: a region has room for no more than this number of them. */
 constexpr std::uint64_t MostSampled = 1000;
 
+template <int D>
+auto Region(const Point<D>& place, double spacing)
+{
+  return RegionalWork<D>::RegionOf(place, spacing);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -32,16 +38,16 @@ TEST(RegionalWork, CountsTheInsertionsOfEachRegion)
   const Point<3> here{ 0.5, 0.5, 0.5 };
   const Point<3> beside{ 2.9, 0.1, 2.0 }; // in the same cell of side 3
   const Point<3> behind{ 3.1, 0.5, 0.5 };
-  EXPECT_EQ(work.At(here, 1.0), 0u);
+  EXPECT_EQ(work.At(Region<3>(here, 1.0)), 0u);
   for (std::uint32_t n = 0; n < 10; ++n)
   {
-    EXPECT_EQ(work.Add(n % 2 == 0 ? here : beside, 1.0 + 0.018 * n), n);
+    EXPECT_EQ(work.Add(Region<3>(n % 2 == 0 ? here : beside, 1.0 + 0.018 * n)), n);
   }
-  EXPECT_EQ(work.At(beside, 1.18), 10u);
-  EXPECT_EQ(work.At(behind, 1.18), 0u);
-  EXPECT_EQ(work.At(here, 0.99), 0u) << "finer regions have counts of their own";
-  EXPECT_EQ(work.At(here, 1.2), 0u);
-  EXPECT_EQ(work.At({ -0.5, 0.5, 0.5 }, 1.0), 0u);
+  EXPECT_EQ(work.At(Region<3>(beside, 1.18)), 10u);
+  EXPECT_EQ(work.At(Region<3>(behind, 1.18)), 0u);
+  EXPECT_EQ(work.At(Region<3>(here, 0.99)), 0u) << "finer regions have counts of their own";
+  EXPECT_EQ(work.At(Region<3>(here, 1.2)), 0u);
+  EXPECT_EQ(work.At(Region<3>({ -0.5, 0.5, 0.5 }, 1.0)), 0u);
 }
 
 // More regions than the table was made for: all are counted, few too often.
@@ -54,13 +60,13 @@ TEST(RegionalWork, NeverCountsTooFew)
   {
     for (int n = 0; n <= i % 3; ++n)
     {
-      work.Add(place(i), 1.0);
+      work.Add(Region<3>(place(i), 1.0));
     }
   }
   int tooOften = 0;
   for (int i = 0; i < regions; ++i)
   {
-    const auto counted = static_cast<int>(work.At(place(i), 1.0));
+    const auto counted = static_cast<int>(work.At(Region<3>(place(i), 1.0)));
     ASSERT_GE(counted, i % 3 + 1);
     ASSERT_LE(counted, 20);
     tooOften += counted > 3 ? 1 : 0;
@@ -79,12 +85,12 @@ TEST(RegionalWork, CountsWhatThreadsInsertAtOnce)
       {
         for (int n = 0; n < 10000; ++n)
         {
-          work.Add({ 0.5, 0.5, 0.5, 0.5 }, 1.0);
+          work.Add(Region<4>({ 0.5, 0.5, 0.5, 0.5 }, 1.0));
         }
       });
   }
   threads.clear();
-  EXPECT_EQ(work.At({ 0.5, 0.5, 0.5, 0.5 }, 1.0), 40000u);
+  EXPECT_EQ(work.At(Region<4>({ 0.5, 0.5, 0.5, 0.5 }, 1.0)), 40000u);
 }
 
 TEST(RegionalWork, RulesGiveWayStepByStep)

@@ -157,7 +157,7 @@ TEST_F(RulesInContention, APutOffRemovalBringsUpOthers)
   const VertexId far = insert({ 2.0, 0.0, 0.0 }, VertexKind::Free);
   mesh.Unlock(this->One.Kernel);
 
-  this->One.PendingRemovals.push_back({ first, z, 1.0 });
+  this->One.PendingRemovals.push_back({ first, mesh.Position(first), z, 1.0 });
   while (!this->One.PendingRemovals.empty())
   {
     EXPECT_NE(this->Rules.RemovePending(), RuleOutcome::Contended);

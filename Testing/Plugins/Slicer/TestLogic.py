@@ -94,7 +94,7 @@ class FilterRunner:
                  "gradation": "Gradation", "featureRatio": "FeatureRatio", "largestFeature": "LargestFeature",
                  "optimiseSeconds": "OptimisationTimeLimit", "interfaceRounds": "InterfaceRounds",
                  "smallestComponent": "SmallestComponent", "exactComponents": "ExactComponents", "minimumVolume": "MinimumComponentVolume",
-                 "threads": "NumberOfThreads", "force": "Force"}
+                 "threads": "NumberOfThreads", "reproducible": "Reproducible", "force": "Force"}
         for name, value in parameters.items():
             if name in names:
                 getattr(self.filter, "Set" + names[name])(value)

@@ -63,6 +63,7 @@ class Settings:
     inside: str = "above"  # or below
     greySmoothing: float = 0.0  # in voxels
     threads: int = 0  # 0: all cores
+    reproducible: bool = False  # the same mesh with any number of threads
     force: bool = False
 
     @classmethod

@@ -22,7 +22,7 @@ SPIN_BOXES = ("delta", "elements", "size", "smallestComponent", "gradation", "fe
               "greySmoothing", "threads")
 COMBO_BOXES = ("grading", "inside")
 SWITCHES = ("optimise", "junctions")  # check boxes of settings that are on or off
-FLAGS = ("exactComponents", "quality", "force")  # check boxes of settings that are true or false
+FLAGS = ("exactComponents", "quality", "reproducible", "force")  # check boxes of settings that are true or false
 
 
 class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
@@ -149,10 +149,12 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.buildInterfaces(form)
         self.buildBounds(form)
         self.threadsSpinBox = self.makeWholeSpinBox(4096, 1, "all cores", "With 1 the mesh is the same in every run")
+        self.reproducibleCheckBox = self.makeCheckBox("Make the same mesh with any number of threads")
         self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, the labels look "
                                                "like grey values, the radius-edge ratio is too low, or the sliver angle too "
                                                "large")
         form.addRow("Threads:", self.threadsSpinBox)
+        form.addRow("Reproducible:", self.reproducibleCheckBox)
         form.addRow("Force:", self.forceCheckBox)
 
     def buildInterfaces(self, form):

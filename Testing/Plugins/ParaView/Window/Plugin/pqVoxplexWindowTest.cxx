@@ -344,7 +344,7 @@ void pqVoxplexWindowTest::testPanel()
         "Delta", "NumberOfElements", "Grading", "SmoothingSigma", "InterfaceTable", "FacetAngle",
         "SampleJunctions", "InterfaceRounds", "Manifold", "ElementSize", "SizeImage", "SizeArray",
         "Gradation", "Optimise", "OptimisationTimeLimit", "RadiusEdgeRatio", "SliverAngle", "Force",
-        "NumberOfThreads", "ContentionManager", "LoadBalancer", "PinThreads" },
+        "NumberOfThreads", "Reproducible", "ContentionManager", "LoadBalancer", "PinThreads" },
       true);
     this->checkShown({ "Isovalue", "InsideLabel", "FeatureRatio", "LargestFeature" }, false);
     this->grab("panel-advanced.png");

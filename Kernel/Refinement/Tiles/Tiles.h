@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Tiles.h
+ * @brief Cuts space into tiles where little work is in the way.
+ */
+#ifndef voxplex_Tiles_h
+#define voxplex_Tiles_h
+
+#include "Geometry/Box.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/** A piece of work: a simplex, or a removal. */
+template <int D>
+struct TileItem
+{
+  Point<D> Place; ///< the item belongs to the tile that contains this point
+  double Reach;   ///< radius of the ball around it that the work is about
+  std::uint32_t Number;
+};
+
+/** A part of space, and the items in it. */
+template <int D>
+struct Tile
+{
+  HalfOpenBox<D> Extent;            ///< infinite where no plane cuts
+  std::vector<std::uint32_t> Items; ///< their numbers, ascending
+};
+
+/**
+ * @brief Cuts space by planes across the axes, as a k-d tree does.
+ *
+ * A plane is chosen that meets the fewest balls of items, and has enough items on both sides. An
+ * item whose ball meets a plane can probably not be done in a tile. So if the items were put off
+ * because of the planes of one tiling, the planes of the next tiling are elsewhere.
+ *
+ * Every point of space is in exactly one tile. The tiles depend on the items alone.
+ */
+template <int D>
+class TileCutter
+{
+public:
+  /** One tile: all of space. */
+  static std::vector<Tile<D>> Whole(const std::vector<TileItem<D>>& items)
+  {
+    std::vector<Tile<D>> tiles;
+    AddTile(items.begin(), items.end(), Space(), tiles);
+    return tiles;
+  }
+
+  /** Takes O(items) for each of MostCuts levels of the tree. */
+  static std::vector<Tile<D>> Cut(std::vector<TileItem<D>> items)
+  {
+    std::vector<Tile<D>> tiles;
+    Cut(items.begin(), items.end(), Space(), MostCuts, tiles);
+    return tiles;
+  }
+
+  /** If most items reach less far than this, Cut() makes at least two tiles. */
+  static double LargestReach(const std::vector<TileItem<D>>& items)
+  {
+    const auto [low, high] = Bounds(items.begin(), items.end());
+    double extent = 0.0;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      extent = std::max(extent, high[a] - low[a]);
+    }
+    return 0.5 * MostInTheWay * extent;
+  }
+
+private:
+  using Iterator = typename std::vector<TileItem<D>>::iterator;
+  using ConstIterator = typename std::vector<TileItem<D>>::const_iterator;
+
+  /** At most 2^MostCuts tiles. */
+  static constexpr unsigned MostCuts = 8;
+  /** A part with fewer items is not cut. */
+  static constexpr std::size_t FewestItems = 512;
+  /** The largest fraction of a part's items whose balls meet the plane. */
+  static constexpr double MostInTheWay = D == 3 ? 0.2 : 0.3;
+  /** Planes that are tried across each axis. */
+  static constexpr std::size_t Planes = 64;
+
+  struct Plane
+  {
+    std::size_t Axis = 0;
+    double Place = 0.0;
+    std::size_t Cost = std::numeric_limits<std::size_t>::max();
+  };
+
+  static HalfOpenBox<D> Space()
+  {
+    HalfOpenBox<D> space;
+    space.Min.fill(-std::numeric_limits<double>::infinity());
+    space.Max.fill(std::numeric_limits<double>::infinity());
+    return space;
+  }
+
+  static std::pair<Point<D>, Point<D>> Bounds(ConstIterator first, ConstIterator last)
+  {
+    std::pair<Point<D>, Point<D>> bounds{ first->Place, first->Place };
+    for (ConstIterator item = first; item != last; ++item)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        bounds.first[a] = std::min(bounds.first[a], item->Place[a]);
+        bounds.second[a] = std::max(bounds.second[a], item->Place[a]);
+      }
+    }
+    return bounds;
+  }
+
+  static void Cut(Iterator first, Iterator last, const HalfOpenBox<D>& extent, unsigned cuts,
+    std::vector<Tile<D>>& tiles)
+  {
+    const auto count = static_cast<std::size_t>(last - first);
+    const Plane plane = cuts > 0 && count >= FewestItems ? BestPlane(first, last) : Plane();
+    if (plane.Cost > count)
+    {
+      AddTile(first, last, extent, tiles);
+      return;
+    }
+    const Iterator middle = std::partition(first, last,
+      [&plane](const TileItem<D>& item) { return item.Place[plane.Axis] < plane.Place; });
+    HalfOpenBox<D> lower = extent;
+    HalfOpenBox<D> upper = extent;
+    lower.Max[plane.Axis] = plane.Place;
+    upper.Min[plane.Axis] = plane.Place;
+    Cut(first, middle, lower, cuts - 1, tiles);
+    Cut(middle, last, upper, cuts - 1, tiles);
+  }
+
+  /**
+   * The plane for which the larger side and the items in the way are fewest together. Its cost is
+   * above the number of items if there are too many in the way of every plane.
+   */
+  static Plane BestPlane(ConstIterator first, ConstIterator last)
+  {
+    const auto count = static_cast<std::size_t>(last - first);
+    const auto most = static_cast<std::size_t>(MostInTheWay * static_cast<double>(count));
+    const auto [low, high] = Bounds(first, last);
+    Plane best;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double step = (high[a] - low[a]) / static_cast<double>(Planes + 1);
+      const auto cellOf = [&, begin = low[a]](double x) // the number of planes below x
+      {
+        const double cell = std::ceil((x - begin) / step) - 1.0;
+        return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(Planes)));
+      };
+      if (!(step > 0.0))
+      {
+        continue;
+      }
+      std::array<std::size_t, Planes + 2> below{};   // items in a cell; then, below its upper plane
+      std::array<std::size_t, Planes + 2> entered{}; // balls that begin in a cell; then, so far
+      std::array<std::size_t, Planes + 2> left{};    // balls that end in a cell; then, so far
+      for (ConstIterator item = first; item != last; ++item)
+      {
+        ++below[cellOf(item->Place[a])];
+        ++entered[cellOf(item->Place[a] - item->Reach)];
+        ++left[cellOf(item->Place[a] + item->Reach)];
+      }
+      for (std::size_t k = 0; k < Planes; ++k)
+      {
+        below[k + 1] += below[k];
+        entered[k + 1] += entered[k];
+        left[k + 1] += left[k];
+        const std::size_t inTheWay = entered[k] - left[k];
+        const std::size_t cost = std::max(below[k], count - below[k]) + inTheWay;
+        if (inTheWay <= most && cost < best.Cost)
+        {
+          best = { a, low[a] + static_cast<double>(k + 1) * step, cost };
+        }
+      }
+    }
+    return best;
+  }
+
+  static void AddTile(ConstIterator first, ConstIterator last, const HalfOpenBox<D>& extent,
+    std::vector<Tile<D>>& tiles)
+  {
+    Tile<D>& tile = tiles.emplace_back(Tile<D>{ extent, {} });
+    tile.Items.reserve(static_cast<std::size_t>(last - first));
+    for (ConstIterator item = first; item != last; ++item)
+    {
+      tile.Items.push_back(item->Number);
+    }
+    std::sort(tile.Items.begin(), tile.Items.end());
+  }
+};
+
+} // namespace voxplex
+
+#endif

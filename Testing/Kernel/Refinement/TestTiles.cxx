@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Where space is cut into tiles, and the lattice that makes circumballs small beside them.
+#include "BallDomain.h"
+#include "Refinement/Tiles/CoarseLattice.h"
+#include "Refinement/Tiles/Tiles.h"
+#include "RefinementChecks.h"
+#include "TriangulationVerifier.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace voxplex;
+
+namespace
+{
+
+template <int D>
+std::vector<TileItem<D>> RandomItems(std::size_t number, double size, double reach)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(0.0, size);
+  std::vector<TileItem<D>> items(number);
+  for (std::size_t i = 0; i < number; ++i)
+  {
+    for (double& x : items[i].Place)
+    {
+      x = coordinate(random);
+    }
+    items[i].Reach = reach;
+    items[i].Number = static_cast<std::uint32_t>(3 * i);
+  }
+  return items;
+}
+
+template <int D>
+std::size_t CountInside(const Tile<D>& tile, const std::vector<TileItem<D>>& items)
+{
+  return static_cast<std::size_t>(std::count_if(tile.Items.begin(), tile.Items.end(),
+    [&](std::uint32_t i)
+    { return tile.Extent.ContainsBall(items[i / 3].Place, items[i / 3].Reach); }));
+}
+
+/** Every item is in the tile that contains its place, and no point is in two tiles. */
+template <int D>
+void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileItem<D>>& items)
+{
+  std::vector<int> times(items.size());
+  for (const Tile<D>& tile : tiles)
+  {
+    EXPECT_TRUE(std::is_sorted(tile.Items.begin(), tile.Items.end()));
+    for (const std::uint32_t i : tile.Items)
+    {
+      ASSERT_TRUE(tile.Extent.Contains(items[i / 3].Place));
+      ++times[i / 3];
+    }
+  }
+  EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> coordinate(-50.0, 250.0);
+  for (int k = 0; k < 1000; ++k)
+  {
+    Point<D> p;
+    for (double& x : p)
+    {
+      x = coordinate(random);
+    }
+    EXPECT_EQ(std::count_if(tiles.begin(), tiles.end(),
+                [&](const Tile<D>& tile) { return tile.Extent.Contains(p); }),
+      1);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(Tiles, CoverSpaceOnce)
+{
+  const auto items = RandomItems<3>(20000, 100.0, 1.0);
+  const auto tiles = TileCutter<3>::Cut(items);
+  EXPECT_GE(tiles.size(), 16u);
+  ExpectPartition<3>(tiles, items);
+  const auto items4 = RandomItems<4>(20000, 100.0, 1.0);
+  const auto tiles4 = TileCutter<4>::Cut(items4);
+  EXPECT_GE(tiles4.size(), 16u);
+  ExpectPartition<4>(tiles4, items4);
+}
+
+TEST(Tiles, HaveAboutTheSameWork)
+{
+  const auto items = RandomItems<3>(20000, 100.0, 1.0);
+  std::size_t most = 0;
+  const auto tiles = TileCutter<3>::Cut(items);
+  for (const Tile<3>& tile : tiles)
+  {
+    most = std::max(most, tile.Items.size());
+  }
+  EXPECT_LT(most, 3 * items.size() / tiles.size());
+}
+
+// With balls as large as this, most would be in the way of any plane.
+TEST(Tiles, AreNotCutWhereMostItemsAreInTheWay)
+{
+  const auto items = RandomItems<3>(20000, 100.0, 30.0);
+  EXPECT_EQ(TileCutter<3>::Cut(items).size(), 1u);
+  EXPECT_EQ(TileCutter<3>::Whole(items).size(), 1u);
+  ExpectPartition<3>(TileCutter<3>::Whole(items), items);
+  const double largest = TileCutter<3>::LargestReach(items);
+  EXPECT_GT(largest, 2.0);
+  EXPECT_LT(largest, 30.0);
+  EXPECT_GE(TileCutter<3>::Cut(RandomItems<3>(20000, 100.0, 0.9 * largest)).size(), 2u);
+  EXPECT_EQ(TileCutter<3>::Cut(RandomItems<3>(100, 100.0, 0.01)).size(), 1u) << "too few";
+}
+
+// What was put off lies along the planes of the last tiling. The next planes must be elsewhere.
+TEST(Tiles, AreCutElsewhereTheNextTime)
+{
+  std::vector<TileItem<3>> items = RandomItems<3>(20000, 100.0, 2.0);
+  std::size_t passes = 0;
+  while (items.size() > 500 && passes < 20)
+  {
+    const auto tiles = TileCutter<3>::Cut(items);
+    std::vector<TileItem<3>> left;
+    for (const Tile<3>& tile : tiles)
+    {
+      for (const std::uint32_t i : tile.Items)
+      {
+        if (!tile.Extent.ContainsBall(items[i / 3].Place, items[i / 3].Reach))
+        {
+          left.push_back(items[i / 3]);
+        }
+      }
+    }
+    items = left;
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+      items[i].Number = static_cast<std::uint32_t>(3 * i);
+    }
+    ++passes;
+  }
+  EXPECT_LE(passes, 6u);
+}
+
+TEST(Tiles, ItemsInOnePlaceAreNotCut)
+{
+  std::vector<TileItem<3>> items(5000, TileItem<3>{ { 1.0, 2.0, 3.0 }, 0.0, 0 });
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    items[i].Number = static_cast<std::uint32_t>(3 * i);
+  }
+  const auto tiles = TileCutter<3>::Cut(items);
+  ASSERT_EQ(tiles.size(), 1u);
+  EXPECT_EQ(CountInside<3>(tiles[0], items), items.size());
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(CoarseLattice, LiesInTheBoxAndOnItsFaces)
+{
+  const checks::BallDomain ball(20.0);
+  RefinementSettings<3> settings;
+  settings.Sizing.Base = { 1.0 };
+  RefinementContext<3> context(ball, settings, checks::Around(ball, 1.0), 1000);
+  const Box<3>& box = context.Mesh.GetBox();
+  const auto nodes = MakeCoarseLattice(context, 5.0, 1.5, 1);
+  std::size_t onFaces = 0;
+  for (const LatticeNode<3>& node : nodes)
+  {
+    ASSERT_TRUE(box.Contains(node.Position));
+    ASSERT_GE(ball.DistanceBound(node.Position), 1.5);
+    bool isOnFace = false;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      isOnFace |= node.Position[a] == box.Min[a] || node.Position[a] == box.Max[a];
+    }
+    ASSERT_EQ(node.Kind == VertexKind::Box, isOnFace);
+    onFaces += isOnFace ? 1 : 0;
+  }
+  EXPECT_GT(onFaces, 20u);
+  EXPECT_GT(nodes.size(), onFaces + 100);
+
+  const auto again = MakeCoarseLattice(context, 5.0, 1.5, 4);
+  ASSERT_EQ(again.size(), nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    ASSERT_EQ(again[i].Position, nodes[i].Position);
+  }
+}
+
+TEST(CoarseLattice, BoundsCircumballsNearInterfaces)
+{
+  const checks::BallDomain ball(40.0);
+  RefinementSettings<3> settings;
+  settings.Sizing.Base = { 1.0 };
+  RefinementContext<3> context(ball, settings, checks::Around(ball, 1.0), 1000);
+  RefinementWorker<3> worker(context);
+  const auto nodes = MakeCoarseLattice(context, 5.0, 1.5, 1);
+  InsertCoarseLattice(context, worker, nodes);
+  const std::vector<std::string> complaints = checks::Verify(context.Mesh);
+  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  std::size_t near = 0;
+  std::size_t farther = 0;
+  for (SimplexId s = 0; s < context.Mesh.SimplexIdEnd(); ++s)
+  {
+    if (context.Mesh.IsAlive(s))
+    {
+      const Circumball<3> circumball = context.Mesh.GetCircumball(s);
+      const double radius = std::sqrt(circumball.Radius2);
+      const double distance = ball.DistanceBound(circumball.Center);
+      near += distance < radius ? 1 : 0;
+      ASSERT_LT(radius, distance < 5.0 ? 10.0 : 40.0);
+      farther += distance > 20.0 && radius > 8.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(near, 1000u);
+  EXPECT_GT(farther, 10u) << "far from interfaces the lattice is coarser";
+}
