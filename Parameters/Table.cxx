@@ -232,8 +232,8 @@ Parameters Running()
 {
   return {
     Number(Kind::Whole, "threads", 0, { 0.0, 4096.0 }, "0", "NUMBER",
-      "threads to use in every stage, refinement included; with 1 the mesh is the same, bit for "
-      "bit, in every run",
+      "threads to use in every stage, refinement included; with 1, or with reproducible, the mesh is "
+      "the same, bit for bit, in every run",
       { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
     Flag("reproducible", 0, "off", "make the same mesh, bit for bit, with any number of threads",
       { .Property = "Reproducible", .Label = "Reproducible" }),

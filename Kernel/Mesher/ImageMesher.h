@@ -33,7 +33,7 @@ enum class MeshingOutcome
  * @brief Meshes one label image, or the inside of an isosurface.
  *
  * Run() may be called repeatedly. Distinct instances may run at the same time in one process. With
- * one thread, the mesh is bit-for-bit reproducible.
+ * one thread, or with TeamOptions::Reproducible, the mesh is bit-for-bit reproducible.
  */
 template <int D>
 class ImageMesher

@@ -148,7 +148,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         form = self.addSection("Advanced", collapsed=True)
         self.buildInterfaces(form)
         self.buildBounds(form)
-        self.threadsSpinBox = self.makeWholeSpinBox(4096, 1, "all cores", "With 1 the mesh is the same in every run")
+        self.threadsSpinBox = self.makeWholeSpinBox(4096, 1, "all cores", "With 1, or with Reproducible, the mesh is the same in every run")
         self.reproducibleCheckBox = self.makeCheckBox("Make the same mesh with any number of threads")
         self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, the labels look "
                                                "like grey values, the radius-edge ratio is too low, or the sliver angle too "
