@@ -9,6 +9,7 @@
 
 #include "Base/GridIndex.h"
 #include "Geometry/HilbertOrder.h"
+#include "Parallel/ParallelFor.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
@@ -20,10 +21,66 @@ namespace voxplex
 {
 
 /**
- * Feature points closest to the nodes of a coarse lattice over the domain. No point is near a flat
- * end. R1 might insert the same points, so the guarantees of the rules stay the same. InsertSeeds()
- * skips points that are nearer than delta to another.
+ * Feature points closest to the nodes of a lattice over the domain. No point is near a flat end. R1
+ * might insert the same points, so the guarantees of the rules stay the same. InsertSeeds() skips
+ * points that are nearer than delta to another.
  *
+ * @param spacing of the nodes
+ * @param reach nodes that are farther from all interfaces give no point
+ */
+template <int D>
+std::vector<FeatureSeed<D>> SampleInterfaces(
+  const RefinementContext<D>& context, double spacing, double reach, unsigned threads = 1)
+{
+  constexpr std::size_t grain = 1024;
+  const Box<D> bounds = context.Image.Bounds();
+  std::array<std::size_t, static_cast<std::size_t>(D)> nodes;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    nodes[a] =
+      std::max<std::size_t>(1, static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) / spacing));
+  }
+  const auto sampleFrom = [&](std::size_t k, std::vector<FeatureSeed<D>>& sample)
+  {
+    const auto node = IndexAt(k, nodes);
+    Point<D> p;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const double fraction = (static_cast<double>(node[a]) + 0.5) / static_cast<double>(nodes[a]);
+      p[a] = bounds.Min[a] + fraction * (bounds.Max[a] - bounds.Min[a]);
+    }
+    Point<D> z;
+    Point<D> onEnd;
+    const LabelId label = context.Image.Label(p);
+    if (context.Image.DistanceBound(p) < reach && context.Image.ClosestSurfacePoint(p, label, z) &&
+      !context.IsNearEnd(z, context.Sizing.Base().Delta, onEnd))
+    {
+      const double delta = context.Sizing.BaseAt(z);
+      sample.push_back({ z,
+        context.Sizing.Sources().Interfaces
+          ? std::max(delta, context.Sizing.SamplingDistanceBehind(p, label, z))
+          : delta });
+    }
+  };
+  std::vector<std::vector<FeatureSeed<D>>> parts(CountCells(nodes) / grain + 1);
+  ParallelFor(0, CountCells(nodes), grain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        sampleFrom(k, parts[first / grain]);
+      }
+    });
+  std::vector<FeatureSeed<D>> sample;
+  for (const std::vector<FeatureSeed<D>>& part : parts)
+  {
+    sample.insert(sample.end(), part.begin(), part.end());
+  }
+  return sample;
+}
+
+/**
+ * A sample for threads to start from.
  * @param number approximate number of nodes; fewer if these would be nearer than a few delta; 0 for
  *   none
  */
@@ -45,37 +102,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
   constexpr double FewestDeltas = 4.0;
   const double spacing =
     std::max(FewestDeltas * finest, std::pow(volume / static_cast<double>(number), 1.0 / D));
-  std::array<std::size_t, static_cast<std::size_t>(D)> nodes;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    nodes[a] =
-      std::max<std::size_t>(1, static_cast<std::size_t>((bounds.Max[a] - bounds.Min[a]) / spacing));
-  }
-  std::vector<FeatureSeed<D>> sample;
-  for (std::size_t k = 0; k < CountCells(nodes); ++k)
-  {
-    const auto node = IndexAt(k, nodes);
-    Point<D> p;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const double fraction = (static_cast<double>(node[a]) + 0.5) / static_cast<double>(nodes[a]);
-      p[a] = bounds.Min[a] + fraction * (bounds.Max[a] - bounds.Min[a]);
-    }
-    Point<D> z;
-    Point<D> onEnd;
-    const LabelId label = context.Image.Label(p);
-    if (context.Image.DistanceBound(p) < spacing &&
-      context.Image.ClosestSurfacePoint(p, label, z) &&
-      !context.IsNearEnd(z, context.Sizing.Base().Delta, onEnd))
-    {
-      const double delta = context.Sizing.BaseAt(z);
-      sample.push_back({ z,
-        context.Sizing.Sources().Interfaces
-          ? std::max(delta, context.Sizing.SamplingDistanceBehind(p, label, z))
-          : delta });
-    }
-  }
-  return sample;
+  return SampleInterfaces(context, spacing, spacing);
 }
 
 /**

@@ -87,7 +87,7 @@ private:
   /** A part with fewer items is not cut. */
   static constexpr std::size_t FewestItems = 512;
   /** The largest fraction of a part's items whose balls meet the plane. */
-  static constexpr double MostInTheWay = D == 3 ? 0.2 : 0.3;
+  static constexpr double MostInTheWay = D == 3 ? 0.25 : 0.3;
   /** Planes that are tried across each axis. */
   static constexpr std::size_t Planes = 64;
 
