@@ -9,6 +9,8 @@
 
 #include "Geometry/Point.h"
 
+#include <limits>
+
 namespace voxplex
 {
 
@@ -62,13 +64,15 @@ struct HalfOpenBox
     return inside;
   }
 
-  /** Whether all points nearer to p than a radius are in the box. */
+  /** Whether a ball is in the box. No ball is too large for bounds that are infinite. */
   bool ContainsBall(const Point<D>& p, double radius) const
   {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     bool inside = true;
     for (std::size_t a = 0; a < D; ++a)
     {
-      inside &= p[a] - radius >= this->Min[a] && p[a] + radius < this->Max[a];
+      inside &= this->Min[a] == -infinity || p[a] - radius >= this->Min[a];
+      inside &= this->Max[a] == infinity || p[a] + radius < this->Max[a];
     }
     return inside;
   }

@@ -276,8 +276,8 @@ private:
   }
 
   /**
-   * Where the work is: entries, then slivers, then removals. A simplex is where its first vertex
-   * is, so no thread can delete it that refines another tile. What is void has no item.
+   * Where the work is: entries, then slivers, then removals. An entry is at its circumcentre. What
+   * is void has no item.
    */
   std::vector<TileItem<D>> ItemsOf(const Work& work) const
   {
@@ -299,9 +299,12 @@ private:
     };
     const auto itemOfEntry = [&](const Entry& e)
     {
-      return this->IsAlive(e) ? TileItem<D>{ mesh.Position(mesh.GetSimplex(e.Id).V[0]),
-        Reach * std::sqrt(mesh.GetCircumball(e.Id).Radius2), 0 }
-                              : TileItem<D>{ {}, nothing, 0 };
+      if (!this->IsAlive(e))
+      {
+        return TileItem<D>{ {}, nothing, 0 };
+      }
+      const Circumball<D> ball = mesh.GetCircumball(e.Id);
+      return TileItem<D>{ ball.Center, Reach * std::sqrt(ball.Radius2), 0 };
     };
     const std::size_t slivers = work.Entries.size();
     const std::size_t removals = slivers + work.Slivers.size();
@@ -319,30 +322,35 @@ private:
     return items;
   }
 
+  /** Items that do not fit into their tiles are put off, so no thread looks at them. */
   static std::vector<TileTask> Distribute(const std::vector<Tile<D>>& tiles, const Work& work)
   {
-    std::vector<TileTask> tasks;
     const std::size_t slivers = work.Entries.size();
     const std::size_t removals = slivers + work.Slivers.size();
-    for (const Tile<D>& tile : tiles)
+    const auto select = [&](const std::vector<std::uint32_t>& items)
     {
-      TileTask& task = tasks.emplace_back();
-      task.Extent = tile.Extent;
-      for (const std::uint32_t i : tile.Items)
+      Work selected;
+      for (const std::uint32_t i : items)
       {
         if (i < slivers)
         {
-          task.ToDo.Entries.push_back(work.Entries[i]);
+          selected.Entries.push_back(work.Entries[i]);
         }
         else if (i < removals)
         {
-          task.ToDo.Slivers.push_back(work.Slivers[i - slivers]);
+          selected.Slivers.push_back(work.Slivers[i - slivers]);
         }
         else
         {
-          task.ToDo.Removals.push_back(work.Removals[i - removals]);
+          selected.Removals.push_back(work.Removals[i - removals]);
         }
       }
+      return selected;
+    };
+    std::vector<TileTask> tasks;
+    for (const Tile<D>& tile : tiles)
+    {
+      tasks.push_back({ tile.Extent, select(tile.Inside), select(tile.Across), {} });
     }
     return tasks;
   }

@@ -29,12 +29,13 @@ struct TileItem
   std::uint32_t Number;
 };
 
-/** A part of space, and the items in it. */
+/** A part of space, and the numbers of the items in it, ascending. */
 template <int D>
 struct Tile
 {
-  HalfOpenBox<D> Extent;            ///< infinite where no plane cuts
-  std::vector<std::uint32_t> Items; ///< their numbers, ascending
+  HalfOpenBox<D> Extent;             ///< infinite where no plane cuts
+  std::vector<std::uint32_t> Inside; ///< items whose balls are in the tile
+  std::vector<std::uint32_t> Across; ///< items whose balls meet another tile
 };
 
 /**
@@ -83,11 +84,13 @@ private:
   using ConstIterator = typename std::vector<TileItem<D>>::const_iterator;
 
   /** At most 2^MostCuts tiles. */
-  static constexpr unsigned MostCuts = 8;
+  static constexpr unsigned MostCuts = 5;
   /** A part with fewer items is not cut. */
   static constexpr std::size_t FewestItems = 512;
   /** The largest fraction of a part's items whose balls meet the plane. */
   static constexpr double MostInTheWay = D == 3 ? 0.25 : 0.3;
+  /** With more items, a plane is chosen by some of them. */
+  static constexpr std::ptrdiff_t MostLookedAt = 2048;
   /** Planes that are tried across each axis. */
   static constexpr std::size_t Planes = 64;
 
@@ -106,15 +109,17 @@ private:
     return space;
   }
 
-  static std::pair<Point<D>, Point<D>> Bounds(ConstIterator first, ConstIterator last)
+  static std::pair<Point<D>, Point<D>> Bounds(
+    ConstIterator first, ConstIterator last, std::ptrdiff_t stride = 1)
   {
     std::pair<Point<D>, Point<D>> bounds{ first->Place, first->Place };
-    for (ConstIterator item = first; item != last; ++item)
+    for (std::ptrdiff_t i = 0; i < last - first; i += stride)
     {
+      const Point<D>& place = (first + i)->Place;
       for (std::size_t a = 0; a < D; ++a)
       {
-        bounds.first[a] = std::min(bounds.first[a], item->Place[a]);
-        bounds.second[a] = std::max(bounds.second[a], item->Place[a]);
+        bounds.first[a] = std::min(bounds.first[a], place[a]);
+        bounds.second[a] = std::max(bounds.second[a], place[a]);
       }
     }
     return bounds;
@@ -125,7 +130,7 @@ private:
   {
     const auto count = static_cast<std::size_t>(last - first);
     const Plane plane = cuts > 0 && count >= FewestItems ? BestPlane(first, last) : Plane();
-    if (plane.Cost > count)
+    if (plane.Cost == Plane().Cost)
     {
       AddTile(first, last, extent, tiles);
       return;
@@ -142,13 +147,14 @@ private:
 
   /**
    * The plane for which the larger side and the items in the way are fewest together. Its cost is
-   * above the number of items if there are too many in the way of every plane.
+   * the largest number if there are too many in the way of every plane.
    */
   static Plane BestPlane(ConstIterator first, ConstIterator last)
   {
-    const auto count = static_cast<std::size_t>(last - first);
+    const auto stride = (last - first) / MostLookedAt + 1;
+    const auto count = static_cast<std::size_t>((last - first - 1) / stride + 1);
     const auto most = static_cast<std::size_t>(MostInTheWay * static_cast<double>(count));
-    const auto [low, high] = Bounds(first, last);
+    const auto [low, high] = Bounds(first, last, stride);
     Plane best;
     for (std::size_t a = 0; a < D; ++a)
     {
@@ -165,8 +171,9 @@ private:
       std::array<std::size_t, Planes + 2> below{};   // items in a cell; then, below its upper plane
       std::array<std::size_t, Planes + 2> entered{}; // balls that begin in a cell; then, so far
       std::array<std::size_t, Planes + 2> left{};    // balls that end in a cell; then, so far
-      for (ConstIterator item = first; item != last; ++item)
+      for (std::ptrdiff_t i = 0; i < last - first; i += stride)
       {
+        const ConstIterator item = first + i;
         ++below[cellOf(item->Place[a])];
         ++entered[cellOf(item->Place[a] - item->Reach)];
         ++left[cellOf(item->Place[a] + item->Reach)];
@@ -190,13 +197,14 @@ private:
   static void AddTile(ConstIterator first, ConstIterator last, const HalfOpenBox<D>& extent,
     std::vector<Tile<D>>& tiles)
   {
-    Tile<D>& tile = tiles.emplace_back(Tile<D>{ extent, {} });
-    tile.Items.reserve(static_cast<std::size_t>(last - first));
+    Tile<D>& tile = tiles.emplace_back(Tile<D>{ extent, {}, {} });
     for (ConstIterator item = first; item != last; ++item)
     {
-      tile.Items.push_back(item->Number);
+      const bool isInside = extent.ContainsBall(item->Place, item->Reach);
+      (isInside ? tile.Inside : tile.Across).push_back(item->Number);
     }
-    std::sort(tile.Items.begin(), tile.Items.end());
+    std::sort(tile.Inside.begin(), tile.Inside.end());
+    std::sort(tile.Across.begin(), tile.Across.end());
   }
 };
 

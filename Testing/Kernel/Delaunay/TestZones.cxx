@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <thread>
 #include <vector>
@@ -177,5 +178,6 @@ TEST(Zones, HalfOpenBoxesTileSpace)
   EXPECT_TRUE(box.ContainsBall({ 0.5, 0.5, 0.5 }, 0.4));
   EXPECT_FALSE(box.ContainsBall({ 0.5, 0.5, 0.5 }, 0.5)) << "its upper faces are not part of it";
   EXPECT_FALSE(box.ContainsBall({ 0.3, 0.5, 0.5 }, 0.4));
-  EXPECT_TRUE(Everywhere<3>().ContainsBall({ 1e300, 0.0, 0.0 }, 1e300));
+  EXPECT_TRUE(
+    Everywhere<3>().ContainsBall({ 1e300, 0.0, 0.0 }, std::numeric_limits<double>::infinity()));
 }

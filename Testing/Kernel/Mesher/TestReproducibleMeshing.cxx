@@ -39,7 +39,9 @@ void ExpectSameForAnyNumberOfThreads(
   options.Limits.Force = true;
   SimplexMesh<D> expected;
   RuleStatistics rules;
-  for (const unsigned threads : { 1u, 2u, 3u, 8u, 16u })
+  const std::vector<unsigned> numbers =
+    Sanitized ? std::vector<unsigned>{ 1, 2, 5 } : std::vector<unsigned>{ 1, 2, 3, 8, 16 };
+  for (const unsigned threads : numbers)
   {
     const Watchdog watchdog(name + ", threads: " + std::to_string(threads));
     SCOPED_TRACE(std::to_string(threads) + " threads");
@@ -116,7 +118,7 @@ TEST(ReproducibleMeshing, Sizes)
   ExpectSameForAnyNumberOfThreads<3>("graded", phantoms::Torus(14.0, 3.0), options);
   options = Default(0.0);
   options.Sampling.Delta = 0.0;
-  options.Sampling.Elements = 20000;
+  options.Sampling.Elements = Sanitized ? 5000 : 20000;
   ExpectSameForAnyNumberOfThreads<3>("20,000 elements", phantoms::Ball(12.0), options);
 }
 

@@ -7,6 +7,7 @@
 #include "Refinement/Rules4D.h"
 #include "Refinement/Tiles/TiledRefiner.h"
 #include "RefinementChecks.h"
+#include "Sanitizers.h"
 #include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
@@ -96,11 +97,12 @@ TEST(TiledRefinement, DoesNotDependOnThreads3D)
 
 TEST(TiledRefinement, DoesNotDependOnThreads4D)
 {
-  const Result<4> one = Refine<Rules4D>(12.0, 2.0, 1);
+  const double radius = Sanitized ? 8.0 : 12.0;
+  const Result<4> one = Refine<Rules4D>(radius, 2.0, 1);
   EXPECT_GT(one.Simplices.size(), 5000u);
   for (const unsigned threads : { 2u, 5u })
   {
-    const Result<4> several = Refine<Rules4D>(12.0, 2.0, threads);
+    const Result<4> several = Refine<Rules4D>(radius, 2.0, threads);
     EXPECT_TRUE(several.Positions == one.Positions) << threads;
     EXPECT_TRUE(several.Simplices == one.Simplices) << threads;
     EXPECT_EQ(several.Evaluated, one.Evaluated) << threads;

@@ -37,14 +37,6 @@ std::vector<TileItem<D>> RandomItems(std::size_t number, double size, double rea
   return items;
 }
 
-template <int D>
-std::size_t CountInside(const Tile<D>& tile, const std::vector<TileItem<D>>& items)
-{
-  return static_cast<std::size_t>(std::count_if(tile.Items.begin(), tile.Items.end(),
-    [&](std::uint32_t i)
-    { return tile.Extent.ContainsBall(items[i / 3].Place, items[i / 3].Reach); }));
-}
-
 /** Every item is in the tile that contains its place, and no point is in two tiles. */
 template <int D>
 void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileItem<D>>& items)
@@ -52,11 +44,17 @@ void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileIt
   std::vector<int> times(items.size());
   for (const Tile<D>& tile : tiles)
   {
-    EXPECT_TRUE(std::is_sorted(tile.Items.begin(), tile.Items.end()));
-    for (const std::uint32_t i : tile.Items)
+    for (const bool inside : { true, false })
     {
-      ASSERT_TRUE(tile.Extent.Contains(items[i / 3].Place));
-      ++times[i / 3];
+      const std::vector<std::uint32_t>& numbers = inside ? tile.Inside : tile.Across;
+      EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+      for (const std::uint32_t i : numbers)
+      {
+        const TileItem<D>& item = items[i / 3];
+        ASSERT_TRUE(tile.Extent.Contains(item.Place));
+        ASSERT_EQ(tile.Extent.ContainsBall(item.Place, item.Reach), inside);
+        ++times[i / 3];
+      }
     }
   }
   EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
@@ -97,7 +95,7 @@ TEST(Tiles, HaveAboutTheSameWork)
   const auto tiles = TileCutter<3>::Cut(items);
   for (const Tile<3>& tile : tiles)
   {
-    most = std::max(most, tile.Items.size());
+    most = std::max(most, tile.Inside.size() + tile.Across.size());
   }
   EXPECT_LT(most, 3 * items.size() / tiles.size());
 }
@@ -127,12 +125,9 @@ TEST(Tiles, AreCutElsewhereTheNextTime)
     std::vector<TileItem<3>> left;
     for (const Tile<3>& tile : tiles)
     {
-      for (const std::uint32_t i : tile.Items)
+      for (const std::uint32_t i : tile.Across)
       {
-        if (!tile.Extent.ContainsBall(items[i / 3].Place, items[i / 3].Reach))
-        {
-          left.push_back(items[i / 3]);
-        }
+        left.push_back(items[i / 3]);
       }
     }
     items = left;
@@ -154,7 +149,7 @@ TEST(Tiles, ItemsInOnePlaceAreNotCut)
   }
   const auto tiles = TileCutter<3>::Cut(items);
   ASSERT_EQ(tiles.size(), 1u);
-  EXPECT_EQ(CountInside<3>(tiles[0], items), items.size());
+  EXPECT_EQ(tiles[0].Inside.size(), items.size());
 }
 
 //------------------------------------------------------------------------------------------------
