@@ -242,16 +242,17 @@ private:
    */
   Work RefineAll(Work work, bool putsSliversOff)
   {
+    const Box<D>& box = this->Context.Mesh.GetBox();
     Work slivers;
     for (unsigned pass = 0; work.Size() > 0 && !this->IsStopped(); ++pass)
     {
       std::vector<TileItem<D>> items = this->ItemsOf(work);
-      const bool isLittle = items.size() < this->Fewest || pass == MostTilings;
+      const bool isLittle = items.size() < this->Fewest || pass >= MostTilings;
       std::vector<Tile<D>> tiles =
-        isLittle ? TileCutter<D>::Whole(items) : TileCutter<D>::Cut(items);
+        isLittle ? TileCutter<D>::Whole(items) : TileCutter<D>::Cut(items, box);
       // If circumballs are too large for tiles, one thread refines the largest.
       const double smallest = tiles.size() == 1 && !isLittle && pass == 0
-        ? TileCutter<D>::LargestReach(items) / Reach
+        ? TileCutter<D>::LargestReach(items, box) / Reach
         : 0.0;
       this->NumberOfTiles += tiles.size() > 1 ? tiles.size() : 0;
       std::vector<TileTask> tasks = this->Distribute(tiles, work);
@@ -459,7 +460,7 @@ private:
       return false;
     }
     const Circumball<D> ball = this->Context.Mesh.GetCircumball(e.Id);
-    return ball.Radius2 >= smallest * smallest &&
+    return !(ball.Radius2 < smallest * smallest) &&
       me.Zone->Extent.ContainsBall(ball.Center, Reach * std::sqrt(ball.Radius2));
   }
 

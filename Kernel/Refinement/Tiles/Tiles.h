@@ -59,18 +59,21 @@ public:
     return tiles;
   }
 
-  /** Takes O(items) for each of MostCuts levels of the tree. */
-  static std::vector<Tile<D>> Cut(std::vector<TileItem<D>> items)
+  /**
+   * Takes O(items) for each of MostCuts levels of the tree.
+   * @param box all planes cut it; items may be anywhere, as circumcentres of flat simplices are
+   */
+  static std::vector<Tile<D>> Cut(std::vector<TileItem<D>> items, const Box<D>& box)
   {
     std::vector<Tile<D>> tiles;
-    Cut(items.begin(), items.end(), Space(), MostCuts, tiles);
+    Cut(items.begin(), items.end(), Space(), box, MostCuts, tiles);
     return tiles;
   }
 
   /** If most items reach less far than this, Cut() makes at least two tiles. */
-  static double LargestReach(const std::vector<TileItem<D>>& items)
+  static double LargestReach(const std::vector<TileItem<D>>& items, const Box<D>& box)
   {
-    const auto [low, high] = Bounds(items.begin(), items.end());
+    const auto [low, high] = Bounds(items.begin(), items.end(), box);
     double extent = 0.0;
     for (std::size_t a = 0; a < D; ++a)
     {
@@ -109,13 +112,14 @@ private:
     return space;
   }
 
+  /** Of the items' places, moved into a box. */
   static std::pair<Point<D>, Point<D>> Bounds(
-    ConstIterator first, ConstIterator last, std::ptrdiff_t stride = 1)
+    ConstIterator first, ConstIterator last, const Box<D>& box, std::ptrdiff_t stride = 1)
   {
-    std::pair<Point<D>, Point<D>> bounds{ first->Place, first->Place };
+    std::pair<Point<D>, Point<D>> bounds{ box.Clamp(first->Place), box.Clamp(first->Place) };
     for (std::ptrdiff_t i = 0; i < last - first; i += stride)
     {
-      const Point<D>& place = (first + i)->Place;
+      const Point<D> place = box.Clamp((first + i)->Place);
       for (std::size_t a = 0; a < D; ++a)
       {
         bounds.first[a] = std::min(bounds.first[a], place[a]);
@@ -125,11 +129,11 @@ private:
     return bounds;
   }
 
-  static void Cut(Iterator first, Iterator last, const HalfOpenBox<D>& extent, unsigned cuts,
-    std::vector<Tile<D>>& tiles)
+  static void Cut(Iterator first, Iterator last, const HalfOpenBox<D>& extent, const Box<D>& box,
+    unsigned cuts, std::vector<Tile<D>>& tiles)
   {
     const auto count = static_cast<std::size_t>(last - first);
-    const Plane plane = cuts > 0 && count >= FewestItems ? BestPlane(first, last) : Plane();
+    const Plane plane = cuts > 0 && count >= FewestItems ? BestPlane(first, last, box) : Plane();
     if (plane.Cost == Plane().Cost)
     {
       AddTile(first, last, extent, tiles);
@@ -141,20 +145,20 @@ private:
     HalfOpenBox<D> upper = extent;
     lower.Max[plane.Axis] = plane.Place;
     upper.Min[plane.Axis] = plane.Place;
-    Cut(first, middle, lower, cuts - 1, tiles);
-    Cut(middle, last, upper, cuts - 1, tiles);
+    Cut(first, middle, lower, box, cuts - 1, tiles);
+    Cut(middle, last, upper, box, cuts - 1, tiles);
   }
 
   /**
    * The plane for which the larger side and the items in the way are fewest together. Its cost is
    * the largest number if there are too many in the way of every plane.
    */
-  static Plane BestPlane(ConstIterator first, ConstIterator last)
+  static Plane BestPlane(ConstIterator first, ConstIterator last, const Box<D>& box)
   {
     const auto stride = (last - first) / MostLookedAt + 1;
     const auto count = static_cast<std::size_t>((last - first - 1) / stride + 1);
     const auto most = static_cast<std::size_t>(MostInTheWay * static_cast<double>(count));
-    const auto [low, high] = Bounds(first, last, stride);
+    const auto [low, high] = Bounds(first, last, box, stride);
     Plane best;
     for (std::size_t a = 0; a < D; ++a)
     {

@@ -37,6 +37,16 @@ std::vector<TileItem<D>> RandomItems(std::size_t number, double size, double rea
   return items;
 }
 
+/** The box in which the items are. */
+template <int D>
+Box<D> Cube()
+{
+  Box<D> box;
+  box.Min.fill(0.0);
+  box.Max.fill(100.0);
+  return box;
+}
+
 /** Every item is in the tile that contains its place, and no point is in two tiles. */
 template <int D>
 void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileItem<D>>& items)
@@ -79,11 +89,11 @@ void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileIt
 TEST(Tiles, CoverSpaceOnce)
 {
   const auto items = RandomItems<3>(20000, 100.0, 1.0);
-  const auto tiles = TileCutter<3>::Cut(items);
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
   EXPECT_GE(tiles.size(), 16u);
   ExpectPartition<3>(tiles, items);
   const auto items4 = RandomItems<4>(20000, 100.0, 1.0);
-  const auto tiles4 = TileCutter<4>::Cut(items4);
+  const auto tiles4 = TileCutter<4>::Cut(items4, Cube<4>());
   EXPECT_GE(tiles4.size(), 16u);
   ExpectPartition<4>(tiles4, items4);
 }
@@ -92,7 +102,7 @@ TEST(Tiles, HaveAboutTheSameWork)
 {
   const auto items = RandomItems<3>(20000, 100.0, 1.0);
   std::size_t most = 0;
-  const auto tiles = TileCutter<3>::Cut(items);
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
   for (const Tile<3>& tile : tiles)
   {
     most = std::max(most, tile.Inside.size() + tile.Across.size());
@@ -104,14 +114,15 @@ TEST(Tiles, HaveAboutTheSameWork)
 TEST(Tiles, AreNotCutWhereMostItemsAreInTheWay)
 {
   const auto items = RandomItems<3>(20000, 100.0, 30.0);
-  EXPECT_EQ(TileCutter<3>::Cut(items).size(), 1u);
+  EXPECT_EQ(TileCutter<3>::Cut(items, Cube<3>()).size(), 1u);
   EXPECT_EQ(TileCutter<3>::Whole(items).size(), 1u);
   ExpectPartition<3>(TileCutter<3>::Whole(items), items);
-  const double largest = TileCutter<3>::LargestReach(items);
+  const double largest = TileCutter<3>::LargestReach(items, Cube<3>());
   EXPECT_GT(largest, 2.0);
   EXPECT_LT(largest, 30.0);
-  EXPECT_GE(TileCutter<3>::Cut(RandomItems<3>(20000, 100.0, 0.9 * largest)).size(), 2u);
-  EXPECT_EQ(TileCutter<3>::Cut(RandomItems<3>(100, 100.0, 0.01)).size(), 1u) << "too few";
+  EXPECT_GE(TileCutter<3>::Cut(RandomItems<3>(20000, 100.0, 0.9 * largest), Cube<3>()).size(), 2u);
+  EXPECT_EQ(TileCutter<3>::Cut(RandomItems<3>(100, 100.0, 0.01), Cube<3>()).size(), 1u)
+    << "too few";
 }
 
 // What was put off lies along the planes of the last tiling. The next planes must be elsewhere.
@@ -121,7 +132,7 @@ TEST(Tiles, AreCutElsewhereTheNextTime)
   std::size_t passes = 0;
   while (items.size() > 500 && passes < 20)
   {
-    const auto tiles = TileCutter<3>::Cut(items);
+    const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
     std::vector<TileItem<3>> left;
     for (const Tile<3>& tile : tiles)
     {
@@ -140,6 +151,19 @@ TEST(Tiles, AreCutElsewhereTheNextTime)
   EXPECT_LE(passes, 6u);
 }
 
+// The circumcentres of flat simplices on the box.
+TEST(Tiles, AreCutWhereTheItemsAreDespiteOutliers)
+{
+  auto items = RandomItems<3>(20000, 100.0, 1.0);
+  items[0].Place = { 1e9, -1e9, 1e17 };
+  items[1].Place = { -1e17, 50.0, 50.0 };
+  items[0].Reach = items[1].Reach = 1e18;
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
+  EXPECT_GE(tiles.size(), 16u);
+  ExpectPartition<3>(tiles, items);
+  EXPECT_LT(TileCutter<3>::LargestReach(items, Cube<3>()), 100.0);
+}
+
 TEST(Tiles, ItemsInOnePlaceAreNotCut)
 {
   std::vector<TileItem<3>> items(5000, TileItem<3>{ { 1.0, 2.0, 3.0 }, 0.0, 0 });
@@ -147,7 +171,7 @@ TEST(Tiles, ItemsInOnePlaceAreNotCut)
   {
     items[i].Number = static_cast<std::uint32_t>(3 * i);
   }
-  const auto tiles = TileCutter<3>::Cut(items);
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
   ASSERT_EQ(tiles.size(), 1u);
   EXPECT_EQ(tiles[0].Inside.size(), items.size());
 }
