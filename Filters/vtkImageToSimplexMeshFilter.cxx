@@ -524,6 +524,9 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfElements: " << this->NumberOfElements << "\n";
   os << indent << "DeltaIsSuggestion: " << this->DeltaIsSuggestion << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
+  os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
+  os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
+  os << indent << "ExactComponents: " << this->ExactComponents << "\n";
   os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
   os << indent << "ElementSize: " << this->ElementSize << "\n";
   os << indent << "LabelSizes:";

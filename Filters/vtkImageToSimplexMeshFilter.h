@@ -136,6 +136,42 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Largest number of rounds that compare the mesh with the image. A round refines where an
+   * interface of the image is farther than about 1.5 Delta from the interfaces of the mesh (tips of
+   * thin processes, holes), or, in space, where the boundary of a label is not manifold. Default 8;
+   * usually 3 to 6 rounds are needed. 0: never.
+   */
+  vtkSetClampMacro(InterfaceRounds, int, 0, 100);
+  vtkGetMacro(InterfaceRounds, int);
+  ///@}
+
+  ///@{
+  /**
+   * Smallest number of voxels of a connected component (through voxel faces) that always gets
+   * elements, even if it is small or thin compared with Delta. If a component has no element, a few
+   * points are added where it is thickest. The largest component of each label counts always, even
+   * with fewer voxels. Default 8; 1 keeps single voxels, too; 0 gives no component special
+   * treatment. In space-time, the components of each frame count, too: the mesh has elements there
+   * at the time of the frame. If a component still has no element, vtkWarningMacro and the
+   * statistics name it (vtkMeshingStatistics::GetNumberOfLostComponents()).
+   */
+  vtkSetClampMacro(SmallestComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(SmallestComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sample the components that SmallestComponent selects as finely as their thickness requires, for
+   * any Delta. Default off: thin components are only as exact as Delta allows, and the number of
+   * elements falls as Delta grows.
+   */
+  vtkSetMacro(ExactComponents, bool);
+  vtkGetMacro(ExactComponents, bool);
+  vtkBooleanMacro(ExactComponents, bool);
+  ///@}
+
+  ///@{
   /** Upper bound of circumradii everywhere, in physical units. 0, the default, sets none. */
   vtkSetMacro(ElementSize, double);
   vtkGetMacro(ElementSize, double);
@@ -488,6 +524,9 @@ protected:
   vtkTypeInt64 NumberOfElements = 0;
   bool DeltaIsSuggestion = false;
   double RadiusEdgeRatio = 2.0;
+  int InterfaceRounds = 8;
+  int SmallestComponent = 8;
+  bool ExactComponents = false;
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;
   double Gradation = 0.3;

@@ -154,10 +154,7 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.Optimisation.Run = this->Optimise;
   run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
   run.Options.Interfaces.SampleJunctions = this->SampleJunctions;
-  run.Options.Interfaces.Rounds = static_cast<unsigned>(this->InterfaceRounds);
   run.Options.Interfaces.Manifold = this->Manifold;
-  run.Options.Components.Smallest = this->SmallestComponent;
-  run.Options.Components.Exact = this->ExactComponents;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
   const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
@@ -222,10 +219,7 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Optimise: " << this->Optimise << "\n";
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";
   os << indent << "SampleJunctions: " << this->SampleJunctions << "\n";
-  os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
   os << indent << "Manifold: " << this->Manifold << "\n";
-  os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
-  os << indent << "ExactComponents: " << this->ExactComponents << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";
   if (this->SizeImplicitFunction)

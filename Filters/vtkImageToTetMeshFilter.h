@@ -219,9 +219,9 @@ public:
   ///@{
   /**
    * Improve shapes after refinement with flips and smoothing. All dihedral angles but a few become
-   * 15 to 155 degrees. The price: radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is
+   * 18 to 150 degrees. The price: radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is
    * larger), and interface angles down to 20 degrees where three or more labels meet. It takes
-   * about a fifth of the time of refinement. The mesh is no longer Delaunay. Default on.
+   * about a third of the time of refinement. The mesh is no longer Delaunay. Default on.
    * "/optimisation" of vtkMeshingStatistics::ToJSON() describes the result.
    */
   vtkSetMacro(Optimise, bool);
@@ -252,17 +252,6 @@ public:
 
   ///@{
   /**
-   * Largest number of rounds that compare the mesh with the image. A round refines where an
-   * interface of the image is farther than about 1.5 Delta from the interfaces of the mesh (tips of
-   * thin processes, holes), or where the boundary of a label is not manifold. Default 8; usually 3
-   * to 6 rounds are needed. 0: never.
-   */
-  vtkSetClampMacro(InterfaceRounds, int, 0, 100);
-  vtkGetMacro(InterfaceRounds, int);
-  ///@}
-
-  ///@{
-  /**
    * Make the boundary of every label manifold: two of its triangles meet at each edge. If more
    * triangles meet at an edge, tetrahedra around the edge get a neighbouring label. If whole
    * tetrahedra cannot, they are split and parts of them get it; these parts are not Delaunay.
@@ -271,30 +260,6 @@ public:
   vtkSetMacro(Manifold, bool);
   vtkGetMacro(Manifold, bool);
   vtkBooleanMacro(Manifold, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Smallest number of voxels of a connected component (through voxel faces) that always gets
-   * tetrahedra, even if it is small or thin compared with Delta. If a component has no tetrahedron,
-   * a few points are added where it is thickest. The largest component of each label counts always,
-   * even with fewer voxels. Default 8; 1 keeps single voxels, too; 0 gives no component special
-   * treatment. If a component still has no tetrahedron, vtkWarningMacro and the statistics name it
-   * (vtkMeshingStatistics::GetNumberOfLostComponents()).
-   */
-  vtkSetClampMacro(SmallestComponent, int, 0, VTK_INT_MAX);
-  vtkGetMacro(SmallestComponent, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sample the components that SmallestComponent selects as finely as their thickness requires, for
-   * any Delta. Default off: thin components are only as exact as Delta allows, and the number of
-   * tetrahedra falls as Delta grows.
-   */
-  vtkSetMacro(ExactComponents, bool);
-  vtkGetMacro(ExactComponents, bool);
-  vtkBooleanMacro(ExactComponents, bool);
   ///@}
 
   ///@{
@@ -351,10 +316,7 @@ protected:
   bool Optimise = true;
   double OptimisationTimeLimit = 0.0;
   bool SampleJunctions = true;
-  int InterfaceRounds = 8;
   bool Manifold = true;
-  int SmallestComponent = 8;
-  bool ExactComponents = false;
   double MinimumComponentVolume = 0.0;
 
 private:

@@ -116,16 +116,16 @@ Parameters Shapes()
 {
   return {
     Flag("optimise", 3, "on",
-      "improve shapes after refinement: dihedral angles of 15 to 155 degrees, with few exceptions, "
+      "improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few exceptions, "
       "radius-edge ratios up to 2.5",
       { .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" }),
-    Number(Kind::Whole, "smallest-component", 3, { 0.0, LargestWhole }, "8", "VOXELS",
+    Number(Kind::Whole, "smallest-component", 0, { 0.0, LargestWhole }, "8", "VOXELS",
       "connected components with at least this number of voxels, and the largest of each label, "
-      "get tetrahedra for every delta",
+      "get elements for every delta; in space-time so do those of each frame",
       { .Zero = "no guarantee" }),
-    Flag("exact-components", 3, "off",
+    Flag("exact-components", 0, "off",
       "sample these components as finely as their thickness requires, for every delta; otherwise "
-      "components that are thin compared with delta have few tetrahedra"),
+      "components that are thin compared with delta have few elements"),
     Number(Kind::Real, "min-component-volume", 3, Positive, "", "VOLUME",
       "leave out connected components that are smaller, such as specks: they get the label around "
       "them",
@@ -187,7 +187,7 @@ Parameters Quality()
       "sample the curves where three labels or more meet before all else, so that edges follow "
       "them",
       { .Property = "SampleJunctions", .Zero = "the curves zigzag", .Python = "sample_junctions" }),
-    Number(Kind::Whole, "interface-rounds", 3, { 0.0, 100.0 }, "8", "NUMBER",
+    Number(Kind::Whole, "interface-rounds", 0, { 0.0, 100.0 }, "8", "NUMBER",
       "largest number of rounds that refine again where an interface of the image is farther than "
       "1.5 delta from the mesh's interfaces, or a label's boundary is not manifold",
       { .Step = 1.0, .Zero = "never" }),
@@ -232,7 +232,8 @@ Parameters Running()
 {
   return {
     Number(Kind::Whole, "threads", 0, { 0.0, 4096.0 }, "0", "NUMBER",
-      "threads to use in every stage, refinement included; with 1, or with reproducible, the mesh is "
+      "threads to use in every stage, refinement included; with 1, or with reproducible, the mesh "
+      "is "
       "the same, bit for bit, in every run",
       { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
     Flag("reproducible", 0, "off", "make the same mesh, bit for bit, with any number of threads",

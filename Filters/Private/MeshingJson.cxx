@@ -179,6 +179,8 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     { "components", v.Run.Components.Found },
     { "lost_components", ComponentsToJson(v.Run.Components.Lost) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },
+    { "frame_components", v.Run.FrameComponents.Found },
+    { "lost_frame_components", ComponentsToJson(v.Run.FrameComponents.Lost) },
     { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
     { "yielding_regions", YieldingToJson(v.Run.Yielding) },
     { "interfaces", InterfacesToJson(v.Run.Interfaces) },

@@ -52,8 +52,7 @@ void CheckRange(double value, double low, double high, const char* name, const c
 {
   if (!(value >= low && value <= high))
   {
-    throw InputError(
-      std::string(name) + " is " + NumberText(value) + "; it must be " + must + ".");
+    throw InputError(std::string(name) + " is " + NumberText(value) + "; it must be " + must + ".");
   }
 }
 
@@ -129,16 +128,21 @@ std::vector<std::string> WarningsOf(
       "The mesh lacks these labels of the image, which are too small for a Delta of " +
       NumberText(run.Delta) + ": " + ListLabels(figures.LostLabels) + ".");
   }
-  if (!run.Components.Lost.empty())
+  const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {
     std::string text;
-    for (const ComponentReport& component : run.Components.Lost)
+    for (const ComponentReport& component : components.Lost)
     {
       text += (text.empty() ? "" : ", ") + Describe(component);
     }
-    warnings.push_back(
-      "The mesh lacks these connected components of the image: " + text + ".");
-  }
+    if (!text.empty())
+    {
+      warnings.push_back(
+        "The mesh lacks these connected components of " + std::string(of) + ": " + text + ".");
+    }
+  };
+  warnOfLost(run.Components, "the image");
+  warnOfLost(run.FrameComponents, "frames of the image");
   if (!run.Yielding.empty())
   {
     warnings.push_back("In " + Describe(run.Yielding) +

@@ -84,6 +84,9 @@ public:
       this->Options.Sampling.InterfaceSizes.push_back({ interface.first, interface.second, size });
     }
     this->Options.Shape.RadiusEdgeRatio = filter->RadiusEdgeRatio;
+    this->Options.Interfaces.Rounds = static_cast<unsigned>(filter->InterfaceRounds);
+    this->Options.Components.Smallest = filter->SmallestComponent;
+    this->Options.Components.Exact = filter->ExactComponents;
     this->Options.SmoothingSigma = filter->SmoothingSigma;
     this->Options.Team.Threads = filter->GetThreads();
     this->Options.Team.Contention =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ComponentCheck.h"
 
+#include "Conformity/FinestSpacing.h"
 #include "Domain/ThinPart.h"
 #include "Parallel/ParallelFor.h"
 #include "Quality/LostComponents.h"
@@ -63,7 +64,7 @@ constexpr double LeastThickness = 5.0;
  */
 constexpr std::int64_t MostSeededVoxels = 20000;
 
-/** The finest spacing of seeds, in voxels. The label field has no finer features. */
+/** The finest spacing of seeds, as FinestSpacing() takes it. */
 constexpr double FinestVoxels = 0.1;
 
 } // namespace
@@ -72,20 +73,21 @@ constexpr double FinestVoxels = 0.1;
 template <int D>
 ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
   const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
-  bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
-  unsigned threads, const std::stop_token& stop)
+  bool exact, bool mayRefine, LocalDelta<D>& local, ComponentStatistics& statistics,
+  double& seconds, unsigned threads, const std::stop_token& stop)
   : ConformityCheck<D>(seconds)
   , Image(image)
   , Surfaces(domain)
   , All(components)
   , Attempts(components.All().size(), exact ? AttemptsAtThickest : 0)
   , Wanted(components.FindWanted(fewestVoxels))
+  , MayRefine(mayRefine)
   , Threads(threads)
   , Stop(stop)
   , Local(local)
   , Statistics(statistics)
 {
-  this->FinestDelta = FinestVoxels * image.Grid().SmallestSpacing();
+  this->FinestDelta = voxplex::FinestSpacing<D>(image.Grid(), FinestVoxels);
   for (std::size_t label = 1; label < image.Values().size(); ++label)
   {
     this->FinestDelta = std::min(this->FinestDelta, sizing.LargestOf(static_cast<LabelId>(label)));
@@ -94,7 +96,7 @@ ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& d
   {
     this->Delta.push_back(sizing.LargestOf(this->All.All()[c].Label));
     const double own = this->OwnDelta(c);
-    if (exact && this->Wanted[c] && own < this->Delta[c])
+    if (exact && mayRefine && this->Wanted[c] && own < this->Delta[c])
     {
       ThrowIfStopped(stop);
       this->Sample(c, own);
@@ -232,6 +234,10 @@ bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
   bool any = false;
   for (const std::uint32_t c : lost)
   {
+    if (!this->MayRefine)
+    {
+      break;
+    }
     if (this->Attempts[c] < AttemptsAtThickest)
     {
       this->SampleThickest(c);

@@ -58,6 +58,7 @@ public:
    * @param fewestVoxels smaller components are not checked, except the largest of each label
    * @param exact whether components that are thin compared with delta are sampled as a whole from
    *   the start
+   * @param mayRefine false: lost components are listed, and nothing else is done
    * @param local where to sample more finely; receives bounds
    * @param statistics counts rounds and points, and lists the lost components
    * @param threads 0 means all cores; results do not depend on it
@@ -65,8 +66,8 @@ public:
    */
   ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
     const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
-    bool exact, LocalDelta<D>& local, ComponentStatistics& statistics, double& seconds,
-    unsigned threads, const std::stop_token& stop);
+    bool exact, bool mayRefine, LocalDelta<D>& local, ComponentStatistics& statistics,
+    double& seconds, unsigned threads, const std::stop_token& stop);
 
   /** The points chosen since the last call, in the order of components. */
   std::vector<FeatureSeed<D>> TakeSeeds();
@@ -101,6 +102,7 @@ private:
   std::vector<unsigned> Attempts; ///< by component, times it was sampled where it is thickest
   double FinestDelta;             ///< no component is sampled more finely
   std::vector<bool> Wanted;       ///< by component
+  const bool MayRefine;
   unsigned Threads;
   std::stop_token Stop;
   LocalDelta<D>& Local;

@@ -12,13 +12,15 @@
 namespace voxplex
 {
 
-/** The options of the connected components of labels; 3D only. */
+/** The options of the connected components of labels. */
 struct ComponentOptions
 {
   /**
    * Connected components (through faces) with at least this number of voxels get elements, however
    * large delta is. So does the largest component of each label, however small it is. 0: components
-   * are not checked. Components that still have no element are in ComponentStatistics::Lost.
+   * are not checked. Components that still have no element are in ComponentStatistics::Lost. In
+   * space-time, the same holds for the components of each frame: the mesh has elements there at
+   * the time of the frame.
    */
   std::int64_t Smallest = 8;
   /**
@@ -29,12 +31,12 @@ struct ComponentOptions
   bool Exact = false;
 };
 
-/** The options of interfaces; 3D only. */
+/** The options of interfaces. */
 struct InterfaceOptions
 {
   /**
    * Start with points on the curves where three or more labels meet, so that edges of the mesh
-   * follow these curves.
+   * follow these curves; 3D only.
    */
   bool SampleJunctions = true;
   /**
@@ -44,7 +46,7 @@ struct InterfaceOptions
    */
   unsigned Rounds = 8;
   /**
-   * Make the boundary of every label manifold: two of its facets meet at each edge. Some tetrahedra
+   * Make the boundary of every label manifold (3D only): two of its facets meet at each edge. Some tetrahedra
    * may be cut in pieces for this (MakeSpindles); the pieces are not Delaunay. Does not depend on
    * Rounds.
    */

@@ -7,6 +7,7 @@
 #ifndef voxplex_FaceScan_h
 #define voxplex_FaceScan_h
 
+#include "Base/GridIndex.h"
 #include "Image/BitMask.h"
 #include "Image/FacesNear.h"
 #include "Image/LabelImage.h"
@@ -28,20 +29,20 @@ namespace voxplex
  * order.
  *
  * @param voxels voxels of the crop and the layer around it, as FindSurfaceVoxels() returns them
- * @param is called by several threads at once, for faces between different labels. The hint is
+ * @param is called by several threads at once, for faces of interfaces (IsOfInterface). The hint is
  *   first Hint(), and is passed on between faces near each other.
  * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end
  */
-template <typename Hint, typename Is>
-std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& voxels,
+template <typename Hint, int D, typename Is>
+std::vector<VoxelFace<D>> ScanFaces(const LabelImage<D>& image, const BitMask<D>& voxels,
   unsigned threads, const std::stop_token& stop, Is&& is)
 {
   constexpr std::size_t RowsAtOnce = 64;
   constexpr std::int64_t VoxelsOfHint = 4;
   const std::size_t rows = voxels.NumberOfRows();
   const auto& n = voxels.Dimensions();
-  std::vector<std::vector<VoxelFace>> parts((rows - 1) / RowsAtOnce + 1);
+  std::vector<std::vector<VoxelFace<D>>> parts((rows - 1) / RowsAtOnce + 1);
   ParallelFor(
     0, rows, RowsAtOnce, threads,
     [&](std::size_t first, std::size_t last)
@@ -49,18 +50,21 @@ std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& v
       std::vector<Hint> hints(static_cast<std::size_t>(n[0] / VoxelsOfHint + 1));
       for (std::size_t row = first; row < last; ++row)
       {
-        const auto y = static_cast<std::int64_t>(row) % n[1] - 1;
-        const auto z = static_cast<std::int64_t>(row) / n[1] - 1;
+        VoxelFace<D> face{ IndexAt(row * static_cast<std::size_t>(n[0]), n), 0 };
+        for (std::int64_t& c : face.Voxel)
+        {
+          --c; // the mask begins one layer before the crop
+        }
         const auto words = voxels.Row(row);
         for (std::size_t w = 0; w < words.size(); ++w)
         {
           for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
           {
             const std::int64_t x = static_cast<std::int64_t>(64 * w) + std::countr_zero(bits);
-            for (unsigned a = 0; a < 3; ++a)
+            face.Voxel[0] = x - 1;
+            for (face.Axis = 0; face.Axis < D; ++face.Axis)
             {
-              const VoxelFace face{ { x - 1, y, z }, a };
-              if (image.At(face.Voxel) != image.At(face.Next()) &&
+              if (IsOfInterface(face, image) &&
                 is(face, hints[static_cast<std::size_t>(x / VoxelsOfHint)]))
               {
                 parts[first / RowsAtOnce].push_back(face);
@@ -71,7 +75,7 @@ std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& v
       }
     },
     stop);
-  std::vector<VoxelFace> faces;
+  std::vector<VoxelFace<D>> faces;
   for (const auto& part : parts)
   {
     faces.insert(faces.end(), part.begin(), part.end());
@@ -80,13 +84,13 @@ std::vector<VoxelFace> ScanFaces(const LabelImage<3>& image, const BitMask<3>& v
 }
 
 /** The faces for which is(face, hint) is true. */
-template <typename Hint, typename Is>
-std::vector<VoxelFace> FilterFaces(const std::vector<VoxelFace>& faces, Is&& is)
+template <typename Hint, int D, typename Is>
+std::vector<VoxelFace<D>> FilterFaces(const std::vector<VoxelFace<D>>& faces, Is&& is)
 {
-  std::vector<VoxelFace> some;
+  std::vector<VoxelFace<D>> some;
   Hint hint{};
   std::copy_if(faces.begin(), faces.end(), std::back_inserter(some),
-    [&](const VoxelFace& face) { return is(face, hint); });
+    [&](const VoxelFace<D>& face) { return is(face, hint); });
   return some;
 }
 

@@ -67,7 +67,7 @@ double GradedInterfaceCheck::LargestDistance(const GridGeometry<3>& grid, double
 
 //------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
-  const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace>& edges)
+  const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace<3>>& edges)
 {
   const std::vector<Point<3>> points = VerticesOfInterfaces(mesh);
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, this->Largest, points.size());
@@ -79,7 +79,7 @@ std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
 
   // Checks the voxel face, and the smooth interface near it, which is the interface that is meshed.
   using Hint = std::uint32_t; // see BoundingTree
-  const auto isFar = [&](const VoxelFace& face, Hint& hint)
+  const auto isFar = [&](const VoxelFace<3>& face, Hint& hint)
   {
     const Point<3> centre = CentreOf(face, this->Image);
     const double half = 0.5 * this->Image.Grid().Spacing(static_cast<int>(face.Axis));
@@ -98,10 +98,10 @@ std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
         this->Image.CentreOf(face.Next()), z) &&
       triangles.Distance2To(z, hint) > this->Largest * this->Largest;
   };
-  std::vector<VoxelFace> far = FilterFaces<Hint>(this->Sampling.Sampled(), isFar);
+  std::vector<VoxelFace<3>> far = FilterFaces<Hint, 3>(this->Sampling.Sampled(), isFar);
   if (far.empty())
   {
-    far = ScanFaces<Hint>(this->Image, this->Sites, this->Threads, this->Stop, isFar);
+    far = ScanFaces<Hint, 3>(this->Image, this->Sites, this->Threads, this->Stop, isFar);
   }
   this->FarFaces = far.size();
   return this->Sampling.AroundIfBad(far, edges);

@@ -50,7 +50,7 @@ public:
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> Inspect(
-    const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace>& edges);
+    const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace<3>>& edges);
 
   /** The number of far faces at the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }
@@ -59,7 +59,7 @@ private:
   const LabelImage<3>& Image;
   const BitMask<3>& Sites;
   const Domain<3>& Surfaces;
-  InterfaceSampling Sampling;
+  InterfaceSampling<3> Sampling;
   const unsigned Threads;
   const std::stop_token Stop;
   const double Largest;

@@ -95,13 +95,13 @@ private:
   const InterfaceOptions Options;
   InterfaceStatistics& Statistics;
   const std::stop_token Stop;
-  InterfaceVertices Vertices;
-  std::optional<UniformInterfaceCheck> Uniform;
+  InterfaceVertices<3> Vertices;
+  std::optional<UniformInterfaceCheck<3>> Uniform;
   std::optional<GradedInterfaceCheck> Graded;
   SimplexLabels LabelOf;
-  std::vector<Point<3>> Gone;             ///< vertices that relabelling left inside of a label
-  std::vector<InterfaceEdge> NonManifold; ///< with these labels
-  std::vector<NonManifoldPlace> Places;   ///< of these edges
+  std::vector<Point<3>> Gone;              ///< vertices that relabelling left inside of a label
+  std::vector<InterfaceEdge> NonManifold;  ///< with these labels
+  std::vector<NonManifoldPlace<3>> Places; ///< of these edges
   Subdivision Spindles;
 };
 

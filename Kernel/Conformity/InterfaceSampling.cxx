@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceSampling.h"
 
+#include "Conformity/FinestSpacing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -35,14 +37,15 @@ constexpr double FirstSpacing = 0.8;
  */
 constexpr double BoundFactor = 2.0;
 
-/** The finest spacing of points, in smallest voxel spacings. */
+/** The finest spacing of points, as FinestSpacing() takes it. */
 constexpr double FinestVoxels = 0.2;
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-InterfaceSampling::InterfaceSampling(const LabelImage<3>& image, const BitMask<3>& sites,
-  const Domain<3>& domain, const SizingField<3>& sizing, LocalDelta<3>& local,
+template <int D>
+InterfaceSampling<D>::InterfaceSampling(const LabelImage<D>& image, const BitMask<D>& sites,
+  const Domain<D>& domain, const SizingField<D>& sizing, LocalDelta<D>& local,
   const std::stop_token& stop)
   : Image(image)
   , Sites(sites)
@@ -50,48 +53,51 @@ InterfaceSampling::InterfaceSampling(const LabelImage<3>& image, const BitMask<3
   , Sizing(sizing)
   , Local(local)
   , Stop(stop)
-  , FinestSpacing(FinestVoxels * image.Grid().SmallestSpacing())
+  , FinestSpacing(voxplex::FinestSpacing<D>(image.Grid(), FinestVoxels))
 {
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceSampling::AroundIfBad(
-  const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges)
+template <int D>
+std::vector<FeatureSeed<D>> InterfaceSampling<D>::AroundIfBad(
+  const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges)
 {
   const bool isBad = !far.empty() ||
     std::any_of(
-      edges.begin(), edges.end(), [](const NonManifoldPlace& edge) { return !edge.IsJunction; });
-  return this->Around(far, isBad ? edges : std::vector<NonManifoldPlace>());
+      edges.begin(), edges.end(), [](const NonManifoldPlace<D>& edge) { return !edge.IsJunction; });
+  return this->Around(far, isBad ? edges : std::vector<NonManifoldPlace<D>>());
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> InterfaceSampling::Around(
-  const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges)
+template <int D>
+std::vector<FeatureSeed<D>> InterfaceSampling<D>::Around(
+  const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges)
 {
-  std::vector<SearchBall> balls;
+  std::vector<SearchBall<D>> balls;
   balls.reserve(far.size() + edges.size());
-  for (const VoxelFace& face : far)
+  for (const VoxelFace<D>& face : far)
   {
     balls.push_back({ CentreOf(face, this->Image), RadiusAtFace * this->FirstDistance(face) });
   }
-  for (const NonManifoldPlace& edge : edges)
+  for (const NonManifoldPlace<D>& edge : edges)
   {
     balls.push_back({ edge.Middle, RadiusAtEdge * this->Sizing.AskedNear(edge.Middle) });
   }
-  const std::vector<VoxelFace> faces = FindFacesNear(this->Image, this->Sites, balls, this->Stop);
+  const std::vector<VoxelFace<D>> faces =
+    FindFacesNear(this->Image, this->Sites, balls, this->Stop);
   if (faces.empty())
   {
     return {};
   }
   this->Faces = UnionOf(this->Faces, faces);
 
-  for (const VoxelFace& face : far)
+  for (const VoxelFace<D>& face : far)
   {
     this->LowerBound(face);
   }
-  std::vector<FeatureSeed<3>> seeds;
+  std::vector<FeatureSeed<D>> seeds;
   std::map<Index, double> spacings;
-  for (const VoxelFace& face : faces)
+  for (const VoxelFace<D>& face : faces)
   {
     const Index cell = CellOf(face);
     auto spacing = spacings.find(cell);
@@ -100,7 +106,7 @@ std::vector<FeatureSeed<3>> InterfaceSampling::Around(
       const unsigned visit = this->Visits[cell]++;
       spacing = spacings.emplace(cell, this->SpacingAt(face, visit)).first;
     }
-    Point<3> z;
+    Point<D> z;
     if (spacing->second > 0.0 &&
       this->Surfaces.FirstCrossing(this->Image.CentreOf(face.Voxel), this->Image.At(face.Voxel),
         this->Image.CentreOf(face.Next()), z))
@@ -114,12 +120,13 @@ std::vector<FeatureSeed<3>> InterfaceSampling::Around(
 }
 
 //------------------------------------------------------------------------------------------------
-InterfaceSampling::Index InterfaceSampling::CellOf(const VoxelFace& face)
+template <int D>
+auto InterfaceSampling<D>::CellOf(const VoxelFace<D>& face) -> Index
 {
   Index cell = face.Voxel;
   for (std::int64_t& c : cell)
   {
-    c = (c + 1) / LocalDelta<3>::Cell;
+    c = (c + 1) / LocalDelta<D>::Cell;
   }
   return cell;
 }
@@ -128,11 +135,12 @@ InterfaceSampling::Index InterfaceSampling::CellOf(const VoxelFace& face)
  * The distance that sampling begins with: the sampling distance. If it is graded, at most the
  * requested one.
  */
-double InterfaceSampling::FirstDistance(const VoxelFace& face) const
+template <int D>
+double InterfaceSampling<D>::FirstDistance(const VoxelFace<D>& face) const
 {
   const double distance = this->Sizing.AskedDistance(
     CentreOf(face, this->Image), this->Image.At(face.Voxel), this->Image.At(face.Next()));
-  const BaseDistance<3>& base = this->Sizing.Base();
+  const BaseDistance<D>& base = this->Sizing.Base();
   return base.Graded ? std::min(distance, base.Asked) : distance;
 }
 
@@ -140,7 +148,8 @@ double InterfaceSampling::FirstDistance(const VoxelFace& face) const
  * The spacing, halved at each visit. The last visit has the finest spacing; after it, the result is
  * 0.
  */
-double InterfaceSampling::SpacingAt(const VoxelFace& face, unsigned visit) const
+template <int D>
+double InterfaceSampling<D>::SpacingAt(const VoxelFace<D>& face, unsigned visit) const
 {
   const double first = FirstSpacing * this->FirstDistance(face);
   const double spacing = std::ldexp(first, -static_cast<int>(visit));
@@ -155,7 +164,8 @@ double InterfaceSampling::SpacingAt(const VoxelFace& face, unsigned visit) const
 // Points alone do not give elements to a part that is thinner than their spacing: if no
 // circumcentre lies in the part, no element has its label. R1 with a smaller sampling distance
 // makes circumballs small enough.
-void InterfaceSampling::LowerBound(const VoxelFace& face)
+template <int D>
+void InterfaceSampling<D>::LowerBound(const VoxelFace<D>& face)
 {
   const auto visits = this->Visits.find(CellOf(face));
   if (visits == this->Visits.end())
@@ -171,12 +181,7 @@ void InterfaceSampling::LowerBound(const VoxelFace& face)
   }
 }
 
-//------------------------------------------------------------------------------------------------
-std::vector<VoxelFace> UnionOf(const std::vector<VoxelFace>& a, const std::vector<VoxelFace>& b)
-{
-  std::vector<VoxelFace> all;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-  return all;
-}
+template class InterfaceSampling<3>;
+template class InterfaceSampling<4>;
 
 } // namespace voxplex

@@ -14,6 +14,8 @@
 #include "Refinement/FeatureSeed.h"
 #include "Sizing/SizingField.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <stop_token>
 #include <vector>
@@ -22,11 +24,13 @@ namespace voxplex
 {
 
 /**
- * The midpoint of a non-manifold edge: some label does not have exactly two boundary facets there.
+ * The midpoint of a non-manifold edge (a triangle in 4D): some label does not have exactly two
+ * boundary facets there.
  */
+template <int D>
 struct NonManifoldPlace
 {
-  Point<3> Middle;
+  Point<D> Middle;
   bool IsJunction; ///< three or more labels meet there
 };
 
@@ -40,6 +44,7 @@ struct NonManifoldPlace
  *
  * Not thread safe.
  */
+template <int D>
 class InterfaceSampling
 {
 public:
@@ -48,48 +53,58 @@ public:
    * @param sites the image's surface voxels (FindSurfaceVoxels)
    * @param local receives the spacing of the points, and bounds
    */
-  InterfaceSampling(const LabelImage<3>& image, const BitMask<3>& sites, const Domain<3>& domain,
-    const SizingField<3>& sizing, LocalDelta<3>& local, const std::stop_token& stop);
+  InterfaceSampling(const LabelImage<D>& image, const BitMask<D>& sites, const Domain<D>& domain,
+    const SizingField<D>& sizing, LocalDelta<D>& local, const std::stop_token& stop);
 
   /**
    * Proposes points around far faces and non-manifold edges.
    * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> Around(
-    const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges);
+  std::vector<FeatureSeed<D>> Around(
+    const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges);
 
   /**
    * As Around(), but returns nothing if only edges at junctions are wrong. Such edges are sampled
    * along with other places.
    */
-  std::vector<FeatureSeed<3>> AroundIfBad(
-    const std::vector<VoxelFace>& far, const std::vector<NonManifoldPlace>& edges);
+  std::vector<FeatureSeed<D>> AroundIfBad(
+    const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges);
 
   /** The faces around which points were proposed so far, ascending. */
-  const std::vector<VoxelFace>& Sampled() const { return this->Faces; }
+  const std::vector<VoxelFace<D>>& Sampled() const { return this->Faces; }
 
 private:
-  using Index = GridGeometry<3>::Index;
+  using Index = typename GridGeometry<D>::Index;
 
-  static Index CellOf(const VoxelFace& face);
-  double FirstDistance(const VoxelFace& face) const;
-  double SpacingAt(const VoxelFace& face, unsigned visit) const;
-  void LowerBound(const VoxelFace& face);
+  static Index CellOf(const VoxelFace<D>& face);
+  double FirstDistance(const VoxelFace<D>& face) const;
+  double SpacingAt(const VoxelFace<D>& face, unsigned visit) const;
+  void LowerBound(const VoxelFace<D>& face);
 
-  const LabelImage<3>& Image;
-  const BitMask<3>& Sites;
-  const Domain<3>& Surfaces;
-  const SizingField<3>& Sizing;
-  LocalDelta<3>& Local;
+  const LabelImage<D>& Image;
+  const BitMask<D>& Sites;
+  const Domain<D>& Surfaces;
+  const SizingField<D>& Sizing;
+  LocalDelta<D>& Local;
   const std::stop_token Stop;
   double FinestSpacing;
   std::map<Index, unsigned> Visits; ///< by cell of LocalDelta
-  std::vector<VoxelFace> Faces;
+  std::vector<VoxelFace<D>> Faces;
 };
 
 /** The union of two ascending lists. */
-std::vector<VoxelFace> UnionOf(const std::vector<VoxelFace>& a, const std::vector<VoxelFace>& b);
+template <int D>
+std::vector<VoxelFace<D>> UnionOf(
+  const std::vector<VoxelFace<D>>& a, const std::vector<VoxelFace<D>>& b)
+{
+  std::vector<VoxelFace<D>> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
+
+extern template class InterfaceSampling<3>;
+extern template class InterfaceSampling<4>;
 
 } // namespace voxplex
 

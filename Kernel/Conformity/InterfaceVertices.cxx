@@ -19,8 +19,9 @@ constexpr std::size_t Grain = 4096;
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-InterfaceVertices::InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
-  unsigned threads, const std::stop_token& stop)
+template <int D>
+InterfaceVertices<D>::InterfaceVertices(const Triangulation<D>& triangulation,
+  const Domain<D>& image, unsigned threads, const std::stop_token& stop)
   : Source(triangulation)
   , Image(image)
   , Threads(threads)
@@ -28,24 +29,28 @@ InterfaceVertices::InterfaceVertices(const Triangulation<3>& triangulation, cons
 {
 }
 
-InterfaceVertices::Changes InterfaceVertices::Update()
+template <int D>
+auto InterfaceVertices<D>::Update() -> Changes
 {
   return this->Seen.empty() ? this->FindAll() : this->FindChanges();
 }
 
 //------------------------------------------------------------------------------------------------
-std::uint32_t InterfaceVertices::GenerationOf(SimplexId s) const
+template <int D>
+std::uint32_t InterfaceVertices<D>::GenerationOf(SimplexId s) const
 {
   return this->Source.IsAlive(s) ? this->Source.State(s).Generation : None;
 }
 
-LabelId InterfaceVertices::LabelOf(SimplexId s) const
+template <int D>
+LabelId InterfaceVertices<D>::LabelOf(SimplexId s) const
 {
   return LabelAtCentre(this->Source, this->Image, s);
 }
 
 //------------------------------------------------------------------------------------------------
-InterfaceVertices::Changes InterfaceVertices::FindAll()
+template <int D>
+auto InterfaceVertices<D>::FindAll() -> Changes
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.resize(ids);
@@ -72,19 +77,19 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
       known.store(1, std::memory_order_relaxed);
     }
   };
-  // If two neighbouring tetrahedra have different labels, the circumball of one of them meets an
+  // If two neighbouring simplices have different labels, the circumball of one of them meets an
   // interface, because the union of the two balls contains the dual edge.
   const auto look = [&](SimplexId s)
   {
     const auto& simplex = this->Source.GetSimplex(s);
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i <= D; ++i)
     {
       const SimplexId n = simplex.N[i];
       if (n != None && labels[n] != labels[s])
       {
-        for (unsigned m = 1; m < 4; ++m)
+        for (unsigned m = 1; m <= D; ++m)
         {
-          mark(simplex.V[(i + m) % 4]);
+          mark(simplex.V[(i + m) % (D + 1)]);
         }
       }
     }
@@ -115,7 +120,8 @@ InterfaceVertices::Changes InterfaceVertices::FindAll()
 }
 
 //------------------------------------------------------------------------------------------------
-InterfaceVertices::Changes InterfaceVertices::FindChanges()
+template <int D>
+auto InterfaceVertices<D>::FindChanges() -> Changes
 {
   const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
   std::vector<SimplexId> star;
@@ -142,7 +148,7 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
   {
     ThrowIfStopped(this->Stop);
     keepBefore(v);
-    const Point<3>& position = this->Source.Position(v);
+    const Point<D>& position = this->Source.Position(v);
     const bool isOn = this->IsOnInterface(v, star);
     const bool wasKnown = known != this->Known.end() && known->first == v;
     const bool isSame = isOn && wasKnown && known->second == position; // ids are reused
@@ -167,7 +173,8 @@ InterfaceVertices::Changes InterfaceVertices::FindChanges()
 
 //------------------------------------------------------------------------------------------------
 /** The vertices of simplices created since the last call, in ascending order. */
-std::vector<VertexId> InterfaceVertices::VerticesOfNewSimplices()
+template <int D>
+std::vector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.resize(ids, None);
@@ -200,14 +207,15 @@ std::vector<VertexId> InterfaceVertices::VerticesOfNewSimplices()
 }
 
 //------------------------------------------------------------------------------------------------
-bool InterfaceVertices::IsOnInterface(VertexId v, std::vector<SimplexId>& star) const
+template <int D>
+bool InterfaceVertices<D>::IsOnInterface(VertexId v, std::vector<SimplexId>& star) const
 {
   star.assign(1, this->Source.GetVertex(v).Incident);
   for (std::size_t k = 0; k < star.size(); ++k)
   {
     const auto& simplex = this->Source.GetSimplex(star[k]);
     const LabelId label = this->LabelOf(star[k]);
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i <= D; ++i)
     {
       const SimplexId n = simplex.N[i];
       if (n == None || simplex.V[i] == v)
@@ -226,5 +234,8 @@ bool InterfaceVertices::IsOnInterface(VertexId v, std::vector<SimplexId>& star) 
   }
   return false;
 }
+
+template class InterfaceVertices<3>;
+template class InterfaceVertices<4>;
 
 } // namespace voxplex

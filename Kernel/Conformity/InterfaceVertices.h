@@ -19,26 +19,27 @@ namespace voxplex
 {
 
 /**
- * @brief The vertices of all facets between tetrahedra of different labels. ExtractMesh() makes the
+ * @brief The vertices of all facets between simplices of different labels. ExtractMesh() makes the
  * same facets. The set can be updated after further refinement.
  *
  * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
  */
+template <int D>
 class InterfaceVertices
 {
 public:
   /** Positions, each in the order of the vertices' ids. */
   struct Changes
   {
-    std::vector<Point<3>> Added;
-    std::vector<Point<3>> Gone;
+    std::vector<Point<D>> Added;
+    std::vector<Point<D>> Gone;
   };
 
   /**
    * The references must outlive the object.
    * @param threads 0 means all cores; results do not depend on it
    */
-  InterfaceVertices(const Triangulation<3>& triangulation, const Domain<3>& image,
+  InterfaceVertices(const Triangulation<D>& triangulation, const Domain<D>& image,
     unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
@@ -54,7 +55,7 @@ public:
   Changes Update();
 
 private:
-  using Entry = std::pair<VertexId, Point<3>>;
+  using Entry = std::pair<VertexId, Point<D>>;
 
   Changes FindAll();
   Changes FindChanges();
@@ -65,13 +66,16 @@ private:
   /** @param star scratch */
   bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
 
-  const Triangulation<3>& Source;
-  const Domain<3>& Image;
+  const Triangulation<D>& Source;
+  const Domain<D>& Image;
   const unsigned Threads;
   const std::stop_token Stop;
   std::vector<std::uint32_t> Seen; ///< GenerationOf() every simplex at the last call
   std::vector<Entry> Known;        ///< interface vertices at the last call, by increasing id
 };
+
+extern template class InterfaceVertices<3>;
+extern template class InterfaceVertices<4>;
 
 } // namespace voxplex
 

@@ -25,11 +25,12 @@ constexpr double ClearingDistance = 0.25;
  * A subset of the points, at least `distance` apart. Each other point is closer than that to one of
  * the subset.
  */
-std::vector<Point<3>> ThinOut(const std::vector<Point<3>>& points, double distance)
+template <int D>
+std::vector<Point<D>> ThinOut(const std::vector<Point<D>>& points, double distance)
 {
-  FeatureGrid<3> kept({ 0.0, 0.0, 0.0 }, distance, points.size());
-  std::vector<Point<3>> some;
-  for (const Point<3>& p : points)
+  FeatureGrid<D> kept(Point<D>{}, distance, points.size());
+  std::vector<Point<D>> some;
+  for (const Point<D>& p : points)
   {
     if (!kept.AnyWithin(p, distance))
     {
@@ -43,8 +44,9 @@ std::vector<Point<3>> ThinOut(const std::vector<Point<3>>& points, double distan
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-UniformInterfaceCheck::UniformInterfaceCheck(const LabelImage<3>& image, const BitMask<3>& sites,
-  const Domain<3>& domain, const SizingField<3>& sizing, LocalDelta<3>& local, unsigned threads,
+template <int D>
+UniformInterfaceCheck<D>::UniformInterfaceCheck(const LabelImage<D>& image, const BitMask<D>& sites,
+  const Domain<D>& domain, const SizingField<D>& sizing, LocalDelta<D>& local, unsigned threads,
   const std::stop_token& stop)
   : Image(image)
   , Sites(sites)
@@ -64,16 +66,19 @@ UniformInterfaceCheck::UniformInterfaceCheck(const LabelImage<3>& image, const B
 }
 
 //------------------------------------------------------------------------------------------------
-double UniformInterfaceCheck::LargestDistanceOf(const VoxelFace& face, const Point<3>& centre) const
+template <int D>
+double UniformInterfaceCheck<D>::LargestDistanceOf(
+  const VoxelFace<D>& face, const Point<D>& centre) const
 {
   const double asked =
     this->Sizing.AskedDistance(centre, this->Image.At(face.Voxel), this->Image.At(face.Next()));
   return std::max(LargestDistance * asked, this->VoxelDiagonal);
 }
 
-bool UniformInterfaceCheck::IsFar(const VoxelFace& face, Hint& known) const
+template <int D>
+bool UniformInterfaceCheck<D>::IsFar(const VoxelFace<D>& face, Hint& known) const
 {
-  const Point<3> centre = CentreOf(face, this->Image);
+  const Point<D> centre = CentreOf(face, this->Image);
   const double distance = this->LargestDistanceOf(face, centre);
   if (known && Distance2(centre, *known) < distance * distance)
   {
@@ -89,53 +94,61 @@ bool UniformInterfaceCheck::IsFar(const VoxelFace& face, Hint& known) const
 }
 
 //------------------------------------------------------------------------------------------------
-// Clears the ball row by row. IndexToFrame is upper triangular, so z and y of the frame are
-// constant along a row.
-void UniformInterfaceCheck::ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) const
+// Clears the ball row by row. IndexToFrame is upper triangular, so along an axis the coordinates of
+// all later axes are constant.
+template <int D>
+void UniformInterfaceCheck<D>::ClearVoxelsNear(const Point<D>& p, BitMask<D>& voxels) const
 {
-  const GridGeometry<3>::Matrix& m = this->Image.Grid().IndexToFrame;
-  const auto& n = voxels.Dimensions();
-  Point<3> x = this->Image.Grid().ToIndex(p); // in the mask: the crop and one layer around it
-  for (std::size_t a = 0; a < 3; ++a)
+  Point<D> centre = this->Image.Grid().ToIndex(p); // in the mask: the crop and one layer around it
+  for (std::size_t a = 0; a < D; ++a)
   {
-    x[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
+    centre[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
   }
-  // The positions along an axis within half a width of a centre. The square of half a width is
-  // rounded.
-  const auto places = [&](std::size_t a, double centre, double half2)
+  Index voxel{};
+  this->ClearVoxelsNear(centre, D - 1, this->NearVoxel * this->NearVoxel, voxel, voxels);
+}
+
+/**
+ * Clears the voxels of a ball whose indices along the axes after `axis` are given.
+ * @param left2 the squared radius, less the squared distance along these axes
+ */
+template <int D>
+void UniformInterfaceCheck<D>::ClearVoxelsNear(
+  const Point<D>& centre, std::size_t axis, double left2, Index& voxel, BitMask<D>& voxels) const
+{
+  const auto& m = this->Image.Grid().IndexToFrame;
+  double middle = centre[axis]; // where the distance along this axis is 0
+  for (std::size_t a = axis + 1; a < D; ++a)
   {
-    const double half = std::sqrt(std::max(half2, 0.0)) / m[a][a];
-    return std::pair{ std::max<std::int64_t>(
-                        static_cast<std::int64_t>(std::ceil(centre - half)), 0),
-      std::min(static_cast<std::int64_t>(std::floor(centre + half)), n[a] - 1) };
-  };
-  const double radius2 = this->NearVoxel * this->NearVoxel;
-  const auto layers = places(2, x[2], radius2);
-  for (std::int64_t k = layers.first; k <= layers.second; ++k)
+    middle -= m[axis][a] * (static_cast<double>(voxel[a]) - centre[a]) / m[axis][axis];
+  }
+  const double half = std::sqrt(std::max(left2, 0.0)) / m[axis][axis]; // left2 is rounded
+  const auto first = std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(middle - half)), 0);
+  const auto last =
+    std::min(static_cast<std::int64_t>(std::floor(middle + half)), voxels.Dimensions()[axis] - 1);
+  voxel[axis] = first;
+  if (axis == 0)
   {
-    const double dz = static_cast<double>(k) - x[2];
-    const double left2 = radius2 - m[2][2] * dz * m[2][2] * dz;
-    const auto rows = places(1, x[1] - m[1][2] * dz / m[1][1], left2);
-    for (std::int64_t j = rows.first; j <= rows.second; ++j)
-    {
-      const double dy = static_cast<double>(j) - x[1];
-      const double y = m[1][1] * dy + m[1][2] * dz;
-      const auto [first, last] =
-        places(0, x[0] - (m[0][1] * dy + m[0][2] * dz) / m[0][0], left2 - y * y);
-      voxels.ClearRun({ first, j, k }, last);
-    }
+    voxels.ClearRun(voxel, last);
+    return;
+  }
+  for (; voxel[axis] <= last; ++voxel[axis])
+  {
+    const double away = m[axis][axis] * (static_cast<double>(voxel[axis]) - middle);
+    this->ClearVoxelsNear(centre, axis - 1, left2 - away * away, voxel, voxels);
   }
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<VoxelFace> UniformInterfaceCheck::FindAllFar(
-  const std::vector<Point<3>>& vertices) const
+template <int D>
+std::vector<VoxelFace<D>> UniformInterfaceCheck<D>::FindAllFar(
+  const std::vector<Point<D>>& vertices) const
 {
-  BitMask<3> voxels = this->Sites;
+  BitMask<D> voxels = this->Sites;
   if (this->NearVoxel > 0.0)
   {
     // Vertices may be much denser than the sampling distance. The scan below uses all of them.
-    const std::vector<Point<3>> some = ThinOut(vertices, ClearingDistance * this->NearVoxel);
+    const std::vector<Point<D>> some = ThinOut<D>(vertices, ClearingDistance * this->NearVoxel);
     ParallelFor(
       0, some.size(), 1024, this->Threads,
       [&](std::size_t first, std::size_t last)
@@ -147,61 +160,69 @@ std::vector<VoxelFace> UniformInterfaceCheck::FindAllFar(
       },
       this->Stop);
   }
-  return ScanFaces<Hint>(this->Image, voxels, this->Threads, this->Stop,
-    [this](const VoxelFace& face, Hint& known) { return this->IsFar(face, known); });
+  return ScanFaces<Hint, D>(this->Image, voxels, this->Threads, this->Stop,
+    [this](const VoxelFace<D>& face, Hint& known) { return this->IsFar(face, known); });
 }
 
 /** The far faces among those that were sampled, and those near to vertices that are gone. */
-std::vector<VoxelFace> UniformInterfaceCheck::FindFarAgain(const std::vector<Point<3>>& gone) const
+template <int D>
+std::vector<VoxelFace<D>> UniformInterfaceCheck<D>::FindFarAgain(
+  const std::vector<Point<D>>& gone) const
 {
-  std::vector<SearchBall> balls;
+  std::vector<SearchBall<D>> balls;
   balls.reserve(gone.size());
-  for (const Point<3>& p : gone)
+  for (const Point<D>& p : gone)
   {
     balls.push_back({ p, this->Reach + 1e-6 * this->VoxelDiagonal }); // tolerates rounding
   }
-  const std::vector<VoxelFace> near = FindFacesNear(this->Image, this->Sites, balls, this->Stop);
-  return FilterFaces<Hint>(UnionOf(this->Sampling.Sampled(), near),
-    [this](const VoxelFace& face, Hint& known) { return this->IsFar(face, known); });
+  const std::vector<VoxelFace<D>> near =
+    FindFacesNear<D>(this->Image, this->Sites, balls, this->Stop);
+  return FilterFaces<Hint, D>(UnionOf(this->Sampling.Sampled(), near),
+    [this](const VoxelFace<D>& face, Hint& known) { return this->IsFar(face, known); });
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> UniformInterfaceCheck::InspectVertices(
-  const InterfaceVertices::Changes& changes)
+template <int D>
+std::vector<FeatureSeed<D>> UniformInterfaceCheck<D>::InspectVertices(
+  const typename InterfaceVertices<D>::Changes& changes)
 {
   const bool isFirst = !this->Vertices;
   if (isFirst)
   {
-    this->Vertices.emplace(Point<3>{ 0.0, 0.0, 0.0 }, this->Reach, changes.Added.size());
+    this->Vertices.emplace(Point<D>{}, this->Reach, changes.Added.size());
   }
-  for (const Point<3>& p : changes.Gone)
+  for (const Point<D>& p : changes.Gone)
   {
     this->Vertices->Remove(p);
   }
-  for (const Point<3>& p : changes.Added)
+  for (const Point<D>& p : changes.Added)
   {
     this->Vertices->Add(p);
   }
-  const std::vector<VoxelFace> far =
+  const std::vector<VoxelFace<D>> far =
     isFirst ? this->FindAllFar(changes.Added) : this->FindFarAgain(changes.Gone);
   this->FarFaces = far.size();
   return this->Sampling.Around(far, {});
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> UniformInterfaceCheck::InspectLabels(
-  const std::vector<Point<3>>& gone, const std::vector<NonManifoldPlace>& edges)
+template <int D>
+std::vector<FeatureSeed<D>> UniformInterfaceCheck<D>::InspectLabels(
+  const std::vector<Point<D>>& gone, const std::vector<NonManifoldPlace<D>>& edges)
 {
-  std::vector<Point<3>> removed;
+  std::vector<Point<D>> removed;
   std::copy_if(gone.begin(), gone.end(), std::back_inserter(removed),
-    [&](const Point<3>& p) { return this->Vertices->Remove(p); });
-  const std::vector<VoxelFace> far = this->FindFarAgain(removed);
-  for (const Point<3>& p : removed)
+    [&](const Point<D>& p) { return this->Vertices->Remove(p); });
+  const std::vector<VoxelFace<D>> far = this->FindFarAgain(removed);
+  for (const Point<D>& p : removed)
   {
     this->Vertices->Add(p);
   }
   this->FarFaces = far.size();
   return this->Sampling.AroundIfBad(far, edges);
 }
+
+template class UniformInterfaceCheck<3>;
+template class UniformInterfaceCheck<4>;
 
 } // namespace voxplex

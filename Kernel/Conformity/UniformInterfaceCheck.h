@@ -37,6 +37,7 @@ namespace voxplex
  * Not thread safe; uses threads of its own. Checking all faces takes time linear in the number of
  * the image's surface voxels.
  */
+template <int D>
 class UniformInterfaceCheck
 {
 public:
@@ -52,8 +53,8 @@ public:
    * @param local receives the spacing of the proposed points, and bounds
    * @param threads 0 means all cores; results do not depend on it
    */
-  UniformInterfaceCheck(const LabelImage<3>& image, const BitMask<3>& sites,
-    const Domain<3>& domain, const SizingField<3>& sizing, LocalDelta<3>& local, unsigned threads,
+  UniformInterfaceCheck(const LabelImage<D>& image, const BitMask<D>& sites,
+    const Domain<D>& domain, const SizingField<D>& sizing, LocalDelta<D>& local, unsigned threads,
     const std::stop_token& stop);
 
   /**
@@ -62,7 +63,8 @@ public:
    *   added
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> InspectVertices(const InterfaceVertices::Changes& changes);
+  std::vector<FeatureSeed<D>> InspectVertices(
+    const typename InterfaceVertices<D>::Changes& changes);
 
   /**
    * To be called after InspectVertices(). Proposes points that make edges manifold, and points near
@@ -72,26 +74,30 @@ public:
    * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
-  std::vector<FeatureSeed<3>> InspectLabels(
-    const std::vector<Point<3>>& gone, const std::vector<NonManifoldPlace>& edges);
+  std::vector<FeatureSeed<D>> InspectLabels(
+    const std::vector<Point<D>>& gone, const std::vector<NonManifoldPlace<D>>& edges);
 
   /** The number of far faces at the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }
 
 private:
+  using Index = typename GridGeometry<D>::Index;
+
   /** A vertex that was near an adjacent face, or null. */
-  using Hint = const Point<3>*;
+  using Hint = const Point<D>*;
 
-  double LargestDistanceOf(const VoxelFace& face, const Point<3>& centre) const;
-  bool IsFar(const VoxelFace& face, Hint& known) const;
-  std::vector<VoxelFace> FindAllFar(const std::vector<Point<3>>& vertices) const;
-  std::vector<VoxelFace> FindFarAgain(const std::vector<Point<3>>& gone) const;
-  void ClearVoxelsNear(const Point<3>& p, BitMask<3>& voxels) const;
+  double LargestDistanceOf(const VoxelFace<D>& face, const Point<D>& centre) const;
+  bool IsFar(const VoxelFace<D>& face, Hint& known) const;
+  std::vector<VoxelFace<D>> FindAllFar(const std::vector<Point<D>>& vertices) const;
+  std::vector<VoxelFace<D>> FindFarAgain(const std::vector<Point<D>>& gone) const;
+  void ClearVoxelsNear(const Point<D>& p, BitMask<D>& voxels) const;
+  void ClearVoxelsNear(
+    const Point<D>& centre, std::size_t axis, double left2, Index& voxel, BitMask<D>& voxels) const;
 
-  const LabelImage<3>& Image;
-  const BitMask<3>& Sites;
-  const SizingField<3>& Sizing;
-  InterfaceSampling Sampling;
+  const LabelImage<D>& Image;
+  const BitMask<D>& Sites;
+  const SizingField<D>& Sizing;
+  InterfaceSampling<D> Sampling;
   const unsigned Threads;
   const std::stop_token Stop;
   double VoxelDiagonal;
@@ -101,9 +107,12 @@ private:
    * far. 0: depends on the face.
    */
   double NearVoxel = 0.0;
-  std::optional<FeatureGrid<3>> Vertices; ///< at the last InspectVertices()
+  std::optional<FeatureGrid<D>> Vertices; ///< at the last InspectVertices()
   std::size_t FarFaces = 0;
 };
+
+extern template class UniformInterfaceCheck<3>;
+extern template class UniformInterfaceCheck<4>;
 
 } // namespace voxplex
 

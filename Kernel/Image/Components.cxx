@@ -135,8 +135,10 @@ std::uint32_t Components<D>::At(const Index& voxel) const
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-Components<D>::Components(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+Components<D>::Components(
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop, std::size_t extent)
   : Dimensions(image.CropDimensions())
+  , JoinedAxes(extent)
 {
   const std::vector<LabelId> labels = this->FindRuns(image, threads, stop);
   DisjointSets sets(this->Runs.size());
@@ -242,7 +244,7 @@ std::vector<double> Components<D>::JoinRuns(const Point<D>& areas,
   const auto joinAxes = [&](std::size_t row, std::size_t firstRowOfSlab, bool within)
   {
     std::size_t stride = 1;
-    for (std::size_t a = 1; a < D; ++a)
+    for (std::size_t a = 1; a < this->JoinedAxes; ++a)
     {
       const auto n = static_cast<std::size_t>(this->Dimensions[a]);
       if (row / stride % n != 0 && (row - stride >= firstRowOfSlab) == within)

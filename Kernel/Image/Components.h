@@ -46,12 +46,18 @@ public:
    * Time is linear in the number of voxels, memory in the number of runs.
    * @param image must live as long as this object
    * @param threads 0 means all cores; the result does not depend on it
+   * @param extent voxels are neighbours along this number of axes, the first ones. D - 1: the
+   *   components of each frame (in 4D) for itself. At least 2.
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  explicit Components(
-    const LabelImage<D>& image, unsigned threads = 1, const std::stop_token& stop = {});
+  explicit Components(const LabelImage<D>& image, unsigned threads = 1,
+    const std::stop_token& stop = {}, std::size_t extent = D);
   /** A temporary image is refused, since this object does not keep the image alive. */
-  explicit Components(LabelImage<D>&&, unsigned = 1, const std::stop_token& = {}) = delete;
+  explicit Components(
+    LabelImage<D>&&, unsigned = 1, const std::stop_token& = {}, std::size_t = D) = delete;
+
+  /** The number of axes along which voxels are neighbours. */
+  std::size_t Extent() const { return this->JoinedAxes; }
 
   const std::vector<Component<D>>& All() const { return this->List; }
 
@@ -99,6 +105,7 @@ private:
   std::uint32_t RunEnd(std::size_t run) const;
 
   Index Dimensions;
+  std::size_t JoinedAxes;
   std::vector<std::uint32_t> FirstOfRow; ///< runs of row r: [FirstOfRow[r], FirstOfRow[r + 1])
   std::vector<Run> Runs;
   std::vector<std::uint32_t> FirstRun; ///< first run of each component

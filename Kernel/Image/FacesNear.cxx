@@ -15,21 +15,22 @@ namespace voxplex
 namespace
 {
 
-using Index = GridGeometry<3>::Index;
-
 /** Blocks of at most this number of voxels along each axis are searched face by face. */
 constexpr std::int64_t LeafEdge = 4;
 
 /** The voxels from `Low` to `High`, both included. */
+template <int D>
 struct Block
 {
+  using Index = typename GridGeometry<D>::Index;
+
   Index Low;
   Index High;
 
   std::size_t LongestAxis() const
   {
     std::size_t longest = 0;
-    for (std::size_t a = 1; a < 3; ++a)
+    for (std::size_t a = 1; a < D; ++a)
     {
       longest =
         this->High[a] - this->Low[a] > this->High[longest] - this->Low[longest] ? a : longest;
@@ -38,11 +39,14 @@ struct Block
   }
 };
 
+template <int D>
 class Search
 {
+  using Index = typename GridGeometry<D>::Index;
+
 public:
-  Search(const LabelImage<3>& image, const BitMask<3>& sites, std::span<const SearchBall> balls,
-    const std::stop_token& stop)
+  Search(const LabelImage<D>& image, const BitMask<D>& sites,
+    const std::vector<SearchBall<D>>& balls, const std::stop_token& stop)
     : Image(image)
     , Sites(sites)
     , Balls(balls)
@@ -50,13 +54,14 @@ public:
   {
   }
 
-  std::vector<VoxelFace> Run()
+  std::vector<VoxelFace<D>> Run()
   {
     for (std::uint32_t b = 0; b < this->Balls.size(); ++b)
     {
       this->Reaching.push_back(b);
     }
-    Block all{ { -1, -1, -1 }, this->Image.CropDimensions() };
+    Block<D> all{ {}, this->Image.CropDimensions() };
+    all.Low.fill(-1);
     for (std::int64_t& last : all.High)
     {
       --last;
@@ -68,7 +73,7 @@ public:
 
 private:
   /** @param first the balls of this->Reaching from this position on may intersect the block */
-  void Visit(const Block& block, std::size_t first)
+  void Visit(const Block<D>& block, std::size_t first)
   {
     const std::size_t own = this->Reaching.size();
     const bool isWithinOne = this->KeepReaching(this->BoundsOf(block), first);
@@ -81,7 +86,7 @@ private:
       }
       else
       {
-        Block half = block;
+        Block<D> half = block;
         half.High[axis] = (block.Low[axis] + block.High[axis]) / 2;
         this->Visit(half, own);
         half.Low[axis] = half.High[axis] + 1;
@@ -93,14 +98,14 @@ private:
   }
 
   /** A box in the frame that contains the centres of the block's faces, in spite of rounding. */
-  Box<3> BoundsOf(const Block& block) const
+  Box<D> BoundsOf(const Block<D>& block) const
   {
     constexpr double Slack = 1e-6; // voxels
     const auto& matrix = this->Image.Grid().IndexToFrame;
-    Box<3> bounds{ {}, {} };
-    for (std::size_t row = 0; row < 3; ++row)
+    Box<D> bounds{ {}, {} };
+    for (std::size_t row = 0; row < D; ++row)
     {
-      for (std::size_t a = row; a < 3; ++a)
+      for (std::size_t a = row; a < D; ++a)
       {
         const auto origin = static_cast<double>(this->Image.CropOrigin()[a]);
         const double low = matrix[row][a] * (origin + static_cast<double>(block.Low[a]) - Slack);
@@ -118,17 +123,17 @@ private:
    * this ball. Otherwise appends all balls that intersect the box.
    * @return whether a ball contains the box
    */
-  bool KeepReaching(const Box<3>& box, std::size_t first)
+  bool KeepReaching(const Box<D>& box, std::size_t first)
   {
     const std::size_t own = this->Reaching.size();
     for (std::size_t k = first; k < own; ++k)
     {
       const std::uint32_t b = this->Reaching[k];
-      const SearchBall& ball = this->Balls[b];
+      const SearchBall<D>& ball = this->Balls[b];
       const double radius2 = ball.Radius * ball.Radius;
       double nearest2 = 0.0;
       double farthest2 = 0.0;
-      for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t a = 0; a < D; ++a)
       {
         const double below = box.Min[a] - ball.Centre[a];
         const double above = ball.Centre[a] - box.Max[a];
@@ -151,70 +156,95 @@ private:
     return false;
   }
 
-  void AddFacesOf(const Block& block, std::size_t first)
+  void AddFacesOf(const Block<D>& block, std::size_t first)
   {
     ThrowIfStopped(this->Stop);
-    Index voxel;
-    for (voxel[2] = block.Low[2]; voxel[2] <= block.High[2]; ++voxel[2])
+    Index voxel = block.Low;
+    for (bool isInside = true; isInside; isInside = NextRow(voxel, block))
     {
-      for (voxel[1] = block.Low[1]; voxel[1] <= block.High[1]; ++voxel[1])
+      Index inMask = voxel;
+      for (std::int64_t& c : inMask)
       {
-        const auto words = this->Sites.Row(this->Sites.RowOf({ 0, voxel[1] + 1, voxel[2] + 1 }));
-        for (std::int64_t w = (block.Low[0] + 1) / 64; 64 * w <= block.High[0] + 1; ++w)
+        ++c;
+      }
+      const auto words = this->Sites.Row(this->Sites.RowOf(inMask));
+      for (std::int64_t w = (block.Low[0] + 1) / 64; 64 * w <= block.High[0] + 1; ++w)
+      {
+        for (std::uint64_t bits = words[static_cast<std::size_t>(w)]; bits != 0; bits &= bits - 1)
         {
-          for (std::uint64_t bits = words[static_cast<std::size_t>(w)]; bits != 0; bits &= bits - 1)
+          voxel[0] = 64 * w + std::countr_zero(bits) - 1;
+          if (voxel[0] >= block.Low[0] && voxel[0] <= block.High[0])
           {
-            voxel[0] = 64 * w + std::countr_zero(bits) - 1;
-            if (voxel[0] >= block.Low[0] && voxel[0] <= block.High[0])
-            {
-              this->AddFacesOf(voxel, first);
-            }
+            this->AddFacesOf(voxel, first);
           }
         }
       }
     }
   }
 
+  /** Moves to the block's next row along the first axis. False if there is none. */
+  static bool NextRow(Index& voxel, const Block<D>& block)
+  {
+    std::size_t a = 1;
+    while (a < D && voxel[a] == block.High[a])
+    {
+      voxel[a] = block.Low[a];
+      ++a;
+    }
+    if (a == D)
+    {
+      return false;
+    }
+    ++voxel[a];
+    return true;
+  }
+
   /** Adds the faces on the voxel's upper sides. */
   void AddFacesOf(const Index& voxel, std::size_t first)
   {
-    for (unsigned a = 0; a < 3; ++a)
+    for (unsigned a = 0; a < D; ++a)
     {
-      const VoxelFace face{ voxel, a };
-      if (this->Image.At(voxel) != this->Image.At(face.Next()) && this->IsNear(face, first))
+      const VoxelFace<D> face{ voxel, a };
+      if (IsOfInterface(face, this->Image) && this->IsNear(face, first))
       {
         this->Found.push_back(face);
       }
     }
   }
 
-  bool IsNear(const VoxelFace& face, std::size_t first) const
+  bool IsNear(const VoxelFace<D>& face, std::size_t first) const
   {
-    const Point<3> centre = CentreOf(face, this->Image);
+    const Point<D> centre = CentreOf(face, this->Image);
     return std::any_of(this->Reaching.begin() + static_cast<std::ptrdiff_t>(first),
       this->Reaching.end(),
       [&](std::uint32_t b)
       {
-        const SearchBall& ball = this->Balls[b];
+        const SearchBall<D>& ball = this->Balls[b];
         return Distance2(centre, ball.Centre) <= ball.Radius * ball.Radius;
       });
   }
 
-  const LabelImage<3>& Image;
-  const BitMask<3>& Sites;
-  const std::span<const SearchBall> Balls;
+  const LabelImage<D>& Image;
+  const BitMask<D>& Sites;
+  const std::vector<SearchBall<D>>& Balls;
   const std::stop_token Stop;
   std::vector<std::uint32_t> Reaching; ///< stack: the balls of each block on the recursion's path
-  std::vector<VoxelFace> Found;
+  std::vector<VoxelFace<D>> Found;
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-std::vector<VoxelFace> FindFacesNear(const LabelImage<3>& image, const BitMask<3>& sites,
-  std::span<const SearchBall> balls, const std::stop_token& stop)
+template <int D>
+std::vector<VoxelFace<D>> FindFacesNear(const LabelImage<D>& image, const BitMask<D>& sites,
+  const std::vector<SearchBall<D>>& balls, const std::stop_token& stop)
 {
-  return Search(image, sites, balls, stop).Run();
+  return Search<D>(image, sites, balls, stop).Run();
 }
+
+template std::vector<VoxelFace<3>> FindFacesNear<3>(const LabelImage<3>&, const BitMask<3>&,
+  const std::vector<SearchBall<3>>&, const std::stop_token&);
+template std::vector<VoxelFace<4>> FindFacesNear<4>(const LabelImage<4>&, const BitMask<4>&,
+  const std::vector<SearchBall<4>>&, const std::stop_token&);
 
 } // namespace voxplex

@@ -54,8 +54,8 @@ public:
   /** The sources refer to this object. */
   SizingSources<D> Sources() const
   {
-    return { this->Base.Base, this->Interfaces ? &*this->Interfaces : nullptr,
-      Dimension<D>::HasLocalBounds ? &this->Local : nullptr, this->Size, this->SizeFloor };
+    return { this->Base.Base, this->Interfaces ? &*this->Interfaces : nullptr, &this->Local,
+      this->Size, this->SizeFloor };
   }
 
   LocalDelta<D>& LocalBounds() { return this->Local; }

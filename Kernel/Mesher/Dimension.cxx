@@ -34,6 +34,19 @@ constexpr double GradingTolerance = 0.9;
  */
 constexpr double OptimisationTolerance = 0.1;
 
+/**
+ * If a space-time image is shorter than this many delta, nothing is sampled more finely. Between two
+ * flat ends that are near each other, most points would be moved onto the ends, and rules answer
+ * each other: images of a hundred voxels took minutes.
+ */
+constexpr double ShortestDuration = 3.0;
+
+bool MayBeRefined(const RunEnvironment<4>& run)
+{
+  const Box<4> bounds = run.Prepared.Surfaces->Bounds();
+  return bounds.Max[3] - bounds.Min[3] >= ShortestDuration * run.Statistics.Delta;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -100,7 +113,7 @@ Dimension<3>::Checks::Checks(
     const Stopwatch time;
     this->Components.emplace(run.Prepared.Image, *run.Prepared.Surfaces,
       *run.Prepared.AllComponents, context.Sizing, run.Options.Components.Smallest,
-      run.Options.Components.Exact, local, run.Statistics.Components,
+      run.Options.Components.Exact, true, local, run.Statistics.Components,
       run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
     run.Statistics.Times.Components += time.Seconds();
   }
@@ -129,6 +142,64 @@ void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
   const unsigned threads = this->Run.Options.Team.Threads;
   ExtractMesh<3>(this->Source, surfaces, this->Interfaces.Labels(), mesh, threads, this->Run.Stop);
   Subdivide(this->Source, surfaces, this->Interfaces.Parts(), mesh, threads, this->Run.Stop);
+}
+
+//------------------------------------------------------------------------------------------------
+Dimension<4>::Checks::Checks(
+  const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>& local)
+  : Run(run)
+  , Source(context.Mesh)
+  , MayRefine(MayBeRefined(run))
+  , Interfaces(context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+      context.Sizing, run.Options.Interfaces, local, run.Statistics.Interfaces,
+      run.Statistics.Times.Interfaces, run.Options.Team.Threads, run.Stop)
+{
+  const auto start = [&](const std::optional<voxplex::Components<4>>& all,
+                       ComponentStatistics& statistics, std::optional<ComponentCheck<4>>& check)
+  {
+    if (all)
+    {
+      const Stopwatch time;
+      check.emplace(run.Prepared.Image, *run.Prepared.Surfaces, *all, context.Sizing,
+        run.Options.Components.Smallest, run.Options.Components.Exact, MayRefine, local, statistics,
+        run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
+      run.Statistics.Times.Components += time.Seconds();
+    }
+  };
+  start(run.Prepared.AllComponents, run.Statistics.Components, this->Components);
+  start(run.Prepared.OfFrames, run.Statistics.FrameComponents, this->OfFrames);
+}
+
+std::vector<FeatureSeed<4>> Dimension<4>::Checks::TakeSeeds()
+{
+  std::vector<FeatureSeed<4>> seeds;
+  for (std::optional<ComponentCheck<4>>* check : { &this->Components, &this->OfFrames })
+  {
+    if (*check)
+    {
+      const std::vector<FeatureSeed<4>> more = (*check)->TakeSeeds();
+      seeds.insert(seeds.end(), more.begin(), more.end());
+    }
+  }
+  return seeds;
+}
+
+std::vector<ConformityCheck<4>*> Dimension<4>::Checks::All()
+{
+  std::vector<ConformityCheck<4>*> all;
+  if (this->Components)
+  {
+    all.push_back(&*this->Components);
+  }
+  if (this->OfFrames)
+  {
+    all.push_back(&*this->OfFrames);
+  }
+  if (this->MayRefine)
+  {
+    all.push_back(&this->Interfaces);
+  }
+  return all;
 }
 
 void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const

@@ -10,6 +10,7 @@
 #include "Conformity/ComponentCheck.h"
 #include "Conformity/ConformityCheck.h"
 #include "Conformity/InterfaceCheck.h"
+#include "Conformity/SpaceTimeInterfaceCheck.h"
 #include "Mesh/SimplexMesh.h"
 #include "Mesher/MeshingOptions.h"
 #include "Mesher/MeshingStatistics.h"
@@ -53,7 +54,6 @@ template <>
 struct Dimension<3>
 {
   using Rules = Rules3D;
-  static constexpr bool HasLocalBounds = true;
 
   /** The base distance. Graded by the local feature size if the options request it. */
   static OwnedBaseDistance<3> GradeBase(const RunEnvironment<3>& run, double delta);
@@ -93,13 +93,12 @@ struct Dimension<3>
 };
 
 /**
- * The stages in space-time. There is no grading, no junctions, no checks and no optimisation yet.
+ * The stages in space-time. There is no grading, there are no junctions, and no optimisation yet.
  */
 template <>
 struct Dimension<4>
 {
   using Rules = Rules4D;
-  static constexpr bool HasLocalBounds = false; ///< no check lowers local bounds
 
   static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
   {
@@ -113,21 +112,28 @@ struct Dimension<4>
 
   static void Optimise(const RunEnvironment<4>&, SimplexMesh<4>&) {}
 
+  /** Checks components, also those of frames, then interfaces. Extracts the mesh. */
   class Checks
   {
   public:
-    Checks(const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>&)
-      : Run(run)
-      , Source(context.Mesh)
-    {
-    }
-    std::vector<FeatureSeed<4>> TakeSeeds() { return {}; }
-    std::vector<ConformityCheck<4>*> All() { return {}; }
+    /** Components may lower local bounds already here. All references must outlive the checks. */
+    Checks(const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>& local);
+
+    /** Points for thin components, to be inserted before refinement. */
+    std::vector<FeatureSeed<4>> TakeSeeds();
+
+    /** All checks, in order. */
+    std::vector<ConformityCheck<4>*> All();
+
     void Extract(SimplexMesh<4>& mesh) const;
 
   private:
     const RunEnvironment<4> Run;
     const Triangulation<4>& Source;
+    const bool MayRefine;                        ///< false if the image is short in time
+    std::optional<ComponentCheck<4>> Components; ///< empty if components are not checked
+    std::optional<ComponentCheck<4>> OfFrames;   ///< empty if components are not checked
+    SpaceTimeInterfaceCheck Interfaces;
   };
 };
 

@@ -54,7 +54,7 @@ struct SamplingOptions
 struct OptimisationStageOptions
 {
   /**
-   * Improve shapes, where possible to dihedral angles of 15 to 155 degrees. Radius-edge ratios may
+   * Improve shapes, where possible to dihedral angles of 18 to 150 degrees. Radius-edge ratios may
    * then be up to 2.5 or ShapeOptions::RadiusEdgeRatio, whichever is larger. The mesh is no longer
    * Delaunay.
    */
@@ -96,7 +96,7 @@ struct MeshingOptions
   TeamOptions Team = TeamOptions::Default<D>();
   LimitOptions Limits;
 
-  bool LooksAfterComponents() const { return D == 3 && this->Components.Smallest > 0; }
+  bool LooksAfterComponents() const { return this->Components.Smallest > 0; }
   bool Optimises() const { return D == 3 && this->Optimisation.Run; }
 };
 

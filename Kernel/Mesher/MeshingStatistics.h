@@ -93,6 +93,7 @@ struct MeshingStatistics
   std::uint64_t GradingPoles = 0;   ///< points of the medial axis derived from them
   std::uint64_t EstimatedElements = 0;
   ComponentStatistics Components;
+  ComponentStatistics FrameComponents; ///< components of the frames, each for itself; 4D only
   InterfaceStatistics Interfaces;
   OptimisationSummary Optimisation;
   std::vector<YieldingReport> Yielding; ///< the steps of all regions, in the order they were taken

@@ -63,7 +63,8 @@ template <int D>
 PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
 {
-  PreparedImage<D> prepared{ image, nullptr, nullptr, std::nullopt, std::nullopt, nullptr };
+  PreparedImage<D> prepared{ image, nullptr, nullptr, std::nullopt, std::nullopt, std::nullopt,
+    nullptr };
   if (isosurface)
   {
     TakeDomain<D>(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
@@ -85,6 +86,11 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
     const Stopwatch time;
     prepared.AllComponents.emplace(image, options.Team.Threads, stop);
     statistics.Components.Found = prepared.AllComponents->All().size();
+    if constexpr (D == 4)
+    {
+      prepared.OfFrames.emplace(image, options.Team.Threads, stop, 3);
+      statistics.FrameComponents.Found = prepared.OfFrames->All().size();
+    }
     statistics.Times.Components += time.Seconds();
   }
   const Stopwatch time;

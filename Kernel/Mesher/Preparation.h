@@ -33,6 +33,7 @@ struct PreparedImage
   const BitMask<D>* Sites;                     ///< surface voxels of the domain
   std::optional<JunctionCurves> Junctions;     ///< empty if junctions are not sampled
   std::optional<Components<D>> AllComponents;  ///< empty if components are not checked
+  std::optional<Components<D>> OfFrames;       ///< those of each frame; empty as before, and in 3D
   std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
 };
 

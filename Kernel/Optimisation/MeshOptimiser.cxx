@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/PatchWorker.h"
+#include "Optimisation/Rooms.h"
 #include "Optimisation/TetrahedralComplex.h"
 #include "Parallel/ParallelFor.h"
 
@@ -37,11 +38,9 @@ constexpr std::size_t MostBlocks = 256;
 constexpr unsigned PassesOfBlock = 4;
 /** The largest number of passes over the whole mesh with each effort. */
 constexpr unsigned MostPasses = 12;
-/**
- * How many times room is made around the remaining poor tetrahedra, and within how many tetrahedra.
- */
+/** How many times room is made around the remaining poor tetrahedra, and within how many edges. */
 constexpr unsigned RoundsOfRoom = 3;
-constexpr unsigned RingsOfRoom = 3;
+constexpr unsigned EdgesOfRoom = 2;
 /** The factor that tightens bounds of angles there, and its growth at each round. */
 constexpr double TighterBounds = 1.2;
 constexpr double TighterEachRound = 0.1;
@@ -205,10 +204,7 @@ private:
           this->Rules, this->Options.InterfaceTolerance, this->Limits);
         worker.GetPatch().Clock = this->LastClock;
         worker.GetPatch().SetSlots(std::move(slots[b]));
-        for (const std::uint32_t t : poor[b])
-        {
-          worker.Add(t);
-        }
+        worker.WorkOn(poor[b]);
         for (unsigned pass = 0; pass < PassesOfBlock && worker.Pass(Effort::Plain) != 0; ++pass)
         {
         }
@@ -259,10 +255,7 @@ private:
     patch.SetSlots(std::move(this->Slots));
     patch.SetSpareVertices(
       static_cast<std::uint32_t>(points), static_cast<std::uint32_t>(points + spare));
-    for (const std::uint32_t t : this->Poor)
-    {
-      worker.Add(t);
-    }
+    worker.WorkOn(this->Poor);
     for (const Effort effort : { Effort::Plain, Effort::Insertions, Effort::MovesOffInterfaces })
     {
       this->WorkWith(effort, worker);
@@ -302,66 +295,57 @@ private:
     }
   }
 
-  /** Improves tetrahedra around poor ones beyond their bounds, so that the poor ones can change. */
+  /**
+   * Improves tetrahedra around poor ones beyond their bounds, so that the poor ones can change.
+   * Each room is a block. Outside of rooms nothing changes: there, one tetrahedron beyond its
+   * bounds would lead to the next, and so on without end.
+   */
   void MakeRoom(PatchWorker& worker, double tighter)
   {
+    Patch& patch = worker.GetPatch();
+    const Rooms rooms = RoomsAround(this->Mesh, worker.Left(), EdgesOfRoom);
     const ShapeScore usual = this->Mesh.Shape;
     this->Mesh.Shape = ShapeScore(
       std::min(tighter * this->Options.SmallestDihedralAngle, LargestLowerBound),
       std::max(180.0 - tighter * (180.0 - this->Options.LargestDihedralAngle), SmallestUpperBound),
       this->Options.Shape.RadiusEdgeRatio);
-    this->Rescore();
-    for (const std::uint32_t t : this->CellsAround(worker.Left()))
-    {
-      worker.Add(t);
-    }
-    this->WorkWith(Effort::Plain, worker);
+    this->Poor = this->Rescore(rooms);
+    this->LastClock = patch.Clock;
+    this->Slots = patch.TakeSlots();
+    this->WorkInBlocks(rooms.Number, rooms.OfVertex);
+    patch.Clock = this->LastClock;
+    patch.SetSlots(std::move(this->Slots));
     this->Mesh.Shape = usual;
-    this->Rescore();
+    worker.WorkOn(this->Rescore(rooms));
   }
 
-  void Rescore()
+  /** Scores the tetrahedra in rooms again. Returns the poor ones. */
+  std::vector<std::uint32_t> Rescore(const Rooms& rooms)
   {
+    const auto isInRoom = [&](std::uint32_t t)
+    { return this->Mesh.IsAlive(t) && rooms.Contain(this->Mesh.Cells[t].V); };
     ParallelFor(
       0, this->Mesh.Cells.size(), SurveyGrain, this->Threads,
       [&](std::size_t first, std::size_t last)
       {
         for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
         {
-          if (this->Mesh.IsAlive(t))
+          if (isInRoom(t))
           {
             this->Mesh.Scores[t] = static_cast<float>(this->Mesh.Score(this->Mesh.Cells[t].V));
           }
         }
       },
       this->Limits.Stop);
-  }
-
-  /** The cells, and those that share a vertex with them, repeated RingsOfRoom times. */
-  std::vector<std::uint32_t> CellsAround(std::vector<std::uint32_t> cells) const
-  {
-    std::vector<bool> reached(this->Mesh.Points.size());
-    for (unsigned ring = 0; ring < RingsOfRoom; ++ring)
+    std::vector<std::uint32_t> poor;
+    for (std::uint32_t t = 0; t < this->Mesh.Cells.size(); ++t)
     {
-      for (const std::uint32_t t : cells)
+      if (this->Mesh.Scores[t] < 1.0f && isInRoom(t))
       {
-        for (const std::uint32_t v : this->Mesh.Cells[t].V)
-        {
-          reached[v] = true;
-        }
-      }
-      cells.clear();
-      for (std::uint32_t t = 0; t < this->Mesh.Cells.size(); ++t)
-      {
-        const auto& v = this->Mesh.Cells[t].V;
-        if (this->Mesh.IsAlive(t) &&
-          (reached[v[0]] || reached[v[1]] || reached[v[2]] || reached[v[3]]))
-        {
-          cells.push_back(t);
-        }
+        poor.push_back(t);
       }
     }
-    return cells;
+    return poor;
   }
 
   void FindStarsOf(PatchWorker& worker) const

@@ -30,8 +30,8 @@ struct OptimisationOptions
    * Bounds of dihedral angles. Tetrahedra that violate a bound are improved. 0 < smallest < 60, 90
    * < largest < 180.
    */
-  double SmallestDihedralAngle = 15.0;
-  double LargestDihedralAngle = 155.0;
+  double SmallestDihedralAngle = 18.0;
+  double LargestDihedralAngle = 150.0;
   /**
    * Tetrahedra that violate the bound of the ratio are improved. Interface triangles that already
    * violate their bound do not get worse.

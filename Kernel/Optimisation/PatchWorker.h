@@ -58,11 +58,18 @@ public:
   const FlipStatistics& GetFlipStatistics() const { return this->Topology.Counts(); }
   const SmoothingStatistics& GetSmoothingStatistics() const { return this->Geometry.Counts(); }
 
-  /** Adds a tetrahedron to work on. */
-  void Add(std::uint32_t t) { this->Work.push_back({ t, 0 }); }
+  /** Sets the tetrahedra to work on. */
+  void WorkOn(std::span<const std::uint32_t> cells)
+  {
+    this->Work.clear();
+    for (const std::uint32_t t : cells)
+    {
+      this->Work.push_back({ t, 0 });
+    }
+  }
 
   /**
-   * Works on every tetrahedron that was added or has become poor. Skips those that were tried and
+   * Works on every tetrahedron that was set or has become poor. Skips those that were tried and
    * whose vertices' tetrahedra have not changed since.
    * @return the number of tetrahedra that were improved
    * @throws Cancelled

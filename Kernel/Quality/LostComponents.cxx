@@ -21,51 +21,149 @@ namespace voxplex
 namespace
 {
 
-/** The voxel that contains the centroid of an element, counted from the first voxel of the crop. */
+/** The voxels of the crop where elements are looked for. */
 template <int D>
-typename GridGeometry<D>::Index VoxelOf(
-  const LabelImage<D>& image, const SimplexMesh<D>& mesh, std::size_t simplex)
+class Places
 {
-  Point<D> centroid{};
-  for (const std::uint32_t v : mesh.Simplices[simplex])
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** All must outlive this object. */
+  Places(const Components<D>& components, const LabelImage<D>& image, const SimplexMesh<D>& mesh)
+    : Extent(components.Extent())
+    , Image(image)
+    , Mesh(mesh)
   {
-    for (std::size_t a = 0; a < D; ++a)
+  }
+
+  /**
+   * Calls visit with the voxel that contains the centroid of an element. If components are those of
+   * frames: with the voxels that contain the centroid of its cut at each frame.
+   */
+  template <typename Visit>
+  void ForEachOf(std::size_t element, const Visit& visit) const
+  {
+    const auto& vertices = this->Mesh.Simplices[element];
+    if (this->Extent == D)
     {
-      centroid[a] += mesh.Points[v][a] / (D + 1);
+      Point<D> centroid{};
+      for (const std::uint32_t v : vertices)
+      {
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          centroid[a] += this->Mesh.Points[v][a] / (D + 1);
+        }
+      }
+      visit(this->VoxelOf(this->Image.Grid().ToIndex(centroid)));
+      return;
+    }
+    std::array<Point<D>, D + 1> corners;
+    for (std::size_t i = 0; i <= D; ++i)
+    {
+      corners[i] = this->Image.Grid().ToIndex(this->Mesh.Points[vertices[i]]);
+    }
+    constexpr std::size_t time = D - 1;
+    const auto [first, last] = std::minmax_element(corners.begin(), corners.end(),
+      [](const Point<D>& p, const Point<D>& q) { return p[time] < q[time]; });
+    const auto end = std::llround(std::floor((*last)[time] + OnFrame));
+    for (auto frame = std::llround(std::ceil((*first)[time] - OnFrame)); frame <= end; ++frame)
+    {
+      Point<D> centroid;
+      if (CutCentroid(corners, static_cast<double>(frame), centroid))
+      {
+        visit(this->VoxelOf(centroid));
+      }
     }
   }
-  const Point<D> index = image.Grid().ToIndex(centroid);
-  typename GridGeometry<D>::Index voxel;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxel[a] = std::llround(index[a]) - image.CropOrigin()[a];
-  }
-  return voxel;
-}
 
-/** Calls visit with each voxel of the block of 3^D voxels around a voxel. */
-template <int D, typename Visit>
-void ForEachAround(const typename GridGeometry<D>::Index& centre, const Visit& visit)
-{
-  auto low = centre;
-  auto high = centre;
-  for (std::size_t a = 0; a < D; ++a)
+  /** Calls visit with each voxel of the block of three voxels along each axis of a component. */
+  template <typename Visit>
+  void ForEachAround(const Index& centre, const Visit& visit) const
   {
-    --low[a];
-    ++high[a];
+    ForEachIndex(this->Shifted(centre, -1), this->Shifted(centre, 1), visit);
   }
-  ForEachIndex(low, high, visit);
-}
 
-/** The voxels whose block of 3^D voxels contains a voxel of some components. */
+  /** Shifted along each axis of a component. */
+  Index Shifted(Index index, std::int64_t by) const
+  {
+    for (std::size_t a = 0; a < this->Extent; ++a)
+    {
+      index[a] += by;
+    }
+    return index;
+  }
+
+private:
+  /** A point counts as lying at a frame's time if it is no farther from it, in frames. */
+  static constexpr double OnFrame = 1e-9;
+
+  /** The centroid of the corners of a cut. False if the cut has no volume. */
+  static bool CutCentroid(
+    const std::array<Point<D>, D + 1>& corners, double frame, Point<D>& centroid)
+  {
+    std::array<int, D + 1> side;
+    for (std::size_t i = 0; i <= D; ++i)
+    {
+      const double after = corners[i][D - 1] - frame;
+      side[i] = after > OnFrame ? 1 : after < -OnFrame ? -1 : 0;
+    }
+    centroid = {};
+    std::size_t number = 0;
+    const auto add = [&](const Point<D>& p)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        centroid[a] += p[a];
+      }
+      ++number;
+    };
+    for (std::size_t i = 0; i <= D; ++i)
+    {
+      if (side[i] == 0)
+      {
+        add(corners[i]);
+      }
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        if (side[i] * side[j] < 0)
+        {
+          add(Interpolate(corners[i], corners[j],
+            (frame - corners[i][D - 1]) / (corners[j][D - 1] - corners[i][D - 1])));
+        }
+      }
+    }
+    for (double& x : centroid)
+    {
+      x /= static_cast<double>(number);
+    }
+    return number >= D; // fewer corners span no volume
+  }
+
+  Index VoxelOf(const Point<D>& index) const
+  {
+    Index voxel;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
+    }
+    return voxel;
+  }
+
+  const std::size_t Extent;
+  const LabelImage<D>& Image;
+  const SimplexMesh<D>& Mesh;
+};
+
+/** The voxels whose block (Places::ForEachAround) contains a voxel of some components. */
 template <int D>
 class Surroundings
 {
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  explicit Surroundings(const Index& dimensions)
-    : Mask(Shifted(dimensions, 2))
+  explicit Surroundings(const Places<D>& places, const Index& dimensions)
+    : Where(places)
+    , Mask(places.Shifted(dimensions, 2))
   {
   }
 
@@ -74,7 +172,8 @@ public:
     components.ForEachRun(component,
       [this](const Index& first, std::int64_t length)
       {
-        Index high = Shifted(first, 2); // one voxel farther, in a mask that begins at -1
+        Index high =
+          this->Where.Shifted(first, 2); // one voxel farther, in a mask that begins at -1
         high[0] += length - 1;
         ForEachIndex(first, high, [this](const Index& at) { this->Mask.Set(at); });
       });
@@ -82,7 +181,7 @@ public:
 
   bool Contain(const Index& voxel) const
   {
-    const Index at = Shifted(voxel, 1);
+    const Index at = this->Where.Shifted(voxel, 1);
     for (std::size_t a = 0; a < D; ++a)
     {
       if (at[a] < 0 || at[a] >= this->Mask.Dimensions()[a])
@@ -94,15 +193,7 @@ public:
   }
 
 private:
-  static Index Shifted(Index index, std::int64_t by)
-  {
-    for (std::int64_t& i : index)
-    {
-      i += by;
-    }
-    return index;
-  }
-
+  const Places<D>& Where;
   BitMask<D> Mask;
 };
 
@@ -116,6 +207,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
 {
   using Index = typename GridGeometry<D>::Index;
   const std::vector<Component<D>>& all = components.All();
+  const Places<D> places(components, image, mesh);
   const auto found = std::make_unique<std::atomic<bool>[]>(all.size());
   // Most elements belong to labels whose components have all been found.
   const std::span<const std::int64_t> values = image.Values();
@@ -156,7 +248,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
         }
         if (missing[label].load(std::memory_order_relaxed) != 0)
         {
-          mark(VoxelOf(image, mesh, s), label);
+          places.ForEachOf(s, [&](const Index& voxel) { mark(voxel, label); });
         }
       }
     },
@@ -179,7 +271,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   {
     return {};
   }
-  Surroundings<D> near(image.CropDimensions());
+  Surroundings<D> near(places, image.CropDimensions());
   for (const std::uint32_t c : seemLost)
   {
     near.Add(components, c);
@@ -190,12 +282,15 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
     {
       for (std::size_t s = begin; s < end; ++s)
       {
-        const Index centre = VoxelOf(image, mesh, s);
-        if (near.Contain(centre))
-        {
-          const LabelId label = idOf(mesh.Labels[s]);
-          ForEachAround<D>(centre, [&](const Index& voxel) { mark(voxel, label); });
-        }
+        places.ForEachOf(s,
+          [&](const Index& centre)
+          {
+            if (near.Contain(centre))
+            {
+              const LabelId label = idOf(mesh.Labels[s]);
+              places.ForEachAround(centre, [&](const Index& voxel) { mark(voxel, label); });
+            }
+          });
       }
     },
     stop);
@@ -216,6 +311,7 @@ std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& com
     double Shape = -1.0;
     std::uint32_t Element = 0;
   };
+  const Places<D> places(all, image, mesh);
   std::vector<Witness> witnesses(components.size());
   const auto consider = [&](std::uint32_t element, const typename GridGeometry<D>::Index& voxel)
   {
@@ -232,8 +328,12 @@ std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& com
   };
   for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
   {
-    ForEachAround<D>(VoxelOf(image, mesh, s),
-      [&](const auto& voxel) { consider(static_cast<std::uint32_t>(s), voxel); });
+    places.ForEachOf(s,
+      [&](const auto& centre)
+      {
+        places.ForEachAround(
+          centre, [&](const auto& voxel) { consider(static_cast<std::uint32_t>(s), voxel); });
+      });
   }
   std::vector<std::uint32_t> elements;
   for (const Witness& witness : witnesses)

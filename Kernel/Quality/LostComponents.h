@@ -19,7 +19,8 @@ namespace voxplex
 
 /**
  * Finds lost components. A component is lost if no element of its label has its centroid within one
- * voxel of the component along each axis.
+ * voxel of the component along each axis. If components are those of frames (Components::Extent),
+ * the centroid is that of the element's cut at the frame's time, and has to be in the frame.
  *
  * O(elements + components). Neighbouring voxels are searched only near components that contain no
  * centroid; for these, a bit per voxel of the crop is needed.

@@ -79,26 +79,27 @@ public:
   }
 
   /**
-   * Inserts a feature point and applies R6, unless the point would crowd others or is near a flat
-   * end.
+   * Inserts a feature point and applies R6, unless the point would crowd others. A point near a
+   * flat end is moved to where an interface meets the end.
    * @param near a living simplex, where the search begins; receives one near the point if the point
    *   is inserted
    */
   void InsertSeed(const FeatureSeed<D>& seed, SimplexId& near)
   {
+    Point<D> z = seed.Position;
     Point<D> onEnd;
-    if (this->AnyFeatureWithin(seed.Position, seed.Delta) ||
-      this->Context.IsNearEnd(seed.Position, seed.Delta, onEnd))
+    if ((this->Context.IsNearEnd(z, seed.Delta, onEnd) &&
+          !this->Context.Image.ClosestSurfacePointOnEnd(onEnd, z)) ||
+      this->AnyFeatureWithin(z, seed.Delta))
     {
       return;
     }
-    const SimplexId conflict =
-      this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
+    const SimplexId conflict = this->Context.Mesh.FindConflict(this->Worker.Kernel, z, near);
     if (conflict != None)
     {
       this->Context.Mesh.Lock( // no other thread operates, so it succeeds
         this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
-      this->InsertFeature(seed.Position, seed.Delta, 0.0, conflict, None,
+      this->InsertFeature(z, seed.Delta, 0.0, conflict, None,
         this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
       near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
     }

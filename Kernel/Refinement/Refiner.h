@@ -151,21 +151,13 @@ private:
   /** For the only worker. Pushes all simplices in the order of ids, or those of StartAtSeeds(). */
   void PushAll()
   {
-    const Triangulation<D>& mesh = this->Context.Mesh;
     if (this->Start == RefinementStart::AtSeeds)
     {
       this->StartAtSeeds();
       return;
     }
     SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0);
-    std::vector<SimplexId> simplices;
-    for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-    {
-      if (mesh.IsAlive(s))
-      {
-        simplices.push_back(s);
-      }
-    }
+    const std::vector<SimplexId> simplices = this->LivingSimplices();
     this->template Screen<Rules>(
       *this->Workers[0], simplices.data(), simplices.data() + simplices.size());
   }
@@ -195,7 +187,7 @@ private:
     }
     if (this->Options.FineGrained)
     {
-      this->HelpEachOther();
+      this->HelpEachOther(*this->Team.Help());
     }
     if (this->Start == RefinementStart::AtSeeds)
     {
@@ -223,17 +215,6 @@ private:
       worker.Eager = &this->Eager;
       worker.Number = t;
       worker.Poor.RemoveEagerly(this->Eager.Directory, t);
-    }
-  }
-
-  void HelpEachOther()
-  {
-    for (const auto& worker : this->Workers)
-    {
-      worker->Kernel.Help.Sharing = this->Team.Help();
-      worker->Kernel.Help.Number = static_cast<unsigned>(this->Helpers.size());
-      worker->Kernel.Help.Team = &this->Helpers;
-      this->Helpers.push_back(&worker->Kernel);
     }
   }
 
@@ -434,7 +415,6 @@ private:
   const RefinementStart Start;
   RefinementTeam Team;
   EagerRemoval Eager;
-  std::vector<typename Triangulation<D>::Worker*> Helpers; ///< of all threads, if FineGrained
   std::vector<std::unique_ptr<Overhead>> Overheads;
   std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end
   double SecondsToSeed = 0.0;

@@ -80,6 +80,32 @@ protected:
     return this->Context.Mesh.State(e.Id).CurrentGeneration() == e.Generation;
   }
 
+  /** From now on workers may help each other. Call it when all of them are there. */
+  void HelpEachOther(LoopSharing& sharing)
+  {
+    for (const auto& worker : this->Workers)
+    {
+      worker->Kernel.Help.Sharing = &sharing;
+      worker->Kernel.Help.Number = static_cast<unsigned>(this->Helpers.size());
+      worker->Kernel.Help.Team = &this->Helpers;
+      this->Helpers.push_back(&worker->Kernel);
+    }
+  }
+
+  /** Ascending. */
+  std::vector<SimplexId> LivingSimplices() const
+  {
+    std::vector<SimplexId> simplices;
+    for (SimplexId s = 0; s < this->Context.Mesh.SimplexIdEnd(); ++s)
+    {
+      if (this->Context.Mesh.IsAlive(s))
+      {
+        simplices.push_back(s);
+      }
+    }
+    return simplices;
+  }
+
   /** The simplices whose circumball reaches a lowered bound, ascending. */
   std::vector<SimplexId> FindReaching() const
   {
@@ -130,6 +156,9 @@ protected:
 
   RefinementContext<D>& Context;
   std::vector<std::unique_ptr<RefinementWorker<D>>> Workers;
+
+private:
+  std::vector<typename Triangulation<D>::Worker*> Helpers; ///< see HelpEachOther()
 };
 
 } // namespace voxplex

@@ -71,7 +71,9 @@ class Atlases(ProgramTestCase):
                 plain = self.statistics(*image, "--no-optimise", "--sliver-angle", 0, "--smallest-component", 0,
                                         "--no-junctions", "--interface-rounds", 0, "--no-manifold")
                 self.assertLess(promised["elements"], 1.1 * plain["elements"])
-                self.assertEqual(promised["optimisation"]["poor_after"], 0)
+                shapes = promised["optimisation"]
+                self.assertLess(shapes["poor_after"], 10)
+                self.assertTrue(shapes["min_dihedral_after"] >= 15 and shapes["max_dihedral_after"] <= 155, shapes)
 
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_exact_components_with_every_delta(self):

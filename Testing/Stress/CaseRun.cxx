@@ -133,7 +133,7 @@ bool MakeMesh(const StressCase<D>& of, const RunLimits& limits, SimplexMesh<D>& 
     if (MeshOnce(of, limit, mesh, statistics) == MeshingOutcome::Cancelled)
     {
       findings.Add("endless",
-        "cancelled after " + Text(limit) + " s; about " + Text(of.ExpectedElements()) +
+        "cancelled after " + Text(limit) + " s; about " + Text(of.ExpectedElementsIfThin()) +
           " elements were expected; " + Text(double(statistics.Rules.Created)) +
           " simplices were created before the last round");
       return false;
@@ -192,7 +192,7 @@ double TimeLimit(const StressCase<D>& of, const RunLimits& limits)
   const double runs = of.Options.Sampling.Elements > 0 ? 12.0 : 1.0;
   return limits.Seconds > 0.0
     ? limits.Seconds
-    : limits.TimeFactor * (3.0 + runs * perElement * of.ExpectedElements());
+    : limits.TimeFactor * (3.0 + runs * perElement * of.ExpectedElementsIfThin());
 }
 
 //------------------------------------------------------------------------------------------------

@@ -231,12 +231,12 @@ void CheckAgainstImage(const Subject<D>& subject, Findings& findings)
 namespace
 {
 
-/** Connected components through faces. */
+/** Connected components through the faces that some axes cross, the first ones. */
 template <int D>
 class VoxelComponents
 {
 public:
-  explicit VoxelComponents(const Volume<D>& image)
+  VoxelComponents(const Volume<D>& image, std::size_t axes)
     : Of(image)
     , Parent(image.Size())
     , Voxels(image.Size(), 0)
@@ -245,7 +245,7 @@ public:
     image.ForEach(
       [&](Index<D> voxel, std::size_t i)
       {
-        for (std::size_t a = 0; a < voxel.size(); ++a)
+        for (std::size_t a = 0; a < axes; ++a)
         {
           --voxel[a];
           if (image.Contains(voxel) && image.LabelAt(voxel) == image.Labels[i])
@@ -280,29 +280,93 @@ private:
   std::vector<std::int64_t> Voxels;
 };
 
-/** Components with an element of their label whose centroid is at most about a voxel away. */
+/**
+ * The centroids of the corners of an element's cuts at all frames, as indices. Nothing if a cut is
+ * less than a tetrahedron.
+ */
+std::vector<Vector<4>> CentresOfCuts(const Subject<4>& subject, std::size_t element)
+{
+  constexpr double tiny = 1e-9; // frames
+  std::vector<Vector<4>> corners;
+  for (const Vector<4>& corner : subject.Corners(element))
+  {
+    corners.push_back(subject.Of.Image.ToIndex(corner));
+  }
+  std::vector<Vector<4>> centres;
+  for (std::int64_t frame = 0; frame < subject.Of.Image.Dimensions[3]; ++frame)
+  {
+    Vector<4> sum{};
+    double count = 0.0;
+    const auto add = [&](const Vector<4>& p, const Vector<4>& q, double weight)
+    {
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        sum[a] += (1.0 - weight) * p[a] + weight * q[a];
+      }
+      count += 1.0;
+    };
+    for (const Vector<4>& p : corners)
+    {
+      const double before = static_cast<double>(frame) - p[3];
+      if (std::abs(before) <= tiny)
+      {
+        add(p, p, 0.0);
+        continue;
+      }
+      for (const Vector<4>& q : corners)
+      {
+        const double after = q[3] - static_cast<double>(frame);
+        if (before > tiny && after > tiny)
+        {
+          add(p, q, before / (before + after));
+        }
+      }
+    }
+    if (count >= 4.0)
+    {
+      for (double& x : sum)
+      {
+        x /= count;
+      }
+      centres.push_back(sum);
+    }
+  }
+  return centres;
+}
+
 template <int D>
-std::vector<char> FindPresent(const Subject<D>& subject, VoxelComponents<D>& components)
+Vector<D> CentreOf(const Subject<D>& subject, std::size_t element)
+{
+  Vector<D> centroid{};
+  for (const Vector<D>& corner : subject.Corners(element))
+  {
+    for (std::size_t a = 0; a < centroid.size(); ++a)
+    {
+      centroid[a] += corner[a] / (D + 1);
+    }
+  }
+  return subject.Of.Image.ToIndex(centroid);
+}
+
+/**
+ * Components with an element of their label that is at most about a voxel away: its centroid, or, if
+ * components are those of frames, the centroid of its cut.
+ */
+template <int D>
+std::vector<char> FindPresent(
+  const Subject<D>& subject, VoxelComponents<D>& components, std::size_t axes)
 {
   const Volume<D>& image = subject.Of.Image;
   std::vector<char> present(image.Size(), 0);
-  for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
+  const auto look = [&](const Vector<D>& at, std::size_t s)
   {
-    Vector<D> centroid{};
-    for (const Vector<D>& corner : subject.Corners(s))
-    {
-      for (std::size_t a = 0; a < centroid.size(); ++a)
-      {
-        centroid[a] += corner[a] / (D + 1);
-      }
-    }
-    const Vector<D> at = image.ToIndex(centroid);
     Index<D> low;
     Index<D> high;
     for (std::size_t a = 0; a < low.size(); ++a)
     {
-      low[a] = std::lround(at[a] - 1e-6) - 1;
-      high[a] = std::lround(at[a] + 1e-6) + 1;
+      const std::int64_t reach = a < axes ? 1 : 0;
+      low[a] = std::lround(at[a] - 1e-6) - reach;
+      high[a] = std::lround(at[a] + 1e-6) + reach;
     }
     AllInBox<D>(low, high,
       [&](const Index<D>& voxel)
@@ -313,27 +377,35 @@ std::vector<char> FindPresent(const Subject<D>& subject, VoxelComponents<D>& com
         }
         return true;
       });
+  };
+  for (std::size_t s = 0; s < subject.Mesh.Simplices.size(); ++s)
+  {
+    if (axes == D)
+    {
+      look(CentreOf(subject, s), s);
+    }
+    else if constexpr (D == 4)
+    {
+      for (const Vector<D>& centre : CentresOfCuts(subject, s))
+      {
+        look(centre, s);
+      }
+    }
   }
   return present;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------------------------
+/** Whether all components are there, or listed as lost. */
 template <int D>
-void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
+void CheckComponents(const Subject<D>& subject, std::size_t axes,
+  const std::vector<ComponentReport>& lost, Findings& findings)
 {
-  figures.Lost = subject.Stats.Components.Lost.size();
   const std::int64_t smallest = subject.Of.Options.Components.Smallest;
   const Volume<D>& image = subject.Of.Image;
-  if (D != 3 || smallest == 0 || !KnowsLabels(image))
-  {
-    return;
-  }
-  VoxelComponents<D> components(image);
-  const std::vector<char> present = FindPresent(subject, components);
+  VoxelComponents<D> components(image, axes);
+  const std::vector<char> present = FindPresent(subject, components, axes);
   std::vector<char> listed(image.Size(), 0);
-  for (const ComponentReport& report : subject.Stats.Components.Lost)
+  for (const ComponentReport& report : lost)
   {
     Index<D> voxel{};
     std::copy_n(report.Voxel.begin(), std::min(report.Voxel.size(), voxel.size()), voxel.begin());
@@ -354,8 +426,28 @@ void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& 
     {
       findings.Add("lost",
         "a component of label " + std::to_string(image.Labels[i]) + " with " +
-          std::to_string(components.SizeOf(i)) + " voxels is neither there nor listed");
+          std::to_string(components.SizeOf(i)) + " voxels is neither there nor listed" +
+          (axes < D ? ", in a frame" : ""));
     }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
+{
+  const MeshingStatistics& stats = subject.Stats;
+  figures.Lost = stats.Components.Lost.size() + stats.FrameComponents.Lost.size();
+  if (subject.Of.Options.Components.Smallest == 0 || !KnowsLabels(subject.Of.Image))
+  {
+    return;
+  }
+  CheckComponents(subject, D, stats.Components.Lost, findings);
+  if (D == 4)
+  {
+    CheckComponents(subject, D - 1, stats.FrameComponents.Lost, findings);
   }
 }
 

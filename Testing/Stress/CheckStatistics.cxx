@@ -59,12 +59,12 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
     "the largest delta is below delta", findings);
   Require(stats.Threads.size() == options.Team.Threads, "the number of threads", findings);
   Require(stats.Times.Total() >= 0.0 && std::isfinite(stats.Times.Total()), "times", findings);
+  Require(
+    stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
   if constexpr (D == 3)
   {
     Require(
       stats.Optimisation.Ran == options.Optimisation.Run, "whether optimisation ran", findings);
-    Require(
-      stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
     const bool counts = options.Interfaces.Manifold && !options.Optimisation.Run;
     Require(!counts || (figures.NonManifold > 0) == (stats.Interfaces.NonManifoldLeft > 0),
       std::to_string(figures.NonManifold) + " edges are not manifold, it says " +

@@ -67,14 +67,21 @@ private:
   std::vector<std::string>& Missing;
 };
 
+template <int D>
+void WriteCheckFlags(const MeshingOptions<D>& options, CommandWriter& to)
+{
+  const MeshingOptions<D> usual;
+  to.Flag("--smallest-component", options.Components.Smallest, usual.Components.Smallest);
+  to.Word("--exact-components", options.Components.Exact);
+  to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
+}
+
 void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
 {
   const MeshingOptions<3> usual;
   to.Flag("--facet-angle", options.Shape.FacetAngle, usual.Shape.FacetAngle);
   to.Flag("--sliver-angle", options.Shape.Slivers.Angle, usual.Shape.Slivers.Angle);
-  to.Flag("--smallest-component", options.Components.Smallest, usual.Components.Smallest);
-  to.Word("--exact-components", options.Components.Exact);
-  to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
+  WriteCheckFlags(options, to);
   to.Word("--no-manifold", !options.Interfaces.Manifold);
   to.Word("--no-junctions", !options.Interfaces.SampleJunctions);
   to.Word("--no-optimise", !options.Optimisation.Run);
@@ -97,6 +104,7 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   const MeshingOptions<4>& options = of.Options;
   const MeshingOptions<4> usual;
   to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
+  WriteCheckFlags(options, to);
   to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
   to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);
   to.Flag("--picks", options.SpaceTime.Slivers.Picks, usual.SpaceTime.Slivers.Picks);

@@ -186,6 +186,11 @@ void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
     options.SpaceTime.Slivers.Picks = static_cast<unsigned>(random.Integer(1, 30));
   }
   options.SpaceTime.Slivers.Seed = random.Chance(0.5) ? 0 : random.Next() >> 33;
+  options.Components.Smallest = random.Chance(0.6) ? 8
+    : random.Chance(0.5)                           ? random.Integer(0, 1)
+                                                   : random.Integer(2, 60);
+  options.Components.Exact = random.Chance(0.2);
+  options.Interfaces.Rounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
 }
 
 } // namespace

@@ -165,6 +165,10 @@ bool Reducer<D>::ResetOptionsOfDimension()
 {
   const MeshingOptions<D> usual;
   bool changed = false;
+  changed |= this->TryToSet(
+    VOXPLEX_MEMBER(Options.Components.Smallest), std::int64_t{ 0 }, usual.Components.Smallest);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Components.Exact), usual.Components.Exact);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
   if constexpr (D == 3)
   {
     changed |=
@@ -184,12 +188,7 @@ bool Reducer<D>::ResetOptionsOfDimension()
     changed |= this->TryToSet(
       VOXPLEX_MEMBER(Options.Shape.Slivers.PickingRadius), usual.Shape.Slivers.PickingRadius);
     changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.Components.Smallest), std::int64_t{ 0 }, usual.Components.Smallest);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Components.Exact), usual.Components.Exact);
-    changed |= this->TryToSet(
       VOXPLEX_MEMBER(Options.Interfaces.SampleJunctions), false, usual.Interfaces.SampleJunctions);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Elements), usual.Sampling.Elements);
   }

@@ -108,14 +108,25 @@ double StressCase<D>::Delta() const
 template <int D>
 double StressCase<D>::ExpectedElements() const
 {
-  // In 3D, thin parts are sampled at the scale of voxels for every delta.
+  return this->ExpectedElements(D == 3);
+}
+
+template <int D>
+double StressCase<D>::ExpectedElementsIfThin() const
+{
+  return this->ExpectedElements(true);
+}
+
+template <int D>
+double StressCase<D>::ExpectedElements(bool isThin) const
+{
   const double voxel = std::pow(this->Image.VoxelVolume(), 1.0 / D);
   double delta = this->Delta();
   for (const InterfaceSize& size : this->Options.Sampling.InterfaceSizes)
   {
     delta = std::min(delta, size.Size);
   }
-  const double sampling = D == 3 ? std::min(delta, 2.0 * voxel) : delta;
+  const double sampling = isThin ? std::min(delta, 2.0 * voxel) : delta;
   double elements = (D == 3 ? 8.0 : 4.0) * this->InterfaceArea / std::pow(sampling, D - 1);
   elements += (D == 3 ? 2.0 : 1.0) * this->ObjectVolume / std::pow(2.0 * delta, D);
   const double size = std::min(this->Size.Everywhere > 0.0 ? this->Size.Everywhere : 1e30,

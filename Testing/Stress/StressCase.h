@@ -73,12 +73,18 @@ struct StressCase
   /** The delta that is used. */
   double Delta() const;
   /**
-   * Approximate number of elements, from the image and the options only. Time limits depend on it.
+   * Approximate number of elements, from the image and the options only. In 3D, thin parts are
+   * sampled at the scale of voxels for every delta; in 4D, no part is taken as thin.
    */
   double ExpectedElements() const;
+  /** The same if all parts are thin. Time limits depend on it. */
+  double ExpectedElementsIfThin() const;
 
   /** The options with the size function. */
   MeshingOptions<D> AllOptions() const;
+
+private:
+  double ExpectedElements(bool isThin) const;
 };
 
 /** Whether a case of a family has four dimensions. */

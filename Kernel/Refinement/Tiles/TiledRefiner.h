@@ -71,7 +71,8 @@ public:
     }
     if (options.FineGrained && threads > 1)
     {
-      this->HelpEachOther();
+      this->Sharing = std::make_unique<LoopSharing>(threads);
+      this->HelpEachOther(*this->Sharing);
     }
   }
 
@@ -182,18 +183,6 @@ private:
     Counts Counted; ///< insertions, by region
   };
 
-  void HelpEachOther()
-  {
-    this->Sharing = std::make_unique<LoopSharing>(this->Threads());
-    for (const auto& worker : this->Workers)
-    {
-      worker->Kernel.Help.Sharing = this->Sharing.get();
-      worker->Kernel.Help.Number = static_cast<unsigned>(this->Helpers.size());
-      worker->Kernel.Help.Team = &this->Helpers;
-      this->Helpers.push_back(&worker->Kernel);
-    }
-  }
-
   unsigned Threads() const { return static_cast<unsigned>(this->Workers.size()); }
   bool IsStopped() const { return this->Stopped.load(std::memory_order_relaxed); }
 
@@ -201,11 +190,11 @@ private:
   Work FindWork()
   {
     RefinementWorker<D>& worker = *this->Workers[0];
-    const Triangulation<D>& mesh = this->Context.Mesh;
     std::vector<SimplexId> simplices;
     if (this->Start == RefinementStart::AtSeeds)
     {
-      this->Fewest = std::max<std::size_t>(FewestEntries, mesh.SimplexIdEnd() / SimplicesPerEntry);
+      this->Fewest =
+        std::max<std::size_t>(FewestEntries, this->Context.Mesh.SimplexIdEnd() / SimplicesPerEntry);
       InsertSeeds<Rules>(this->Context, worker, this->Seeds);
       simplices = this->FindReaching();
     }
@@ -220,13 +209,7 @@ private:
       InsertSeeds<Rules>(this->Context, worker,
         SampleInterfaces(this->Context, spacing, 0.5 * spacing, this->Threads()));
       worker.ScreensLater = false;
-      for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-      {
-        if (mesh.IsAlive(s))
-        {
-          simplices.push_back(s);
-        }
-      }
+      simplices = this->LivingSimplices();
     }
     this->template Screen<Rules>(worker, simplices.data(), simplices.data() + simplices.size());
     Work work;
@@ -477,7 +460,6 @@ private:
   const std::vector<FeatureSeed<D>> Seeds;
   const RefinementStart Start;
   std::unique_ptr<LoopSharing> Sharing; ///< null if threads do not help each other
-  std::vector<typename Triangulation<D>::Worker*> Helpers;
   const double Delta; ///< a uniform sampling distance that gives about as many vertices
   std::size_t Fewest = FewestEntries;
   std::size_t NumberOfTiles = 0;

@@ -527,8 +527,8 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
     const SizingField<3> sizing(domain, { .Base = { 3.0 } });
     LocalDelta<3> local(image);
     double seconds = 0.0;
-    const ComponentCheck<3> check(
-      image, domain, components, sizing, 1, false, local, statistics.Components, seconds, 1, {});
+    const ComponentCheck<3> check(image, domain, components, sizing, 1, false, true, local,
+      statistics.Components, seconds, 1, {});
     EXPECT_GT(components.All().size(), 100u);
     EXPECT_TRUE(check.FindLost(mesh).empty());
   }
@@ -567,7 +567,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   ComponentStatistics counts;
   double seconds = 0.0;
   ComponentCheck<3> check(
-    islands.Image, domain, components, sizing, 8, false, local, counts, seconds, 2, {});
+    islands.Image, domain, components, sizing, 8, false, true, local, counts, seconds, 2, {});
   MeshingOptions<3> options;
   options.Sampling.Delta = 5.0;
   MeshingStatistics statistics;

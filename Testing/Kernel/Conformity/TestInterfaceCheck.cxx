@@ -20,7 +20,7 @@ namespace
 bool HasFarFaces(const LabelImage<3>& image, const SimplexMesh<3>& mesh, double delta)
 {
   const double limit =
-    std::max(UniformInterfaceCheck::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
+    std::max(UniformInterfaceCheck<3>::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, limit, mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {

@@ -223,7 +223,7 @@ TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
   const SizingField<3> sizing(domain, { .Base = { 4.0 } });
-  UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
+  UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
   double spacing = 0.8 * 4.0;
   int visits = 0;
   for (;;)
@@ -264,7 +264,7 @@ TEST(InterfaceDistances, GoesOnForEdgesOffJunctionsOnly)
   {
     LocalDelta<3> local(image);
     const SizingField<3> sizing(domain, { .Base = { delta } });
-    UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
+    UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
     EXPECT_TRUE(check.InspectVertices({ vertices, {} }).empty());
     EXPECT_TRUE(check.InspectLabels({}, {}).empty());
     EXPECT_EQ(check.InspectLabels({}, { { vertices[0], atJunction } }).empty(), atJunction);
@@ -283,7 +283,8 @@ TEST(InterfaceDistances, CanBeCancelled)
   LocalDelta<3> local(image);
   std::stop_source stop;
   const SizingField<3> sizing(domain, { .Base = { 4.0 } });
-  UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, stop.get_token());
+  UniformInterfaceCheck<3> check(
+    image, domain.GetSites(), domain, sizing, local, 1, stop.get_token());
   stop.request_stop();
   EXPECT_THROW(check.InspectVertices({}), Cancelled);
 }
@@ -315,7 +316,7 @@ TEST(InterfaceDistances, ReachesAsFarInShearedImages)
       const std::set<Point<3>> expected = CrossingsNear(image, domain, middle, 0.5 * delta);
       LocalDelta<3> local(image);
       const SizingField<3> sizing(domain, { .Base = { delta } });
-      UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, 1, {});
+      UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
       check.InspectVertices({ vertices, {} });
       std::set<Point<3>> found;
       for (const FeatureSeed<3>& seed : check.InspectLabels({}, { { middle, false } }))
@@ -349,7 +350,7 @@ TEST(InterfaceDistances, FindsAllFacesThatAreFarFromVertices)
       });
     const ImageDomain<3> domain(image, 1.0);
     const double delta = 2.5;
-    const double limit = std::max(UniformInterfaceCheck::LargestDistance * delta,
+    const double limit = std::max(UniformInterfaceCheck<3>::LargestDistance * delta,
       std::sqrt(grid.Spacing(0) * grid.Spacing(0) + grid.Spacing(1) * grid.Spacing(1) +
         grid.Spacing(2) * grid.Spacing(2)));
     std::vector<Point<3>> centres;
@@ -380,7 +381,8 @@ TEST(InterfaceDistances, FindsAllFacesThatAreFarFromVertices)
       {
         LocalDelta<3> local(image);
         const SizingField<3> sizing(domain, { .Base = { delta } });
-        UniformInterfaceCheck check(image, domain.GetSites(), domain, sizing, local, threads, {});
+        UniformInterfaceCheck<3> check(
+          image, domain.GetSites(), domain, sizing, local, threads, {});
         check.InspectVertices({ vertices, {} });
         EXPECT_EQ(check.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
       }
@@ -403,11 +405,11 @@ TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
   ASSERT_GT(all.size(), 1000u);
   for (const bool withSizes : { false, true })
   {
-    const double limit = UniformInterfaceCheck::LargestDistance * (withSizes ? 5.0 : 3.0);
+    const double limit = UniformInterfaceCheck<3>::LargestDistance * (withSizes ? 5.0 : 3.0);
     const SizingField<3> sizing(
       domain, { .Base = base, .Interfaces = withSizes ? &sizes : nullptr });
     const auto makeCheck = [&](LocalDelta<3>& local)
-    { return UniformInterfaceCheck(image, domain.GetSites(), domain, sizing, local, 1, {}); };
+    { return UniformInterfaceCheck<3>(image, domain.GetSites(), domain, sizing, local, 1, {}); };
     std::size_t holes = 0;
     std::size_t number = 0;
     for (const Point<3>& centre : all)
@@ -432,7 +434,7 @@ TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
         }
       }
       LocalDelta<3> local(image);
-      UniformInterfaceCheck again = makeCheck(local);
+      UniformInterfaceCheck<3> again = makeCheck(local);
       vertices.push_back(*inside);
       const bool isNear = again.InspectVertices({ vertices, {} }).empty();
       vertices.pop_back();
@@ -451,7 +453,7 @@ TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
       }
       // The same if labels take the vertex off interfaces. That holds for one inspection only.
       LocalDelta<3> third(image);
-      UniformInterfaceCheck before = makeCheck(third);
+      UniformInterfaceCheck<3> before = makeCheck(third);
       vertices.push_back(*inside);
       EXPECT_TRUE(before.InspectVertices({ vertices, {} }).empty());
       EXPECT_TRUE(before.InspectLabels({}, {}).empty());

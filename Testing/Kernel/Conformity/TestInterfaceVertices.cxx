@@ -61,17 +61,18 @@ void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
   EXPECT_GT(expected.size(), 3u);
   for (const unsigned threads : { 1u, 3u })
   {
-    InterfaceVertices vertices(refined->Mesh, domain, threads);
-    const InterfaceVertices::Changes all = vertices.Update();
+    InterfaceVertices<3> vertices(refined->Mesh, domain, threads);
+    const InterfaceVertices<3>::Changes all = vertices.Update();
     EXPECT_EQ(AsSet(all.Added), expected);
     EXPECT_TRUE(all.Gone.empty());
-    const InterfaceVertices::Changes none = vertices.Update();
+    const InterfaceVertices<3>::Changes none = vertices.Update();
     EXPECT_TRUE(none.Added.empty());
     EXPECT_TRUE(none.Gone.empty());
   }
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(InterfaceVertices(refined->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
+  EXPECT_THROW(
+    InterfaceVertices<3>(refined->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
 }
 
 } // namespace
@@ -98,7 +99,7 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
     const auto refined = Refined(domain, 4.0);
     Triangulation<3>& mesh = refined->Mesh;
     Triangulation<3>::Worker worker(mesh);
-    InterfaceVertices vertices(mesh, domain, threads);
+    InterfaceVertices<3> vertices(mesh, domain, threads);
     std::set<Point<3>> before = AsSet(vertices.Update().Added);
     std::vector<VertexId> inserted;
     std::size_t added = 0;
@@ -119,7 +120,7 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
         inserted.push_back(worker.NewVertex);
       }
       const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
-      const InterfaceVertices::Changes changes = vertices.Update();
+      const InterfaceVertices<3>::Changes changes = vertices.Update();
       EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << round;
       EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << round;
       added += changes.Added.size();

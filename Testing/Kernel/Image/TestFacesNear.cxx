@@ -17,9 +17,10 @@ namespace
 {
 
 /** One look at each face and ball, in the order of faces. */
-std::vector<VoxelFace> FacesNear(const LabelImage<3>& image, const std::vector<SearchBall>& balls)
+std::vector<VoxelFace<3>> FacesNear(
+  const LabelImage<3>& image, const std::vector<SearchBall<3>>& balls)
 {
-  std::vector<VoxelFace> faces;
+  std::vector<VoxelFace<3>> faces;
   ForEachFace(image,
     [&](const GridGeometry<3>::Index& voxel, const GridGeometry<3>::Index& next)
     {
@@ -28,10 +29,10 @@ std::vector<VoxelFace> FacesNear(const LabelImage<3>& image, const std::vector<S
       {
         ++axis;
       }
-      const VoxelFace face{ voxel, axis };
+      const VoxelFace<3> face{ voxel, axis };
       const Point<3> centre = CentreOf(face, image);
       if (std::any_of(balls.begin(), balls.end(),
-            [&](const SearchBall& ball)
+            [&](const SearchBall<3>& ball)
             { return Distance2(centre, ball.Centre) <= ball.Radius * ball.Radius; }))
       {
         faces.push_back(face);
@@ -74,7 +75,7 @@ TEST(FacesNear, AreThoseInAnyBall)
     {
       for (const double largest : { 0.4, 2.0, 9.0, 70.0, 1000.0 })
       {
-        std::vector<SearchBall> balls;
+        std::vector<SearchBall<3>> balls;
         for (std::size_t b = 0; b < count; ++b)
         {
           Point<3> index;
@@ -85,8 +86,8 @@ TEST(FacesNear, AreThoseInAnyBall)
           }
           balls.push_back({ grid.ToFrame(index), largest * uniform(0.0, 1.0) });
         }
-        const std::vector<VoxelFace> expected = FacesNear(image, balls);
-        EXPECT_EQ(FindFacesNear(image, sites, balls, {}), expected) << count << ", " << largest;
+        const std::vector<VoxelFace<3>> expected = FacesNear(image, balls);
+        EXPECT_EQ(FindFacesNear<3>(image, sites, balls, {}), expected) << count << ", " << largest;
         some += expected.size();
       }
     }
@@ -99,15 +100,15 @@ TEST(FacesNear, CountOnTheSphere)
 {
   const LabelImage<3> image = phantoms::Block(phantoms::Cube(9));
   const BitMask<3> sites = FindSurfaceVoxels(image, 1, {});
-  const Point<3> centre = CentreOf(VoxelFace{ { 4, 4, 8 }, 2 }, image);
+  const Point<3> centre = CentreOf(VoxelFace<3>{ { 4, 4, 8 }, 2 }, image);
   for (const double radius : { 0.0, 1.0, 2.0, 5.0 })
   {
     const auto found =
-      FindFacesNear(image, sites, std::vector<SearchBall>{ { centre, radius } }, {});
+      FindFacesNear<3>(image, sites, std::vector<SearchBall<3>>{ { centre, radius } }, {});
     EXPECT_EQ(found, FacesNear(image, { { centre, radius } })) << radius;
     const auto left = static_cast<std::int64_t>(4.0 - radius);
-    EXPECT_EQ(
-      std::count(found.begin(), found.end(), VoxelFace{ { left, 4, 8 }, 2 }), radius < 5.0 ? 1 : 0);
+    EXPECT_EQ(std::count(found.begin(), found.end(), VoxelFace<3>{ { left, 4, 8 }, 2 }),
+      radius < 5.0 ? 1 : 0);
   }
 }
 
@@ -117,7 +118,7 @@ TEST(FacesNear, CanBeStopped)
   const BitMask<3> sites = FindSurfaceVoxels(image, 1, {});
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(FindFacesNear(image, sites, std::vector<SearchBall>{ { { 9.0, 9.0, 9.0 }, 20.0 } },
-                 stop.get_token()),
+  EXPECT_THROW(FindFacesNear<3>(image, sites,
+                 std::vector<SearchBall<3>>{ { { 9.0, 9.0, 9.0 }, 20.0 } }, stop.get_token()),
     Cancelled);
 }

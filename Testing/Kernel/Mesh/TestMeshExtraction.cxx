@@ -20,6 +20,7 @@
 #include <thread>
 
 using namespace voxplex;
+using voxplex::checks::ExpectSame;
 
 namespace
 {
@@ -221,16 +222,6 @@ SimplexMesh<D> Expected(const Triangulation<D>& triangulation, const Domain<D>& 
     }
   }
   return mesh;
-}
-
-template <int D>
-void ExpectSame(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
-{
-  EXPECT_TRUE(a.Points == b.Points);
-  EXPECT_TRUE(a.Simplices == b.Simplices);
-  EXPECT_TRUE(a.Labels == b.Labels);
-  EXPECT_TRUE(a.Facets == b.Facets);
-  EXPECT_TRUE(a.FacetLabels == b.FacetLabels);
 }
 
 template <int D>

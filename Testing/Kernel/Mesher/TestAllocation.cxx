@@ -196,14 +196,14 @@ TEST(Allocation, OverlappingBallsShareTheirFaces)
   const BitMask<3> sites = FindSurfaceVoxels(image, 1, {});
   const Point<3> middle = { 16.0, 16.0, 16.0 };
   const std::size_t faces =
-    FindFacesNear(image, sites, std::vector<SearchBall>{ { middle, 100.0 } }, {}).size();
+    FindFacesNear<3>(image, sites, std::vector<SearchBall<3>>{ { middle, 100.0 } }, {}).size();
   ASSERT_GT(faces, 2000u);
   for (const double radius : { 12.0, 30.0, 1000.0 })
   {
-    const std::vector<SearchBall> balls(5000, { middle, radius });
+    const std::vector<SearchBall<3>> balls(5000, { middle, radius });
     const std::uint64_t before = AllocatedBytes;
-    EXPECT_LE(FindFacesNear(image, sites, balls, {}).size(), faces);
-    EXPECT_LT(AllocatedBytes - before, 100 * sizeof(VoxelFace) * (faces + balls.size()));
+    EXPECT_LE(FindFacesNear<3>(image, sites, balls, {}).size(), faces);
+    EXPECT_LT(AllocatedBytes - before, 100 * sizeof(VoxelFace<3>) * (faces + balls.size()));
   }
 }
 

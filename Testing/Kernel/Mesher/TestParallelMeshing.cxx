@@ -200,11 +200,7 @@ TEST(ParallelMeshing, OneThreadIsReproducible)
     mesher.Run(image, second);
     mesher.Run(image, second); // an instance may be used again
     EXPECT_FALSE(first.Points.empty());
-    EXPECT_TRUE(first.Points == second.Points);
-    EXPECT_TRUE(first.Simplices == second.Simplices);
-    EXPECT_TRUE(first.Labels == second.Labels);
-    EXPECT_TRUE(first.Facets == second.Facets);
-    EXPECT_TRUE(first.FacetLabels == second.FacetLabels);
+    checks::ExpectSame(first, second);
   }
 }
 

@@ -21,16 +21,6 @@ namespace
 {
 
 template <int D>
-void ExpectSameMesh(const SimplexMesh<D>& mesh, const SimplexMesh<D>& expected)
-{
-  EXPECT_TRUE(mesh.Points == expected.Points);
-  EXPECT_TRUE(mesh.Simplices == expected.Simplices);
-  EXPECT_TRUE(mesh.Labels == expected.Labels);
-  EXPECT_TRUE(mesh.Facets == expected.Facets);
-  EXPECT_TRUE(mesh.FacetLabels == expected.FacetLabels);
-}
-
-template <int D>
 void ExpectSameForAnyNumberOfThreads(
   const std::string& name, const LabelImage<D>& image, MeshingOptions<D> options)
 {
@@ -59,7 +49,7 @@ void ExpectSameForAnyNumberOfThreads(
       rules = mesher.Statistics().Rules;
       continue;
     }
-    ExpectSameMesh(mesh, expected);
+    checks::ExpectSame(mesh, expected);
     EXPECT_EQ(mesher.Statistics().Rules.Evaluated, rules.Evaluated);
     EXPECT_EQ(mesher.Statistics().Rules.Insertions(), rules.Insertions());
     EXPECT_EQ(mesher.Statistics().Rules.Removed, rules.Removed);

@@ -220,10 +220,14 @@ TEST(SpaceTimeMeshing, DurationsShorterThanDelta)
   ExpectGoodDuration(2, 1.0, 3.0);
 }
 
-TEST(SpaceTimeMeshing, NothingIsLeftIfDeltaIsTooLarge)
+TEST(SpaceTimeMeshing, NothingIsLeftIfDeltaIsTooLargeAndNothingIsChecked)
 {
   const LabelImage<4> image = ImageOf(phantoms::FourBall(3.0));
-  const SimplexMesh<4> mesh = Mesh(image, 60.0);
+  EXPECT_FALSE(Mesh(image, 60.0).Simplices.empty()) << "components stay";
+  MeshingOptions<4> options = SpaceTimeOptions(60.0);
+  options.Components.Smallest = 0;
+  options.Interfaces.Rounds = 0;
+  const SimplexMesh<4> mesh = Mesh(image, options);
   EXPECT_TRUE(mesh.Simplices.empty());
   EXPECT_TRUE(mesh.Points.empty());
   EXPECT_TRUE(mesh.Facets.empty());

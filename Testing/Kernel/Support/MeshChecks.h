@@ -7,6 +7,8 @@
 #include "Image/GridGeometry.h"
 #include "Mesh/SimplexMesh.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +22,17 @@
 
 namespace voxplex::checks
 {
+
+/** The same numbers, in the same order. */
+template <int D>
+void ExpectSame(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
+{
+  EXPECT_TRUE(a.Points == b.Points);
+  EXPECT_TRUE(a.Simplices == b.Simplices);
+  EXPECT_TRUE(a.Labels == b.Labels);
+  EXPECT_TRUE(a.Facets == b.Facets);
+  EXPECT_TRUE(a.FacetLabels == b.FacetLabels);
+}
 
 inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
 {

@@ -130,7 +130,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def buildShapes(self):
         form = self.addSection("Shapes and small objects")
-        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 15 to 155 degrees, with few "
+        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few "
                                                   "exceptions, radius-edge ratios up to 2.5")
         self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "no guarantee", "Connected components of a segment "
                                                               "with at least this number of voxels, and its largest one, get "
