@@ -51,6 +51,8 @@ const std::map<std::string, Setter, std::less<>>& Setters()
     { "interface-rounds", To(&Filter::SetInterfaceRounds) },
     { "manifold", To(&Tets::SetManifold) },
     { "time-scale", To(&Pentatopes::SetTimeScale) },
+    { "frame-steps", To(&Pentatopes::SetFrameSteps) },
+    { "fit", To(&Pentatopes::SetFitInterfaces) },
     { "rule-order", To(&Pentatopes::SetRuleOrder) },
     { "picking", To(&Pentatopes::SetPickingRegions) },
     { "picks", To(&Pentatopes::SetNumberOfPicks) },

@@ -60,6 +60,9 @@ phantoms::SpaceTimePhantom MakePhantom(const SpaceTimeOptions& options)
     { "beating-ventricle", [&] { return phantoms::BeatingVentricle(options.Coarsening); } },
     { "four-ball", [] { return phantoms::FourBall(12.0); } },
     { "merging-balls", [] { return phantoms::MergingBalls(); } },
+    { "rotating-sheet", [] { return phantoms::RotatingSheet(); } },
+    { "opening-tube", [] { return phantoms::OpeningTube(); } },
+    { "fast-ball", [] { return phantoms::FastBall(); } },
   };
   const auto found = phantoms.find(options.Phantom);
   if (found == phantoms.end())
@@ -100,8 +103,10 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       meshing.SpaceTime.Order = series.Order;
       meshing.SpaceTime.Slivers.Fight = series.Picking;
       meshing.Team.FineGrained = !options.NoFineGrained;
+      meshing.Interfaces.Fit = !options.NoFit;
+      meshing.FrameSteps = options.FrameSteps;
       // One thread makes the same mesh in every round.
-      const bool fit = options.Frames && (series.Threads > 1 || round == 0);
+      const bool fit = (options.Frames || options.Row) && (series.Threads > 1 || round == 0);
       const SpaceTimeRecord record =
         RunInChild([&] { return MeshPhantom(scalars, grid, meshing, fit); });
       std::fprintf(stderr, "  round %d, %s, %u thread(s): %.0f pentatopes, %.3f s\n", round + 1,
@@ -234,6 +239,53 @@ void PrintFit(const Series& series)
     100.0 * worst[0], 100.0 * worst[1], fit.FacetsOffInterface, fit.LateralFacets);
 }
 
+/** The error that is the farthest from 0. */
+double WorstError(const std::vector<Compared>& all)
+{
+  double worst = 0.0;
+  for (const Compared& one : all)
+  {
+    worst = std::abs(one.Error()) > std::abs(worst) ? one.Error() : worst;
+  }
+  return worst;
+}
+
+/**
+ * A row of Scripts/measure-space-time's table. Frames where a label has less than a fifth of its
+ * largest volume do not count.
+ */
+void PrintRow(const SpaceTimeOptions& options, double delta, const SpaceTimeRecord& record)
+{
+  const Fit& fit = record.Image;
+  std::vector<Compared> frames;
+  std::vector<Compared> wholes;
+  for (std::size_t label = 0; label < MostLabels; ++label)
+  {
+    double largest = 0.0;
+    for (std::size_t frame = 0; frame < fit.Frames; ++frame)
+    {
+      largest = std::max(largest, fit.Volume[label][frame].Image);
+    }
+    for (std::size_t frame = 0; frame < fit.Frames && largest > 0.0; ++frame)
+    {
+      const Compared& one = fit.Volume[label][frame];
+      if (one.Image >= 0.2 * largest)
+      {
+        frames.push_back(one);
+      }
+    }
+    if (largest > 0.0)
+    {
+      wholes.push_back(fit.Hypervolume[label]);
+    }
+  }
+  std::printf("| %s | %g | %g | %.0f | %+.2f | %+.2f | %.0f | %.4f | %.3f | %.2f | %.2f | %.2f |\n",
+    options.Phantom.c_str(), delta, record.FrameSteps, record.Pentatopes,
+    100.0 * WorstError(wholes), 100.0 * WorstError(frames), record.LostComponents,
+    record.VolumeMin, record.VolumeMean, record.RadiusEdgeMax, record.RefinementSeconds,
+    record.TotalSeconds);
+}
+
 void Measure(const SpaceTimeOptions& options, const phantoms::SpaceTimePhantom& phantom)
 {
   const std::vector<std::uint8_t> scalars = phantom.Scalars();
@@ -243,6 +295,11 @@ void Measure(const SpaceTimeOptions& options, const phantoms::SpaceTimePhantom& 
   std::vector<Series> all = ListSeries(options);
   RunAll(options, delta, scalars, phantom.Grid, all);
 
+  if (options.Row)
+  {
+    PrintRow(options, delta, all.front().Records.front());
+    return;
+  }
   std::printf(
     "%s, %d x %d x %d x %d voxels, time scale %.4g, delta %.4g%s; medians of %d runs of each, in "
     "turns.\n\n",

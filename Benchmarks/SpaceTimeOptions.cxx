@@ -17,16 +17,20 @@ const char* const SpaceTimeUsage = R"(usage: voxplexSpaceTime [options]
 Meshes a space-time phantom into pentatopes and prints tables in Markdown: sizes, quality and rates of one
 thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a process of its own; all take turns.
 
-  --phantom NAME     beating-ventricle (default), four-ball (radius 12) or merging-balls
+  --phantom NAME     beating-ventricle (default), four-ball (radius 12), merging-balls, rotating-sheet,
+                     opening-tube or fast-ball
   --coarsening N     N times fewer voxels of the ventricle along x, y and z (default 1)
   --time-scale S     length of a unit of time (default 1)
   --delta D          sampling distance, in the unit of the spacing (default: derived from the spacing)
   --picking WHAT     picking regions against slivers: off (default), on or both
   --rule-order WHAT  radius-edge (default), surface or both
   --no-fine-grained  waiting threads do not help to expand cavities
+  --frame-steps N    steps between two frames (default: as many as the motion asks for; 1: no frames are added)
+  --no-fit           vertices of interfaces stay where refinement put them
   --threads LIST     also run with these numbers of threads, e.g. 2,4 (default: 1 only)
   --repeat K         rounds (default 3); medians are printed
   --frames           also compare volumes with the image, frame by frame
+  --row              print one row of Scripts/measure-space-time's table instead
 )";
 
 namespace
@@ -83,12 +87,16 @@ SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
             { "surface", { RuleOrder::SurfaceFirst } },
             { "both", { RuleOrder::RadiusEdgeFirst, RuleOrder::SurfaceFirst } } });
       } },
+    { "--frame-steps",
+      [&](Text value) { options.FrameSteps = static_cast<unsigned>(ParseCount(value)); } },
     { "--threads", [&](Text value) { options.Threads = ParseThreads(value); } },
     { "--repeat", [&](Text value) { options.Repeat = static_cast<int>(ParseCount(value)); } },
   };
   table.Flags = {
     { "--no-fine-grained", [&] { options.NoFineGrained = true; } },
+    { "--no-fit", [&] { options.NoFit = true; } },
     { "--frames", [&] { options.Frames = true; } },
+    { "--row", [&] { options.Row = true; } },
   };
   ReadArguments(argc, argv, table);
   if (options.Coarsening > 11)

@@ -29,7 +29,10 @@ struct SpaceTimeOptions
   std::vector<bool> Picking = { false };
   std::vector<RuleOrder> Orders = { RuleOrder::RadiusEdgeFirst };
   bool NoFineGrained = false;
+  unsigned FrameSteps = 0; ///< 0: as many as the motion asks for
+  bool NoFit = false;
   bool Frames = false;
+  bool Row = false; ///< print one row of a table, with the worst errors of the first series
 };
 
 /** @throws std::exception with a message if the arguments are wrong */

@@ -61,9 +61,12 @@ struct SpaceTimeRecord
   double AverageCavity = 0.0; ///< mean number of pentatopes that an insertion deletes
   double LargestCavity = 0.0;
   double SliversKept = 0.0;
+  double FrameSteps = 0.0;
+  double LostComponents = 0.0; ///< those of frames included
   double PreparationSeconds = 0.0;
   double RefinementSeconds = 0.0;
   double ExtractionSeconds = 0.0;
+  double TotalSeconds = 0.0;
   std::uint64_t PeakBytes = 0;
   // Averages over refinement threads:
   double ContentionSeconds = 0.0;

@@ -283,6 +283,8 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   voxplex::FrameSeries& series = this->Gathered->Series;
   const voxplex::SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
   Run<4> run(this, inputVector, frame);
+  run.Options.FrameSteps = static_cast<unsigned>(this->FrameSteps);
+  run.Options.Interfaces.Fit = this->FitInterfaces;
   run.Options.SpaceTime.Order = static_cast<voxplex::RuleOrder>(this->RuleOrder);
   run.Options.SpaceTime.Slivers.Fight = this->PickingRegions;
   run.Options.SpaceTime.Slivers.PickingRadius = this->PickingRadius;
@@ -315,6 +317,8 @@ void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeScale: " << this->TimeScale << "\n";
   os << indent << "TimeOrigin: " << this->TimeOrigin << "\n";
   os << indent << "TimeSpacing: " << this->TimeSpacing << "\n";
+  os << indent << "FrameSteps: " << this->FrameSteps << "\n";
+  os << indent << "FitInterfaces: " << (this->FitInterfaces ? "On" : "Off") << "\n";
   os << indent << "RuleOrder: " << this->GetRuleOrderAsString() << "\n";
   os << indent << "PickingRegions: " << (this->PickingRegions ? "On" : "Off") << "\n";
   os << indent << "PickingRadius: " << this->PickingRadius << "\n";

@@ -122,6 +122,27 @@ public:
   vtkGetMacro(TimeSpacing, double);
   ///@}
 
+  ///@{
+  /**
+   * Steps between two frames, 0 to 8. Labels are interpolated between the frames: the shape changes
+   * gradually, and volumes change linearly. Default 0: as many as the motion of the labels asks
+   * for, about one for each voxel that an interface moves. 1: no frames are added.
+   */
+  vtkSetClampMacro(FrameSteps, int, 0, 8);
+  vtkGetMacro(FrameSteps, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to move the vertices of interfaces a little, so that volumes are right: facets are
+   * chords, and cut convex shapes short. Default on. If it is off, these vertices lie on the
+   * interfaces, and the mesh is Delaunay.
+   */
+  vtkSetMacro(FitInterfaces, bool);
+  vtkGetMacro(FitInterfaces, bool);
+  vtkBooleanMacro(FitInterfaces, bool);
+  ///@}
+
   /** Values of RuleOrder. */
   enum RuleOrders
   {
@@ -240,6 +261,8 @@ protected:
   double TimeScale = 1.0;
   double TimeOrigin = 0.0;
   double TimeSpacing = 1.0;
+  int FrameSteps = 0;
+  bool FitInterfaces = true;
   int RuleOrder = RADIUS_EDGE_FIRST;
   bool PickingRegions = true;
   double PickingRadius = 0.5;

@@ -167,6 +167,7 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
   AddRuns(json, v.Run);
   json.update({
     { "smoothing_sigma", v.Run.SmoothingSigma },
+    { "frame_steps", v.Run.FrameSteps },
     { "threads", v.Threads },
     { "contention", ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)] },
     { "balance", BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)] },

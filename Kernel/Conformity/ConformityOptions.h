@@ -51,6 +51,11 @@ struct InterfaceOptions
    * Rounds.
    */
   bool Manifold = true;
+  /**
+   * Move vertices of interfaces so that facets lie on the interfaces on average, and volumes are
+   * right (FitInterfaces); 4D only. The mesh is then no longer exactly Delaunay.
+   */
+  bool Fit = true;
 };
 
 } // namespace voxplex

@@ -537,6 +537,26 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
 }
 
 template <int D>
+LabelImage<D> LabelImage<D>::WithFrames(const GridGeometry<D>& grid, const Index& origin,
+  const Index& extent, UninitialisedVector<LabelId> ids) const
+{
+  LabelImage image;
+  image.WholeGrid = grid;
+  image.Origin = origin;
+  image.Extent = extent;
+  image.Voxels = std::move(ids);
+  image.LabelValues = this->LabelValues;
+  image.LabelCounts.assign(this->LabelCounts.size(), 0);
+  for (const LabelId id : image.Voxels)
+  {
+    ++image.LabelCounts[id];
+  }
+  image.CutInTime = this->CutInTime;
+  return image;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
 void LabelImage<D>::Relabel(const Index& first, std::int64_t length, LabelId label)
 {
   LabelId* const run = this->Voxels.data() + OffsetOf(first, this->Extent);

@@ -69,6 +69,16 @@ public:
   static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,
     const LabelSelection& selection = {}, unsigned threads = 1, const std::stop_token& stop = {});
 
+  /**
+   * The same labels on other frames of a space-time image, which covers the same time.
+   * @param grid the whole new image
+   * @param origin the new bounding box, in indices of the new grid
+   * @param extent voxels of the new bounding box
+   * @param ids dense ids of the new bounding box
+   */
+  LabelImage WithFrames(const GridGeometry<D>& grid, const Index& origin, const Index& extent,
+    UninitialisedVector<LabelId> ids) const;
+
   /** The grid of the whole image. */
   const GridGeometry<D>& Grid() const { return this->WholeGrid; }
 

@@ -25,10 +25,12 @@ class Extraction
 {
 public:
   Extraction(const Triangulation<D>& triangulation, const Domain<D>& image,
-    std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
+    std::span<const LabelId> labels, std::span<const Point<D>> positions, unsigned threads,
+    const std::stop_token& stop)
     : Source(triangulation)
     , Image(image)
     , Labels(labels)
+    , Positions(positions)
     , Threads(threads)
     , Stop(stop)
     , Ids(labels.size())
@@ -146,7 +148,8 @@ private:
         for (std::size_t i = first; i < last; ++i)
         {
           this->Numbers[sorted[i].Id] = static_cast<std::uint32_t>(i);
-          this->Mesh.Points[i] = this->Source.Position(sorted[i].Id);
+          this->Mesh.Points[i] = this->Positions.empty() ? this->Source.Position(sorted[i].Id)
+                                                         : this->Positions[sorted[i].Id];
         }
       });
   }
@@ -286,7 +289,8 @@ private:
 
   const Triangulation<D>& Source;
   const Domain<D>& Image;
-  const std::span<const LabelId> Labels; ///< of each simplex id
+  const std::span<const LabelId> Labels;     ///< of each simplex id
+  const std::span<const Point<D>> Positions; ///< of each vertex id, or empty
   const unsigned Threads;
   const std::stop_token& Stop;
   const std::size_t Ids;      ///< all simplex ids are smaller
@@ -308,10 +312,10 @@ private:
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads,
-  const std::stop_token& stop)
+  const std::stop_token& stop, std::span<const Point<D>> positions)
 {
   mesh = SimplexMesh<D>();
-  mesh = Extraction<D>(triangulation, image, labels, threads, stop).Run();
+  mesh = Extraction<D>(triangulation, image, labels, positions, threads, stop).Run();
 }
 
 template <int D>
@@ -324,9 +328,9 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 }
 
 template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, std::span<const LabelId>,
-  SimplexMesh<3>&, unsigned, const std::stop_token&);
+  SimplexMesh<3>&, unsigned, const std::stop_token&, std::span<const Point<3>>);
 template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, std::span<const LabelId>,
-  SimplexMesh<4>&, unsigned, const std::stop_token&);
+  SimplexMesh<4>&, unsigned, const std::stop_token&, std::span<const Point<4>>);
 template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 template void ExtractMesh<4>(

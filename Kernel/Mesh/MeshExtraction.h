@@ -28,13 +28,14 @@ namespace voxplex
  * @param labels of each simplex id
  * @param mesh receives the mesh; its old contents are lost; it is empty if this throws
  * @param threads 0 means all cores
+ * @param positions of each vertex id, in place of those of the triangulation; or empty
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads = 1,
-  const std::stop_token& stop = {});
+  const std::stop_token& stop = {}, std::span<const Point<D>> positions = {});
 
 /** The same with the labels of LabelSimplices(). */
 template <int D>
@@ -42,9 +43,11 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
 
 extern template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&,
-  std::span<const LabelId>, SimplexMesh<3>&, unsigned, const std::stop_token&);
+  std::span<const LabelId>, SimplexMesh<3>&, unsigned, const std::stop_token&,
+  std::span<const Point<3>>);
 extern template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&,
-  std::span<const LabelId>, SimplexMesh<4>&, unsigned, const std::stop_token&);
+  std::span<const LabelId>, SimplexMesh<4>&, unsigned, const std::stop_token&,
+  std::span<const Point<4>>);
 extern template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 extern template void ExtractMesh<4>(

@@ -5,6 +5,7 @@
 #include "Base/Stopwatch.h"
 #include "Junctions/JunctionSeeds.h"
 #include "Mesh/MeshExtraction.h"
+#include "Optimisation/InterfaceFit.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Quality/LostComponents.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
@@ -35,16 +36,18 @@ constexpr double GradingTolerance = 0.9;
 constexpr double OptimisationTolerance = 0.1;
 
 /**
- * If a space-time image is shorter than this many delta, nothing is sampled more finely. Between two
- * flat ends that are near each other, most points would be moved onto the ends, and rules answer
- * each other: images of a hundred voxels took minutes.
+ * If a space-time image is shorter than this many mean voxel spacings, nothing is sampled more
+ * finely. Between two flat ends that are near each other, most points would be moved onto the ends,
+ * and rules answer each other: images of a hundred voxels took minutes.
  */
-constexpr double ShortestDuration = 3.0;
+constexpr double ShortestDuration = 5.0;
 
 bool MayBeRefined(const RunEnvironment<4>& run)
 {
   const Box<4> bounds = run.Prepared.Surfaces->Bounds();
-  return bounds.Max[3] - bounds.Min[3] >= ShortestDuration * run.Statistics.Delta;
+  const double spacing = std::pow(run.Prepared.Image.Grid().VoxelVolume(), 0.25);
+  return bounds.Max[3] - bounds.Min[3] >=
+    ShortestDuration * std::min(spacing, run.Statistics.Delta);
 }
 
 } // namespace
@@ -149,8 +152,9 @@ Dimension<4>::Checks::Checks(
   const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>& local)
   : Run(run)
   , Source(context.Mesh)
+  , Sizing(context.Sizing)
   , MayRefine(MayBeRefined(run))
-  , Interfaces(context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+  , Interfaces(context.Mesh, run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
       context.Sizing, run.Options.Interfaces, local, run.Statistics.Interfaces,
       run.Statistics.Times.Interfaces, run.Options.Team.Threads, run.Stop)
 {
@@ -204,8 +208,19 @@ std::vector<ConformityCheck<4>*> Dimension<4>::Checks::All()
 
 void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
 {
-  ExtractMesh<4>(this->Source, *this->Run.Prepared.Surfaces, mesh, this->Run.Options.Team.Threads,
-    this->Run.Stop);
+  const MeshingOptions<4>& options = this->Run.Options;
+  const Domain<4>& surfaces = *this->Run.Prepared.Surfaces;
+  const unsigned threads = options.Team.Threads;
+  const SimplexLabels labels = LabelSimplices<4>(this->Source, surfaces, threads, this->Run.Stop);
+  FittedPositions fitted;
+  if (options.Interfaces.Fit)
+  {
+    const FitBounds bounds{ options.SpaceTime.Slivers.VolumeBound, options.Shape.RadiusEdgeRatio,
+      this->Run.Prepared.Size ? &this->Sizing : nullptr, this->Run.Prepared.OfDomain() };
+    fitted = FitInterfaces(this->Source, surfaces, labels, bounds, threads, this->Run.Stop);
+  }
+  ExtractMesh<4>(
+    this->Source, surfaces, labels, mesh, threads, this->Run.Stop, fitted.Positions);
 }
 
 //------------------------------------------------------------------------------------------------

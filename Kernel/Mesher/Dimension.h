@@ -130,6 +130,7 @@ struct Dimension<4>
   private:
     const RunEnvironment<4> Run;
     const Triangulation<4>& Source;
+    const SizingField<4>& Sizing;
     const bool MayRefine;                        ///< false if the image is short in time
     std::optional<ComponentCheck<4>> Components; ///< empty if components are not checked
     std::optional<ComponentCheck<4>> OfFrames;   ///< empty if components are not checked

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "Geometry/Predicates.h"
+#include "Image/FrameInterpolation.h"
 
 #include <cmath>
 #include <string>
@@ -120,6 +121,11 @@ void CheckOptions(const MeshingOptions<D>& options)
   {
     throw InputError("the facet angle must be between 0 and 30 degrees; it is " +
       NumberText(options.Shape.FacetAngle));
+  }
+  if (options.FrameSteps > MaximumFrameSteps)
+  {
+    throw InputError("there are at most " + std::to_string(MaximumFrameSteps) +
+      " steps between two frames; " + std::to_string(options.FrameSteps) + " were asked for");
   }
   CheckTetSliverOptions(options.Shape.Slivers, options.Limits.Force);
   CheckSliverOptions(options.SpaceTime.Slivers, options.Limits.Force);

@@ -87,6 +87,12 @@ struct MeshingOptions
    * label images only; for isosurfaces see Isosurface::SmoothingSigma.
    */
   double SmoothingSigma = 1.0;
+  /**
+   * Steps between two frames of a label image; labels are interpolated between them
+   * (InterpolateFrames()). 0: as many as the motion asks for (FrameStepsFor()). At most
+   * MaximumFrameSteps; 4D only.
+   */
+  unsigned FrameSteps = 0;
   SamplingOptions<D> Sampling;
   ShapeOptions Shape;
   SpaceTimeRuleOptions SpaceTime; ///< 4D only

@@ -84,6 +84,7 @@ struct MeshingStatistics
   double Delta = 0.0;          ///< the delta that was used, in the image's unit of length
   double LargestDelta = 0.0; ///< the largest Delta(z); Delta unless graded or with interface sizes
   double SmoothingSigma = 0.0;        ///< voxels
+  unsigned FrameSteps = 1;            ///< steps between two frames (InterpolateFrames()); 4D only
   std::uint64_t ElementsAskedFor = 0; ///< SamplingOptions::Elements
   /**
    * If a number of elements was requested, all runs; one of them made the mesh (Delta). Else empty.

@@ -4,6 +4,7 @@
 
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomain.h"
+#include "Image/FrameInterpolation.h"
 #include "Image/GreyValues.h"
 #include "Parallel/ParallelFor.h"
 #include "Sizing/GradedSize.h"
@@ -40,6 +41,24 @@ void FindJunctions(const ImageDomain<4, Field>&, const MeshingOptions<4>&,
 {
 }
 
+/** Adds frames where labels move far between two frames. */
+void AddFrames(const MeshingOptions<4>& options, PreparedImage<4>& prepared,
+  MeshingStatistics& statistics, const std::stop_token& stop)
+{
+  const unsigned threads = options.Team.Threads;
+  statistics.FrameSteps =
+    options.FrameSteps > 0 ? options.FrameSteps : FrameStepsFor(prepared.Image, threads, stop);
+  if (statistics.FrameSteps > 1)
+  {
+    prepared.WithSteps = std::make_unique<const LabelImage<4>>(
+      InterpolateFrames(prepared.Image, statistics.FrameSteps, threads, stop));
+  }
+}
+
+void AddFrames(const MeshingOptions<3>&, PreparedImage<3>&, MeshingStatistics&, const std::stop_token&)
+{
+}
+
 /** Stores a domain, and computes everything that depends on the type of its field. */
 template <int D, typename Field>
 void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
@@ -63,8 +82,8 @@ template <int D>
 PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
 {
-  PreparedImage<D> prepared{ image, nullptr, nullptr, std::nullopt, std::nullopt, std::nullopt,
-    nullptr };
+  PreparedImage<D> prepared{ image, nullptr, nullptr, nullptr, std::nullopt, std::nullopt,
+    std::nullopt, nullptr };
   if (isosurface)
   {
     TakeDomain<D>(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
@@ -77,9 +96,13 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
     {
       CheckSegmented(image, options.Team.Threads, stop);
     }
+    const Stopwatch time;
+    AddFrames(options, prepared, statistics, stop);
+    const double seconds = time.Seconds();
     TakeDomain<D>(std::make_unique<const ImageDomain<D>>(
-                    image, options.SmoothingSigma, options.Team.Threads, stop),
+                    prepared.OfDomain(), options.SmoothingSigma, options.Team.Threads, stop),
       options, prepared, statistics, stop);
+    statistics.Times.LabelField += seconds;
   }
   if (options.LooksAfterComponents())
   {

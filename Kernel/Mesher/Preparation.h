@@ -29,16 +29,21 @@ template <int D>
 struct PreparedImage
 {
   const LabelImage<D>& Image;
+  /** Image with frames between its frames; null if there are none, and in 3D. */
+  std::unique_ptr<const LabelImage<D>> WithSteps;
   std::unique_ptr<const Domain<D>> Surfaces;
   const BitMask<D>* Sites;                     ///< surface voxels of the domain
   std::optional<JunctionCurves> Junctions;     ///< empty if junctions are not sampled
   std::optional<Components<D>> AllComponents;  ///< empty if components are not checked
   std::optional<Components<D>> OfFrames;       ///< those of each frame; empty as before, and in 3D
   std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
+
+  /** The image that the domain is made from. Its surface voxels are Sites. */
+  const LabelImage<D>& OfDomain() const { return this->WithSteps ? *this->WithSteps : this->Image; }
 };
 
 /**
- * Makes the domain, finds junctions and components, and limits the growth of element sizes.
+ * Adds frames between frames, makes the domain, finds junctions and components, and limits the growth of element sizes.
  *
  * @param image must outlive the result, and so must the isosurface
  * @param isosurface the isosurface to mesh, or null to mesh the labels alone

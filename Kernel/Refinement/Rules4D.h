@@ -65,7 +65,7 @@ public:
   RuleOutcome Refine(SimplexId s);
 
   /** Insertions in a region before rules give way there. */
-  static constexpr std::uint32_t WorkLimit = 100;
+  static constexpr std::uint32_t WorkLimit = 250;
 
 private:
   friend RefinementRules;

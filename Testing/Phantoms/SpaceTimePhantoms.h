@@ -124,6 +124,60 @@ inline SpaceTimePhantom MergingBalls(std::int64_t frames = 17)
     } };
 }
 
+/**
+ * A sheet of label 1, 3 voxels thick, that turns about its long axis: by a quarter in all. It moves
+ * by up to 1.6 voxels a frame.
+ */
+inline SpaceTimePhantom RotatingSheet(std::int64_t frames = 15)
+{
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 36, 36, 28, frames }, { 1.0, 1.0, 1.0, 1.0 });
+  const double duration = static_cast<double>(frames - 1);
+  return { grid,
+    [=](const Point<4>& p) -> std::uint8_t
+    {
+      const double angle = 0.3 + 0.5 * std::numbers::pi * p[3] / duration;
+      const double x = p[0] - 17.5;
+      const double y = p[1] - 17.5;
+      const double across = std::cos(angle) * x + std::sin(angle) * y;
+      const double along = std::cos(angle) * y - std::sin(angle) * x;
+      return std::abs(across) < 1.5 && std::abs(along) < 14.0 && std::abs(p[2] - 13.5) < 10.0;
+    } };
+}
+
+/**
+ * A tube that opens and closes: label 1 is the wall, 2 the lumen. At the first and the last frame
+ * there is no lumen. The wall keeps its cross-section.
+ */
+inline SpaceTimePhantom OpeningTube(std::int64_t frames = 15)
+{
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 32, 32, 34, frames }, { 1.0, 1.0, 1.0, 1.0 });
+  const double duration = static_cast<double>(frames - 1);
+  return { grid,
+    [=](const Point<4>& p) -> std::uint8_t
+    {
+      const double inner = 8.0 * std::sin(std::numbers::pi * p[3] / duration) - 1.0;
+      const double outer = std::sqrt(81.0 + std::max(inner, 0.0) * std::max(inner, 0.0));
+      const double r = std::hypot(p[0] - 15.5, p[1] - 15.5);
+      return std::abs(p[2] - 16.5) > 13.0 || r >= outer ? 0 : r < inner ? 2 : 1;
+    } };
+}
+
+/** A ball of label 1, radius 7, that moves 4 voxels a frame there and back. */
+inline SpaceTimePhantom FastBall(std::int64_t frames = 17)
+{
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 56, 24, 24, frames }, { 1.0, 1.0, 1.0, 1.0 });
+  const double middle = 0.5 * static_cast<double>(frames - 1);
+  return { grid,
+    [=](const Point<4>& p) -> std::uint8_t
+    {
+      const double x = 11.5 + 4.0 * (middle - std::abs(p[3] - middle));
+      return std::hypot(p[0] - x, p[1] - 11.5, p[2] - 11.5) < 7.0;
+    } };
+}
+
 } // namespace voxplex::phantoms
 
 #endif

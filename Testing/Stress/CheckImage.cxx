@@ -29,6 +29,9 @@ constexpr double SearchPrecisionOfIsosurfaces = 0.1;
 /** Distance by which optimisation may move vertices off interfaces, in smallest spacings. */
 constexpr double OptimisationTolerance = 0.1;
 
+/** How far FitInterfaces() may move vertices along each axis, in voxels. */
+constexpr double FitTolerance = 0.5;
+
 /**
  * Calls f for each index of a box, ends included, until f returns false.
  * @return whether f never returned false
@@ -104,10 +107,12 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
       onFacet[v] = 1;
     }
   }
-  const double tolerance = D == 3 && subject.Of.Options.Optimisation.Run
+  const MeshingOptions<D>& options = subject.Of.Options;
+  const double tolerance = D == 3 && options.Optimisation.Run
     ? OptimisationTolerance * SmallestSpacing(image)
     : 0.0;
-  const double precision = image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision;
+  const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
+    (D == 4 && options.Interfaces.Fit ? FitTolerance : 0.0);
   std::uint64_t off = 0;
   std::size_t first = 0;
   for (std::size_t v = 0; v < mesh.Points.size(); ++v)

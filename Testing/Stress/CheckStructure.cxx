@@ -298,8 +298,9 @@ template <int D>
 void CheckConformity(const Subject<D>& subject, Findings& findings)
 {
   const SimplexMesh<D>& mesh = subject.Mesh;
-  const bool isDelaunay =
-    !subject.Of.Options.Optimisation.Run && subject.Stats.Interfaces.NonManifoldOpened == 0;
+  const MeshingOptions<D>& options = subject.Of.Options;
+  const bool hasMoved = D == 3 ? options.Optimisation.Run : options.Interfaces.Fit;
+  const bool isDelaunay = !hasMoved && subject.Stats.Interfaces.NonManifoldOpened == 0;
   const std::vector<Side<D>> sides = SidesOf(mesh);
   std::vector<Face<D>> expected;
   for (std::size_t i = 0; i < sides.size();)

@@ -105,6 +105,8 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   const MeshingOptions<4> usual;
   to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
   WriteCheckFlags(options, to);
+  to.Flag("--frame-steps", options.FrameSteps, usual.FrameSteps);
+  to.Word("--no-fit", !options.Interfaces.Fit);
   to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
   to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);
   to.Flag("--picks", options.SpaceTime.Slivers.Picks, usual.SpaceTime.Slivers.Picks);

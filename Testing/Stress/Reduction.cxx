@@ -169,6 +169,8 @@ bool Reducer<D>::ResetOptionsOfDimension()
     VOXPLEX_MEMBER(Options.Components.Smallest), std::int64_t{ 0 }, usual.Components.Smallest);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Components.Exact), usual.Components.Exact);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FrameSteps), 1u, usual.FrameSteps);
+  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Fit), false, usual.Interfaces.Fit);
   if constexpr (D == 3)
   {
     changed |=

@@ -47,9 +47,7 @@ double SmallestNormalizedVolume(const SimplexMesh<4>& mesh)
 SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::uint64_t seed,
   unsigned threads = 1, RuleOrder order = RuleOrder::RadiusEdgeFirst)
 {
-  MeshingOptions<4> options;
-  options.Sampling.Delta = delta;
-  options.Team.Threads = threads;
+  MeshingOptions<4> options = SpaceTimeOptions(delta, threads);
   options.SpaceTime.Order = order;
   options.SpaceTime.Slivers.Fight = true;
   options.SpaceTime.Slivers.Seed = seed;

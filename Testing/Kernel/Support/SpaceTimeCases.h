@@ -60,6 +60,9 @@ inline MeshingOptions<4> SpaceTimeOptions(double delta, unsigned threads = 1)
   options.Sampling.Delta = delta;
   options.Team.Threads = threads;
   options.SpaceTime.Slivers.Fight = false;
+  // So that vertices are on interfaces, which are those of the image itself.
+  options.Interfaces.Fit = false;
+  options.FrameSteps = 1;
   return options;
 }
 

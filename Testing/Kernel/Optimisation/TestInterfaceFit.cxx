@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Vertices of interfaces are moved so that volumes are right; shapes, ends and topology stay.
+#include "Base/Error.h"
+#include "Geometry/SimplexQuality.h"
+#include "MeshChecks.h"
+#include "Optimisation/InterfaceFit.h"
+#include "SpaceTimeCases.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <stop_token>
+#include <string>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+SimplexMesh<4> Mesh(const LabelImage<4>& image, MeshingOptions<4> options, bool fit)
+{
+  options.Interfaces.Fit = fit;
+  options.SpaceTime.Slivers.Fight = true;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  return mesh;
+}
+
+/** Points, vertices of interfaces that have moved, and the largest distance, in shortest edges. */
+struct Moves
+{
+  std::size_t Inside = 0;
+  std::size_t OnInterfaces = 0;
+  std::size_t OnEndsInTime = 0;
+};
+
+Moves Compare(const SimplexMesh<4>& before, const SimplexMesh<4>& after)
+{
+  std::set<std::uint32_t> corners;
+  for (const auto& facet : before.Facets)
+  {
+    corners.insert(facet.begin(), facet.end());
+  }
+  const auto [first, last] = TimeSpan(before);
+  Moves moves;
+  for (std::uint32_t v = 0; v < before.Points.size(); ++v)
+  {
+    const Point<4>& p = before.Points[v];
+    const Point<4>& q = after.Points[v];
+    if (p == q)
+    {
+      continue;
+    }
+    ++(corners.count(v) != 0 ? moves.OnInterfaces : moves.Inside);
+    moves.OnEndsInTime += (p[3] == first || p[3] == last) && p[3] != q[3];
+  }
+  return moves;
+}
+
+double SmallestShape(const SimplexMesh<4>& mesh)
+{
+  double smallest = 1.0;
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    smallest = std::min(smallest, NormalizedVolume<4>(mesh.PointsOf(s).data()));
+  }
+  return smallest;
+}
+
+} // namespace
+
+// Seen: -3.3, -3.8, and -2.2 and -1.6 % without; below 0.5 % with it.
+TEST(InterfaceFit, MakesVolumesRight)
+{
+  const std::map<std::string, phantoms::SpaceTimePhantom> phantoms = {
+    { "four-ball", phantoms::FourBall(12.0) },
+    { "merging balls", phantoms::WithTimeScale(phantoms::MergingBalls(), 2.0) },
+    { "pulsating balls", PulsatingBalls(11, 2.0, 1.0) },
+  };
+  for (const auto& [name, phantom] : phantoms)
+  {
+    SCOPED_TRACE(name);
+    const LabelImage<4> image = ImageOf(phantom);
+    const SimplexMesh<4> before = Mesh(image, SpaceTimeOptions(2.0), false);
+    const SimplexMesh<4> after = Mesh(image, SpaceTimeOptions(2.0), true);
+    for (const auto& [label, expected] : Hypervolumes(image))
+    {
+      SCOPED_TRACE(label);
+      // The inner one of the pulsating balls is only two delta across: seen -7 instead of -16 %.
+      const bool isSmall = image.NumberOfLabels() == 2 && expected < 10000.0;
+      EXPECT_NEAR(Volumes(after)[label], expected, (isSmall ? 0.09 : 0.01) * expected);
+      EXPECT_LT(Volumes(before)[label], 0.99 * expected) << "there is nothing to do";
+    }
+
+    ASSERT_EQ(before.Simplices, after.Simplices);
+    ASSERT_EQ(before.Labels, after.Labels);
+    ASSERT_EQ(before.Facets, after.Facets);
+    const Moves moves = Compare(before, after);
+    EXPECT_EQ(moves.Inside, 0u);
+    EXPECT_EQ(image.ReachesBorderInTime(0) ? moves.OnEndsInTime : 0, 0u);
+    EXPECT_GT(moves.OnInterfaces, 500u);
+    EXPECT_TRUE(Complaints(after).empty());
+    EXPECT_GE(SmallestShape(after), SliverOptions().VolumeBound);
+    for (std::size_t s = 0; s < after.Simplices.size(); ++s)
+    {
+      ASSERT_LE(RadiusEdge(after, s), std::max(2.0, RadiusEdge(before, s)) + 1e-9);
+    }
+  }
+}
+
+// A slab that stands still has no chords, but for its edges: there is nothing to gain.
+TEST(InterfaceFit, LeavesPlanesAlone)
+{
+  const LabelImage<4> image =
+    ImageOf({ GridGeometry<4>::Orthogonal({ 20, 26, 26, 10 }, { 1.0, 1.0, 1.0, 1.0 }),
+      [](const Point<4>& p) -> std::uint8_t { return p[0] > 4.0 && p[0] < 14.0; } });
+  const SimplexMesh<4> before = Mesh(image, SpaceTimeOptions(2.0), false);
+  const SimplexMesh<4> after = Mesh(image, SpaceTimeOptions(2.0), true);
+  ASSERT_EQ(before.Points.size(), after.Points.size());
+  const auto isOnSide = [](const Point<4>& p)
+  {
+    return p[1] > 8.0 && p[1] < 17.0 && p[2] > 8.0 && p[2] < 17.0 &&
+      (std::abs(p[0] - 4.5) < 0.1 || std::abs(p[0] - 13.5) < 0.1);
+  };
+  std::size_t sides = 0;
+  for (std::size_t v = 0; v < before.Points.size(); ++v)
+  {
+    if (isOnSide(before.Points[v]))
+    {
+      ++sides;
+      EXPECT_LT(Distance(before.Points[v], after.Points[v]), 0.05);
+    }
+  }
+  EXPECT_GT(sides, 50u);
+}
+
+TEST(InterfaceFit, DoesNotDependOnThreads)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const MeshingOptions<4> options = SpaceTimeOptions(2.5);
+  MeshingOptions<4> reproducible = options;
+  reproducible.Team.Reproducible = true;
+  SimplexMesh<4> first;
+  for (const unsigned threads : { 1u, 3u, 8u })
+  {
+    reproducible.Team.Threads = threads;
+    const SimplexMesh<4> mesh = Mesh(image, reproducible, true);
+    if (first.Points.empty())
+    {
+      first = mesh;
+    }
+    ExpectSame(mesh, first);
+  }
+}
