@@ -47,6 +47,11 @@
  *   - Cell array `Labels` (2 components, type as that of `Label`): the labels on both sides, the
  *     larger first, 0 for background. The fifth point of the first label's pentatope, followed by
  *     the 4 points, makes a positive pentatope.
+ *   - Cell array `Side` (vtkUnsignedCharArray): 0 for the lateral boundary, 1 for the flat end at the
+ *     first frame's time, 2 for that at the last frame's.
+ *   - Cell array `NormalVelocity` (vtkDoubleArray): how fast a lateral tetrahedron moves along its
+ *     normal in space, out of the first label, in the input's units of length and time. 0 at flat
+ *     ends, NaN where the normal has no direction in space.
  *
  * Where the first or the last frame cuts an object, the mesh ends exactly at that frame's time, and
  * its boundary there is flat.

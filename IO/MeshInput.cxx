@@ -273,8 +273,13 @@ void MeshInput::Check(Content content, const std::string& name) const
   {
     RequireCells(
       this->Tetrahedra, VTK_TETRA, 4, "the interfaces must be tetrahedra in this format");
-    RequireArray(this->Tetrahedra->GetCellData(), "Labels", 2, this->Tetrahedra->GetNumberOfCells(),
-      "the interfaces have");
+    vtkCellData* cellData = this->Tetrahedra->GetCellData();
+    const vtkIdType count = this->Tetrahedra->GetNumberOfCells();
+    RequireArray(cellData, "Labels", 2, count, "the interfaces have");
+    if (cellData->HasArray("Side"))
+    {
+      RequireArray(cellData, "Side", 1, count, "the interfaces have");
+    }
   }
 }
 

@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/PentatopeOutput.h"
 
+#include "Geometry/Determinants.h"
 #include "Private/OutputArrays.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace voxplex
 {
@@ -36,6 +42,90 @@ void SetPoints(vtkUnstructuredGrid* grid, std::size_t n, const SpaceTimeFrame& f
   grid->GetPointData()->AddArray(times);
 }
 
+/** Values of the cell array Side. */
+enum class Side : unsigned char
+{
+  Lateral,
+  Initial, ///< the flat end at the time of the first frame
+  Final
+};
+
+/** Whether a boundary tetrahedron lies in a flat end. */
+Side SideOf(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
+{
+  if (mesh.FacetLabels[facet][1] != 0)
+  {
+    return Side::Lateral;
+  }
+  bool isInitial = true;
+  bool isFinal = true;
+  for (const std::uint32_t id : mesh.Facets[facet])
+  {
+    const double time = frame.Time(mesh.Points[id]);
+    isInitial &= time == frame.FirstTime;
+    isFinal &= time == frame.LastTime;
+  }
+  return isInitial ? Side::Initial : isFinal ? Side::Final : Side::Lateral;
+}
+
+/**
+ * The velocity of a lateral tetrahedron along its normal in space, out of the region of its first
+ * label: -n_t / |n_x|, where n is the normal in space-time. NaN if n_x is 0.
+ */
+double NormalVelocity(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
+{
+  std::array<Point<4>, 4> p;
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    p[k] = frame.ToWorld(mesh.Points[mesh.Facets[facet][k]]);
+  }
+  const std::array<Point<4>, 3> edges = { Subtract(p[1], p[0]), Subtract(p[2], p[0]),
+    Subtract(p[3], p[0]) };
+  Point<4> normal; // that of the frame, or its opposite if axes are left-handed
+  for (std::size_t axis = 0; axis < 4; ++axis)
+  {
+    std::array<Point<3>, 3> minor;
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      for (std::size_t column = 0; column < 3; ++column)
+      {
+        minor[row][column] = edges[row][column + (column < axis ? 0 : 1)];
+      }
+    }
+    normal[axis] = (axis % 2 == 0 ? 1.0 : -1.0) * Determinant(minor);
+  }
+  const double sign = frame.Space.LeftHanded ? -1.0 : 1.0;
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  return length > 0.0 ? -sign * normal[3] / length : std::numeric_limits<double>::quiet_NaN();
+}
+
+/** The arrays Side and NormalVelocity. */
+void AddSides(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame,
+  vtkUnstructuredGrid* boundary, unsigned threads)
+{
+  const std::size_t n = mesh.Facets.size();
+  vtkNew<vtkUnsignedCharArray> sides;
+  sides->SetName("Side");
+  sides->SetNumberOfValues(static_cast<vtkIdType>(n));
+  vtkNew<vtkDoubleArray> velocities;
+  velocities->SetName("NormalVelocity");
+  velocities->SetNumberOfValues(static_cast<vtkIdType>(n));
+  unsigned char* const side = sides->GetPointer(0);
+  double* const velocity = velocities->GetPointer(0);
+  ParallelFor(0, n, OutputGrain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t f = first; f < last; ++f)
+      {
+        const Side one = SideOf(mesh, frame, f);
+        side[f] = static_cast<unsigned char>(one);
+        velocity[f] = one == Side::Lateral ? NormalVelocity(mesh, frame, f) : 0.0;
+      }
+    });
+  boundary->GetCellData()->AddArray(sides);
+  boundary->GetCellData()->AddArray(velocities);
+}
+
 /** The boundary tetrahedra, on a compact copy of the points that they use. */
 void MakeBoundary(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, bool fitInt,
   vtkUnstructuredGrid* boundary, unsigned threads)
@@ -51,6 +141,7 @@ void MakeBoundary(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, bool 
       [&points](std::uint32_t id) { return points.Number(id); }));
   boundary->GetPointData()->AddArray(meshIds);
   boundary->GetCellData()->AddArray(MakeLabels(mesh.FacetLabels, "Labels", fitInt, threads));
+  AddSides(mesh, frame, boundary, threads);
 }
 
 } // namespace

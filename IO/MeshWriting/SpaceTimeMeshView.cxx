@@ -36,6 +36,7 @@ SpaceTimeMeshView::SpaceTimeMeshView(const SpaceTimeMeshData& mesh)
   , Times(RequireArray(mesh.Pentatopes->GetPointData(), "Time"))
   , Labels(RequireArray(mesh.Pentatopes->GetCellData(), "Label"))
   , Pairs(RequireArray(mesh.Boundary->GetCellData(), "Labels"))
+  , Sides(mesh.Boundary->GetCellData()->GetArray("Side"))
   , PointIds(RequireArray(mesh.Boundary->GetPointData(), "PointIds"))
 {
   std::int64_t largest = 0;
@@ -43,12 +44,30 @@ SpaceTimeMeshView::SpaceTimeMeshView(const SpaceTimeMeshData& mesh)
   {
     largest = std::max(largest, this->LabelOf(cell));
   }
-  std::set<LabelPair> pairs;
+  std::set<LabelPair> lateral;
+  std::set<SidedPair> atEnds;
   for (vtkIdType cell = 0; cell < this->NumberOfTetrahedra(); ++cell)
   {
-    pairs.insert(this->PairOf(cell));
+    const SidedPair pair = this->PairOf(cell);
+    if (pair.first == 0)
+    {
+      lateral.insert(pair.second);
+    }
+    else
+    {
+      atEnds.insert(pair);
+    }
   }
-  this->PairNumber = NumberPairs(pairs, largest);
+  std::int64_t next = largest + 1;
+  for (const auto& [pair, number] : NumberPairs(lateral, largest))
+  {
+    this->PairNumber[{ 0, pair }] = number;
+    next = std::max(next, number + 1);
+  }
+  for (const SidedPair& pair : atEnds)
+  {
+    this->PairNumber[pair] = next++;
+  }
 }
 
 vtkIdType SpaceTimeMeshView::NumberOfPoints() const
@@ -94,9 +113,11 @@ std::array<vtkIdType, 4> SpaceTimeMeshView::Tetrahedron(vtkIdType cell) const
   return vertices;
 }
 
-LabelPair SpaceTimeMeshView::PairOf(vtkIdType tetrahedron) const
+SpaceTimeMeshView::SidedPair SpaceTimeMeshView::PairOf(vtkIdType tetrahedron) const
 {
-  return { LabelAt(this->Pairs, tetrahedron, 0), LabelAt(this->Pairs, tetrahedron, 1) };
+  const double side = this->Sides ? this->Sides->GetComponent(tetrahedron, 0) : 0.0;
+  return { side == 1.0 ? 1 : side == 2.0 ? 2 : 0,
+    { LabelAt(this->Pairs, tetrahedron, 0), LabelAt(this->Pairs, tetrahedron, 1) } };
 }
 
 std::int64_t SpaceTimeMeshView::NumberOf(vtkIdType tetrahedron) const
@@ -106,9 +127,11 @@ std::int64_t SpaceTimeMeshView::NumberOf(vtkIdType tetrahedron) const
 
 void SpaceTimeMeshView::WritePairs(TextFile& file) const
 {
-  for (const auto& [pair, number] : this->PairNumber)
+  for (const auto& [sided, number] : this->PairNumber)
   {
-    file << "#   " << number << ": " << pair.first << ' ' << pair.second << '\n';
+    const auto& [side, pair] = sided;
+    file << "#   " << number << ": " << pair.first << ' ' << pair.second
+         << (side == 0 ? "" : side == 1 ? " initial" : " final") << '\n';
   }
 }
 

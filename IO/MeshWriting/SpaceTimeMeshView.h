@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <vtkType.h>
 
@@ -42,21 +43,25 @@ public:
 
   vtkIdType NumberOfTetrahedra() const;
   std::array<vtkIdType, 4> Tetrahedron(vtkIdType cell) const;
-  std::int64_t NumberOf(vtkIdType tetrahedron) const; ///< of its pair of labels
+  std::int64_t NumberOf(vtkIdType tetrahedron) const; ///< of its pair of labels and its side
 
-  /** A comment for each pair: "#   8: 7 3". */
+  /** A comment for each pair and side: "#   8: 7 3", "#   9: 3 0 initial", "#   11: 3 0 final". */
   void WritePairs(TextFile& file) const;
 
 private:
-  LabelPair PairOf(vtkIdType tetrahedron) const;
+  /** The side comes first: lateral ones (0) before those at the first (1) and the last (2) time. */
+  using SidedPair = std::pair<int, LabelPair>;
+  SidedPair PairOf(vtkIdType tetrahedron) const;
 
   vtkUnstructuredGrid* Pentatopes;
   vtkUnstructuredGrid* Boundary;
   vtkDataArray* Times;
   vtkDataArray* Labels;
   vtkDataArray* Pairs;
+  vtkDataArray* Sides; ///< nullptr: all are lateral
   vtkDataArray* PointIds;
-  std::map<LabelPair, std::int64_t> PairNumber; ///< see NumberPairs()
+  /** Lateral ones are numbered by NumberPairs(), then those at the ends follow. */
+  std::map<SidedPair, std::int64_t> PairNumber;
 };
 
 } // namespace voxplex::io

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .mesh file of a 4D mesh: the ASCII Gamma mesh format of libMeshb, version 2 (double
 // precision), with the keyword Pentatopes. The reference of a pentatope is its label, that of a
-// boundary tetrahedron the number of its pair of labels; comments tell which.
+// boundary tetrahedron the number of its pair of labels and side; comments tell which.
 
 #include "SpaceTimeMeshView.h"
 #include "TextFile.h"

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .mfem file. Of 3D meshes 'MFEM mesh v1.3', which names sets of attributes; of 4D meshes
 // 'MFEM mesh v1.0' with dimension 4, as MFEM's branch 4d_dev reads it. The attribute of an element is
-// its label, that of a boundary element the number of its pair of labels; comments tell which.
+// its label, that of a boundary element the number of its pair of labels (and, in 4D, of the side of
+// the mesh); comments tell which.
 
 #include "MeshView.h"
 #include "SetNames.h"

@@ -79,7 +79,12 @@ class Formats(SpaceTimeTestCase):
         np.testing.assert_array_equal(mesh.labels, self.reference.labels)
         self.assertGreater(mesh.volumes().min(), 0.0)
         self.assertEqual(mesh.space, "LPS")
-        self.assertEqual(mesh.names, {3: (3, 0), 7: (7, 0), 8: (7, 3)})
+        self.assertEqual(mesh.names, {3: (3, 0), 7: (7, 0), 8: (7, 3), 9: (3, 0), 10: (7, 0), 11: (3, 0), 12: (7, 0)})
+        # Attributes from 9 on are those of the ends: all four vertices have the first or the last time.
+        times = mesh.points[mesh.tetrahedra][:, :, 3]
+        np.testing.assert_array_equal((times == 3.0).all(axis=1), np.isin(mesh.references, (9, 10)))
+        np.testing.assert_array_equal((times == 7.0).all(axis=1), np.isin(mesh.references, (11, 12)))
+        np.testing.assert_array_equal(self.boundary.sides, np.where(mesh.references > 10, 2, mesh.references > 8))
         np.testing.assert_array_equal(mesh.tetrahedra, self.boundary.point_ids[self.boundary.cells])
         np.testing.assert_array_equal([mesh.names[number] for number in mesh.references], self.boundary.labels)
 
@@ -113,6 +118,58 @@ class Formats(SpaceTimeTestCase):
         images.write_nrrd(self.input, touching_labels()[0])
         self.mesh("--input", self.input, "--delta", 3, "--output", "mesh.mesh", "--plc", "mesh.vtp")
         self.assertIn("\nDimension 3\n", (self.folder / "mesh.mesh").read_text())
+
+
+class Boundaries(SpaceTimeTestCase):
+    def boundary_of(self, array, *arguments):
+        images.write_space_time_nrrd(self.input, array, self.GEOMETRY)
+        self.run_with("--smoothing", 0.7, "--output", "m.vtu", "--plc", "boundary.vtu", *arguments)
+        boundary = meshfiles.read_boundary(self.folder / "boundary.vtu")
+        points = boundary.points[boundary.cells]
+        edges = points[:, 1:] - points[:, :1]
+        weights = np.sqrt(np.linalg.det(edges @ edges.transpose(0, 2, 1)).clip(0))
+        return boundary, points, weights
+
+    def test_sides(self):
+        boundary, points, _ = self.boundary_of(self.array)
+        for side, time in ((1, 3.0), (2, 11.0)):
+            np.testing.assert_array_equal(boundary.sides == side, (points[:, :, 3] == time).all(axis=1))
+        self.assertEqual(set(boundary.sides), {0, 1, 2})
+
+    def test_an_object_that_does_not_reach_the_ends(self):
+        array = np.zeros((7, 14, 14, 14), dtype=np.uint8)
+        array[2:5] = images.ball(14, 5.0)
+        boundary, _, _ = self.boundary_of(array)
+        self.assertEqual(set(boundary.sides), {0})
+
+    def test_velocity_of_a_ball_that_grows(self):
+        """Its radius grows by 0.5 voxels a frame, 0.25 mm in a unit of time (a step is 2)."""
+        array = np.stack([2 * images.ball(22, 4.0 + 0.5 * n) for n in range(9)])
+        self.GEOMETRY = images.Geometry(first_time=3.0, time_step=2.0)
+        for arguments in ((), ("--space", "ras"), ("--time-scale", 0.5)):
+            with self.subTest(arguments):
+                boundary, _, weights = self.boundary_of(array, *arguments)
+                lateral = boundary.sides == 0
+                np.testing.assert_array_equal(boundary.velocities[~lateral], 0.0)
+                mean = np.average(boundary.velocities[lateral], weights=weights[lateral])
+                self.assertAlmostEqual(mean, 0.25, delta=0.04)
+
+    def test_velocity_of_a_ball_that_moves(self):
+        """By one voxel a frame along x: the normal velocity is 0.5 n_x."""
+        array = np.zeros((9, 16, 16, 26), dtype=np.uint8)
+        z, y, x = np.indices(array.shape[1:])
+        for n in range(9):
+            array[n] = (x - 8.5 - n) ** 2 + (y - 7.5) ** 2 + (z - 7.5) ** 2 < 36
+        self.GEOMETRY = images.Geometry(first_time=3.0, time_step=2.0)
+        boundary, points, weights = self.boundary_of(array)
+        lateral = boundary.sides == 0
+        centre = points.mean(axis=1)[lateral]
+        outward = centre[:, :3] - np.column_stack(
+            [8.5 + (centre[:, 3] - 3.0) / 2.0, np.full((len(centre), 2), 7.5)])
+        expected = 0.5 * outward[:, 0] / np.linalg.norm(outward, axis=1)
+        error = np.average(np.abs(boundary.velocities[lateral] - expected), weights=weights[lateral])
+        self.assertLess(error, 0.1)
+        self.assertLess(np.corrcoef(boundary.velocities[lateral], -expected)[0, 1], -0.9)
 
 
 class Slices(SpaceTimeTestCase):
@@ -238,7 +295,7 @@ class Slices(SpaceTimeTestCase):
 class Flags(SpaceTimeTestCase):
     SPACE_TIME = (("--time-scale", 2), ("--slices", "s_"), ("--slices", "s_", "--slice-count", 3),
                   ("--rule-order", "surface"), ("--no-picking",), ("--picks", 5), ("--sliver-bound", 0.02),
-                  ("--seed", 1), ("--no-fine-grained",))
+                  ("--seed", 1), ("--no-fine-grained",), ("--frame-steps", 2), ("--no-fit",))
 
     def test_of_space_time_on_a_3d_image(self):
         path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
@@ -277,6 +334,7 @@ class Flags(SpaceTimeTestCase):
             (("--sliver-bound", 1, "--force"), "--sliver-bound: must lie between 0 and 0.999"),
             (("--sliver-bound", 0.04), "--sliver-bound: above 0.03.*--force"),
             (("--seed", -1), "--seed: must be a whole number from 0"),
+            (("--frame-steps", 9), "--frame-steps: must be a whole number from 0 to 8, not '9'"),
             (("--seed", "x"), "--seed: must be a whole number from 0"),
             (("--no-picking", "--picks", 5), "--picks is about picking regions.*--no-picking"),
             (("--no-picking", "--sliver-bound", 0.02), "--sliver-bound is about picking regions.*--no-picking"),

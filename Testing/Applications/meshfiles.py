@@ -78,7 +78,9 @@ class Boundary:
     cells: np.ndarray
     labels: np.ndarray  # two columns
     point_ids: np.ndarray
-    space: str = ""
+    space: str
+    sides: np.ndarray  # 0 lateral, 1 at the first time, 2 at the last
+    velocities: np.ndarray  # along the normal in space
 
 
 @dataclass
@@ -173,7 +175,9 @@ def read_boundary(path):
     _require_type(grid, 10)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     return Boundary(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Labels")),
-                    vtk_to_numpy(grid.GetPointData().GetArray("PointIds")), _space(grid))
+                    vtk_to_numpy(grid.GetPointData().GetArray("PointIds")), _space(grid),
+                    vtk_to_numpy(grid.GetCellData().GetArray("Side")),
+                    vtk_to_numpy(grid.GetCellData().GetArray("NormalVelocity")))
 
 
 def read_slice(path):

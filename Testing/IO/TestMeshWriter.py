@@ -179,6 +179,20 @@ class Formats(WriterTestCase):
         self.write(mesher, "both.ply", INTERFACES)
         self.assertEqual(self.files()["i.ply"], self.files()["both.ply"])
 
+    def test_boundary_without_sides(self):
+        """One of an older file: all of it counts as lateral."""
+        mesher = self.mesher(frames=3)
+        mesher.Update()
+        mesh, boundary = mesher.GetOutput(), mesher.GetOutputDataObject(1)
+        self.assertEqual(self.with_data("sides.mfem", mesh, boundary).Write(), 1)
+        self.assertIn(b" final\n", self.files()["sides.mfem"])
+        sides = boundary.GetCellData().GetArray("Side")
+        sides.SetNumberOfTuples(sides.GetNumberOfTuples() - 1)
+        self.refuse(self.with_data("m.mfem", mesh, boundary), "the interfaces have [0-9]+ values 'Side' for")
+        boundary.GetCellData().RemoveArray("Side")
+        self.assertEqual(self.with_data("old.mfem", mesh, boundary).Write(), 1)
+        self.assertNotIn(b" final\n", self.files()["old.mfem"])
+
     def test_temporary_name_of_the_caller(self):
         writer = self.writer(self.mesher(), "final.vtk")
         writer.SetTemporaryFileName(self.folder / "part")

@@ -43,13 +43,8 @@ Result<D> Refine(double radius, double delta, unsigned threads)
   TiledRefiner<Rules> refiner(context, team);
   EXPECT_TRUE(refiner.Run(nullptr));
   EXPECT_EQ(refiner.GetThreadStatistics().size(), threads);
-  std::uint64_t helped = 0;
-  for (const ThreadStatistics& thread : refiner.GetThreadStatistics())
-  {
-    helped += thread.HelpedLoops;
-  }
-  EXPECT_TRUE(refiner.GetNumberOfTiles() > 4 || (threads > 1 ? helped > 0 : D == 4))
-    << "the threads had nothing to do";
+  // In 4D one thread may insert all and the others help in its loops, if they wake up in time.
+  EXPECT_TRUE(D == 4 || refiner.GetNumberOfTiles() > 4) << "the threads had nothing to do";
 
   const std::vector<std::string> complaints = checks::Verify(context.Mesh);
   EXPECT_TRUE(complaints.empty()) << complaints.front();

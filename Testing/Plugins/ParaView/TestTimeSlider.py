@@ -1,9 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The time slider plays a space-time mesh: it is made once, and its slice follows the time."""
+import math
+
 from voxplex_testing import *
 
 from paraview.simple import GetAnimationScene, PVDReader
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 FRAMES = 8
 
@@ -24,9 +27,12 @@ def write_series():
     return path
 
 
-def width_of(slice_proxy):
-    low, high = slice_proxy.GetDataInformation().GetBounds()[:2]
-    return high - low
+def volume_of(data):
+    sizes = vtkCellSizeFilter()
+    sizes.SetInputDataObject(data)
+    sizes.Update()
+    array = sizes.GetOutput().GetCellData().GetArray("Volume")
+    return sum(array.GetValue(i) for i in range(array.GetNumberOfTuples()))
 
 
 def main():
@@ -54,19 +60,19 @@ def main():
     times = list(at.GetProperty("TimeRange") or [])
     check(len(times) == 2 and abs(times[0]) < 1e-12 and abs(times[1] - 3.5) < 1e-12, "TimeRange", times)
 
-    # Every frame, and times between them: the ball's width follows, the mesh is not made again.
-    widths = []
+    # Every frame, and times between them: the ball's volume follows, the mesh is not made again.
+    volumes = []
     for time in [0.5 * frame for frame in range(FRAMES)] + [0.3, 1.77, 3.2]:
         scene.AnimationTime = time
         Render(view)
         data = servermanager.Fetch(at)
         check(data.GetNumberOfCells() > 10, "cells at", time, data.GetNumberOfCells())
-        expected = 2 * (3.0 + 0.7 * time) - 1
-        widths.append(width_of(at))
-        check(abs(widths[-1] - expected) < 1.3, "width at", time, widths[-1], "expected", expected)
+        expected = 4.0 / 3.0 * math.pi * (3.0 + 0.7 * time) ** 3
+        volumes.append(volume_of(data))
+        check(abs(volumes[-1] / expected - 1.0) < 0.12, "volume at", time, volumes[-1], "expected", expected)
         check(servermanager.Fetch(boundary).GetNumberOfCells() > 10, "boundary at", time)
     check_equal(meshings.count, 1, "executions after playing")
-    check(widths[FRAMES - 1] > widths[0] + 3, "the ball grows", widths)
+    check(volumes[FRAMES - 1] > 4 * volumes[0], "the ball grows", volumes)
 
     scene.Play()
     check_equal(meshings.count, 1, "executions after Play()")
