@@ -35,7 +35,7 @@ const std::map<std::string, Setter, std::less<>>& Setters()
     { "elements", To(&Filter::SetNumberOfElements) },
     { "grading", To(&Tets::SetGrading) },
     { "size", To(&Filter::SetElementSize) },
-    { "optimise", To(&Tets::SetOptimise) },
+    { "optimise", To(&Filter::SetOptimise) },
     { "smallest-component", To(&Filter::SetSmallestComponent) },
     { "exact-components", To(&Filter::SetExactComponents) },
     { "min-component-volume", To(&Tets::SetMinimumComponentVolume) },

@@ -104,6 +104,7 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       meshing.SpaceTime.Slivers.Fight = series.Picking;
       meshing.Team.FineGrained = !options.NoFineGrained;
       meshing.Interfaces.Fit = !options.NoFit;
+      meshing.Optimisation.Run = !options.NoOptimise;
       meshing.FrameSteps = options.FrameSteps;
       // One thread makes the same mesh in every round.
       const bool fit = (options.Frames || options.Row) && (series.Threads > 1 || round == 0);

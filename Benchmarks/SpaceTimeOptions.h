@@ -31,6 +31,7 @@ struct SpaceTimeOptions
   bool NoFineGrained = false;
   unsigned FrameSteps = 0; ///< 0: as many as the motion asks for
   bool NoFit = false;
+  bool NoOptimise = false;
   bool Frames = false;
   bool Row = false; ///< print one row of a table, with the worst errors of the first series
 };

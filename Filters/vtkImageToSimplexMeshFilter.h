@@ -148,6 +148,25 @@ public:
 
   ///@{
   /**
+   * Improve shapes after refinement with flips and smoothing. Default on.
+   *
+   * In 3D all dihedral angles but a few become 18 to 150 degrees. The price: radius-edge ratios up
+   * to 2.5 (or RadiusEdgeRatio, if that is larger), and interface angles down to 20 degrees where
+   * three or more labels meet. It takes about a third of the time of refinement.
+   *
+   * In space-time normalized volumes become 0.05 or more, with few exceptions. Radius-edge ratios
+   * and sizes keep their bounds.
+   *
+   * The mesh is no longer Delaunay. "/optimisation" of vtkMeshingStatistics::ToJSON() describes the
+   * result.
+   */
+  vtkSetMacro(Optimise, bool);
+  vtkGetMacro(Optimise, bool);
+  vtkBooleanMacro(Optimise, bool);
+  ///@}
+
+  ///@{
+  /**
    * Smallest number of voxels of a connected component (through voxel faces) that always gets
    * elements, even if it is small or thin compared with Delta. If a component has no element, a few
    * points are added where it is thickest. The largest component of each label counts always, even
@@ -525,6 +544,7 @@ protected:
   bool DeltaIsSuggestion = false;
   double RadiusEdgeRatio = 2.0;
   int InterfaceRounds = 8;
+  bool Optimise = true;
   int SmallestComponent = 8;
   bool ExactComponents = false;
   double SmoothingSigma = 1.0;

@@ -151,7 +151,6 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.Sampling.Grading.Lambda = this->LargestFeature;
   run.Options.Shape.FacetAngle = this->FacetAngle;
   run.Options.Shape.Slivers.Angle = this->SliverAngle;
-  run.Options.Optimisation.Run = this->Optimise;
   run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
   run.Options.Interfaces.SampleJunctions = this->SampleJunctions;
   run.Options.Interfaces.Manifold = this->Manifold;
@@ -216,7 +215,6 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsosurfaceSmoothingSigma: " << this->IsosurfaceSmoothingSigma << "\n";
   os << indent << "FacetAngle: " << this->FacetAngle << "\n";
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
-  os << indent << "Optimise: " << this->Optimise << "\n";
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";
   os << indent << "SampleJunctions: " << this->SampleJunctions << "\n";
   os << indent << "Manifold: " << this->Manifold << "\n";

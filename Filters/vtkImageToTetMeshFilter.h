@@ -218,19 +218,6 @@ public:
 
   ///@{
   /**
-   * Improve shapes after refinement with flips and smoothing. All dihedral angles but a few become
-   * 18 to 150 degrees. The price: radius-edge ratios up to 2.5 (or RadiusEdgeRatio, if that is
-   * larger), and interface angles down to 20 degrees where three or more labels meet. It takes
-   * about a third of the time of refinement. The mesh is no longer Delaunay. Default on.
-   * "/optimisation" of vtkMeshingStatistics::ToJSON() describes the result.
-   */
-  vtkSetMacro(Optimise, bool);
-  vtkGetMacro(Optimise, bool);
-  vtkBooleanMacro(Optimise, bool);
-  ///@}
-
-  ///@{
-  /**
    * Wall-clock seconds after which optimisation stops and leaves the remaining elements unchanged.
    * The mesh then depends on the speed of the machine. Default 0: no limit.
    */
@@ -313,7 +300,6 @@ protected:
   double IsosurfaceSmoothingSigma = 0.0;
   double FacetAngle = 30.0;
   double SliverAngle = 9.0;
-  bool Optimise = true;
   double OptimisationTimeLimit = 0.0;
   bool SampleJunctions = true;
   bool Manifold = true;

@@ -118,7 +118,7 @@ public:
   vtkTypeInt64 GetFacetAngleViolations() const;
   ///@}
 
-  /** Whether optimisation ran after refinement (vtkImageToTetMeshFilter::SetOptimise()). */
+  /** Whether optimisation ran after refinement (SetOptimise() of the filter). */
   bool GetOptimised() const;
 
   ///@{

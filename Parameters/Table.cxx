@@ -115,9 +115,9 @@ Parameters Labels()
 Parameters Shapes()
 {
   return {
-    Flag("optimise", 3, "on",
+    Flag("optimise", 0, "on",
       "improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few exceptions, "
-      "radius-edge ratios up to 2.5",
+      "radius-edge ratios up to 2.5; in space-time normalized volumes of 0.05",
       { .Zero = "they stay as refinement makes them: Delaunay, radius-edge ratios below 2" }),
     Number(Kind::Whole, "smallest-component", 0, { 0.0, LargestWhole }, "8", "VOXELS",
       "connected components with at least this number of voxels, and the largest of each label, "

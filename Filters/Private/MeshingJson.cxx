@@ -96,18 +96,29 @@ ordered_json InterfacesToJson(const InterfaceStatistics& figures)
   };
 }
 
-ordered_json OptimisationToJson(const OptimisationSummary& figures)
+/** Dihedral angles of 3D, or normalized volumes of space-time. */
+ordered_json OptimisationToJson(const OptimisationSummary& figures, bool isSpaceTime)
 {
-  return {
-    { "ran", figures.Ran },
-    { "out_of_time", figures.OutOfTime },
-    { "min_dihedral_before", figures.SmallestDihedralBefore },
-    { "max_dihedral_before", figures.LargestDihedralBefore },
-    { "poor_before", figures.PoorBefore },
-    { "min_dihedral_after", figures.SmallestDihedralAfter },
-    { "max_dihedral_after", figures.LargestDihedralAfter },
-    { "poor_after", figures.PoorAfter },
+  ordered_json json = { { "ran", figures.Ran }, { "out_of_time", figures.OutOfTime } };
+  const auto addShapes = [&](const std::string& when, double smallestAngle, double largestAngle,
+                           double smallestVolume, std::uint64_t poor)
+  {
+    if (isSpaceTime)
+    {
+      json["min_normalized_volume_" + when] = smallestVolume;
+    }
+    else
+    {
+      json["min_dihedral_" + when] = smallestAngle;
+      json["max_dihedral_" + when] = largestAngle;
+    }
+    json["poor_" + when] = poor;
   };
+  addShapes("before", figures.SmallestDihedralBefore, figures.LargestDihedralBefore,
+    figures.SmallestVolumeBefore, figures.PoorBefore);
+  addShapes("after", figures.SmallestDihedralAfter, figures.LargestDihedralAfter,
+    figures.SmallestVolumeAfter, figures.PoorAfter);
+  return json;
 }
 
 /** NaN without insertions. */
@@ -185,7 +196,7 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
     { "yielding_regions", YieldingToJson(v.Run.Yielding) },
     { "interfaces", InterfacesToJson(v.Run.Interfaces) },
-    { "optimisation", OptimisationToJson(v.Run.Optimisation) },
+    { "optimisation", OptimisationToJson(v.Run.Optimisation, v.Dimension == 4) },
   });
   if (v.HasQuality)
   {

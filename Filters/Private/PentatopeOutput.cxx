@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/PentatopeOutput.h"
 
-#include "Geometry/Determinants.h"
+#include "Geometry/SimplexQuality.h"
 #include "Private/OutputArrays.h"
 
 #include "vtkCellData.h"
@@ -79,21 +79,9 @@ double NormalVelocity(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, s
   {
     p[k] = frame.ToWorld(mesh.Points[mesh.Facets[facet][k]]);
   }
-  const std::array<Point<4>, 3> edges = { Subtract(p[1], p[0]), Subtract(p[2], p[0]),
-    Subtract(p[3], p[0]) };
-  Point<4> normal; // that of the frame, or its opposite if axes are left-handed
-  for (std::size_t axis = 0; axis < 4; ++axis)
-  {
-    std::array<Point<3>, 3> minor;
-    for (std::size_t row = 0; row < 3; ++row)
-    {
-      for (std::size_t column = 0; column < 3; ++column)
-      {
-        minor[row][column] = edges[row][column + (column < axis ? 0 : 1)];
-      }
-    }
-    normal[axis] = (axis % 2 == 0 ? 1.0 : -1.0) * Determinant(minor);
-  }
+  // That of the frame, or its opposite if axes are left-handed.
+  const Point<4> normal =
+    Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
   const double sign = frame.Space.LeftHanded ? -1.0 : 1.0;
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   return length > 0.0 ? -sign * normal[3] / length : std::numeric_limits<double>::quiet_NaN();

@@ -85,6 +85,7 @@ public:
     }
     this->Options.Shape.RadiusEdgeRatio = filter->RadiusEdgeRatio;
     this->Options.Interfaces.Rounds = static_cast<unsigned>(filter->InterfaceRounds);
+    this->Options.Optimisation.Run = filter->Optimise;
     this->Options.Components.Smallest = filter->SmallestComponent;
     this->Options.Components.Exact = filter->ExactComponents;
     this->Options.SmoothingSigma = filter->SmoothingSigma;
@@ -178,7 +179,7 @@ public:
   /** What the elements are to keep. */
   double RadiusEdgeBound() const
   {
-    return this->Options.Optimisation.Run
+    return this->Options.Optimises()
       ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.Shape.RadiusEdgeRatio)
       : this->Options.Shape.RadiusEdgeRatio;
   }

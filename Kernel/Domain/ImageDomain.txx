@@ -15,7 +15,7 @@
 
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomainSearch.txx"
-#include "Geometry/SmallestEigenvalue.h"
+#include "Geometry/SymmetricEigen.h"
 #include "Image/SurfaceVoxels.h"
 
 #include <algorithm>

@@ -33,6 +33,22 @@ inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
     Minor2(a[0], a[1], b[0], b[1]) };
 }
 
+/** The vector that is orthogonal to all three, and as long as the volume that they span. */
+inline Point<4> Cross(const Point<4>& a, const Point<4>& b, const Point<4>& c)
+{
+  Point<4> normal;
+  for (std::size_t j = 0; j < 4; ++j)
+  {
+    const std::size_t x = j == 0 ? 1 : 0;
+    const std::size_t y = j <= 1 ? 2 : 1;
+    const std::size_t z = j <= 2 ? 3 : 2;
+    const double minor = Determinant<double>(std::array<Point<3>, 3>{
+      { { a[x], a[y], a[z] }, { b[x], b[y], b[z] }, { c[x], c[y], c[z] } } });
+    normal[j] = j % 2 == 0 ? minor : -minor;
+  }
+  return normal;
+}
+
 /** D-dimensional volume, positive for positively oriented simplices. */
 template <int D>
 inline double SignedVolume(const Point<D>* const* v)

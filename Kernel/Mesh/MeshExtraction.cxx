@@ -49,6 +49,8 @@ public:
     return std::move(this->Mesh);
   }
 
+  UninitialisedVector<std::uint32_t> TakeNumbers() { return std::move(this->Numbers); }
+
 private:
   static constexpr unsigned N = D + 1;
   using Facet = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
@@ -312,10 +314,16 @@ private:
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads,
-  const std::stop_token& stop, std::span<const Point<D>> positions)
+  const std::stop_token& stop, std::span<const Point<D>> positions,
+  UninitialisedVector<std::uint32_t>* numbers)
 {
   mesh = SimplexMesh<D>();
-  mesh = Extraction<D>(triangulation, image, labels, positions, threads, stop).Run();
+  Extraction<D> extraction(triangulation, image, labels, positions, threads, stop);
+  mesh = extraction.Run();
+  if (numbers)
+  {
+    *numbers = extraction.TakeNumbers();
+  }
 }
 
 template <int D>
@@ -328,9 +336,11 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 }
 
 template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, std::span<const LabelId>,
-  SimplexMesh<3>&, unsigned, const std::stop_token&, std::span<const Point<3>>);
+  SimplexMesh<3>&, unsigned, const std::stop_token&, std::span<const Point<3>>,
+  UninitialisedVector<std::uint32_t>*);
 template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, std::span<const LabelId>,
-  SimplexMesh<4>&, unsigned, const std::stop_token&, std::span<const Point<4>>);
+  SimplexMesh<4>&, unsigned, const std::stop_token&, std::span<const Point<4>>,
+  UninitialisedVector<std::uint32_t>*);
 template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 template void ExtractMesh<4>(

@@ -7,11 +7,13 @@
 #ifndef voxplex_MeshExtraction_h
 #define voxplex_MeshExtraction_h
 
+#include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 #include "Mesh/SimplexLabels.h"
 #include "Mesh/SimplexMesh.h"
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 
@@ -29,13 +31,15 @@ namespace voxplex
  * @param mesh receives the mesh; its old contents are lost; it is empty if this throws
  * @param threads 0 means all cores
  * @param positions of each vertex id, in place of those of the triangulation; or empty
+ * @param numbers receives the point of each vertex id, None if it is not in the mesh; may be null
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads = 1,
-  const std::stop_token& stop = {}, std::span<const Point<D>> positions = {});
+  const std::stop_token& stop = {}, std::span<const Point<D>> positions = {},
+  UninitialisedVector<std::uint32_t>* numbers = nullptr);
 
 /** The same with the labels of LabelSimplices(). */
 template <int D>
@@ -44,10 +48,10 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 
 extern template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&,
   std::span<const LabelId>, SimplexMesh<3>&, unsigned, const std::stop_token&,
-  std::span<const Point<3>>);
+  std::span<const Point<3>>, UninitialisedVector<std::uint32_t>*);
 extern template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&,
   std::span<const LabelId>, SimplexMesh<4>&, unsigned, const std::stop_token&,
-  std::span<const Point<4>>);
+  std::span<const Point<4>>, UninitialisedVector<std::uint32_t>*);
 extern template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 extern template void ExtractMesh<4>(

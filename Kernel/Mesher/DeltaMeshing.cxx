@@ -217,8 +217,10 @@ Remedy<D> InspectAndExtract(
   if (!remedy.IsNeeded)
   {
     const Stopwatch time;
+    StageTimes& times = run.Statistics.Times;
+    const double optimisation = times.Optimisation;
     checks.Extract(mesh);
-    run.Statistics.Times.Extraction += time.Seconds();
+    times.Extraction += time.Seconds() - (times.Optimisation - optimisation);
     remedy = FindRemedy<D>(all, [&](ConformityCheck<D>& check) { return check.InspectMesh(mesh); });
   }
   return remedy;

@@ -7,6 +7,7 @@
 #include "Mesh/MeshExtraction.h"
 #include "Optimisation/InterfaceFit.h"
 #include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/PentatopeOptimiser.h"
 #include "Quality/LostComponents.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 
@@ -219,8 +220,37 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
       this->Run.Prepared.Size ? &this->Sizing : nullptr, this->Run.Prepared.OfDomain() };
     fitted = FitInterfaces(this->Source, surfaces, labels, bounds, threads, this->Run.Stop);
   }
+  UninitialisedVector<std::uint32_t> numbers;
   ExtractMesh<4>(
-    this->Source, surfaces, labels, mesh, threads, this->Run.Stop, fitted.Positions);
+    this->Source, surfaces, labels, mesh, threads, this->Run.Stop, fitted.Positions, &numbers);
+  if (options.Optimisation.Run)
+  {
+    this->Optimise(mesh,
+      SurroundingsOf(this->Source, labels, fitted.Positions, numbers, mesh.Points.size()));
+  }
+}
+
+void Dimension<4>::Checks::Optimise(SimplexMesh<4>& mesh, const Surroundings& outside) const
+{
+  const Stopwatch time;
+  const MeshingOptions<4>& options = this->Run.Options;
+  const LabelImage<4>& image = this->Run.Prepared.OfDomain();
+  PentatopeBounds bounds;
+  bounds.Target = OptimisedNormalizedVolume;
+  bounds.RadiusEdgeRatio = options.Shape.RadiusEdgeRatio;
+  bounds.InterfaceTolerance =
+    OptimisationTolerance * this->Run.Prepared.Image.Grid().SmallestSpacing();
+  bounds.Sizing = this->Run.Prepared.Size ? &this->Sizing : nullptr;
+  const PentatopeStatistics done = OptimisePentatopes(mesh, outside, *this->Run.Prepared.Surfaces,
+    image, bounds, options.Team.Threads, this->Run.Stop);
+  MeshingStatistics& statistics = this->Run.Statistics;
+  statistics.Times.Optimisation += time.Seconds();
+  OptimisationSummary& summary = statistics.Optimisation;
+  summary.Ran = true;
+  summary.SmallestVolumeBefore = done.SmallestBefore;
+  summary.SmallestVolumeAfter = done.SmallestAfter;
+  summary.PoorBefore = done.PoorBefore;
+  summary.PoorAfter = done.PoorAfter;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -252,9 +282,15 @@ void Dimension<3>::Optimise(const RunEnvironment<3>& run, SimplexMesh<3>& mesh)
     OptimiseMesh(mesh, *run.Prepared.Surfaces, options, asked.Team.Threads, run.Stop);
   MeshingStatistics& statistics = run.Statistics;
   statistics.Times.Optimisation += done.Seconds;
-  statistics.Optimisation = { true, done.OutOfTime, done.Before.SmallestDihedralAngle,
-    done.Before.LargestDihedralAngle, done.After.SmallestDihedralAngle,
-    done.After.LargestDihedralAngle, done.Before.Poor, done.After.Poor };
+  OptimisationSummary& summary = statistics.Optimisation;
+  summary.Ran = true;
+  summary.OutOfTime = done.OutOfTime;
+  summary.SmallestDihedralBefore = done.Before.SmallestDihedralAngle;
+  summary.LargestDihedralBefore = done.Before.LargestDihedralAngle;
+  summary.SmallestDihedralAfter = done.After.SmallestDihedralAngle;
+  summary.LargestDihedralAfter = done.After.LargestDihedralAngle;
+  summary.PoorBefore = done.Before.Poor;
+  summary.PoorAfter = done.After.Poor;
 }
 
 } // namespace voxplex

@@ -49,6 +49,8 @@ struct RunEnvironment
 template <int D>
 struct Dimension;
 
+struct Surroundings;
+
 /** The stages in space. */
 template <>
 struct Dimension<3>
@@ -93,7 +95,7 @@ struct Dimension<3>
 };
 
 /**
- * The stages in space-time. There is no grading, there are no junctions, and no optimisation yet.
+ * The stages in space-time. There is no grading, and there are no junctions.
  */
 template <>
 struct Dimension<4>
@@ -110,6 +112,7 @@ struct Dimension<4>
     return {};
   }
 
+  /** See Checks::Extract(). */
   static void Optimise(const RunEnvironment<4>&, SimplexMesh<4>&) {}
 
   /** Checks components, also those of frames, then interfaces. Extracts the mesh. */
@@ -125,9 +128,15 @@ struct Dimension<4>
     /** All checks, in order. */
     std::vector<ConformityCheck<4>*> All();
 
+    /**
+     * Extracts the mesh. Moves interfaces to the right volumes and improves shapes, if the options
+     * request it: both need the pentatopes outside of the object, too.
+     */
     void Extract(SimplexMesh<4>& mesh) const;
 
   private:
+    void Optimise(SimplexMesh<4>& mesh, const Surroundings& outside) const;
+
     const RunEnvironment<4> Run;
     const Triangulation<4>& Source;
     const SizingField<4>& Sizing;

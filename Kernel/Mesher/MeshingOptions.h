@@ -50,18 +50,18 @@ struct SamplingOptions
   double Gradation = DefaultGradation;
 };
 
-/** Optimisation after refinement (Optimisation/MeshOptimiser.h); 3D only. */
+/** Optimisation after refinement (Optimisation/MeshOptimiser.h, PentatopeOptimiser.h). */
 struct OptimisationStageOptions
 {
   /**
-   * Improve shapes, where possible to dihedral angles of 18 to 150 degrees. Radius-edge ratios may
-   * then be up to 2.5 or ShapeOptions::RadiusEdgeRatio, whichever is larger. The mesh is no longer
-   * Delaunay.
+   * Improve shapes: in 3D to dihedral angles of 18 to 150 degrees where possible, in 4D to
+   * normalized volumes of OptimisedNormalizedVolume. Radius-edge ratios of 3D may then be up to 2.5
+   * or ShapeOptions::RadiusEdgeRatio, whichever is larger. The mesh is no longer Delaunay.
    */
   bool Run = false;
   /**
-   * Wall-clock seconds after which optimisation stops; 0: no limit. If it stops, the mesh depends
-   * on the machine.
+   * 3D only. Wall-clock seconds after which optimisation stops; 0: no limit. If it stops, the mesh
+   * depends on the machine.
    */
   double Seconds = 0.0;
 };
@@ -103,11 +103,15 @@ struct MeshingOptions
   LimitOptions Limits;
 
   bool LooksAfterComponents() const { return this->Components.Smallest > 0; }
+  /** Whether optimisation follows the extraction of the mesh. In 4D it is part of it. */
   bool Optimises() const { return D == 3 && this->Optimisation.Run; }
 };
 
-/** The largest radius-edge ratio that optimisation allows. */
+/** The largest radius-edge ratio that optimisation allows in 3D. */
 inline constexpr double OptimisedRadiusEdgeRatio = 2.5;
+
+/** Optimisation improves pentatopes with a smaller normalized volume. */
+inline constexpr double OptimisedNormalizedVolume = 0.05;
 
 /**
  * Below this radius-edge ratio, meshes can become very large: Force only. In 3D termination is proved from

@@ -39,6 +39,7 @@ struct StageTimes
 
 /**
  * Results of optimisation after refinement. Angles are in degrees. Poor elements violate a bound.
+ * Dihedral angles are those of 3D, normalized volumes those of 4D.
  */
 struct OptimisationSummary
 {
@@ -48,6 +49,8 @@ struct OptimisationSummary
   double LargestDihedralBefore = 0.0;
   double SmallestDihedralAfter = 0.0;
   double LargestDihedralAfter = 0.0;
+  double SmallestVolumeBefore = 0.0;
+  double SmallestVolumeAfter = 0.0;
   std::uint64_t PoorBefore = 0;
   std::uint64_t PoorAfter = 0;
 };

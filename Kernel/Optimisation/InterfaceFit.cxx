@@ -3,6 +3,7 @@
 #include "Optimisation/InterfaceFit.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Optimisation/MoveLimits.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
@@ -34,9 +35,6 @@ constexpr double Reach = 0.5;
 /** A vertex is moved at most this far, in shortest edges of the facets around it. */
 constexpr double LongestMove = 0.25;
 
-/** And at most this far along each axis, in voxels. */
-constexpr double MostVoxels = 0.5;
-
 /** Shorter steps, in the same edges, are not made. */
 constexpr double ShortestStep = 0.005;
 
@@ -52,22 +50,6 @@ constexpr double BelowSize = 1.0 - 1e-9;
 /** Simplices outside of the object keep at least this part of their volume. */
 constexpr double VolumeKeptOutside = 0.1;
 
-/** Each row is a vector. @return the vector that is orthogonal to all three, and as long as their volume */
-Point<4> CrossProduct(const Point<4>& a, const Point<4>& b, const Point<4>& c)
-{
-  Point<4> normal;
-  for (std::size_t j = 0; j < 4; ++j)
-  {
-    const std::size_t x = j == 0 ? 1 : 0;
-    const std::size_t y = j <= 1 ? 2 : 1;
-    const std::size_t z = j <= 2 ? 3 : 2;
-    const double minor = Determinant<double>(std::array<Point<3>, 3>{
-      { { a[x], a[y], a[z] }, { b[x], b[y], b[z] }, { c[x], c[y], c[z] } } });
-    normal[j] = j % 2 == 0 ? minor : -minor;
-  }
-  return normal;
-}
-
 /** The steps of a fit, and the data that one step passes to the next. */
 class Fit
 {
@@ -78,7 +60,7 @@ public:
     , Surfaces(surfaces)
     , Labels(labels)
     , Bounds(bounds)
-    , Origin(bounds.Image.Grid().ToIndex({}))
+    , Limits(bounds.Image, surfaces)
     , Threads(threads)
     , Stop(stop)
   {
@@ -86,6 +68,7 @@ public:
 
   FittedPositions Run()
   {
+    this->CopyPositions();
     this->FindFacets();
     this->FindVertices();
     this->MeasureFacets();
@@ -98,7 +81,7 @@ public:
       this->TakeSteps();
       this->RaiseTargets();
     }
-    return this->Apply();
+    return { std::move(this->Positions), this->Corners.size() };
   }
 
 private:
@@ -119,14 +102,12 @@ private:
   struct Corner
   {
     VertexId Id;
-    Point<4> Moved; ///< the steps of the rounds before
-    Point<4> Step;  ///< of this round
+    Point<4> Moved;      ///< the steps of the rounds before
+    Point<4> Step;       ///< of this round
     double ShortestEdge; ///< of the facets around it
-    Point<4> Position; ///< with the step of this round
     bool IsOnEnd;
-    std::uint8_t Halved;  ///< how often the step was halved
-    std::uint8_t Mark;    ///< a simplex of this vertex is not good; see KeepShapes()
-    std::uint8_t Changed; ///< since its simplices were checked
+    std::uint8_t Halved; ///< how often the step was halved
+    std::uint8_t Mark;   ///< a simplex of this vertex is not good; see KeepShapes()
   };
 
   template <typename Function>
@@ -134,6 +115,20 @@ private:
   {
     ParallelFor(0, iterations, ChunkCounts::Grain, this->Threads, std::forward<Function>(function),
       this->Stop);
+  }
+
+  void CopyPositions()
+  {
+    this->Positions.resize(this->Source.VertexIdEnd());
+    this->HasChanged.assign(this->Source.VertexIdEnd(), 0);
+    this->ForChunks(this->Positions.size(),
+      [this](std::size_t first, std::size_t last)
+      {
+        for (auto v = static_cast<VertexId>(first); v < last; ++v)
+        {
+          this->Positions[v] = this->Source.Position(v);
+        }
+      });
   }
 
   /** Calls function(s, i) for facet i of each simplex s where the label beyond is smaller. */
@@ -218,7 +213,6 @@ private:
       static_cast<unsigned>(std::bit_width(std::uint64_t{ this->Source.VertexIdEnd() })),
       [](std::uint64_t record) { return record >> 32; }, this->Threads, this->Stop);
 
-    const Box<4> box = this->Surfaces.Bounds();
     this->Ranks.assign(this->Source.VertexIdEnd(), None);
     this->FacetsOf.resize(n);
     for (std::size_t k = 0; k < n; ++k)
@@ -226,11 +220,9 @@ private:
       const auto v = static_cast<VertexId>(sorted[k] >> 32);
       if (this->Corners.empty() || this->Corners.back().Id != v)
       {
-        const double time = this->Source.Position(v)[3];
-        const bool isOnEnd = (this->Surfaces.HasTimeBorder(0) && time <= box.Min[3]) ||
-          (this->Surfaces.HasTimeBorder(1) && time >= box.Max[3]);
+        const bool isOnEnd = this->Limits.IsOnEnd(this->Source.Position(v));
         this->Ranks[v] = static_cast<std::uint32_t>(this->Corners.size());
-        this->Corners.push_back({ v, {}, {}, 0.0, {}, isOnEnd, 0, 0, 0 });
+        this->Corners.push_back({ v, {}, {}, 0.0, isOnEnd, 0, 0 });
         this->FirstFacet.push_back(k);
       }
       this->FacetsOf[k] = static_cast<std::uint32_t>(sorted[k]);
@@ -262,8 +254,7 @@ private:
         centroid[a] += 0.25 * (*p[k])[a];
       }
     }
-    facet.Normal =
-      CrossProduct(Subtract(*p[1], *p[0]), Subtract(*p[2], *p[0]), Subtract(*p[3], *p[0]));
+    facet.Normal = Cross(Subtract(*p[1], *p[0]), Subtract(*p[2], *p[0]), Subtract(*p[3], *p[0]));
     const double length = std::sqrt(Dot(facet.Normal, facet.Normal));
     double shortest2 = Distance2(*p[1], *p[0]);
     double longest2 = shortest2;
@@ -378,52 +369,22 @@ private:
     total[3] = corner.IsOnEnd ? 0.0 : total[3];
     const double length = std::sqrt(Dot(total, total));
     double factor = std::min(1.0, LongestMove * corner.ShortestEdge / length); // inf if length is 0
-    for (const double voxels : this->VoxelsOf(total))
-    {
-      factor = std::min(factor, MostVoxels / std::abs(voxels));
-    }
+    factor = std::min(factor, this->Limits.Shortening(total));
     for (std::size_t a = 0; a < 4; ++a)
     {
       corner.Step[a] = factor * total[a] - corner.Moved[a];
     }
   }
 
-  /** A vector in index coordinates. */
-  Point<4> VoxelsOf(const Point<4>& vector) const
-  {
-    return Subtract(this->Bounds.Image.Grid().ToIndex(vector), this->Origin);
-  }
-
-  const Point<4>& PositionOf(VertexId v) const
-  {
-    const std::uint32_t rank = this->Ranks[v];
-    return rank == None ? this->Source.Position(v) : this->Corners[rank].Position;
-  }
-
-  /** Whether a point is in the image's bounding box, or less than a voxel outside. */
-  bool IsNearImage(const Point<4>& p) const
-  {
-    const LabelImage<4>& image = this->Bounds.Image;
-    const Point<4> index = image.Grid().ToIndex(p);
-    for (std::size_t a = 0; a < 4; ++a)
-    {
-      const double offset = index[a] - static_cast<double>(image.CropOrigin()[a]);
-      if (!(offset > -1.0 && offset < static_cast<double>(image.CropDimensions()[a])))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
   /** Sets the position to which the shortened step leads. */
-  void Place(Corner& corner) const
+  void Place(Corner& corner)
   {
     static constexpr std::array<double, Halvings + 2> shares = { 1.0, 0.5, 0.25, 0.0 };
     const Point<4>& p = this->Source.Position(corner.Id);
     for (std::size_t a = 0; a < 4; ++a)
     {
-      corner.Position[a] = p[a] + (corner.Moved[a] + shares[corner.Halved] * corner.Step[a]);
+      this->Positions[corner.Id][a] =
+        p[a] + (corner.Moved[a] + shares[corner.Halved] * corner.Step[a]);
     }
   }
 
@@ -474,7 +435,7 @@ private:
           for (std::size_t k = first; k < last; ++k)
           {
             const SimplexId s = this->Simplices[k];
-            if (this->HasChanged(s) && !this->IsGood(s))
+            if (this->HasChangedVertex(s) && !this->IsGood(s))
             {
               anyBad.store(true, std::memory_order_relaxed);
               this->MarkCornersOf(s);
@@ -484,7 +445,7 @@ private:
       areGood = !anyBad.load(std::memory_order_relaxed);
       for (Corner& corner : this->Corners)
       {
-        corner.Changed = corner.Mark;
+        this->HasChanged[corner.Id] = corner.Mark;
         corner.Halved = static_cast<std::uint8_t>(corner.Halved + corner.Mark);
         corner.Mark = 0;
         this->Place(corner);
@@ -518,12 +479,13 @@ private:
   {
     for (Corner& corner : this->Corners)
     {
-      corner.Changed = Dot(corner.Step, corner.Step) >=
+      const bool isWorthIt = Dot(corner.Step, corner.Step) >=
         ShortestStep * ShortestStep * corner.ShortestEdge * corner.ShortestEdge;
-      corner.Step = corner.Changed != 0 ? corner.Step : Point<4>{};
+      this->HasChanged[corner.Id] = isWorthIt ? 1 : 0;
+      corner.Step = isWorthIt ? corner.Step : Point<4>{};
       corner.Halved = 0;
       this->Place(corner);
-      while (corner.Halved <= Halvings && !this->IsNearImage(corner.Position))
+      while (corner.Halved <= Halvings && !this->Limits.IsNearImage(this->Positions[corner.Id]))
       {
         ++corner.Halved;
         this->Place(corner);
@@ -535,17 +497,15 @@ private:
   {
     for (Corner& corner : this->Corners)
     {
-      corner.Moved = Subtract(corner.Position, this->Source.Position(corner.Id));
+      corner.Moved = Subtract(this->Positions[corner.Id], this->Source.Position(corner.Id));
       corner.Step = {};
     }
   }
 
-  bool HasChanged(SimplexId s) const
+  bool HasChangedVertex(SimplexId s) const
   {
     const auto& v = this->Source.GetSimplex(s).V;
-    return std::any_of(v.begin(), v.end(),
-      [this](VertexId x)
-      { return this->Ranks[x] != None && this->Corners[this->Ranks[x]].Changed != 0; });
+    return std::any_of(v.begin(), v.end(), [this](VertexId x) { return this->HasChanged[x] != 0; });
   }
 
   void MarkCornersOf(SimplexId s)
@@ -570,7 +530,7 @@ private:
     bool hasMoved = false;
     for (std::size_t k = 0; k < 5; ++k)
     {
-      after[k] = &this->PositionOf(v[k]);
+      after[k] = &this->Positions[v[k]];
       before[k] = &this->Source.Position(v[k]);
       hasMoved |= *after[k] != *before[k];
     }
@@ -633,36 +593,22 @@ private:
     return ball;
   }
 
-  FittedPositions Apply()
-  {
-    FittedPositions result;
-    result.Positions.resize(this->Source.VertexIdEnd());
-    this->ForChunks(result.Positions.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        for (auto v = static_cast<VertexId>(first); v < last; ++v)
-        {
-          result.Positions[v] = this->PositionOf(v);
-        }
-      });
-    result.Vertices = this->Corners.size();
-    return result;
-  }
-
   const Triangulation<4>& Source;
   const Domain<4>& Surfaces;
   const SimplexLabels& Labels;
   const FitBounds Bounds;
-  const Point<4> Origin; ///< of the frame, in index coordinates
+  const MoveLimits Limits;
   const unsigned Threads;
   const std::stop_token& Stop;
   UninitialisedVector<Facet> Facets;
   std::vector<Corner> Corners;
   double TargetFactor = 1.0;
   UninitialisedVector<SimplexId> Simplices; ///< those with a corner
-  std::vector<std::size_t> FirstFacet; ///< of each corner, in FacetsOf; and the end
+  std::vector<std::size_t> FirstFacet;      ///< of each corner, in FacetsOf; and the end
   UninitialisedVector<std::uint32_t> FacetsOf;
-  std::vector<std::uint32_t> Ranks; ///< place in Corners of each vertex id, or None
+  UninitialisedVector<Point<4>> Positions; ///< of each vertex id, with the steps of this round
+  std::vector<std::uint8_t> HasChanged;    ///< of each vertex id, since its simplices were checked
+  std::vector<std::uint32_t> Ranks;        ///< place in Corners of each vertex id, or None
 };
 
 } // namespace

@@ -29,8 +29,8 @@ constexpr double SearchPrecisionOfIsosurfaces = 0.1;
 /** Distance by which optimisation may move vertices off interfaces, in smallest spacings. */
 constexpr double OptimisationTolerance = 0.1;
 
-/** How far FitInterfaces() may move vertices along each axis, in voxels. */
-constexpr double FitTolerance = 0.5;
+/** How far FitInterfaces() and OptimisePentatopes() may each move vertices along each axis, in voxels. */
+constexpr double MoveTolerance = 0.5;
 
 /**
  * Calls f for each index of a box, ends included, until f returns false.
@@ -112,7 +112,8 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
     ? OptimisationTolerance * SmallestSpacing(image)
     : 0.0;
   const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
-    (D == 4 && options.Interfaces.Fit ? FitTolerance : 0.0);
+    (D == 4 && options.Interfaces.Fit ? MoveTolerance : 0.0) +
+    (D == 4 && options.Optimisation.Run ? MoveTolerance : 0.0);
   std::uint64_t off = 0;
   std::size_t first = 0;
   for (std::size_t v = 0; v < mesh.Points.size(); ++v)

@@ -61,10 +61,9 @@ void CheckStatistics(const Subject<D>& subject, const MeshFigures& figures, Find
   Require(stats.Times.Total() >= 0.0 && std::isfinite(stats.Times.Total()), "times", findings);
   Require(
     stats.Interfaces.Rounds <= options.Interfaces.Rounds, "more rounds than asked for", findings);
+  Require(stats.Optimisation.Ran == options.Optimisation.Run, "whether optimisation ran", findings);
   if constexpr (D == 3)
   {
-    Require(
-      stats.Optimisation.Ran == options.Optimisation.Run, "whether optimisation ran", findings);
     const bool counts = options.Interfaces.Manifold && !options.Optimisation.Run;
     Require(!counts || (figures.NonManifold > 0) == (stats.Interfaces.NonManifoldLeft > 0),
       std::to_string(figures.NonManifold) + " edges are not manifold, it says " +

@@ -299,7 +299,7 @@ void CheckConformity(const Subject<D>& subject, Findings& findings)
 {
   const SimplexMesh<D>& mesh = subject.Mesh;
   const MeshingOptions<D>& options = subject.Of.Options;
-  const bool hasMoved = D == 3 ? options.Optimisation.Run : options.Interfaces.Fit;
+  const bool hasMoved = options.Optimisation.Run || (D == 4 && options.Interfaces.Fit);
   const bool isDelaunay = !hasMoved && subject.Stats.Interfaces.NonManifoldOpened == 0;
   const std::vector<Side<D>> sides = SidesOf(mesh);
   std::vector<Face<D>> expected;

@@ -107,6 +107,7 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   WriteCheckFlags(options, to);
   to.Flag("--frame-steps", options.FrameSteps, usual.FrameSteps);
   to.Word("--no-fit", !options.Interfaces.Fit);
+  to.Word("--no-optimise", !options.Optimisation.Run);
   to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
   to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);
   to.Flag("--picks", options.SpaceTime.Slivers.Picks, usual.SpaceTime.Slivers.Picks);

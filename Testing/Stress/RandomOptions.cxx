@@ -192,6 +192,7 @@ void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
   options.Components.Exact = random.Chance(0.2);
   options.Interfaces.Rounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
   options.Interfaces.Fit = random.Chance(0.7);
+  options.Optimisation.Run = random.Chance(0.7);
   options.FrameSteps = random.Chance(0.7) ? 0 : static_cast<unsigned>(random.Integer(1, 4));
 }
 

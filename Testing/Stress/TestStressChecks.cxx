@@ -185,6 +185,7 @@ TEST(StressChecks, FindWhatIsNotDelaunay)
     [](Meshed<4>& m)
     {
       m.Of.Options.Interfaces.Fit = false; // says that nothing was moved
+      m.Of.Options.Optimisation.Run = false;
       for (std::size_t v = 0; v < m.Mesh.Points.size(); v += 10)
       {
         m.Mesh.Points[v][0] += 0.1;

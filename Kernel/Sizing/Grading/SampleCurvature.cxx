@@ -3,7 +3,7 @@
 #include "Sizing/Grading/SampleCurvature.h"
 
 #include "Base/MixBits.h"
-#include "Geometry/SmallestEigenvalue.h"
+#include "Geometry/SymmetricEigen.h"
 #include "Sizing/Grading/PointBounds.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file SmallestEigenvalue.h
- * @brief The smallest eigenvalue of a small symmetric matrix.
+ * @file SymmetricEigen.h
+ * @brief Eigenvalues and eigenvectors of small symmetric matrices.
  */
-#ifndef voxplex_SmallestEigenvalue_h
-#define voxplex_SmallestEigenvalue_h
+#ifndef voxplex_SymmetricEigen_h
+#define voxplex_SymmetricEigen_h
 
 #include "Geometry/Point.h"
 
@@ -17,14 +17,27 @@
 namespace voxplex
 {
 
+/** Row k of Vectors is the eigenvector of Values[k], of length 1. In no order. */
+template <int D>
+struct SymmetricEigen
+{
+  Point<D> Values;
+  std::array<Point<D>, static_cast<std::size_t>(D)> Vectors;
+};
+
 /**
  * By cyclic Jacobi rotations. They end when the elements off the diagonal are far below the
  * rounding errors of the diagonal.
  */
 template <int D>
-double SmallestEigenvalue(std::array<Point<D>, static_cast<std::size_t>(D)> m)
+SymmetricEigen<D> EigenOf(std::array<Point<D>, static_cast<std::size_t>(D)> m)
 {
   constexpr double negligible = 1e-20;
+  SymmetricEigen<D> result{};
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    result.Vectors[a][a] = 1.0;
+  }
   bool rotated = true;
   for (int sweep = 0; sweep < 50 && rotated; ++sweep)
   {
@@ -42,29 +55,36 @@ double SmallestEigenvalue(std::array<Point<D>, static_cast<std::size_t>(D)> m)
         const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
         const double c = 1.0 / std::hypot(t, 1.0);
         const double s = t * c;
+        const auto rotate = [c, s](double& a, double& b)
+        {
+          const double first = a;
+          a = c * first - s * b;
+          b = s * first + c * b;
+        };
         for (std::size_t k = 0; k < D; ++k)
         {
-          const double kp = m[k][p];
-          const double kq = m[k][q];
-          m[k][p] = c * kp - s * kq;
-          m[k][q] = s * kp + c * kq;
+          rotate(m[k][p], m[k][q]);
         }
         for (std::size_t k = 0; k < D; ++k)
         {
-          const double pk = m[p][k];
-          const double qk = m[q][k];
-          m[p][k] = c * pk - s * qk;
-          m[q][k] = s * pk + c * qk;
+          rotate(m[p][k], m[q][k]);
+          rotate(result.Vectors[p][k], result.Vectors[q][k]);
         }
       }
     }
   }
-  double smallest = m[0][0];
-  for (std::size_t a = 1; a < D; ++a)
+  for (std::size_t a = 0; a < D; ++a)
   {
-    smallest = std::min(smallest, m[a][a]);
+    result.Values[a] = m[a][a];
   }
-  return smallest;
+  return result;
+}
+
+template <int D>
+double SmallestEigenvalue(const std::array<Point<D>, static_cast<std::size_t>(D)>& m)
+{
+  const Point<D> values = EigenOf<D>(m).Values;
+  return *std::min_element(values.begin(), values.end());
 }
 
 } // namespace voxplex

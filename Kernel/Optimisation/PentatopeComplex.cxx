@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optimisation/PentatopeComplex.h"
+
+#include "Geometry/SimplexQuality.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Circumradii stay below this times the size: a little less, for rounding. */
+constexpr double BelowSize = 1.0 - 1e-9;
+
+/** Pentatopes outside of the object keep at least this part of their volume. */
+constexpr double VolumeKeptOutside = 0.1;
+
+/** Lists the users of each vertex: begins[v] to begins[v + 1] in `lists`. */
+template <typename CellVertices>
+void ListUsers(std::size_t vertices, std::span<const CellVertices> cells,
+  std::vector<std::size_t>& begins, std::vector<std::uint32_t>& lists)
+{
+  begins.assign(vertices + 1, 0);
+  for (const CellVertices& cell : cells)
+  {
+    for (const std::uint32_t v : cell)
+    {
+      begins[v + 1] += cell[0] != None ? 1 : 0;
+    }
+  }
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    begins[v + 1] += begins[v];
+  }
+  lists.resize(begins.back());
+  std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    for (const std::uint32_t v : cells[c])
+    {
+      if (cells[c][0] != None)
+      {
+        lists[next[v]++] = static_cast<std::uint32_t>(c);
+      }
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+Surroundings SurroundingsOf(const Triangulation<4>& triangulation, const SimplexLabels& labels,
+  std::span<const Point<4>> positions, std::span<const std::uint32_t> numbers, std::size_t points)
+{
+  Surroundings result;
+  std::vector<std::uint32_t> all(numbers.begin(), numbers.end());
+  for (SimplexId s = 0; s < labels.size(); ++s)
+  {
+    if (labels[s] != 0 || !triangulation.IsAlive(s))
+    {
+      continue;
+    }
+    const auto& vertices = triangulation.GetSimplex(s).V;
+    if (std::all_of(
+          vertices.begin(), vertices.end(), [&numbers](VertexId v) { return numbers[v] == None; }))
+    {
+      continue;
+    }
+    auto& simplex = result.Simplices.emplace_back();
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      const VertexId v = vertices[k];
+      if (all[v] == None)
+      {
+        all[v] = static_cast<std::uint32_t>(points + result.Points.size());
+        result.Points.push_back(positions.empty() ? triangulation.Position(v) : positions[v]);
+      }
+      simplex[k] = all[v];
+    }
+  }
+  return result;
+}
+
+PentatopeShape ShapeOf(const std::array<const Point<4>*, 5>& points)
+{
+  PentatopeShape shape;
+  if (!(SignedVolume<4>(points.data()) > 0.0))
+  {
+    return { 0.0, std::numeric_limits<double>::infinity(), {} };
+  }
+  if (!ComputeCircumball<4>(points.data(), shape.Ball))
+  {
+    ComputeCircumballExactly<4>(points.data(), shape.Ball);
+  }
+  shape.Quality = NormalizedVolume<4>(points.data(), shape.Ball.Radius2);
+  shape.Ratio = RadiusEdgeRatio<4>(points.data(), shape.Ball.Radius2);
+  return shape;
+}
+
+//------------------------------------------------------------------------------------------------
+PentatopeComplex::PentatopeComplex(const SimplexMesh<4>& mesh, const Surroundings& outside,
+  const LabelImage<4>& image, const Domain<4>& surfaces, const PentatopeBounds& bounds,
+  unsigned threads, const std::stop_token& stop)
+  : Bounds(bounds)
+  , Surfaces(surfaces)
+  , Values(image.Values())
+  , MeshPoints(mesh.Points.size())
+  , Facets(mesh.Facets)
+  , Points(mesh.Points.begin(), mesh.Points.end())
+  , Corners(mesh.Simplices.begin(), mesh.Simplices.end())
+{
+  this->Points.insert(this->Points.end(), outside.Points.begin(), outside.Points.end());
+  this->Corners.insert(this->Corners.end(), outside.Simplices.begin(), outside.Simplices.end());
+  this->Labels.resize(this->Corners.size(), 0);
+  this->Qualities.resize(this->Corners.size());
+  const std::span<const std::int64_t> values = this->Values;
+  ParallelFor(
+    0, this->Corners.size(), 4096, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t s = first; s < last; ++s)
+      {
+        const std::array<const Point<4>*, 5> points = this->PointsOf(this->Corners[s]);
+        if (s < mesh.Simplices.size())
+        {
+          this->Labels[s] = static_cast<LabelId>(
+            std::lower_bound(values.begin() + 1, values.end(), mesh.Labels[s]) - values.begin());
+          this->Qualities[s] = ShapeOf(points).Quality;
+        }
+        else
+        {
+          this->Qualities[s] = VolumeKeptOutside * SignedVolume<4>(points.data());
+        }
+      }
+    },
+    stop);
+  this->FindStars();
+  ListUsers(this->MeshPoints, this->Facets, this->FirstFacet, this->FacetsOf);
+}
+
+void PentatopeComplex::CopyTo(SimplexMesh<4>& mesh) const
+{
+  std::copy_n(this->Points.begin(), this->MeshPoints, mesh.Points.begin());
+  std::size_t n = 0;
+  for (std::size_t s = 0; s < this->Corners.size(); ++s)
+  {
+    n += this->Labels[s] != 0 && this->IsAlive(s) ? 1 : 0;
+  }
+  mesh.Simplices.resize(n);
+  mesh.Labels.resize(n);
+  for (std::size_t s = 0, k = 0; s < this->Corners.size(); ++s)
+  {
+    if (this->Labels[s] != 0 && this->IsAlive(s))
+    {
+      mesh.Simplices[k] = this->Corners[s];
+      mesh.Labels[k] = this->Values[this->Labels[s]];
+      ++k;
+    }
+  }
+}
+
+void PentatopeComplex::FindStars()
+{
+  ListUsers<Vertices>(this->Points.size(), this->Corners, this->FirstOfStar, this->Stars);
+}
+
+std::uint32_t PentatopeComplex::Neighbour(std::size_t s, unsigned i) const
+{
+  const Vertices& corners = this->Corners[s];
+  std::array<std::uint32_t, 4> facet;
+  std::size_t shortest = 0;
+  for (std::size_t k = 0, m = 0; k < 5; ++k)
+  {
+    if (k != i)
+    {
+      facet[m] = corners[k];
+      shortest =
+        this->StarOf(facet[m]).size() < this->StarOf(facet[shortest]).size() ? m : shortest;
+      ++m;
+    }
+  }
+  for (const std::uint32_t other : this->StarOf(facet[shortest]))
+  {
+    const Vertices& v = this->Corners[other];
+    const bool hasAll = std::all_of(facet.begin(), facet.end(),
+      [&v](std::uint32_t x) { return std::find(v.begin(), v.end(), x) != v.end(); });
+    if (other != s && hasAll)
+    {
+      return other;
+    }
+  }
+  return None;
+}
+
+bool PentatopeComplex::Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const
+{
+  if (!(shape.Ratio <= std::max(this->Bounds.RadiusEdgeRatio, oldRatio)))
+  {
+    return false;
+  }
+  if (!this->Bounds.Sizing)
+  {
+    return true;
+  }
+  // Sizes are asked for where the label is only, as in refinement.
+  const Point<4>& centre = shape.Ball.Center;
+  if (this->Surfaces.Label(centre) != label)
+  {
+    return false;
+  }
+  const double size = BelowSize * this->Bounds.Sizing->ElementSize(centre, label);
+  return shape.Ball.Radius2 < size * size;
+}
+
+std::uint32_t PentatopeComplex::Append(LabelId label)
+{
+  this->Corners.push_back({ None, None, None, None, None });
+  this->Labels.push_back(label);
+  this->Qualities.push_back(0.0);
+  return static_cast<std::uint32_t>(this->Corners.size() - 1);
+}
+
+} // namespace voxplex

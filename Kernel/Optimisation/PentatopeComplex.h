@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file PentatopeComplex.h
+ * @brief A pentatope mesh that is being changed, and what lies around it.
+ */
+#ifndef voxplex_PentatopeComplex_h
+#define voxplex_PentatopeComplex_h
+
+#include "Base/UninitialisedVector.h"
+#include "Delaunay/Triangulation.h"
+#include "Geometry/Circumball.h"
+#include "Image/LabelImage.h"
+#include "Mesh/SimplexLabels.h"
+#include "Mesh/SimplexMesh.h"
+#include "Sizing/SizingField.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/** The pentatopes outside of the object that have points of the mesh. */
+struct Surroundings
+{
+  std::vector<Point<4>> Points;                        ///< numbered after the points of the mesh
+  std::vector<std::array<std::uint32_t, 5>> Simplices; ///< positively oriented
+};
+
+/**
+ * @param labels of each simplex id
+ * @param positions of each vertex id; empty: those of the triangulation
+ * @param numbers the point of each vertex id, None if it is not in the mesh
+ * @param points number of points of the mesh
+ */
+Surroundings SurroundingsOf(const Triangulation<4>& triangulation, const SimplexLabels& labels,
+  std::span<const Point<4>> positions, std::span<const std::uint32_t> numbers, std::size_t points);
+
+/** What one pentatope is worth. */
+struct PentatopeShape
+{
+  double Quality; ///< normalized volume; 0 if it is not positively oriented
+  double Ratio;   ///< radius-edge ratio
+  Circumball<4> Ball;
+};
+
+PentatopeShape ShapeOf(const std::array<const Point<4>*, 5>& points);
+
+/** Bounds that changes of a mesh keep. What violates a bound already gets no worse. */
+struct PentatopeBounds
+{
+  double Target = 0.05;         ///< pentatopes with a smaller normalized volume are improved
+  double RadiusEdgeRatio = 2.0; ///< at most
+  /** How far vertices may be moved off interfaces as a last resort; 0: not at all. */
+  double InterfaceTolerance = 0.0;
+  const SizingField<4>* Sizing = nullptr; ///< circumradii are below its element sizes; may be null
+};
+
+/**
+ * @brief Vertices, labels and shapes of pentatopes, those around each vertex, and the facets of
+ * interfaces.
+ *
+ * The pentatopes of Surroundings have the label 0. Threads may read at the same time, and change
+ * pentatopes and points that no other thread reads.
+ */
+class PentatopeComplex
+{
+public:
+  using Vertices = std::array<std::uint32_t, 5>;
+
+  PentatopeComplex(const SimplexMesh<4>& mesh, const Surroundings& outside,
+    const LabelImage<4>& image, const Domain<4>& surfaces, const PentatopeBounds& bounds,
+    unsigned threads, const std::stop_token& stop);
+
+  /** Replaces the points, pentatopes and labels of the mesh. Facets stay. */
+  void CopyTo(SimplexMesh<4>& mesh) const;
+
+  /** Numbers of pentatopes are smaller. Some may be dead. */
+  std::size_t NumberOfPentatopes() const { return this->Corners.size(); }
+  std::size_t NumberOfPoints() const { return this->Points.size(); } ///< those outside included
+
+  const Vertices& CornersOf(std::size_t s) const { return this->Corners[s]; }
+  LabelId LabelOf(std::size_t s) const { return this->Labels[s]; }
+  bool IsAlive(std::size_t s) const { return this->Corners[s][0] != None; }
+
+  /** Normalized volume. Of pentatopes with the label 0, the least volume that they keep. */
+  double QualityOf(std::size_t s) const { return this->Qualities[s]; }
+  bool IsPoor(std::size_t s) const
+  {
+    return this->Labels[s] != 0 && this->IsAlive(s) && this->Qualities[s] < this->Bounds.Target;
+  }
+
+  const Point<4>& PointOf(std::uint32_t v) const { return this->Points[v]; }
+  std::array<const Point<4>*, 5> PointsOf(const Vertices& v) const
+  {
+    return { &this->Points[v[0]], &this->Points[v[1]], &this->Points[v[2]], &this->Points[v[3]],
+      &this->Points[v[4]] };
+  }
+
+  /** The pentatopes around a vertex. Those that flips have made are missing until FindStars(). */
+  std::span<const std::uint32_t> StarOf(std::uint32_t v) const
+  {
+    return { this->Stars.data() + this->FirstOfStar[v],
+      this->FirstOfStar[v + 1] - this->FirstOfStar[v] };
+  }
+  void FindStars();
+
+  /** The facets of interfaces around a vertex of the mesh. */
+  std::span<const std::uint32_t> FacetsAt(std::uint32_t v) const
+  {
+    return { this->FacetsOf.data() + this->FirstFacet[v],
+      this->FirstFacet[v + 1] - this->FirstFacet[v] };
+  }
+  const std::array<std::uint32_t, 4>& Facet(std::size_t f) const { return this->Facets[f]; }
+
+  /** The pentatope with the same vertices as s but one, vertex i; None if there is none. */
+  std::uint32_t Neighbour(std::size_t s, unsigned i) const;
+
+  /**
+   * Whether a pentatope of a label keeps the bounds.
+   * @param oldRatio the largest ratio of those that it replaces
+   */
+  bool Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const;
+
+  void Move(std::uint32_t v, const Point<4>& p) { this->Points[v] = p; }
+  void SetQuality(std::size_t s, double quality) { this->Qualities[s] = quality; }
+  void Replace(std::size_t s, const Vertices& corners, double quality)
+  {
+    this->Corners[s] = corners;
+    this->Qualities[s] = quality;
+  }
+  void Kill(std::size_t s) { this->Corners[s][0] = None; }
+  std::uint32_t Append(LabelId label);
+
+private:
+  const PentatopeBounds Bounds;
+  const Domain<4>& Surfaces;
+  const std::span<const std::int64_t> Values; ///< of labels in the image
+  const std::size_t MeshPoints;
+  std::span<const std::array<std::uint32_t, 4>> Facets;
+  std::vector<Point<4>> Points;
+  std::vector<Vertices> Corners;
+  std::vector<LabelId> Labels;
+  std::vector<double> Qualities;
+  std::vector<std::size_t> FirstOfStar; ///< by vertex, and the end
+  std::vector<std::uint32_t> Stars;
+  std::vector<std::size_t> FirstFacet; ///< by vertex of the mesh, and the end
+  std::vector<std::uint32_t> FacetsOf;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optimisation/PentatopeFlips.h"
+
+#include "Geometry/SimplexQuality.h"
+
+#include <algorithm>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** A flip has to raise the smallest quality by more than rounding. */
+constexpr double LeastGain = 1e-9;
+
+/** The vertex of `other` that s does not have. */
+std::uint32_t ApexOf(const PentatopeComplex::Vertices& other, const PentatopeComplex::Vertices& s)
+{
+  return *std::find_if(other.begin(), other.end(),
+    [&s](std::uint32_t v) { return std::find(s.begin(), s.end(), v) == s.end(); });
+}
+
+bool Has(const PentatopeComplex::Vertices& s, std::uint32_t v)
+{
+  return std::find(s.begin(), s.end(), v) != s.end();
+}
+
+/**
+ * The flip of the six points of s and its neighbour across vertex `across`. No flip is returned if
+ * a smaller `across` gives the same one.
+ * @param neighbours of s; those of other labels are None
+ */
+PentatopeFlip FlipWith(const PentatopeComplex& complex, std::uint32_t s,
+  const std::array<std::uint32_t, 5>& neighbours, unsigned across)
+{
+  const PentatopeComplex::Vertices& corners = complex.CornersOf(s);
+  const std::uint32_t apex = ApexOf(complex.CornersOf(neighbours[across]), corners);
+  PentatopeFlip flip;
+  flip.Old[flip.NumberOfOld++] = s;
+  flip.Before = complex.QualityOf(s);
+  for (unsigned k = 0; k < 5; ++k)
+  {
+    PentatopeComplex::Vertices other = corners;
+    other[k] = apex;
+    const double volume = SignedVolume<4>(complex.PointsOf(other).data());
+    if (volume > 0.0)
+    {
+      flip.New[flip.NumberOfNew % 4] = other;
+      ++flip.NumberOfNew;
+      continue;
+    }
+    const std::uint32_t neighbour = neighbours[k];
+    const bool isThere = neighbour != None && Has(complex.CornersOf(neighbour), apex);
+    if (!isThere || k < across || flip.NumberOfOld == 4)
+    {
+      return {};
+    }
+    flip.Old[flip.NumberOfOld++] = neighbour;
+    flip.Before = std::min(flip.Before, complex.QualityOf(neighbour));
+  }
+  if (flip.NumberOfOld + flip.NumberOfNew != 6 || flip.NumberOfOld < 2)
+  {
+    return {};
+  }
+  double oldRatio = 0.0;
+  for (std::size_t k = 0; k < flip.NumberOfOld; ++k)
+  {
+    oldRatio = std::max(oldRatio, ShapeOf(complex.PointsOf(complex.CornersOf(flip.Old[k]))).Ratio);
+  }
+  flip.After = 1.0;
+  for (std::size_t k = 0; k < flip.NumberOfNew; ++k)
+  {
+    const PentatopeShape shape = ShapeOf(complex.PointsOf(flip.New[k]));
+    if (!(shape.Quality > flip.Before + LeastGain) ||
+      !complex.Allows(shape, oldRatio, complex.LabelOf(s)))
+    {
+      return {};
+    }
+    flip.Qualities[k] = shape.Quality;
+    flip.After = std::min(flip.After, shape.Quality);
+  }
+  return flip;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
+{
+  std::array<std::uint32_t, 5> neighbours;
+  for (unsigned i = 0; i < 5; ++i)
+  {
+    neighbours[i] = complex.Neighbour(s, i);
+    if (neighbours[i] != None && complex.LabelOf(neighbours[i]) != complex.LabelOf(s))
+    {
+      neighbours[i] = None;
+    }
+  }
+  PentatopeFlip best;
+  for (unsigned i = 0; i < 5; ++i)
+  {
+    if (neighbours[i] != None)
+    {
+      const PentatopeFlip flip = FlipWith(complex, s, neighbours, i);
+      if (flip.NumberOfOld != 0 && flip.After - flip.Before > best.After - best.Before)
+      {
+        best = flip;
+      }
+    }
+  }
+  return best;
+}
+
+void MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip)
+{
+  const LabelId label = complex.LabelOf(flip.Old[0]);
+  for (std::size_t k = 0; k < std::max(flip.NumberOfOld, flip.NumberOfNew); ++k)
+  {
+    if (k >= flip.NumberOfNew)
+    {
+      complex.Kill(flip.Old[k]);
+      continue;
+    }
+    const std::uint32_t s = k < flip.NumberOfOld ? flip.Old[k] : complex.Append(label);
+    complex.Replace(s, flip.New[k], flip.Qualities[k]);
+  }
+}
+
+} // namespace voxplex

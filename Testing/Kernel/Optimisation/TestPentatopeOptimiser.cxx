@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Flips and smoothing raise the worst pentatopes; interfaces, ends, volumes and bounds stay.
+#include "Base/Error.h"
+#include "Geometry/SimplexQuality.h"
+#include "MeshChecks.h"
+#include "Optimisation/PentatopeFlips.h"
+#include "Optimisation/PentatopeOptimiser.h"
+#include "SpaceTimeCases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+struct Result
+{
+  SimplexMesh<4> Mesh;
+  MeshingStatistics Statistics;
+};
+
+Result Mesh(const LabelImage<4>& image, MeshingOptions<4> options, bool optimise)
+{
+  options.Optimisation.Run = optimise;
+  ImageMesher<4> mesher(options);
+  Result result;
+  EXPECT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
+  result.Statistics = mesher.Statistics();
+  return result;
+}
+
+MeshingOptions<4> UsualOptions(double delta)
+{
+  MeshingOptions<4> options = SpaceTimeOptions(delta);
+  options.Interfaces.Fit = true;
+  options.SpaceTime.Slivers.Fight = true;
+  return options;
+}
+
+std::vector<double> Qualities(const SimplexMesh<4>& mesh)
+{
+  std::vector<double> qualities;
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    qualities.push_back(NormalizedVolume<4>(mesh.PointsOf(s).data()));
+  }
+  std::sort(qualities.begin(), qualities.end());
+  return qualities;
+}
+
+std::size_t Poor(const std::vector<double>& sorted)
+{
+  return static_cast<std::size_t>(
+    std::lower_bound(sorted.begin(), sorted.end(), OptimisedNormalizedVolume) - sorted.begin());
+}
+
+/** Interfaces keep their facets. Their vertices move by half a voxel at most, and on ends not in time. */
+void ExpectSameInterfaces(
+  const SimplexMesh<4>& before, const SimplexMesh<4>& after, const LabelImage<4>& image)
+{
+  ASSERT_EQ(before.Facets, after.Facets);
+  ASSERT_EQ(before.FacetLabels, after.FacetLabels);
+  ASSERT_EQ(before.Points.size(), after.Points.size());
+  const auto [first, last] = TimeSpan(before);
+  std::set<std::uint32_t> corners;
+  for (const auto& facet : before.Facets)
+  {
+    corners.insert(facet.begin(), facet.end());
+  }
+  std::size_t moved = 0;
+  for (const std::uint32_t v : corners)
+  {
+    const Point<4>& p = before.Points[v];
+    const Point<4>& q = after.Points[v];
+    moved += p != q;
+    const Point<4> voxels = Subtract(image.Grid().ToIndex(q), image.Grid().ToIndex(p));
+    for (const double x : voxels)
+    {
+      ASSERT_LE(std::abs(x), 0.5 + 1e-9);
+    }
+    if (image.ReachesBorderInTime(0) && (p[3] == first || p[3] == last))
+    {
+      ASSERT_EQ(p[3], q[3]);
+    }
+  }
+  EXPECT_GT(moved, 100u);
+}
+
+/** Six points; the pentatope `left` is without one of them. Positively oriented. */
+PentatopeComplex::Vertices Without(const std::vector<Point<4>>& points, std::uint32_t left)
+{
+  PentatopeComplex::Vertices v{};
+  for (std::uint32_t k = 0, m = 0; k < 6; ++k)
+  {
+    if (k != left)
+    {
+      v[m++] = k;
+    }
+  }
+  std::array<const Point<4>*, 5> corners;
+  std::transform(v.begin(), v.end(), corners.begin(), [&](std::uint32_t x) { return &points[x]; });
+  if (SignedVolume<4>(corners.data()) < 0.0)
+  {
+    std::swap(v[0], v[1]);
+  }
+  return v;
+}
+
+/** The two ways to fill the hull of six points, where both have two pentatopes or more. */
+std::array<SimplexMesh<4>, 2> BothFillings(const std::vector<Point<4>>& points)
+{
+  std::array<SimplexMesh<4>, 2> both;
+  for (std::uint32_t left = 0; left < 6; ++left)
+  {
+    std::array<const Point<4>*, 5> corners;
+    for (std::uint32_t k = 0, m = 0; k < 6; ++k)
+    {
+      if (k != left)
+      {
+        corners[m++] = &points[k];
+      }
+    }
+    const bool sign = SignedVolume<4>(corners.data()) > 0.0;
+    auto& mesh = both[(left % 2 == 0) == sign ? 0 : 1];
+    mesh.Simplices.push_back(Without(points, left));
+    mesh.Labels.push_back(1);
+  }
+  for (auto& mesh : both)
+  {
+    for (const Point<4>& p : points)
+    {
+      mesh.Points.push_back(p);
+    }
+  }
+  return both;
+}
+
+std::set<std::set<std::uint32_t>> SetsOf(const SimplexMesh<4>& mesh)
+{
+  std::set<std::set<std::uint32_t>> sets;
+  for (const auto& v : mesh.Simplices)
+  {
+    sets.insert({ v.begin(), v.end() });
+  }
+  return sets;
+}
+
+double Hypervolume(const SimplexMesh<4>& mesh)
+{
+  double sum = 0.0;
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    sum += SignedVolume<4>(mesh.PointsOf(s).data());
+  }
+  return sum;
+}
+
+} // namespace
+
+// Seen: 1,911 poor pentatopes become 6, 1,417 become 2, 1,108 become 1.
+TEST(PentatopeOptimiser, RaisesTheWorst)
+{
+  const std::map<std::string, phantoms::SpaceTimePhantom> phantoms = {
+    { "four-ball", phantoms::FourBall(12.0) },
+    { "merging balls", phantoms::WithTimeScale(phantoms::MergingBalls(), 2.0) },
+    { "pulsating balls", PulsatingBalls(11, 2.0, 1.0) },
+  };
+  for (const auto& [name, phantom] : phantoms)
+  {
+    SCOPED_TRACE(name);
+    const LabelImage<4> image = ImageOf(phantom);
+    const Result before = Mesh(image, UsualOptions(2.0), false);
+    const Result after = Mesh(image, UsualOptions(2.0), true);
+    const std::vector<double> worst = Qualities(before.Mesh);
+    const std::vector<double> better = Qualities(after.Mesh);
+    EXPECT_GT(Poor(worst), 500u);
+    EXPECT_LT(Poor(better), Poor(worst) / 50);
+    EXPECT_GT(better.front(), 2.0 * worst.front());
+
+    EXPECT_TRUE(Complaints(after.Mesh).empty());
+    ExpectSameInterfaces(before.Mesh, after.Mesh, image);
+    for (const auto& [label, volume] : Volumes(before.Mesh))
+    {
+      EXPECT_NEAR(Volumes(after.Mesh)[label], volume, 0.002 * volume) << label;
+    }
+    for (std::size_t s = 0; s < after.Mesh.Simplices.size(); ++s)
+    {
+      ASSERT_LE(RadiusEdge(after.Mesh, s), 2.0 + 1e-9);
+    }
+    const OptimisationSummary& said = after.Statistics.Optimisation;
+    EXPECT_TRUE(said.Ran);
+    EXPECT_FALSE(before.Statistics.Optimisation.Ran);
+    EXPECT_EQ(said.PoorBefore, Poor(worst));
+    EXPECT_EQ(said.PoorAfter, Poor(better));
+    EXPECT_EQ(said.SmallestVolumeBefore, worst.front());
+    EXPECT_EQ(said.SmallestVolumeAfter, better.front());
+  }
+}
+
+TEST(PentatopeOptimiser, DoesNotDependOnThreads)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
+  MeshingOptions<4> options = UsualOptions(2.5);
+  options.Team.Reproducible = true;
+  const Result first = Mesh(image, options, true);
+  EXPECT_GT(first.Statistics.Optimisation.PoorBefore, first.Statistics.Optimisation.PoorAfter);
+  for (const unsigned threads : { 2u, 3u, 8u })
+  {
+    options.Team.Threads = threads;
+    ExpectSame(Mesh(image, options, true).Mesh, first.Mesh);
+  }
+}
+
+// Moves must not make the mesh overlap itself where a gap is thin: the pentatopes outside stay positive.
+TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::MergingBalls(), 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const Result before = Mesh(image, SpaceTimeOptions(2.0), false);
+  // A pentatope outside, on a facet of the boundary. Its fifth point nearly lies in the facet.
+  SimplexMesh<4> mesh = before.Mesh;
+  Surroundings outside;
+  for (std::size_t f = 0; f < mesh.Facets.size(); f += 3)
+  {
+    if (mesh.FacetLabels[f][1] != 0)
+    {
+      continue;
+    }
+    std::array<const Point<4>*, 4> p;
+    Point<4> centre{};
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      p[k] = &mesh.Points[mesh.Facets[f][k]];
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        centre[a] += 0.25 * (*p[k])[a];
+      }
+    }
+    const Point<4> normal =
+      Cross(Subtract(*p[1], *p[0]), Subtract(*p[2], *p[0]), Subtract(*p[3], *p[0]));
+    const double length = std::sqrt(Dot(normal, normal));
+    std::array<std::uint32_t, 5> simplex{ mesh.Facets[f][0], mesh.Facets[f][1], mesh.Facets[f][2],
+      mesh.Facets[f][3], static_cast<std::uint32_t>(mesh.Points.size() + outside.Points.size()) };
+    for (const double sign : { 1.0, -1.0 })
+    {
+      Point<4> apex = centre;
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        apex[a] += sign * 0.02 * normal[a] / length;
+      }
+      const std::array<const Point<4>*, 5> corners{ p[0], p[1], p[2], p[3], &apex };
+      // Whichever side is positive will do: only its volume is looked at.
+      if (SignedVolume<4>(corners.data()) > 0.0)
+      {
+        outside.Points.push_back(apex);
+        outside.Simplices.push_back(simplex);
+      }
+    }
+  }
+  ASSERT_GT(outside.Simplices.size(), 500u);
+  OptimisePentatopes(mesh, outside, domain, image, {});
+  EXPECT_NE(mesh.Points, before.Mesh.Points);
+  std::vector<Point<4>> points(mesh.Points.begin(), mesh.Points.end());
+  points.insert(points.end(), outside.Points.begin(), outside.Points.end());
+  for (const auto& simplex : outside.Simplices)
+  {
+    std::array<const Point<4>*, 5> corners;
+    std::transform(
+      simplex.begin(), simplex.end(), corners.begin(), [&](std::uint32_t v) { return &points[v]; });
+    ASSERT_GT(SignedVolume<4>(corners.data()), 0.0);
+  }
+}
+
+TEST(PentatopeOptimiser, Stops)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(8.0));
+  const ImageDomain<4> domain(image, 1.0);
+  SimplexMesh<4> mesh = Mesh(image, SpaceTimeOptions(2.0), false).Mesh;
+  const SimplexMesh<4> before = mesh;
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(OptimisePentatopes(mesh, {}, domain, image, {}, 1, source.get_token()), Cancelled);
+  ExpectSame(mesh, before);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(PentatopeFlips, ExchangeTheFillingsOfSixPoints)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(4.0));
+  const ImageDomain<4> domain(image, 1.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(2.0, 12.0);
+  std::map<std::size_t, std::size_t> flips;
+  PentatopeBounds bounds;
+  bounds.RadiusEdgeRatio = 1e9;
+  for (unsigned trial = 0; trial < 1500; ++trial)
+  {
+    std::vector<Point<4>> points(6);
+    for (Point<4>& p : points)
+    {
+      p = { uniform(random), uniform(random), uniform(random), uniform(random) };
+    }
+    std::array<SimplexMesh<4>, 2> fillings = BothFillings(points);
+    if (fillings[0].Simplices.size() < 2 || fillings[1].Simplices.size() < 2)
+    {
+      continue; // a point in the hull of the others
+    }
+    if (Qualities(fillings[0]).front() > Qualities(fillings[1]).front())
+    {
+      std::swap(fillings[0], fillings[1]);
+    }
+    if (Qualities(fillings[1]).front() < 1e-6)
+    {
+      continue; // flat to rounding
+    }
+    SimplexMesh<4>& mesh = fillings[0];
+    ASSERT_NEAR(Hypervolume(mesh), Hypervolume(fillings[1]), 1e-9 * Hypervolume(mesh));
+    PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+    for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      const PentatopeFlip flip = FindFlip(complex, s);
+      ASSERT_EQ(flip.NumberOfOld, mesh.Simplices.size());
+      ASSERT_EQ(flip.NumberOfNew, fillings[1].Simplices.size());
+      EXPECT_NEAR(flip.Before, Qualities(mesh).front(), 1e-9);
+      EXPECT_NEAR(flip.After, Qualities(fillings[1]).front(), 1e-9);
+    }
+    PentatopeComplex good(fillings[1], {}, image, domain, bounds, 1, {});
+    EXPECT_EQ(FindFlip(good, 0).NumberOfOld, 0u) << "it would lower the worst";
+    PentatopeBounds strict;
+    strict.RadiusEdgeRatio = 0.1;
+    PentatopeComplex bounded(mesh, {}, image, domain, strict, 1, {});
+    const bool getsRounder = FindFlip(bounded, 0).NumberOfOld != 0;
+
+    ++flips[mesh.Simplices.size()];
+    MakeFlip(complex, FindFlip(complex, 0));
+    double largestBefore = 0.0;
+    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      largestBefore = std::max(largestBefore, RadiusEdge(mesh, s));
+    }
+    complex.CopyTo(mesh);
+    double largestAfter = 0.0;
+    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      largestAfter = std::max(largestAfter, RadiusEdge(mesh, s));
+    }
+    EXPECT_EQ(getsRounder, largestAfter <= largestBefore);
+    EXPECT_EQ(SetsOf(mesh), SetsOf(fillings[1]));
+    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      EXPECT_GT(SignedVolume<4>(mesh.PointsOf(s).data()), 0.0);
+    }
+  }
+  EXPECT_GT(flips[2], 20u);
+  EXPECT_GT(flips[3], 20u);
+  EXPECT_GT(flips[4], 20u);
+}
+
+TEST(PentatopeFlips, LeaveInterfacesAlone)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const SimplexMesh<4> mesh = Mesh(image, SpaceTimeOptions(2.5), false).Mesh;
+  PentatopeComplex complex(mesh, {}, image, domain, {}, 1, {});
+  std::size_t found = 0;
+  for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    const PentatopeFlip flip = FindFlip(complex, s);
+    found += flip.NumberOfOld != 0;
+    for (std::size_t k = 0; k < flip.NumberOfOld; ++k)
+    {
+      ASSERT_EQ(mesh.Labels[flip.Old[k]], mesh.Labels[s]);
+    }
+  }
+  EXPECT_GT(found, 100u);
+}
