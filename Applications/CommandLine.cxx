@@ -100,11 +100,11 @@ po::options_description DescribeFiles()
     ("stats", Text("FILE"), "figures about the mesh and the run: .json") //
     ("quality",
       "measure the mesh against the image and print it: histograms of angles, junctions, "
-      "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too (3D "
-      "only)") //
+      "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too. Of a "
+      "space-time mesh the cuts at the times of the frames are measured") //
     ("hausdorff",
       "like --quality, and the symmetric Hausdorff distance between the interfaces of the mesh and "
-      "of the image (3D only)");
+      "of the image");
   return options;
 }
 

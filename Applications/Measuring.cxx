@@ -13,9 +13,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cstdint>
-#include <numeric>
 #include <sstream>
-#include <vector>
 
 using nlohmann::ordered_json;
 
@@ -32,23 +30,6 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
   {
     filter->SetAbortExecute(1);
   }
-}
-
-/** The bins of a histogram joined by fives, in percent of all. */
-std::string Shares(const ordered_json& histogram, std::size_t bins)
-{
-  const auto counts = histogram.get<std::vector<std::uint64_t>>();
-  const double all =
-    static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 }));
-  std::string text;
-  for (std::size_t first = 0; first < bins; first += 5)
-  {
-    const double share =
-      static_cast<double>(std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(first),
-        counts.begin() + static_cast<std::ptrdiff_t>(first + 5), std::uint64_t{ 0 }));
-    text += " " + Rounded(100.0 * share / all, 1);
-  }
-  return text;
 }
 
 std::string Place(const ordered_json& place)
@@ -72,16 +53,11 @@ std::string Distances(const char* name, const ordered_json& figures)
 
 } // namespace
 
-ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
-  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
+vtkSmartPointer<vtkSimplexMeshQuality> MakeQualityFilter(
+  const Parameters& parameters, const LabelSelection& selection)
 {
-  vtkNew<vtkSimplexMeshQuality> filter;
-  filter->SetInputData(mesh);
-  if (!parameters.Has("isovalue")) // otherwise the image has no labels
-  {
-    filter->SetImageConnection(input.Labels->GetOutputPort());
-  }
-  for (const std::int64_t label : input.Selection.Labels)
+  auto filter = vtkSmartPointer<vtkSimplexMeshQuality>::New();
+  for (const std::int64_t label : selection.Labels)
   {
     filter->AddLabel(label);
   }
@@ -99,11 +75,17 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
     filter->SetSmallestComponent(static_cast<int>(*voxels));
   }
   filter->SetNumberOfThreads(static_cast<int>(parameters.Value("threads").value_or(0.0)));
+  return filter;
+}
+
+ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunction& progress)
+{
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(OnProgress);
   observer->SetClientData(const_cast<ProgressFunction*>(&progress));
-  filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
   filter->Update();
+  filter->RemoveObserver(tag);
   if (filter->GetAborted())
   {
     return nullptr;
@@ -113,6 +95,18 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
     throw RunError("cannot measure the mesh: " + filter->GetErrorMessage());
   }
   return ordered_json::parse(filter->ToJSON());
+}
+
+ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
+  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
+{
+  const auto filter = MakeQualityFilter(parameters, input.Selection);
+  filter->SetInputData(mesh);
+  if (!parameters.Has("isovalue")) // otherwise the image has no labels
+  {
+    filter->SetImageConnection(input.Labels->GetOutputPort());
+  }
+  return Execute(filter, progress);
 }
 
 void AddMeasurement(const ordered_json& measurement, ordered_json& report)
@@ -137,13 +131,12 @@ std::string SummarizeMeasurement(const ordered_json& report)
   const ordered_json& image = report["image"];
   std::ostringstream text;
   text << "Quality:\n  dihedral angles in steps of 10 degrees, %:"
-       << Shares(quality["dihedral_histogram"], 90)
-       << "\n  interface angles in steps of 10 degrees, %:"
-       << Shares(quality["planar_histogram"], 90) << "\n  smallest interface angle "
-       << Rounded(quality["min_planar_off_junctions"], 1) << " degrees off junctions, "
-       << Rounded(quality["min_planar_at_junctions"], 1) << " at them\n  "
-       << topology["junction_edges"] << " junction edges, " << topology["corners"] << " corners; "
-       << topology["non_manifold_edges"] << " non-manifold edges, "
+       << Shares(quality["dihedral_histogram"])
+       << "\n  interface angles in steps of 10 degrees, %:" << Shares(quality["planar_histogram"])
+       << "\n  smallest interface angle " << Rounded(quality["min_planar_off_junctions"], 1)
+       << " degrees off junctions, " << Rounded(quality["min_planar_at_junctions"], 1)
+       << " at them\n  " << topology["junction_edges"] << " junction edges, " << topology["corners"]
+       << " corners; " << topology["non_manifold_edges"] << " non-manifold edges, "
        << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n";
   if (!image.is_null())
   {

@@ -14,10 +14,22 @@
 
 #include <string>
 
+class vtkSimplexMeshQuality;
 class vtkUnstructuredGrid;
 
 namespace voxplex::cli
 {
+
+/** What measures a mesh as `parameters` ask for. It has no input yet. */
+vtkSmartPointer<vtkSimplexMeshQuality> MakeQualityFilter(
+  const Parameters& parameters, const LabelSelection& selection);
+
+/**
+ * Executes it.
+ * @return its ToJSON(); null if progress stopped it
+ * @throws RunError if the mesh cannot be measured
+ */
+nlohmann::ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunction& progress);
 
 /**
  * Measures a mesh of tetrahedra as `parameters` ask for, against the image that it was made from.

@@ -125,8 +125,6 @@ void CheckDimension(const Parameters& p, int dimension)
     RefuseIf(isOfOthers && p.Has(parameter.Name), OptionOf(parameter), why);
   }
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
-  RefuseIf(dimension == 4 && p.Hausdorff, "--hausdorff", why);
-  RefuseIf(dimension == 4 && p.Quality, "--quality", why);
   if (!p.Output.empty())
   {
     RequireFormat(OutputOption::Output, p.Output, dimension);

@@ -6,6 +6,7 @@
 #include "Errors.h"
 #include "Interruption.h"
 #include "Measuring.h"
+#include "MeasuringFrames.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
@@ -200,12 +201,13 @@ nlohmann::ordered_json MeasureOrExit(
   {
     const Interruption::CancellableStep step;
     ProgressBar bar(p.Progress);
-    measurement = Measure(p, input, mesh,
-      [&bar](double fraction, const std::string& text)
-      {
-        bar.Show(fraction, text);
-        return !Interruption::Requested();
-      });
+    const auto progress = [&bar](double fraction, const std::string& text)
+    {
+      bar.Show(fraction, text);
+      return !Interruption::Requested();
+    };
+    measurement = input.Dimension() == 4 ? MeasureFrames(p, input, mesh, progress)
+                                         : Measure(p, input, mesh, progress);
   }
   if (measurement.is_null() || Interruption::Requested())
   {
@@ -274,9 +276,16 @@ void Run(const Parameters& p)
       input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
     times);
   const auto measurement = MeasureOrExit(p, input, filter->GetOutput());
-  if (!measurement.is_null())
+  std::string measured;
+  if (!measurement.is_null() && input.Dimension() == 4)
+  {
+    AddFrames(measurement, report);
+    measured = SummarizeFrames(report);
+  }
+  else if (!measurement.is_null())
   {
     AddMeasurement(measurement, report);
+    measured = SummarizeMeasurement(report);
   }
   if (!p.Statistics.empty())
   {
@@ -284,8 +293,7 @@ void Run(const Parameters& p)
   }
   CommitFiles(files);
   Warn(Warnings(report));
-  std::cout << Summarize(report) << (measurement.is_null() ? "" : SummarizeMeasurement(report))
-            << std::flush;
+  std::cout << Summarize(report) << measured << std::flush;
 }
 
 int Main(int argc, const char* const* argv)

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """What is written of images of space and time: meshes, boundaries, slices, statistics; and the flags for it."""
+import json
 import os
 import resource
 
@@ -174,8 +175,7 @@ class Boundaries(SpaceTimeTestCase):
 
 class Slices(SpaceTimeTestCase):
     def slices(self, name="heart.pvd"):
-        entries = meshfiles.read_collection(self.folder / name)
-        return [(time, meshfiles.read_slice((self.folder / name).parent / file)) for time, file in entries]
+        return meshfiles.read_slices(self.folder / name)
 
     def check_volumes(self, time, piece, tolerance):
         """Against the frame at that time."""
@@ -292,6 +292,76 @@ class Slices(SpaceTimeTestCase):
                 self.refuse(2, pattern, "--slices", prefix)
 
 
+class Quality(SpaceTimeTestCase):
+    """--quality and --hausdorff: cuts at the times of the frames, beside the frames."""
+
+    def report(self, *arguments):
+        done = self.call(*self.arguments, "--stats", "q.json", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout, json.loads((self.folder / "q.json").read_text())
+
+    def test_volumes_are_those_of_the_slices(self):
+        text, report = self.report("--quality", "--slices", "s_", "--time-scale", 1.5)
+        frames = report["frames"]
+        self.assertEqual([frame["time"] for frame in frames], [3.0, 5.0, 7.0, 9.0, 11.0])
+        voxel = self.GEOMETRY.voxel_volume()
+        worst = 0.0
+        for n, (frame, (_, piece)) in enumerate(zip(frames, meshfiles.read_slices(self.folder / "s.pvd"))):
+            for label, volume in piece.volume_of_label().items():
+                figures = frame["labels"][str(label)]
+                voxels = int((self.array[n] == label).sum())
+                self.assertAlmostEqual(figures["volume"], volume, delta=1e-9 * volume)
+                self.assertEqual(figures["voxels"], voxels)
+                error = volume / (voxel * voxels) - 1.0
+                self.assertAlmostEqual(figures["volume_error"], error, delta=1e-9)
+                worst = max(worst, abs(error))
+            self.assertEqual(frame["image"]["components"], 2)
+            self.assertEqual(frame["image"]["lost_components"], [])
+            self.assertEqual(frame["hausdorff"], {})
+            self.assertEqual(sum(frame["quality"]["dihedral_histogram"]), 6 * frame["elements"])
+            self.assertEqual(frame["quality"]["inverted_elements"], 0)
+            self.assertEqual(frame["faces_of_three_elements"], 0)  # conforming
+        for label in (2, 6):
+            counts = (self.array == label).sum(axis=(1, 2, 3))
+            expected = 1.5 * 2.0 * voxel * (counts.sum() - 0.5 * (counts[0] + counts[-1]))
+            figures = report["labels"][str(label)]
+            self.assertAlmostEqual(figures["image_volume"], expected, delta=1e-9 * expected)
+            self.assertAlmostEqual(figures["volume_error"], figures["volume"] / expected - 1, delta=1e-9)
+            self.assertLess(abs(figures["volume_error"]), 0.05)
+        self.assertRegex(text, r"Quality of the cuts at 5 frames:\n"
+                         r"  dihedral angles in steps of 10 degrees, %:( [\d.]+){18}\n"
+                         r"  0 of 10 components lost; hypervolumes off by up to -?[\d.]+ %, volumes in a frame by up to "
+                         rf"-?{100 * worst:.2f} % \(label \d at time ")
+        self.assertNotIn("Hausdorff", text)
+
+    def test_distances(self):
+        text, report = self.report("--hausdorff")
+        distances = [frame["hausdorff"]["voxels"]["distance"] for frame in report["frames"]]
+        self.assertEqual(len(distances), 5)
+        for distance in distances:
+            self.assertGreater(distance, 0.3)
+            self.assertLess(distance, 2.0)
+        self.assertIn("Hausdorff distance to the faces of voxels: at most %.3f (at time " % max(distances), text)
+
+    def test_frames_in_which_there_is_nothing(self):
+        array = np.zeros((5, 12, 12, 12), np.uint8)
+        array[:3] = images.ball(12, 4.0)
+        images.write_space_time_nrrd(self.input, array)
+        _, report = self.report("--hausdorff")
+        frames = report["frames"]
+        self.assertEqual([frame["image"] is None for frame in frames], [False, False, False, True, True])
+        self.assertEqual(frames[4]["elements"], 0)
+        self.assertEqual(frames[4]["labels"], {})
+        self.assertEqual(report["labels"]["1"]["image_volume"], 2.5 * (array[0] != 0).sum())
+
+    def test_chosen_labels(self):
+        _, report = self.report("--hausdorff", "--labels", 6)
+        for frame in report["frames"]:
+            self.assertEqual(set(frame["labels"]), {"6"})
+            self.assertEqual(frame["image"]["lost_labels"], [])
+            self.assertLess(frame["hausdorff"]["voxels"]["distance"], 2.0)
+
+
 class Flags(SpaceTimeTestCase):
     SPACE_TIME = (("--time-scale", 2), ("--slices", "s_"), ("--slices", "s_", "--slice-count", 3),
                   ("--rule-order", "surface"), ("--no-picking",), ("--picks", 5), ("--sliver-bound", 0.02),
@@ -307,8 +377,6 @@ class Flags(SpaceTimeTestCase):
     def test_of_3d_on_a_space_time_image(self):
         self.refuse(2, "--facet-angle: only for 3D images.*heart.nrrd' is a space-time image", "--facet-angle", 20)
         self.refuse(2, "--isovalue: only for 3D images", "--isovalue", 1, "--smoothing", 1)
-        self.refuse(2, "--quality: only for 3D images", "--quality")
-        self.refuse(2, "--hausdorff: only for 3D images", "--hausdorff")
         self.refuse(2, "--optimise-seconds: only for 3D images", "--optimise-seconds", 3)
         for name in ("m.vtk", "m.msh", "m.inp", "m.feb", "m.xdmf"):
             self.refuse(2, "--output: '.%s' does not hold the pentatopes of a space-time image.*use .vtu, .mesh or .mfem"

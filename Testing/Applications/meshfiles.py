@@ -3,6 +3,7 @@
 """Reads every format that the program writes. VTK's by VTK's readers, the others by hand."""
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -200,6 +201,11 @@ def read_collection(path):
     if (root.tag, root.get("type")) != ("VTKFile", "Collection"):
         raise AssertionError("head of the collection")
     return [(float(entry.get("timestep")), entry.get("file")) for entry in root.find("Collection")]
+
+
+def read_slices(path):
+    """(time, slice) of each entry of a collection."""
+    return [(time, read_slice(Path(path).parent / file)) for time, file in read_collection(path)]
 
 
 def _pairs_of_comments(lines, start="#"):
