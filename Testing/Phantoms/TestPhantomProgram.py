@@ -96,6 +96,25 @@ class TestPhantomProgram(unittest.TestCase):
         self.assertEqual(voxels[row][23], 0, "apart in the first frame")
         self.assertNotEqual(voxels[2 * frame : 3 * frame][row][23], 0, "together in the middle")
 
+    def test_shapes_that_keep_their_volumes(self):
+        """In each frame: a sheet that turns, a wall whose cross-section stays, a ball that moves."""
+        for name, expected_sizes, volume in [
+            ("rotating-sheet", [36, 36, 28, 5], 3.0 * 28.0 * 20.0),
+            ("opening-tube", [32, 32, 34, 5], math.pi * 81.0 * 26.0),
+            ("fast-ball", [56, 24, 24, 5], 4.0 / 3.0 * math.pi * 7.0**3),
+        ]:
+            with self.subTest(name):
+                sizes, spacings, voxels = self.write(name, "--frames", "5")
+                self.assertEqual(sizes, expected_sizes)
+                self.assertEqual(spacings, [1.0, 1.0, 1.0, 1.0])
+                self.assertEqual(set(voxels), {0, 1, 2} if name == "opening-tube" else {0, 1})
+                frame = len(voxels) // 5
+                frames = [voxels[k * frame : (k + 1) * frame] for k in range(5)]
+                for one in frames:
+                    self.assertAlmostEqual(one.count(1) / volume, 1.0, delta=0.05)
+                self.assertNotEqual(frames[0], frames[2])
+                self.assertEqual(frames[0].count(2), 0)
+
     def test_wrong_arguments(self):
         for arguments, word in [
             ([], "needed"),

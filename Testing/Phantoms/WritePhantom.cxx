@@ -45,8 +45,12 @@ names, with the axes x, y, z and time:
                        --radius R      of the ball, voxels (default 12)
   beating-ventricle  blood (1) within myocardium (2), one beat; cut by the first and last frame
                        --coarsening N  N times fewer voxels along x, y and z (default 1)
-  merging-balls      two balls (1, 2) that meet and part; cut by the first and last frame
-                       --frames N      number of frames (default 17)
+  merging-balls      two balls (1, 2) that meet and part
+  rotating-sheet     a sheet (1), 3 voxels thick, that turns by a quarter
+  opening-tube       a wall (1) whose lumen (2) opens and closes
+  fast-ball          a ball (1) that moves 4 voxels a frame, there and back
+                       --frames N      of each: number of frames (defaults 17, 15, 15, 17); cut by the
+                                       first and last frame
 )";
 
 struct Arguments
@@ -142,14 +146,18 @@ Phantom MakePhantom(Arguments arguments)
 {
   const auto coarsening = [&](std::int64_t largest)
   { return TakeCount(arguments, "--coarsening", 1, 1, largest); };
+  const auto frames = [&](std::int64_t usual)
+  { return TakeCount(arguments, "--frames", usual, 2, 1000); };
   const std::map<std::string, std::function<Phantom()>> phantoms = {
     { "ball", [&] { return SingleBall(coarsening(40)); } },
     { "embedded-balls", [&] { return EmbeddedBalls(coarsening(40)); } },
     { "torus", [&] { return Torus(coarsening(8)); } },
     { "four-ball", [&] { return FourBall(Take(arguments, "--radius", 12.0, 1.0, 60.0)); } },
     { "beating-ventricle", [&] { return BeatingVentricle(coarsening(11)); } },
-    { "merging-balls",
-      [&] { return MergingBalls(TakeCount(arguments, "--frames", 17, 2, 1000)); } },
+    { "merging-balls", [&] { return MergingBalls(frames(17)); } },
+    { "rotating-sheet", [&] { return RotatingSheet(frames(15)); } },
+    { "opening-tube", [&] { return OpeningTube(frames(15)); } },
+    { "fast-ball", [&] { return FastBall(frames(17)); } },
   };
   const auto found = phantoms.find(arguments.Name);
   if (found == phantoms.end())
