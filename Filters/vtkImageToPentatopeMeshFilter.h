@@ -37,12 +37,15 @@
  *   4, and the columns x, y, z, t is positive.
  *   - Point array `Time` (1 component, vtkDoubleArray): the fourth coordinate, in the unit of the
  *     input's times.
+ *   - Point array `BoundaryVelocity` (3 components, vtkDoubleArray): the velocity at which the
+ *     lateral boundary moves there, in its normal directions, in the input's units of length and
+ *     time. Where several boundaries meet they all have it. 0 at other points.
  *   - Cell array `Label` (1 component, active scalars): the image's own label value. The type is
  *     `vtkIntArray`, or `vtkLongLongArray` if a label does not fit into an int.
  * - Port 1, vtkUnstructuredGrid: the boundary as `VTK_TETRA` cells. They are the facets of
  *   pentatopes between two labels, or between a label and the background, each once. The points are
  *   those of port 0 that these cells use.
- *   - Point array `Time`, as above.
+ *   - Point arrays `Time` and `BoundaryVelocity`, as above.
  *   - Point array `PointIds` (1 component, vtkIdTypeArray): the index of the point in port 0.
  *   - Cell array `Labels` (2 components, type as that of `Label`): the labels on both sides, the
  *     larger first, 0 for background. The fifth point of the first label's pentatope, followed by

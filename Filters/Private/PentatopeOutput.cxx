@@ -3,17 +3,21 @@
 #include "Private/PentatopeOutput.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Geometry/SymmetricEigen.h"
 #include "Private/OutputArrays.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace voxplex
 {
@@ -68,20 +72,25 @@ Side SideOf(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t
   return isInitial ? Side::Initial : isFinal ? Side::Final : Side::Lateral;
 }
 
-/**
- * The velocity of a lateral tetrahedron along its normal in space, out of the region of its first
- * label: -n_t / |n_x|, where n is the normal in space-time. NaN if n_x is 0.
- */
-double NormalVelocity(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
+/** A normal of a boundary tetrahedron in the world; its length is proportional to the area. */
+Point<4> NormalOf(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
 {
   std::array<Point<4>, 4> p;
   for (std::size_t k = 0; k < 4; ++k)
   {
     p[k] = frame.ToWorld(mesh.Points[mesh.Facets[facet][k]]);
   }
+  return Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
+}
+
+/**
+ * The velocity of a lateral tetrahedron along its normal in space, out of the region of its first
+ * label: -n_t / |n_x|, where n is the normal in space-time. NaN if n_x is 0.
+ */
+double NormalVelocity(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
+{
   // That of the frame, or its opposite if axes are left-handed.
-  const Point<4> normal =
-    Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
+  const Point<4> normal = NormalOf(mesh, frame, facet);
   const double sign = frame.Space.LeftHanded ? -1.0 : 1.0;
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   return length > 0.0 ? -sign * normal[3] / length : std::numeric_limits<double>::quiet_NaN();
@@ -114,9 +123,86 @@ void AddSides(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame,
   boundary->GetCellData()->AddArray(velocities);
 }
 
+/** A direction is normal to a boundary if this part of its area faces it. Less is curvature. */
+constexpr double NormalShare = 0.15;
+
+/** What the lateral tetrahedra around a point say about its velocity. */
+struct VelocityEquations
+{
+  std::array<Point<3>, 3> Matrix{};
+  Point<3> Right{};
+
+  /** The tetrahedron stays on the boundary: n_x . v + n_t = 0. */
+  void Add(const Point<4>& normal)
+  {
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    for (std::size_t a = 0; a < 3 && length > 0.0; ++a)
+    {
+      for (std::size_t b = 0; b < 3; ++b)
+      {
+        this->Matrix[a][b] += normal[a] * normal[b] / length;
+      }
+      this->Right[a] -= normal[a] * normal[3] / length;
+    }
+  }
+
+  /** Least squares, in the directions that are normal to a boundary. 0 in all others. */
+  Point<3> Solve() const
+  {
+    const SymmetricEigen<3> eigen = EigenOf<3>(this->Matrix);
+    const double trace = eigen.Values[0] + eigen.Values[1] + eigen.Values[2];
+    Point<3> velocity{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      if (eigen.Values[k] > NormalShare * trace)
+      {
+        const double part = Dot(eigen.Vectors[k], this->Right) / eigen.Values[k];
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          velocity[a] += part * eigen.Vectors[k][a];
+        }
+      }
+    }
+    return velocity;
+  }
+};
+
+/** The array BoundaryVelocity of all points of the mesh. */
+vtkSmartPointer<vtkDoubleArray> MakeVelocities(
+  const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, unsigned threads)
+{
+  std::vector<VelocityEquations> equations(mesh.Points.size());
+  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  {
+    if (SideOf(mesh, frame, f) == Side::Lateral)
+    {
+      const Point<4> normal = NormalOf(mesh, frame, f);
+      for (const std::uint32_t id : mesh.Facets[f])
+      {
+        equations[id].Add(normal);
+      }
+    }
+  }
+  auto velocities = vtkSmartPointer<vtkDoubleArray>::New();
+  velocities->SetName("BoundaryVelocity");
+  velocities->SetNumberOfComponents(3);
+  velocities->SetNumberOfTuples(static_cast<vtkIdType>(equations.size()));
+  double* const out = velocities->GetPointer(0);
+  ParallelFor(0, equations.size(), OutputGrain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const Point<3> velocity = equations[i].Solve();
+        std::copy(velocity.begin(), velocity.end(), out + 3 * i);
+      }
+    });
+  return velocities;
+}
+
 /** The boundary tetrahedra, on a compact copy of the points that they use. */
 void MakeBoundary(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, bool fitInt,
-  vtkUnstructuredGrid* boundary, unsigned threads)
+  vtkDoubleArray* velocities, vtkUnstructuredGrid* boundary, unsigned threads)
 {
   const InterfacePoints<4> points(mesh, threads);
   vtkIdTypeArray* const meshIds = points.MeshIds();
@@ -128,6 +214,15 @@ void MakeBoundary(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, bool 
     MakeCells(mesh.Facets, frame.Space.LeftHanded, threads,
       [&points](std::uint32_t id) { return points.Number(id); }));
   boundary->GetPointData()->AddArray(meshIds);
+  vtkNew<vtkDoubleArray> own;
+  own->SetName(velocities->GetName());
+  own->SetNumberOfComponents(3);
+  own->SetNumberOfTuples(meshIds->GetNumberOfValues());
+  for (vtkIdType i = 0; i < meshIds->GetNumberOfValues(); ++i)
+  {
+    own->SetTuple(i, ids[i], velocities);
+  }
+  boundary->GetPointData()->AddArray(own);
   boundary->GetCellData()->AddArray(MakeLabels(mesh.FacetLabels, "Labels", fitInt, threads));
   AddSides(mesh, frame, boundary, threads);
 }
@@ -138,12 +233,14 @@ void MoveToOutput(SimplexMesh<4>&& mesh, const SpaceTimeFrame& frame,
   vtkUnstructuredGrid* pentatopes, vtkUnstructuredGrid* boundary, unsigned threads)
 {
   const bool fitInt = FitInt(mesh.Labels);
-  MakeBoundary(mesh, frame, fitInt, boundary, threads);
+  const auto velocities = MakeVelocities(mesh, frame, threads);
+  MakeBoundary(mesh, frame, fitInt, velocities, boundary, threads);
   Release(mesh.Facets);
   Release(mesh.FacetLabels);
 
   SetPoints(pentatopes, mesh.Points.size(), frame, threads,
     [&mesh](std::size_t i) -> const Point<4>& { return mesh.Points[i]; });
+  pentatopes->GetPointData()->AddArray(velocities);
   Release(mesh.Points);
   pentatopes->SetCells(VTK_POLY_VERTEX,
     MakeCells(mesh.Simplices, frame.Space.LeftHanded, threads,

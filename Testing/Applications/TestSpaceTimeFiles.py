@@ -173,6 +173,53 @@ class Boundaries(SpaceTimeTestCase):
         self.assertGreater(np.corrcoef(boundary.velocities[lateral], expected)[0, 1], 0.85)
 
 
+class BoundaryVelocities(SpaceTimeTestCase):
+    """A ball moves by one voxel a frame along i: where its normal is n, the boundary's velocity is (v . n) n."""
+    CENTRE = np.array([8.5, 7.5, 7.5])
+
+    def moving_ball(self, geometry):
+        array = np.zeros((9, 16, 16, 26), dtype=np.uint8)
+        z, y, x = np.indices(array.shape[1:])
+        for n in range(9):
+            array[n] = (x - 8.5 - n) ** 2 + (y - 7.5) ** 2 + (z - 7.5) ** 2 < 36
+        images.write_space_time_nrrd(self.input, array, geometry)
+
+    def errors(self, geometry, points, times, velocities):
+        """Of points about on the ball, relative to its speed."""
+        frames = (times - geometry.first_time) / geometry.time_step
+        offsets = points - geometry.physical(self.CENTRE + np.column_stack([frames, 0 * frames, 0 * frames]))
+        normals = offsets / np.linalg.norm(offsets, axis=1)[:, None]
+        velocity = (geometry.physical((1, 0, 0)) - geometry.physical((0, 0, 0))) / geometry.time_step
+        expected = (normals @ velocity)[:, None] * normals
+        return np.linalg.norm(velocities - expected, axis=1) / np.linalg.norm(velocity)
+
+    def test_points_of_the_boundary_and_of_slices(self):
+        turned = np.array([[0.0, -1.0, 0.0], [0.6, 0.0, 0.8], [-0.8, 0.0, 0.6]])
+        for name, direction in (("straight", np.eye(3)), ("turned", turned), ("left-handed", turned @ np.diag([1, 1, -1]))):
+            geometry = images.Geometry((3, 1, -2), (1.5, 1.5, 1.5), direction, first_time=3.0, time_step=2.0)
+            self.moving_ball(geometry)
+            self.mesh("--input", self.input, "--delta", 3, "--time-scale", 0.75, "--threads", 1, "--output", "m.vtu",
+                      "--plc", "b.vtu", "--slices", "s_", "--slice-count", 4)
+            with self.subTest(name):
+                boundary = meshfiles.read_boundary(self.folder / "b.vtu")
+                lateral = np.unique(boundary.cells[boundary.sides == 0])
+                points = boundary.points[lateral]
+                errors = self.errors(geometry, points[:, :3], points[:, 3], boundary.point_velocities[lateral])
+                self.assertLess(np.mean(errors), 0.15)
+                self.assertLess(np.quantile(errors, 0.9), 0.35)
+                elsewhere = np.setdiff1d(boundary.cells, lateral)
+                self.assertGreater(len(elsewhere), 10)
+                np.testing.assert_array_equal(boundary.point_velocities[elsewhere], 0.0)
+                for time, piece in meshfiles.read_slices(self.folder / "s.pvd"):
+                    distances = np.linalg.norm(piece.points - geometry.physical(
+                        self.CENTRE + ((time - 3.0) / 2.0, 0, 0)), axis=1)
+                    surface = distances > 0.93 * 1.5 * 6.0
+                    self.assertGreater(surface.sum(), 50)
+                    errors = self.errors(geometry, piece.points[surface], np.full(surface.sum(), time),
+                                         piece.point_velocities[surface])
+                    self.assertLess(np.mean(errors), 0.2)
+
+
 class Slices(SpaceTimeTestCase):
     def slices(self, name="heart.pvd"):
         return meshfiles.read_slices(self.folder / name)

@@ -82,6 +82,7 @@ class Boundary:
     space: str
     sides: np.ndarray  # 0 lateral, 1 at the first time, 2 at the last
     velocities: np.ndarray  # along the normal in space
+    point_velocities: np.ndarray  # three columns
 
 
 @dataclass
@@ -92,6 +93,7 @@ class Slice:
     labels: np.ndarray
     time: float
     space: str = ""
+    point_velocities: np.ndarray = None  # three columns
 
     def volumes(self):
         parts = {4: ((0, 1, 2, 3),), 5: ((0, 1, 2, 4), (0, 2, 3, 4)),
@@ -178,7 +180,8 @@ def read_boundary(path):
     return Boundary(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Labels")),
                     vtk_to_numpy(grid.GetPointData().GetArray("PointIds")), _space(grid),
                     vtk_to_numpy(grid.GetCellData().GetArray("Side")),
-                    vtk_to_numpy(grid.GetCellData().GetArray("NormalVelocity")))
+                    vtk_to_numpy(grid.GetCellData().GetArray("NormalVelocity")),
+                    vtk_to_numpy(grid.GetPointData().GetArray("BoundaryVelocity")))
 
 
 def read_slice(path):
@@ -191,8 +194,10 @@ def read_slice(path):
         cells.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
     labels = grid.GetCellData().GetArray("Label")
     points = _points(grid) if grid.GetNumberOfPoints() else np.zeros((0, 3))
+    velocities = grid.GetPointData().GetArray("BoundaryVelocity")
     return Slice(points, cells, vtk_to_numpy(labels) if labels else np.zeros(0, dtype=int),
-                 grid.GetFieldData().GetArray("TimeValue").GetValue(0), _space(grid))
+                 grid.GetFieldData().GetArray("TimeValue").GetValue(0), _space(grid),
+                 vtk_to_numpy(velocities) if velocities else np.zeros((0, 3)))
 
 
 def read_collection(path):
