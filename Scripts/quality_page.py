@@ -119,8 +119,8 @@ class Atlas:
                        before["max_radius_edge"] < 2))
         result.append(("Without optimisation: dihedral angles of 4.6 to 171 degrees or better", _range(before),
                        before["min_dihedral"] >= 4.6 and before["max_dihedral"] <= 171))
-        result.append(("Optimised: dihedral angles of 15 to 155 degrees or better", _range(after),
-                       after["min_dihedral"] >= 15 and after["max_dihedral"] <= 155))
+        result.append(("Optimised: dihedral angles of 18 to 150 degrees or better", _range(after),
+                       after["min_dihedral"] >= 18 and after["max_dihedral"] <= 150))
         result.append(("Optimised: radius-edge ratios at most 2.5", number(after["max_radius_edge"], 4),
                        after["max_radius_edge"] <= 2.5))
         ours = self.seconds("optimised")[1]
