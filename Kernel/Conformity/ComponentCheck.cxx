@@ -84,6 +84,7 @@ ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& d
   , MayRefine(mayRefine)
   , Threads(threads)
   , Stop(stop)
+  , LargestSpacing(sizing.Largest())
   , Local(local)
   , Statistics(statistics)
 {
@@ -102,7 +103,7 @@ ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& d
       this->Sample(c, own);
     }
   }
-  this->Local.Grade();
+  this->Local.Grade(this->LargestSpacing);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -253,7 +254,7 @@ bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
   }
   if (any)
   {
-    this->Local.Grade();
+    this->Local.Grade(this->LargestSpacing);
   }
   return any;
 }

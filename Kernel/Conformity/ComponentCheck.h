@@ -105,6 +105,7 @@ private:
   const bool MayRefine;
   unsigned Threads;
   std::stop_token Stop;
+  const double LargestSpacing; ///< upper bound of all sampling distances
   LocalDelta<D>& Local;
   std::vector<FeatureSeed<D>> Seeds; ///< not taken yet
   ComponentStatistics& Statistics;

@@ -115,7 +115,7 @@ std::vector<FeatureSeed<D>> InterfaceSampling<D>::Around(
       this->Local.SetSpacing(face.Voxel, 1, spacing->second);
     }
   }
-  this->Local.Grade();
+  this->Local.Grade(this->Sizing.Largest());
   return seeds;
 }
 

@@ -36,7 +36,7 @@ public:
   /** @throws Cancelled; InputError from interface sizes */
   explicit MeshSizing(const RunEnvironment<D>& run)
     : Base(Dimension<D>::GradeBase(run, run.Statistics.Delta))
-    , Local(run.Prepared.Image, run.Options.Team.Threads)
+    , Local(run.Prepared.Image)
     , Size(run.Prepared.Size.get())
     , SizeFloor(SpacingFloorFraction * run.Statistics.Delta) // even where grading is coarser
   {

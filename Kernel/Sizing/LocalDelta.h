@@ -9,15 +9,13 @@
 
 #include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
-#include "Parallel/ParallelFor.h"
-#include "Sizing/GrowthLimit.h"
+#include "Sizing/SparseCells.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,9 +26,9 @@ namespace voxplex
  * @brief An upper bound of the sampling distance of one label's interfaces in each cell of a few
  * voxels; infinite at first.
  *
- * A query is one look-up. The memory is allocated when the first bound is set: two bytes a voxel in
- * 3D. If two labels have a bound in one cell, the smaller bound holds.
- * Queries may run in any number of threads, but not beside SetBound().
+ * A query is one or a few look-ups. Memory and time depend on the places where bounds are set, not
+ * on the image. If two labels have a bound in one cell, the smaller bound holds.
+ * Queries may run in any number of threads, but not beside SetBound(), SetSpacing() and Grade().
  */
 template <int D>
 class LocalDelta
@@ -41,25 +39,22 @@ public:
   /** Edge of a cell in voxels. */
   static constexpr std::int64_t Cell = 2;
 
-  /** @param threads of Grade(); 0 means all cores; bounds do not depend on it */
-  explicit LocalDelta(const LabelImage<D>& image, unsigned threads = 1)
-    : Threads(threads)
-    , Grid(image.Grid())
-    , Origin(image.CropOrigin())
-    , VoxelsPerLength(image.Grid().VoxelsPerLength())
-  {
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      this->Cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
-    }
-  }
-
   /** A bound, and the label whose interfaces it is for. */
   struct Bound
   {
     float Delta = std::numeric_limits<float>::infinity();
     LabelId Label = 0;
   };
+
+  explicit LocalDelta(const LabelImage<D>& image)
+    : Grid(image.Grid())
+    , Origin(image.CropOrigin())
+    , Cells(CellsOf(image))
+    , VoxelsPerLength(image.Grid().VoxelsPerLength())
+    , Values(Cells, Bound())
+    , Graded(Cells, std::numeric_limits<float>::infinity())
+  {
+  }
 
   /**
    * Lowers the bound in all cells within a voxel of a run of voxels. `first` is an index of the
@@ -68,18 +63,15 @@ public:
   void SetBound(const Index& first, std::int64_t length, LabelId label, double delta)
   {
     this->ForCellsNear(first, length,
-      [&](std::size_t cell)
+      [&](const Index& cell)
       {
-        Bound& bound = this->Values[cell];
-        if (delta < bound.Delta)
+        if (delta < this->Values.At(cell).Delta)
         {
-          bound = { static_cast<float>(delta), label };
-          this->IsLowered.resize(this->Values.size(), 0);
-          this->IsLowered[cell] = 1;
+          this->Values.Write(cell) = { static_cast<float>(delta), label };
+          this->LoweredList.push_back(cell);
         }
       });
     this->SetSpacing(first, length, delta);
-    this->SmallestBound = std::min(this->SmallestBound, delta);
   }
 
   /**
@@ -88,64 +80,69 @@ public:
   void SetSpacing(const Index& first, std::int64_t length, double spacing)
   {
     this->ForCellsNear(first, length,
-      [&](std::size_t cell)
-      { this->Spacings[cell] = std::min(this->Spacings[cell], static_cast<float>(spacing)); });
+      [&](const Index& cell)
+      { this->Spacings.emplace_back(OffsetOf(cell, this->Cells), static_cast<float>(spacing)); });
     this->SmallestBound = std::min(this->SmallestBound, spacing);
   }
   /** The bound at a point of the frame; outside of the crop that of the nearest cell. */
   Bound At(const Point<D>& p) const
   {
-    return this->Values.empty() ? Bound() : this->Values[this->CellOf(p)];
+    return this->Values.IsEmpty() ? Bound() : this->Values.At(this->CellOf(p));
   }
 
   /**
    * The smallest of all bounds at a point, if each bound grows by `Slope` times the distance along
-   * the axes from where it was set. It is as of the last Grade(), continuous, and nowhere in a cell
-   * above the cell's own bound.
+   * the axes from where it was set. It is as of the last Grade(), and nowhere in a cell above the
+   * cell's own bound. Where it is below the length that Grade() was given it is continuous;
+   * elsewhere it may be too large.
    */
   double GradedAt(const Point<D>& p) const
   {
-    if (this->Graded.empty())
+    if (this->Graded.IsEmpty())
     {
       return std::numeric_limits<double>::infinity();
     }
     const Point<D> index = this->Grid.ToIndex(p);
-    std::array<std::size_t, D> offset; // of the lower cell along each axis, in values
-    std::array<std::size_t, D> step;   // from the lower to the upper cell
+    Index lower; // the cells whose centres are around p
+    Index upper;
     Point<D> fraction;
-    std::size_t stride = 1;
     for (std::size_t a = 0; a < D; ++a)
     {
       const auto last = static_cast<double>(this->Cells[a] - 1);
       const double x =
         std::clamp((index[a] - static_cast<double>(this->Origin[a]) + 0.5) / Cell - 0.5, 0.0, last);
-      const auto lower = static_cast<std::size_t>(x);
-      fraction[a] = x - static_cast<double>(lower);
-      offset[a] = lower * stride;
-      step[a] = fraction[a] > 0.0 ? stride : 0;
-      stride *= static_cast<std::size_t>(this->Cells[a]);
+      lower[a] = static_cast<std::int64_t>(x);
+      fraction[a] = x - static_cast<double>(lower[a]);
+      upper[a] = lower[a] + (fraction[a] > 0.0 ? 1 : 0);
+    }
+    if (this->Graded.HasNone(lower, upper))
+    {
+      return std::numeric_limits<double>::infinity();
     }
     double sum = 0.0;
     for (unsigned corner = 0; corner < (1u << D); ++corner)
     {
       double weight = 1.0;
-      std::size_t cell = 0;
+      Index cell;
       for (std::size_t a = 0; a < D; ++a)
       {
-        const bool upper = ((corner >> a) & 1u) != 0;
-        weight *= upper ? fraction[a] : 1.0 - fraction[a];
-        cell += offset[a] + (upper ? step[a] : 0);
+        const bool isUpper = ((corner >> a) & 1u) != 0;
+        weight *= isUpper ? fraction[a] : 1.0 - fraction[a];
+        cell[a] = isUpper ? upper[a] : lower[a];
       }
-      sum += weight * static_cast<double>(this->Graded[cell]);
+      if (weight > 0.0) // the value may be infinite
+      {
+        sum += weight * static_cast<double>(this->Graded.At(cell));
+      }
     }
     return sum;
   }
 
   /** Whether SetBound() has lowered the bound of any cell since the last ForgetLowered(). */
-  bool HasLowered() const { return !this->IsLowered.empty(); }
+  bool HasLowered() const { return !this->LoweredList.empty(); }
 
-  /** Whether each cell was lowered since then; empty if none was. */
-  const std::vector<std::uint8_t>& Lowered() const { return this->IsLowered; }
+  /** The cells that were lowered since then; some of them several times. */
+  const std::vector<Index>& Lowered() const { return this->LoweredList; }
 
   /** The number of cells along each axis. */
   const Index& NumberOfCells() const { return this->Cells; }
@@ -164,47 +161,65 @@ public:
     return cells;
   }
 
-  void ForgetLowered() { this->IsLowered.clear(); }
+  void ForgetLowered() { this->LoweredList.clear(); }
 
   /** Growth of bounds over a unit of length. */
   static constexpr double Slope = 0.25;
 
   /**
-   * Prepares GradedAt(). Linear in the number of cells.
+   * Prepares GradedAt(), which will be exact where it is below `needed`. The time depends on the
+   * number of cells that bounds set since the last call reach.
    *
-   * A cell first takes the smallest value of itself and its neighbours. GradedAt() interpolates
-   * between the centres of cells, so it stays below a cell's value up to the cell's border.
+   * A bound first holds in its cell and in the cells around it, too. GradedAt() interpolates
+   * between the centres of cells, so it stays below a cell's value up to the cell's border. Then
+   * values spread along one axis after the other, and stop where they change nothing.
    */
-  void Grade()
+  void Grade(double needed = std::numeric_limits<double>::infinity())
   {
-    this->Graded = this->Spacings;
-    std::array<std::size_t, static_cast<std::size_t>(D)> cells;
+    std::vector<Index> lowered = this->SpreadToNeighbours();
     std::array<float, static_cast<std::size_t>(D)> steps;
-    std::size_t stride = 1;
+    double most = needed; // if one corner of an interpolation is below `needed`, all are below this
     for (std::size_t a = 0; a < D; ++a)
     {
-      cells[a] = static_cast<std::size_t>(this->Cells[a]);
       steps[a] = static_cast<float>(Slope * Cell * this->Grid.Spacing(static_cast<int>(a)));
-      this->TakeLeastOfNeighbours(stride, cells[a]);
-      stride *= cells[a];
+      most += static_cast<double>(steps[a]);
     }
-    LimitGrowth(std::span<float>(this->Graded), cells, steps, this->Threads);
+    const auto limit = static_cast<float>(most * (1.0 + 1e-5));
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      const std::size_t before = lowered.size();
+      for (std::size_t k = 0; k < before; ++k)
+      {
+        this->Spread(lowered[k], a, -1, steps[a], limit, lowered);
+        this->Spread(lowered[k], a, 1, steps[a], limit, lowered);
+      }
+    }
   }
 
   /** The smallest bound that was set; infinite if none was. */
   double Smallest() const { return this->SmallestBound; }
 
+  /** Memory held in bytes. */
+  std::size_t MemoryBytes() const
+  {
+    return this->Values.MemoryBytes() + this->Graded.MemoryBytes();
+  }
+
 private:
+  static Index CellsOf(const LabelImage<D>& image)
+  {
+    Index cells;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      cells[a] = (image.CropDimensions()[a] - 1) / Cell + 1;
+    }
+    return cells;
+  }
+
   /** Calls function(cell) for all cells within a voxel of a run of voxels. */
   template <typename Function>
   void ForCellsNear(const Index& first, std::int64_t length, Function&& function)
   {
-    if (this->Values.empty())
-    {
-      const std::size_t count = CountCells(this->Cells);
-      this->Values.assign(count, Bound());
-      this->Spacings.assign(count, std::numeric_limits<float>::infinity());
-    }
     Index low;
     Index high;
     for (std::size_t a = 0; a < D; ++a)
@@ -213,44 +228,60 @@ private:
       low[a] = std::clamp<std::int64_t>((first[a] - 1) / Cell, 0, this->Cells[a] - 1);
       high[a] = std::clamp<std::int64_t>((last + 1) / Cell, 0, this->Cells[a] - 1);
     }
-    ForEachIndex(low, high, [&](const Index& cell) { function(OffsetOf(cell, this->Cells)); });
+    ForEachIndex(low, high, function);
   }
 
-  /**
-   * Lowers each cell to the smaller value of its two neighbours along an axis of n cells. The next
-   * cell along the axis is `stride` values away.
-   */
-  void TakeLeastOfNeighbours(std::size_t stride, std::size_t n)
+  /** Lowers the cells of new spacings and the cells around these. Returns those that it has lowered. */
+  std::vector<Index> SpreadToNeighbours()
   {
-    constexpr std::size_t longest = 4096; // cells beside each other that a thread handles at once
-    const std::size_t strips = (stride - 1) / longest + 1;
-    ParallelFor(0, this->Graded.size() / (stride * n) * strips,
-      std::max<std::size_t>(longest / (stride * n), 1), this->Threads,
-      [&](std::size_t begin, std::size_t end)
+    std::vector<Index> lowered;
+    std::sort(
+      this->Spacings.begin(), this->Spacings.end()); // of each cell the smallest comes first
+    std::size_t done = std::numeric_limits<std::size_t>::max();
+    for (const auto& [offset, spacing] : this->Spacings)
+    {
+      if (offset == done)
       {
-        std::vector<float> before; // values of the cells before, not yet lowered
-        for (std::size_t s = begin; s < end; ++s)
+        continue;
+      }
+      done = offset;
+      Index low = IndexAt(offset, this->Cells);
+      Index high = low;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        low[a] = std::max<std::int64_t>(low[a] - 1, 0);
+        high[a] = std::min(high[a] + 1, this->Cells[a] - 1);
+      }
+      ForEachIndex(low, high,
+        [&, value = spacing](const Index& cell)
         {
-          const std::size_t offset = s % strips * longest;
-          const std::size_t length = std::min(longest, stride - offset);
-          float* row = this->Graded.data() + s / strips * stride * n + offset;
-          before.assign(row, row + length);
-          for (std::size_t k = 0; k < n; ++k, row += stride)
+          if (value < this->Graded.At(cell))
           {
-            const float* const behind = k + 1 < n ? row + stride : row;
-            for (std::size_t c = 0; c < length; ++c)
-            {
-              const float own = row[c];
-              row[c] = std::min(std::min(before[c], own), behind[c]);
-              before[c] = own;
-            }
+            this->Graded.Write(cell) = value;
+            lowered.push_back(cell);
           }
-        }
-      });
+        });
+    }
+    this->Spacings.clear();
+    return lowered;
+  }
+
+  /** Lowers the cells beyond a cell along an axis, as far as its value goes. Adds them to a list. */
+  void Spread(Index cell, std::size_t axis, std::int64_t direction, float step, float limit,
+    std::vector<Index>& lowered)
+  {
+    float value = this->Graded.At(cell) + step;
+    for (cell[axis] += direction; cell[axis] >= 0 && cell[axis] < this->Cells[axis] &&
+         value < limit && value < this->Graded.At(cell);
+         cell[axis] += direction, value += step)
+    {
+      this->Graded.Write(cell) = value;
+      lowered.push_back(cell);
+    }
   }
 
   /** The cell nearest to p. */
-  std::size_t CellOf(const Point<D>& p) const
+  Index CellOf(const Point<D>& p) const
   {
     const Point<D> index = this->Grid.ToIndex(p);
     Index cell;
@@ -258,7 +289,7 @@ private:
     {
       cell[a] = this->CellAlong(a, index[a]);
     }
-    return OffsetOf(cell, this->Cells);
+    return cell;
   }
 
   /** The cell along axis a nearest to a coordinate of the image's index space. */
@@ -268,15 +299,15 @@ private:
     return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(this->Cells[a] - 1)));
   }
 
-  const unsigned Threads;
   GridGeometry<D> Grid;
   Index Origin;
-  Index Cells{};
+  Index Cells;
   Point<D> VoxelsPerLength;
-  std::vector<Bound> Values;           ///< empty: no bound is set
-  std::vector<float> Spacings;         ///< the values at which GradedAt() starts
-  std::vector<float> Graded;           ///< the values of GradedAt() at the centres of cells
-  std::vector<std::uint8_t> IsLowered; ///< see Lowered()
+  SparseCells<D, Bound> Values;
+  SparseCells<D, float> Graded; ///< the values of GradedAt() at the centres of cells
+  /** What SetSpacing() has set since the last Grade(), by the numbers of cells. */
+  std::vector<std::pair<std::size_t, float>> Spacings;
+  std::vector<Index> LoweredList; ///< see Lowered()
   double SmallestBound = std::numeric_limits<double>::infinity();
 };
 

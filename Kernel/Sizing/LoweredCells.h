@@ -18,11 +18,12 @@ namespace voxplex
 {
 
 /**
- * Counts the lowered cells of LocalDelta in boxes of cells, by a summed-area table (Crow, 1984). A
- * circumball may span the whole image, so the cost of a question must not depend on its size.
+ * Finds out whether a ball may reach a lowered cell of LocalDelta. Lowered cells are counted in
+ * blocks of cells, and the counts are added up in a summed-area table (Crow, 1984). It tells at
+ * once that no block, or a block inside of a ball's box, has a lowered cell. Otherwise the cells of
+ * the blocks at the border of the box are looked at.
  *
- * It is a snapshot: cells that are lowered later are not counted. Immutable after construction,
- * which costs O(D n) for n cells; a question costs O(2^D).
+ * It is a snapshot: cells that are lowered later are not counted. Immutable after construction.
  */
 template <int D>
 class LoweredCells
@@ -36,45 +37,124 @@ public:
     {
       return;
     }
-    Index last = bounds.NumberOfCells();
-    std::size_t size = 1;
     for (std::size_t a = 0; a < D; ++a)
     {
-      this->Extent[a] = last[a] + 1;
-      size *= static_cast<std::size_t>(this->Extent[a]);
-      --last[a];
+      this->Blocks[a] = (bounds.NumberOfCells()[a] - 1) / Edge + 1;
+      this->Extent[a] = this->Blocks[a] + 1;
     }
-    this->Below.assign(size, 0);
-    Index one;
-    one.fill(1);
-    const std::size_t toUpperCorner = OffsetOf(one, this->Extent);
-    auto lowered = bounds.Lowered().begin();
-    ForEachIndex(Index{}, last,
-      [&](const Index& cell)
-      { this->Below[OffsetOf(cell, this->Extent) + toUpperCorner] = *lowered++; });
-    std::size_t stride = 1;
-    for (const std::int64_t extent : this->Extent)
-    {
-      const std::size_t block = stride * static_cast<std::size_t>(extent);
-      for (std::size_t first = 0; first < size; first += block)
-      {
-        for (std::size_t i = first + stride; i < first + block; ++i)
-        {
-          this->Below[i] += this->Below[i - stride];
-        }
-      }
-      stride = block;
-    }
+    this->SortCells();
+    this->AddUp();
   }
 
   /** Whether a cell that a ball in the frame may reach was lowered. */
   bool AnyWithin(const Point<D>& centre, double radius) const
   {
-    if (this->Below.empty())
+    if (this->Cells.empty())
     {
       return false;
     }
-    const auto [low, high] = this->Bounds.CellsAround(centre, radius);
+    const auto cells = this->Bounds.CellsAround(centre, radius);
+    Index low; // blocks of these cells
+    Index high;
+    Index lowInside; // blocks all of whose cells are among them
+    Index highInside;
+    bool hasInside = true;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      low[a] = cells.first[a] / Edge;
+      high[a] = cells.second[a] / Edge;
+      lowInside[a] = (cells.first[a] + Edge - 1) / Edge;
+      highInside[a] = (cells.second[a] + 1) / Edge - 1;
+      hasInside = hasInside && lowInside[a] <= highInside[a];
+    }
+    if (this->Count(low, high) == 0)
+    {
+      return false;
+    }
+    if (hasInside && this->Count(lowInside, highInside) != 0)
+    {
+      return true;
+    }
+    bool any = false;
+    ForEachIndex(low, high,
+      [&](const Index& block) { any = any || this->AnyOfBlock(block, cells.first, cells.second); });
+    return any;
+  }
+
+private:
+  using Index = typename LocalDelta<D>::Index;
+
+  static constexpr std::int64_t Edge = 8; ///< of a block, in cells
+
+  static Index BlockOf(Index cell)
+  {
+    for (std::int64_t& c : cell)
+    {
+      c /= Edge;
+    }
+    return cell;
+  }
+
+  /** Sorts the lowered cells by block. */
+  void SortCells()
+  {
+    const std::vector<Index>& lowered = this->Bounds.Lowered();
+    this->First.assign(CountCells(this->Blocks) + 1, 0);
+    for (const Index& cell : lowered)
+    {
+      ++this->First[OffsetOf(BlockOf(cell), this->Blocks) + 1];
+    }
+    for (std::size_t b = 1; b < this->First.size(); ++b)
+    {
+      this->First[b] += this->First[b - 1];
+    }
+    this->Cells.resize(lowered.size());
+    std::vector<std::uint32_t> next = this->First;
+    for (const Index& cell : lowered)
+    {
+      this->Cells[next[OffsetOf(BlockOf(cell), this->Blocks)]++] = cell;
+    }
+  }
+
+  /** Makes the summed-area table of the numbers of cells in blocks. */
+  void AddUp()
+  {
+    const std::size_t size = CountCells(this->Extent);
+    this->Below.assign(size, 0);
+    Index last = this->Blocks;
+    for (std::int64_t& l : last)
+    {
+      --l;
+    }
+    Index one;
+    one.fill(1);
+    const std::size_t toUpperCorner = OffsetOf(one, this->Extent);
+    std::size_t b = 0;
+    ForEachIndex(Index{}, last,
+      [&](const Index& block)
+      {
+        this->Below[OffsetOf(block, this->Extent) + toUpperCorner] =
+          this->First[b + 1] - this->First[b];
+        ++b;
+      });
+    std::size_t stride = 1;
+    for (const std::int64_t extent : this->Extent)
+    {
+      const std::size_t layer = stride * static_cast<std::size_t>(extent);
+      for (std::size_t first = 0; first < size; first += layer)
+      {
+        for (std::size_t i = first + stride; i < first + layer; ++i)
+        {
+          this->Below[i] += this->Below[i - stride];
+        }
+      }
+      stride = layer;
+    }
+  }
+
+  /** The number of lowered cells in the blocks from `low` to `high`. */
+  std::uint32_t Count(const Index& low, const Index& high) const
+  {
     std::uint32_t count = 0; // modulo 2^32, since the terms have both signs
     for (unsigned corner = 0; corner < (1u << D); ++corner)
     {
@@ -88,15 +168,34 @@ public:
       }
       count += sign * this->Below[OffsetOf(index, this->Extent)];
     }
-    return count != 0;
+    return count;
   }
 
-private:
-  using Index = typename LocalDelta<D>::Index;
+  /** Whether a lowered cell of a block lies between two cells. */
+  bool AnyOfBlock(const Index& block, const Index& low, const Index& high) const
+  {
+    const std::size_t b = OffsetOf(block, this->Blocks);
+    for (std::size_t k = this->First[b]; k < this->First[b + 1]; ++k)
+    {
+      bool isBetween = true;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        isBetween = isBetween && this->Cells[k][a] >= low[a] && this->Cells[k][a] <= high[a];
+      }
+      if (isBetween)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
 
   const LocalDelta<D>& Bounds;
-  Index Extent{};
-  /** The number of lowered cells with smaller indices along all axes. Empty: none was lowered. */
+  Index Blocks{};
+  Index Extent{};                   ///< blocks + 1
+  std::vector<Index> Cells;         ///< the lowered ones, block by block; empty: none was lowered
+  std::vector<std::uint32_t> First; ///< of each block, and the end
+  /** The number of lowered cells in blocks with smaller indices along all axes. */
   std::vector<std::uint32_t> Below;
 };
 
