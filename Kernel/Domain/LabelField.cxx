@@ -76,6 +76,11 @@ private:
       [&](const LabelId* in, std::int64_t low, std::int64_t high, std::size_t k)
       {
         LabelId* out = this->Halo.data() + k * width;
+        if (high - low == static_cast<std::int64_t>(width))
+        {
+          this->CopyRow(in, out);
+          return true;
+        }
         const auto [before, after] = Base::RowEnds(this->Image, in, low, high);
         std::fill(out, out + low, before);
         if (low < high)
@@ -85,6 +90,21 @@ private:
         std::fill(out + high, out + width, after);
         return true;
       });
+  }
+
+  /** A row is too short for memcpy() to pay. */
+  void CopyRow(const LabelId* in, LabelId* out) const
+  {
+    constexpr std::size_t four = sizeof(std::uint64_t) / sizeof(LabelId); // labels in a word
+    std::size_t x = 0;
+    for (; x + four <= this->Width; x += four)
+    {
+      std::memcpy(out + x, in + x, sizeof(std::uint64_t));
+    }
+    for (; x < this->Width; ++x)
+    {
+      out[x] = in[x];
+    }
   }
 
   /** Finds the labels of the halo and their rows of bits. */
@@ -97,11 +117,18 @@ private:
     this->Labels.clear();
     const LabelId* in = this->Halo.data();
     const std::uint64_t all = ~std::uint64_t{ 0 } >> (64 - this->Width);
+    LabelId last = in[0];
+    std::uint64_t* words = this->WordsOf(last); // of the last row that has one label
     for (std::size_t row = 0; row < this->Rows; ++row, in += this->Width)
     {
-      if (std::memcmp(in, in + 1, (this->Width - 1) * sizeof(LabelId)) == 0)
+      if (this->HasOneLabel(in)) // most rows
       {
-        this->WordsOf(in[0])[row] = all; // most rows
+        if (in[0] != last)
+        {
+          last = in[0];
+          words = this->WordsOf(last);
+        }
+        words[row] = all;
         continue;
       }
       for (std::size_t x = 0; x < this->Width;)
@@ -113,7 +140,28 @@ private:
         }
         this->WordsOf(label)[row] |= (all << begin) & (all >> (this->Width - x));
       }
+      words = this->WordsOf(last); // a new label may have moved it
     }
+  }
+
+  /** Whether all voxels of a row of the halo have the same label. */
+  bool HasOneLabel(const LabelId* in) const
+  {
+    constexpr std::size_t four = sizeof(std::uint64_t) / sizeof(LabelId); // labels in a word
+    const std::uint64_t wanted = in[0] * 0x0001000100010001u;
+    std::uint64_t difference = 0;
+    std::size_t x = 0;
+    for (; x + four <= this->Width; x += four)
+    {
+      std::uint64_t word;
+      std::memcpy(&word, in + x, sizeof(word));
+      difference |= word ^ wanted;
+    }
+    for (; x < this->Width; ++x)
+    {
+      difference |= static_cast<std::uint64_t>(in[x] ^ in[0]);
+    }
+    return difference == 0;
   }
 
   /** The rows of bits of a label. They are 0 at the first call for this label. */
@@ -204,16 +252,31 @@ private:
     }
     for (std::size_t row = 0; row < PlaneSize / 8; ++row)
     {
+      using Eight = std::array<LabelId, 8>; // the compiler keeps it in a vector register
       const LabelId* in = this->HaloOf(row);
-      std::array<LabelId, 8> thin{};
+      const auto eightAt = [](const LabelId* at)
+      {
+        Eight eight;
+        std::memcpy(eight.data(), at, sizeof(eight));
+        return eight;
+      };
+      const Eight own = eightAt(in);
+      Eight thin{};
       std::size_t stride = 1;
       for (int a = 0; a < D; ++a, stride *= this->Width)
       {
+        const Eight before = eightAt(in - stride);
+        const Eight behind = eightAt(in + stride);
         for (std::size_t i = 0; i < 8; ++i)
         {
-          const LabelId before = *(in + i - stride);
-          thin[i] |= static_cast<LabelId>((before != in[i]) & (in[i + stride] != in[i]));
+          thin[i] |= static_cast<LabelId>((before[i] != own[i]) & (behind[i] != own[i]));
         }
+      }
+      std::array<std::uint64_t, 2> words;
+      std::memcpy(words.data(), thin.data(), sizeof(words));
+      if ((words[0] | words[1]) == 0)
+      {
+        continue;
       }
       for (std::size_t i = 0; i < 8; ++i)
       {

@@ -153,6 +153,20 @@ protected:
   template <typename Function>
   static void ForEachRow(
     const LabelImage<D>& image, const Index& first, std::size_t width, Function&& row);
+  /** Whether a box as above lies in the crop. */
+  static bool IsInCrop(const Index& crop, const Index& first, std::int64_t width)
+  {
+    bool inside = true;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      inside = inside && first[a] >= 1 && first[a] - 1 + width <= crop[a];
+    }
+    return inside;
+  }
+  /** ForEachRow() of a box in the crop. */
+  template <typename Function>
+  static void ForEachRowInCrop(
+    const LabelId* ids, const Index& crop, const Index& first, std::int64_t width, Function&& row);
   /**
    * The ids of a row's samples before and after the crop: background, or the id at the cut if the
    * object is cut.
@@ -322,6 +336,40 @@ SampleType* TiledLattice<D, SampleType>::Arena::Allocate(std::size_t samples)
 
 template <int D, typename SampleType>
 template <typename Function>
+void TiledLattice<D, SampleType>::ForEachRowInCrop(
+  const LabelId* ids, const Index& crop, const Index& first, std::int64_t width, Function&& row)
+{
+  Index skip{}; // from behind the last row along an axis to the first one of the next
+  std::int64_t stride = 1;
+  std::int64_t at = 0;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    at += (first[a] - 1) * stride;
+    const std::int64_t next = stride * crop[a];
+    skip[a] = next - width * stride;
+    stride = next;
+  }
+  const std::int64_t rowStride = crop[0];
+  Index offset{};
+  for (std::size_t k = 0; row(ids + at, std::int64_t{ 0 }, width, k); ++k)
+  {
+    at += rowStride;
+    std::size_t a = 1;
+    while (a < D && ++offset[a] == width)
+    {
+      offset[a] = 0;
+      at += skip[a];
+      ++a;
+    }
+    if (a == D)
+    {
+      return;
+    }
+  }
+}
+
+template <int D, typename SampleType>
+template <typename Function>
 void TiledLattice<D, SampleType>::ForEachRow(
   const LabelImage<D>& image, const Index& begin, std::size_t width, Function&& row)
 {
@@ -329,6 +377,11 @@ void TiledLattice<D, SampleType>::ForEachRow(
   const Index first = begin;
   const LabelId* const ids = image.Ids().data();
   const auto w = static_cast<std::int64_t>(width);
+  if (IsInCrop(crop, first, w))
+  {
+    ForEachRowInCrop(ids, crop, first, w, row);
+    return;
+  }
   Index offset{};
   const std::int64_t low = std::clamp<std::int64_t>(-(first[0] - 1), 0, w);
   const std::int64_t high = std::clamp<std::int64_t>(crop[0] - (first[0] - 1), low, w);
