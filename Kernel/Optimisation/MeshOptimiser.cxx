@@ -3,6 +3,7 @@
 #include "Optimisation/MeshOptimiser.h"
 
 #include "Base/Error.h"
+#include "Base/UninitialisedVector.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/PatchWorker.h"
 #include "Optimisation/Rooms.h"
@@ -10,6 +11,7 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -379,30 +381,128 @@ double AngleOf(double signedSquare)
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * DegreesPerRadian;
 }
 
-void Add(ShapeStatistics& survey, double smallest, double largest, double radiusEdge)
+//------------------------------------------------------------------------------------------------
+/** Finds the bins of angles from their cosines times the absolute values, without arc cosines. */
+class AngleBins
 {
-  constexpr double width = 180.0 / ShapeStatistics::NumberOfBins;
-  const auto bin = [](double angle)
-  { return std::min(static_cast<std::size_t>(angle / width), ShapeStatistics::NumberOfBins - 1); };
-  survey.SmallestDihedralAngle = std::min(survey.SmallestDihedralAngle, smallest);
-  survey.LargestDihedralAngle = std::max(survey.LargestDihedralAngle, largest);
-  survey.LargestRadiusEdgeRatio = std::max(survey.LargestRadiusEdgeRatio, radiusEdge);
-  ++survey.SmallestAngles[bin(smallest)];
-  ++survey.LargestAngles[bin(largest)];
-}
+public:
+  static constexpr std::size_t Number = ShapeStatistics::NumberOfBins;
 
-void Merge(ShapeStatistics& survey, const ShapeStatistics& part)
-{
-  survey.SmallestDihedralAngle = std::min(survey.SmallestDihedralAngle, part.SmallestDihedralAngle);
-  survey.LargestDihedralAngle = std::max(survey.LargestDihedralAngle, part.LargestDihedralAngle);
-  survey.LargestRadiusEdgeRatio =
-    std::max(survey.LargestRadiusEdgeRatio, part.LargestRadiusEdgeRatio);
-  survey.Poor += part.Poor;
-  for (std::size_t bin = 0; bin < ShapeStatistics::NumberOfBins; ++bin)
+  AngleBins()
   {
-    survey.SmallestAngles[bin] += part.SmallestAngles[bin];
-    survey.LargestAngles[bin] += part.LargestAngles[bin];
+    for (std::size_t bin = 0; bin < Number; ++bin)
+    {
+      const double cosine =
+        std::cos(static_cast<double>(bin) * (180.0 / Number) / DegreesPerRadian);
+      this->Begins[bin] = cosine * std::abs(cosine);
+    }
+    std::size_t bin = Number - 1;
+    for (std::size_t slot = 0; slot < Slots; ++slot)
+    {
+      const double last = 2.0 * static_cast<double>(slot + 1) / Slots - 1.0; // of the slot
+      while (bin > 0 && last > this->Begins[bin])
+      {
+        --bin;
+      }
+      this->FirstOf[slot] = bin;
+    }
   }
+
+  std::size_t operator()(double signedSquare) const
+  {
+    const double slot = (0.5 * Slots) * (signedSquare + 1.0);
+    std::size_t bin =
+      this->FirstOf[slot > 0.0 ? std::min(static_cast<std::size_t>(slot), Slots - 1) : 0];
+    while (bin + 1 < Number && signedSquare <= this->Begins[bin + 1])
+    {
+      ++bin;
+    }
+    return bin;
+  }
+
+private:
+  static constexpr std::size_t Slots = 256; ///< of the interval -1 ... 1
+  std::array<double, Number> Begins{};      ///< the largest value of each bin
+  std::array<std::size_t, Slots> FirstOf{}; ///< the first bin in each slot
+};
+
+//------------------------------------------------------------------------------------------------
+/** Collects the shapes of tetrahedra. */
+class ShapeSurvey
+{
+public:
+  explicit ShapeSurvey(const AngleBins& bins)
+    : Bins(bins)
+  {
+  }
+
+  void Add(const ShapeExtremes& shape, bool isPoor)
+  {
+    this->LargestCosine = std::max(this->LargestCosine, shape.LargestCosine);
+    this->SmallestCosine = std::min(this->SmallestCosine, shape.SmallestCosine);
+    this->EdgeRadiusRatio2 = std::min(this->EdgeRadiusRatio2, shape.EdgeRadiusRatio2);
+    this->Counts.Poor += isPoor ? 1 : 0;
+    ++this->Counts.SmallestAngles[this->Bins(shape.LargestCosine)];
+    ++this->Counts.LargestAngles[this->Bins(shape.SmallestCosine)];
+  }
+
+  void AddTo(ShapeStatistics& all) const
+  {
+    all.SmallestDihedralAngle = std::min(all.SmallestDihedralAngle, AngleOf(this->LargestCosine));
+    all.LargestDihedralAngle = std::max(all.LargestDihedralAngle, AngleOf(this->SmallestCosine));
+    all.LargestRadiusEdgeRatio =
+      std::max(all.LargestRadiusEdgeRatio, 1.0 / std::sqrt(this->EdgeRadiusRatio2));
+    all.Poor += this->Counts.Poor;
+    for (std::size_t bin = 0; bin < AngleBins::Number; ++bin)
+    {
+      all.SmallestAngles[bin] += this->Counts.SmallestAngles[bin];
+      all.LargestAngles[bin] += this->Counts.LargestAngles[bin];
+    }
+  }
+
+private:
+  const AngleBins& Bins;
+  double LargestCosine = -1.0;
+  double SmallestCosine = 1.0;
+  double EdgeRadiusRatio2 = std::numeric_limits<double>::infinity();
+  ShapeStatistics Counts;
+};
+
+/** MeasureShapes(). @param scores empty, or receives the scores of the tetrahedra */
+ShapeStatistics MeasureAndScore(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
+  std::span<float> scores, unsigned threads, const std::stop_token& stop)
+{
+  const ShapeScore score = ScoreOf(options);
+  const AngleBins bins;
+  ShapeStatistics all;
+  std::mutex mutex;
+  ParallelFor(
+    0, mesh.Simplices.size(), SurveyGrain, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      ShapeSurvey part(bins);
+      for (std::size_t t = first; t < last; ++t)
+      {
+        const auto& v = mesh.Simplices[t];
+        ShapeExtremes shape;
+        const bool isPositive = MeasureShape(
+          mesh.Points[v[0]], mesh.Points[v[1]], mesh.Points[v[2]], mesh.Points[v[3]], shape);
+        if (!isPositive)
+        {
+          shape = { 1.0, -1.0, 0.0 }; // 0 and 180 degrees
+        }
+        const auto value = static_cast<float>(isPositive ? score.Of(shape) : ShapeScore::Inverted);
+        part.Add(shape, value < 1.0f);
+        if (!scores.empty())
+        {
+          scores[t] = value;
+        }
+      }
+      const std::scoped_lock lock(mutex);
+      part.AddTo(all);
+    },
+    stop);
+  return all;
 }
 
 } // namespace
@@ -412,36 +512,7 @@ ShapeStatistics MeasureShapes(const SimplexMesh<3>& mesh, const OptimisationOpti
   unsigned threads, const std::stop_token& stop)
 {
   CheckOptions(options);
-  const ShapeScore score = ScoreOf(options);
-  ShapeStatistics survey;
-  std::mutex mutex;
-  ParallelFor(
-    0, mesh.Simplices.size(), SurveyGrain, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      ShapeStatistics part;
-      for (std::size_t t = first; t < last; ++t)
-      {
-        const auto& v = mesh.Simplices[t];
-        ShapeExtremes shape;
-        if (MeasureShape(
-              mesh.Points[v[0]], mesh.Points[v[1]], mesh.Points[v[2]], mesh.Points[v[3]], shape))
-        {
-          part.Poor += static_cast<float>(score.Of(shape)) < 1.0f ? 1 : 0;
-          Add(part, AngleOf(shape.LargestCosine), AngleOf(shape.SmallestCosine),
-            1.0 / std::sqrt(shape.EdgeRadiusRatio2));
-        }
-        else
-        {
-          ++part.Poor;
-          Add(part, 0.0, 180.0, std::numeric_limits<double>::infinity());
-        }
-      }
-      const std::scoped_lock lock(mutex);
-      Merge(survey, part);
-    },
-    stop);
-  return survey;
+  return MeasureAndScore(mesh, options, {}, threads, stop);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -459,7 +530,8 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   }
 
   OptimisationStatistics statistics;
-  statistics.Before = MeasureShapes(mesh, options, threads, stop);
+  UninitialisedVector<float> scores(mesh.Simplices.size());
+  statistics.Before = MeasureAndScore(mesh, options, scores, threads, stop);
   statistics.After = statistics.Before;
   if (statistics.Before.Poor != 0)
   {
@@ -468,7 +540,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
     {
       SimplexMesh<3> result;
       {
-        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop);
+        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores);
         complex.FindBorderFaces(domain);
         complex.Kept = kept;
         Optimisation(complex, domain, options, threads, limits, statistics).Run();

@@ -46,17 +46,24 @@ std::array<std::uint32_t, 3> SortedFacet(const TetrahedralComplex::Vertices& v, 
 
 //------------------------------------------------------------------------------------------------
 TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score,
-  unsigned threads, const std::stop_token& stop)
+  unsigned threads, const std::stop_token& stop, std::span<const float> scores)
   : Shape(score)
   , Points(mesh.Points)
 {
-  this->CopyCells(mesh, threads, stop);
+  this->CopyCells(mesh);
+  if (scores.empty())
+  {
+    this->ScoreCells(threads, stop);
+  }
+  else
+  {
+    std::copy(scores.begin(), scores.end(), this->Scores.begin());
+  }
   this->Connect(threads, stop);
   this->FindKinds();
 }
 
-void TetrahedralComplex::CopyCells(
-  const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+void TetrahedralComplex::CopyCells(const SimplexMesh<3>& mesh)
 {
   const std::size_t cells = mesh.Simplices.size();
   this->LabelValues.push_back(0);
@@ -98,8 +105,12 @@ void TetrahedralComplex::CopyCells(
       ++this->Degrees[v];
     }
   }
+}
+
+void TetrahedralComplex::ScoreCells(unsigned threads, const std::stop_token& stop)
+{
   ParallelFor(
-    0, cells, Grain, threads,
+    0, this->Cells.size(), Grain, threads,
     [this](std::size_t first, std::size_t end)
     {
       for (std::size_t t = first; t < end; ++t)

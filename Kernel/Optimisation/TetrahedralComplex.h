@@ -58,11 +58,12 @@ public:
 
   /**
    * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet
+   * @param scores of the tetrahedra, if they are known; otherwise empty
    *
    * Complexity: linear, except for sorting label values.
    */
   TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
-    const std::stop_token& stop);
+    const std::stop_token& stop, std::span<const float> scores = {});
 
   /**
    * Finds the vertices on faces where the image cuts the object. To be called once, before any
@@ -128,7 +129,8 @@ public:
   std::vector<std::uint32_t> Kept; ///< tetrahedra that stay as they are; sorted
 
 private:
-  void CopyCells(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);
+  void CopyCells(const SimplexMesh<3>& mesh);
+  void ScoreCells(unsigned threads, const std::stop_token& stop);
   void Connect(unsigned threads, const std::stop_token& stop);
   void FindKinds();
 };
