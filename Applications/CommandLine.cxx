@@ -361,6 +361,10 @@ Parameters ToParameters(const po::variables_map& values)
   {
     p.LabelSizeTexts.push_back(ParseLabelSize("label-size", text));
   }
+  if (const std::string* text = Given(values, "frame-times"))
+  {
+    p.FrameTimes = ParseTimes("frame-times", *text);
+  }
   p.LabelTexts = AllGiven(values, "labels");
   for (const std::string& text : p.LabelTexts)
   {

@@ -167,17 +167,16 @@ ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& inp
 
 void AddFrames(ordered_json frames, ordered_json& report)
 {
-  const double step = (frames.back()["time"].get<double>() - frames.front()["time"].get<double>()) /
-    static_cast<double>(frames.size() - 1);
-  const ordered_json& scale = report["parameters"]["time_scale"];
-  const double length = step * (scale.is_number() ? scale.get<double>() : 1.0);
+  const ordered_json& given = report["parameters"]["time_scale"];
+  const double scale = given.is_number() ? given.get<double>() : 1.0;
   for (auto& [label, figures] : report["labels"].items())
   {
     double volume = 0.0; // by the trapezoidal rule, as the mesh ends at the first and last frame
-    for (std::size_t k = 0; k < frames.size(); ++k)
+    for (std::size_t k = 1; k < frames.size(); ++k)
     {
-      const bool isEnd = k == 0 || k + 1 == frames.size();
-      volume += (isEnd ? 0.5 : 1.0) * length * ImageVolume(frames[k], label);
+      const double step = frames[k]["time"].get<double>() - frames[k - 1]["time"].get<double>();
+      volume +=
+        0.5 * scale * step * (ImageVolume(frames[k - 1], label) + ImageVolume(frames[k], label));
     }
     figures["image_volume"] = volume;
     figures["volume_error"] = (figures["volume"].get<double>() - volume) / volume;

@@ -66,12 +66,13 @@ int MeshingInput::Dimension() const
 
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> terms{ {
     { "SetLabelSize()", "--label-size" },
     { "SetInterfaceSize()", "--interface-size" },
     { "AddLabel()", "--labels" },
     { "SetSeriesUID()", "--series" },
     { "SetTimeScale()", "--time-scale" },
+    { "AddFrameTime()", "--frame-times" },
     { "or force it", "or go on with --force" },
     { "mesh an isosurface of it", "mesh an isosurface of it with --isovalue" },
     { "Correct the labels to keep", "Correct --labels" },

@@ -123,6 +123,25 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
     ParseReal(option, text.substr(equals + 1), Lengths) };
 }
 
+std::vector<double> ParseTimes(const std::string& option, std::string_view text)
+{
+  std::vector<double> times;
+  for (const std::string& part : SplitAtCommas(text))
+  {
+    times.push_back(ParseFinite(option, part));
+    if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
+    {
+      throw UsageError("--" + option + ": times must increase, but " + part + " follows " +
+        NumberText(times[times.size() - 2]));
+    }
+  }
+  if (times.size() < 2)
+  {
+    throw UsageError("--" + option + ": give the time of each frame, such as 0,40,80");
+  }
+  return times;
+}
+
 std::uint64_t ParseBytes(const std::string& option, const std::string& text)
 {
   constexpr std::string_view units = "KMGT";

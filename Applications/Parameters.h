@@ -50,6 +50,7 @@ struct Parameters
   ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };
   std::vector<LabelSizeText> LabelSizeTexts;
   std::vector<InterfaceSizeText> InterfaceSizeTexts;
+  std::vector<double> FrameTimes;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
   io::Space OutputSpace = io::Space::LPS;
 

@@ -85,9 +85,10 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
   }
   parameters.update({ { "interface_size", interfaceSizes }, { "label_size", labelSizes },
     { "size_image", OrNull(p.SizeImage) }, { "labels", selection.Labels },
-    { "label_table", OrNull(p.LabelTable) }, { "space", ToString(p.OutputSpace) },
-    { "quality", p.Quality }, { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
-    { "slice_count", OrNull(p.SliceCount) } });
+    { "label_table", OrNull(p.LabelTable) },
+    { "frame_times", p.FrameTimes.empty() ? ordered_json() : ordered_json(p.FrameTimes) },
+    { "space", ToString(p.OutputSpace) }, { "quality", p.Quality }, { "hausdorff", p.Hausdorff },
+    { "slices", OrNull(p.Slices) }, { "slice_count", OrNull(p.SliceCount) } });
   return parameters;
 }
 

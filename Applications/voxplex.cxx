@@ -129,12 +129,16 @@ void Warn(const std::vector<std::string>& warnings)
 }
 
 vtkSmartPointer<vtkSegmentationReader> ReadImage(const std::string& path, const std::string& series,
-  const std::string& labelTable, io::Space space)
+  const std::string& labelTable, io::Space space, const std::vector<double>& frameTimes = {})
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
   reader->SetFileName(path.c_str());
   reader->SetSeriesUID(series.c_str());
   reader->SetLabelTableFileName(labelTable.c_str());
+  for (const double time : frameTimes)
+  {
+    reader->AddFrameTime(time);
+  }
   reader->SetSpace(
     space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS : vtkSegmentationReader::SPACE_RAS);
   reader->Update();
@@ -154,7 +158,7 @@ vtkSmartPointer<vtkSegmentationReader> ReadImage(const std::string& path, const 
 MeshingInput Read(const Parameters& p)
 {
   MeshingInput input;
-  input.Labels = ReadImage(p.Input, p.Series, p.LabelTable, p.OutputSpace);
+  input.Labels = ReadImage(p.Input, p.Series, p.LabelTable, p.OutputSpace, p.FrameTimes);
   if (!p.SizeImage.empty())
   {
     input.Sizes = ReadImage(p.SizeImage, "", "", p.OutputSpace);

@@ -82,6 +82,41 @@ int vtkImageToPentatopeMeshFilter::FillOutputPortInformation(int, vtkInformation
 }
 
 //----------------------------------------------------------------------------------------------------
+void vtkImageToPentatopeMeshFilter::AddFrameTime(double time)
+{
+  this->FrameTimes.push_back(time);
+  this->Modified();
+}
+
+void vtkImageToPentatopeMeshFilter::ClearFrameTimes()
+{
+  if (!this->FrameTimes.empty())
+  {
+    this->FrameTimes.clear();
+    this->Modified();
+  }
+}
+
+double vtkImageToPentatopeMeshFilter::GetFrameTime(int frame) const
+{
+  return frame >= 0 && frame < this->GetNumberOfFrameTimes()
+    ? this->FrameTimes[static_cast<std::size_t>(frame)]
+    : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> vtkImageToPentatopeMeshFilter::ChooseTimes(
+  const std::vector<double>& ofInput) const
+{
+  if (!this->FrameTimes.empty() && this->FrameTimes.size() != ofInput.size())
+  {
+    throw InputError("AddFrameTime() gave " + std::to_string(this->FrameTimes.size()) +
+      " times, but there are " + std::to_string(ofInput.size()) +
+      " frames; give one time for each frame.");
+  }
+  return this->FrameTimes.empty() ? ofInput : this->FrameTimes;
+}
+
+//----------------------------------------------------------------------------------------------------
 int vtkImageToPentatopeMeshFilter::FindNumberOfComponents(vtkInformationVector** inputVector)
 {
   vtkInformation* const info = inputVector[0]->GetInformationObject(0);
@@ -112,7 +147,9 @@ int vtkImageToPentatopeMeshFilter::RequestInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->Superclass::RequestInformation(request, inputVector, outputVector);
-  const std::vector<double> times = TimeStepsOf(inputVector[0]->GetInformationObject(0));
+  const std::vector<double> times = this->FrameTimes.empty()
+    ? TimeStepsOf(inputVector[0]->GetInformationObject(0))
+    : this->FrameTimes;
   std::array<double, 2> range = { 0.0, 0.0 };
   if (times.size() > 1)
   {
@@ -199,8 +236,7 @@ bool vtkImageToPentatopeMeshFilter::Gather(
   }
   if (series.NumberOfFramesAdded() == 0)
   {
-    voxplex::CheckTimes(times);
-    series.Start(times);
+    series.Start(this->ChooseTimes(times));
   }
   int association = 0;
   vtkAbstractArray* const scalars =
@@ -236,8 +272,7 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
   {
     times[static_cast<std::size_t>(k)] = this->TimeOrigin + k * this->TimeSpacing;
   }
-  voxplex::CheckTimes(times);
-  this->Gathered->Series.Start(times);
+  this->Gathered->Series.Start(this->ChooseTimes(times));
   for (int k = 0; k < frames && !this->StopRequested(); ++k)
   {
     this->Gathered->Series.Add(input, k, this->GetThreads());
@@ -248,7 +283,7 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
 double vtkImageToPentatopeMeshFilter::FindDefaultDelta(vtkInformationVector** inputVector)
 {
   vtkInformation* const info = inputVector[0]->GetInformationObject(0);
-  const std::vector<double> times = TimeStepsOf(info);
+  const std::vector<double> times = this->FrameTimes.empty() ? TimeStepsOf(info) : this->FrameTimes;
   const double step = times.size() < 2
     ? this->TimeSpacing
     : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
@@ -317,6 +352,12 @@ void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeScale: " << this->TimeScale << "\n";
   os << indent << "TimeOrigin: " << this->TimeOrigin << "\n";
   os << indent << "TimeSpacing: " << this->TimeSpacing << "\n";
+  os << indent << "FrameTimes:";
+  for (const double time : this->FrameTimes)
+  {
+    os << ' ' << time;
+  }
+  os << (this->FrameTimes.empty() ? " (of the input)\n" : "\n");
   os << indent << "FrameSteps: " << this->FrameSteps << "\n";
   os << indent << "FitInterfaces: " << (this->FitInterfaces ? "On" : "Off") << "\n";
   os << indent << "RuleOrder: " << this->GetRuleOrderAsString() << "\n";

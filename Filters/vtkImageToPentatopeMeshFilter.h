@@ -15,10 +15,11 @@
  *   come in one of two ways:
  *   - A temporal pipeline that announces two or more `TIME_STEPS`: each time step is a frame. The
  *     filter requests every time step once, in order. All frames must have the same dimensions,
- *     spacing, origin, direction and array name; the array has one component. Times must increase
- *     and be equally spaced (to a thousandth of a step).
+ *     spacing, origin, direction and array name; the array has one component. Times must increase.
  *   - One image without, or with one, time step, whose array has several components: each component
  *     is a frame. Component k has the time TimeOrigin + k TimeSpacing.
+ *
+ *   AddFrameTime() gives the frames other times.
  *
  *   The array is the one chosen by `SetInputArrayToProcess(0, 0, 0, association, name)`; by default
  *   the active point scalars, else the active cell scalars. Point scalars lie at the points, cell
@@ -73,6 +74,14 @@
  * that space. Circumradii, radius-edge ratios, Delta, element sizes and the figures of
  * GetStatistics() are all measured in that space. Times of the outputs are in the input's own unit.
  *
+ * @par Frames that are not equally spaced
+ * The mesh is made from equally spaced frames. If the times are multiples of the smallest distance of
+ * two frames, or of a half to an eighth of it (to a thousandth of a step), all frames are kept, and
+ * frames are interpolated between them. Otherwise frames are interpolated at steps that are at most
+ * as long as the smallest distance. The first and the last frame are always kept. Interpolation is
+ * that of FrameSteps. There are at most 1000 frames then, and 400 million voxels, or twice those of
+ * the input.
+ *
  * @par Parameters
  * Those of vtkImageToSimplexMeshFilter and those below. Its documentation also explains element
  * sizes, errors, progress, abort, threads and pieces. The thesis proves that refinement ends for a
@@ -81,8 +90,9 @@
  *
  * @par Errors
  * Those of vtkImageToSimplexMeshFilter. Also: only one frame (use vtkImageToTetMeshFilter), frames
- * that differ in dimensions, spacing, origin, direction or array, times that do not increase, that
- * are not finite or not equally spaced. Messages name frames by their number, from 0, and time. If
+ * that differ in dimensions, spacing, origin, direction or array, times that do not increase or are
+ * not finite, two frames so near in time that there would be too many equally spaced ones, another
+ * number of frame times than of frames. Messages name frames by their number, from 0, and time. If
  * the input fails while frames are gathered, both outputs stay empty.
  *
  * @sa vtkPentatopeMeshTimeSlice vtkImageToSimplexMeshFilter vtkImageToTetMeshFilter
@@ -95,6 +105,7 @@
 #include "vtkVoxplexModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
 class vtkAlgorithmOutput;
 class vtkUnstructuredGrid;
@@ -128,6 +139,18 @@ public:
   /** If components are the frames: the time from one component to the next, positive. Default 1. */
   vtkSetMacro(TimeSpacing, double);
   vtkGetMacro(TimeSpacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * The times of the frames, one after the other, increasing. They replace those of the input, for
+   * time steps and components. By default there are none.
+   */
+  void AddFrameTime(double time);
+  void ClearFrameTimes();
+  int GetNumberOfFrameTimes() const { return static_cast<int>(this->FrameTimes.size()); }
+  /** NaN if there is no such frame. */
+  double GetFrameTime(int frame) const;
   ///@}
 
   ///@{
@@ -269,6 +292,7 @@ protected:
   double TimeScale = 1.0;
   double TimeOrigin = 0.0;
   double TimeSpacing = 1.0;
+  std::vector<double> FrameTimes;
   int FrameSteps = 0;
   bool FitInterfaces = true;
   int RuleOrder = RADIUS_EDGE_FIRST;
@@ -285,6 +309,8 @@ private:
   void operator=(const vtkImageToPentatopeMeshFilter&) = delete;
 
   void GatherComponents(vtkInformationVector** inputVector, bool hasTimeStep);
+  /** The times of frames: those that are set, else those of the input. @throws InputError */
+  std::vector<double> ChooseTimes(const std::vector<double>& ofInput) const;
   /** Number of frames of an image without time steps; 0 if it is unknown before execution. */
   int FindNumberOfComponents(vtkInformationVector** inputVector);
 

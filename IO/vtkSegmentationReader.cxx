@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 using voxplex::io::ScalarImage;
@@ -31,8 +32,37 @@ namespace
 
 int NearestFrame(const ScalarImage& image, double time)
 {
-  const double steps = (time - image.TimeOrigin) / image.TimeSpacing;
-  return static_cast<int>(std::clamp(std::round(steps), 0.0, image.Frames - 1.0));
+  int nearest = 0;
+  for (int frame = 1; frame < image.Frames; ++frame)
+  {
+    if (std::abs(image.TimeOf(frame) - time) <= std::abs(image.TimeOf(nearest) - time))
+    {
+      nearest = frame;
+    }
+  }
+  return nearest;
+}
+
+/** Replaces the times of the file. */
+void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::string& path)
+{
+  if (times.size() != static_cast<std::size_t>(image.Frames))
+  {
+    throw voxplex::io::FileError("AddFrameTime() gave " + std::to_string(times.size()) +
+      " times, but '" + path + "' has " + std::to_string(image.Frames) +
+      (image.Frames == 1 ? " frame" : " frames") + "; give one time for each frame");
+  }
+  for (std::size_t frame = 0; frame < times.size(); ++frame)
+  {
+    if (!std::isfinite(times[frame]) || (frame > 0 && !(times[frame] > times[frame - 1])))
+    {
+      std::ostringstream reason;
+      reason << "the times of AddFrameTime() must be finite and increase, but that of frame "
+             << frame << " is " << times[frame];
+      throw voxplex::io::FileError(reason.str());
+    }
+  }
+  image.Times = times;
 }
 
 } // namespace
@@ -88,6 +118,21 @@ double vtkSegmentationReader::GetTimeOfFrame(int frame) const
   return this->Private->Image.TimeOf(frame);
 }
 
+void vtkSegmentationReader::AddFrameTime(double time)
+{
+  this->FrameTimes.push_back(time);
+  this->Modified();
+}
+
+void vtkSegmentationReader::ClearFrameTimes()
+{
+  if (!this->FrameTimes.empty())
+  {
+    this->FrameTimes.clear();
+    this->Modified();
+  }
+}
+
 const std::string& vtkSegmentationReader::GetLabelTableSource() const
 {
   return this->Private->LabelSource;
@@ -124,6 +169,10 @@ bool vtkSegmentationReader::Read()
     }
     data.Image =
       voxplex::io::ReadImage(this->FileName, this->SeriesUID ? this->SeriesUID : "", data.Warnings);
+    if (!this->FrameTimes.empty())
+    {
+      SetTimes(data.Image, this->FrameTimes, this->FileName);
+    }
     this->ReadLabels();
   }
   catch (const std::exception& error)

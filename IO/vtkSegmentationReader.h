@@ -23,13 +23,13 @@
  *
  * @par Time
  * An image of several frames announces `TIME_STEPS` and `TIME_RANGE`. The output is the frame that
- * is nearest to `UPDATE_TIME_STEP`, the first one if no time is asked for. Frames are equally spaced.
+ * is nearest to `UPDATE_TIME_STEP`, the first one if no time is asked for. Frames may have any times that increase.
  *
  * @par Errors
  * What cannot be read is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage()
  * keeps the reason: no such file, unknown format, truncated or damaged data, several components that are
  * not frames, more than four dimensions, a spacing that is not positive, a singular direction matrix,
- * frames that are not equally spaced, several DICOM series and no SeriesUID. What was odd but could be read
+ * several DICOM series and no SeriesUID. What was odd but could be read
  * is reported with vtkWarningMacro, and kept for GetWarning().
  *
  * @par When it reads
@@ -50,6 +50,7 @@
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 class VTKVOXPLEXIO_EXPORT vtkSegmentationReader : public vtkImageAlgorithm
 {
@@ -100,6 +101,15 @@ public:
 
   ///@{
   /**
+   * The times of the frames, one after the other, increasing, in place of those of the file. By
+   * default there are none.
+   */
+  void AddFrameTime(double time);
+  void ClearFrameTimes();
+  ///@}
+
+  ///@{
+  /**
    * What was read, valid after UpdateInformation() or Update(): the number of frames, 1 for a 3D image
    * and 0 if nothing could be read, and the time of each.
    */
@@ -132,6 +142,7 @@ protected:
   char* SeriesUID;
   char* LabelTableFileName;
   int Space;
+  std::vector<double> FrameTimes;
 
 private:
   vtkSegmentationReader(const vtkSegmentationReader&) = delete;

@@ -102,6 +102,7 @@ const char* FormOf(UserInterface interface, ParameterKind kind)
       "3=0.5 for one label, 3:7=0.4 for two; separated by commas",
       "{label: length} and {(label, label): length}" },
     { ParameterKind::Bytes, "such as 8G", "", "in bytes" },
+    { ParameterKind::Times, "0,40,80,160", "", "" },
   };
   for (const Form& form : forms)
   {

@@ -33,7 +33,8 @@ enum class ParameterKind
   Labels,
   LabelSizes,     ///< a length for each of some labels
   InterfaceSizes, ///< a length for each of some interfaces
-  Image           ///< an image of lengths
+  Image,          ///< an image of lengths
+  Times           ///< the times of frames
 };
 
 /** In the order in which users see them. */

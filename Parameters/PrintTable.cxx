@@ -26,7 +26,7 @@ std::string Quoted(const std::string& text)
 const char* NameOf(ParameterKind kind)
 {
   constexpr const char* names[] = { "flag", "real", "whole", "bytes", "word", "labels",
-    "label-sizes", "interface-sizes", "image" };
+    "label-sizes", "interface-sizes", "image", "times" };
   return names[static_cast<int>(kind)];
 }
 

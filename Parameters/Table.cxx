@@ -203,12 +203,16 @@ Parameters SpaceTime()
   return {
     Number(Kind::Real, "time-scale", 4, Positive, "1", "LENGTH",
       "the length that is equivalent to one unit of time"),
+    // Python's mesh() has an argument of its own.
+    Number(Kind::Times, "frame-times", 4, {}, "", "LIST",
+      "the times of the frames, in place of those of the image; they increase, and need not be "
+      "equally spaced",
+      { .Property = "FrameTime", .Python = None }),
     Number(Kind::Whole, "frame-steps", 4, { 0.0, 8.0 }, "0", "NUMBER",
       "steps between two frames; labels are interpolated between them, so that fast motion is "
       "followed (1: no frames are added)",
       { .Step = 1.0, .Zero = "as many as the motion asks for" }),
-    Flag("fit", 4, "on",
-      "move vertices of interfaces a little, so that volumes are right",
+    Flag("fit", 4, "on", "move vertices of interfaces a little, so that volumes are right",
       { .Property = "FitInterfaces",
         .Label = "Fit interfaces",
         .Zero = "they lie on the interfaces, and the mesh is Delaunay",

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
+#include "Image/FrameInterpolation.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -22,8 +23,11 @@ namespace
 /** Voxels that a thread takes at a time. */
 constexpr std::size_t Grain = 1 << 16;
 
-/** How far times may be from equal spacing, in steps. */
-constexpr double SpacingTolerance = 1e-3;
+/**
+ * A series that is not equally spaced gets at most so many voxels, or twice its own if these are
+ * more. Labels take two bytes each then.
+ */
+constexpr std::int64_t MostVoxels = 400'000'000;
 /** How far frames may be from lying on each other, in voxels. */
 constexpr double GridTolerance = 1e-3;
 
@@ -137,48 +141,10 @@ Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-void CheckTimes(std::span<const double> times)
-{
-  if (times.size() < 2)
-  {
-    throw InputError("A space-time mesh needs two frames or more; for one image, use "
-                     "vtkImageToTetMeshFilter.");
-  }
-  for (std::size_t i = 0; i < times.size(); ++i)
-  {
-    if (!std::isfinite(times[i]))
-    {
-      throw InputError("The time of frame " + std::to_string(i) + " is " + Number(times[i]) +
-        "; it must be finite.");
-    }
-    if (i > 0 && !(times[i] > times[i - 1]))
-    {
-      throw InputError("The times of frames must increase, but frame " + std::to_string(i - 1) +
-        " has time " + Number(times[i - 1]) + " and frame " + std::to_string(i) + " has time " +
-        Number(times[i]) + ".");
-    }
-  }
-  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  if (!std::isfinite(step))
-  {
-    throw InputError("The times of frames are too far apart.");
-  }
-  for (std::size_t i = 1; i < times.size(); ++i)
-  {
-    if (!(std::abs(times[i] - times[i - 1] - step) <= SpacingTolerance * step))
-    {
-      throw InputError("Frames must be equally spaced in time, " + Number(step) +
-        " apart on average, but frames " + std::to_string(i - 1) + " and " + std::to_string(i) +
-        " are " + Number(times[i] - times[i - 1]) + " apart (times " + Number(times[i - 1]) +
-        " and " + Number(times[i]) + "); resample the series.");
-    }
-  }
-}
-
-//----------------------------------------------------------------------------------------------------
 void FrameSeries::Start(std::vector<double> times)
 {
   this->Clear();
+  ScheduleFrames(times); // before the first frame is read
   this->Times = std::move(times);
 }
 
@@ -321,22 +287,36 @@ void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
 }
 
 //----------------------------------------------------------------------------------------------------
+FrameSchedule FrameSeries::MakeSchedule() const
+{
+  const auto& n = this->FirstFrame.Grid.Dimensions;
+  const auto most =
+    std::max(MostVoxels / (n[0] * n[1] * n[2]), 2 * static_cast<std::int64_t>(this->Times.size()));
+  return ScheduleFrames(this->Times, std::min(most, MostScheduledFrames));
+}
+
 SpaceTimeFrame FrameSeries::MakeFrame(double timeScale) const
 {
-  return MakeSpaceTimeFrame(this->FirstFrame, static_cast<std::int64_t>(this->Times.size()),
+  return MakeSpaceTimeFrame(this->FirstFrame, this->MakeSchedule().NumberOfFrames(),
     this->Times.front(), this->Times.back(), timeScale);
 }
 
 LabelImage<4> FrameSeries::MakeLabelImage(
   const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const
 {
-  return std::visit(
+  GridGeometry<4> given = grid;
+  given.Dimensions[3] = static_cast<std::int64_t>(this->Times.size());
+  LabelImage<4> image = std::visit(
     [&](const auto& labels)
     {
       using Label = typename std::remove_cvref_t<decltype(labels)>::value_type;
-      return LabelImage<4>::FromScalars<Label>(labels, grid, selection, threads);
+      return LabelImage<4>::FromScalars<Label>(labels, given, selection, threads);
     },
     this->Labels);
+  const FrameSchedule schedule = this->MakeSchedule();
+  return schedule.ChangesNothing()
+    ? std::move(image)
+    : ScheduledFrames(image, schedule, grid.IndexToFrame[3][3], threads);
 }
 
 } // namespace voxplex

@@ -12,13 +12,13 @@
 #define voxplex_FrameSeries_h
 
 #include "Base/UninitialisedVector.h"
+#include "Image/FrameSchedule.h"
 #include "Image/LabelImage.h"
 #include "Private/ChosenArray.h"
 #include "Private/SpaceTimeFrame.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,16 +26,13 @@
 namespace voxplex
 {
 
-/**
- * Throws InputError, which names the times, unless there are two or more that are finite, increase,
- * and are equally spaced to a thousandth of a step.
- */
-void CheckTimes(std::span<const double> times);
-
 class FrameSeries
 {
 public:
-  /** Starts anew. The times are those of CheckTimes(). */
+  /**
+   * Starts anew.
+   * @throws InputError if there are no equally spaced frames for the times (ScheduleFrames())
+   */
   void Start(std::vector<double> times);
   /** Forgets everything and releases the memory. */
   void Clear();
@@ -56,17 +53,24 @@ public:
    */
   void Add(const ChosenArray& frame, int component, unsigned threads);
 
-  /** Where the complete series lies. */
+  /**
+   * Where the complete series lies: its grid has equally spaced frames from the first to the last
+   * time.
+   * @throws InputError if equally spaced frames would have too many voxels
+   */
   SpaceTimeFrame MakeFrame(double timeScale) const;
 
   /**
-   * The labels of the complete series.
+   * The labels of the complete series. Frames that are not equally spaced are interpolated
+   * (ScheduledFrames()).
+   * @param grid of MakeFrame()
    * @throws what LabelImage::FromScalars() throws
    */
   LabelImage<4> MakeLabelImage(
     const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const;
 
 private:
+  FrameSchedule MakeSchedule() const;
   template <typename T>
   void Copy(const T* values, int components, int component, unsigned threads);
   /** Makes room for labels of type U. */

@@ -102,7 +102,7 @@ void CheckThatTimeIsApart(const std::string& path, const itk::ImageIOBase& io)
   }
 }
 
-/** The times of a list of frames, from the first and the last of them. */
+/** The times of a list of frames: an origin and a step if they are equally spaced. */
 void AdoptTimes(const std::string& path, const std::vector<double>& times, ScalarImage& image)
 {
   const auto steps = static_cast<double>(times.size() - 1);
@@ -120,10 +120,7 @@ void AdoptTimes(const std::string& path, const std::vector<double>& times, Scala
     const double expected = image.TimeOrigin + static_cast<double>(n) * image.TimeSpacing;
     if (std::abs(times[n] - expected) > TimeTolerance * image.TimeSpacing)
     {
-      std::ostringstream reason;
-      reason << "its frames are not equally spaced in time: frame " << n << " is at " << times[n]
-             << ", not at " << expected << "; resample the image";
-      Refuse(path, reason.str());
+      image.Times = times;
     }
   }
 }

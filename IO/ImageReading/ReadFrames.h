@@ -37,8 +37,7 @@ bool ComponentsAreFrames(const std::string& path, const itk::ImageIOBase& io);
  * to be 1, with a warning if the format has a place for it.
  *
  * @param warnings receives what was odd but could be read, one line each
- * @throws FileError: axes that mix space and time, singular axes, time that does not increase,
- *   frames that are not equally spaced in time
+ * @throws FileError: axes that mix space and time, singular axes, time that does not increase
  */
 ScalarImage ReadFrames(
   const std::string& path, itk::ImageIOBase& io, std::vector<std::string>& warnings);

@@ -25,8 +25,7 @@ namespace voxplex::io
  * @param warnings receives what the reading libraries found odd but could read, one line each
  * @throws FileError: no such file, not readable, unknown format, truncated, more than four
  *   dimensions, several components that are not time frames, spacing that is not positive and
- *   finite, a direction matrix that mixes time with space, frames that are not equally spaced,
- *   several series
+ *   finite, a direction matrix that mixes time with space, several series
  */
 ScalarImage ReadImage(
   const std::string& path, const std::string& series, std::vector<std::string>& warnings);

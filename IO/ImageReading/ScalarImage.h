@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace voxplex::io
 {
@@ -50,7 +51,7 @@ constexpr std::optional<ScalarType> IntegerType(std::size_t bytes, bool isSigned
 
 /**
  * One scalar a voxel and frame, first axis fastest, time slowest. Voxel (i, j, k) lies at Origin +
- * Direction * (Spacing * ijk); frame n at TimeOrigin + n * TimeSpacing.
+ * Direction * (Spacing * ijk); frame n at TimeOrigin + n * TimeSpacing, or if there are Times at the n-th of them.
  */
 struct ScalarImage
 {
@@ -62,11 +63,16 @@ struct ScalarImage
 
   int Frames = 1; ///< 1: a 3D image
   double TimeOrigin = 0.0;
-  double TimeSpacing = 1.0; ///< positive
+  double TimeSpacing = 1.0;  ///< positive
+  std::vector<double> Times; ///< increasing; empty if frames are equally spaced
 
   std::shared_ptr<void> Scalars; ///< keeps the reader's own buffer alive
   int Dimension() const { return this->Frames > 1 ? 4 : 3; }
-  double TimeOf(int frame) const { return this->TimeOrigin + frame * this->TimeSpacing; }
+  double TimeOf(int frame) const
+  {
+    return this->Times.empty() ? this->TimeOrigin + frame * this->TimeSpacing
+                               : this->Times[static_cast<std::size_t>(frame)];
+  }
   /** Of one frame. */
   std::size_t NumberOfVoxels() const
   {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -186,21 +188,12 @@ private:
 
 double MeanSpacing(const GridGeometry<4>& grid)
 {
-  return std::cbrt(
-    grid.IndexToFrame[0][0] * grid.IndexToFrame[1][1] * grid.IndexToFrame[2][2]);
+  return std::cbrt(grid.IndexToFrame[0][0] * grid.IndexToFrame[1][1] * grid.IndexToFrame[2][2]);
 }
 
 double SmallestSpacing(const GridGeometry<4>& grid)
 {
-  return std::min(
-    { grid.IndexToFrame[0][0], grid.IndexToFrame[1][1], grid.IndexToFrame[2][2] });
-}
-
-/** The frames before and after the bounding box that the image has: 0 or 1 each. */
-std::array<std::int64_t, 2> FramesAround(const LabelImage<4>& image)
-{
-  const std::int64_t end = image.CropOrigin()[3] + image.CropDimensions()[3];
-  return { image.CropOrigin()[3] > 0 ? 1 : 0, end < image.Grid().Dimensions[3] ? 1 : 0 };
+  return std::min({ grid.IndexToFrame[0][0], grid.IndexToFrame[1][1], grid.IndexToFrame[2][2] });
 }
 
 //------------------------------------------------------------------------------------------------
@@ -208,11 +201,10 @@ std::array<std::int64_t, 2> FramesAround(const LabelImage<4>& image)
 class Between
 {
 public:
-  Between(const LabelImage<4>& image, const FramePair& frames,
-    const std::vector<Neighbour>& neighbours, unsigned steps)
+  Between(
+    const LabelImage<4>& image, const FramePair& frames, const std::vector<Neighbour>& neighbours)
     : Frames(frames)
     , Extent(image.CropDimensions())
-    , Steps(steps)
   {
     const double half = 0.5 * SmallestSpacing(image.Grid());
     frames.ForChanges(
@@ -227,18 +219,17 @@ public:
         const double sign = a < b ? 1.0 : -1.0;
         const auto at =
           static_cast<std::size_t>((v[2] * this->Extent[1] + v[1]) * this->Extent[0] + v[0]);
-        this->Changes.push_back({ std::min(a, b), std::max(a, b), at, a < b, sign * before,
-          sign * after });
+        this->Changes.push_back(
+          { std::min(a, b), std::max(a, b), at, a < b, sign * before, sign * after });
       });
     std::stable_sort(this->Changes.begin(), this->Changes.end(),
       [](const Change& x, const Change& y)
       { return std::pair(x.Smaller, x.Larger) < std::pair(y.Smaller, y.Larger); });
   }
 
-  /** @param step 1 to steps - 1 */
-  void Write(unsigned step, LabelId* frame)
+  /** @param w the weight of the frame after, above 0 and below 1 */
+  void Write(double w, LabelId* frame)
   {
-    const double w = static_cast<double>(step) / static_cast<double>(this->Steps);
     this->CopyBefore(frame);
     for (auto first = this->Changes.begin(); first != this->Changes.end();)
     {
@@ -291,9 +282,23 @@ private:
 
   const FramePair& Frames;
   const Index Extent;
-  const unsigned Steps;
   std::vector<Change> Changes;
 };
+
+/** Where places after another frame begin, and the number of places. */
+std::vector<std::size_t> FirstOfEachPair(std::span<const FramePlace> places)
+{
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    if (k == 0 || places[k].Before != places[k - 1].Before)
+    {
+      starts.push_back(k);
+    }
+  }
+  starts.push_back(places.size());
+  return starts;
+}
 
 } // namespace
 
@@ -305,7 +310,8 @@ unsigned FrameStepsFor(const LabelImage<4>& image, unsigned threads, const std::
   const double reach = Reach * spacing;
   const std::vector<Neighbour> neighbours = NeighboursOf(grid, reach);
   const std::int64_t pairs = image.CropDimensions()[3] - 1;
-  std::vector<std::vector<double>> ofPair(static_cast<std::size_t>(std::max<std::int64_t>(pairs, 0)));
+  std::vector<std::vector<double>> ofPair(
+    static_cast<std::size_t>(std::max<std::int64_t>(pairs, 0)));
   ParallelFor(
     0, ofPair.size(), 1, threads,
     [&](std::size_t first, std::size_t last)
@@ -341,7 +347,8 @@ unsigned FrameStepsFor(const LabelImage<4>& image, unsigned threads, const std::
   {
     return 1;
   }
-  const auto at = static_cast<std::ptrdiff_t>(FollowedShare * static_cast<double>(motions.size() - 1));
+  const auto at =
+    static_cast<std::ptrdiff_t>(FollowedShare * static_cast<double>(motions.size() - 1));
   std::nth_element(motions.begin(), motions.begin() + at, motions.end());
   const double voxels = static_cast<double>(image.Ids().size());
   const double most = std::min<double>(MaximumFrameSteps, std::floor(MostVoxels / voxels));
@@ -350,57 +357,82 @@ unsigned FrameStepsFor(const LabelImage<4>& image, unsigned threads, const std::
 }
 
 //------------------------------------------------------------------------------------------------
-LabelImage<4> InterpolateFrames(
-  const LabelImage<4>& image, unsigned steps, unsigned threads, const std::stop_token& stop)
+LabelImage<4> ScheduledFrames(const LabelImage<4>& image, const FrameSchedule& schedule,
+  double step, unsigned threads, const std::stop_token& stop)
 {
-  const auto parts = static_cast<std::int64_t>(steps);
-  const auto [before, after] = FramesAround(image);
+  const std::int64_t firstGiven = image.CropOrigin()[3];
+  const std::int64_t endGiven = firstGiven + image.CropDimensions()[3];
+  const auto isGiven = [&](std::int64_t frame) { return frame >= firstGiven && frame < endGiven; };
+  // The frames that may have labels, in a row: those of the new bounding box.
+  const auto hasLabels = [&](const FramePlace& place)
+  { return isGiven(place.Before) || (place.Weight > 0.0 && isGiven(place.Before + 1)); };
+  const auto& places = schedule.Places;
+  const auto begin = std::find_if(places.begin(), places.end(), hasLabels);
+  const auto end = std::find_if_not(begin, places.end(), hasLabels);
+
   GridGeometry<4> grid = image.Grid();
-  grid.Dimensions[3] = (grid.Dimensions[3] - 1) * parts + 1;
-  for (auto& row : grid.IndexToFrame)
-  {
-    row[3] /= static_cast<double>(steps);
-  }
+  grid.Dimensions[3] = schedule.NumberOfFrames();
+  grid.IndexToFrame[3][3] = step;
   Index origin = image.CropOrigin();
   Index extent = image.CropDimensions();
-  origin[3] = origin[3] * parts - before * (parts - 1);
-  extent[3] = (extent[3] - 1) * parts + 1 + (before + after) * (parts - 1);
+  origin[3] = begin - places.begin();
+  extent[3] = end - begin;
 
   const double reach = Reach * MeanSpacing(image.Grid());
   const std::vector<Neighbour> neighbours = NeighboursOf(image.Grid(), reach);
   const auto frame = static_cast<std::size_t>(extent[0] * extent[1] * extent[2]);
   UninitialisedVector<LabelId> ids(frame * static_cast<std::size_t>(extent[3]));
-  const auto given = [&](std::int64_t f)
-  { return image.Ids().data() + frame * static_cast<std::size_t>(f); };
-  // Frame f of the bounding box gets this place. Those between it and the next follow.
-  const auto place = [&, leading = before](std::int64_t f)
-  { return ids.data() + frame * static_cast<std::size_t>(f * parts + leading * (parts - 1)); };
-  const std::int64_t frames = image.CropDimensions()[3];
-  const std::int64_t firstPair = -before;
-  const std::int64_t pairs = frames - 1 + before + after;
-  for (std::int64_t f = 0; f < frames; ++f)
-  {
-    std::copy(given(f), given(f) + frame, place(f));
-  }
+  const std::span<const FramePlace> made(begin, end);
+  const std::vector<std::size_t> starts = FirstOfEachPair(made);
   ParallelFor(
-    0, static_cast<std::size_t>(pairs), 1, steps > 1 ? threads : 1,
+    0, starts.size() - 1, 1, threads,
     [&](std::size_t first, std::size_t last)
     {
-      for (std::size_t p = first; p < last && steps > 1; ++p)
+      for (std::size_t pair = first; pair < last; ++pair)
       {
-        const std::int64_t f = firstPair + static_cast<std::int64_t>(p);
-        const FramePair pair(image, f, reach);
-        Between between(image, pair, neighbours, steps);
-        LabelId* const next =
-          f < 0 ? ids.data() : place(f) + frame; // the frames before the bounding box come first
-        for (unsigned step = 1; step < steps; ++step)
+        const std::int64_t before = made[starts[pair]].Before - firstGiven;
+        const FramePair frames(image, before, reach);
+        std::optional<Between> between;
+        for (std::size_t k = starts[pair]; k < starts[pair + 1]; ++k)
         {
-          between.Write(step, next + frame * (step - 1));
+          const double weight = made[k].Weight;
+          LabelId* const to = ids.data() + frame * k;
+          if (weight > 0.0)
+          {
+            if (!between)
+            {
+              between.emplace(image, frames, neighbours);
+            }
+            between->Write(weight, to);
+          }
+          else
+          {
+            const LabelId* const from =
+              image.Ids().data() + frame * static_cast<std::size_t>(before);
+            std::copy(from, from + frame, to);
+          }
         }
       }
     },
     stop);
   return image.WithFrames(grid, origin, extent, std::move(ids));
+}
+
+//------------------------------------------------------------------------------------------------
+LabelImage<4> InterpolateFrames(
+  const LabelImage<4>& image, unsigned steps, unsigned threads, const std::stop_token& stop)
+{
+  FrameSchedule schedule;
+  for (std::int64_t before = 0; before + 1 < image.Grid().Dimensions[3]; ++before)
+  {
+    for (unsigned step = 0; step < steps; ++step)
+    {
+      schedule.Places.push_back({ before, static_cast<double>(step) / static_cast<double>(steps) });
+    }
+  }
+  schedule.Places.push_back({ image.Grid().Dimensions[3] - 1, 0.0 });
+  return ScheduledFrames(
+    image, schedule, image.Grid().IndexToFrame[3][3] / static_cast<double>(steps), threads, stop);
 }
 
 } // namespace voxplex

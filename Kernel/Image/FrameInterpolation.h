@@ -7,6 +7,7 @@
 #ifndef voxplex_FrameInterpolation_h
 #define voxplex_FrameInterpolation_h
 
+#include "Image/FrameSchedule.h"
 #include "Image/LabelImage.h"
 
 #include <stop_token>
@@ -54,6 +55,17 @@ unsigned FrameStepsFor(
  */
 LabelImage<4> InterpolateFrames(const LabelImage<4>& image, unsigned steps, unsigned threads = 1,
   const std::stop_token& stop = {});
+
+/**
+ * @brief The image with other frames: those of the schedule, interpolated as above.
+ *
+ * @param image its frames may have any distances in time; the one of its grid is not used
+ * @param schedule of the image's frames
+ * @param step the distance of the new frames in the grid's frame, positive
+ * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+ */
+LabelImage<4> ScheduledFrames(const LabelImage<4>& image, const FrameSchedule& schedule,
+  double step, unsigned threads = 1, const std::stop_token& stop = {});
 
 } // namespace voxplex
 

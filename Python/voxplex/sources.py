@@ -36,7 +36,7 @@ class Source:
         self.is_series = False
         self._geometry: Dict[str, Any] = dict(geometry)
         self._times = times
-        self._spaced_times: Optional[Sequence[float]] = None
+        self._own_times: Sequence[float] = ()
         if isinstance(image, numpy.ndarray):
             self._take_array(image)
             return
@@ -60,9 +60,8 @@ class Source:
             mesher.SetInputConnection(self.algorithm.GetOutputPort())
         else:
             mesher.SetInputData(self.data)
-        if self._spaced_times is not None:
-            mesher.SetTimeOrigin(self._spaced_times[0])
-            mesher.SetTimeSpacing((self._spaced_times[-1] - self._spaced_times[0]) / (len(self._spaced_times) - 1))
+        for time in self._own_times:
+            mesher.AddFrameTime(float(time))
 
     def names(self) -> Dict[int, str]:
         """The names of labels that the image carries."""
@@ -99,7 +98,7 @@ class Source:
         components = _components(image)
         self.is_series = components > 1
         if self.is_series and self._times is not None:
-            self._spaced_times = _equally_spaced(self._times, components)
+            self._own_times = _one_for_each_frame(self._times, components)
 
     def _take_frames(self, frames: Sequence[vtkImageData]) -> None:
         times = frame_times(frames) if self._times is None else [float(time) for time in self._times]
@@ -112,20 +111,20 @@ class Source:
         self.is_series = True
 
     def _take_algorithm(self, algorithm: vtkAlgorithm) -> None:
-        if self._times is not None:
-            raise ValueError("times: only for arrays and images; a file or pipeline has its own")
         algorithm.UpdateInformation()
         self.algorithm = algorithm
         information = algorithm.GetOutputInformation(0)
         steps: List[float] = []
         if information.Has(Pipeline.TIME_STEPS()):
             steps = list(information.Get(Pipeline.TIME_STEPS()))
-        if len(steps) > 1:
-            self.is_series = True
-        else:
+        count = len(steps)
+        if count < 2:
             algorithm.Update()
             image = algorithm.GetOutputDataObject(0)
-            self.is_series = isinstance(image, vtkImageData) and _components(image) > 1
+            count = _components(image) if isinstance(image, vtkImageData) else 0
+        self.is_series = count > 1
+        if self.is_series and self._times is not None:
+            self._own_times = _one_for_each_frame(self._times, count)
 
 
 def _components(image: vtkImageData) -> int:
@@ -134,10 +133,7 @@ def _components(image: vtkImageData) -> int:
     return int(array.GetNumberOfComponents()) if array is not None else 0
 
 
-def _equally_spaced(times: Sequence[float], count: int) -> Sequence[float]:
+def _one_for_each_frame(times: Sequence[float], count: int) -> Sequence[float]:
     if len(times) != count:
         raise ValueError(f"there are {count} frames, and {len(times)} times")
-    steps = numpy.diff(numpy.asarray(times, dtype=float))
-    if not (steps > 0).all() or numpy.ptp(steps) > 1e-3 * steps.mean():
-        raise ValueError(f"times must increase in equal steps: {list(times)}")
     return times

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Images of space and time: the mesh lies where and when the frames lie, in all formats."""
 import dataclasses
+import json
 
 import numpy as np
 
@@ -209,6 +210,49 @@ class Space(SpaceTimeTestCase):
         np.testing.assert_array_equal(self.mesh_of(path, "--size", 2, delta=2.5).cells, bound.cells)
 
 
+class UnequalTimes(SpaceTimeTestCase):
+    """Frames 0, 1, 3, 4 of five: what is between 1 and 3 is interpolated. Times of the file, and of --frame-times."""
+    GEOMETRY = images.Geometry((-30, 12.5, 4), (1.0, 1.25, 1.5), rotation(30), first_time=7.0, time_step=2.0)
+
+    def test_times_of_the_file_and_of_the_option(self):
+        array, geometry = images.moving_balls(5), self.GEOMETRY
+        some, times = array[[0, 1, 3, 4]], "7 9 13 15"
+        path = images.write_sequence(self.folder / "i.seq.nrrd", some, geometry, key_values={
+            "axis 0 index type": "numeric", "axis 0 index values": times})
+        mesh = self.mesh_of(path)
+        self.check_balls(mesh, array, geometry)
+        plain = images.write_space_time_nrrd(self.folder / "i.nrrd", some, geometry)
+        option = ("--frame-times", times.replace(" ", ","))
+        same = self.mesh_of(plain, *option, name="same.vtu")
+        np.testing.assert_array_equal(same.points, mesh.points)
+        np.testing.assert_array_equal(same.cells, mesh.cells)
+        # Slices and figures are those of the given frames.
+        done = self.call("--input", plain, *option, "--delta", 1.5, "--no-picking", "--slices", "s_", "--stats", "s.json",
+                         "--quality")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual([time for time, _ in meshfiles.read_slices(self.folder / "s.pvd")], [7, 9, 13, 15])
+        report = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(report["parameters"]["frame_times"], [7, 9, 13, 15])
+        self.assertEqual([frame["time"] for frame in report["frames"]], [7, 9, 13, 15])
+        voxel = geometry.voxel_volume()
+        for label in (2, 6):
+            counts = [int((frame == label).sum()) for frame in some]
+            self.assertEqual([frame["labels"][str(label)]["voxels"] for frame in report["frames"]], counts)
+            expected = voxel * (counts[0] + 3 * counts[1] + 3 * counts[2] + counts[3])  # steps of 2, 4, 2, halved
+            self.assertAlmostEqual(report["labels"][str(label)]["image_volume"], expected, delta=1e-9 * expected)
+            self.assertLess(abs(report["labels"][str(label)]["volume_error"]), 0.05)
+
+    def test_any_times(self):
+        array = images.moving_balls(4)
+        path = images.write_space_time_nrrd(self.folder / "i.nrrd", array)
+        mesh = self.mesh_of(path, "--frame-times", "0.5,2.1,3,5.7")
+        self.assertEqual((mesh.points[:, 3].min(), mesh.points[:, 3].max()), (0.5, 5.7))
+        self.assertEqual(set(mesh.labels), {2, 6})
+        counts = (array == 2).sum(axis=(1, 2, 3))
+        expected = (np.diff([0.5, 2.1, 3, 5.7]) * (counts[1:] + counts[:-1]) / 2).sum()
+        self.assertAlmostEqual(mesh.volumes()[mesh.labels == 2].sum() / expected, 1.0, delta=0.05)
+
+
 class BadImages(ProgramTestCase):
     ARRAY = images.moving_balls(3, 12)
 
@@ -232,9 +276,20 @@ class BadImages(ProgramTestCase):
         self.refuse("do not increase: 1 follows 1", images.write_sequence(
             self.folder / "i.nrrd", self.ARRAY, key_values={"axis 0 index values": "0 1 1"[::-1]}))
 
-    def test_frames_that_are_not_equally_spaced(self):
-        self.refuse("not equally spaced in time: frame 1 is at 1, not at 1.5", images.write_sequence(
-            self.folder / "i.nrrd", self.ARRAY, key_values={"axis 0 index values": "0 1 3"}))
+    def test_frames_at_nearly_the_same_time(self):
+        self.refuse("times of frames 1 and 2, 3 and 3.0001, are too near each other: .* more than 1000", images.write_sequence(
+            self.folder / "i.nrrd", self.ARRAY, key_values={"axis 0 index values": "0 3 3.0001"}))
+
+    def test_frame_times(self):
+        path = images.write_space_time_nrrd(self.folder / "i.nrrd", self.ARRAY)
+        for text, pattern in (("0,1", "--frame-times gave 2 times, but '.*i.nrrd' has 3 frames; give one"),):
+            self.refuse(pattern, path, "--frame-times", text)
+        for text, pattern in (("0,2,1", "--frame-times: times must increase, but 1 follows 2"),
+                              ("0,x,1", "--frame-times: 'x' is not a number"), ("5", "give the time of each frame"),
+                              ("0,inf,1", "must be a finite number")):
+            self.refuse(pattern, path, "--frame-times", text, status=2)
+        ball = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
+        self.refuse("--frame-times gave 2 times, but '.*ball.nrrd' has 1 frame; give one", ball, "--frame-times", "0,1")
 
     def test_steps(self):
         plain = {"space": None, "space directions": None, "space origin": None}

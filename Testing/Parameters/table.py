@@ -9,7 +9,7 @@ from pathlib import Path
 from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter
 
 SOURCE = Path(os.environ["VOXPLEX_SOURCE"])
-LISTS = ("labels", "label-sizes", "interface-sizes", "image")
+LISTS = ("labels", "label-sizes", "interface-sizes", "image", "times")
 TABLE = json.loads(subprocess.run([os.environ["VOXPLEX_PARAMETERS"]], check=True, capture_output=True, text=True).stdout)
 BY_PROPERTY = {p["property"]: p for p in TABLE if p["kind"] not in LISTS}
 

@@ -88,6 +88,8 @@ class Files(unittest.TestCase):
         series = voxplex.mesh(self.series, 2.0, pick_slivers=False)
         self.assertEqual(voxplex.pentatopes(series).shape[1], 5)
         self.assertEqual(voxplex.times(series).max(), 3.0)
+        series = voxplex.mesh(self.series, 2.0, pick_slivers=False, times=(0.5, 1.0, 2.0, 4.5))
+        self.assertEqual((voxplex.times(series).min(), voxplex.times(series).max()), (0.5, 4.5))
         self.assertEqual(voxplex.mesh(voxplex.read_frames(self.series), 2.0, pick_slivers=False, threads=1).GetNumberOfCells(),
                          voxplex.mesh(self.series, 2.0, pick_slivers=False, threads=1).GetNumberOfCells())
 

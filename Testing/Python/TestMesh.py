@@ -299,6 +299,7 @@ class SpaceTime(unittest.TestCase):
         frames = voxplex.images_from_array(beating(), times=(0.0, 2.0, 4.0, 6.0))
         self.check(voxplex.mesh(frames, 2.0), 0.0, 6.0)
         self.check(voxplex.mesh(frames, 2.0, times=(1, 2, 3, 4)), 1.0, 4.0)
+        self.check(voxplex.mesh(frames, 2.0, times=(1, 2, 3.5, 4)), 1.0, 4.0)
 
     def test_frames_are_in_order(self):
         """The ball grows: a slice at the end is larger than one at the start."""
@@ -319,8 +320,11 @@ class SpaceTime(unittest.TestCase):
         image.GetPointData().SetScalars(numpy_to_vtk(array))
         self.check(voxplex.mesh(image, 2.0), 0.0, 3.0)
         self.check(voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 11.0), time_scale=0.5), 5.0, 11.0)
-        with self.assertRaisesRegex(ValueError, "equal steps"):
-            voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 10.0))
+        self.check(voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 10.0)), 5.0, 10.0)
+        with self.assertRaisesRegex(voxplex.MeshingError, "must increase"):
+            voxplex.mesh(image, 2.0, times=(5.0, 7.0, 7.0, 10.0))
+        with self.assertRaisesRegex(ValueError, "4 frames, and 2 times"):
+            voxplex.mesh(image, 2.0, times=(5.0, 7.0))
         self.assertEqual(voxplex.array_from_image(image).shape, (12, 12, 12, 4))
 
 

@@ -7,10 +7,12 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkSOADataArrayTemplate.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTrivialProducer.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -56,6 +58,59 @@ void TestBothKinds()
     components->Update();
     CHECK(SamePentatopeMesh(series, components), cells);
   }
+}
+
+/**
+ * Frames 0, 1, 2, 4, 7 of a ball that does not move, as time steps and as components: the mesh is that
+ * of all eight frames. And times that no frames of equal distances have.
+ */
+void TestUnequalTimes()
+{
+  const auto still = [](const Vector& x, double) { return TwoLabelBall(Centre, 4.2)(x, 5.0); };
+  std::vector<double> whole;
+  for (int k = 0; k < 8; ++k)
+  {
+    whole.push_back(10.0 + k);
+  }
+  const std::vector<double> some = { 10, 11, 12, 14, 17 };
+  const auto expected = MakePentatopeFilter(MakeSeries(SmallPlacement(), whole, still));
+  expected->Update();
+  CheckPentatopeMesh(expected);
+  const auto series = MakePentatopeFilter(MakeSeries(SmallPlacement(), some, still));
+  series->Update();
+  CHECK(SamePentatopeMesh(expected, series));
+
+  const auto components = FromImage(MakeComponents(SmallPlacement(), some, still));
+  for (const double time : some)
+  {
+    components->AddFrameTime(time);
+  }
+  CHECK(components->GetNumberOfFrameTimes() == 5);
+  CHECK(components->GetFrameTime(3) == 14.0);
+  CHECK(std::isnan(components->GetFrameTime(5)) && std::isnan(components->GetFrameTime(-1)));
+  components->UpdateInformation();
+  const double* const range =
+    components->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  CHECK(range && range[0] == 10.0 && range[1] == 17.0);
+  components->Update();
+  CHECK(SamePentatopeMesh(expected, components));
+
+  // In place of the times of the pipeline.
+  const auto replaced = MakePentatopeFilter(MakeSeries(SmallPlacement(), EqualTimes(5), still));
+  for (const double time : some)
+  {
+    replaced->AddFrameTime(time);
+  }
+  replaced->Update();
+  CHECK(SamePentatopeMesh(expected, replaced));
+
+  const auto odd =
+    MakePentatopeFilter(MakeSeries(SmallPlacement(), { 0.1, 1.0, 2.37, 4.01, 6.6 }, still));
+  odd->Update();
+  CheckPentatopeMesh(odd);
+  double times[2];
+  odd->GetOutput()->GetPointData()->GetArray("Time")->GetRange(times);
+  CHECK(times[0] == 0.1 && times[1] == 6.6);
 }
 
 /** Two of several arrays, by name. */
@@ -248,6 +303,7 @@ void TestSizeFunctionArguments()
 int TestPentatopeMeshInputs(int, char*[])
 {
   TestBothKinds();
+  TestUnequalTimes();
   TestChosenArray();
   TestTypes();
   TestLayouts();
