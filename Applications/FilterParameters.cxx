@@ -27,10 +27,10 @@ Setter To(void (F::*set)(T))
 const std::map<std::string, Setter, std::less<>>& Setters()
 {
   static const std::map<std::string, Setter, std::less<>> setters{
-    { "isovalue", To(&Tets::SetIsovalue) },
-    { "inside", To(&Tets::SetInside) },
-    { "inside-label", To(&Tets::SetInsideLabel) },
-    { "grey-smoothing", To(&Tets::SetIsosurfaceSmoothingSigma) },
+    { "isovalue", To(&Filter::SetIsovalue) },
+    { "inside", To(&Filter::SetInside) },
+    { "inside-label", To(&Filter::SetInsideLabel) },
+    { "grey-smoothing", To(&Filter::SetIsosurfaceSmoothingSigma) },
     { "delta", To(&Filter::SetDelta) },
     { "elements", To(&Filter::SetNumberOfElements) },
     { "grading", To(&Tets::SetGrading) },

@@ -92,6 +92,13 @@ Worst WorstVolume(const ordered_json& frames)
   return worst;
 }
 
+/** Whether the image has labels, so that the frames were compared with it. */
+bool AreCompared(const ordered_json& frames)
+{
+  return std::any_of(frames.begin(), frames.end(),
+    [](const ordered_json& frame) { return !frame["image"].is_null(); });
+}
+
 std::vector<std::uint64_t> DihedralAngles(const ordered_json& frames)
 {
   std::vector<std::uint64_t> sum;
@@ -140,7 +147,7 @@ ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& inp
 
     const auto filter = MakeQualityFilter(parameters, input.Selection);
     filter->SetInputData(split->GetOutput());
-    const bool hasForeground = HasForeground(image, input.Selection);
+    const bool hasForeground = !parameters.Has("isovalue") && HasForeground(image, input.Selection);
     if (hasForeground) // otherwise there is nothing to compare with
     {
       filter->SetImageData(image);
@@ -167,6 +174,11 @@ ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& inp
 
 void AddFrames(ordered_json frames, ordered_json& report)
 {
+  if (!AreCompared(frames))
+  {
+    report["frames"] = std::move(frames);
+    return;
+  }
   const ordered_json& given = report["parameters"]["time_scale"];
   const double scale = given.is_number() ? given.get<double>() : 1.0;
   for (auto& [label, figures] : report["labels"].items())
@@ -187,6 +199,14 @@ void AddFrames(ordered_json frames, ordered_json& report)
 std::string SummarizeFrames(const ordered_json& report)
 {
   const ordered_json& frames = report["frames"];
+  std::ostringstream text;
+  text << "Quality of the cuts at " << frames.size()
+       << " frames:\n  dihedral angles in steps of 10 degrees, %:" << Shares(DihedralAngles(frames))
+       << '\n';
+  if (!AreCompared(frames))
+  {
+    return text.str();
+  }
   Worst total;
   for (const auto& [label, figures] : report["labels"].items())
   {
@@ -209,10 +229,7 @@ std::string SummarizeFrames(const ordered_json& report)
       distance.Update(frame["hausdorff"]["voxels"]["distance"], "", frame["time"]);
     }
   }
-  std::ostringstream text;
-  text << "Quality of the cuts at " << frames.size()
-       << " frames:\n  dihedral angles in steps of 10 degrees, %:" << Shares(DihedralAngles(frames))
-       << "\n  " << lost << " of " << components << " components lost; hypervolumes off by up to "
+  text << "  " << lost << " of " << components << " components lost; hypervolumes off by up to "
        << Rounded(100.0 * total.Value, 2) << " %, volumes in a frame by up to "
        << Rounded(100.0 * volume.Value, 2) << " % (label " << volume.Label << " at time "
        << Rounded(volume.Time, 3) << ")\n";

@@ -29,7 +29,7 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   SetParameters(filter, p.Values);
   if (p.Has("isovalue"))
   {
-    vtkImageToTetMeshFilter::SafeDownCast(filter)->SetInputModeToIsosurface();
+    filter->SetInputModeToIsosurface();
   }
   for (const auto& [labels, size] : selection.InterfaceSizes)
   {

@@ -50,6 +50,13 @@ std::vector<double> TimeStepsOf(vtkInformation* info)
                : std::vector<double>();
 }
 
+voxplex::FrameContent ContentOf(int inputMode)
+{
+  return inputMode == vtkImageToPentatopeMeshFilter::INPUT_LABELS
+    ? voxplex::FrameContent::Labels
+    : voxplex::FrameContent::GreyValues;
+}
+
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
@@ -236,7 +243,7 @@ bool vtkImageToPentatopeMeshFilter::Gather(
   }
   if (series.NumberOfFramesAdded() == 0)
   {
-    series.Start(this->ChooseTimes(times));
+    series.Start(this->ChooseTimes(times), ContentOf(this->InputMode));
   }
   int association = 0;
   vtkAbstractArray* const scalars =
@@ -272,7 +279,7 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
   {
     times[static_cast<std::size_t>(k)] = this->TimeOrigin + k * this->TimeSpacing;
   }
-  this->Gathered->Series.Start(this->ChooseTimes(times));
+  this->Gathered->Series.Start(this->ChooseTimes(times), ContentOf(this->InputMode));
   for (int k = 0; k < frames && !this->StopRequested(); ++k)
   {
     this->Gathered->Series.Add(input, k, this->GetThreads());
@@ -330,17 +337,28 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   run.Options.Team.FineGrained = this->FineGrained;
   run.ProgressBefore = GatheringProgress;
 
-  const voxplex::LabelImage<4> labels =
-    series.MakeLabelImage(frame.Grid, run.SelectedLabels(), run.Options.Team.Threads);
-  series.Clear();
+  const unsigned threads = run.Options.Team.Threads;
   voxplex::SimplexMesh<4> mesh;
-  if (!run.Mesh(labels, labels, mesh))
+  bool done = false;
+  if (this->InputMode == INPUT_LABELS)
+  {
+    const voxplex::LabelImage<4> labels =
+      series.MakeLabelImage(frame.Grid, run.SelectedLabels(), threads);
+    series.Clear();
+    done = run.Mesh(labels, labels, mesh);
+  }
+  else
+  {
+    const auto image = series.MakeIsosurface(frame.Grid, run.ChosenIsosurface(), threads);
+    done = run.Mesh(image, image.Labels(), mesh);
+  }
+  if (!done)
   {
     return;
   }
   const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), frame, vtkUnstructuredGrid::GetData(outputVector, 0),
-    vtkUnstructuredGrid::GetData(outputVector, 1), run.Options.Team.Threads);
+    vtkUnstructuredGrid::GetData(outputVector, 1), threads);
   run.Figures().Run.Times.LabelField += this->Gathered->Seconds;
   run.Figures().Run.Times.Extraction += writing.Seconds();
 }

@@ -11,8 +11,8 @@
  * high-quality image-to-mesh conversion for finite element simulations", 2013, chapter 4).
  *
  * @par Inputs
- * - Port 0, vtkImageData: one label per voxel and frame, 0 is background. The frames, at least two,
- *   come in one of two ways:
+ * - Port 0, vtkImageData: one label per voxel and frame, 0 is background, or one grey value (see
+ *   InputMode). The frames, at least two, come in one of two ways:
  *   - A temporal pipeline that announces two or more `TIME_STEPS`: each time step is a frame. The
  *     filter requests every time step once, in order. All frames must have the same dimensions,
  *     spacing, origin, direction and array name; the array has one component. Times must increase.
@@ -23,9 +23,10 @@
  *
  *   The array is the one chosen by `SetInputArrayToProcess(0, 0, 0, association, name)`; by default
  *   the active point scalars, else the active cell scalars. Point scalars lie at the points, cell
- *   scalars at the cell centres. They have any scalar type; values are whole, none of them
- *   negative. Frames are copied into as few bits per voxel as their labels need. Origin, spacing,
- *   direction matrix (skewed and left-handed ones included) and extent are honoured.
+ *   scalars at the cell centres. They have any scalar type; labels are whole, none of them
+ *   negative. Frames are copied into as few bits per voxel as their labels need; grey values as
+ *   float, or as double if their type needs it. Origin, spacing, direction matrix (skewed and
+ *   left-handed ones included) and extent are honoured.
  * - Port 1, vtkImageData, optional: a 3D image of element sizes, which applies at all times. The
  *   array is chosen by `SetInputArrayToProcess(1, 1, 0, ...)`.
  *
@@ -157,7 +158,8 @@ public:
   /**
    * Steps between two frames, 0 to 8. Labels are interpolated between the frames: the shape changes
    * gradually, and volumes change linearly. Default 0: as many as the motion of the labels asks
-   * for, about one for each voxel that an interface moves. 1: no frames are added.
+   * for, about one for each voxel that an interface moves. 1: no frames are added. Grey values
+   * (InputMode) have no frames between frames: they are interpolated linearly in time.
    */
   vtkSetClampMacro(FrameSteps, int, 0, 8);
   vtkGetMacro(FrameSteps, int);

@@ -499,6 +499,16 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   }
 }
 
+const char* vtkImageToSimplexMeshFilter::GetInputModeAsString() const
+{
+  return this->InputMode == INPUT_LABELS ? "labels" : "isosurface";
+}
+
+const char* vtkImageToSimplexMeshFilter::GetInsideAsString() const
+{
+  return this->Inside == INSIDE_ABOVE ? "above" : "below";
+}
+
 unsigned vtkImageToSimplexMeshFilter::GetThreads() const
 {
   return static_cast<unsigned>(
@@ -520,6 +530,11 @@ bool vtkImageToSimplexMeshFilter::StopRequested()
 void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "InputMode: " << this->GetInputModeAsString() << "\n";
+  os << indent << "Isovalue: " << this->Isovalue << "\n";
+  os << indent << "Inside: " << this->GetInsideAsString() << "\n";
+  os << indent << "InsideLabel: " << this->InsideLabel << "\n";
+  os << indent << "IsosurfaceSmoothingSigma: " << this->IsosurfaceSmoothingSigma << "\n";
   os << indent << "Delta: " << this->Delta << "\n";
   os << indent << "NumberOfElements: " << this->NumberOfElements << "\n";
   os << indent << "DeltaIsSuggestion: " << this->DeltaIsSuggestion << "\n";

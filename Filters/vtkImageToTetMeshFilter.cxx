@@ -28,20 +28,6 @@ static_assert(vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE ==
 namespace
 {
 
-using Filter = vtkImageToTetMeshFilter;
-static_assert(Filter::INSIDE_ABOVE == static_cast<int>(voxplex::IsosurfaceSide::Above) &&
-  Filter::INSIDE_BELOW == static_cast<int>(voxplex::IsosurfaceSide::Below));
-
-void CheckNoneSelected(const voxplex::LabelSelection& selection)
-{
-  if (!selection.Only.empty() || !selection.But.empty())
-  {
-    throw voxplex::InputError(
-      "AddLabel() and ExcludeLabel() choose among the labels of a label image, "
-      "but InputMode is isosurface; remove the labels.");
-  }
-}
-
 /** @param scalars must live as long as the result */
 voxplex::IsosurfaceImage<3> ReadIsosurface(vtkDataArray* scalars, const voxplex::ImageFrame& frame,
   const voxplex::Isosurface& surface, unsigned threads)
@@ -80,16 +66,6 @@ vtkImplicitFunction* vtkImageToTetMeshFilter::GetSizeImplicitFunction() const
 const char* vtkImageToTetMeshFilter::GetGradingAsString() const
 {
   return this->Grading == UNIFORM ? "uniform" : "local-feature-size";
-}
-
-const char* vtkImageToTetMeshFilter::GetInputModeAsString() const
-{
-  return this->InputMode == INPUT_LABELS ? "labels" : "isosurface";
-}
-
-const char* vtkImageToTetMeshFilter::GetInsideAsString() const
-{
-  return this->Inside == INSIDE_ABOVE ? "above" : "below";
 }
 
 vtkPolyData* vtkImageToTetMeshFilter::GetInterfaces()
@@ -182,18 +158,13 @@ void vtkImageToTetMeshFilter::Mesh(
   }
   else
   {
-    CheckNoneSelected(run.SelectedLabels());
-    const voxplex::Isosurface surface{ this->Isovalue,
-      static_cast<voxplex::IsosurfaceSide>(this->Inside), this->InsideLabel,
-      this->IsosurfaceSmoothingSigma };
+    const voxplex::Isosurface surface = run.ChosenIsosurface();
     const vtkSmartPointer<vtkDataArray> values = voxplex::Contiguous(input.Array);
     auto image = ReadIsosurface(values, input.Frame, surface, run.Options.Team.Threads);
     if (!meshImage(image, image.Labels()))
     {
       return;
     }
-    run.Figures().Isosurface = { true, this->Isovalue, this->Inside == INSIDE_ABOVE,
-      image.Range() };
   }
   const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), input.Frame, vtkUnstructuredGrid::GetData(outputVector, 0),
@@ -208,11 +179,6 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Grading: " << this->GetGradingAsString() << "\n";
   os << indent << "FeatureRatio: " << this->FeatureRatio << "\n";
   os << indent << "LargestFeature: " << this->LargestFeature << "\n";
-  os << indent << "InputMode: " << this->GetInputModeAsString() << "\n";
-  os << indent << "Isovalue: " << this->Isovalue << "\n";
-  os << indent << "Inside: " << this->GetInsideAsString() << "\n";
-  os << indent << "InsideLabel: " << this->InsideLabel << "\n";
-  os << indent << "IsosurfaceSmoothingSigma: " << this->IsosurfaceSmoothingSigma << "\n";
   os << indent << "FacetAngle: " << this->FacetAngle << "\n";
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";

@@ -74,82 +74,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   ///@}
 
-  /** Values of InputMode. */
-  enum InputModes
-  {
-    INPUT_LABELS = 0,
-    INPUT_ISOSURFACE = 1
-  };
-
-  ///@{
-  /**
-   * The kind of values that the input has. Default labels.
-   * - Labels: the tissue of each voxel.
-   * - Isosurface: grey values, for example of a CT, a signed distance, a density. The filter meshes
-   *   the region on the Inside of the isosurface at Isovalue, with InsideLabel as its label.
-   *   Between the voxel centres values are interpolated trilinearly, so that the vertices of the
-   *   interface lie on the surface that vtkFlyingEdges3D triangulates, to a thousandth of a voxel.
-   *   A voxel with the Isovalue itself is inside; a voxel whose value is not a number is outside.
-   *   If the image's border cuts the object, a plane half a voxel beyond the outermost voxels
-   *   closes it.
-   *
-   * Values outside of InputModes are clamped.
-   */
-  vtkSetClampMacro(InputMode, int, INPUT_LABELS, INPUT_ISOSURFACE);
-  vtkGetMacro(InputMode, int);
-  void SetInputModeToLabels() { this->SetInputMode(INPUT_LABELS); }
-  void SetInputModeToIsosurface() { this->SetInputMode(INPUT_ISOSURFACE); }
-  /** "labels" or "isosurface". */
-  const char* GetInputModeAsString() const;
-  ///@}
-
-  ///@{
-  /**
-   * If InputMode is isosurface: the value of the isosurface (SetValue() of vtkContourFilter).
-   * Default 0.
-   */
-  vtkSetMacro(Isovalue, double);
-  vtkGetMacro(Isovalue, double);
-  ///@}
-
-  /** Values of Inside. */
-  enum Sides
-  {
-    INSIDE_ABOVE = 0,
-    INSIDE_BELOW = 1
-  };
-
-  ///@{
-  /**
-   * The side of the isosurface on which the object lies. Above, the default: where values are at
-   * least the Isovalue. Below: where values are at most the Isovalue, as with signed distances that
-   * are negative inside. Values outside of Sides are clamped.
-   */
-  vtkSetClampMacro(Inside, int, INSIDE_ABOVE, INSIDE_BELOW);
-  vtkGetMacro(Inside, int);
-  void SetInsideToAbove() { this->SetInside(INSIDE_ABOVE); }
-  void SetInsideToBelow() { this->SetInside(INSIDE_BELOW); }
-  /** "above" or "below". */
-  const char* GetInsideAsString() const;
-  ///@}
-
-  ///@{
-  /** The label of the elements inside of the isosurface, 1 or more. Default 1. */
-  vtkSetMacro(InsideLabel, vtkTypeInt64);
-  vtkGetMacro(InsideLabel, vtkTypeInt64);
-  ///@}
-
-  ///@{
-  /**
-   * If InputMode is isosurface: standard deviation, in voxels along each axis, of a smoothing of
-   * grey values against noise. (SmoothingSigma applies to labels only.) It hardly moves smooth
-   * surfaces, but it rounds edges, and specks and gaps may vanish. 0 to 5; default 0, because grey
-   * values have no voxel stairs.
-   */
-  vtkSetMacro(IsosurfaceSmoothingSigma, double);
-  vtkGetMacro(IsosurfaceSmoothingSigma, double);
-  ///@}
-
   /** Values of Grading. */
   enum GradingModes
   {
@@ -293,11 +217,6 @@ protected:
   int Grading = UNIFORM;
   double FeatureRatio = 1.0;
   double LargestFeature = 12.0;
-  int InputMode = INPUT_LABELS;
-  double Isovalue = 0.0;
-  int Inside = INSIDE_ABOVE;
-  vtkTypeInt64 InsideLabel = 1;
-  double IsosurfaceSmoothingSigma = 0.0;
   double FacetAngle = 30.0;
   double SliverAngle = 9.0;
   double OptimisationTimeLimit = 0.0;

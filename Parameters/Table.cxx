@@ -54,17 +54,17 @@ MeshingParameter List(Kind kind, const char* name, const char* unit, const char*
 Parameters GreyValues()
 {
   return {
-    Number(Kind::Real, "isovalue", 3, {}, "", "VALUE",
+    Number(Kind::Real, "isovalue", 0, {}, "", "VALUE",
       "mesh the region that the isosurface of a grey-value image at this value bounds, as one "
       "label",
       { .Usual = ParameterRange{ -1e9, 1e9 }, .Step = 0.1 }),
-    Word("inside", 3, "above", { "above", "below" },
+    Word("inside", 0, "above", { "above", "below" },
       "side of the isosurface on which the object lies; above: where values are greater"),
-    Number(Kind::Whole, "inside-label", 3, { 1.0, LargestWhole }, "1", "LABEL",
+    Number(Kind::Whole, "inside-label", 0, { 1.0, LargestWhole }, "1", "LABEL",
       "the label of the elements inside of the isosurface",
       { .Label = "Label of the inside", .Usual = ParameterRange{ 1.0, 65535.0 }, .Step = 1.0 }),
     // Programs that have no name for it set it by smoothing.
-    Number(Kind::Real, "grey-smoothing", 3, Sigmas, "0", "VOXELS",
+    Number(Kind::Real, "grey-smoothing", 0, Sigmas, "0", "VOXELS",
       "standard deviation of the smoothing of noise in grey values, in voxels",
       { .Property = "IsosurfaceSmoothingSigma",
         .Label = "Smoothing of grey values",

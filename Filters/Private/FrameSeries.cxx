@@ -141,11 +141,12 @@ Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-void FrameSeries::Start(std::vector<double> times)
+void FrameSeries::Start(std::vector<double> times, FrameContent content)
 {
   this->Clear();
   ScheduleFrames(times); // before the first frame is read
   this->Times = std::move(times);
+  this->Content = content;
 }
 
 void FrameSeries::Clear()
@@ -202,11 +203,16 @@ void FrameSeries::CheckSameGrid(const ChosenArray& frame) const
 }
 
 //----------------------------------------------------------------------------------------------------
+std::size_t FrameSeries::VoxelsOfFrame() const
+{
+  const auto& n = this->FirstFrame.Grid.Dimensions;
+  return static_cast<std::size_t>(n[0] * n[1] * n[2]);
+}
+
 template <typename U>
 void FrameSeries::WidenTo(unsigned threads)
 {
-  const auto& n = this->FirstFrame.Grid.Dimensions;
-  const std::size_t voxels = static_cast<std::size_t>(n[0] * n[1] * n[2]);
+  const std::size_t voxels = this->VoxelsOfFrame();
   UninitialisedVector<U> wide(voxels * this->Times.size());
   std::visit(
     [&](const auto& narrow)
@@ -215,26 +221,42 @@ void FrameSeries::WidenTo(unsigned threads)
         [&](std::size_t first, std::size_t last)
         {
           std::transform(narrow.data() + first, narrow.data() + last, wide.data() + first,
-            [](auto label) { return static_cast<U>(label); });
+            [](auto value) { return static_cast<U>(value); });
         });
     },
-    this->Labels);
-  this->Labels = std::move(wide);
+    this->Values);
+  this->Values = std::move(wide);
 }
 
 template <typename T>
-void FrameSeries::Copy(const T* values, int components, int component, unsigned threads)
+void FrameSeries::Copy(const T* values, std::size_t stride, unsigned threads)
 {
-  values += component;
-  const auto stride = static_cast<std::size_t>(components);
-  const auto& n = this->FirstFrame.Grid.Dimensions;
-  const std::size_t voxels = static_cast<std::size_t>(n[0] * n[1] * n[2]);
-  const Width width = LargestWidth(values, voxels, stride, threads);
+  std::visit(
+    [&](auto& all)
+    {
+      using Value = typename std::remove_reference_t<decltype(all)>::value_type;
+      Value* const out = all.data() + this->VoxelsOfFrame() * this->Added;
+      ParallelFor(0, this->VoxelsOfFrame(), Grain, threads,
+        [&](std::size_t first, std::size_t last)
+        {
+          for (std::size_t i = first; i < last; ++i)
+          {
+            out[i] = static_cast<Value>(values[i * stride]);
+          }
+        });
+    },
+    this->Values);
+}
+
+template <typename T>
+void FrameSeries::CopyLabels(const T* values, std::size_t stride, unsigned threads)
+{
+  const Width width = LargestWidth(values, this->VoxelsOfFrame(), stride, threads);
   if (width == Width::NoLabel)
   {
     ThrowBadValue(values, stride, this->FirstFrame.Grid, this->NameOf(this->Added));
   }
-  if (this->Added == 0 || static_cast<std::size_t>(width) > this->Labels.index())
+  if (this->Added == 0 || static_cast<std::size_t>(width) > this->Values.index())
   {
     switch (width)
     {
@@ -248,21 +270,23 @@ void FrameSeries::Copy(const T* values, int components, int component, unsigned 
         this->WidenTo<std::int64_t>(threads);
     }
   }
-  std::visit(
-    [&](auto& labels)
-    {
-      using Label = typename std::remove_reference_t<decltype(labels)>::value_type;
-      Label* const out = labels.data() + voxels * this->Added;
-      ParallelFor(0, voxels, Grain, threads,
-        [&](std::size_t first, std::size_t last)
-        {
-          for (std::size_t i = first; i < last; ++i)
-          {
-            out[i] = static_cast<Label>(values[i * stride]);
-          }
-        });
-    },
-    this->Labels);
+  this->Copy(values, stride, threads);
+}
+
+template <typename T>
+void FrameSeries::CopyGreyValues(const T* values, std::size_t stride, unsigned threads)
+{
+  constexpr bool isExactAsFloat = std::is_same_v<T, float> ||
+    std::numeric_limits<T>::digits <= std::numeric_limits<float>::digits;
+  if (!isExactAsFloat && !std::holds_alternative<UninitialisedVector<double>>(this->Values))
+  {
+    this->WidenTo<double>(threads);
+  }
+  else if (this->Added == 0)
+  {
+    this->WidenTo<float>(threads);
+  }
+  this->Copy(values, stride, threads);
 }
 
 void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
@@ -274,14 +298,17 @@ void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
   }
   this->CheckSameGrid(frame);
   const vtkSmartPointer<vtkDataArray> array = Contiguous(frame.Array);
-  const int components = array->GetNumberOfComponents();
+  const auto stride = static_cast<std::size_t>(array->GetNumberOfComponents());
   switch (array->GetDataType())
   {
-    vtkTemplateMacro(this->Copy(
-      static_cast<const VTK_TT*>(array->GetVoidPointer(0)), components, component, threads));
+    vtkTemplateMacro(
+      const auto* const values = static_cast<const VTK_TT*>(array->GetVoidPointer(0)) + component;
+      this->Content == FrameContent::Labels ? this->CopyLabels(values, stride, threads)
+                                            : this->CopyGreyValues(values, stride, threads));
     default:
       throw InputError("Scalars of type " + std::string(array->GetDataTypeAsString()) +
-        " cannot be read as labels.");
+        " cannot be read as " +
+        (this->Content == FrameContent::Labels ? "labels." : "grey values."));
   }
   ++this->Added;
 }
@@ -312,11 +339,27 @@ LabelImage<4> FrameSeries::MakeLabelImage(
       using Label = typename std::remove_cvref_t<decltype(labels)>::value_type;
       return LabelImage<4>::FromScalars<Label>(labels, given, selection, threads);
     },
-    this->Labels);
+    this->Values);
   const FrameSchedule schedule = this->MakeSchedule();
   return schedule.ChangesNothing()
     ? std::move(image)
     : ScheduledFrames(image, schedule, grid.IndexToFrame[3][3], threads);
+}
+
+IsosurfaceImage<4> FrameSeries::MakeIsosurface(
+  const GridGeometry<4>& grid, const Isosurface& surface, unsigned threads)
+{
+  const FrameSchedule schedule = this->MakeSchedule();
+  const auto make = [&]<typename T>(UninitialisedVector<T>& values)
+  {
+    if (!schedule.ChangesNothing())
+    {
+      values = ScheduledValues<T>(values, this->VoxelsOfFrame(), schedule, threads);
+    }
+    return IsosurfaceImage<4>::FromScalars<T>(values, grid, surface, threads);
+  };
+  auto* const floats = std::get_if<UninitialisedVector<float>>(&this->Values);
+  return floats ? make(*floats) : make(std::get<UninitialisedVector<double>>(this->Values));
 }
 
 } // namespace voxplex

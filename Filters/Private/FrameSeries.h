@@ -2,22 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FrameSeries.h
- * @brief Gathers the images of a time series as one array of labels.
+ * @brief Gathers the images of a time series as one array of labels or grey values.
  *
  * An image of the series is called a frame here. The kernel wants the voxels of all frames in one
  * array: x fastest, then y, z, time. Labels are kept in 8, 16 or 64 bits each, as few as those seen
- * so far need. The type of the images' scalars does not count.
+ * so far need. The type of the images' scalars does not count. Grey values are kept as float if
+ * that holds the values of their type exactly, otherwise as double.
  */
 #ifndef voxplex_FrameSeries_h
 #define voxplex_FrameSeries_h
 
 #include "Base/UninitialisedVector.h"
 #include "Image/FrameSchedule.h"
+#include "Image/IsosurfaceImage.h"
 #include "Image/LabelImage.h"
 #include "Private/ChosenArray.h"
 #include "Private/SpaceTimeFrame.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -26,6 +29,13 @@
 namespace voxplex
 {
 
+/** The kind of values that frames have. */
+enum class FrameContent
+{
+  Labels,
+  GreyValues
+};
+
 class FrameSeries
 {
 public:
@@ -33,7 +43,7 @@ public:
    * Starts anew.
    * @throws InputError if there are no equally spaced frames for the times (ScheduleFrames())
    */
-  void Start(std::vector<double> times);
+  void Start(std::vector<double> times, FrameContent content);
   /** Forgets everything and releases the memory. */
   void Clear();
 
@@ -46,7 +56,7 @@ public:
   double TimeOf(std::size_t frame) const { return this->Times[frame]; }
 
   /**
-   * Copies the labels of the next frame: one component of an array.
+   * Copies the values of the next frame: one component of an array.
    * @param threads 0 means all cores
    * @throws InputError, which names the frames, if the grid or the array's name is not the first
    * frame's, or if there is a value that cannot be a label; std::bad_alloc
@@ -69,11 +79,27 @@ public:
   LabelImage<4> MakeLabelImage(
     const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const;
 
+  /**
+   * The isosurface of the complete series, whose values are grey. They are interpolated linearly in
+   * time if frames are not equally spaced; the series then has the interpolated ones.
+   * @param grid of MakeFrame()
+   * @return refers to values of this object
+   * @throws what IsosurfaceImage::FromScalars() throws
+   */
+  IsosurfaceImage<4> MakeIsosurface(
+    const GridGeometry<4>& grid, const Isosurface& surface, unsigned threads);
+
 private:
   FrameSchedule MakeSchedule() const;
+  std::size_t VoxelsOfFrame() const;
   template <typename T>
-  void Copy(const T* values, int components, int component, unsigned threads);
-  /** Makes room for labels of type U. */
+  void CopyLabels(const T* values, std::size_t stride, unsigned threads);
+  template <typename T>
+  void CopyGreyValues(const T* values, std::size_t stride, unsigned threads);
+  /** Copies into the present type. */
+  template <typename T>
+  void Copy(const T* values, std::size_t stride, unsigned threads);
+  /** Makes room for values of type U. */
   template <typename U>
   void WidenTo(unsigned threads);
   void CheckSameGrid(const ChosenArray& frame) const;
@@ -82,10 +108,11 @@ private:
   std::size_t Added = 0;
   ImageFrame FirstFrame;
   std::string ArrayName;
+  FrameContent Content = FrameContent::Labels;
   /** Of all frames; those not yet added are uninitialised. Alternatives in order of width. */
   std::variant<UninitialisedVector<std::uint8_t>, UninitialisedVector<std::uint16_t>,
-    UninitialisedVector<std::int64_t>>
-    Labels;
+    UninitialisedVector<std::int64_t>, UninitialisedVector<float>, UninitialisedVector<double>>
+    Values;
 };
 
 } // namespace voxplex

@@ -31,6 +31,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -112,6 +113,26 @@ public:
   }
 
   /**
+   * The isosurface that the filter meshes.
+   * @throws voxplex::InputError if labels are chosen, which grey values do not have
+   */
+  voxplex::Isosurface ChosenIsosurface() const
+  {
+    const vtkImageToSimplexMeshFilter* const filter = this->Filter;
+    using Class = vtkImageToSimplexMeshFilter;
+    static_assert(Class::INSIDE_ABOVE == static_cast<int>(voxplex::IsosurfaceSide::Above) &&
+      Class::INSIDE_BELOW == static_cast<int>(voxplex::IsosurfaceSide::Below));
+    const voxplex::LabelSelection selection = this->SelectedLabels();
+    if (!selection.Only.empty() || !selection.But.empty())
+    {
+      throw voxplex::InputError("AddLabel() and ExcludeLabel() choose among the labels of a label "
+                                "image, but InputMode is isosurface; remove the labels.");
+    }
+    return { filter->Isovalue, static_cast<voxplex::IsosurfaceSide>(filter->Inside),
+      filter->InsideLabel, filter->IsosurfaceSmoothingSigma };
+  }
+
+  /**
    * Calls the kernel and fills the statistics, its quality included if the filter asks for it. The
    * time since the run was made is counted as reading the labels.
    * @param image what is meshed: the label image, or the isosurface that it belongs to
@@ -147,6 +168,11 @@ public:
 
     vtkMeshingStatistics::Figures& figures = this->Figures();
     figures.Dimension = D;
+    if constexpr (std::is_same_v<Image, voxplex::IsosurfaceImage<D>>)
+    {
+      figures.Isosurface = { true, image.Surface().Value,
+        image.Surface().Inside == voxplex::IsosurfaceSide::Above, image.Range() };
+    }
     figures.Run = mesher.Statistics();
     figures.Threads = static_cast<int>(this->Options.Team.Threads);
     figures.Elements = std::ssize(mesh.Simplices);

@@ -435,4 +435,38 @@ LabelImage<4> InterpolateFrames(
     image, schedule, image.Grid().IndexToFrame[3][3] / static_cast<double>(steps), threads, stop);
 }
 
+//------------------------------------------------------------------------------------------------
+template <typename T>
+UninitialisedVector<T> ScheduledValues(
+  std::span<const T> values, std::size_t frame, const FrameSchedule& schedule, unsigned threads)
+{
+  UninitialisedVector<T> result(frame * schedule.Places.size());
+  ParallelFor(0, schedule.Places.size(), 1, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        const auto [number, weight] = schedule.Places[k];
+        const T* const before = values.data() + static_cast<std::size_t>(number) * frame;
+        T* const to = result.data() + k * frame;
+        if (weight == 0.0)
+        {
+          std::copy(before, before + frame, to);
+          continue;
+        }
+        for (std::size_t i = 0; i < frame; ++i)
+        {
+          to[i] = static_cast<T>((1.0 - weight) * static_cast<double>(before[i]) +
+            weight * static_cast<double>(before[frame + i]));
+        }
+      }
+    });
+  return result;
+}
+
+template UninitialisedVector<float> ScheduledValues(
+  std::span<const float>, std::size_t, const FrameSchedule&, unsigned);
+template UninitialisedVector<double> ScheduledValues(
+  std::span<const double>, std::size_t, const FrameSchedule&, unsigned);
+
 } // namespace voxplex

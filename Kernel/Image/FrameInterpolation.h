@@ -10,6 +10,8 @@
 #include "Image/FrameSchedule.h"
 #include "Image/LabelImage.h"
 
+#include <cstddef>
+#include <span>
 #include <stop_token>
 
 namespace voxplex
@@ -66,6 +68,22 @@ LabelImage<4> InterpolateFrames(const LabelImage<4>& image, unsigned steps, unsi
  */
 LabelImage<4> ScheduledFrames(const LabelImage<4>& image, const FrameSchedule& schedule,
   double step, unsigned threads = 1, const std::stop_token& stop = {});
+
+/**
+ * @brief Grey values of other frames: those of the schedule, interpolated linearly in time.
+ *
+ * Values that are NaN in one of the two frames are NaN between them.
+ * @param values of the series' frames, one frame after the other; float or double
+ * @param frame number of the values of a frame
+ */
+template <typename T>
+UninitialisedVector<T> ScheduledValues(std::span<const T> values, std::size_t frame,
+  const FrameSchedule& schedule, unsigned threads = 1);
+
+extern template UninitialisedVector<float> ScheduledValues(
+  std::span<const float>, std::size_t, const FrameSchedule&, unsigned);
+extern template UninitialisedVector<double> ScheduledValues(
+  std::span<const double>, std::size_t, const FrameSchedule&, unsigned);
 
 } // namespace voxplex
 

@@ -93,9 +93,9 @@ void CheckSegmented(const LabelImage<D>& image, unsigned threads, const std::sto
   {
     throw InputError("The image's " + std::to_string(labels) + " labels look like grey values: " +
       std::to_string(std::lround(100.0 * pairs.ShareOfDifferent())) +
-      " % of neighbouring voxels have different ones. Segment it first" +
-      (D == 3 ? ", or mesh an isosurface of it" : "") +
-      ", or choose the array that holds the segmentation, or force it.");
+      " % of neighbouring voxels have different ones. Segment it first"
+      ", or mesh an isosurface of it, or choose the array that holds the segmentation, or force "
+      "it.");
   }
 }
 

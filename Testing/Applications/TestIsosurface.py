@@ -2,6 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Grey-value images: --isovalue and what goes with it."""
+import json
+
 import numpy as np
 
 import images
@@ -94,8 +96,39 @@ class Isosurface(ProgramTestCase):
         for option in ("--labels", "--label-table"):
             self.assert_refused(2, option + ": grey-value images have no labels", "--input", "a.nrrd", "--isovalue", 1,
                                 option, "1")
-        series = images.write_nrrd(self.folder / "t.nrrd", images.moving_balls())
-        self.assert_refused(2, "--isovalue: only for 3D images", "--input", series, "--isovalue", 1)
+
+    def test_series(self):
+        """A ball that moves by half a voxel a frame, and grows."""
+        center, radius = (10.0, 11.5, 11.5), 7.0
+        z, y, x = np.mgrid[:24, :24, :26]
+        values = np.stack([radius + 0.1 * t - np.sqrt((x - center[0] - 0.5 * t) ** 2 + (y - center[1]) ** 2 +
+                                                      (z - center[2]) ** 2) for t in range(8)])
+        path = images.write_space_time_nrrd(self.folder / "t.nrrd", values.astype(np.float32))
+        arguments = ("--input", path, "--isovalue", 0, "--delta", 2, "--threads", 1, "--inside-label", 5)
+        done = self.call(*arguments, "--output", "m.vtu", "--plc", "b.vtu", "--slices", "s_", "--quality", "--stats", "q.json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        mesh = meshfiles.read_pentatopes(self.folder / "m.vtu")
+        self.assertEqual(set(mesh.labels), {5})
+        radii = radius + 0.1 * np.linspace(0, 7, 701)
+        expected = 7 * (4 / 3 * np.pi * radii**3).mean()
+        self.assertAlmostEqual(mesh.volumes().sum() / expected, 1.0, delta=0.01)
+        for time, piece in meshfiles.read_slices(self.folder / "s.pvd"):
+            self.assertAlmostEqual(piece.volume_of_label()[5] / (4 / 3 * np.pi * (radius + 0.1 * time) ** 3), 1.0, delta=0.025)
+        report = json.loads((self.folder / "q.json").read_text())
+        self.assertEqual(report["isosurface"]["value"], 0)
+        self.assertEqual(report["parameters"]["isovalue"], 0)
+        self.assertEqual([frame["image"] for frame in report["frames"]], [None] * 8)
+        self.assertNotIn("image_volume", report["labels"]["5"])
+        self.assertRegex(done.stdout, r"Quality of the cuts at 8 frames:\n  dihedral angles.*\n$")
+
+        # Without the fit, vertices lie on the sphere of their time.
+        self.mesh(*arguments, "--no-fit", "--no-optimise", "--plc", "b.vtu")
+        boundary = meshfiles.read_boundary(self.folder / "b.vtu")
+        lateral = np.unique(boundary.cells[boundary.sides == 0])
+        points = boundary.points[lateral]
+        off = np.linalg.norm(points[:, :3] - center - np.outer(points[:, 3], (0.5, 0, 0)), axis=1) - radius - 0.1 * points[:, 3]
+        self.assertLess(np.abs(off).max(), 0.06)
+        self.assert_refused(2, "--hausdorff: distances are measured from the labels", *arguments, "--hausdorff")
 
     def test_values_without_a_surface(self):
         self.assert_refused(1, "isovalue 50 is outside of the image's range, which is from -15.* to 10",

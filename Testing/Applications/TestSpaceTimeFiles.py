@@ -423,7 +423,6 @@ class Flags(SpaceTimeTestCase):
 
     def test_of_3d_on_a_space_time_image(self):
         self.refuse(2, "--facet-angle: only for 3D images.*heart.nrrd' is a space-time image", "--facet-angle", 20)
-        self.refuse(2, "--isovalue: only for 3D images", "--isovalue", 1, "--smoothing", 1)
         self.refuse(2, "--optimise-seconds: only for 3D images", "--optimise-seconds", 3)
         for name in ("m.vtk", "m.msh", "m.inp", "m.feb", "m.xdmf"):
             self.refuse(2, "--output: '.%s' does not hold the pentatopes of a space-time image.*use .vtu, .mesh or .mfem"

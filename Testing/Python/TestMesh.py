@@ -77,8 +77,19 @@ class Isosurfaces(unittest.TestCase):
             voxplex.mesh(self.depth(), isovalue=0.0, inside="left")
         with self.assertRaisesRegex(ValueError, "labels: only for images of labels"):
             voxplex.mesh(self.depth(), isovalue=0.0, labels=[1])
-        with self.assertRaisesRegex(ValueError, "isovalue: only for images without time frames"):
-            voxplex.mesh(beating(), isovalue=0.5)
+
+    def test_series(self):
+        """Frames of grey values, in an array, at times that are not equally spaced."""
+        depth = self.depth()
+        times = (0.0, 1.0, 2.0, 4.0)
+        series = numpy.stack([depth + 0.25 * time for time in times])
+        mesh, _, statistics = voxplex.mesh(series, 1.5, isovalue=0.0, times=times, inside_label=4, threads=1, full_output=True)
+        self.assertEqual(set(voxplex.labels(mesh)), {4})
+        self.assertEqual((voxplex.times(mesh).min(), voxplex.times(mesh).max()), (0.0, 4.0))
+        self.assertEqual(statistics["isosurface"]["value"], 0.0)
+        # The whole series is the same mesh: values are linear in time.
+        whole = voxplex.mesh(numpy.stack([depth + 0.25 * time for time in range(5)]), 1.5, isovalue=0.0, threads=1)
+        numpy.testing.assert_allclose(hypervolumes(mesh).sum(), hypervolumes(whole).sum(), rtol=1e-2)
         with self.assertRaisesRegex(voxplex.MeshingError, "isovalue 9 is outside of the image's range"):
             voxplex.mesh(self.depth(), isovalue=9)
         with self.assertRaisesRegex(voxplex.MeshingError, r"isosurface of it \(isovalue\)"):
