@@ -2,16 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeasuringFrames.h"
 
-#include "Errors.h"
 #include "Measuring.h"
 #include "StatisticsText.h"
 
-#include <vtkDataArrayRange.h>
-#include <vtkDataSetTriangleFilter.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPentatopeMeshTimeSlice.h>
-#include <vtkPointData.h>
 #include <vtkSegmentationReader.h>
 #include <vtkSimplexMeshQuality.h>
 #include <vtkUnstructuredGrid.h>
@@ -21,7 +14,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
 #include <sstream>
 #include <vector>
 
@@ -111,89 +103,38 @@ std::vector<std::uint64_t> DihedralAngles(const ordered_json& frames)
   return sum;
 }
 
-/** Whether a voxel has a label that is meshed. */
-bool HasForeground(vtkImageData* image, const LabelSelection& selection)
-{
-  const auto values = vtk::DataArrayValueRange<1>(image->GetPointData()->GetScalars());
-  const std::set<double> chosen(selection.Labels.begin(), selection.Labels.end());
-  return std::any_of(values.begin(), values.end(),
-    [&chosen](double label)
-    { return label != 0.0 && (chosen.empty() || chosen.count(label) != 0); });
-}
-
 } // namespace
 
 ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& input,
   vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
 {
-  vtkNew<vtkPentatopeMeshTimeSlice> cut;
-  cut->SetInputData(mesh);
-  vtkNew<vtkDataSetTriangleFilter> split;
-  const int numberOfFrames = input.Labels->GetNumberOfFrames();
-  ordered_json frames = ordered_json::array();
-  for (int frame = 0; frame < numberOfFrames; ++frame)
+  const auto filter = MakeQualityFilter(parameters, input.Selection);
+  filter->SetInputData(mesh);
+  filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
+  if (!parameters.Has("isovalue"))
   {
-    const double time = input.Labels->GetTimeOfFrame(frame);
-    cut->UpdateTimeStep(time);
-    if (!cut->GetErrorMessage().empty())
-    {
-      throw RunError("cannot measure the mesh: " + cut->GetErrorMessage());
-    }
-    split->SetInputData(cut->GetOutputDataObject(0));
-    split->Update();
-    input.Labels->UpdateTimeStep(time);
-    vtkNew<vtkImageData> image;
-    image->ShallowCopy(input.Labels->GetOutput());
-
-    const auto filter = MakeQualityFilter(parameters, input.Selection);
-    filter->SetInputData(split->GetOutput());
-    const bool hasForeground = !parameters.Has("isovalue") && HasForeground(image, input.Selection);
-    if (hasForeground) // otherwise there is nothing to compare with
-    {
-      filter->SetImageData(image);
-    }
-    filter->SmoothDistancesOff(); // the interface of one frame alone is another one
-    ordered_json figures = Execute(filter,
-      [&](double fraction, const std::string& step)
-      { return progress((frame + fraction) / numberOfFrames, step); });
-    if (figures.is_null())
-    {
-      return nullptr;
-    }
-    ordered_json one = { { "time", time } };
-    one.update(figures);
-    if (!hasForeground)
-    {
-      one["image"] = nullptr;
-      one["hausdorff"] = ordered_json::object();
-    }
-    frames.push_back(std::move(one));
+    filter->SetImageConnection(input.Labels->GetOutputPort());
+    return Execute(filter, progress);
   }
-  return frames;
+  for (int frame = 0; frame < input.Labels->GetNumberOfFrames(); ++frame) // without labels
+  {
+    filter->AddFrameTime(input.Labels->GetTimeOfFrame(frame));
+  }
+  return Execute(filter, progress);
 }
 
-void AddFrames(ordered_json frames, ordered_json& report)
+void AddFrames(const ordered_json& measurement, ordered_json& report)
 {
-  if (!AreCompared(frames))
+  for (const auto& [label, figures] : measurement["labels"].items())
   {
-    report["frames"] = std::move(frames);
-    return;
-  }
-  const ordered_json& given = report["parameters"]["time_scale"];
-  const double scale = given.is_number() ? given.get<double>() : 1.0;
-  for (auto& [label, figures] : report["labels"].items())
-  {
-    double volume = 0.0; // by the trapezoidal rule, as the mesh ends at the first and last frame
-    for (std::size_t k = 1; k < frames.size(); ++k)
+    if (report["labels"].contains(label)) // lost ones are listed in "image"
     {
-      const double step = frames[k]["time"].get<double>() - frames[k - 1]["time"].get<double>();
-      volume +=
-        0.5 * scale * step * (ImageVolume(frames[k - 1], label) + ImageVolume(frames[k], label));
+      report["labels"][label].update(figures);
     }
-    figures["image_volume"] = volume;
-    figures["volume_error"] = (figures["volume"].get<double>() - volume) / volume;
   }
-  report["frames"] = std::move(frames);
+  report["worst_elements"] = measurement["worst_elements"];
+  report["image"] = measurement.value("image", ordered_json());
+  report["frames"] = measurement["frames"];
 }
 
 std::string SummarizeFrames(const ordered_json& report)

@@ -20,18 +20,17 @@ namespace voxplex::cli
 {
 
 /**
- * Cuts the mesh at the time of each frame, splits the cut into tetrahedra, and measures it beside the
- * frame. The result is a list with an object for each frame: its time and what
- * vtkSimplexMeshQuality::ToJSON() has. Returns null if cancelled.
- * @throws RunError
+ * Measures the mesh and its cuts at the times of the frames, beside the frames.
+ * @return what vtkSimplexMeshQuality::ToJSON() says; null if progress stopped it
+ * @throws RunError if it cannot be measured
  */
 nlohmann::ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& input,
   vtkUnstructuredGrid* mesh, const ProgressFunction& progress);
 
 /**
- * Adds what was measured to the report: "frames", and of "labels" the hypervolume in the image.
+ * Adds what was measured to the report: "worst_elements", "image", "frames", and more about "labels".
  */
-void AddFrames(nlohmann::ordered_json frames, nlohmann::ordered_json& report);
+void AddFrames(const nlohmann::ordered_json& measurement, nlohmann::ordered_json& report);
 
 /** Lines for people, of a report to which frames were added. */
 std::string SummarizeFrames(const nlohmann::ordered_json& report);

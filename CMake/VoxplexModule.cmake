@@ -31,6 +31,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
     Filters/Private/ImageLabels.h
+    Filters/Private/LabelledMesh.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
     Filters/Private/MeshingJson.h
@@ -38,10 +39,12 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/OutputArrays.h
     Filters/Private/PentatopeOutput.h
     Filters/Private/QualityJson.h
+    Filters/Private/QualityRun.h
     Filters/Private/QualityTables.h
     Filters/Private/SimplexMeshRun.h
     Filters/Private/SmpThreads.h
     Filters/Private/SpaceTimeFrame.h
+    Filters/Private/SpaceTimeQuality.h
     Filters/Private/vtkFrameGatheringPipeline.h
   SOURCES
     Filters/Private/ChosenArray.cxx
@@ -49,13 +52,16 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/FrameSeries.cxx
     Filters/Private/ImageFrame.cxx
     Filters/Private/ImageLabels.cxx
+    Filters/Private/LabelledMesh.cxx
     Filters/Private/MeshOutput.cxx
     Filters/Private/MeshingJson.cxx
     Filters/Private/MeshingMessages.cxx
     Filters/Private/PentatopeOutput.cxx
     Filters/Private/QualityJson.cxx
+    Filters/Private/QualityRun.cxx
     Filters/Private/QualityTables.cxx
     Filters/Private/SmpThreads.cxx
+    Filters/Private/SpaceTimeQuality.cxx
     Filters/Private/vtkFrameGatheringPipeline.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<TARGET_OBJECTS:VoxplexKernel>)

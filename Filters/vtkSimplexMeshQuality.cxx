@@ -3,20 +3,12 @@
 #include "vtkSimplexMeshQuality.h"
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Domain/LabelField.h"
-#include "Mesh/FindInterfaces.h"
-#include "Parallel/ParallelFor.h"
-#include "Private/ChosenArray.h"
-#include "Private/ImageLabels.h"
 #include "Private/QualityJson.h"
-#include "Private/QualityTables.h"
-#include "Private/SmpThreads.h"
-#include "Quality/MeshMeasurement.h"
+#include "Private/QualityRun.h"
 
-#include "vtkCellData.h"
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
-#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -29,140 +21,19 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <exception>
-#include <future>
+#include <iterator>
 #include <new>
-#include <optional>
-#include <set>
-#include <sstream>
-#include <stop_token>
-#include <utility>
 
 vtkStandardNewMacro(vtkSimplexMeshQuality);
 
 using voxplex::InputError;
 
-struct vtkSimplexMeshQuality::Internals
-{
-  std::set<vtkTypeInt64> Labels;
-
-  // Of the last execution.
-  voxplex::MeshMeasurement Figures;
-  std::uint64_t Elements = 0;
-  std::uint64_t Vertices = 0;
-  std::uint64_t InterfaceFacets = 0;
-  std::uint64_t FacesOfThreeElements = 0;
-
-  /** Forgets the last execution. */
-  void Clear() { *this = Internals{ this->Labels, {}, 0, 0, 0, 0 }; }
-};
-
 namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-/** Unless there is an image, the frame of the mesh is the world. */
-voxplex::ImageFrame WorldFrame()
-{
-  voxplex::ImageFrame frame;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    frame.Rotation[k][k] = 1.0;
-  }
-  return frame;
-}
-
-/** The label of an element. */
-std::int64_t LabelOf(double value, vtkIdType cell)
-{
-  if (!(value >= 1.0 && value <= 9007199254740992.0 && value == std::floor(value)))
-  {
-    std::ostringstream text;
-    text << "Cell " << cell << " of the mesh has the label " << value
-         << "; labels are whole numbers above 0.";
-    throw InputError(text.str());
-  }
-  return static_cast<std::int64_t>(value);
-}
-
-vtkDataArray* LabelsOf(vtkUnstructuredGrid* grid, vtkAbstractArray* chosen)
-{
-  vtkDataArray* const labels = vtkDataArray::SafeDownCast(chosen);
-  if (labels == nullptr)
-  {
-    throw InputError(
-      "The mesh has no numeric cell array of labels; it is 'Label' unless another is chosen "
-      "with SetInputArrayToProcess().");
-  }
-  if (labels->GetNumberOfComponents() != 1 ||
-    labels->GetNumberOfTuples() != grid->GetNumberOfCells())
-  {
-    throw InputError(
-      "The mesh's array of labels must have one component, and one value for each cell.");
-  }
-  return labels;
-}
-
-/** @throws InputError if it is no mesh of labelled tetrahedra */
-voxplex::SimplexMesh<3> ReadMesh(
-  vtkUnstructuredGrid* grid, vtkAbstractArray* chosen, const voxplex::ImageFrame& frame)
-{
-  voxplex::SimplexMesh<3> mesh;
-  const vtkIdType cells = grid->GetNumberOfCells();
-  if (cells == 0)
-  {
-    return mesh;
-  }
-  vtkDataArray* const labels = LabelsOf(grid, chosen);
-  mesh.Points.resize(static_cast<std::size_t>(grid->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
-  {
-    voxplex::Point<3> world;
-    grid->GetPoint(static_cast<vtkIdType>(i), world.data());
-    if (!std::isfinite(world[0]) || !std::isfinite(world[1]) || !std::isfinite(world[2]))
-    {
-      throw InputError("Point " + std::to_string(i) + " of the mesh is not finite.");
-    }
-    mesh.Points[i] = frame.ToFrame(world);
-  }
-  mesh.Simplices.resize(static_cast<std::size_t>(cells));
-  mesh.Labels.resize(static_cast<std::size_t>(cells));
-  for (vtkIdType c = 0; c < cells; ++c)
-  {
-    if (grid->GetCellType(c) != VTK_TETRA)
-    {
-      throw InputError("Cell " + std::to_string(c) + " of the mesh is a " +
-        vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(c)) +
-        "; only tetrahedra (VTK_TETRA) can be measured.");
-    }
-    vtkIdType size = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCells()->GetCellAtId(c, size, ids);
-    auto& simplex = mesh.Simplices[static_cast<std::size_t>(c)];
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      simplex[i] = static_cast<std::uint32_t>(ids[i]);
-    }
-    if (frame.LeftHanded) // so that volumes are positive in the frame, too
-    {
-      std::swap(simplex[2], simplex[3]);
-    }
-    mesh.Labels[static_cast<std::size_t>(c)] = LabelOf(labels->GetComponent(c, 0), c);
-  }
-  return mesh;
-}
-
-void MoveToWorld(const voxplex::ImageFrame& frame, voxplex::HausdorffFigures& figures)
-{
-  for (voxplex::DistanceFigures* direction : { &figures.MeshToImage, &figures.ImageToMesh })
-  {
-    direction->Place = frame.ToWorld(direction->Place);
-  }
-}
 
 } // namespace
 
@@ -171,7 +42,7 @@ vtkSimplexMeshQuality::vtkSimplexMeshQuality()
   : Private(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Label");
   this->SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
@@ -214,6 +85,26 @@ void vtkSimplexMeshQuality::RemoveAllLabels()
     this->Private->Labels.clear();
     this->Modified();
   }
+}
+
+void vtkSimplexMeshQuality::AddFrameTime(double time)
+{
+  this->Private->FrameTimes.push_back(time);
+  this->Modified();
+}
+
+void vtkSimplexMeshQuality::ClearFrameTimes()
+{
+  if (!this->Private->FrameTimes.empty())
+  {
+    this->Private->FrameTimes.clear();
+    this->Modified();
+  }
+}
+
+vtkTable* vtkSimplexMeshQuality::GetFrameTable()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(3));
 }
 
 int vtkSimplexMeshQuality::FillInputPortInformation(int port, vtkInformation* info)
@@ -308,6 +199,11 @@ void vtkSimplexMeshQuality::CheckParameters() const
     throw InputError("SmoothingSigma is " + std::to_string(this->SmoothingSigma) +
       "; it must be between 0 and 5 voxels.");
   }
+  if (!(this->TimeScale > 0.0 && std::isfinite(this->TimeScale)))
+  {
+    throw InputError(
+      "TimeScale is " + voxplex::NumberText(this->TimeScale) + "; it must be positive and finite.");
+  }
   if (this->NumberOfThreads < 0)
   {
     throw InputError("NumberOfThreads is " + std::to_string(this->NumberOfThreads) +
@@ -318,81 +214,7 @@ void vtkSimplexMeshQuality::CheckParameters() const
 bool vtkSimplexMeshQuality::Measure(
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const unsigned threads = static_cast<unsigned>(
-    this->NumberOfThreads > 0 ? this->NumberOfThreads : voxplex::SmpThreads());
-  vtkUnstructuredGrid* const grid = vtkUnstructuredGrid::GetData(inputVector[0]);
-  vtkImageData* const image = vtkImageData::GetData(inputVector[1]);
-  std::optional<voxplex::ChosenArray> voxels;
-  if (image != nullptr)
-  {
-    int association = 0;
-    vtkAbstractArray* const scalars =
-      this->GetInputAbstractArrayToProcess(1, inputVector, association);
-    voxels = voxplex::ChooseScalars(image, scalars, association, "image", "");
-  }
-  const voxplex::ImageFrame frame = voxels ? voxels->Frame : WorldFrame();
-  voxplex::SimplexMesh<3> mesh =
-    ReadMesh(grid, this->GetInputAbstractArrayToProcess(0, inputVector), frame);
-  this->UpdateProgress(0.1);
-
-  const voxplex::MeasurementOptions options{ this->RadiusEdgeRatio, this->FacetAngle,
-    this->SmallestComponent, this->Distances, this->SmoothDistances, this->SmoothingSigma,
-    threads };
-  // Measured by another thread, so that this one can see to AbortExecute.
-  std::stop_source stop;
-  auto work = std::async(std::launch::async,
-    [&]
-    {
-      this->Private->FacesOfThreeElements =
-        voxplex::FindInterfaces(mesh, threads, stop.get_token());
-      std::optional<voxplex::LabelImage<3>> labels;
-      if (voxels)
-      {
-        const auto& only = this->Private->Labels;
-        labels = voxplex::ReadLabels(
-          *voxels, { { only.begin(), only.end() }, {} }, threads, stop.get_token());
-      }
-      this->Private->Figures =
-        voxplex::MeasureMesh(mesh, labels ? &*labels : nullptr, options, stop.get_token());
-    });
-  double progress = 0.1;
-  while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready)
-  {
-    progress += 0.01 * (0.9 - progress); // how long it takes is not known
-    this->UpdateProgress(progress);
-    if (this->StopRequested())
-    {
-      stop.request_stop();
-    }
-  }
-  try
-  {
-    work.get();
-  }
-  catch (const voxplex::Cancelled&)
-  {
-    return false;
-  }
-  if (this->StopRequested())
-  {
-    return false;
-  }
-  Internals& figures = *this->Private;
-  figures.Elements = mesh.Simplices.size();
-  figures.Vertices = mesh.Points.size();
-  figures.InterfaceFacets = mesh.Facets.size();
-  if (figures.Figures.Image)
-  {
-    MoveToWorld(frame, figures.Figures.Image->Voxels);
-    MoveToWorld(frame, figures.Figures.Image->Smooth);
-  }
-  vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputVector, 0);
-  output->ShallowCopy(grid);
-  voxplex::AddElementMeasures(mesh, threads, output->GetCellData());
-  voxplex::FillLabelTable(figures.Figures, vtkTable::GetData(outputVector, 1));
-  voxplex::FillHistograms(figures.Figures.Quality, vtkTable::GetData(outputVector, 2));
-  this->UpdateProgress(1.0);
-  return true;
+  return Execution(this, inputVector, outputVector).Measure();
 }
 
 bool vtkSimplexMeshQuality::StopRequested()
@@ -408,6 +230,21 @@ bool vtkSimplexMeshQuality::StopRequested()
 namespace
 {
 
+/** The comparison of the frame that is farthest from its cut; null if there is none. */
+const voxplex::ImageComparison* FarthestFrame(const voxplex::SpaceTimeFigures& figures)
+{
+  const voxplex::ImageComparison* farthest = nullptr;
+  for (const voxplex::FrameFigures& frame : figures.Frames)
+  {
+    const auto& image = frame.Measured.Image;
+    if (image && !(farthest && !(image->Voxels.Distance() > farthest->Voxels.Distance())))
+    {
+      farthest = &*image;
+    }
+  }
+  return farthest;
+}
+
 const voxplex::DistanceFigures& Farther(const voxplex::HausdorffFigures& figures)
 {
   return figures.MeshToImage.Maximum > figures.ImageToMesh.Maximum ? figures.MeshToImage
@@ -416,9 +253,23 @@ const voxplex::DistanceFigures& Farther(const voxplex::HausdorffFigures& figures
 
 } // namespace
 
+const voxplex::ImageComparison* vtkSimplexMeshQuality::Internals::Farthest() const
+{
+  if (this->SpaceTime)
+  {
+    return FarthestFrame(*this->SpaceTime);
+  }
+  return this->Figures.Image ? &*this->Figures.Image : nullptr;
+}
+
+const voxplex::MeshQuality& vtkSimplexMeshQuality::Internals::Shapes() const
+{
+  return this->SpaceTime ? this->SpaceTime->Quality : this->Figures.Quality;
+}
+
 double vtkSimplexMeshQuality::GetHausdorffDistance() const
 {
-  const auto& image = this->Private->Figures.Image;
+  const auto* const image = this->Private->Farthest();
   return image ? image->Voxels.Distance() : voxplex::DistanceFigures::NotApplicable;
 }
 
@@ -430,29 +281,29 @@ double vtkSimplexMeshQuality::GetSmoothHausdorffDistance() const
 
 void vtkSimplexMeshQuality::GetHausdorffPlace(double place[3]) const
 {
-  const auto& image = this->Private->Figures.Image;
+  const auto* const image = this->Private->Farthest();
   const voxplex::Point<3> p = image ? Farther(image->Voxels).Place : voxplex::Point<3>{};
   std::copy(p.begin(), p.end(), place);
 }
 
 double vtkSimplexMeshQuality::GetMinimumDihedralAngle() const
 {
-  return this->Private->Figures.Quality.MinimumDihedralAngle;
+  return this->Private->Shapes().MinimumDihedralAngle;
 }
 
 double vtkSimplexMeshQuality::GetMaximumDihedralAngle() const
 {
-  return this->Private->Figures.Quality.MaximumDihedralAngle;
+  return this->Private->Shapes().MaximumDihedralAngle;
 }
 
 double vtkSimplexMeshQuality::GetMaximumRadiusEdgeRatio() const
 {
-  return this->Private->Figures.Quality.MaximumRadiusEdgeRatio;
+  return this->Private->Shapes().MaximumRadiusEdgeRatio;
 }
 
 double vtkSimplexMeshQuality::GetMinimumPlanarAngle() const
 {
-  return this->Private->Figures.Quality.MinimumFacetAngle;
+  return this->Private->Shapes().MinimumFacetAngle;
 }
 
 vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdges() const
@@ -465,14 +316,33 @@ vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdgesAtJunctions() const
   return static_cast<vtkTypeInt64>(this->Private->Figures.Topology.NonManifoldEdgesAtJunctions);
 }
 
+double vtkSimplexMeshQuality::GetMinimumNormalizedVolume() const
+{
+  return this->Private->Shapes().MinimumNormalizedVolume;
+}
+
+double vtkSimplexMeshQuality::GetMeanNormalizedVolume() const
+{
+  return this->Private->Shapes().MeanNormalizedVolume;
+}
+
 vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostLabels() const
 {
+  if (this->Private->SpaceTime)
+  {
+    return std::ssize(voxplex::LostLabelsOf(*this->Private->SpaceTime));
+  }
   const auto& image = this->Private->Figures.Image;
   return image ? std::ssize(image->LostLabels) : 0;
 }
 
 vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostComponents() const
 {
+  if (this->Private->SpaceTime)
+  {
+    const auto& components = this->Private->SpaceTime->Components;
+    return components ? std::ssize(components->Lost) : 0;
+  }
   const auto& image = this->Private->Figures.Image;
   return image ? std::ssize(image->LostComponents) : 0;
 }
@@ -486,7 +356,14 @@ std::string vtkSimplexMeshQuality::ToJSON() const
     { "interface_facets", figures.InterfaceFacets },
     { "faces_of_three_elements", figures.FacesOfThreeElements },
   };
-  voxplex::AddMeasurement(json, figures.Figures);
+  if (figures.SpaceTime)
+  {
+    voxplex::AddMeasurement(json, *figures.SpaceTime);
+  }
+  else
+  {
+    voxplex::AddMeasurement(json, figures.Figures);
+  }
   return json.dump();
 }
 
@@ -499,6 +376,9 @@ void vtkSimplexMeshQuality::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Distances: " << this->Distances << "\n";
   os << indent << "SmoothDistances: " << this->SmoothDistances << "\n";
   os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
+  os << indent << "TimeScale: " << this->TimeScale << "\n";
+  os << indent << "NumberOfFrameTimes: " << this->Private->FrameTimes.size() << "\n";
+  os << indent << "NumberOfWorstElements: " << this->NumberOfWorstElements << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NumberOfLabels: " << this->Private->Labels.size() << "\n";
   os << indent << "Aborted: " << this->Aborted << "\n";

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSimplexMeshQuality
- * @brief   shapes, junctions and volumes of a labelled tetrahedral mesh, its distance to an image
+ * @brief   shapes, junctions and volumes of a labelled mesh, its distance to an image
  *
- * Measures meshes of vtkImageToTetMeshFilter and labelled tetrahedral meshes of any other origin.
- * It reads only the points, the cells and one cell array.
+ * Measures meshes of vtkImageToTetMeshFilter and vtkImageToPentatopeMeshFilter, and labelled meshes
+ * of any other origin. It reads only the points, the cells and one cell array; of pentatopes also
+ * the point array `Time`. What follows is about tetrahedra; "Pentatopes" says what is different.
  *
  * @par Input
  * Port 0: vtkUnstructuredGrid of `VTK_TETRA` cells with a cell array of labels, `Label` by default
@@ -55,6 +56,31 @@
  * - From the image to the mesh: from one point on the smooth interface for each such face.
  * - From the mesh to the image: from each vertex and centroid to the closest point that the mesher
  *   finds. It is on average a few hundredths of a voxel farther away than the nearest point.
+ *
+ * @par Pentatopes
+ * If the cells are pentatopes (`VTK_POLY_VERTEX` of five points, with the point array `Time`), lengths
+ * and volumes are those of the space in which a unit of time has the length TimeScale. Port 1 is the
+ * series that the mesh was made from: a temporal pipeline, each time step of which the filter
+ * requests once, or an image with a component for each frame. AddFrameTime() gives the times of
+ * components, and replaces those of a pipeline. The mesh is cut at the time of each frame. The cut is
+ * split into tetrahedra and measured beside the frame. Without an image, cuts are measured at the
+ * times of AddFrameTime().
+ * - Output 0 has the cell arrays `NormalizedVolume` (volume over that of the regular pentatope with
+ *   the same circumradius, 1 is best), `RadiusEdgeRatio`, `Volume` (hypervolume), and `WorstElement`
+ *   (vtkIdTypeArray): 1 for the pentatope with the smallest normalized volume, 2 for the next, to
+ *   NumberOfWorstElements; 0 for the others. vtkThreshold extracts them.
+ * - Output 1: `Label`, `Elements`, `Volume` and `Components`, the sets of pentatopes that are
+ *   connected through facets. With an image also `ImageVolume`, by the trapezoidal rule over its
+ *   frames, and `VolumeError`.
+ * - Output 2: `Ratio`, the lower end of a bin of 0.05, `RadiusEdgeRatios` and `NormalizedVolumes`.
+ * - Output 3: vtkTable, a row for each frame and each label in it: `Time`, `Label`, `Elements` and
+ *   `Volume` of the cut, `ImageVolume`, `VolumeError`, and of the whole frame `HausdorffDistance`,
+ *   `Components` and `LostComponents`. Without an image, or where the frame is empty, figures of the
+ *   image are NaN and 0. For tetrahedra it is empty.
+ *
+ * Distances to the smooth interface are not measured: that of one frame alone is another one.
+ * GetHausdorffDistance() is the largest of all frames. Lost components are those of space-time; each
+ * frame has its own in ToJSON(). Angles are NaN.
  *
  * @par VTK's own filters
  * This filter does not use vtkMeshQuality (Verdict). That filter has the volume, and the two
@@ -109,6 +135,27 @@ public:
   /** The tables of labels and of histograms, output ports 1 and 2. */
   vtkTable* GetLabelTable();
   vtkTable* GetHistograms();
+  ///@}
+
+  /** The table of frames, output port 3. */
+  vtkTable* GetFrameTable();
+
+  ///@{
+  /** Of pentatopes: the length of a unit of time, positive. Default 1. */
+  vtkSetMacro(TimeScale, double);
+  vtkGetMacro(TimeScale, double);
+  ///@}
+
+  ///@{
+  /** Of pentatopes: the times of the frames, one after the other, increasing. By default none. */
+  void AddFrameTime(double time);
+  void ClearFrameTimes();
+  ///@}
+
+  ///@{
+  /** Of pentatopes: how many of the smallest normalized volumes are listed. Default 20. */
+  vtkSetClampMacro(NumberOfWorstElements, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfWorstElements, int);
   ///@}
 
   ///@{
@@ -188,6 +235,8 @@ public:
   double GetMaximumDihedralAngle() const;
   double GetMaximumRadiusEdgeRatio() const;
   double GetMinimumPlanarAngle() const;
+  double GetMinimumNormalizedVolume() const;
+  double GetMeanNormalizedVolume() const;
   ///@}
 
   ///@{
@@ -230,6 +279,8 @@ protected:
   bool Distances = true;
   bool SmoothDistances = true;
   double SmoothingSigma = 1.0;
+  double TimeScale = 1.0;
+  int NumberOfWorstElements = 20;
   int NumberOfThreads = 0;
 
 private:
@@ -237,6 +288,7 @@ private:
   void operator=(const vtkSimplexMeshQuality&) = delete;
 
   struct Internals;
+  class Execution;
   void CheckParameters() const;
   /** False if stopped. */
   bool Measure(vtkInformationVector** inputVector, vtkInformationVector* outputVector);

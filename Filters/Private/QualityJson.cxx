@@ -181,4 +181,77 @@ void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
   }
 }
 
+//----------------------------------------------------------------------------------------------------
+namespace
+{
+
+ordered_json FrameToJson(const FrameFigures& frame)
+{
+  ordered_json json = {
+    { "time", frame.Time },
+    { "elements", frame.Elements },
+    { "vertices", frame.Vertices },
+    { "interface_facets", frame.InterfaceFacets },
+    { "faces_of_three_elements", frame.FacesOfThreeElements },
+  };
+  AddMeasurement(json, frame.Measured);
+  if (!frame.Measured.Image)
+  {
+    json["image"] = nullptr;
+    json["hausdorff"] = ordered_json::object();
+  }
+  return json;
+}
+
+ordered_json WorstToJson(const std::vector<WorstElement>& worst)
+{
+  ordered_json list = ordered_json::array();
+  for (const WorstElement& element : worst)
+  {
+    list.push_back({
+      { "cell", element.Cell },
+      { "label", element.Label },
+      { "normalized_volume", element.NormalizedVolume },
+      { "radius_edge", element.RadiusEdgeRatio },
+      { "place", element.Place },
+    });
+  }
+  return list;
+}
+
+} // namespace
+
+void AddMeasurement(ordered_json& json, const SpaceTimeFigures& figures)
+{
+  ordered_json labels = ordered_json::object();
+  for (const SpaceTimeLabel& label : LabelsOf(figures))
+  {
+    ordered_json one = { { "elements", label.Elements }, { "volume", label.Volume },
+      { "components", label.Components } };
+    if (figures.Components)
+    {
+      one["image_volume"] = label.ImageVolume;
+      one["volume_error"] = label.VolumeError();
+    }
+    AppendLabel(labels, label.Label, std::move(one));
+  }
+  json["labels"] = std::move(labels);
+  json["quality"] = QualityToJson(figures.Quality);
+  json["worst_elements"] = WorstToJson(figures.Worst);
+  if (figures.Components)
+  {
+    json["image"] = {
+      { "lost_labels", LostLabelsOf(figures) },
+      { "components", figures.Components->Wanted },
+      { "lost_components", ComponentsToJson(figures.Components->Lost) },
+    };
+  }
+  ordered_json frames = ordered_json::array();
+  for (const FrameFigures& frame : figures.Frames)
+  {
+    frames.push_back(FrameToJson(frame));
+  }
+  json["frames"] = std::move(frames);
+}
+
 } // namespace voxplex

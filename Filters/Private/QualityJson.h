@@ -8,6 +8,7 @@
 #define voxplex_QualityJson_h
 
 #include "Image/DropComponents.h"
+#include "Private/SpaceTimeQuality.h"
 #include "Quality/MeshMeasurement.h"
 #include "Quality/MeshQuality.h"
 
@@ -34,6 +35,12 @@ void AppendLabel(
 
 /** Adds objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
 void AddMeasurement(nlohmann::ordered_json& json, const MeshMeasurement& measurement);
+
+/**
+ * Adds objects "labels", "quality", a list "worst_elements", if there was an image an object "image",
+ * and a list "frames".
+ */
+void AddMeasurement(nlohmann::ordered_json& json, const SpaceTimeFigures& figures);
 
 } // namespace voxplex
 

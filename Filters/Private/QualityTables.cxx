@@ -7,6 +7,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkTable.h"
 #include "vtkTypeInt64Array.h"
@@ -15,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <vector>
 
 namespace voxplex
 {
@@ -146,6 +148,107 @@ void FillHistograms(const MeshQuality& quality, vtkTable* table)
   AddBins(table, "PlanarAngles", quality.PlanarAngles);
   AddStarts(table, "Ratio", quality.RadiusEdgeRatios, MeshQuality::RatioBinWidth);
   AddBins(table, "RadiusEdgeRatios", quality.RadiusEdgeRatios);
+}
+
+//----------------------------------------------------------------------------------------------------
+void AddElementMeasures(const SpaceTimeFigures& figures, vtkCellData* cells)
+{
+  const auto add = [cells](const char* name, const std::vector<double>& values)
+  { std::copy(values.begin(), values.end(), AddDoubles(cells, name, values.size())); };
+  add("NormalizedVolume", figures.NormalizedVolumes);
+  add("RadiusEdgeRatio", figures.RadiusEdgeRatios);
+  add("Volume", figures.Hypervolumes);
+  vtkNew<vtkIdTypeArray> ranks;
+  ranks->SetName("WorstElement");
+  ranks->SetNumberOfValues(static_cast<vtkIdType>(figures.Hypervolumes.size()));
+  ranks->FillValue(0);
+  for (std::size_t k = 0; k < figures.Worst.size(); ++k)
+  {
+    ranks->SetValue(figures.Worst[k].Cell, static_cast<vtkIdType>(k + 1));
+  }
+  cells->AddArray(ranks);
+}
+
+void FillLabelTable(const SpaceTimeFigures& figures, vtkTable* table)
+{
+  const std::vector<SpaceTimeLabel> rows = LabelsOf(figures);
+  AddColumn<vtkTypeInt64Array>(
+    table, "Label", rows, [](const SpaceTimeLabel& row) { return row.Label; });
+  AddColumn<vtkTypeInt64Array>(
+    table, "Elements", rows, [](const SpaceTimeLabel& row) { return row.Elements; });
+  AddColumn<vtkDoubleArray>(
+    table, "Volume", rows, [](const SpaceTimeLabel& row) { return row.Volume; });
+  AddColumn<vtkTypeInt64Array>(
+    table, "Components", rows, [](const SpaceTimeLabel& row) { return row.Components; });
+  if (figures.Components)
+  {
+    AddColumn<vtkDoubleArray>(
+      table, "ImageVolume", rows, [](const SpaceTimeLabel& row) { return row.ImageVolume; });
+    AddColumn<vtkDoubleArray>(
+      table, "VolumeError", rows, [](const SpaceTimeLabel& row) { return row.VolumeError(); });
+  }
+}
+
+void FillHistograms(const SpaceTimeFigures& figures, vtkTable* table)
+{
+  const MeshQuality& quality = figures.Quality;
+  // Bins of both figures are 0.05 wide. Normalized volumes are at most 1.
+  static_assert(MeshQuality::RatioBinWidth * MeshQuality::NumberOfBins == 1.0);
+  std::array<std::uint64_t, MeshQuality::NumberOfRatioBins> volumes{};
+  std::copy(quality.NormalizedVolumes.begin(), quality.NormalizedVolumes.end(), volumes.begin());
+  AddStarts(table, "Ratio", quality.RadiusEdgeRatios, MeshQuality::RatioBinWidth);
+  AddBins(table, "RadiusEdgeRatios", quality.RadiusEdgeRatios);
+  AddBins(table, "NormalizedVolumes", volumes);
+}
+
+void FillFrameTable(const SpaceTimeFigures& figures, vtkTable* table)
+{
+  struct Row
+  {
+    const FrameFigures* Frame;
+    LabelComparison Label;
+  };
+  std::vector<Row> rows;
+  for (const FrameFigures& frame : figures.Frames)
+  {
+    if (frame.Measured.Image)
+    {
+      for (const LabelComparison& label : frame.Measured.Image->Labels)
+      {
+        rows.push_back({ &frame, label });
+      }
+      continue;
+    }
+    for (const LabelMeasure& label : frame.Measured.Quality.Labels)
+    {
+      rows.push_back(
+        { &frame, { label.Label, 0, MeshQuality::NotApplicable, label.Elements, label.Volume } });
+    }
+  }
+  const auto count = [&](const char* name, auto&& valueOf)
+  { AddColumn<vtkTypeInt64Array>(table, name, rows, valueOf); };
+  const auto number = [&](const char* name, auto&& valueOf)
+  { AddColumn<vtkDoubleArray>(table, name, rows, valueOf); };
+  number("Time", [](const Row& row) { return row.Frame->Time; });
+  count("Label", [](const Row& row) { return row.Label.Label; });
+  count("Elements", [](const Row& row) { return row.Label.Elements; });
+  number("Volume", [](const Row& row) { return row.Label.Volume; });
+  number("ImageVolume", [](const Row& row) { return row.Label.ImageVolume; });
+  number("VolumeError",
+    [](const Row& row)
+    { return (row.Label.Volume - row.Label.ImageVolume) / row.Label.ImageVolume; });
+  number("HausdorffDistance",
+    [](const Row& row)
+    {
+      const auto& image = row.Frame->Measured.Image;
+      return image ? image->Voxels.Distance() : MeshQuality::NotApplicable;
+    });
+  count("Components",
+    [](const Row& row)
+    { return row.Frame->Measured.Image ? row.Frame->Measured.Image->Components : 0; });
+  count("LostComponents",
+    [](const Row& row)
+    { return row.Frame->Measured.Image ? row.Frame->Measured.Image->LostComponents.size() : 0; });
 }
 
 } // namespace voxplex

@@ -8,6 +8,7 @@
 #define voxplex_QualityTables_h
 
 #include "Mesh/SimplexMesh.h"
+#include "Private/SpaceTimeQuality.h"
 #include "Quality/MeshMeasurement.h"
 
 class vtkCellData;
@@ -24,6 +25,16 @@ void FillLabelTable(const MeshMeasurement& measurement, vtkTable* table);
 
 /** Bins of angles and of radius-edge ratios. */
 void FillHistograms(const MeshQuality& quality, vtkTable* table);
+
+///@{
+/** The same of pentatopes; the arrays are NormalizedVolume, RadiusEdgeRatio, Volume, WorstElement. */
+void AddElementMeasures(const SpaceTimeFigures& figures, vtkCellData* cells);
+void FillLabelTable(const SpaceTimeFigures& figures, vtkTable* table);
+void FillHistograms(const SpaceTimeFigures& figures, vtkTable* table);
+///@}
+
+/** A row for each frame and each label in its cut or its image. */
+void FillFrameTable(const SpaceTimeFigures& figures, vtkTable* table);
 
 } // namespace voxplex
 

@@ -58,26 +58,6 @@ void CompareLabels(
   comparison.VolumeError = deviation / comparison.ImageVolume;
 }
 
-void CompareComponents(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
-  const MeasurementOptions& options, const std::stop_token& stop, ImageComparison& comparison)
-{
-  const Components<3> components(image, options.Threads, stop);
-  const std::vector<bool> wanted = components.FindWanted(options.SmallestComponent);
-  comparison.Components =
-    static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
-  for (const std::uint32_t c :
-    FindLostComponents(components, image, mesh, wanted, options.Threads, stop))
-  {
-    const Component<3>& component = components.All()[c];
-    ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
-    }
-    comparison.LostComponents.push_back(std::move(report));
-  }
-}
-
 void CompareInterfaces(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
   const MeasurementOptions& options, const std::stop_token& stop, ImageComparison& comparison)
 {
@@ -94,6 +74,32 @@ void CompareInterfaces(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
 
 } // namespace
 
+template <int D>
+ComponentComparison CompareComponents(const SimplexMesh<D>& mesh, const LabelImage<D>& image,
+  std::int64_t smallest, unsigned threads, const std::stop_token& stop)
+{
+  const Components<D> components(image, threads, stop);
+  const std::vector<bool> wanted = components.FindWanted(smallest);
+  ComponentComparison comparison;
+  comparison.Wanted = static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
+  for (const std::uint32_t c : FindLostComponents(components, image, mesh, wanted, threads, stop))
+  {
+    const Component<D>& component = components.All()[c];
+    ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
+    }
+    comparison.Lost.push_back(std::move(report));
+  }
+  return comparison;
+}
+
+template ComponentComparison CompareComponents<3>(
+  const SimplexMesh<3>&, const LabelImage<3>&, std::int64_t, unsigned, const std::stop_token&);
+template ComponentComparison CompareComponents<4>(
+  const SimplexMesh<4>&, const LabelImage<4>&, std::int64_t, unsigned, const std::stop_token&);
+
 MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* image,
   const MeasurementOptions& options, const std::stop_token& stop)
 {
@@ -106,7 +112,10 @@ MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* ima
   {
     ImageComparison& comparison = measurement.Image.emplace();
     CompareLabels(measurement.Quality.Labels, *image, comparison);
-    CompareComponents(mesh, *image, options, stop, comparison);
+    ComponentComparison components =
+      CompareComponents(mesh, *image, options.SmallestComponent, options.Threads, stop);
+    comparison.Components = components.Wanted;
+    comparison.LostComponents = std::move(components.Lost);
     if (options.Distances)
     {
       CompareInterfaces(mesh, *image, options, stop, comparison);

@@ -74,6 +74,22 @@ struct MeshMeasurement
   std::optional<ImageComparison> Image;
 };
 
+/** Connected components of an image in a mesh. */
+struct ComponentComparison
+{
+  std::uint64_t Wanted = 0;          ///< the components that are looked for
+  std::vector<ComponentReport> Lost; ///< FindLostComponents()
+};
+
+/**
+ * Looks for the components of an image in a mesh.
+ * @param smallest see MeasurementOptions::SmallestComponent
+ * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+ */
+template <int D>
+ComponentComparison CompareComponents(const SimplexMesh<D>& mesh, const LabelImage<D>& image,
+  std::int64_t smallest, unsigned threads, const std::stop_token& stop = {});
+
 /**
  * Measures a mesh. The mesh must have Facets and FacetLabels (FindInterfaces() makes them).
  *

@@ -10,7 +10,7 @@ import os
 from typing import Any, Dict, Iterable, Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_POLY_VERTEX, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from .errors import FileError, MeshingCancelled, MeshingError
@@ -28,16 +28,20 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
             hausdorff: bool = True, smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
             facet_angle: Optional[float] = None, smallest_component: Optional[int] = None,
             spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
-            direction: Optional[ArrayLike] = None, threads: int = 0,
+            direction: Optional[ArrayLike] = None, times: Optional[Sequence[float]] = None,
+            time_scale: Optional[float] = None, threads: int = 0,
             progress: Optional[Progress] = None) -> Dict[str, Any]:
-    """Measures a mesh of labelled tetrahedra, made by Voxplex or another program.
+    """Measures a mesh of labelled tetrahedra or pentatopes, made by Voxplex or another program.
+
+    A mesh of pentatopes is measured itself, and its cut at the time of each frame beside the frame.
 
     Parameters
     ----------
     mesh
-        A vtkUnstructuredGrid of tetrahedra with a cell array `Label`, or the path of a .vtu file.
+        A vtkUnstructuredGrid of tetrahedra or pentatopes with a cell array `Label` (and for pentatopes the point
+        array `Time`), or the path of a .vtu file.
     image
-        The label image that it was made from, as :func:`mesh` takes it; without one, nothing that needs
+        The label image or series that it was made from, as :func:`mesh` takes it; without one, nothing that needs
         an image is measured. It must lie where the mesh lies.
     labels
         Those that were meshed, by number or name; others are background. By default all.
@@ -53,6 +57,10 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
         are looked for. Default 8.
     spacing, origin, direction
         Of an image that is an array; see :func:`image_from_array`.
+    times
+        Of the frames of a series, as for :func:`mesh`. Without an image, the times at which pentatopes are cut.
+    time_scale
+        With which pentatopes were meshed. Default 1.
     threads, progress
         As for :func:`mesh`.
 
@@ -85,16 +93,23 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     True
     """
     measurer = vtkSimplexMeshQuality()
-    measurer.SetInputData(_mesh(mesh))
+    grid = _mesh(mesh)
+    is_series = grid.GetNumberOfCells() > 0 and grid.GetCellType(0) == VTK_POLY_VERTEX
+    measurer.SetInputData(grid)
     geometry = {name: value for name, value in
                 (("spacing", spacing), ("origin", origin), ("direction", direction)) if value is not None}
     if image is not None:
-        _connect(measurer, Source(image, geometry, None), labels)
+        _connect(measurer, Source(image, geometry, times), labels, is_series)
     elif geometry or labels is not None:
         raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
+    elif is_series:
+        for time in times or ():
+            measurer.AddFrameTime(float(time))
+    if not is_series and (times is not None or time_scale is not None):
+        raise ValueError("times, time_scale: only for meshes of pentatopes")
     measurer.SetDistances(hausdorff)
     measurer.SetNumberOfThreads(threads)
-    for name, value in (("SmoothingSigma", smoothing), ("RadiusEdgeRatio", radius_edge), ("FacetAngle", facet_angle),
+    for name, value in (("TimeScale", time_scale), ("SmoothingSigma", smoothing), ("RadiusEdgeRatio", radius_edge), ("FacetAngle", facet_angle),
                         ("SmallestComponent", smallest_component)):
         if value is not None:
             getattr(measurer, "Set" + name)(value)
@@ -109,13 +124,11 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     return figures
 
 
-def _connect(measurer: Any, source: Source, labels: Optional[Iterable[Label]]) -> None:
-    if source.is_series:
-        raise ValueError("the image has time frames; only meshes of images without can be measured")
-    if source.algorithm is not None:
-        measurer.SetImageConnection(source.algorithm.GetOutputPort())
-    else:
-        measurer.SetImageData(source.data)
+def _connect(measurer: Any, source: Source, labels: Optional[Iterable[Label]], is_series: bool) -> None:
+    if source.is_series != is_series:
+        raise ValueError("the image has time frames, but the mesh has no pentatopes" if source.is_series else
+                         "the mesh has pentatopes, but the image has no time frames")
+    source.connect(measurer, 1)
     if labels is not None:
         for label in labels:
             measurer.AddLabel(label_value(label, source.names()))

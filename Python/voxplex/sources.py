@@ -54,14 +54,21 @@ class Source:
             raise TypeError("image must be a vtkImageData, a NumPy array, a path, a list of vtkImageData (not "
                             f"empty), or a VTK algorithm, not {type(image).__name__}")
 
-    def connect(self, mesher: Any) -> None:
-        """Makes this the input of a meshing filter."""
+    def connect(self, target: Any, port: int = 0) -> None:
+        """Makes this the input of a filter."""
         if self.algorithm is not None:
-            mesher.SetInputConnection(self.algorithm.GetOutputPort())
+            target.SetInputConnection(port, self.algorithm.GetOutputPort())
         else:
-            mesher.SetInputData(self.data)
-        for time in self._own_times:
-            mesher.AddFrameTime(float(time))
+            target.SetInputDataObject(port, self.data)
+        for time in self._frame_times():
+            target.AddFrameTime(float(time))
+
+    def _frame_times(self) -> Sequence[float]:
+        """Of components, or those that replace the times of an algorithm."""
+        if self.algorithm is None and self.is_series and not self._own_times:
+            assert self.data is not None
+            return range(_components(self.data))
+        return self._own_times
 
     def names(self) -> Dict[int, str]:
         """The names of labels that the image carries."""

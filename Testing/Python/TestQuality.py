@@ -12,11 +12,11 @@ import unittest
 from pathlib import Path
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersModeling import vtkHausdorffDistancePointSetFilter
-from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter, vtkMeshQuality
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import voxplex
@@ -228,6 +228,186 @@ class Inputs(unittest.TestCase):
         self.assertEqual(fractions, sorted(fractions))
         with self.assertRaises(voxplex.MeshingCancelled):
             voxplex.quality(mesh, brick(), progress=lambda _fraction: False)
+
+
+def pentatope_figures(corners):
+    """Hypervolume, radius-edge ratio and normalized volume of pentatopes [n, 5, 4]."""
+    edges = corners[:, 1:] - corners[:, :1]
+    volumes = numpy.linalg.det(edges) / 24
+    centres = numpy.linalg.solve(2 * edges, (edges**2).sum(axis=2)[..., None])[..., 0]
+    radii = numpy.linalg.norm(centres, axis=1)
+    pairs = [(i, j) for i in range(5) for j in range(i)]
+    shortest = numpy.min([numpy.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i, j in pairs], axis=0)
+    regular = numpy.sqrt(5) / 96 * numpy.sqrt(5 / 2)**4  # edge 1 has the radius sqrt(2 / 5)
+    return volumes, radii / shortest, volumes / (regular * radii**4)
+
+
+class SpaceTime(unittest.TestCase):
+    """Pentatopes: by NumPy, and the cuts by the slices."""
+    TIMES = (1.0, 1.5, 2.0, 3.0, 3.5)
+    SCALE = 3.0
+
+    @classmethod
+    def setUpClass(cls):
+        z, y, x = numpy.mgrid[:16, :16, :18]
+        cls.frames = numpy.zeros((5, 16, 16, 18), dtype=numpy.uint8)
+        for frame, time in zip(cls.frames, cls.TIMES):
+            frame[(x - 4 - 2 * time)**2 + (y - 7.5)**2 + (z - 7.5)**2 < 30] = 2
+            frame[(x - 4 - 2 * time)**2 + (y - 7.5)**2 + (z - 7.5)**2 < 8] = 5
+        cls.mesh = voxplex.mesh(cls.frames, 2.0, times=cls.TIMES, time_scale=cls.SCALE, threads=1)
+        cls.figures = voxplex.quality(cls.mesh, cls.frames, times=cls.TIMES, time_scale=cls.SCALE)
+
+    def measurer(self):
+        measurer = voxplex.vtkSimplexMeshQuality()
+        measurer.SetInputData(self.mesh)
+        measurer.SetTimeScale(self.SCALE)
+        return measurer
+
+    def test_elements(self):
+        measurer = self.measurer()
+        measurer.SetNumberOfWorstElements(7)
+        measurer.Update()
+        cells = measurer.GetOutput().GetCellData()
+        corners = numpy.column_stack([voxplex.points(self.mesh), self.SCALE * voxplex.times(self.mesh)])[
+            voxplex.pentatopes(self.mesh)]
+        volumes, ratios, shapes = pentatope_figures(corners)
+        for name, expected in (("Volume", volumes), ("RadiusEdgeRatio", ratios), ("NormalizedVolume", shapes)):
+            numpy.testing.assert_allclose(vtk_to_numpy(cells.GetArray(name)), expected, rtol=1e-6, err_msg=name)
+        ranks = vtk_to_numpy(cells.GetArray("WorstElement"))
+        self.assertEqual(sorted(ranks)[-8:], list(range(8)))
+        worst = numpy.argsort(shapes)[:7]
+        numpy.testing.assert_array_equal(ranks[worst], range(1, 8))
+        figures = json.loads(measurer.ToJSON())
+        self.assertEqual([element["cell"] for element in figures["worst_elements"]], list(worst))
+        for element in figures["worst_elements"]:
+            self.assertAlmostEqual(element["normalized_volume"], shapes[element["cell"]], 9)
+            self.assertAlmostEqual(element["radius_edge"], ratios[element["cell"]], 6)
+            centre = corners[element["cell"]].mean(axis=0) / (1, 1, 1, self.SCALE)
+            numpy.testing.assert_allclose(element["place"], centre)
+            self.assertEqual(element["label"], voxplex.labels(self.mesh)[element["cell"]])
+        quality = figures["quality"]
+        self.assertAlmostEqual(quality["min_normalized_volume"], shapes.min(), 9)
+        self.assertAlmostEqual(quality["mean_normalized_volume"], shapes.mean(), 9)
+        self.assertAlmostEqual(quality["max_radius_edge"], ratios.max(), 6)
+        self.assertAlmostEqual(measurer.GetMinimumNormalizedVolume(), shapes.min(), 9)
+        self.assertAlmostEqual(measurer.GetMeanNormalizedVolume(), shapes.mean(), 9)
+        histograms = measurer.GetHistograms()
+        for name, values in (("NormalizedVolumes", shapes), ("RadiusEdgeRatios", ratios)):
+            counts = vtk_to_numpy(histograms.GetColumnByName(name))
+            numpy.testing.assert_array_equal(counts[:60], numpy.histogram(values, 60, (0, 3))[0], err_msg=name)
+        self.assertEqual(figures["frames"], [])
+        self.assertNotIn("image", figures)
+
+    def test_frames(self):
+        frames = self.figures["frames"]
+        self.assertEqual([frame["time"] for frame in frames], list(self.TIMES))
+        slicer = voxplex.vtkPentatopeMeshTimeSlice()
+        slicer.SetInputData(self.mesh)
+        for frame, voxels in zip(frames, self.frames):
+            slicer.UpdateTimeStep(frame["time"])
+            sizes = vtkCellSizeFilter()
+            sizes.SetInputConnection(slicer.GetOutputPort())
+            sizes.Update()
+            volumes = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
+            labels = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Label"))
+            for label in (2, 5):
+                figures = frame["labels"][str(label)]
+                self.assertAlmostEqual(figures["volume"], volumes[labels == label].sum(), 6)
+                count = int((voxels == label).sum())
+                self.assertEqual((figures["voxels"], figures["image_volume"]), (count, count))
+            self.assertEqual(frame["faces_of_three_elements"], 0)
+            self.assertEqual(frame["quality"]["inverted_elements"], 0)
+            self.assertEqual(frame["image"]["lost_components"], [])
+            self.assertEqual(frame["image"]["components"], 2)
+            self.assertLess(0.3, frame["hausdorff"]["voxels"]["distance"])
+            self.assertLess(frame["hausdorff"]["voxels"]["distance"], 2.5)
+
+    def test_labels(self):
+        for label in (2, 5):
+            counts = (self.frames == label).sum(axis=(1, 2, 3))
+            expected = self.SCALE * (numpy.diff(self.TIMES) * (counts[1:] + counts[:-1]) / 2).sum()
+            figures = self.figures["labels"][str(label)]
+            self.assertAlmostEqual(figures["image_volume"], expected, 6)
+            self.assertAlmostEqual(figures["volume_error"], figures["volume"] / expected - 1, 9)
+            self.assertLess(abs(figures["volume_error"]), 0.25)
+            self.assertEqual(figures["components"], 1)
+        self.assertEqual(self.figures["image"], {"lost_labels": [], "components": 2, "lost_components": []})
+
+    def test_tables(self):
+        """The same with components for frames, in VTK."""
+        measurer = self.measurer()
+        image = voxplex.image_from_array(self.frames[0])
+        image.GetPointData().SetScalars(numpy_to_vtk(numpy.moveaxis(self.frames, 0, -1).reshape(-1, 5).copy()))
+        measurer.SetImageData(image)
+        for time in self.TIMES:
+            measurer.AddFrameTime(time)
+        measurer.Update()
+        self.assertEqual(json.loads(measurer.ToJSON()), self.figures)
+        distances = [frame["hausdorff"]["voxels"]["distance"] for frame in self.figures["frames"]]
+        self.assertEqual(measurer.GetHausdorffDistance(), max(distances))
+        self.assertEqual((measurer.GetNumberOfLostLabels(), measurer.GetNumberOfLostComponents()), (0, 0))
+        labels = measurer.GetLabelTable()
+        self.assertEqual(list(vtk_to_numpy(labels.GetColumnByName("Label"))), [2, 5])
+        self.assertEqual(list(vtk_to_numpy(labels.GetColumnByName("Components"))), [1, 1])
+        for column, key in (("Volume", "volume"), ("ImageVolume", "image_volume"), ("VolumeError", "volume_error")):
+            self.assertEqual(list(vtk_to_numpy(labels.GetColumnByName(column))),
+                             [self.figures["labels"][label][key] for label in ("2", "5")])
+        table = measurer.GetFrameTable()
+        self.assertEqual(list(vtk_to_numpy(table.GetColumnByName("Time"))), [t for t in self.TIMES for _ in (2, 5)])
+        self.assertEqual(list(vtk_to_numpy(table.GetColumnByName("Label"))), 5 * [2, 5])
+        self.assertEqual(list(vtk_to_numpy(table.GetColumnByName("HausdorffDistance"))), [d for d in distances for _ in (2, 5)])
+        self.assertEqual(list(vtk_to_numpy(table.GetColumnByName("VolumeError"))),
+                         [frame["labels"][label]["volume_error"] for frame in self.figures["frames"] for label in ("2", "5")])
+        self.assertEqual(set(vtk_to_numpy(table.GetColumnByName("Components"))), {2})
+
+    def test_lost_components(self):
+        """A speck that lives for one frame is a component of space-time, and of that frame."""
+        frames = self.frames.copy()
+        frames[2, 1:3, 1:3, 1:3] = 2
+        figures = voxplex.quality(self.mesh, frames, times=self.TIMES, time_scale=self.SCALE, hausdorff=False)
+        lost = figures["image"]["lost_components"]
+        self.assertEqual([component["label"] for component in lost], [2])
+        self.assertEqual(lost[0]["voxel"][:3], [1, 1, 1])
+        self.assertEqual([len(frame["image"]["lost_components"]) for frame in figures["frames"]], [0, 0, 1, 0, 0])
+        self.assertEqual(figures["frames"][2]["image"]["lost_components"],
+                         [{"label": 2, "voxels": 8, "voxel": [1, 1, 1]}])
+        frames = self.frames.copy()
+        frames[:, 1:3, 1:3, 1:3] = 7
+        figures = voxplex.quality(self.mesh, frames, times=self.TIMES, hausdorff=False)
+        self.assertEqual(figures["image"]["lost_labels"], [7])
+
+    def test_without_image(self):
+        figures = voxplex.quality(self.mesh, times=(1.0, 2.7), time_scale=self.SCALE)
+        self.assertEqual([frame["time"] for frame in figures["frames"]], [1.0, 2.7])
+        self.assertEqual([frame["image"] for frame in figures["frames"]], [None, None])
+        self.assertEqual(figures["frames"][0]["labels"]["2"]["volume"], self.figures["frames"][0]["labels"]["2"]["volume"])
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(ValueError, "the image has no time frames"):
+            voxplex.quality(self.mesh, self.frames[0])
+        with self.assertRaisesRegex(ValueError, "only for meshes of pentatopes"):
+            voxplex.quality(voxplex.mesh(brick(), 2.0), time_scale=2)
+        with self.assertRaisesRegex(voxplex.MeshingError, "must increase"):
+            voxplex.quality(self.mesh, self.frames, times=(1, 2, 2, 3, 4))
+        measurer = self.measurer()
+        messages = []
+        measurer.AddObserver("ErrorEvent", lambda *_: messages.append(measurer.GetErrorMessage()))
+        measurer.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        for change, words in (
+                (lambda: measurer.SetImageData(voxplex.image_from_array(self.frames[0])), "the image has one frame"),
+                (lambda: measurer.AddFrameTime(1.0), "the image has one frame"),
+                (lambda: (measurer.SetImageData(None), measurer.SetTimeScale(0.0)), "TimeScale is 0"),
+                (lambda: (measurer.SetTimeScale(1.0), self.without_time(measurer)), "no point array 'Time'")):
+            change()
+            measurer.Update()
+            self.assertIn(words, messages[-1])
+            self.assertEqual(measurer.GetOutput().GetNumberOfCells(), 0)
+
+    def without_time(self, measurer):
+        mesh = vtkUnstructuredGrid()
+        mesh.ShallowCopy(self.mesh)
+        mesh.GetPointData().RemoveArray("Time")
+        measurer.SetInputData(mesh)
 
 
 @unittest.skipUnless(voxplex.HAVE_IO, "this build cannot read or write files")

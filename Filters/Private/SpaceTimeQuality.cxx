@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/SpaceTimeQuality.h"
+
+#include "Geometry/SimplexQuality.h"
+#include "Mesh/FindInterfaces.h"
+#include "Mesh/SliceTetrahedra.h"
+#include "Parallel/ParallelFor.h"
+#include "Private/ImageLabels.h"
+
+#include "vtkDataArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+constexpr std::size_t Grain = 4096;
+
+/** Whether a voxel has a label that is selected. */
+bool HasForeground(vtkDataArray* array, const LabelSelection& selection)
+{
+  const std::set<double> only(selection.Only.begin(), selection.Only.end());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    const double label = array->GetComponent(i, 0);
+    if (label != 0.0 && (only.empty() || only.count(label) > 0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void MoveToWorld(const ImageFrame& frame, HausdorffFigures& figures)
+{
+  for (DistanceFigures* direction : { &figures.MeshToImage, &figures.ImageToMesh })
+  {
+    direction->Place = frame.ToWorld(direction->Place);
+  }
+}
+
+/** The volume of a label in a frame of the image. */
+double ImageVolume(const FrameFigures& frame, std::int64_t label)
+{
+  if (!frame.Measured.Image)
+  {
+    return 0.0;
+  }
+  const auto& labels = frame.Measured.Image->Labels;
+  const auto found = std::find_if(labels.begin(), labels.end(),
+    [label](const LabelComparison& comparison) { return comparison.Label == label; });
+  return found == labels.end() ? 0.0 : found->ImageVolume;
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
+SpaceTimeQuality::SpaceTimeQuality(
+  SimplexMesh<4> mesh, double timeScale, const MeasurementOptions& options)
+  : Pentatopes(std::move(mesh))
+  , TimeScale(timeScale)
+  , Options(options)
+{
+  for (const Point<4>& p : this->Pentatopes.Points)
+  {
+    this->Positions.insert(this->Positions.end(), p.begin(), p.begin() + 3);
+    this->Times.push_back(p[3] / timeScale);
+  }
+  this->Offsets.push_back(0);
+  for (const auto& simplex : this->Pentatopes.Simplices)
+  {
+    this->Connectivity.insert(this->Connectivity.end(), simplex.begin(), simplex.end());
+    this->Offsets.push_back(static_cast<long long>(this->Connectivity.size()));
+  }
+  this->Slicer.emplace(
+    SpaceTimeMesh{ this->Positions, this->Times, this->Offsets, this->Connectivity });
+}
+
+void SpaceTimeQuality::MeasureElements(std::size_t worst, const std::stop_token& stop)
+{
+  const SimplexMesh<4>& mesh = this->Pentatopes;
+  this->All.Quality = MeasureQuality(
+    mesh, this->Options.RadiusEdgeBound, this->Options.FacetAngleBound, this->Options.Threads);
+  this->All.Topology = MeasureTopology(mesh, stop);
+  const std::size_t n = mesh.Simplices.size();
+  std::vector<double>& ratios = this->All.RadiusEdgeRatios;
+  std::vector<double>& shapes = this->All.NormalizedVolumes;
+  ratios.resize(n);
+  shapes.resize(n);
+  this->All.Hypervolumes.resize(n);
+  ParallelFor(
+    0, n, Grain, this->Options.Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t s = first; s < last; ++s)
+      {
+        const auto v = mesh.PointsOf(s);
+        ratios[s] = RadiusEdgeRatio<4>(v.data());
+        shapes[s] = NormalizedVolume<4>(v.data());
+        this->All.Hypervolumes[s] = SignedVolume<4>(v.data());
+      }
+    },
+    stop);
+
+  std::vector<std::uint32_t> order(n);
+  for (std::uint32_t s = 0; s < n; ++s)
+  {
+    order[s] = s;
+  }
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(worst, n));
+  std::partial_sort(order.begin(), end, order.end(),
+    [&](std::uint32_t a, std::uint32_t b)
+    { return std::pair(shapes[a], a) < std::pair(shapes[b], b); });
+  for (auto s = order.begin(); s != end; ++s)
+  {
+    Point<4> centroid{};
+    for (const Point<4>* p : mesh.PointsOf(*s))
+    {
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        centroid[a] += 0.2 * (*p)[a];
+      }
+    }
+    centroid[3] /= this->TimeScale;
+    this->All.Worst.push_back({ *s, mesh.Labels[*s], shapes[*s], ratios[*s], centroid });
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+SimplexMesh<3> SpaceTimeQuality::Cut(double time, const ImageFrame* frame) const
+{
+  SimplexMesh<3> cut =
+    SplitIntoTetrahedra(this->Slicer->Slice(time), std::span(this->Pentatopes.Labels));
+  if (frame == nullptr)
+  {
+    return cut;
+  }
+  for (Point<3>& p : cut.Points)
+  {
+    p = frame->ToFrame(p);
+  }
+  for (auto& simplex : cut.Simplices)
+  {
+    if (frame->LeftHanded) // so that volumes are positive in the frame, too
+    {
+      std::swap(simplex[2], simplex[3]);
+    }
+  }
+  return cut;
+}
+
+void SpaceTimeQuality::Add(double time, SimplexMesh<3> cut, const LabelImage<3>* image,
+  const ImageFrame* frame, const std::stop_token& stop)
+{
+  FrameFigures figures;
+  figures.Time = time;
+  figures.FacesOfThreeElements = FindInterfaces(cut, this->Options.Threads, stop);
+  figures.Elements = cut.Simplices.size();
+  figures.Vertices = cut.Points.size();
+  figures.InterfaceFacets = cut.Facets.size();
+  figures.Measured = MeasureMesh(cut, image, this->Options, stop);
+  if (frame != nullptr && figures.Measured.Image)
+  {
+    MoveToWorld(*frame, figures.Measured.Image->Voxels);
+    MoveToWorld(*frame, figures.Measured.Image->Smooth);
+  }
+  this->All.Frames.push_back(std::move(figures));
+}
+
+void SpaceTimeQuality::MeasureCut(double time, const std::stop_token& stop)
+{
+  this->Add(time, this->Cut(time, nullptr), nullptr, nullptr, stop);
+}
+
+void SpaceTimeQuality::MeasureCut(double time, const ChosenArray& frame,
+  const LabelSelection& selection, const std::stop_token& stop)
+{
+  if (!HasForeground(frame.Array, selection)) // there is nothing to compare with
+  {
+    this->MeasureCut(time, stop);
+    return;
+  }
+  const LabelImage<3> image = ReadLabels(frame, selection, this->Options.Threads, stop);
+  this->Add(time, this->Cut(time, &frame.Frame), &image, &frame.Frame, stop);
+}
+
+//----------------------------------------------------------------------------------------------------
+void SpaceTimeQuality::MeasureImage(
+  const FrameSeries& series, const LabelSelection& selection, const std::stop_token& stop)
+{
+  const SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
+  const LabelImage<4> image = series.MakeLabelImage(frame.Grid, selection, this->Options.Threads);
+  SimplexMesh<4> mesh = this->Pentatopes;
+  for (Point<4>& p : mesh.Points)
+  {
+    const Point<3> x = frame.Space.ToFrame({ p[0], p[1], p[2] });
+    p = { x[0], x[1], x[2], p[3] - this->TimeScale * frame.FirstTime };
+  }
+  this->All.Components =
+    CompareComponents(mesh, image, this->Options.SmallestComponent, this->Options.Threads, stop);
+
+  const auto& frames = this->All.Frames;
+  for (std::size_t id = 1; id < image.Values().size(); ++id)
+  {
+    const std::int64_t label = image.Values()[id];
+    double volume = 0.0; // the mesh ends at the first and the last frame
+    for (std::size_t k = 1; k < frames.size(); ++k)
+    {
+      volume += 0.5 * this->TimeScale * (frames[k].Time - frames[k - 1].Time) *
+        (ImageVolume(frames[k - 1], label) + ImageVolume(frames[k], label));
+    }
+    if (volume > 0.0)
+    {
+      this->All.ImageHypervolumes[label] = volume;
+    }
+  }
+}
+
+//----------------------------------------------------------------------------------------------------
+std::vector<SpaceTimeLabel> LabelsOf(const SpaceTimeFigures& figures)
+{
+  std::map<std::int64_t, SpaceTimeLabel> labels;
+  for (const LabelMeasure& measure : figures.Quality.Labels)
+  {
+    labels[measure.Label] = { measure.Label, measure.Elements, measure.Volume,
+      figures.Topology.Components.at(measure.Label), 0.0 };
+  }
+  for (const auto& [label, volume] : figures.ImageHypervolumes)
+  {
+    labels[label].Label = label;
+    labels[label].ImageVolume = volume;
+  }
+  std::vector<SpaceTimeLabel> all;
+  for (const auto& [label, figuresOfLabel] : labels)
+  {
+    all.push_back(figuresOfLabel);
+  }
+  return all;
+}
+
+std::vector<std::int64_t> LostLabelsOf(const SpaceTimeFigures& figures)
+{
+  std::vector<std::int64_t> lost;
+  for (const SpaceTimeLabel& label : LabelsOf(figures))
+  {
+    if (label.Elements == 0)
+    {
+      lost.push_back(label.Label);
+    }
+  }
+  return lost;
+}
+
+} // namespace voxplex
