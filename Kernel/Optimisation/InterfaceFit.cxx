@@ -565,22 +565,30 @@ private:
   }
 
   /**
-   * Whether a simplex of a label is below the element sizes at its old and at its new centre, or no
-   * larger than before. Sizes are asked for where the label is only, as in refinement.
+   * Whether a simplex of a label is below the element size at its new centre, or, compared with that
+   * size, no larger than before. Sizes are asked for where the label is only, as in refinement.
    */
   bool HasRightSize(const Circumball<4>& ball, const Circumball<4>& before, LabelId label) const
   {
-    if (!this->Bounds.Sizing || ball.Radius2 <= before.Radius2)
+    if (!this->Bounds.Sizing)
     {
       return true;
     }
-    const auto isBelow = [&](const Point<4>& centre)
+    if (this->Surfaces.Label(ball.Center) != label)
     {
-      const double size = this->Bounds.Sizing->ElementSize(centre, label);
-      return ball.Radius2 < BelowSize * size * size;
-    };
-    return isBelow(before.Center) &&
-      (this->Surfaces.Label(ball.Center) != label || isBelow(ball.Center));
+      return false;
+    }
+    const double size = this->Bounds.Sizing->ElementSize(ball.Center, label);
+    if (ball.Radius2 < BelowSize * size * size)
+    {
+      return true;
+    }
+    if (this->Surfaces.Label(before.Center) != label)
+    {
+      return false;
+    }
+    const double sizeBefore = this->Bounds.Sizing->ElementSize(before.Center, label);
+    return ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size;
   }
 
   static Circumball<4> CircumballOf(const std::array<const Point<4>*, 5>& points)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertices of interfaces are moved so that volumes are right; shapes, ends and topology stay.
 #include "Base/Error.h"
+#include "CallableSize.h"
+#include "Geometry/Circumball.h"
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
 #include "Optimisation/InterfaceFit.h"
@@ -9,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -136,6 +140,35 @@ TEST(InterfaceFit, LeavesPlanesAlone)
     }
   }
   EXPECT_GT(sides, 50u);
+}
+
+// The size falls along the first axis, so an element may become too large although it does not grow.
+TEST(InterfaceFit, KeepsElementSizes)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(5, 2.0, 1.0));
+  const auto sizeAt = [](const Point<4>& p) { return 2.0 + 0.5 * std::abs(p[0] - 11.5); };
+  MeshingOptions<4> options = SpaceTimeOptions(3.0);
+  options.Sampling.Size =
+    std::make_shared<CallableSizeOf<4>>([&](const Point<4>& p, std::int64_t) { return sizeAt(p); });
+  options.Sampling.Gradation = 0.0;
+  options.Optimisation.Run = false;
+  options.Interfaces.Manifold = false; // so that both meshes have the same elements
+  const SimplexMesh<4> before = Mesh(image, options, false);
+  const SimplexMesh<4> after = Mesh(image, options, true);
+  ASSERT_EQ(before.Simplices, after.Simplices);
+  const auto share = [&](const SimplexMesh<4>& mesh, std::size_t s)
+  {
+    Circumball<4> ball;
+    ComputeCircumballExactly<4>(mesh.PointsOf(s).data(), ball);
+    return std::sqrt(ball.Radius2) / sizeAt(ball.Center);
+  };
+  std::size_t changed = 0;
+  for (std::size_t s = 0; s < after.Simplices.size(); ++s)
+  {
+    changed += share(after, s) != share(before, s) ? 1 : 0;
+    EXPECT_LE(share(after, s), std::max(1.0, share(before, s)) + 1e-9);
+  }
+  EXPECT_GT(changed, 1000u);
 }
 
 TEST(InterfaceFit, DoesNotDependOnThreads)
