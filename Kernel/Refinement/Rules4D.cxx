@@ -201,12 +201,17 @@ RuleOutcome Rules4D::InsertFeatureAt(
   {
     return RuleOutcome::Good;
   }
-  const double clearance = this->FacetClearance(spacing, step);
+  double clearance = this->FacetClearance(spacing, step);
   std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet];
   Point<4> snapped;
   if (this->SnapToEnd(z, delta, snapped))
   {
-    return this->InsertFeatureOnEnd(snapped, delta, s, other, fired);
+    const double onEnd = EndSpacing * delta;
+    if (std::abs(z[3] - snapped[3]) < onEnd || !this->FeatureVertexNear(s, snapped, onEnd))
+    {
+      return this->InsertFeatureOnEnd(snapped, delta, s, other, fired);
+    }
+    clearance = onEnd; // the end is crowded, and z is far enough from it
   }
   if (this->AnyFeatureWithin(z, clearance))
   {

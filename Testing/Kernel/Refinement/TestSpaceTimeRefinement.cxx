@@ -132,6 +132,30 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoSlivers)
   }
 }
 
+// Where a flat end is crowded, facets near it get their feature vertex inside. Without it 12 and 9 facets had a free one.
+TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::BeatingVentricle(4), 5.0));
+  const ImageDomain<4> domain(image, 1.0);
+  for (const double delta : { 6.0, 8.0 })
+  {
+    SCOPED_TRACE(delta);
+    MeshingOptions<4> options = SpaceTimeOptions(delta);
+    options.SpaceTime.Slivers.Fight = true;
+    options.Optimisation.Run = false;
+    options.Interfaces.Manifold = false; // would put vertices beside interfaces
+    ImageMesher<4> mesher(options);
+    SimplexMesh<4> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    EXPECT_GT(LateralFacets(mesh, domain).size(), 1000u);
+    EXPECT_EQ(CountFacetsOffInterface(mesh, domain), 0u);
+    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      ASSERT_LT(RadiusEdge(mesh, s), 2.0 + 1e-9);
+    }
+  }
+}
+
 TEST(SpaceTimeRefinement, PickingRegionsFollowTheSeed)
 {
   const LabelImage<4> image = ImageOf(phantoms::FourBall(6.0));
