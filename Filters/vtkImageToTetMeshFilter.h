@@ -131,7 +131,7 @@ public:
    * A tetrahedron is a sliver if a dihedral angle is below this, or above 180 degrees minus this. A
    * sliver is split, or the interface near it is sampled more finely (thesis, section 2.6.2). In
    * rare cases no point helps, and the sliver stays ("/slivers/kept" of the statistics). If
-   * Optimise is on without a time limit, slivers above 3 degrees are left to the optimisation,
+   * Optimise is on without a time limit, slivers above 1 degree are left to the optimisation,
    * which needs fewer elements, unless they are wedged between interfaces. Degrees, 0 to 59.
    * Default 9, which without Optimise makes about a tenth more elements. 0 leaves slivers alone.
    * Above 15 meshes can become very large, and the value is refused unless Force is on.

@@ -175,7 +175,7 @@ Parameters Quality()
       { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
     Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
       "a tetrahedron with a dihedral angle below this, or above 180 degrees minus this, is a "
-      "sliver and is split; most slivers above 3 degrees are left to optimisation",
+      "sliver and is split; most slivers above 1 degree are left to optimisation",
       { .Step = 1.0,
         .Zero = "leave slivers",
         .ForceAbove = 15.0,

@@ -21,11 +21,11 @@ namespace
 {
 
 /**
- * Refinement leaves slivers with a larger angle than this, in degrees, to optimisation. On twelve
- * meshes of eight atlases, this reduces 3.0 million elements to 2.7 million. The number of poor
- * elements in the end is not larger than without it: under ten.
+ * Refinement leaves slivers with a larger angle than this, in degrees, to optimisation, except
+ * wedged ones. This reduces the elements of atlases by about a tenth. With 3 degrees they have 2 %
+ * more elements, and no fewer poor ones in the end.
  */
-constexpr double SliversLeftToOptimisation = 3.0;
+constexpr double SliversLeftToOptimisation = 1.0;
 
 //------------------------------------------------------------------------------------------------
 /** The sources of a sizing field. */

@@ -63,6 +63,14 @@ double Flips::ScoreOf(std::span<const std::uint32_t> cells) const
   return score;
 }
 
+/** The smallest score that a plan must reach, if the tetrahedra that it replaces have this score. */
+double Flips::LeastScoreFrom(double before) const
+{
+  // If nothing is poor afterwards, any gain is enough: flipping ends there.
+  const double gain = std::min(before * LeastGain, 1.0);
+  return std::max({ LeastScore, gain, before + this->Best.Gain });
+}
+
 void Flips::Consider(double before)
 {
   this->Current.Gain = std::min(1.0, this->Current.Score) - before;
@@ -95,7 +103,7 @@ void Flips::ConsiderFacet(std::uint32_t t, unsigned i)
   }
   const std::array<std::uint32_t, 2> old = { t, other };
   const double before = this->ScoreOf(old);
-  const double floor = std::max(LeastScore, std::max(before * LeastGain, before + this->Best.Gain));
+  const double floor = this->LeastScoreFrom(before);
   Plan& plan = this->Current;
   plan.Fresh.clear();
   plan.Score = 1.0;
@@ -125,7 +133,7 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
     return;
   }
   const double before = this->ScoreOf(ring.Cells);
-  const double floor = std::max(LeastScore, std::max(before * LeastGain, before + this->Best.Gain));
+  const double floor = this->LeastScoreFrom(before);
 
   // Rotate the ring so that a run of one label begins with the first cell.
   const std::size_t cells = ring.Cells.size();

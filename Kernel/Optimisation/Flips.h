@@ -104,6 +104,7 @@ private:
 
   void ConsiderEdge(std::uint32_t t, unsigned i, unsigned j);
   void ConsiderFacet(std::uint32_t t, unsigned i);
+  double LeastScoreFrom(double before) const;
   void Consider(double before);
 
   double ScoreOf(std::span<const std::uint32_t> cells) const;

@@ -41,7 +41,7 @@ struct OptimisationOptions
   double CreaseAngle = 30.0;
   /**
    * How far vertices may be moved off interfaces as a last resort. Vertices on junctions cannot
-   * move in any other way. A tenth of a voxel is a good value; 0 means not at all.
+   * move in any other way. A quarter of a voxel is a good value; 0 means not at all.
    */
   double InterfaceTolerance = 0.0;
 

@@ -119,6 +119,10 @@ bool PatchWorker::MendByLastMeans(std::uint32_t t, Effort effort)
       }
     }
   }
+  if (this->Geometry.InsertInside(t))
+  {
+    return true;
+  }
   bool better = false;
   if (effort == Effort::MovesOffInterfaces)
   {

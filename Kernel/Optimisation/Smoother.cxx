@@ -28,6 +28,8 @@ constexpr double Difference = 1e-5;
 constexpr double Enough = 1.02;
 /** An insertion must raise the smallest score by this factor. */
 constexpr double LeastGainOfInsertion = 1.1;
+/** The largest number of tetrahedra of a cavity that grows. */
+constexpr std::size_t LargestCavity = 32;
 /** The distance from an interface point at which labels are looked up, in shortest edges. */
 constexpr double Beside = 0.05;
 
@@ -137,17 +139,11 @@ bool Smoother::Insert(std::uint32_t t, unsigned i, unsigned j)
   {
     return false;
   }
-  double before = 1.0;
-  for (const std::uint32_t cell : ring.Cells)
+  if (std::any_of(ring.Cells.begin(), ring.Cells.end(),
+        [&](std::uint32_t cell) { return mesh.Labels[cell] != mesh.Labels[t]; }))
   {
-    before = std::min(before, static_cast<double>(mesh.Scores[cell]));
-    if (mesh.Labels[cell] != mesh.Labels[t])
-    {
-      return false;
-    }
+    return false;
   }
-  this->Bound = Constraint::Free;
-  this->Fan.clear();
   this->Fresh.clear();
   this->Opposite.clear();
   const Point<3>& a = mesh.Points[ring.A];
@@ -162,18 +158,120 @@ bool Smoother::Insert(std::uint32_t t, unsigned i, unsigned j)
     this->Opposite.insert(this->Opposite.end(), { a, mesh.Points[y], mesh.Points[x] });
     this->Opposite.insert(this->Opposite.end(), { b, mesh.Points[x], mesh.Points[y] });
   }
-  Point<3> p = Along(a, 0.5, Subtract(b, a));
+  return this->FillCavity(v, Along(a, 0.5, Subtract(b, a)), ring.Cells);
+}
+
+bool Smoother::InsertInside(std::uint32_t t)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  const std::uint32_t v = this->Target.SpareVertex();
+  if (v == TetrahedralComplex::None || !this->Target.MayChange(t))
+  {
+    return false;
+  }
+  Point<3> p{};
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    p = Along(p, 0.25, mesh.PointOf(t, i));
+  }
+  if (!(this->GrowCavity(t, p) > 0.0))
+  {
+    return false;
+  }
+  this->Fresh.clear();
+  this->Opposite.clear();
+  for (const CavityFacet& facet : this->Facets)
+  {
+    this->Fresh.push_back({ { v, facet.V[0], facet.V[1], facet.V[2] }, mesh.Labels[t] });
+    for (const std::uint32_t w : facet.V)
+    {
+      this->Opposite.push_back(mesh.Points[w]);
+    }
+  }
+  return this->FillCavity(v, p, this->Cavity);
+}
+
+/** Adds a tetrahedron to Cavity and updates Facets. */
+void Smoother::AddToCavity(std::uint32_t t, const Point<3>& p)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  this->Cavity.push_back(t);
+  std::erase_if(this->Facets, [t](const CavityFacet& facet) { return facet.Next == t; });
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    const std::uint32_t next = mesh.Cells[t].N[i];
+    if (std::find(this->Cavity.begin(), this->Cavity.end(), next) != this->Cavity.end())
+    {
+      continue;
+    }
+    const auto w = StartingAt(mesh.Cells[t].V, i);
+    this->Facets.push_back({ t, next, { w[1], w[2], w[3] },
+      mesh.Shape(p, mesh.Points[w[1]], mesh.Points[w[2]], mesh.Points[w[3]]) });
+  }
+}
+
+/**
+ * Makes the cavity of a new vertex at p, in t: of the cavities on the way the one whose worst new
+ * tetrahedron is best.
+ * @return the score of that tetrahedron
+ */
+double Smoother::GrowCavity(std::uint32_t t, const Point<3>& p)
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  this->Cavity.clear();
+  this->Facets.clear();
+  double best = ShapeScore::Inverted;
+  std::size_t bestSize = 0;
+  std::vector<CavityFacet> bestFacets;
+  for (std::uint32_t next = t;;)
+  {
+    this->AddToCavity(next, p);
+    const auto worst = std::min_element(this->Facets.begin(), this->Facets.end(),
+      [](const CavityFacet& a, const CavityFacet& b) { return a.Score < b.Score; });
+    if (worst->Score > best)
+    {
+      best = worst->Score;
+      bestSize = this->Cavity.size();
+      bestFacets = this->Facets;
+    }
+    next = worst->Next;
+    if (this->Cavity.size() == LargestCavity || next == TetrahedralComplex::None ||
+      mesh.Labels[next] != mesh.Labels[t] || !this->Target.MayChange(next))
+    {
+      break; // the worst facet stays
+    }
+  }
+  this->Cavity.resize(bestSize);
+  this->Facets = std::move(bestFacets);
+  return best;
+}
+
+/**
+ * Replaces the tetrahedra of a cavity by Fresh, with the spare vertex v, which begins at p. Opposite
+ * has the three other points of each. False, with nothing changed, if that does not help.
+ */
+bool Smoother::FillCavity(std::uint32_t v, Point<3> p, std::span<const std::uint32_t> cells)
+{
+  this->Bound = Constraint::Free;
+  this->Fan.clear();
   this->Scores.resize(this->Fresh.size());
   this->Tried.resize(this->Fresh.size());
   this->ScoreAt(p, ShapeScore::Inverted);
   std::swap(this->Scores, this->Tried);
   this->Ascend(p);
-  if (*std::min_element(this->Scores.begin(), this->Scores.end()) < LeastGainOfInsertion * before)
+  double before = 1.0;
+  for (const std::uint32_t cell : cells)
+  {
+    before = std::min(before, static_cast<double>(this->Target.Mesh().Scores[cell]));
+  }
+  // If nothing is poor afterwards, any gain is enough.
+  const double after = *std::min_element(this->Scores.begin(), this->Scores.end());
+  if (before >= 1.0 || after < std::min(LeastGainOfInsertion * before, 1.0))
   {
     return false;
   }
   this->Target.PlaceVertex(v, p);
-  if (!this->Target.Replace(ring.Cells, this->Fresh))
+  if (!this->Target.Replace(cells, this->Fresh))
   {
     return false;
   }
@@ -362,7 +460,7 @@ bool Smoother::Step(Point<3>& p, double& score)
   {
     return false;
   }
-  const double floor = score * (1.0 + LeastGain) + 1e-9;
+  const double floor = std::max(std::min(score * (1.0 + LeastGain), 1.0), score) + 1e-9;
   double length = std::min(LongestStep * this->ShortestEdge, 2.0 * (Enough - score) / slope);
   for (int i = 0; i <= MostHalvings; ++i, length *= 0.5)
   {

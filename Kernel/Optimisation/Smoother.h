@@ -11,7 +11,9 @@
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/Patch.h"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -56,8 +58,11 @@ struct SmoothingStatistics
  *
  * There are two last resorts. A vertex on an interface may be moved in any direction, within a
  * small distance of where it was; this distance is the loss of fidelity. On faces where the image
- * cuts the object, it moves only within these faces. And a vertex may be inserted on an edge inside
- * a label, and is moved to its best position at once.
+ * cuts the object, it moves only within these faces. And a vertex may be inserted inside a label. It
+ * replaces the tetrahedra of a cavity by those between itself and the cavity's facets, and is moved
+ * to its best position at once. The cavity has the tetrahedra around an edge; or it grows from one
+ * tetrahedron across the facet that makes the worst new tetrahedron, as long as facets between
+ * labels are not crossed (Klingner and Shewchuk, Aggressive tetrahedral mesh improvement, 2007).
  */
 class Smoother
 {
@@ -83,6 +88,9 @@ public:
   /** Splits the edge from vertex i to vertex j of t if that helps. Returns false if it does not. */
   bool Insert(std::uint32_t t, unsigned i, unsigned j);
 
+  /** Inserts a vertex inside t, with a cavity, if that helps. Returns false if it does not. */
+  bool InsertInside(std::uint32_t t);
+
   const SmoothingStatistics& Counts() const { return this->Done; }
 
 private:
@@ -105,6 +113,18 @@ private:
     double LargestCosine;
   };
 
+  /** A facet of the cavity: (p, V) is the tetrahedron that the new vertex p makes with it. */
+  struct CavityFacet
+  {
+    std::uint32_t Cell; ///< the tetrahedron of the cavity that has it
+    std::uint32_t Next; ///< the tetrahedron across it; None where the mesh ends
+    std::array<std::uint32_t, 3> V;
+    double Score;
+  };
+
+  void AddToCavity(std::uint32_t t, const Point<3>& p);
+  double GrowCavity(std::uint32_t t, const Point<3>& p);
+  bool FillCavity(std::uint32_t v, Point<3> p, std::span<const std::uint32_t> cells);
   void GatherFan();
   bool FanIsDisk();
   bool Ascend(Point<3>& p);
@@ -135,6 +155,8 @@ private:
   Point<3> Anchor{};
   std::unordered_map<std::uint32_t, Point<3>> Anchors; ///< original positions of moved vertices
   EdgeRing Ring;
+  std::vector<std::uint32_t> Cavity;
+  std::vector<CavityFacet> Facets; ///< of Cavity
   std::vector<NewTetrahedron> Fresh;
 };
 

@@ -150,7 +150,7 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
   // A run that is far off is not optimised.
   options.Sampling.Delta = statistics.Runs.front().Delta;
   options.Optimisation.Run = false;
-  options.Shape.Slivers.AngleInside = 3.0; // as with optimisation
+  options.Shape.Slivers.AngleInside = 1.0; // as with optimisation
   const auto elements = static_cast<double>(Mesh<3>(image, options).Simplices.size());
   EXPECT_NEAR(static_cast<double>(statistics.Runs.front().Elements), 0.96 * elements, 1.0);
 }

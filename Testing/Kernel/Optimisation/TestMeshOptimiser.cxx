@@ -260,6 +260,18 @@ TEST_P(OptimisedPhantom, HasGoodShapes)
   EXPECT_LE(quality.MaximumRadiusEdgeRatio, 2.5 + 1e-6);
 }
 
+TEST_P(OptimisedPhantom, ReachesAllBounds)
+{
+  OptimisationOptions options;
+  options.InterfaceTolerance = 0.25; // as the mesher has it
+  SimplexMesh<3> mesh = this->Before;
+  const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, options);
+  EXPECT_EQ(statistics.After.Poor, 0u)
+    << statistics.After.SmallestDihedralAngle << " to " << statistics.After.LargestDihedralAngle;
+  EXPECT_EQ(
+    VerticesOffInterfaces(mesh, this->Before, this->Domain, options.InterfaceTolerance), 0u);
+}
+
 TEST_P(OptimisedPhantom, StatisticsAreThoseOfTheMesh)
 {
   const auto compare = [](const ShapeStatistics& survey, const SimplexMesh<3>& mesh)

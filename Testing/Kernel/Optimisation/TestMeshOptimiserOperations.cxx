@@ -10,7 +10,9 @@
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/Patch.h"
 #include "Optimisation/ShapeScore.h"
+#include "Optimisation/Smoother.h"
 #include "Phantoms.h"
+#include "Quality/MeshQuality.h"
 
 #include <gtest/gtest.h>
 
@@ -507,6 +509,72 @@ TEST(Flips, MakeNoSmallAnglesOffJunctions)
       }
     }
   }
+}
+
+//------------------------------------------------------------------------------------------------
+namespace
+{
+
+/** Inserts a vertex inside tetrahedron 0. False if it is refused. */
+bool InsertInside(SimplexMesh<3>& mesh, const OptimisationOptions& options)
+{
+  TetrahedralComplex complex(mesh,
+    ShapeScore(
+      options.SmallestDihedralAngle, options.LargestDihedralAngle, options.Shape.RadiusEdgeRatio),
+    1, {});
+  const auto vertices = static_cast<std::uint32_t>(complex.Points.size());
+  const auto cells = static_cast<std::uint32_t>(complex.Cells.size());
+  complex.AddVertices(1);
+  complex.AddCells(32);
+  const std::vector<std::uint32_t> blocks(vertices + 1, 0);
+  Patch patch(complex, blocks, 0);
+  std::vector<std::uint32_t> slots(32);
+  std::iota(slots.begin(), slots.end(), cells);
+  patch.SetSlots(slots);
+  patch.SetSpareVertices(vertices, vertices + 1);
+  const checks::BallDomain domain(100.0);
+  Smoother smoother(patch, domain, InterfaceRules(30.0, 20.0, 30.0), 0.0);
+  const bool isInserted = smoother.InsertInside(0);
+  EXPECT_EQ(smoother.Counts().Insertions, isInserted ? 1u : 0u);
+  complex.Write(mesh);
+  const std::vector<std::string> complaints = checks::Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  return isInserted;
+}
+
+} // namespace
+
+TEST(Smoother, InsertsAVertexInACavityThatGrows)
+{
+  // Around a long edge, circumradii are too large beside the edges of the hexagon. The cavity grows to the whole ring.
+  SimplexMesh<3> ring = Ring(6, 3.0, { 1, 1, 1, 1, 1, 1 });
+  const double volume = Volume(ring);
+  const OptimisationOptions options;
+  const double ratio = MeasureQuality<3>(ring, 2.5, 30.0, 1).MaximumRadiusEdgeRatio;
+  ASSERT_GT(ratio, options.Shape.RadiusEdgeRatio);
+  EXPECT_TRUE(InsertInside(ring, options));
+  EXPECT_EQ(ring.Simplices.size(), 12u);
+  EXPECT_NEAR(Volume(ring), volume, 1e-12);
+  EXPECT_LT(MeasureQuality<3>(ring, 2.5, 30.0, 1).MaximumRadiusEdgeRatio, ratio);
+}
+
+TEST(Smoother, InsertsNoVertexAcrossLabels)
+{
+  SimplexMesh<3> ring = Ring(6, 3.0, { 1, 1, 1, 2, 2, 2 });
+  const auto volumes = checks::Volumes(ring);
+  InsertInside(ring, {});
+  for (const auto& [label, volume] : checks::Volumes(ring))
+  {
+    EXPECT_NEAR(volume, volumes.at(label), 1e-12) << "label " << label;
+  }
+  EXPECT_EQ(std::count(ring.Labels.begin(), ring.Labels.end(), 2), 3);
+}
+
+TEST(Smoother, InsertsNoVertexThatDoesNotHelp)
+{
+  SimplexMesh<3> ring = Ring(5, 0.6, { 1, 1, 1, 1, 1 });
+  EXPECT_FALSE(InsertInside(ring, {}));
+  EXPECT_EQ(ring.Simplices.size(), 5u);
 }
 
 TEST(MeshOptimiser, TakesDegenerateMeshes)
