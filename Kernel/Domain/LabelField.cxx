@@ -3,14 +3,17 @@
 #include "Domain/LabelField.h"
 
 #include "Base/Error.h"
+#include "Domain/BuriedVoxels.h"
 #include "Image/LabelSmoothing.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -25,6 +28,8 @@ namespace
  */
 constexpr int KeptMargin = 328;
 constexpr int ThinMargin = 16384;
+/** If a voxel's label wins by less, its interface may be missed: the voxel is weak. */
+constexpr int SolidMargin = 4916;
 
 } // namespace
 
@@ -56,10 +61,16 @@ public:
   {
     this->GatherHalo(first);
     this->GatherLabels();
-    return this->Smooth();
+    const Sample* tile = this->Smooth();
+    if (D == 3 && this->Radius > 0)
+    {
+      this->NoteWeak(first, tile);
+    }
+    return tile;
   }
 
   typename Base::Arena Memory;
+  std::vector<WeakVoxel> Weak; ///< of all tiles made so far
 
 private:
   static constexpr std::uint16_t NoSlot = 0xffff;
@@ -212,6 +223,32 @@ private:
     KeepOwnLabels(this->OwnSlots.data(), this->Margins.data(), labels, PlaneSize, tile + header,
       this->Other.data());
     return tile;
+  }
+
+  /** Notes the weak voxels of a tile that Smooth() has made. */
+  void NoteWeak(const Index& first, const Sample* tile)
+  {
+    const std::size_t labels = this->Labels.size();
+    const Sample* planes = tile + HeaderSize(labels);
+    for (std::size_t i = 0; i < PlaneSize; ++i)
+    {
+      const std::size_t own = this->OwnSlots[i];
+      const int margin = labels == 2 ? 2 * (own == 0 ? planes[i] : -planes[i])
+                                     : planes[own * PlaneSize + i] - this->Other[i];
+      std::uint64_t sample = 0;
+      bool isInLattice = true; // the last tile along an axis may go beyond
+      for (std::size_t a = D; a-- > 0;)
+      {
+        const auto n = static_cast<std::uint64_t>(this->Image.CropDimensions()[a] + 2);
+        const std::uint64_t x = static_cast<std::uint64_t>(first[a]) + ((i >> (3 * a)) & 7);
+        sample = sample * n + x;
+        isInLattice = isInLattice && x < n;
+      }
+      if (margin < SolidMargin && isInLattice)
+      {
+        this->Weak.push_back({ sample, margin <= KeptMargin });
+      }
+    }
   }
 
   /** The labels of the samples in a row of the tile. */
@@ -402,8 +439,47 @@ LabelField<D>::LabelField(
     throw InputError(s.str());
   }
   const LabelSmoothing smoothing(D, sigma);
+  std::vector<WeakVoxel> weak;
   this->MakeTiles(
-    image, threads, stop, [&] { return std::make_unique<Builder>(image, smoothing); });
+    image, threads, stop, [&] { return std::make_unique<Builder>(image, smoothing); },
+    [&](const Builder& builder)
+    { weak.insert(weak.end(), builder.Weak.begin(), builder.Weak.end()); });
+  if constexpr (D == 3)
+  {
+    for (const Index& sample : FindBuriedVoxels(image, std::move(weak), threads, stop))
+    {
+      this->Raise(sample, image.At({ sample[0] - 1, sample[1] - 1, sample[2] - 1 }));
+    }
+  }
+}
+
+/** Makes a label win at a sample, as on objects that are one voxel thin. */
+template <int D>
+void LabelField<D>::Raise(const Index& sample, LabelId label)
+{
+  this->ChangeSample(sample,
+    [label](Sample* tile, std::size_t i)
+    {
+      const auto labels = static_cast<std::size_t>(tile[0]);
+      Sample* planes = tile + HeaderSize(labels);
+      const auto own = static_cast<std::size_t>(
+        std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+      if (labels == 2)
+      {
+        constexpr Sample half = ThinMargin / 2;
+        planes[i] =
+          own == 0 ? std::max(planes[i], half) : std::min(planes[i], static_cast<Sample>(-half));
+        return;
+      }
+      int other = std::numeric_limits<Sample>::min();
+      for (std::size_t l = 0; l < labels; ++l)
+      {
+        other = l == own ? other : std::max<int>(other, planes[l * PlaneSize + i]);
+      }
+      Sample& value = planes[own * PlaneSize + i];
+      value = static_cast<Sample>(
+        std::clamp<int>(other + ThinMargin, value, std::numeric_limits<Sample>::max()));
+    });
 }
 
 template <int D>

@@ -28,7 +28,8 @@ namespace voxplex
  * Voxels outside of the image are background. u_l is smoothed by the kernel below. If another label
  * wins at a voxel afterwards, the value of the voxel's own label is raised above the winner's, so
  * that *every voxel centre keeps its label*. Where an object is one voxel thin, the value is raised
- * farther, so that the object stays about one voxel thick. Between the voxels u_l is interpolated
+ * farther, so that the object stays about one voxel thick. In 3D the same is done at tips of
+ * processes and at ends of slots that smoothing would take away (FindBuriedVoxels). Between the voxels u_l is interpolated
  * multilinearly. Label(p) is the label with the largest u_l(p). If several labels have the largest
  * value, the smallest id wins.
  *
@@ -116,6 +117,8 @@ private:
 
   static float InterpolatePlane(const Sample* plane, const Cell& cell);
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
+
+  void Raise(const Index& sample, LabelId label);
 
   class Builder;
 };

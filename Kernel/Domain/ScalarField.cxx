@@ -219,7 +219,9 @@ ScalarField<D>::ScalarField(
   const IsosurfaceImage<D>& image, unsigned threads, const std::stop_token& stop)
   : ScalarField::BorderedField(image.Labels())
 {
-  this->MakeTiles(image.Labels(), threads, stop, [&] { return std::make_unique<Builder>(image); });
+  this->MakeTiles(
+    image.Labels(), threads, stop, [&] { return std::make_unique<Builder>(image); },
+    [](const Builder&) {});
 }
 
 template <int D>

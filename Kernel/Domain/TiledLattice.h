@@ -190,12 +190,20 @@ protected:
   /**
    * Makes all tiles. make() returns a std::unique_ptr to a builder, which serves one thread at a
    * time. The builder's MakeTile(first) returns the samples of the mixed tile that begins at these
-   * lattice coordinates, in memory of its member Memory, an Arena.
+   * lattice coordinates, in memory of its member Memory, an Arena. In the end done(builder) is
+   * called for each builder, by the calling thread, in no particular order.
    * @throws Cancelled if a stop was requested before the end, within the time of one tile
    */
+  template <typename Make, typename Done>
+  void MakeTiles(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop,
+    Make&& make, Done&& done);
+
+  /**
+   * Calls change(samples, i) for each mixed tile that has the sample at these lattice coordinates:
+   * the tile's samples, and the number of this sample in a plane. Not thread safe.
+   */
   template <typename Function>
-  void MakeTiles(
-    const LabelImage<D>& image, unsigned threads, const std::stop_token& stop, Function&& make);
+  void ChangeSample(const Index& sample, Function&& change);
 
 private:
   GridGeometry<D> Grid;
@@ -452,12 +460,12 @@ bool TiledLattice<D, SampleType>::IsUniform(
 }
 
 template <int D, typename SampleType>
-template <typename Function>
-void TiledLattice<D, SampleType>::MakeTiles(
-  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop, Function&& make)
+template <typename Make, typename Done>
+void TiledLattice<D, SampleType>::MakeTiles(const LabelImage<D>& image, unsigned threads,
+  const std::stop_token& stop, Make&& make, Done&& done)
 {
-  std::vector<std::invoke_result_t<Function>> builders;
-  using Builder = typename std::invoke_result_t<Function>::element_type;
+  std::vector<std::invoke_result_t<Make>> builders;
+  using Builder = typename std::invoke_result_t<Make>::element_type;
   std::vector<Builder*> idle;
   std::mutex mutex;
   ParallelFor(
@@ -506,6 +514,41 @@ void TiledLattice<D, SampleType>::MakeTiles(
     for (auto& block : builder->Memory.Blocks)
     {
       this->Blocks.push_back(std::move(block));
+    }
+    done(*builder);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D, typename SampleType>
+template <typename Function>
+void TiledLattice<D, SampleType>::ChangeSample(const Index& sample, Function&& change)
+{
+  // A sample on the common face of two tiles is the first of one and the last of the other.
+  for (unsigned last = 0; last < (1u << D); ++last)
+  {
+    bool exists = true;
+    std::size_t number = 0;
+    std::size_t at = 0;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      auto tile = static_cast<std::uint32_t>(sample[a]) / TileCells;
+      auto i = static_cast<std::uint32_t>(sample[a]) % TileCells;
+      if ((last >> a) & 1u)
+      {
+        exists = exists && i == 0 && tile > 0;
+        --tile;
+        i = TileCells;
+      }
+      exists = exists && tile <= this->LastCell[a] / TileCells;
+      number += std::size_t{ tile } * this->TileStride[a];
+      at += std::size_t{ i } << (3 * a);
+    }
+    if (exists && !(this->Directory[number] & 1))
+    {
+      change(reinterpret_cast<Sample*>(
+               this->Directory[number]), // NOLINT(performance-no-int-to-ptr): tagged
+        at);
     }
   }
 }
