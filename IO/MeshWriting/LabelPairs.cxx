@@ -7,6 +7,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -45,6 +46,34 @@ std::map<LabelPair, std::int64_t> NumberPairs(
   for (const LabelPair& pair : pairs)
   {
     numbers[pair] = pair.second == 0 ? pair.first : next++;
+  }
+  return numbers;
+}
+
+std::map<SidedPair, std::int64_t> NumberSidedPairs(
+  const std::set<SidedPair>& pairs, std::int64_t largestLabel)
+{
+  std::set<LabelPair> lateral;
+  for (const auto& [side, pair] : pairs)
+  {
+    if (side == 0)
+    {
+      lateral.insert(pair);
+    }
+  }
+  std::map<SidedPair, std::int64_t> numbers;
+  std::int64_t next = largestLabel + 1;
+  for (const auto& [pair, number] : NumberPairs(lateral, largestLabel))
+  {
+    numbers[{ 0, pair }] = number;
+    next = std::max(next, number + 1);
+  }
+  for (const SidedPair& pair : pairs)
+  {
+    if (pair.first != 0)
+    {
+      numbers[pair] = next++;
+    }
   }
   return numbers;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SetNames.h"
 
+#include "LabelTable.h"
 #include "MeshView.h"
 #include "TextFile.h"
 
@@ -131,6 +132,7 @@ SetNames::SetNames(const MeshView& view, const NameRules& rules)
   : Rules(rules)
 {
   std::set<std::int64_t> labels;
+  std::set<LabelPair> pairs;
   for (const auto& [label, cells] : view.TetrahedraOfLabel)
   {
     labels.insert(label);
@@ -138,12 +140,26 @@ SetNames::SetNames(const MeshView& view, const NameRules& rules)
   for (const auto& [pair, cells] : view.TrianglesOfPair)
   {
     labels.insert({ pair.first, pair.second });
+    pairs.insert(pair);
   }
   labels.erase(0);
+  this->NameSets(labels, pairs, view.Table);
+}
+
+SetNames::SetNames(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
+  const LabelTable& table, const NameRules& rules)
+  : Rules(rules)
+{
+  this->NameSets(labels, pairs, table);
+}
+
+void SetNames::NameSets(
+  const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs, const LabelTable& table)
+{
   for (const std::int64_t label : labels)
   {
     const std::string suffix = "_" + std::to_string(label);
-    std::string name = MakeLegal(view.Table.NameOf(label), rules);
+    std::string name = MakeLegal(table.NameOf(label), this->Rules);
     if (name.empty())
     {
       name = "label" + suffix;
@@ -152,7 +168,7 @@ SetNames::SetNames(const MeshView& view, const NameRules& rules)
   }
   const auto side = [this](std::int64_t label)
   { return label == 0 ? "background" : this->OfLabel(label); };
-  for (const auto& [pair, cells] : view.TrianglesOfPair)
+  for (const LabelPair& pair : pairs)
   {
     this->Pairs[pair] = this->MakeUnique(side(pair.first) + "__" + side(pair.second),
       "_" + std::to_string(pair.first) + "_" + std::to_string(pair.second));

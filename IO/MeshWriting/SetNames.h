@@ -25,6 +25,7 @@ namespace voxplex::io
 
 class MeshView;
 class TextFile;
+struct LabelTable;
 
 /** What a format allows in a name. */
 struct NameRules
@@ -47,6 +48,9 @@ class SetNames
 {
 public:
   SetNames(const MeshView& view, const NameRules& rules);
+  /** Of these labels, without background, and these pairs. */
+  SetNames(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
+    const LabelTable& table, const NameRules& rules);
 
   /** Of a label that tetrahedra or triangles have. */
   const std::string& OfLabel(std::int64_t label) const { return this->Labels.at(label); }
@@ -54,8 +58,12 @@ public:
   /** Of a pair of labels that triangles have. */
   const std::string& OfPair(const LabelPair& pair) const { return this->Pairs.at(pair); }
 
-private:
+  /** A further name, which no set gets again; with the suffix if another set has it already. */
   std::string MakeUnique(const std::string& name, const std::string& suffix);
+
+private:
+  void NameSets(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
+    const LabelTable& table);
 
   NameRules Rules;
   std::set<std::string> Taken; ///< in lower case if case does not matter

@@ -44,30 +44,12 @@ SpaceTimeMeshView::SpaceTimeMeshView(const SpaceTimeMeshData& mesh)
   {
     largest = std::max(largest, this->LabelOf(cell));
   }
-  std::set<LabelPair> lateral;
-  std::set<SidedPair> atEnds;
+  std::set<SidedPair> pairs;
   for (vtkIdType cell = 0; cell < this->NumberOfTetrahedra(); ++cell)
   {
-    const SidedPair pair = this->PairOf(cell);
-    if (pair.first == 0)
-    {
-      lateral.insert(pair.second);
-    }
-    else
-    {
-      atEnds.insert(pair);
-    }
+    pairs.insert(this->PairOf(cell));
   }
-  std::int64_t next = largest + 1;
-  for (const auto& [pair, number] : NumberPairs(lateral, largest))
-  {
-    this->PairNumber[{ 0, pair }] = number;
-    next = std::max(next, number + 1);
-  }
-  for (const SidedPair& pair : atEnds)
-  {
-    this->PairNumber[pair] = next++;
-  }
+  this->PairNumber = NumberSidedPairs(pairs, largest);
 }
 
 vtkIdType SpaceTimeMeshView::NumberOfPoints() const
@@ -113,10 +95,12 @@ std::array<vtkIdType, 4> SpaceTimeMeshView::Tetrahedron(vtkIdType cell) const
   return vertices;
 }
 
-SpaceTimeMeshView::SidedPair SpaceTimeMeshView::PairOf(vtkIdType tetrahedron) const
+SidedPair SpaceTimeMeshView::PairOf(vtkIdType tetrahedron) const
 {
   const double side = this->Sides ? this->Sides->GetComponent(tetrahedron, 0) : 0.0;
-  return { side == 1.0 ? 1 : side == 2.0 ? 2 : 0,
+  return { side == 1.0 ? 1
+      : side == 2.0    ? 2
+                       : 0,
     { LabelAt(this->Pairs, tetrahedron, 0), LabelAt(this->Pairs, tetrahedron, 1) } };
 }
 
@@ -131,7 +115,10 @@ void SpaceTimeMeshView::WritePairs(TextFile& file) const
   {
     const auto& [side, pair] = sided;
     file << "#   " << number << ": " << pair.first << ' ' << pair.second
-         << (side == 0 ? "" : side == 1 ? " initial" : " final") << '\n';
+         << (side == 0      ? ""
+                : side == 1 ? " initial"
+                            : " final")
+         << '\n';
   }
 }
 

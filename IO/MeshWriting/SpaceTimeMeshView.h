@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 
 #include <vtkType.h>
 
@@ -49,8 +48,6 @@ public:
   void WritePairs(TextFile& file) const;
 
 private:
-  /** The side comes first: lateral ones (0) before those at the first (1) and the last (2) time. */
-  using SidedPair = std::pair<int, LabelPair>;
   SidedPair PairOf(vtkIdType tetrahedron) const;
 
   vtkUnstructuredGrid* Pentatopes;
@@ -60,8 +57,7 @@ private:
   vtkDataArray* Pairs;
   vtkDataArray* Sides; ///< nullptr: all are lateral
   vtkDataArray* PointIds;
-  /** Lateral ones are numbered by NumberPairs(), then those at the ends follow. */
-  std::map<SidedPair, std::int64_t> PairNumber;
+  std::map<SidedPair, std::int64_t> PairNumber; ///< see NumberSidedPairs()
 };
 
 } // namespace voxplex::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .vtu and .vtp files: appended raw data, compressed with zlib, 64-bit block headers.
 
+#include "SpaceTimeSurfaces.h"
 #include "VTKWriting.h"
 #include "Writers.h"
 
@@ -52,7 +53,7 @@ void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 
 void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 {
-  WriteGrid(mesh.Boundary, path);
+  WriteGrid(WithSurfaces(mesh.Boundary), path);
 }
 
 } // namespace voxplex::io

@@ -88,6 +88,27 @@ class Formats(SpaceTimeTestCase):
         np.testing.assert_array_equal(self.boundary.sides, np.where(mesh.references > 10, 2, mesh.references > 8))
         np.testing.assert_array_equal(mesh.tetrahedra, self.boundary.point_ids[self.boundary.cells])
         np.testing.assert_array_equal([mesh.names[number] for number in mesh.references], self.boundary.labels)
+        np.testing.assert_array_equal(mesh.references, self.boundary.surfaces)
+
+    def test_surface_names(self):
+        self.assertEqual(self.boundary.surface_names, {
+            3: "label_3__background", 7: "label_7__background", 8: "label_7__label_3",
+            9: "label_3__background__initial", 10: "label_7__background__initial",
+            11: "label_3__background__final", 12: "label_7__background__final"})
+        (self.folder / "names.csv").write_text('3,"Left, lung"\n7,Spleen\n')
+        self.run_with("--plc", "boundary.vtu", "--label-table", "names.csv")
+        boundary = meshfiles.read_boundary(self.folder / "boundary.vtu")
+        self.assertEqual(boundary.surface_names, {
+            3: "Left, lung__background", 7: "Spleen__background", 8: "Spleen__Left, lung",
+            9: "Left, lung__background__initial", 10: "Spleen__background__initial",
+            11: "Left, lung__background__final", 12: "Spleen__background__final"})
+        np.testing.assert_array_equal(boundary.surfaces, self.boundary.surfaces)
+        # A name that is that of a flat end already.
+        (self.folder / "names.csv").write_text('3,A\n7,"A__background__initial"\n')
+        self.run_with("--plc", "boundary.vtu", "--label-table", "names.csv")
+        names = meshfiles.read_boundary(self.folder / "boundary.vtu").surface_names
+        self.assertEqual(len(set(names.values())), 7)
+        self.assertEqual(names[9], "A__background__initial_3_0__initial")
 
     def test_mfem(self):
         self.check_format("mesh.mfem")

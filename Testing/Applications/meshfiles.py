@@ -83,6 +83,8 @@ class Boundary:
     sides: np.ndarray  # 0 lateral, 1 at the first time, 2 at the last
     velocities: np.ndarray  # along the normal in space
     point_velocities: np.ndarray  # three columns
+    surfaces: np.ndarray  # numbers
+    surface_names: dict  # of the numbers
 
 
 @dataclass
@@ -181,7 +183,15 @@ def read_boundary(path):
                     vtk_to_numpy(grid.GetPointData().GetArray("PointIds")), _space(grid),
                     vtk_to_numpy(grid.GetCellData().GetArray("Side")),
                     vtk_to_numpy(grid.GetCellData().GetArray("NormalVelocity")),
-                    vtk_to_numpy(grid.GetPointData().GetArray("BoundaryVelocity")))
+                    vtk_to_numpy(grid.GetPointData().GetArray("BoundaryVelocity")),
+                    vtk_to_numpy(grid.GetCellData().GetArray("Surface")), _surface_names(grid.GetFieldData()))
+
+
+def _surface_names(fields):
+    numbers, names = vtk_to_numpy(fields.GetArray("SurfaceNumbers")), fields.GetAbstractArray("SurfaceNames")
+    if len(numbers) != names.GetNumberOfValues() or (np.diff(numbers) <= 0).any():
+        raise AssertionError("numbers and names of surfaces")
+    return {int(number): names.GetValue(i) for i, number in enumerate(numbers)}
 
 
 def read_slice(path):
