@@ -430,6 +430,30 @@ class Quality(SpaceTimeTestCase):
             self.assertLess(frame["hausdorff"]["voxels"]["distance"], 2.0)
 
 
+class Elements(SpaceTimeTestCase):
+    """--elements: delta is found, of labels and of grey values."""
+
+    def check(self, wanted, *arguments):
+        done = self.call("--no-picking", "--threads", 1, "--elements", wanted, "--stats", "e.json", "--output", "m.vtu", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        report = json.loads((self.folder / "e.json").read_text())
+        self.assertLess(abs(report["elements"] / wanted - 1), 0.1)
+        self.assertEqual(report["elements_asked_for"], wanted)
+        self.assertIn({"delta": report["delta"], "elements": report["elements"]}, report["runs"])
+        self.assertEqual(len(meshfiles.read_pentatopes(self.folder / "m.vtu").cells), report["elements"])
+        self.assertIn("elements)", done.stdout)
+
+    def test_labels(self):
+        for wanted in (4000, 12000):
+            self.check(wanted, "--input", self.input)
+
+    def test_grey_values(self):
+        z, y, x = np.mgrid[:20, :20, :20]
+        values = np.stack([6 + 0.2 * t - np.sqrt((x - 9 - 0.3 * t)**2 + (y - 9.5)**2 + (z - 9.5)**2) for t in range(6)])
+        path = images.write_space_time_nrrd(self.folder / "grey.nrrd", values.astype(np.float32))
+        self.check(8000, "--input", path, "--isovalue", 0)
+
+
 class Flags(SpaceTimeTestCase):
     SPACE_TIME = (("--time-scale", 2), ("--slices", "s_"), ("--slices", "s_", "--slice-count", 3),
                   ("--rule-order", "surface"), ("--no-picking",), ("--picks", 5), ("--sliver-bound", 0.02),
