@@ -13,6 +13,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPentatopeMeshTimeSlice.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -121,6 +122,21 @@ int vtkSimplexMeshQuality::FillInputPortInformation(int port, vtkInformation* in
 int vtkSimplexMeshQuality::FillOutputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
+  return 1;
+}
+
+int vtkSimplexMeshQuality::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // Pentatopes hold all times at once: a request for another time must not measure them again.
+  if (inputVector[0]->GetInformationObject(0)->Has(vtkPentatopeMeshTimeSlice::MESH_TIME_RANGE()))
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
+      outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+    }
+  }
   return 1;
 }
 

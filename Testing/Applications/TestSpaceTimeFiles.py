@@ -434,7 +434,8 @@ class Elements(SpaceTimeTestCase):
     """--elements: delta is found, of labels and of grey values."""
 
     def check(self, wanted, *arguments):
-        done = self.call("--no-picking", "--threads", 1, "--elements", wanted, "--stats", "e.json", "--output", "m.vtu", *arguments)
+        done = self.call("--no-picking", "--threads", 1, "--elements", wanted, "--stats", "e.json", "--output", "m.vtu",
+                         *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         report = json.loads((self.folder / "e.json").read_text())
         self.assertLess(abs(report["elements"] / wanted - 1), 0.1)

@@ -20,6 +20,7 @@ from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter, vtkMeshQuality
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import voxplex
+from voxplex.frames import FrameSource
 from phantoms import ball, beating, brick
 
 SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
@@ -359,6 +360,26 @@ class SpaceTime(unittest.TestCase):
         self.assertEqual(list(vtk_to_numpy(table.GetColumnByName("VolumeError"))),
                          [frame["labels"][label]["volume_error"] for frame in self.figures["frames"] for label in ("2", "5")])
         self.assertEqual(set(vtk_to_numpy(table.GetColumnByName("Components"))), {2})
+
+    def test_pipeline(self):
+        """Time steps for frames. A request for another time does not measure again."""
+        frames = FrameSource(voxplex.images_from_array(self.frames), self.TIMES)
+        mesher = voxplex.vtkImageToPentatopeMeshFilter()
+        mesher.SetInputConnection(frames.GetOutputPort())
+        mesher.SetTimeScale(self.SCALE)
+        mesher.SetDelta(2.0)
+        mesher.SetNumberOfThreads(1)
+        measurer = voxplex.vtkSimplexMeshQuality()
+        measurer.SetInputConnection(mesher.GetOutputPort())
+        measurer.SetImageConnection(frames.GetOutputPort())
+        measurer.SetTimeScale(self.SCALE)
+        executions = []
+        measurer.AddObserver("StartEvent", lambda *_: executions.append(1))
+        for time in (1.0, 2.0, 3.5):
+            measurer.UpdateTimeStep(time)
+            self.assertEqual(measurer.GetFrameTable().GetNumberOfRows(), 10)
+        self.assertEqual(len(executions), 1)
+        self.assertEqual(json.loads(measurer.ToJSON()), self.figures)
 
     def test_lost_components(self):
         """A speck that lives for one frame is a component of space-time, and of that frame."""

@@ -149,8 +149,8 @@ void TestErrors()
 {
   const auto filter = FromSeries(EqualTimes(Frames), Depth, VTK_DOUBLE);
   filter->SetIsovalue(50.0);
-  ExpectError("isovalue", filter, { "outside of the image's range" },
-    [&] { filter->SetIsovalue(0.0); });
+  ExpectError(
+    "isovalue", filter, { "outside of the image's range" }, [&] { filter->SetIsovalue(0.0); });
   filter->SetIsovalue(std::numeric_limits<double>::quiet_NaN());
   ExpectError("isovalue NaN", filter, { "must be finite" }, [&] { filter->SetIsovalue(0.0); });
   filter->AddLabel(1);
