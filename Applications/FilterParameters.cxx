@@ -49,7 +49,7 @@ const std::map<std::string, Setter, std::less<>>& Setters()
     { "optimise-seconds", To(&Tets::SetOptimisationTimeLimit) },
     { "junctions", To(&Tets::SetSampleJunctions) },
     { "interface-rounds", To(&Filter::SetInterfaceRounds) },
-    { "manifold", To(&Tets::SetManifold) },
+    { "manifold", To(&Filter::SetManifold) },
     { "time-scale", To(&Pentatopes::SetTimeScale) },
     { "frame-steps", To(&Pentatopes::SetFrameSteps) },
     { "fit", To(&Pentatopes::SetFitInterfaces) },

@@ -540,6 +540,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DeltaIsSuggestion: " << this->DeltaIsSuggestion << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
+  os << indent << "Manifold: " << this->Manifold << "\n";
   os << indent << "Optimise: " << this->Optimise << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
   os << indent << "ExactComponents: " << this->ExactComponents << "\n";

@@ -215,11 +215,23 @@ public:
   /**
    * Largest number of rounds that compare the mesh with the image. A round refines where an
    * interface of the image is farther than about 1.5 Delta from the interfaces of the mesh (tips of
-   * thin processes, holes), or, in space, where the boundary of a label is not manifold. Default 8;
+   * thin processes, holes), or where the boundary of a label is not manifold. Default 8;
    * usually 3 to 6 rounds are needed. 0: never.
    */
   vtkSetClampMacro(InterfaceRounds, int, 0, 100);
   vtkGetMacro(InterfaceRounds, int);
+  ///@}
+
+  ///@{
+  /**
+   * Make the boundary of every label manifold: two of its triangles meet at each edge, in
+   * space-time two of its tetrahedra at each triangle. If there are more, elements around that edge
+   * or triangle get a neighbouring label. If whole elements cannot, they are split and parts of them
+   * get it; these parts are not Delaunay. Default on.
+   */
+  vtkSetMacro(Manifold, bool);
+  vtkGetMacro(Manifold, bool);
+  vtkBooleanMacro(Manifold, bool);
   ///@}
 
   ///@{
@@ -620,6 +632,7 @@ protected:
   bool DeltaIsSuggestion = false;
   double RadiusEdgeRatio = 2.0;
   int InterfaceRounds = 8;
+  bool Manifold = true;
   bool Optimise = true;
   int SmallestComponent = 8;
   bool ExactComponents = false;

@@ -129,7 +129,6 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.Shape.Slivers.Angle = this->SliverAngle;
   run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
   run.Options.Interfaces.SampleJunctions = this->SampleJunctions;
-  run.Options.Interfaces.Manifold = this->Manifold;
   run.Sizes->Implicit = this->SizeImplicitFunction;
   voxplex::SimplexMesh<3> mesh;
   const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
@@ -183,7 +182,6 @@ void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";
   os << indent << "SampleJunctions: " << this->SampleJunctions << "\n";
-  os << indent << "Manifold: " << this->Manifold << "\n";
   os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << "\n";
   os << indent << "SizeImplicitFunction: ";
   if (this->SizeImplicitFunction)

@@ -163,18 +163,6 @@ public:
 
   ///@{
   /**
-   * Make the boundary of every label manifold: two of its triangles meet at each edge. If more
-   * triangles meet at an edge, tetrahedra around the edge get a neighbouring label. If whole
-   * tetrahedra cannot, they are split and parts of them get it; these parts are not Delaunay.
-   * Default on.
-   */
-  vtkSetMacro(Manifold, bool);
-  vtkGetMacro(Manifold, bool);
-  vtkBooleanMacro(Manifold, bool);
-  ///@}
-
-  ///@{
-  /**
    * Connected components with less volume than this are left out: they get the label that most of
    * their faces touch. The unit is that of the spacing to the third power. Default 0: no component
    * is left out. The statistics list them (vtkMeshingStatistics::GetNumberOfDroppedComponents()).
@@ -221,7 +209,6 @@ protected:
   double SliverAngle = 9.0;
   double OptimisationTimeLimit = 0.0;
   bool SampleJunctions = true;
-  bool Manifold = true;
   double MinimumComponentVolume = 0.0;
 
 private:

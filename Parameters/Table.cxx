@@ -191,10 +191,11 @@ Parameters Quality()
       "largest number of rounds that refine again where an interface of the image is farther than "
       "1.5 delta from the mesh's interfaces, or a label's boundary is not manifold",
       { .Step = 1.0, .Zero = "never" }),
-    Flag("manifold", 3, "on",
-      "repair edges where more than two triangles of a label's boundary meet, if necessary with "
-      "pieces of tetrahedra that are not Delaunay",
-      { .Zero = "such edges stay", .Slicer = None }),
+    Flag("manifold", 0, "on",
+      "repair edges where more than two triangles of a label's boundary meet (space-time: "
+      "triangles "
+      "with more than two tetrahedra), if necessary with pieces of elements that are not Delaunay",
+      { .Zero = "such places stay", .Slicer = None }),
   };
 }
 

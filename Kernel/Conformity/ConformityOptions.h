@@ -46,9 +46,9 @@ struct InterfaceOptions
    */
   unsigned Rounds = 8;
   /**
-   * Make the boundary of every label manifold (3D only): two of its facets meet at each edge. Some tetrahedra
-   * may be cut in pieces for this (MakeSpindles); the pieces are not Delaunay. Does not depend on
-   * Rounds.
+   * Make the boundary of every label manifold: two of its facets meet at each edge, in space-time at
+   * each triangle. Some simplices may be cut in pieces for this (MakeSpindles); the pieces are not
+   * Delaunay. Does not depend on Rounds.
    */
   bool Manifold = true;
   /**

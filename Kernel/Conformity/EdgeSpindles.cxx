@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/EdgeSpindles.h"
 
+#include "Conformity/PieceShapes.h"
 #include "Delaunay/VertexStar.h"
-#include "Geometry/SimplexQuality.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,49 +22,41 @@ namespace voxplex
 namespace
 {
 
-using Corners = std::array<VertexId, 4>;
+using namespace spindles;
 
 /**
- * Distances of new vertices from the midpoint of the edge, as fractions of the distance to the
- * vertices around it, or of the edge's length if these vertices are farther away.
+ * Distances of new vertices from the centroid of the ridge, as fractions of the distance to the
+ * vertices around it, or of the ridge's longest edge if these vertices are farther away.
  */
 constexpr std::array<double, 5> Widths{ 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75 };
 
-/**
- * Shapes with these values count as equally good: angles of tetrahedra and of interfaces in
- * degrees, and the radius-edge ratio.
- */
-constexpr double GoodDihedralAngle = 9.0;
-constexpr double GoodFacetAngle = 20.0;
-constexpr double GoodRadiusEdgeRatio = 2.5;
+/** The vertices of a ridge: an edge in 3D, a triangle in 4D. */
+template <int D>
+using RidgeVertices = std::array<VertexId, static_cast<std::size_t>(D - 1)>;
 
-/**
- * Scores are the sine of an angle over that of a good angle, or a good ratio over a ratio. A
- * smaller score may be due to rounding.
- */
-constexpr double SmallestScore = 1e-6;
-
-/** A tetrahedron around an edge ab, or its piece at the edge: abrs, positively oriented. */
+/** A simplex around a ridge, or its piece at the ridge: the ridge, r and s, positively oriented. */
+template <int D>
 struct Sector
 {
-  SimplexId Owner;
-  Corners Whole; ///< its vertices as they are stored
+  SimplexId Owner; ///< None: this sector stands for what lies beyond the box
+  std::array<VertexId, static_cast<std::size_t>(D + 1)> Whole; ///< its vertices as they are stored
   VertexId R;
   VertexId S; ///< R of the next sector
   LabelId Label;
 };
 
-/** The sectors around an edge, in cyclic order. */
+/** The sectors around a ridge, in cyclic order. */
+template <int D>
 struct Ring
 {
-  std::array<VertexId, 2> Ends;
-  std::vector<Sector> Sectors;
+  RidgeVertices<D> Ridge;
+  std::vector<Sector<D>> Sectors;
 
   std::size_t Next(std::size_t k) const { return k + 1 < this->Sectors.size() ? k + 1 : 0; }
   std::size_t Previous(std::size_t k) const { return (k > 0 ? k : this->Sectors.size()) - 1; }
 };
 
-/** The sectors whose part at the edge gets a label. */
+/** The sectors whose part at the ridge gets a label. */
 struct Filling
 {
   LabelId Label = 0;
@@ -91,21 +84,23 @@ bool HasOneRunOfEach(std::span<const LabelId> labels)
 }
 
 //------------------------------------------------------------------------------------------------
+template <int D>
 class SpindleMaker
 {
 public:
-  SpindleMaker(
-    const Triangulation<3>& triangulation, const Domain<3>& domain, std::span<const LabelId> labels)
+  SpindleMaker(const Triangulation<D>& triangulation, const Domain<D>& domain,
+    std::span<const LabelId> labels, const SpindleContext<D>& context)
     : Source(triangulation)
     , Image(domain)
     , Labels(labels)
+    , Context(context)
   {
   }
 
   /** @return false if it cannot */
-  bool Open(const InterfaceEdge& edge)
+  bool Open(const InterfaceRidge<D>& ridge)
   {
-    const std::optional<Ring> ring = this->RingOf(edge.Ends);
+    const std::optional<Ring<D>> ring = this->RingOf(ridge.Vertices);
     if (!ring)
     {
       return false;
@@ -118,7 +113,7 @@ public:
     const std::vector<VertexId> onFacets = this->AddPointsOnFacets(*ring, *best);
     for (std::size_t k = 0; k < ring->Sectors.size(); ++k)
     {
-      const std::vector<Piece> pieces = this->PiecesOf(*ring, *best, k, onFacets);
+      const std::vector<Piece<D>> pieces = this->PiecesOf(*ring, *best, k, onFacets);
       if (!pieces.empty())
       {
         this->Replace(ring->Sectors[k], pieces);
@@ -127,7 +122,7 @@ public:
     return true;
   }
 
-  Subdivision Result()
+  Subdivision<D> Result()
   {
     for (auto& [owner, pieces] : this->Pieces)
     {
@@ -138,49 +133,84 @@ public:
   }
 
 private:
-  const Point<3>& Position(VertexId v) const
+  static constexpr unsigned InRidge = D - 1; ///< vertices; r and s follow them
+  static constexpr unsigned N = D + 1;
+  using Corners = std::array<VertexId, N>;
+
+  const Point<D>& Position(VertexId v) const
   {
     const VertexId end = this->Source.VertexIdEnd();
-    return v < end ? this->Source.Position(v) : this->Parts.Points[v - end];
+    if (v >= end)
+    {
+      return this->Parts.Points[v - end];
+    }
+    return this->Context.Positions.empty() ? this->Source.Position(v) : this->Context.Positions[v];
   }
 
-  VertexId AddPoint(const Point<3>& p)
+  VertexId AddPoint(const Point<D>& p)
   {
     this->Parts.Points.push_back(p);
     return this->Source.VertexIdEnd() + static_cast<VertexId>(this->Parts.Points.size() - 1);
   }
 
-  /** Nothing if the triangulation ends at the edge. */
-  std::optional<Ring> RingOf(const std::array<VertexId, 2>& ends) const
+  /** The sector of a simplex or piece at a ridge; nothing if it does not have the ridge. */
+  static std::optional<Sector<D>> SectorOf(
+    const RidgeVertices<D>& ridge, SimplexId owner, const Corners& v, LabelId label)
   {
-    std::map<VertexId, Sector> byFirst;
+    Sector<D> sector{ owner, v, None, None, label };
+    std::array<unsigned, N> places{}; // in v: of the ridge's vertices, then of the others
+    for (unsigned i = 0, found = 0; i < N; ++i)
+    {
+      const auto k =
+        static_cast<unsigned>(std::find(ridge.begin(), ridge.end(), v[i]) - ridge.begin());
+      if (k < InRidge)
+      {
+        places[k] = i;
+      }
+      else if (found < 2)
+      {
+        places[InRidge + found] = i;
+        (found == 0 ? sector.R : sector.S) = v[i];
+        ++found;
+      }
+      else
+      {
+        return std::nullopt;
+      }
+    }
+    unsigned inversions = 0;
+    for (unsigned i = 0; i < N; ++i)
+    {
+      for (unsigned j = 0; j < i; ++j)
+      {
+        inversions += places[j] > places[i] ? 1 : 0;
+      }
+    }
+    if (inversions % 2 == 1)
+    {
+      std::swap(sector.R, sector.S);
+    }
+    return sector;
+  }
+
+  /**
+   * If the triangulation ends at the ridge, a sector of background stands for what lies beyond. If
+   * the sectors are no circle for another reason, this returns nothing.
+   */
+  std::optional<Ring<D>> RingOf(const RidgeVertices<D>& ridge) const
+  {
+    std::map<VertexId, Sector<D>> byFirst;
+    std::vector<VertexId> seconds;
     const auto add = [&](SimplexId owner, const Corners& v, LabelId label)
     {
-      const auto at = [&](VertexId end)
-      { return static_cast<unsigned>(std::find(v.begin(), v.end(), end) - v.begin()); };
-      const unsigned a = at(ends[0]);
-      const unsigned b = at(ends[1]);
-      if (a == 4 || b == 4)
+      if (const std::optional<Sector<D>> sector = SectorOf(ridge, owner, v, label))
       {
-        return;
+        byFirst[sector->R] = *sector;
+        seconds.push_back(sector->S);
       }
-      // Let i, j, k, l be a tetrahedron's vertices with i < j and k < l. They are an even
-      // permutation if j - i is odd. If it is even, exchange i and j.
-      std::array<VertexId, 2> others{};
-      std::size_t n = 0;
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        if (i != a && i != b)
-        {
-          others[n++] = v[i];
-        }
-      }
-      const bool isEven = (((a < b ? b - a : a - b) % 2) == 1) == (a < b);
-      byFirst[others[isEven ? 0 : 1]] = { owner, v, others[isEven ? 0 : 1], others[isEven ? 1 : 0],
-        label };
     };
     for (const SimplexId t :
-      StarOf(this->Source, ends[0], this->Source.GetVertex(ends[0]).Incident))
+      StarOf(this->Source, ridge[0], this->Source.GetVertex(ridge[0]).Incident))
     {
       const auto pieces = this->Pieces.find(t);
       if (pieces == this->Pieces.end())
@@ -188,24 +218,37 @@ private:
         add(t, this->Source.GetSimplex(t).V, this->Labels[t]);
         continue;
       }
-      for (const Piece& piece : pieces->second)
+      for (const Piece<D>& piece : pieces->second)
       {
         add(t, piece.V, piece.Label);
       }
     }
-    Ring ring{ ends, {} };
-    for (auto at = byFirst.begin(); at != byFirst.end() && ring.Sectors.size() < byFirst.size();
+    Ring<D> ring{ ridge, {} };
+    auto at = std::find_if(byFirst.begin(), byFirst.end(),
+      [&](const auto& entry)
+      { return std::find(seconds.begin(), seconds.end(), entry.first) == seconds.end(); });
+    const bool isOpen = at != byFirst.end();
+    for (at = isOpen ? at : byFirst.begin();
+         at != byFirst.end() && ring.Sectors.size() < byFirst.size();
          at = byFirst.find(at->second.S))
     {
       ring.Sectors.push_back(at->second);
     }
-    const bool isClosed = ring.Sectors.size() == byFirst.size() && !ring.Sectors.empty() &&
-      ring.Sectors.back().S == ring.Sectors.front().R;
-    return isClosed ? std::optional<Ring>(std::move(ring)) : std::nullopt;
+    if (ring.Sectors.size() != byFirst.size() || ring.Sectors.empty())
+    {
+      return std::nullopt;
+    }
+    if (isOpen)
+    {
+      ring.Sectors.push_back(
+        { None, {}, ring.Sectors.back().S, ring.Sectors.front().R, LabelId{ 0 } });
+    }
+    return ring.Sectors.back().S == ring.Sectors.front().R ? std::optional<Ring<D>>(std::move(ring))
+                                                           : std::nullopt;
   }
 
   /** The first sector of each run of a label. */
-  static std::vector<std::size_t> RunsOf(const Ring& ring)
+  static std::vector<std::size_t> RunsOf(const Ring<D>& ring)
   {
     std::vector<std::size_t> runs;
     for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
@@ -223,17 +266,17 @@ private:
   {
     Filling How;
     bool DentsBorder = true;
-    double Score = SmallestScore;
+    double Score = SmallestScore<D>;
 
     bool IsBetterThan(const Candidate& other) const
     {
-      return this->Score > SmallestScore &&
+      return this->Score > SmallestScore<D> &&
         (this->DentsBorder != other.DentsBorder ? other.DentsBorder : this->Score > other.Score);
     }
   };
 
   /** Nothing if every filling makes a flat tetrahedron or facet. */
-  std::optional<Filling> BestFilling(const Ring& ring)
+  std::optional<Filling> BestFilling(const Ring<D>& ring)
   {
     const std::vector<std::size_t> runs = RunsOf(ring);
     std::vector<LabelId> labels;
@@ -255,11 +298,12 @@ private:
         }
       }
     }
-    return best.Score > SmallestScore ? std::optional<Filling>(std::move(best.How)) : std::nullopt;
+    return best.Score > SmallestScore<D> ? std::optional<Filling>(std::move(best.How))
+                                         : std::nullopt;
   }
 
   /** Fills runs from `first` on, as few as possible, and keeps the best candidate. */
-  void TryFrom(const Ring& ring, std::span<const std::size_t> runs, std::size_t first,
+  void TryFrom(const Ring<D>& ring, std::span<const std::size_t> runs, std::size_t first,
     LabelId label, Candidate& best)
   {
     bool found = false;
@@ -276,7 +320,7 @@ private:
       {
         next.How.Width = width;
         next.Score = this->ScoreOf(ring, next.How);
-        found = found || next.Score > SmallestScore;
+        found = found || next.Score > SmallestScore<D>;
         if (next.IsBetterThan(best))
         {
           best = next;
@@ -286,7 +330,7 @@ private:
   }
 
   /** Fills `number` consecutive runs from `first` on. Sectors that already have the label stay. */
-  static Filling Fill(const Ring& ring, std::span<const std::size_t> runs, LabelId label,
+  static Filling Fill(const Ring<D>& ring, std::span<const std::size_t> runs, LabelId label,
     std::size_t first, std::size_t number)
   {
     Filling filling{ label, std::vector<std::uint8_t>(ring.Sectors.size(), 0), 0.0 };
@@ -294,13 +338,14 @@ private:
     const std::size_t end = runs[(first + number) % runs.size()];
     do
     {
-      filling.Gives[k] = ring.Sectors[k].Label != label ? 1 : 0;
+      const Sector<D>& sector = ring.Sectors[k];
+      filling.Gives[k] = sector.Owner != None && sector.Label != label ? 1 : 0;
       k = ring.Next(k);
     } while (k != end);
     return filling;
   }
 
-  static bool IsManifold(const Ring& ring, const Filling& filling)
+  static bool IsManifold(const Ring<D>& ring, const Filling& filling)
   {
     std::vector<LabelId> labels;
     for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
@@ -314,7 +359,7 @@ private:
    * Whether there is a new vertex on the facet before a sector. There is none if the label
    * continues beyond the facet.
    */
-  static bool HasPointBefore(const Ring& ring, const Filling& filling, std::size_t k)
+  static bool HasPointBefore(const Ring<D>& ring, const Filling& filling, std::size_t k)
   {
     const auto isOf = [&](std::size_t sector)
     { return filling.Gives[sector] == 0 && ring.Sectors[sector].Label == filling.Label; };
@@ -323,7 +368,7 @@ private:
   }
 
   /** The new vertex on the facet before each sector; None if there is none. */
-  std::vector<VertexId> AddPointsOnFacets(const Ring& ring, const Filling& filling)
+  std::vector<VertexId> AddPointsOnFacets(const Ring<D>& ring, const Filling& filling)
   {
     std::vector<VertexId> points(ring.Sectors.size(), None);
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -331,74 +376,114 @@ private:
       if (HasPointBefore(ring, filling, k))
       {
         points[k] =
-          this->AddPointBeside(ring.Ends, this->Position(ring.Sectors[k].R), filling.Width);
+          this->AddPointBeside(ring.Ridge, this->Position(ring.Sectors[k].R), filling.Width);
       }
     }
     return points;
   }
 
-  VertexId AddPointBeside(const std::array<VertexId, 2>& ends, const Point<3>& to, double width)
+  VertexId AddPointBeside(const RidgeVertices<D>& ridge, const Point<D>& to, double width)
   {
-    const Point<3> middle = this->MiddleOf(ends);
-    const double length = Distance(this->Position(ends[0]), this->Position(ends[1]));
+    const Point<D> middle = this->MiddleOf(ridge);
+    double length = 0.0; // of the longest edge
+    for (std::size_t i = 0; i < ridge.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        length = std::max(length, Distance(this->Position(ridge[j]), this->Position(ridge[i])));
+      }
+    }
     const double part = width * std::min(1.0, length / Distance(middle, to));
     return this->AddPoint(Interpolate(middle, to, part));
   }
 
-  Point<3> MiddleOf(const std::array<VertexId, 2>& ends) const
+  /** The centroid. If all vertices have the same coordinate, it has this coordinate exactly. */
+  Point<D> MiddleOf(std::span<const VertexId> face) const
   {
-    return Interpolate(this->Position(ends[0]), this->Position(ends[1]), 0.5);
+    Point<D> middle = this->Position(face[0]);
+    Point<D> sum{};
+    for (const VertexId v : face)
+    {
+      for (std::size_t a = 0; a < middle.size(); ++a)
+      {
+        sum[a] += this->Position(v)[a] - middle[a];
+      }
+    }
+    for (std::size_t a = 0; a < middle.size(); ++a)
+    {
+      middle[a] += sum[a] / static_cast<double>(face.size());
+    }
+    return middle;
+  }
+
+  Point<D> MiddleOfOthers(const Sector<D>& sector) const
+  {
+    return this->MiddleOf(std::array{ sector.R, sector.S });
+  }
+
+  /** The ridge, then others. */
+  static Corners CornersOf(const RidgeVertices<D>& ridge, VertexId r, VertexId s)
+  {
+    Corners corners{};
+    std::copy(ridge.begin(), ridge.end(), corners.begin());
+    corners[InRidge] = r;
+    corners[InRidge + 1] = s;
+    return corners;
   }
 
   /** The pieces of a sector; empty if it stays whole. May add a point. */
-  std::vector<Piece> PiecesOf(
-    const Ring& ring, const Filling& filling, std::size_t k, std::span<const VertexId> onFacets)
+  std::vector<Piece<D>> PiecesOf(
+    const Ring<D>& ring, const Filling& filling, std::size_t k, std::span<const VertexId> onFacets)
   {
-    const Sector& sector = ring.Sectors[k];
-    const Corners whole{ ring.Ends[0], ring.Ends[1], sector.R, sector.S };
+    const Sector<D>& sector = ring.Sectors[k];
+    if (sector.Owner == None)
+    {
+      return {};
+    }
+    const Corners whole = CornersOf(ring.Ridge, sector.R, sector.S);
     const VertexId p = onFacets[k];
     const VertexId q = onFacets[ring.Next(k)];
     const LabelId own = sector.Label;
-    const LabelId atEdge = filling.Gives[k] != 0 ? filling.Label : own;
+    const LabelId atRidge = filling.Gives[k] != 0 ? filling.Label : own;
     if (p == None && q == None)
     {
-      return filling.Gives[k] != 0 ? this->SplitWithin(whole, own, atEdge, filling.Width)
-                                   : std::vector<Piece>();
+      return filling.Gives[k] != 0 ? this->SplitWithin(ring.Ridge, sector, atRidge, filling.Width)
+                                   : std::vector<Piece<D>>();
     }
-    std::vector<Piece> pieces;
+    std::vector<Piece<D>> pieces;
     if (p != None && q != None)
     {
-      std::vector<Piece> other;
-      CutOff(CutOff(whole, 2, p, own, pieces), 3, q, own, pieces);
-      CutOff(CutOff(whole, 3, q, own, other), 2, p, own, other);
-      if (this->ShapesOf(other) > this->ShapesOf(pieces))
+      std::vector<Piece<D>> other;
+      CutOff(CutOff(whole, InRidge, p, own, pieces), InRidge + 1, q, own, pieces);
+      CutOff(CutOff(whole, InRidge + 1, q, own, other), InRidge, p, own, other);
+      if (this->Shapes().ShapesOf(other) > this->Shapes().ShapesOf(pieces))
       {
         pieces.swap(other);
       }
-      pieces.push_back({ { ring.Ends[0], ring.Ends[1], p, q }, atEdge });
+      pieces.push_back({ CornersOf(ring.Ridge, p, q), atRidge });
     }
     else
     {
-      const Corners rest =
-        p != None ? CutOff(whole, 2, p, own, pieces) : CutOff(whole, 3, q, own, pieces);
-      pieces.push_back({ rest, atEdge });
+      const Corners rest = p != None ? CutOff(whole, InRidge, p, own, pieces)
+                                     : CutOff(whole, InRidge + 1, q, own, pieces);
+      pieces.push_back({ rest, atRidge });
     }
     return pieces;
   }
 
   /**
-   * Cuts two pieces off abrs. Neither has both a and b.
-   * @param i 2 or 3: the number of the vertex r or s
-   * @param point lies on the facet of a, b and vertex i, and replaces vertex i
-   * @return the rest
+   * Cuts pieces off a sector, one for each vertex of the ridge, which it lacks.
+   * @param i InRidge or InRidge + 1: the number of the vertex r or s
+   * @param point on the facet of the ridge and this vertex
+   * @return the rest, which has the whole ridge
    */
   static Corners CutOff(
-    const Corners& v, unsigned i, VertexId point, LabelId label, std::vector<Piece>& pieces)
+    const Corners& v, unsigned i, VertexId point, LabelId label, std::vector<Piece<D>>& pieces)
   {
-    for (const unsigned end : { 0u, 1u })
+    for (unsigned k = 0; k < InRidge; ++k)
     {
       pieces.push_back({ v, label });
-      pieces.back().V[end] = point;
+      pieces.back().V[k] = point;
     }
     Corners rest = v;
     rest[i] = point;
@@ -406,109 +491,73 @@ private:
   }
 
   /**
-   * Splits a sector by a point inside it. Used if the label at the edge continues beyond both
+   * Splits a sector by a point inside it. Used if the label at the ridge continues beyond both
    * facets.
    */
-  std::vector<Piece> SplitWithin(const Corners& whole, LabelId own, LabelId atEdge, double width)
+  std::vector<Piece<D>> SplitWithin(
+    const RidgeVertices<D>& ridge, const Sector<D>& sector, LabelId atRidge, double width)
   {
-    const VertexId point =
-      this->AddPointBeside({ whole[0], whole[1] }, this->MiddleOf({ whole[2], whole[3] }), width);
-    std::vector<Piece> pieces;
-    for (unsigned i = 0; i < 4; ++i)
+    const VertexId point = this->AddPointBeside(ridge, this->MiddleOfOthers(sector), width);
+    std::vector<Piece<D>> pieces;
+    for (unsigned i = 0; i < N; ++i)
     {
-      pieces.push_back({ whole, i < 2 ? own : atEdge });
+      pieces.push_back(
+        { CornersOf(ridge, sector.R, sector.S), i < InRidge ? sector.Label : atRidge });
       pieces.back().V[i] = point;
     }
     return pieces;
   }
 
-  /** The score of the tetrahedra in the mesh; 0 if a tetrahedron is flat or inverted. */
-  double ShapesOf(std::span<const Piece> pieces) const
+  auto Shapes() const
   {
-    const double goodSine = std::sin(GoodDihedralAngle / DegreesPerRadian);
-    double smallest = 1.0 / goodSine;
-    for (const Piece& piece : pieces)
-    {
-      if (piece.Label != 0)
-      {
-        std::array<const Point<3>*, 4> points;
-        for (unsigned i = 0; i < 4; ++i)
-        {
-          points[i] = &this->Position(piece.V[i]);
-        }
-        const bool isPositive = SignedVolume<3>(points.data()) > 0.0;
-        smallest = !isPositive
-          ? 0.0
-          : std::min({ smallest, SmallestDihedralSine(points.data()) / goodSine,
-              GoodRadiusEdgeRatio / RadiusEdgeRatio<3>(points.data()) });
-      }
-    }
-    return smallest;
-  }
-
-  /** The score of the angles of interfaces between pieces. */
-  double FacetsOf(std::span<const Piece> pieces) const
-  {
-    std::vector<std::pair<std::array<VertexId, 3>, LabelId>> facets;
-    for (const Piece& piece : pieces)
-    {
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        std::array<VertexId, 3> facet{ piece.V[(i + 1) % 4], piece.V[(i + 2) % 4],
-          piece.V[(i + 3) % 4] };
-        std::sort(facet.begin(), facet.end());
-        facets.emplace_back(facet, piece.Label);
-      }
-    }
-    std::sort(facets.begin(), facets.end());
-    double smallest = 90.0;
-    for (std::size_t f = 1; f < facets.size(); ++f)
-    {
-      const auto& v = facets[f].first;
-      if (v == facets[f - 1].first && facets[f].second != facets[f - 1].second)
-      {
-        const std::array<double, 3> angles =
-          PlanarAngles(this->Position(v[0]), this->Position(v[1]), this->Position(v[2]));
-        smallest = std::min(smallest, *std::min_element(angles.begin(), angles.end()));
-      }
-    }
-    return std::sin(smallest / DegreesPerRadian) / std::sin(GoodFacetAngle / DegreesPerRadian);
+    const auto positionOf = [this](VertexId v) -> const Point<D>& { return this->Position(v); };
+    return PieceShapes<D, decltype(positionOf)>(positionOf, this->Context.Sizing);
   }
 
   /** The score of all pieces of a ring. Removes the points it adds. */
-  double ScoreOf(const Ring& ring, const Filling& filling)
+  double ScoreOf(const Ring<D>& ring, const Filling& filling)
   {
     const std::size_t points = this->Parts.Points.size();
     const std::vector<VertexId> onFacets = this->AddPointsOnFacets(ring, filling);
-    std::vector<Piece> all;
+    std::vector<Piece<D>> all;
     for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
     {
-      const std::vector<Piece> pieces = this->PiecesOf(ring, filling, k, onFacets);
+      const std::vector<Piece<D>> pieces = this->PiecesOf(ring, filling, k, onFacets);
       all.insert(all.end(), pieces.begin(), pieces.end());
     }
-    const double score = std::min(this->ShapesOf(all), this->FacetsOf(all));
+    double score = this->Shapes().ShapesOf(all);
+    if constexpr (D == 3)
+    {
+      score = std::min(score, this->Shapes().FacetsOf(all));
+    }
     this->Parts.Points.resize(points);
     return score;
   }
 
   /**
-   * Whether a filling makes a dent in a face where the image cuts the object, or adds a piece
-   * beyond the image's border.
+   * Whether a filling makes a dent in a face where the image cuts the object, on the hull of the
+   * triangulation for example, or adds a piece beyond the image's border.
    */
-  bool DentsBorder(const Ring& ring, const Filling& filling) const
+  bool DentsBorder(const Ring<D>& ring, const Filling& filling) const
   {
-    const ImageBorder<3>* const border = this->Image.Border();
-    for (std::size_t k = 0; k < ring.Sectors.size() && border; ++k)
+    const ImageBorder<D>* const border = this->Image.Border();
+    for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
     {
-      const Sector& sector = ring.Sectors[k];
+      const Sector<D>& sector = ring.Sectors[k];
       if (filling.Gives[k] == 0)
       {
         continue;
       }
-      const Point<3> centre =
-        Interpolate(this->MiddleOf(ring.Ends), this->MiddleOf({ sector.R, sector.S }), 0.5);
-      if (sector.Label == 0 ? border->IsBeyond(centre)
-                            : filling.Label == 0 && this->HasFacetOnBorder(*border, ring, sector))
+      const bool isAtHull =
+        ring.Sectors[ring.Previous(k)].Owner == None || ring.Sectors[ring.Next(k)].Owner == None;
+      if (filling.Label == 0 &&
+        (isAtHull || (border && this->HasFacetOnBorder(*border, ring, sector))))
+      {
+        return true;
+      }
+      if (border && sector.Label == 0 &&
+        border->IsBeyond(
+          Interpolate(this->MiddleOf(ring.Ridge), this->MiddleOfOthers(sector), 0.5)))
       {
         return true;
       }
@@ -516,46 +565,61 @@ private:
     return false;
   }
 
-  /** Whether a facet at the edge is on a face where the image cuts the object. */
-  bool HasFacetOnBorder(const ImageBorder<3>& border, const Ring& ring, const Sector& sector) const
+  /** Whether a facet at the ridge is on a face where the image cuts the object. */
+  bool HasFacetOnBorder(
+    const ImageBorder<D>& border, const Ring<D>& ring, const Sector<D>& sector) const
   {
     const auto faces = [&](VertexId v) { return border.FacesAt(this->Position(v)); };
-    return (faces(ring.Ends[0]) & faces(ring.Ends[1]) & (faces(sector.R) | faces(sector.S))) != 0;
+    unsigned common = faces(sector.R) | faces(sector.S);
+    for (const VertexId v : ring.Ridge)
+    {
+      common &= faces(v);
+    }
+    return common != 0;
   }
 
-  void Replace(const Sector& sector, const std::vector<Piece>& pieces)
+  void Replace(const Sector<D>& sector, const std::vector<Piece<D>>& pieces)
   {
-    std::vector<Piece>& all = this->Pieces[sector.Owner];
-    std::erase_if(all, [&](const Piece& piece) { return piece.V == sector.Whole; });
+    std::vector<Piece<D>>& all = this->Pieces[sector.Owner];
+    std::erase_if(all, [&](const Piece<D>& piece) { return piece.V == sector.Whole; });
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
 
-  const Triangulation<3>& Source;
-  const Domain<3>& Image;
+  const Triangulation<D>& Source;
+  const Domain<D>& Image;
   const std::span<const LabelId> Labels;
-  Subdivision Parts; ///< has its points now; the rest is set at the end
-  std::map<SimplexId, std::vector<Piece>> Pieces; ///< of tetrahedra that were cut
+  const SpindleContext<D> Context;
+  Subdivision<D> Parts; ///< has its points now; the rest is set at the end
+  std::map<SimplexId, std::vector<Piece<D>>> Pieces; ///< of simplices that were cut
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-SpindleResult MakeSpindles(const Triangulation<3>& triangulation, const Domain<3>& domain,
-  std::span<const LabelId> labels, std::span<const InterfaceEdge> edges,
-  const std::stop_token& stop)
+template <int D>
+SpindleResult<D> MakeSpindles(const Triangulation<D>& triangulation, const Domain<D>& domain,
+  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
+  const std::stop_token& stop, const SpindleContext<D>& context)
 {
-  SpindleResult result;
-  SpindleMaker maker(triangulation, domain, labels);
-  for (const InterfaceEdge& edge : edges)
+  SpindleResult<D> result;
+  SpindleMaker<D> maker(triangulation, domain, labels, context);
+  for (const InterfaceRidge<D>& ridge : ridges)
   {
     ThrowIfStopped(stop);
-    if (!maker.Open(edge))
+    if (!maker.Open(ridge))
     {
-      result.Left.push_back(edge);
+      result.Left.push_back(ridge);
     }
   }
   result.Parts = maker.Result();
   return result;
 }
+
+template SpindleResult<3> MakeSpindles<3>(const Triangulation<3>&, const Domain<3>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
+  const SpindleContext<3>&);
+template SpindleResult<4> MakeSpindles<4>(const Triangulation<4>&, const Domain<4>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
+  const SpindleContext<4>&);
 
 } // namespace voxplex

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file EdgeSpindles.h
- * @brief Makes boundaries of labels manifold at edges where giving whole tetrahedra to another
- * label does not help.
+ * @brief Makes boundaries of labels manifold at edges (4D: triangles) where giving whole simplices to
+ * another label does not help.
  */
 #ifndef voxplex_EdgeSpindles_h
 #define voxplex_EdgeSpindles_h
@@ -12,6 +12,7 @@
 #include "Domain/Domain.h"
 #include "Mesh/Subdivision.h"
 #include "Quality/InterfaceEdges.h"
+#include "Sizing/SizingField.h"
 
 #include <span>
 #include <stop_token>
@@ -21,45 +22,66 @@ namespace voxplex
 {
 
 /** The result of MakeSpindles(). */
+template <int D>
 struct SpindleResult
 {
-  Subdivision Parts;
-  std::vector<InterfaceEdge> Left; ///< only where tetrahedra are flat within rounding
+  Subdivision<D> Parts;
+  std::vector<InterfaceRidge<D>> Left; ///< only where simplices are flat within rounding
+};
+
+/** What MakeSpindles() looks at in addition. All is optional. */
+template <int D>
+struct SpindleContext
+{
+  std::span<const Point<D>> Positions; ///< of each vertex id; empty: those of the triangulation
+  /** 4D: pieces with a circumradius above its element sizes count as bad shapes. Null: no bound. */
+  const SizingField<D>* Sizing = nullptr;
 };
 
 /**
- * At a non-manifold edge ab, the tetrahedra of some label form more than one run around the edge.
- * The tetrahedra of some runs are cut in pieces. The pieces at ab form a spindle from a to b, or a
- * sector of one, and get another label that occurs around the edge. After that, each label except
- * background has one run. This is always possible, because the whole spindle can get a single
- * label.
+ * A ridge is an edge in 3D and a triangle in 4D. At a non-manifold ridge, the simplices of some
+ * label form more than one run around it. The simplices of some runs are cut in pieces. The pieces
+ * at the ridge form a spindle around it, or a sector of one, and get another label that occurs
+ * around the ridge. After that, each label except background has one run. This is always possible,
+ * because the whole spindle can get a single label.
  *
- *           s                   a, b   ends of the edge, seen along the edge
+ *           s                   ab     the ridge, seen along it (3D: an edge)
  *          /|\                  r, s   vertices around it
  *         / | \                 p, q   new ones on the facets abr, abs
  *        /  q  \                abpq   part of the spindle
  *       / /   \ \               aprs, bprs, apqs, bpqs keep their label
  *      ab----p---r
  *
- * Each spindle removes one non-manifold edge and makes no new one (Documentation/Algorithm.md,
- * "Looking at the interfaces", has the proof): edges at ab's tetrahedra keep their runs, and no new
- * edge has more than one run of a label. Each tetrahedron keeps pieces with its own label, so no
- * element is lost. New vertices lie at one of a few fixed positions in their facet or tetrahedron,
- * so the shapes of the tetrahedra bound the shapes of the pieces. Of all possible cuts, the one
- * with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
+ * In 4D, with a ridge abc, the part of the spindle is abcpq, and abprs, bcprs, caprs, abpqs, bcpqs
+ * and capqs keep their label. Where the triangulation ends at the ridge, as on the flat ends in
+ * time, what lies beyond counts as background that cannot be cut.
+ *
+ * Each spindle removes one non-manifold ridge and makes no new one (Documentation/Algorithm.md, "Why
+ * no edge is left that is not manifold", has the proof). Each simplex keeps pieces with its own
+ * label, so no element is lost. New vertices lie at one of a few fixed positions in their facet or
+ * simplex, so the shapes of the simplices bound the shapes of the pieces. Of all possible cuts, the
+ * one with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
  * image cuts the object is taken only if there is no other.
  *
  * The triangulation is not changed, and no thread may change it during the call. Takes time linear
- * in the number of edges, if few tetrahedra share an edge. Edges with many runs around them take
+ * in the number of ridges, if few simplices share one. Ridges with many runs around them take
  * longer.
  *
  * @param labels by simplex id
- * @param edges the non-manifold edges, with vertex ids
+ * @param ridges the non-manifold ridges, with vertex ids
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-SpindleResult MakeSpindles(const Triangulation<3>& triangulation, const Domain<3>& domain,
-  std::span<const LabelId> labels, std::span<const InterfaceEdge> edges,
-  const std::stop_token& stop = {});
+template <int D>
+SpindleResult<D> MakeSpindles(const Triangulation<D>& triangulation, const Domain<D>& domain,
+  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
+  const std::stop_token& stop = {}, const SpindleContext<D>& context = {});
+
+extern template SpindleResult<3> MakeSpindles<3>(const Triangulation<3>&, const Domain<3>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
+  const SpindleContext<3>&);
+extern template SpindleResult<4> MakeSpindles<4>(const Triangulation<4>&, const Domain<4>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
+  const SpindleContext<4>&);
 
 } // namespace voxplex
 

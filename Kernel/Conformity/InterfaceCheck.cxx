@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceCheck.h"
 
-#include "Delaunay/VertexStar.h"
-
-#include <algorithm>
 #include <utility>
 
 namespace voxplex
@@ -46,7 +43,7 @@ Remedy<3> InterfaceCheck::InspectTriangulation()
     this->MakeLabels();
     if (looks)
     {
-      remedy = this->Counted(this->Uniform->InspectLabels(this->Gone, this->Places));
+      remedy = this->Counted(this->Uniform->InspectLabels(this->Made.Gone, this->Made.Places));
     }
   }
   if (!remedy.IsNeeded)
@@ -58,8 +55,9 @@ Remedy<3> InterfaceCheck::InspectTriangulation()
 
 Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
 {
-  return this->Graded && this->MayGoOn() ? this->Counted(this->Graded->Inspect(mesh, this->Places))
-                                         : Remedy<3>();
+  return this->Graded && this->MayGoOn()
+    ? this->Counted(this->Graded->Inspect(mesh, this->Made.Places))
+    : Remedy<3>();
 }
 
 /** Makes a remedy of these points. If there are any, counts a round. */
@@ -74,70 +72,21 @@ Remedy<3> InterfaceCheck::Counted(std::vector<FeatureSeed<3>> points)
 void InterfaceCheck::MakeLabels()
 {
   const Triangulation<3>& mesh = this->Of.Mesh;
-  this->LabelOf = LabelSimplices(mesh, this->Of.Surfaces, this->Of.Threads, this->Stop);
-  const std::vector<SimplexId> relabelled =
-    this->Options.Manifold ? this->Repair() : std::vector<SimplexId>();
-  this->Gone = this->VerticesWithin(relabelled);
-}
-
-/** @return the tetrahedra that got another label */
-std::vector<SimplexId> InterfaceCheck::Repair()
-{
-  const Triangulation<3>& mesh = this->Of.Mesh;
-  ManifoldRepairOptions options;
+  ManifoldRepairOptions<3> options;
   options.Shape = this->Of.Shape;
   options.Surfaces = &this->Of.Surfaces;
   options.Sizing = &this->Of.Sizing;
-  ManifoldRepairResult result =
-    RepairManifold(mesh, this->LabelOf, options, this->Of.Threads, this->Stop);
-  this->Statistics.NonManifoldRepaired = result.Before - result.Left.size();
-  this->Statistics.NonManifoldLeft = result.Left.size();
-  this->NonManifold = std::move(result.Left);
-  this->Places.clear();
-  for (const InterfaceEdge& edge : this->NonManifold)
-  {
-    this->Places.push_back(
-      { Interpolate(mesh.Position(edge.Ends[0]), mesh.Position(edge.Ends[1]), 0.5),
-        edge.IsJunction });
-  }
-  return std::move(result.Relabelled);
+  this->Made = MakeManifoldLabels(
+    mesh, this->Options.Manifold, options, this->Statistics, this->Of.Threads, this->Stop);
 }
 
-/** Opens the edges that Repair() left non-manifold. */
+/** Opens the edges that are not manifold with these labels. */
 void InterfaceCheck::OpenEdges()
 {
-  SpindleResult result =
-    MakeSpindles(this->Of.Mesh, this->Of.Surfaces, this->LabelOf, this->NonManifold, this->Stop);
-  const std::size_t opened = this->NonManifold.size() - result.Left.size();
-  this->Statistics.NonManifoldOpened = opened;
-  this->Statistics.NonManifoldRepaired += opened;
-  this->Statistics.NonManifoldLeft = result.Left.size();
+  SpindleResult<3> result = MakeSpindles(
+    this->Of.Mesh, this->Of.Surfaces, this->Made.Labels, this->Made.NonManifold, this->Stop);
+  this->Statistics.CountOpened(this->Made.NonManifold.size(), result.Left.size());
   this->Spindles = std::move(result.Parts);
-}
-
-/** Vertices of these tetrahedra that are inside of a label. */
-std::vector<Point<3>> InterfaceCheck::VerticesWithin(const std::vector<SimplexId>& relabelled) const
-{
-  const Triangulation<3>& mesh = this->Of.Mesh;
-  std::vector<VertexId> vertices;
-  for (const SimplexId s : relabelled)
-  {
-    const auto& v = mesh.GetSimplex(s).V;
-    vertices.insert(vertices.end(), v.begin(), v.end());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::vector<Point<3>> within;
-  for (const VertexId v : vertices)
-  {
-    const std::vector<SimplexId> star = StarOf(mesh, v, mesh.GetVertex(v).Incident);
-    if (std::all_of(star.begin(), star.end(),
-          [&](SimplexId s) { return this->LabelOf[s] == this->LabelOf[star.front()]; }))
-    {
-      within.push_back(mesh.Position(v));
-    }
-  }
-  return within;
 }
 
 } // namespace voxplex

@@ -14,7 +14,7 @@
 #include "Conformity/GradedInterfaceCheck.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/InterfaceVertices.h"
-#include "Conformity/ManifoldRepair.h"
+#include "Conformity/ManifoldLabels.h"
 #include "Conformity/UniformInterfaceCheck.h"
 #include "Delaunay/Triangulation.h"
 #include "Geometry/ShapeBounds.h"
@@ -78,18 +78,16 @@ public:
   Remedy<3> InspectMesh(const SimplexMesh<3>& mesh) override;
 
   /** The label of each simplex id. Valid if InspectTriangulation() requested nothing. */
-  std::span<const LabelId> Labels() const { return this->LabelOf; }
+  std::span<const LabelId> Labels() const { return this->Made.Labels; }
 
   /** The tetrahedra that were cut in pieces. Valid if InspectTriangulation() requested nothing. */
-  const Subdivision& Parts() const { return this->Spindles; }
+  const Subdivision<3>& Parts() const { return this->Spindles; }
 
 private:
   bool MayGoOn() const { return this->Statistics.Rounds < this->Options.Rounds; }
   Remedy<3> Counted(std::vector<FeatureSeed<3>> points);
   void MakeLabels();
-  std::vector<SimplexId> Repair();
   void OpenEdges();
-  std::vector<Point<3>> VerticesWithin(const std::vector<SimplexId>& relabelled) const;
 
   const Subject Of;
   const InterfaceOptions Options;
@@ -98,11 +96,8 @@ private:
   InterfaceVertices<3> Vertices;
   std::optional<UniformInterfaceCheck<3>> Uniform;
   std::optional<GradedInterfaceCheck> Graded;
-  SimplexLabels LabelOf;
-  std::vector<Point<3>> Gone;              ///< vertices that relabelling left inside of a label
-  std::vector<InterfaceEdge> NonManifold;  ///< with these labels
-  std::vector<NonManifoldPlace<3>> Places; ///< of these edges
-  Subdivision Spindles;
+  ManifoldLabels<3> Made;
+  Subdivision<3> Spindles;
 };
 
 } // namespace voxplex

@@ -12,7 +12,7 @@
 namespace voxplex
 {
 
-/** Changes made for the interfaces of a mesh in 3D, in addition to the rules. */
+/** Changes made for the interfaces of a mesh, in addition to the rules. In 4D, read triangles for edges. */
 struct InterfaceStatistics
 {
   std::uint64_t JunctionCurves = 0;      ///< pieces between corners, and closed ones
@@ -25,6 +25,14 @@ struct InterfaceStatistics
   std::uint64_t NonManifoldOpened = 0;
   /** Edges that still are not manifold; 0 if not looked for (InterfaceOptions::Manifold). */
   std::uint64_t NonManifoldLeft = 0;
+
+  /** Of the edges that were left, all but some are opened. */
+  void CountOpened(std::uint64_t before, std::uint64_t left)
+  {
+    this->NonManifoldOpened = before - left;
+    this->NonManifoldRepaired += this->NonManifoldOpened;
+    this->NonManifoldLeft = left;
+  }
 };
 
 } // namespace voxplex

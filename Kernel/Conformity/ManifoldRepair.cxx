@@ -24,31 +24,42 @@ namespace
 
 using namespace repair;
 
-using Facet = std::array<VertexId, 3>;
+template <int D>
+using Facet = std::array<VertexId, static_cast<std::size_t>(D)>;
 
-Edge MakeEdge(VertexId a, VertexId b)
+/** The vertices of a simplex but vertex i, in cyclic order. */
+template <int D>
+Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v, unsigned i)
 {
-  return { std::min(a, b), std::max(a, b) };
+  Facet<D> facet;
+  for (unsigned k = 0; k < facet.size(); ++k)
+  {
+    facet[k] = v[(i + k + 1) % v.size()];
+  }
+  return facet;
 }
 
 /** The facets of the interfaces of a triangulation. */
+template <int D>
 struct InterfaceFacets
 {
-  std::vector<Facet> Facets;
+  std::vector<Facet<D>> Facets;
   std::vector<std::array<std::int64_t, 2>> Labels; ///< on both sides of each
+  std::vector<std::uint8_t> OnHull;                ///< of the triangulation
 };
 
 /** The facets are in the order of the simplices on the side of the larger label. */
-InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
+template <int D>
+InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
   std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
 {
   constexpr std::size_t Grain = 8192;
-  std::vector<InterfaceFacets> parts((labels.size() + Grain - 1) / Grain);
+  std::vector<InterfaceFacets<D>> parts((labels.size() + Grain - 1) / Grain);
   ParallelFor(
     0, labels.size(), Grain, threads,
     [&](std::size_t first, std::size_t last)
     {
-      InterfaceFacets& part = parts[first / Grain];
+      InterfaceFacets<D>& part = parts[first / Grain];
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
         if (labels[s] == 0)
@@ -56,35 +67,37 @@ InterfaceFacets FindInterfaceFacets(const Triangulation<3>& triangulation,
           continue;
         }
         const auto& simplex = triangulation.GetSimplex(s);
-        for (unsigned i = 0; i < 4; ++i)
+        for (unsigned i = 0; i <= D; ++i)
         {
           const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
           if (beside < labels[s])
           {
-            part.Facets.push_back(
-              { simplex.V[(i + 1) % 4], simplex.V[(i + 2) % 4], simplex.V[(i + 3) % 4] });
+            part.Facets.push_back(FacetOf<D>(simplex.V, i));
             part.Labels.push_back({ labels[s], beside });
+            part.OnHull.push_back(simplex.N[i] == None ? 1 : 0);
           }
         }
       }
     },
     stop);
-  InterfaceFacets all;
-  for (const InterfaceFacets& part : parts)
+  InterfaceFacets<D> all;
+  for (const InterfaceFacets<D>& part : parts)
   {
     all.Facets.insert(all.Facets.end(), part.Facets.begin(), part.Facets.end());
     all.Labels.insert(all.Labels.end(), part.Labels.begin(), part.Labels.end());
+    all.OnHull.insert(all.OnHull.end(), part.OnHull.begin(), part.OnHull.end());
   }
   return all;
 }
 
 //------------------------------------------------------------------------------------------------
-/** Finds and applies changes that leave fewer bad edges. */
-class EdgeRepair
+/** Finds and applies changes that leave fewer bad ridges. */
+template <int D>
+class RidgeRepair
 {
 public:
-  EdgeRepair(const Triangulation<3>& triangulation, std::span<LabelId> labels,
-    std::vector<std::uint8_t> onInterface, const ManifoldRepairOptions& options)
+  RidgeRepair(const Triangulation<D>& triangulation, std::span<LabelId> labels,
+    std::vector<std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
     : Labels(labels)
     , Near(triangulation, labels, std::move(onInterface))
     , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
@@ -94,14 +107,14 @@ public:
   {
   }
 
-  /** Applies the best change around an edge. @return false if none helps */
-  bool Mend(const Edge& edge)
+  /** Applies the best change around a ridge. @return false if none helps */
+  bool Mend(const Ridge<D>& ridge)
   {
     std::optional<Change> best;
     bool bestDents = true;
     int bestGain = 0;
     double bestVolume = 0.0;
-    for (Change& change : this->ChangesAt(edge))
+    for (Change& change : this->ChangesAt(ridge))
     {
       const int gain = this->GainOf(change);
       const double volume = this->VolumeOf(change);
@@ -129,58 +142,57 @@ public:
     return true;
   }
 
-  bool IsBad(const Edge& edge) const
+  bool IsBad(const Ridge<D>& ridge) const
   {
-    return this->Near.CountBad(edge, this->Near.StarOf(edge).front(), nullptr) != 0;
+    return this->Near.CountBad(ridge, this->Near.StarOf(ridge).front(), nullptr) != 0;
   }
 
   const std::set<SimplexId>& GetChanged() const { return this->Changed; }
 
   /**
-   * The bad edges now, in the order of their ends. Only edges that were bad before, and edges of
-   * changed tetrahedra, need to be checked.
-   * @param before the bad edges before any change
+   * The bad ridges now, in the order of their vertices. Only ridges that were bad before, and ridges
+   * of changed simplices, need to be checked.
+   * @param before the bad ridges before any change
    */
-  std::vector<InterfaceEdge> FindLeft(const std::vector<InterfaceEdge>& before) const
+  std::vector<InterfaceRidge<D>> FindLeft(const std::vector<InterfaceRidge<D>>& before) const
   {
-    std::vector<InterfaceEdge> left;
-    const std::vector<CellEdge> changed = this->EdgesOf(this->Changed);
-    for (const InterfaceEdge& edge : before)
+    std::vector<InterfaceRidge<D>> left;
+    const std::vector<CellRidge> changed = this->RidgesOf(this->Changed);
+    for (const InterfaceRidge<D>& ridge : before)
     {
-      const auto at = std::lower_bound(changed.begin(), changed.end(), edge.Ends,
-        [](const CellEdge& e, const Edge& ends) { return e.Ends < ends; });
-      if (at == changed.end() || at->Ends != edge.Ends)
+      const auto at = std::lower_bound(changed.begin(), changed.end(), ridge.Vertices,
+        [](const CellRidge& r, const Ridge<D>& vertices) { return r.Vertices < vertices; });
+      if (at == changed.end() || at->Vertices != ridge.Vertices)
       {
-        left.push_back(edge);
+        left.push_back(ridge);
       }
     }
-    for (const CellEdge& edge : changed)
+    for (const CellRidge& ridge : changed)
     {
-      const Neighbourhood::State state = this->Near.StateOf(edge.Ends, edge.Cell, nullptr);
+      const auto state = this->Near.StateOf(ridge.Vertices, ridge.Cell, nullptr);
       if (state.Bad > 0)
       {
-        left.push_back({ edge.Ends, state.IsJunction });
+        left.push_back({ ridge.Vertices, state.IsJunction });
       }
     }
     std::sort(left.begin(), left.end(),
-      [](const InterfaceEdge& a, const InterfaceEdge& b) { return a.Ends < b.Ends; });
+      [](const auto& a, const auto& b) { return a.Vertices < b.Vertices; });
     return left;
   }
 
 private:
-  Facet FacetOf(SimplexId t, unsigned i) const
+  Facet<D> FacetOf(SimplexId t, unsigned i) const
   {
-    const auto& v = this->Near.VerticesOf(t);
-    return { v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4] };
+    return voxplex::FacetOf<D>(this->Near.VerticesOf(t), i);
   }
 
   /**
-   * All candidate changes: each tetrahedron around the edge, and each run of a label, gets a label
+   * All candidate changes: each simplex around the ridge, and each run of a label, gets a label
    * beside it.
    */
-  std::vector<Change> ChangesAt(const Edge& edge) const
+  std::vector<Change> ChangesAt(const Ridge<D>& ridge) const
   {
-    const std::vector<SimplexId> star = this->Near.StarOf(edge);
+    const std::vector<SimplexId> star = this->Near.StarOf(ridge);
     std::vector<std::vector<SimplexId>> groups;
     std::set<SimplexId> grouped;
     for (const SimplexId t : star)
@@ -197,7 +209,7 @@ private:
       std::vector<SimplexId> run{ t };
       for (std::size_t k = 0; k < run.size(); ++k)
       {
-        for (unsigned i = 0; i < 4; ++i)
+        for (unsigned i = 0; i <= D; ++i)
         {
           const SimplexId other = this->Near.Beside(run[k], i);
           if (std::binary_search(star.begin(), star.end(), other) &&
@@ -218,7 +230,7 @@ private:
       std::set<LabelId> labels;
       for (const SimplexId t : group)
       {
-        for (unsigned i = 0; i < 4; ++i)
+        for (unsigned i = 0; i <= D; ++i)
         {
           labels.insert(this->Near.LabelBeside(t, i));
         }
@@ -232,45 +244,55 @@ private:
     return changes;
   }
 
-  /** An edge, and a tetrahedron that has it. */
-  struct CellEdge
+  /** A ridge, and a simplex that has it. */
+  struct CellRidge
   {
-    Edge Ends;
+    Ridge<D> Vertices;
     SimplexId Cell;
   };
 
-  /** The edges of some tetrahedra, ascending. */
+  /** The ridges of some simplices, ascending. */
   template <typename Cells>
-  std::vector<CellEdge> EdgesOf(const Cells& cells) const
+  std::vector<CellRidge> RidgesOf(const Cells& cells) const
   {
-    std::vector<CellEdge> edges;
+    std::vector<CellRidge> ridges;
     for (const SimplexId t : cells)
     {
-      const auto& v = this->Near.VerticesOf(t);
-      for (unsigned i = 0; i < 4; ++i)
+      auto v = this->Near.VerticesOf(t);
+      std::sort(v.begin(), v.end());
+      for (unsigned i = 0; i <= D; ++i)
       {
         for (unsigned j = 0; j < i; ++j)
         {
-          edges.push_back({ MakeEdge(v[i], v[j]), t });
+          CellRidge& ridge = ridges.emplace_back();
+          ridge.Cell = t;
+          std::size_t n = 0;
+          for (unsigned k = 0; k <= D; ++k)
+          {
+            if (k != i && k != j)
+            {
+              ridge.Vertices[n++] = v[k];
+            }
+          }
         }
       }
     }
-    std::sort(edges.begin(), edges.end(),
-      [](const CellEdge& a, const CellEdge& b) { return a.Ends < b.Ends; });
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                  [](const CellEdge& a, const CellEdge& b) { return a.Ends == b.Ends; }),
-      edges.end());
-    return edges;
+    std::sort(ridges.begin(), ridges.end(),
+      [](const CellRidge& a, const CellRidge& b) { return a.Vertices < b.Vertices; });
+    ridges.erase(std::unique(ridges.begin(), ridges.end(),
+                   [](const CellRidge& a, const CellRidge& b) { return a.Vertices == b.Vertices; }),
+      ridges.end());
+    return ridges;
   }
 
-  /** The decrease of CountBad(), summed over all edges. */
+  /** The decrease of CountBad(), summed over all ridges. */
   int GainOf(const Change& change) const
   {
     int gain = 0;
-    for (const CellEdge& edge : this->EdgesOf(change.Cells))
+    for (const CellRidge& ridge : this->RidgesOf(change.Cells))
     {
-      gain += this->Near.CountBad(edge.Ends, edge.Cell, nullptr) -
-        this->Near.CountBad(edge.Ends, edge.Cell, &change);
+      gain += this->Near.CountBad(ridge.Vertices, ridge.Cell, nullptr) -
+        this->Near.CountBad(ridge.Vertices, ridge.Cell, &change);
     }
     return gain;
   }
@@ -280,12 +302,12 @@ private:
     double volume = 0.0;
     for (const SimplexId t : change.Cells)
     {
-      std::array<const Point<3>*, 4> points;
-      for (unsigned i = 0; i < 4; ++i)
+      std::array<const Point<D>*, D + 1> points;
+      for (unsigned i = 0; i <= D; ++i)
       {
         points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
       }
-      volume += std::abs(SignedVolume<3>(points.data()));
+      volume += std::abs(SignedVolume<D>(points.data()));
     }
     return volume;
   }
@@ -315,8 +337,12 @@ private:
           leavesSome = this->Labels[other] == own && !change.Touches(other);
         }
       }
-      for (unsigned i = 0; i < 4; ++i)
+      for (unsigned i = 0; i <= D; ++i)
       {
+        if (change.Label == 0 && this->Near.Beside(t, i) == None)
+        {
+          return false;
+        }
         const bool isNew = this->Near.LabelBeside(t, i) == own &&
           !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
         if (isNew && !this->HasGoodAngles(t, i, change))
@@ -334,6 +360,10 @@ private:
    */
   bool UncoversSharpFacet(const Change& change) const
   {
+    if constexpr (D != 3)
+    {
+      return false;
+    }
     for (const SimplexId t : change.Cells)
     {
       for (const VertexId v : this->Near.VerticesOf(t))
@@ -344,7 +374,7 @@ private:
         }
         for (const SimplexId s : this->Near.StarOf(v))
         {
-          for (unsigned i = 0; i < 4; ++i)
+          for (unsigned i = 0; i <= D; ++i)
           {
             const SimplexId beside = this->Near.Beside(s, i);
             const LabelId other =
@@ -369,7 +399,7 @@ private:
     {
       return false;
     }
-    const Circumball<3> ball = this->Near.Circumball(t);
+    const Circumball<D> ball = this->Near.Circumball(t);
     const double size = this->Sizing->ElementSize(ball.Center, label);
     return ball.Radius2 > size * size;
   }
@@ -380,14 +410,14 @@ private:
    */
   bool Dents(const Change& change) const
   {
-    const ImageBorder<3>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
+    const ImageBorder<D>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
     if (!border || change.Label != 0)
     {
       return false;
     }
     for (const SimplexId t : change.Cells)
     {
-      for (unsigned i = 0; i < 4; ++i)
+      for (unsigned i = 0; i <= D; ++i)
       {
         unsigned faces = ~0u;
         for (const VertexId v : this->FacetOf(t, i))
@@ -403,7 +433,7 @@ private:
     return false;
   }
 
-  /** Where a facet with these angles may be. */
+  /** Where a facet with these angles may be; anywhere in 4D. */
   enum class Sharpness
   {
     Anywhere,
@@ -412,13 +442,17 @@ private:
   };
   Sharpness SharpnessOf(SimplexId t, unsigned i) const
   {
-    const Facet facet = this->FacetOf(t, i);
+    if constexpr (D != 3)
+    {
+      return Sharpness::Anywhere;
+    }
+    const Facet<D> facet = this->FacetOf(t, i);
     Sharpness sharpness = Sharpness::Anywhere;
     for (unsigned k = 0; k < 3; ++k)
     {
-      const Point<3>& p = this->Near.Position(facet[k]);
-      const Point<3> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
-      const Point<3> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
+      const Point<D>& p = this->Near.Position(facet[k]);
+      const Point<D> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
+      const Point<D> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
       const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
       if (Dot(a, b) > this->JunctionCosine * lengths)
       {
@@ -439,7 +473,7 @@ private:
   /** Whether a vertex of a facet is at a junction after a change. */
   bool HasJunction(SimplexId t, unsigned i, const Change& change) const
   {
-    const Facet facet = this->FacetOf(t, i);
+    const Facet<D> facet = this->FacetOf(t, i);
     return std::any_of(
       facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
   }
@@ -465,48 +499,56 @@ private:
   }
 
   const std::span<LabelId> Labels; ///< by simplex id
-  const Neighbourhood Near;
+  const Neighbourhood<D> Near;
   const double FacetCosine;
   const double JunctionCosine; ///< at least FacetCosine
-  const Domain<3>* const Surfaces;
-  const SizingField<3>* const Sizing;
+  const Domain<D>* const Surfaces;
+  const SizingField<D>* const Sizing;
   std::set<SimplexId> Changed;
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-ManifoldRepairResult RepairManifold(const Triangulation<3>& triangulation,
-  std::span<LabelId> labels, const ManifoldRepairOptions& options, unsigned threads,
+template <int D>
+ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
+  std::span<LabelId> labels, const ManifoldRepairOptions<D>& options, unsigned threads,
   const std::stop_token& stop)
 {
-  const InterfaceFacets interfaces = FindInterfaceFacets(triangulation, labels, threads, stop);
-  const std::vector<InterfaceEdge> edges = FindNonManifoldEdges(
+  const InterfaceFacets<D> interfaces =
+    FindInterfaceFacets<D>(triangulation, labels, threads, stop);
+  const std::vector<InterfaceRidge<D>> ridges = FindNonManifoldRidges<D>(
     interfaces.Facets, interfaces.Labels, triangulation.VertexIdEnd(), threads, stop);
-  if (edges.empty())
+  if (ridges.empty())
   {
     return {};
   }
   std::vector<std::uint8_t> onInterface(triangulation.VertexIdEnd());
-  for (const Facet& facet : interfaces.Facets)
+  for (std::size_t f = 0; f < interfaces.Facets.size(); ++f)
   {
-    for (const VertexId v : facet)
+    for (const VertexId v : interfaces.Facets[f])
     {
-      onInterface[v] = 1;
+      // Vertices inside of a flat end are on no interface of the image.
+      onInterface[v] = onInterface[v] != 0 || interfaces.OnHull[f] == 0 ? 1 : 0;
     }
   }
-  EdgeRepair repair(triangulation, labels, std::move(onInterface), options);
+  RidgeRepair<D> repair(triangulation, labels, std::move(onInterface), options);
   for (bool again = true; again;)
   {
     again = false;
-    for (const InterfaceEdge& edge : edges)
+    for (const InterfaceRidge<D>& ridge : ridges)
     {
       ThrowIfStopped(stop);
-      again |= repair.IsBad(edge.Ends) && repair.Mend(edge.Ends);
+      again |= repair.IsBad(ridge.Vertices) && repair.Mend(ridge.Vertices);
     }
   }
   const std::set<SimplexId>& changed = repair.GetChanged();
-  return { edges.size(), repair.FindLeft(edges), { changed.begin(), changed.end() } };
+  return { ridges.size(), repair.FindLeft(ridges), { changed.begin(), changed.end() } };
 }
+
+template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&, std::span<LabelId>,
+  const ManifoldRepairOptions<3>&, unsigned, const std::stop_token&);
+template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&, std::span<LabelId>,
+  const ManifoldRepairOptions<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ManifoldRepair.h
- * @brief Makes boundaries of labels manifold by giving tetrahedra to a neighbouring label.
+ * @brief Makes boundaries of labels manifold by giving simplices to a neighbouring label.
  */
 #ifndef voxplex_ManifoldRepair_h
 #define voxplex_ManifoldRepair_h
@@ -22,47 +22,56 @@ namespace voxplex
 {
 
 /** Constraints on changes of an interface. */
+template <int D>
 struct ManifoldRepairOptions
 {
-  ShapeBounds Shape; ///< of new interface triangles: angles only
+  ShapeBounds Shape; ///< of new interface triangles: angles only; 3D only
   /** The meshed domain. Faces where its image cuts the object get no dents. Null: no such faces. */
-  const Domain<3>* Surfaces = nullptr;
-  /** Bounds the circumradius of tetrahedra that get another label. Null: no bound. */
-  const SizingField<3>* Sizing = nullptr;
+  const Domain<D>* Surfaces = nullptr;
+  /** Bounds the circumradius of simplices that get another label. Null: no bound. */
+  const SizingField<D>* Sizing = nullptr;
 };
 
 /** The result of RepairManifold(). */
+template <int D>
 struct ManifoldRepairResult
 {
-  std::size_t Before = 0;            ///< non-manifold edges before the repair
-  std::vector<InterfaceEdge> Left;   ///< non-manifold edges after it; ends are vertex ids
-  std::vector<SimplexId> Relabelled; ///< ascending
+  std::size_t Before = 0;              ///< non-manifold ridges before the repair
+  std::vector<InterfaceRidge<D>> Left; ///< non-manifold ridges after it, with vertex ids
+  std::vector<SimplexId> Relabelled;   ///< ascending
 };
 
 /**
- * For each non-manifold edge, tetrahedra around it are given to the label of a neighbour, or to
- * background, which drops them. A change is made only if it leaves fewer non-manifold edges; edges
- * off junctions have a larger weight. Tetrahedra are changed only if
+ * For each non-manifold ridge (an edge, in 4D a triangle), simplices around it are given to the
+ * label of a neighbour, or to background, which drops them. A change is made only if it leaves fewer
+ * non-manifold ridges; ridges off junctions have a larger weight. Simplices are changed only if
  * - all their vertices are on interfaces already, so that no vertex off the interfaces gets onto
  *   them;
- * - a tetrahedron of the old label remains at one of the vertices;
- * - they are not larger than their new label allows.
+ * - a simplex of the old label remains at one of the vertices;
+ * - they are not larger than their new label allows;
+ * - none with a facet on the hull of the triangulation, such as a flat end in time, is dropped.
  *
  * A tetrahedron with a facet on a face where the image cuts the object is dropped only if nothing
  * else helps, because that leaves a dent in the face. There, parts of the object meet at an edge,
  * and the dent is at the rim of the face.
  *
  * The triangulation is not changed, and no thread may change it during the call. The result does
- * not depend on the number of threads. Takes time linear in the number of tetrahedra; the repair
- * itself takes little time if few edges are bad.
+ * not depend on the number of threads. Takes time linear in the number of simplices; the repair
+ * itself takes little time if few ridges are bad.
  *
  * @param labels by simplex id; some are changed
- * @param threads used to find the edges; 0 means all cores
+ * @param threads used to find the ridges; 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-ManifoldRepairResult RepairManifold(const Triangulation<3>& triangulation,
-  std::span<LabelId> labels, const ManifoldRepairOptions& options = {}, unsigned threads = 1,
+template <int D>
+ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
+  std::span<LabelId> labels, const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
   const std::stop_token& stop = {});
+
+extern template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&,
+  std::span<LabelId>, const ManifoldRepairOptions<3>&, unsigned, const std::stop_token&);
+extern template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&,
+  std::span<LabelId>, const ManifoldRepairOptions<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RepairNeighbourhood.h
- * @brief Internal to ManifoldRepair: the surroundings of bad interface edges, before or after a
+ * @brief Internal to ManifoldRepair: the surroundings of bad interface ridges, before or after a
  * proposed change.
  */
 #ifndef voxplex_RepairNeighbourhood_h
@@ -24,9 +24,11 @@
 namespace voxplex::repair
 {
 
-using Edge = std::array<VertexId, 2>;
+/** The vertices of a ridge, ascending: an edge in 3D, a triangle in 4D. */
+template <int D>
+using Ridge = std::array<VertexId, static_cast<std::size_t>(D - 1)>;
 
-/** Gives some tetrahedra another label; 0 drops them. */
+/** Gives some simplices another label; 0 drops them. */
 struct Change
 {
   std::vector<SimplexId> Cells;
@@ -39,12 +41,13 @@ struct Change
 };
 
 //------------------------------------------------------------------------------------------------
-/** Access to the labelled tetrahedra of a triangulation by their vertices. */
+/** Access to the labelled simplices of a triangulation by their vertices. */
+template <int D>
 class Neighbourhood
 {
 public:
   /** @param onInterface for each vertex, whether it is on an interface before any change */
-  Neighbourhood(const Triangulation<3>& triangulation, std::span<const LabelId> labels,
+  Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
     std::vector<std::uint8_t> onInterface)
     : Source(triangulation)
     , Labels(labels)
@@ -52,13 +55,13 @@ public:
   {
   }
 
-  const std::array<VertexId, 4>& VerticesOf(SimplexId t) const
+  const std::array<VertexId, static_cast<std::size_t>(D + 1)>& VerticesOf(SimplexId t) const
   {
     return this->Source.GetSimplex(t).V;
   }
-  const Point<3>& Position(VertexId v) const { return this->Source.Position(v); }
+  const Point<D>& Position(VertexId v) const { return this->Source.Position(v); }
   bool IsOnInterface(VertexId v) const { return this->OnInterface[v] != 0; }
-  voxplex::Circumball<3> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
+  voxplex::Circumball<D> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
 
   /** The star of a vertex. Ascending, so that results do not depend on where a search begins. */
   const std::vector<SimplexId>& StarOf(VertexId v) const
@@ -77,14 +80,15 @@ public:
     return change && change->Touches(t) ? change->Label : this->Labels[t];
   }
 
-  /** The tetrahedra that have both vertices. */
-  std::vector<SimplexId> StarOf(const Edge& edge) const
+  /** The simplices that have all vertices of a ridge. */
+  std::vector<SimplexId> StarOf(const Ridge<D>& ridge) const
   {
     std::vector<SimplexId> star;
-    for (const SimplexId t : this->StarOf(edge[0]))
+    for (const SimplexId t : this->StarOf(ridge[0]))
     {
       const auto& v = this->VerticesOf(t);
-      if (std::find(v.begin(), v.end(), edge[1]) != v.end())
+      if (std::all_of(ridge.begin() + 1, ridge.end(),
+            [&v](VertexId x) { return std::find(v.begin(), v.end(), x) != v.end(); }))
       {
         star.push_back(t);
       }
@@ -92,7 +96,7 @@ public:
     return star;
   }
 
-  /** The tetrahedron beside facet i of t, or None. */
+  /** The simplex beside facet i of t, or None. */
   SimplexId Beside(SimplexId t, unsigned i) const { return this->Source.GetSimplex(t).N[i]; }
   LabelId LabelBeside(SimplexId t, unsigned i) const
   {
@@ -100,23 +104,23 @@ public:
     return beside == None ? LabelId{ 0 } : this->Labels[beside];
   }
 
-  /** Defects at an edge. */
+  /** Defects at a ridge. */
   struct State
   {
-    int Bad; ///< labels, except background, with boundary facets at the edge, but not exactly two
+    int Bad; ///< labels, except background, with boundary facets at the ridge, but not exactly two
     bool IsJunction; ///< three or more labels meet there
   };
-  /** @param t a tetrahedron at the edge; the time is linear in the number of those */
-  State StateOf(const Edge& edge, SimplexId t, const Change* change) const
+  /** @param t a simplex at the ridge; the time is linear in the number of those */
+  State StateOf(const Ridge<D>& ridge, SimplexId t, const Change* change) const
   {
     struct Count
     {
       LabelId Label;
       int Facets;
     };
-    constexpr std::size_t most = 8; // enough for nearly all edges; the list is searched linearly
+    constexpr std::size_t most = 8; // enough for nearly all ridges; the list is searched linearly
     boost::container::small_vector<Count, most> counts;
-    this->ForEachFacetAround(edge, t, change,
+    this->ForEachFacetAround(ridge, t, change,
       [&](LabelId a, LabelId b)
       {
         if (a == b)
@@ -135,24 +139,26 @@ public:
     return { static_cast<int>(bad), counts.size() > 2 };
   }
 
-  /** The weighted number of defects at an edge. A defect off junctions has a larger weight. */
-  int CountBad(const Edge& edge, SimplexId t, const Change* change) const
+  /** The weighted number of defects at a ridge. A defect off junctions has a larger weight. */
+  int CountBad(const Ridge<D>& ridge, SimplexId t, const Change* change) const
   {
-    const State state = this->StateOf(edge, t, change);
+    const State state = this->StateOf(ridge, t, change);
     return state.Bad * (state.IsJunction ? AtJunction : OffJunction);
   }
 
 private:
-  /** Calls visit with the labels on both sides of each facet at an edge of t. */
+  /** Calls visit with the labels on both sides of each facet at a ridge of t. */
   template <typename Visit>
-  void ForEachFacetAround(const Edge& edge, SimplexId t, const Change* change, Visit&& visit) const
+  void ForEachFacetAround(
+    const Ridge<D>& ridge, SimplexId t, const Change* change, Visit&& visit) const
   {
-    const auto isEnd = [&](VertexId v) { return v == edge[0] || v == edge[1]; };
+    const auto isOf = [&](VertexId v)
+    { return std::find(ridge.begin(), ridge.end(), v) != ridge.end(); };
     std::array<VertexId, 2> others;
     unsigned found = 0;
     for (const VertexId v : this->VerticesOf(t))
     {
-      if (!isEnd(v))
+      if (!isOf(v))
       {
         others[found++] = v;
       }
@@ -177,7 +183,7 @@ private:
         }
         const auto& w = this->VerticesOf(here);
         behind = std::exchange(ahead,
-          *std::find_if(w.begin(), w.end(), [&](VertexId x) { return !isEnd(x) && x != ahead; }));
+          *std::find_if(w.begin(), w.end(), [&](VertexId x) { return !isOf(x) && x != ahead; }));
         label = next;
       } while (here != t);
       if (here == t)
@@ -190,7 +196,7 @@ private:
   static constexpr int AtJunction = 2;
   static constexpr int OffJunction = 3;
 
-  const Triangulation<3>& Source;
+  const Triangulation<D>& Source;
   const std::span<const LabelId> Labels;       ///< by simplex id; the owner may change them
   const std::vector<std::uint8_t> OnInterface; ///< by vertex
   mutable std::unordered_map<VertexId, std::vector<SimplexId>>

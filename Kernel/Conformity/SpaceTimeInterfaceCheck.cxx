@@ -9,23 +9,46 @@ namespace voxplex
 
 SpaceTimeInterfaceCheck::SpaceTimeInterfaceCheck(const Triangulation<4>& mesh,
   const LabelImage<4>& image, const BitMask<4>& sites, const Domain<4>& surfaces,
-  const SizingField<4>& sizing, const InterfaceOptions& options, LocalDelta<4>& local,
-  InterfaceStatistics& statistics, double& seconds, unsigned threads, const std::stop_token& stop)
+  const SizingField<4>& sizing, const InterfaceOptions& options, bool mayRefine,
+  LocalDelta<4>& local, InterfaceStatistics& statistics, double& seconds, unsigned threads,
+  const std::stop_token& stop)
   : ConformityCheck(seconds)
-  , MostRounds(options.Rounds)
+  , Mesh(mesh)
+  , Repairs(options.Manifold)
+  , MostRounds(mayRefine ? options.Rounds : 0)
+  , Threads(threads)
+  , Stop(stop)
   , Statistics(statistics)
   , Vertices(mesh, surfaces, threads, stop)
   , Distances(image, sites, surfaces, sizing, local, threads, stop)
 {
+  this->RepairOptions.Surfaces = &surfaces;
+  this->RepairOptions.Sizing = &sizing;
 }
 
 Remedy<4> SpaceTimeInterfaceCheck::InspectTriangulation()
 {
-  if (this->Statistics.Rounds >= this->MostRounds)
+  const bool looks = this->Statistics.Rounds < this->MostRounds;
+  Remedy<4> remedy;
+  if (looks)
   {
-    return {};
+    remedy = this->Counted(this->Distances.InspectVertices(this->Vertices.Update()));
   }
-  std::vector<FeatureSeed<4>> points = this->Distances.InspectVertices(this->Vertices.Update());
+  if (!remedy.IsNeeded)
+  {
+    this->Made = MakeManifoldLabels(
+      this->Mesh, this->Repairs, this->RepairOptions, this->Statistics, this->Threads, this->Stop);
+    if (looks)
+    {
+      remedy = this->Counted(this->Distances.InspectLabels(this->Made.Gone, this->Made.Places));
+    }
+  }
+  return remedy;
+}
+
+/** Makes a remedy of these points. If there are any, counts a round. */
+Remedy<4> SpaceTimeInterfaceCheck::Counted(std::vector<FeatureSeed<4>> points)
+{
   this->Statistics.Rounds += points.empty() ? 0 : 1;
   this->Statistics.Seeds += points.size();
   return { !points.empty(), std::move(points) };

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SpaceTimeInterfaceCheck.h
- * @brief Checks that the interfaces of a refined space-time mesh match those of the image.
+ * @brief Checks that the interfaces of a refined space-time mesh match those of the image, and are
+ * manifold.
  */
 #ifndef voxplex_SpaceTimeInterfaceCheck_h
 #define voxplex_SpaceTimeInterfaceCheck_h
@@ -11,16 +12,22 @@
 #include "Conformity/ConformityOptions.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/InterfaceVertices.h"
+#include "Conformity/ManifoldLabels.h"
 #include "Conformity/UniformInterfaceCheck.h"
 
 #include <stop_token>
+#include <vector>
 
 namespace voxplex
 {
 
 /**
- * @brief Requests points where the image has an interface and no vertex of the mesh's interfaces is
- * near.
+ * @brief Gives pentatopes their labels, and requests points where the image has an interface and no
+ * vertex of the mesh's interfaces is near.
+ *
+ * Some pentatopes get another label, to make the boundary of a label manifold (RepairManifold).
+ * Triangles that are still not manifold are told, so that they can be opened (MakeSpindles) when
+ * vertices are where they stay.
  *
  * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
  */
@@ -29,21 +36,34 @@ class SpaceTimeInterfaceCheck final : public ConformityCheck<4>
 public:
   /**
    * All references must outlive the check.
+   * @param mayRefine whether points may be requested
    * @param sites surface voxels of the image
    * @param local receives the spacing of the points to be inserted, and bounds
-   * @param statistics counts rounds and points
+   * @param statistics counts rounds, points and triangles
    * @param threads 0 means all cores
    */
   SpaceTimeInterfaceCheck(const Triangulation<4>& mesh, const LabelImage<4>& image,
     const BitMask<4>& sites, const Domain<4>& surfaces, const SizingField<4>& sizing,
-    const InterfaceOptions& options, LocalDelta<4>& local, InterfaceStatistics& statistics,
-    double& seconds, unsigned threads, const std::stop_token& stop);
+    const InterfaceOptions& options, bool mayRefine, LocalDelta<4>& local,
+    InterfaceStatistics& statistics, double& seconds, unsigned threads,
+    const std::stop_token& stop);
 
   /** Requests no points once the number of rounds has reached the limit in the options. */
   Remedy<4> InspectTriangulation() override;
 
+  /** Valid if InspectTriangulation() requested nothing. */
+  const ManifoldLabels<4>& Labels() const { return this->Made; }
+
 private:
+  Remedy<4> Counted(std::vector<FeatureSeed<4>> points);
+
+  const Triangulation<4>& Mesh;
+  const bool Repairs; ///< whether boundaries are made manifold
   const unsigned MostRounds;
+  const unsigned Threads;
+  const std::stop_token Stop;
+  ManifoldRepairOptions<4> RepairOptions;
+  ManifoldLabels<4> Made;
   InterfaceStatistics& Statistics;
   InterfaceVertices<4> Vertices;
   UniformInterfaceCheck<4> Distances;

@@ -16,19 +16,19 @@ namespace voxplex
 {
 
 /**
- * The star of a vertex: all tetrahedra that have this vertex. The tetrahedron `from` comes first.
- * The time is quadratic in their number, which is about 24.
+ * The star of a vertex: all simplices that have this vertex. The simplex `from` comes first.
+ * The time is quadratic in their number, which is about 24 in 3D and 150 in 4D.
  *
- * @param from a tetrahedron of the star
+ * @param from a simplex of the star
  */
-inline std::vector<SimplexId> StarOf(
-  const Triangulation<3>& triangulation, VertexId v, SimplexId from)
+template <int D>
+std::vector<SimplexId> StarOf(const Triangulation<D>& triangulation, VertexId v, SimplexId from)
 {
   std::vector<SimplexId> star{ from };
   for (std::size_t k = 0; k < star.size(); ++k)
   {
     const auto& simplex = triangulation.GetSimplex(star[k]);
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i <= static_cast<unsigned>(D); ++i)
     {
       const SimplexId n = simplex.N[i];
       if (simplex.V[i] != v && n != None && std::find(star.begin(), star.end(), n) == star.end())

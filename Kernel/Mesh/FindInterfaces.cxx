@@ -21,15 +21,37 @@ namespace
 
 constexpr std::size_t Grain = 4096;
 
-/** The vertices of the face opposite to vertex i, counter-clockwise as seen from outside. */
-constexpr std::array<std::array<std::size_t, 3>, 4> FaceVertices{ { { 1, 2, 3 }, { 0, 3, 2 },
-  { 0, 1, 3 }, { 0, 2, 1 } } };
+/**
+ * The vertices of the face opposite to vertex i: ascending, and the last two exchanged if i is odd.
+ * In 3D this is counter-clockwise as seen from outside.
+ */
+template <int D>
+constexpr std::array<std::array<std::size_t, D>, D + 1> FindFaceVertices()
+{
+  std::array<std::array<std::size_t, D>, D + 1> vertices{};
+  for (std::size_t i = 0; i <= D; ++i)
+  {
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      vertices[i][k] = k + (k < i ? 0 : 1);
+    }
+    if (i % 2 == 1)
+    {
+      std::swap(vertices[i][D - 2], vertices[i][D - 1]);
+    }
+  }
+  return vertices;
+}
 
-/** A face of a tetrahedron: its points in increasing order, and where it comes from. */
+template <int D>
+constexpr std::array<std::array<std::size_t, D>, D + 1> FaceVertices = FindFaceVertices<D>();
+
+/** A face of a simplex: its points in increasing order, and where it comes from. */
+template <int D>
 struct Face
 {
-  std::array<std::uint32_t, 3> Points;
-  std::uint32_t Source; ///< 4 * tetrahedron + number of the face
+  std::array<std::uint32_t, static_cast<std::size_t>(D)> Points;
+  std::uint32_t Source; ///< (D + 1) * simplex + number of the face
 
   bool operator<(const Face& other) const
   {
@@ -37,25 +59,26 @@ struct Face
   }
 };
 
-std::vector<Face> ListFaces(
-  const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+template <int D>
+std::vector<Face<D>> ListFaces(
+  const SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
 {
-  std::vector<Face> faces(4 * mesh.Simplices.size());
+  std::vector<Face<D>> faces((D + 1) * mesh.Simplices.size());
   ParallelFor(
     0, mesh.Simplices.size(), Grain, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t s = first; s < last; ++s)
       {
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i <= D; ++i)
         {
-          Face& face = faces[4 * s + i];
-          for (std::size_t k = 0; k < 3; ++k)
+          Face<D>& face = faces[(D + 1) * s + i];
+          for (std::size_t k = 0; k < D; ++k)
           {
-            face.Points[k] = mesh.Simplices[s][FaceVertices[i][k]];
+            face.Points[k] = mesh.Simplices[s][FaceVertices<D>[i][k]];
           }
           std::sort(face.Points.begin(), face.Points.end());
-          face.Source = static_cast<std::uint32_t>(4 * s + i);
+          face.Source = static_cast<std::uint32_t>((D + 1) * s + i);
         }
       }
     },
@@ -66,13 +89,15 @@ std::vector<Face> ListFaces(
 /**
  * Sorts faces by their points: first by the smallest point, then, if it is the same, by the others.
  */
+template <int D>
 void SortFaces(
-  std::vector<Face>& faces, std::size_t points, unsigned threads, const std::stop_token& stop)
+  std::vector<Face<D>>& faces, std::size_t points, unsigned threads, const std::stop_token& stop)
 {
-  std::vector<Face> scratch(faces.size());
-  const std::span<Face> sorted = ParallelRadixSort(
-    std::span<Face>(faces), std::span<Face>(scratch), static_cast<unsigned>(std::bit_width(points)),
-    [](const Face& face) { return face.Points[0]; }, threads, stop);
+  std::vector<Face<D>> scratch(faces.size());
+  const std::span<Face<D>> sorted = ParallelRadixSort(
+    std::span<Face<D>>(faces), std::span<Face<D>>(scratch),
+    static_cast<unsigned>(std::bit_width(points)),
+    [](const Face<D>& face) { return face.Points[0]; }, threads, stop);
   if (sorted.data() != faces.data())
   {
     faces.swap(scratch);
@@ -105,19 +130,24 @@ void SortFaces(
 
 } // namespace
 
-std::uint64_t FindInterfaces(SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+template <int D>
+std::uint64_t FindInterfaces(SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
 {
-  std::vector<Face> faces = ListFaces(mesh, threads, stop);
+  std::vector<Face<D>> faces = ListFaces<D>(mesh, threads, stop);
   SortFaces(faces, mesh.Points.size(), threads, stop);
 
   mesh.Facets.clear();
   mesh.FacetLabels.clear();
   const auto add = [&mesh](std::uint32_t source, std::int64_t other)
   {
-    const std::array<std::uint32_t, 4>& simplex = mesh.Simplices[source / 4];
-    const std::array<std::size_t, 3>& face = FaceVertices[source % 4];
-    mesh.Facets.push_back({ simplex[face[0]], simplex[face[1]], simplex[face[2]] });
-    mesh.FacetLabels.push_back({ mesh.Labels[source / 4], other });
+    const auto& simplex = mesh.Simplices[source / (D + 1)];
+    const auto& face = FaceVertices<D>[source % (D + 1)];
+    auto& facet = mesh.Facets.emplace_back();
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      facet[k] = simplex[face[k]];
+    }
+    mesh.FacetLabels.push_back({ mesh.Labels[source / (D + 1)], other });
   };
   std::uint64_t shared = 0;
   for (std::size_t f = 0; f < faces.size();)
@@ -135,7 +165,7 @@ std::uint64_t FindInterfaces(SimplexMesh<3>& mesh, unsigned threads, const std::
     else if (end - f == 2)
     {
       const std::uint32_t two = faces[f + 1].Source;
-      const std::int64_t labels[2] = { mesh.Labels[one / 4], mesh.Labels[two / 4] };
+      const std::int64_t labels[2] = { mesh.Labels[one / (D + 1)], mesh.Labels[two / (D + 1)] };
       if (labels[0] != labels[1])
       {
         add(labels[0] > labels[1] ? one : two, std::min(labels[0], labels[1]));
@@ -149,5 +179,8 @@ std::uint64_t FindInterfaces(SimplexMesh<3>& mesh, unsigned threads, const std::
   }
   return shared;
 }
+
+template std::uint64_t FindInterfaces<3>(SimplexMesh<3>&, unsigned, const std::stop_token&);
+template std::uint64_t FindInterfaces<4>(SimplexMesh<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

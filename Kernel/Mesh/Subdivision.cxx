@@ -19,17 +19,17 @@ namespace voxplex
 namespace
 {
 
-using Corners = std::array<std::uint32_t, 4>;
-
-/** Changes a mesh in successive steps. Points that stay keep their order, and so do tetrahedra. */
+/** Changes a mesh in successive steps. Points that stay keep their order, and so do simplices. */
+template <int D>
 class Divider
 {
 public:
-  Divider(const Triangulation<3>& triangulation, const Domain<3>& domain,
-    const Subdivision& subdivision, SimplexMesh<3>& mesh)
+  Divider(const Triangulation<D>& triangulation, const Domain<D>& domain,
+    const Subdivision<D>& subdivision, const MovedVertices<D>& moved, SimplexMesh<D>& mesh)
     : Source(triangulation)
     , Image(domain)
     , Parts(subdivision)
+    , Moved(moved)
     , Mesh(mesh)
   {
   }
@@ -46,21 +46,28 @@ public:
   }
 
 private:
-  const Point<3>& Position(VertexId v) const
+  static constexpr unsigned N = D + 1;
+  using Corners = std::array<std::uint32_t, N>;
+
+  const Point<D>& Position(VertexId v) const
   {
     const VertexId end = this->Source.VertexIdEnd();
-    return v < end ? this->Source.Position(v) : this->Parts.Points[v - end];
+    if (v >= end)
+    {
+      return this->Parts.Points[v - end];
+    }
+    return this->Moved.Positions.empty() ? this->Source.Position(v) : this->Moved.Positions[v];
   }
 
-  std::uint64_t PlaceOf(const Point<3>& p) const
+  std::uint64_t PlaceOf(const Point<D>& p) const
   {
-    return HilbertIndex<3>(p, this->Source.GetBox());
+    return HilbertIndex<D>(p, this->Source.GetBox());
   }
 
   bool IsTouched(std::uint32_t point) const { return this->Touched[point] != 0; }
 
   /**
-   * Finds the points of the mesh that are vertices of replaced tetrahedra. No two points are at the
+   * Finds the points of the mesh that are vertices of replaced simplices. No two points are at the
    * same place.
    */
   void FindNumbers()
@@ -90,7 +97,7 @@ private:
     for (const SimplexId s : this->Parts.Replaced)
     {
       Corners corners;
-      for (unsigned i = 0; i < 4; ++i)
+      for (unsigned i = 0; i < N; ++i)
       {
         corners[i] = this->Numbers.at(this->Position(this->Source.GetSimplex(s).V[i]));
       }
@@ -116,6 +123,23 @@ private:
     this->Mesh.Labels.resize(kept);
   }
 
+  /** The points by whose places the mesh is sorted. */
+  std::vector<Point<D>> PointsBeforeMoving() const
+  {
+    std::vector<Point<D>> points(this->Mesh.Points.begin(), this->Mesh.Points.end());
+    if (!this->Moved.Positions.empty())
+    {
+      for (VertexId v = 0; v < this->Source.VertexIdEnd(); ++v)
+      {
+        if ((*this->Moved.Numbers)[v] != None)
+        {
+          points[(*this->Moved.Numbers)[v]] = this->Source.Position(v);
+        }
+      }
+    }
+    return points;
+  }
+
   /**
    * Inserts the points of pieces that the mesh lacks at their places along the curve, and renumbers
    * all points behind them.
@@ -123,24 +147,24 @@ private:
   void AddPoints()
   {
     // The value is the number of the point before which it is inserted.
-    std::map<std::pair<std::uint64_t, Point<3>>, std::size_t> added;
-    for (const Piece& piece : this->Parts.Pieces)
+    std::map<std::pair<std::uint64_t, Point<D>>, std::size_t> added;
+    const std::vector<Point<D>> sorted = this->PointsBeforeMoving();
+    for (const Piece<D>& piece : this->Parts.Pieces)
     {
       for (const VertexId v : piece.V)
       {
-        const Point<3>& p = this->Position(v);
+        const Point<D>& p = this->Position(v);
         if (piece.Label != 0 && this->Numbers.try_emplace(p, None).first->second == None)
         {
           const std::uint64_t place = this->PlaceOf(p);
-          const auto behind =
-            std::upper_bound(this->Mesh.Points.begin(), this->Mesh.Points.end(), place,
-              [this](std::uint64_t own, const Point<3>& other)
-              { return own < this->PlaceOf(other); });
-          added[{ place, p }] = static_cast<std::size_t>(behind - this->Mesh.Points.begin());
+          const auto behind = std::upper_bound(sorted.begin(), sorted.end(), place,
+            [this](std::uint64_t own, const Point<D>& other)
+            { return own < this->PlaceOf(other); });
+          added[{ place, p }] = static_cast<std::size_t>(behind - sorted.begin());
         }
       }
     }
-    UninitialisedVector<Point<3>> points;
+    UninitialisedVector<Point<D>> points;
     std::vector<std::uint8_t> touched;
     std::vector<std::uint32_t> numbers(this->Mesh.Points.size());
     points.reserve(this->Mesh.Points.size() + added.size());
@@ -168,6 +192,30 @@ private:
     this->Touched = std::move(touched);
     Renumber(numbers, this->Mesh.Simplices);
     Renumber(numbers, this->Mesh.Facets);
+    this->TellNumbers(numbers);
+  }
+
+  /** Tells the caller the new numbers of vertices, and those of new points. */
+  void TellNumbers(const std::vector<std::uint32_t>& renumbered)
+  {
+    if (!this->Moved.Numbers)
+    {
+      return;
+    }
+    UninitialisedVector<std::uint32_t>& numbers = *this->Moved.Numbers;
+    for (std::uint32_t& p : numbers)
+    {
+      p = p != None ? renumbered[p] : None;
+    }
+    numbers.resize(this->Source.VertexIdEnd() + this->Parts.Points.size());
+    for (const Piece<D>& piece : this->Parts.Pieces)
+    {
+      for (const VertexId v : piece.V)
+      {
+        const auto found = this->Numbers.find(this->Position(v));
+        numbers[v] = found != this->Numbers.end() ? found->second : None;
+      }
+    }
   }
 
   template <typename Cells>
@@ -182,7 +230,7 @@ private:
     }
   }
 
-  /** Inserts each piece behind the tetrahedra with the same smallest point. */
+  /** Inserts each piece behind the simplices with the same smallest point. */
   void AddPieces()
   {
     struct Added
@@ -192,12 +240,12 @@ private:
     };
     const auto smallest = [](const Corners& v) { return *std::min_element(v.begin(), v.end()); };
     std::vector<Added> added;
-    for (const Piece& piece : this->Parts.Pieces)
+    for (const Piece<D>& piece : this->Parts.Pieces)
     {
       if (piece.Label != 0)
       {
         Added one{ {}, this->Image.LabelValue(piece.Label) };
-        for (unsigned i = 0; i < 4; ++i)
+        for (unsigned i = 0; i < N; ++i)
         {
           one.V[i] = this->Numbers.at(this->Position(piece.V[i]));
         }
@@ -228,7 +276,7 @@ private:
     }
   }
 
-  /** A facet of a changed tetrahedron has touched points only. Such facets are found again. */
+  /** A facet of a changed simplex has touched points only. Such facets are found again. */
   void RenewFacets(unsigned threads, const std::stop_token& stop)
   {
     const auto touchedOf = [this](const auto& v)
@@ -236,21 +284,21 @@ private:
       return std::count_if(
         v.begin(), v.end(), [this](std::uint32_t p) { return this->IsTouched(p); });
     };
-    SimplexMesh<3> part;
+    SimplexMesh<D> part;
     part.Points = this->Mesh.Points;
     for (std::size_t t = 0; t < this->Mesh.Simplices.size(); ++t)
     {
-      if (touchedOf(this->Mesh.Simplices[t]) >= 3)
+      if (touchedOf(this->Mesh.Simplices[t]) >= D)
       {
         part.Simplices.push_back(this->Mesh.Simplices[t]);
         part.Labels.push_back(this->Mesh.Labels[t]);
       }
     }
-    FindInterfaces(part, threads, stop);
+    FindInterfaces<D>(part, threads, stop);
     std::size_t kept = 0;
     for (std::size_t f = 0; f < this->Mesh.Facets.size(); ++f)
     {
-      if (touchedOf(this->Mesh.Facets[f]) < 3)
+      if (touchedOf(this->Mesh.Facets[f]) < D)
       {
         this->Mesh.Facets[kept] = this->Mesh.Facets[f];
         this->Mesh.FacetLabels[kept] = this->Mesh.FacetLabels[f];
@@ -261,7 +309,7 @@ private:
     this->Mesh.FacetLabels.resize(kept);
     for (std::size_t f = 0; f < part.Facets.size(); ++f)
     {
-      if (touchedOf(part.Facets[f]) == 3)
+      if (touchedOf(part.Facets[f]) == D)
       {
         this->Mesh.Facets.push_back(part.Facets[f]);
         this->Mesh.FacetLabels.push_back(part.FacetLabels[f]);
@@ -269,24 +317,31 @@ private:
     }
   }
 
-  const Triangulation<3>& Source;
-  const Domain<3>& Image;
-  const Subdivision& Parts;
-  SimplexMesh<3>& Mesh;
-  std::map<Point<3>, std::uint32_t> Numbers; ///< in the mesh; None if the mesh lacks the point
-  std::vector<std::uint8_t> Touched; ///< by point: whether it is a vertex of a changed tetrahedron
+  const Triangulation<D>& Source;
+  const Domain<D>& Image;
+  const Subdivision<D>& Parts;
+  const MovedVertices<D>& Moved;
+  SimplexMesh<D>& Mesh;
+  std::map<Point<D>, std::uint32_t> Numbers; ///< in the mesh; None if the mesh lacks the point
+  std::vector<std::uint8_t> Touched; ///< by point: whether it is a vertex of a changed simplex
 };
 
 } // namespace
 
-void Subdivide(const Triangulation<3>& triangulation, const Domain<3>& domain,
-  const Subdivision& subdivision, SimplexMesh<3>& mesh, unsigned threads,
-  const std::stop_token& stop)
+template <int D>
+void Subdivide(const Triangulation<D>& triangulation, const Domain<D>& domain,
+  const Subdivision<D>& subdivision, SimplexMesh<D>& mesh, unsigned threads,
+  const std::stop_token& stop, const MovedVertices<D>& moved)
 {
   if (!subdivision.Replaced.empty())
   {
-    Divider(triangulation, domain, subdivision, mesh).Run(threads, stop);
+    Divider<D>(triangulation, domain, subdivision, moved, mesh).Run(threads, stop);
   }
 }
+
+template void Subdivide<3>(const Triangulation<3>&, const Domain<3>&, const Subdivision<3>&,
+  SimplexMesh<3>&, unsigned, const std::stop_token&, const MovedVertices<3>&);
+template void Subdivide<4>(const Triangulation<4>&, const Domain<4>&, const Subdivision<4>&,
+  SimplexMesh<4>&, unsigned, const std::stop_token&, const MovedVertices<4>&);
 
 } // namespace voxplex

@@ -3,8 +3,10 @@
 #include "Mesher/Dimension.h"
 
 #include "Base/Stopwatch.h"
+#include "Conformity/EdgeSpindles.h"
 #include "Junctions/JunctionSeeds.h"
 #include "Mesh/MeshExtraction.h"
+#include "Mesh/Subdivision.h"
 #include "Optimisation/InterfaceFit.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/PentatopeOptimiser.h"
@@ -158,7 +160,7 @@ Dimension<4>::Checks::Checks(
   , Sizing(context.Sizing)
   , MayRefine(MayBeRefined(run))
   , Interfaces(context.Mesh, run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
-      context.Sizing, run.Options.Interfaces, local, run.Statistics.Interfaces,
+      context.Sizing, run.Options.Interfaces, MayRefine, local, run.Statistics.Interfaces,
       run.Statistics.Times.Interfaces, run.Options.Team.Threads, run.Stop)
 {
   const auto start = [&](const std::optional<voxplex::Components<4>>& all,
@@ -202,10 +204,7 @@ std::vector<ConformityCheck<4>*> Dimension<4>::Checks::All()
   {
     all.push_back(&*this->OfFrames);
   }
-  if (this->MayRefine)
-  {
-    all.push_back(&this->Interfaces);
-  }
+  all.push_back(&this->Interfaces);
   return all;
 }
 
@@ -214,21 +213,29 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
   const MeshingOptions<4>& options = this->Run.Options;
   const Domain<4>& surfaces = *this->Run.Prepared.Surfaces;
   const unsigned threads = options.Team.Threads;
-  const SimplexLabels labels = LabelSimplices<4>(this->Source, surfaces, threads, this->Run.Stop);
+  const ManifoldLabels<4>& made = this->Interfaces.Labels();
+  const SizingField<4>* const sizing = this->Run.Prepared.Size ? &this->Sizing : nullptr;
   FittedPositions fitted;
   if (options.Interfaces.Fit)
   {
     const FitBounds bounds{ options.SpaceTime.Slivers.VolumeBound, options.Shape.RadiusEdgeRatio,
-      this->Run.Prepared.Size ? &this->Sizing : nullptr, this->Run.Prepared.OfDomain() };
-    fitted = FitInterfaces(this->Source, surfaces, labels, bounds, threads, this->Run.Stop);
+      sizing, this->Run.Prepared.OfDomain() };
+    fitted = FitInterfaces(this->Source, surfaces, made.Labels, bounds, threads, this->Run.Stop);
   }
   UninitialisedVector<std::uint32_t> numbers;
   ExtractMesh<4>(
-    this->Source, surfaces, labels, mesh, threads, this->Run.Stop, fitted.Positions, &numbers);
+    this->Source, surfaces, made.Labels, mesh, threads, this->Run.Stop, fitted.Positions, &numbers);
+
+  const SpindleResult<4> spindles = MakeSpindles<4>(this->Source, surfaces, made.Labels,
+    made.NonManifold, this->Run.Stop, { fitted.Positions, sizing });
+  this->Run.Statistics.Interfaces.CountOpened(made.NonManifold.size(), spindles.Left.size());
+  Subdivide<4>(this->Source, surfaces, spindles.Parts, mesh, threads, this->Run.Stop,
+    { fitted.Positions, &numbers });
   if (options.Optimisation.Run)
   {
-    this->Optimise(
-      mesh, SurroundingsOf(this->Source, labels, fitted.Positions, numbers, mesh.Points.size()));
+    this->Optimise(mesh,
+      SurroundingsOf(
+        this->Source, made.Labels, spindles.Parts, fitted.Positions, numbers, mesh.Points.size()));
   }
 }
 

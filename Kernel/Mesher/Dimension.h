@@ -129,8 +129,9 @@ struct Dimension<4>
     std::vector<ConformityCheck<4>*> All();
 
     /**
-     * Extracts the mesh. Moves interfaces to the right volumes and improves shapes, if the options
-     * request it: both need the pentatopes outside of the object, too.
+     * Extracts the mesh with the labels that the checks have found. Moves interfaces to the right
+     * volumes, opens triangles that are not manifold, and improves shapes, if the options request
+     * it: all need the pentatopes outside of the object, too.
      */
     void Extract(SimplexMesh<4>& mesh) const;
 

@@ -54,21 +54,24 @@ void ListUsers(std::size_t vertices, std::span<const CellVertices> cells,
 
 //------------------------------------------------------------------------------------------------
 Surroundings SurroundingsOf(const Triangulation<4>& triangulation, const SimplexLabels& labels,
-  std::span<const Point<4>> positions, std::span<const std::uint32_t> numbers, std::size_t points)
+  const Subdivision<4>& parts, std::span<const Point<4>> positions,
+  std::span<const std::uint32_t> numbers, std::size_t points)
 {
   Surroundings result;
   std::vector<std::uint32_t> all(numbers.begin(), numbers.end());
-  for (SimplexId s = 0; s < labels.size(); ++s)
+  const VertexId end = triangulation.VertexIdEnd();
+  const auto positionOf = [&](VertexId v)
   {
-    if (labels[s] != 0 || !triangulation.IsAlive(s))
-    {
-      continue;
-    }
-    const auto& vertices = triangulation.GetSimplex(s).V;
+    return v >= end       ? parts.Points[v - end]
+      : positions.empty() ? triangulation.Position(v)
+                          : positions[v];
+  };
+  const auto add = [&](const std::array<VertexId, 5>& vertices)
+  {
     if (std::all_of(
           vertices.begin(), vertices.end(), [&numbers](VertexId v) { return numbers[v] == None; }))
     {
-      continue;
+      return;
     }
     auto& simplex = result.Simplices.emplace_back();
     for (std::size_t k = 0; k < 5; ++k)
@@ -77,9 +80,28 @@ Surroundings SurroundingsOf(const Triangulation<4>& triangulation, const Simplex
       if (all[v] == None)
       {
         all[v] = static_cast<std::uint32_t>(points + result.Points.size());
-        result.Points.push_back(positions.empty() ? triangulation.Position(v) : positions[v]);
+        result.Points.push_back(positionOf(v));
       }
       simplex[k] = all[v];
+    }
+  };
+  auto replaced = parts.Replaced.begin(); // ascending
+  for (SimplexId s = 0; s < labels.size(); ++s)
+  {
+    if (replaced != parts.Replaced.end() && *replaced == s)
+    {
+      ++replaced;
+    }
+    else if (labels[s] == 0 && triangulation.IsAlive(s))
+    {
+      add(triangulation.GetSimplex(s).V);
+    }
+  }
+  for (const Piece<4>& piece : parts.Pieces)
+  {
+    if (piece.Label == 0)
+    {
+      add(piece.V);
     }
   }
   return result;

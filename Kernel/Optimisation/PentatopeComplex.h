@@ -13,6 +13,7 @@
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexLabels.h"
 #include "Mesh/SimplexMesh.h"
+#include "Mesh/Subdivision.h"
 #include "Sizing/SizingField.h"
 
 #include <array>
@@ -33,12 +34,15 @@ struct Surroundings
 
 /**
  * @param labels of each simplex id
+ * @param parts the pieces that replace some simplices
  * @param positions of each vertex id; empty: those of the triangulation
- * @param numbers the point of each vertex id, None if it is not in the mesh
+ * @param numbers the point of each vertex id, then of each point of the parts; None if it is not in
+ *   the mesh
  * @param points number of points of the mesh
  */
 Surroundings SurroundingsOf(const Triangulation<4>& triangulation, const SimplexLabels& labels,
-  std::span<const Point<4>> positions, std::span<const std::uint32_t> numbers, std::size_t points);
+  const Subdivision<4>& parts, std::span<const Point<4>> positions,
+  std::span<const std::uint32_t> numbers, std::size_t points);
 
 /** What one pentatope is worth. */
 struct PentatopeShape

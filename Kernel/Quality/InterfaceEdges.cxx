@@ -15,41 +15,50 @@ namespace
 /** The number of points whose lists a thread sorts at a time. */
 constexpr std::size_t Grain = 4096;
 
-/** Calls function(smaller end, larger end, facet) for the three edges of all facets. */
-template <typename Function>
-void ForEachEdgeOfFacets(std::span<const std::array<std::uint32_t, 3>> facets, Function&& function)
+/** Calls function(smallest vertex, the other vertices, facet) for the ridges of all facets. */
+template <int D, typename Function>
+void ForEachRidgeOfFacets(
+  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
+  Function&& function)
 {
   for (std::uint32_t f = 0; f < facets.size(); ++f)
   {
     const auto& v = facets[f];
-    for (unsigned i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < v.size(); ++i)
     {
-      const std::uint32_t next = v[(i + 1) % 3];
-      function(std::min(v[i], next), std::max(v[i], next), f);
+      std::array<std::uint32_t, static_cast<std::size_t>(D - 1)> ridge;
+      for (std::size_t k = 0; k < ridge.size(); ++k)
+      {
+        ridge[k] = v[(i + k) % v.size()];
+      }
+      std::sort(ridge.begin(), ridge.end());
+      RidgeUse<D> use{ {}, f };
+      std::copy(ridge.begin() + 1, ridge.end(), use.Others.begin());
+      function(ridge[0], use);
     }
   }
 }
 
 } // namespace
 
-InterfaceEdgeLists::InterfaceEdgeLists(std::span<const std::array<std::uint32_t, 3>> facets,
+template <int D>
+InterfaceRidgeLists<D>::InterfaceRidgeLists(
+  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
   std::size_t points, unsigned threads, const std::stop_token& stop)
   : Begins(points + 1, 0)
-  , Uses(3 * facets.size())
+  , Uses(static_cast<std::size_t>(D) * facets.size())
 {
-  ForEachEdgeOfFacets(
-    facets, [&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++this->Begins[low + 1]; });
+  ForEachRidgeOfFacets<D>(
+    facets, [&](std::uint32_t low, const RidgeUse<D>&) { ++this->Begins[low + 1]; });
   for (std::size_t v = 1; v < this->Begins.size(); ++v)
   {
     this->Begins[v] += this->Begins[v - 1];
   }
   std::vector<std::uint32_t> ends(this->Begins.begin(), this->Begins.end() - 1);
-  ForEachEdgeOfFacets(facets,
-    [&](std::uint32_t low, std::uint32_t high, std::uint32_t f) {
-      this->Uses[ends[low]++] = { high, f };
-    });
-  const auto before = [](const Use& a, const Use& b)
-  { return a.High < b.High || (a.High == b.High && a.Facet < b.Facet); };
+  ForEachRidgeOfFacets<D>(
+    facets, [&](std::uint32_t low, const RidgeUse<D>& use) { this->Uses[ends[low]++] = use; });
+  const auto before = [](const RidgeUse<D>& a, const RidgeUse<D>& b)
+  { return a.Others < b.Others || (a.Others == b.Others && a.Facet < b.Facet); };
   ParallelFor(
     0, points, Grain, threads,
     [&](std::size_t first, std::size_t last)
@@ -63,14 +72,11 @@ InterfaceEdgeLists::InterfaceEdgeLists(std::span<const std::array<std::uint32_t,
     stop);
 }
 
-std::span<const LabelAtEdge> LabelsAtEdge::Count(std::span<const InterfaceEdgeLists::Use> uses)
+template class InterfaceRidgeLists<3>;
+template class InterfaceRidgeLists<4>;
+
+std::span<const LabelAtRidge> LabelsAtRidge::CountSides()
 {
-  this->Sides.clear();
-  for (const InterfaceEdgeLists::Use& use : uses)
-  {
-    const auto& sides = this->Labels[use.Facet];
-    this->Sides.insert(this->Sides.end(), sides.begin(), sides.end());
-  }
   std::sort(this->Sides.begin(), this->Sides.end());
   this->Counts.clear();
   for (const std::int64_t label : this->Sides)
@@ -84,28 +90,36 @@ std::span<const LabelAtEdge> LabelsAtEdge::Count(std::span<const InterfaceEdgeLi
   return this->Counts;
 }
 
-std::vector<InterfaceEdge> FindNonManifoldEdges(
-  std::span<const std::array<std::uint32_t, 3>> facets,
+template <int D>
+std::vector<InterfaceRidge<D>> FindNonManifoldRidges(
+  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
   std::span<const std::array<std::int64_t, 2>> labels, std::size_t points, unsigned threads,
   const std::stop_token& stop)
 {
-  std::vector<InterfaceEdge> edges;
-  LabelsAtEdge around(labels);
-  const auto look = [&](const auto& ends, std::span<const InterfaceEdgeLists::Use> uses)
+  std::vector<InterfaceRidge<D>> ridges;
+  LabelsAtRidge around(labels);
+  const auto look = [&](const auto& vertices, std::span<const RidgeUse<D>> uses)
   {
-    if (uses.size() == 2) // most edges: both facets have the same two labels
+    if (uses.size() == 2) // most ridges: both facets have the same two labels
     {
       return;
     }
-    const std::span<const LabelAtEdge> here = around.Count(uses);
+    const std::span<const LabelAtRidge> here = around.Count(uses);
     if (!std::all_of(here.begin(), here.end(),
-          [](const LabelAtEdge& label) { return label.Label == 0 || IsManifold(label); }))
+          [](const LabelAtRidge& label) { return label.Label == 0 || IsManifold(label); }))
     {
-      edges.push_back({ ends, IsJunction(here) });
+      ridges.push_back({ vertices, IsJunction(here) });
     }
   };
-  InterfaceEdgeLists(facets, points, threads, stop).ForEachEdge(look);
-  return edges;
+  InterfaceRidgeLists<D>(facets, points, threads, stop).ForEachRidge(look);
+  return ridges;
 }
+
+template std::vector<InterfaceRidge<3>> FindNonManifoldRidges<3>(
+  std::span<const std::array<std::uint32_t, 3>>, std::span<const std::array<std::int64_t, 2>>,
+  std::size_t, unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<4>> FindNonManifoldRidges<4>(
+  std::span<const std::array<std::uint32_t, 4>>, std::span<const std::array<std::int64_t, 2>>,
+  std::size_t, unsigned, const std::stop_token&);
 
 } // namespace voxplex

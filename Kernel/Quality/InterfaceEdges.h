@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceEdges.h
- * @brief The edges of interfaces with their facets, and the edges at which the boundary of a label
+ * @brief The ridges of interfaces with their facets, and the ridges at which the boundary of a label
  * is not manifold.
  *
- * Repairs of a mesh use these lists. InterfaceTopology counts such edges, junctions and corners for
- * reports, from the same lists.
+ * A ridge is a face of D - 1 vertices: an edge in 3D, a triangle in 4D. Repairs of a mesh use these
+ * lists. InterfaceTopology counts such edges, junctions and corners of 3D meshes for reports, from
+ * the same lists.
  */
 #ifndef voxplex_InterfaceEdges_h
 #define voxplex_InterfaceEdges_h
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,114 +23,139 @@
 namespace voxplex
 {
 
+/** A ridge, listed at its smallest vertex, and a facet that has it. */
+template <int D>
+struct RidgeUse
+{
+  std::array<std::uint32_t, static_cast<std::size_t>(D - 2)> Others; ///< ascending
+  std::uint32_t Facet;
+};
+
 /**
- * @brief The edges of facets, each with the facets that share it.
+ * @brief The ridges of facets, each with the facets that share it.
  *
  * O(n) for n facets, if few facets share a point.
  */
-class InterfaceEdgeLists
+template <int D>
+class InterfaceRidgeLists
 {
 public:
-  /** An edge, listed at its smaller end, and a facet that has it. */
-  struct Use
-  {
-    std::uint32_t High;
-    std::uint32_t Facet;
-  };
+  using Ridge = std::array<std::uint32_t, static_cast<std::size_t>(D - 1)>;
 
   /**
-   * @param facets three point numbers each
+   * @param facets D point numbers each
    * @param points the number of points; all point numbers are smaller
    * @param threads used to sort; 0 means all cores
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  InterfaceEdgeLists(std::span<const std::array<std::uint32_t, 3>> facets, std::size_t points,
-    unsigned threads = 1, const std::stop_token& stop = {});
+  InterfaceRidgeLists(
+    std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
+    std::size_t points, unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * Calls visit(ends, uses) for each edge in the order of its ends. The ends are ascending point
-   * numbers. `uses` is a std::span<const Use>, in the order of the facets.
+   * Calls visit(ridge, uses) for each ridge in the order of its vertices, which are ascending point
+   * numbers. `uses` is a std::span<const RidgeUse<D>>, in the order of the facets.
    */
   template <typename Visit>
-  void ForEachEdge(Visit&& visit) const
+  void ForEachRidge(Visit&& visit) const
   {
     for (std::uint32_t low = 0; low + 1 < this->Begins.size(); ++low)
     {
       for (std::uint32_t first = this->Begins[low], last = first; first < this->Begins[low + 1];
            first = last)
       {
-        while (last < this->Begins[low + 1] && this->Uses[last].High == this->Uses[first].High)
+        const auto& others = this->Uses[first].Others;
+        while (last < this->Begins[low + 1] && this->Uses[last].Others == others)
         {
           ++last;
         }
-        visit(std::array<std::uint32_t, 2>{ low, this->Uses[first].High },
-          std::span<const Use>(this->Uses.data() + first, last - first));
+        Ridge ridge{ low };
+        std::copy(others.begin(), others.end(), ridge.begin() + 1);
+        visit(ridge, std::span<const RidgeUse<D>>(this->Uses.data() + first, last - first));
       }
     }
   }
 
 private:
   std::vector<std::uint32_t> Begins; ///< begin of the list of each point
-  std::vector<Use> Uses;
+  std::vector<RidgeUse<D>> Uses;
 };
 
-/** A label, and the number of facets at an edge that have it on one side. */
-struct LabelAtEdge
+extern template class InterfaceRidgeLists<3>;
+extern template class InterfaceRidgeLists<4>;
+
+/** A label, and the number of facets at a ridge that have it on one side. */
+struct LabelAtRidge
 {
   std::int64_t Label;
   std::uint32_t Facets;
 };
 
-/** The labels around an edge, ascending; background counts as one. */
-class LabelsAtEdge
+/** The labels around a ridge, ascending; background counts as one. */
+class LabelsAtRidge
 {
 public:
   /** @param labels the labels on both sides of each facet */
-  explicit LabelsAtEdge(std::span<const std::array<std::int64_t, 2>> labels)
+  explicit LabelsAtRidge(std::span<const std::array<std::int64_t, 2>> labels)
     : Labels(labels)
   {
   }
   /** @return valid until the next call */
-  std::span<const LabelAtEdge> Count(std::span<const InterfaceEdgeLists::Use> uses);
+  template <int D>
+  std::span<const LabelAtRidge> Count(std::span<const RidgeUse<D>> uses)
+  {
+    this->Sides.clear();
+    for (const RidgeUse<D>& use : uses)
+    {
+      const auto& sides = this->Labels[use.Facet];
+      this->Sides.insert(this->Sides.end(), sides.begin(), sides.end());
+    }
+    return this->CountSides();
+  }
 
 private:
+  std::span<const LabelAtRidge> CountSides();
+
   const std::span<const std::array<std::int64_t, 2>> Labels;
   std::vector<std::int64_t> Sides;
-  std::vector<LabelAtEdge> Counts;
+  std::vector<LabelAtRidge> Counts;
 };
 
 /** Whether three or more labels, including background, meet. */
-inline bool IsJunction(std::span<const LabelAtEdge> labels)
+inline bool IsJunction(std::span<const LabelAtRidge> labels)
 {
   return labels.size() > 2;
 }
 
-/** Whether the boundary of a label is manifold at an edge. */
-inline bool IsManifold(const LabelAtEdge& label)
+/** Whether the boundary of a label is manifold at a ridge. */
+inline bool IsManifold(const LabelAtRidge& label)
 {
   return label.Facets == 2;
 }
 
-/** An edge of an interface. */
-struct InterfaceEdge
+/** A ridge of an interface: an edge in 3D, a triangle in 4D. */
+template <int D>
+struct InterfaceRidge
 {
-  std::array<std::uint32_t, 2> Ends; ///< point numbers, ascending
+  std::array<std::uint32_t, static_cast<std::size_t>(D - 1)> Vertices; ///< ascending
   bool IsJunction;
 };
+using InterfaceEdge = InterfaceRidge<3>;
 
 /**
- * Edges at which the boundary of some label is not manifold: the number of its facets there is not
- * two. Background does not count. The edges are in the order of their ends. Takes time linear in
- * the numbers of points and facets.
+ * Ridges at which the boundary of some label is not manifold: the number of its facets there is not
+ * two. Background does not count. The ridges are in the order of their vertices. Takes time linear
+ * in the numbers of points and facets.
  *
- * @param facets three point numbers each
+ * @param facets D point numbers each
  * @param labels the labels on both sides of each facet
  * @param points the number of points; all point numbers are smaller
  * @param threads used for a part of the work; 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-std::vector<InterfaceEdge> FindNonManifoldEdges(
-  std::span<const std::array<std::uint32_t, 3>> facets,
+template <int D>
+std::vector<InterfaceRidge<D>> FindNonManifoldRidges(
+  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
   std::span<const std::array<std::int64_t, 2>> labels, std::size_t points, unsigned threads = 1,
   const std::stop_token& stop = {});
 

@@ -44,10 +44,10 @@ InterfaceTopology MeasureTopology(
   InterfaceTopology topology;
   std::map<std::int64_t, LabelTopology> labels;
   std::vector<PointJunction> points(mesh.Points.size());
-  LabelsAtEdge around(mesh.FacetLabels);
-  const auto addEdge = [&](const auto& ends, std::span<const InterfaceEdgeLists::Use> uses)
+  LabelsAtRidge around(mesh.FacetLabels);
+  const auto addEdge = [&](const auto& ends, std::span<const RidgeUse<3>> uses)
   {
-    const std::span<const LabelAtEdge> labelsHere = around.Count(uses);
+    const std::span<const LabelAtRidge> labelsHere = around.Count(uses);
     const bool isJunction = IsJunction(labelsHere);
     ++topology.InterfaceEdges;
     topology.JunctionEdges += isJunction;
@@ -55,7 +55,7 @@ InterfaceTopology MeasureTopology(
     {
       points[point].JunctionEdges += isJunction;
     }
-    for (const LabelAtEdge& label : labelsHere)
+    for (const LabelAtRidge& label : labelsHere)
     {
       for (const std::uint32_t point : ends)
       {
@@ -71,7 +71,7 @@ InterfaceTopology MeasureTopology(
       }
     }
   };
-  InterfaceEdgeLists(mesh.Facets, mesh.Points.size(), threads, stop).ForEachEdge(addEdge);
+  InterfaceRidgeLists<3>(mesh.Facets, mesh.Points.size(), threads, stop).ForEachRidge(addEdge);
   for (const PointJunction& point : points)
   {
     const bool isCorner = point.NumberOfLabels > 3;

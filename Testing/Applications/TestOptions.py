@@ -175,6 +175,21 @@ class Options(ProgramTestCase):
         self.assertGreater(edges[1], 0)
         self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
 
+    def test_manifold_in_space_time(self):
+        frames = np.random.RandomState(2).randint(0, 3, (5, 5, 5, 7)).astype(np.uint8)
+        images.write_space_time_nrrd(self.input, frames, images.Geometry())
+        figures = []
+        for arguments in ((), ("--no-manifold",)):
+            done = self.call("--input", self.input, "--threads", 1, "--delta", 1.6, "--smoothing", 0,
+                             "--stats", "statistics.json", *arguments)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            report = json.loads((self.folder / "statistics.json").read_text())
+            self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
+            figures.append(report["interfaces"])
+        self.assertEqual(figures[0]["nonmanifold_edges_left"], 0)
+        self.assertGreater(figures[0]["nonmanifold_edges_repaired"], 0)
+        self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
+
     def test_relative_and_absolute_names(self):
         (self.folder / "sub").mkdir()
         self.mesh("--input", "two.nrrd", "--delta", 3, "--output", "sub/mesh.vtu",

@@ -23,7 +23,6 @@ struct RunLimits
   double TimeFactor = 1.0;           ///< factor of the time limits by size
   double Seconds = 0.0;              ///< limit of processor time; 0: limit by size
   double OperationsPerVertex = 25.0; ///< more operations are a failure; 0: no limit
-  bool AllowNonManifold = false;
 };
 
 enum class CaseStatus

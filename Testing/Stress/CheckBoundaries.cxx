@@ -72,9 +72,10 @@ void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& 
     figures.NonManifold += end - i != 2 && ridges[i].Label != 0 ? 1 : 0;
     i = end;
   }
-  if (D == 3 && figures.NonManifold > 0 && subject.Of.Options.Interfaces.Manifold)
+  if (figures.NonManifold > 0 && subject.Of.Options.Interfaces.Manifold)
   {
-    findings.Add("non-manifold", std::to_string(figures.NonManifold) + " edges");
+    findings.Add(
+      "non-manifold", std::to_string(figures.NonManifold) + (D == 3 ? " edges" : " triangles"));
   }
 }
 

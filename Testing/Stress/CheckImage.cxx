@@ -108,9 +108,8 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
     }
   }
   const MeshingOptions<D>& options = subject.Of.Options;
-  const double tolerance = D == 3 && options.Optimisation.Run
-    ? OptimisationTolerance * SmallestSpacing(image)
-    : 0.0;
+  const double tolerance =
+    D == 3 && options.Optimisation.Run ? OptimisationTolerance * SmallestSpacing(image) : 0.0;
   const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
     (D == 4 && options.Interfaces.Fit ? MoveTolerance : 0.0) +
     (D == 4 && options.Optimisation.Run ? MoveTolerance : 0.0);

@@ -44,20 +44,21 @@ struct Subject
   }
 
   /**
-   * Number of pieces of tetrahedra, or new vertices, around an opened edge that may break a bound.
+   * Number of pieces of simplices, or new vertices, around an opened ridge that may break a bound. A
+   * tetrahedron is cut in at most 5 pieces, a pentatope in 7.
    */
-  static constexpr std::uint64_t PiecesOfAnEdge = 40;
+  static constexpr std::uint64_t PiecesOfARidge = D == 3 ? 40 : 56;
 
   /**
    * The number of elements that may break a bound: operations that refinement did not do, and
-   * pieces around opened edges. If rules gave way, all elements may.
+   * pieces around opened ridges. If rules gave way, all elements may.
    */
   std::uint64_t Excused() const
   {
     const RuleStatistics& rules = this->Stats.Rules;
     return this->Stats.Yielding.empty()
       ? rules.RefusedTooClose + rules.RefusedNoConflict + rules.RefusedDuplicate +
-        rules.RemovalsFailed + PiecesOfAnEdge * this->Stats.Interfaces.NonManifoldOpened
+        rules.RemovalsFailed + PiecesOfARidge * this->Stats.Interfaces.NonManifoldOpened
       : this->Mesh.Simplices.size() * (D + 1);
   }
 };
@@ -107,7 +108,7 @@ void CheckAgainstImage(const Subject<D>& subject, Findings& findings);
 template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 
-/** Boundaries of labels: closed, and in 3D manifold at their edges. */
+/** Boundaries of labels: closed, and manifold at their edges (4D: triangles) if that is asked for. */
 template <int D>
 void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 

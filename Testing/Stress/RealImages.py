@@ -99,8 +99,6 @@ def mesh_and_check(arguments, path, image, factor, folder):
         return Outcome(path.name, delta, f"refused: {message[:80]}", seconds)
     figures, faults = CheckMeshFile.check(image, mesh)
     mesh.unlink()
-    if arguments.allow_non_manifold:
-        faults = [fault for fault in faults if not fault.startswith("non-manifold")]
     return Outcome(path.name, delta, "FAILED: " + "; ".join(faults) if faults else "passed", seconds,
                    figures["elements"], figures)
 
@@ -122,7 +120,6 @@ def main():
     parser.add_argument("--time-factor", type=float, default=1.0, help="multiplies the limits of time")
     parser.add_argument("--memory", type=float, default=12.0, help="address space of the program, GiB")
     parser.add_argument("--most-elements", type=float, default=6e6, help="leave out what is expected to have more")
-    parser.add_argument("--allow-non-manifold", action="store_true")
     parser.add_argument("flags", nargs="*", help="further flags of voxplex, after --")
     arguments = parser.parse_args()
 

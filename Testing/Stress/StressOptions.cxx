@@ -29,7 +29,6 @@ independent of the kernel. The same dimension, seed and number give the same cas
   --reduce                with --case: makes it smaller as long as it fails for the same cause, and describes it
   --reduce-seconds NUMBER time for --reduce (default 300)
   --in-process            with --case: runs it in this process, for a debugger
-  --allow-non-manifold    edges that are not manifold are counted but do not fail a case
   --work-limit NUMBER     more insertions and removals for each vertex fail a case (default 25; 0: no limit)
   --time-limit SECONDS    processor time for each case (default: depends on its size)
   --time-factor FACTOR    multiplies the limits by size (for sanitizers)
@@ -110,7 +109,6 @@ StressOptions ReadStressOptions(int argc, char** argv)
     { "--fresh", [&] { o.Seed = FirstFreshSeed + std::random_device{}(); } },
     { "--reduce", [&] { o.IsReduced = true; } },
     { "--in-process", [&] { o.InProcess = true; } },
-    { "--allow-non-manifold", [&] { o.Limits.AllowNonManifold = true; } },
     { "--help", [&] { o.Help = true; } },
   };
   for (int i = 1; i < argc; ++i)

@@ -281,8 +281,42 @@ TEST(StressChecks, FindEdgesThatAreNotManifold)
     });
 }
 
+TEST(StressChecks, FindTrianglesThatAreNotManifold)
+{
+  ExpectFound<4>("non-manifold",
+    [](Meshed<4>& m)
+    {
+      // Two pentatopes of a label that share only a triangle.
+      m.Mesh = {};
+      for (const Point<4>& p : { Point<4>{ 0, 0, 0, 0 }, Point<4>{ 1, 0, 0, 0 },
+             Point<4>{ 0, 1, 0, 0 }, Point<4>{ 0, 0, 1, 0 }, Point<4>{ 0, 0, 0, 1 },
+             Point<4>{ 0, 0, -1, 0 }, Point<4>{ 0, 0, 0, -1 } })
+      {
+        m.Mesh.Points.push_back(p);
+      }
+      m.Mesh.Simplices = { { 0, 1, 2, 3, 4 }, { 0, 1, 2, 5, 6 } };
+      m.Mesh.Labels = { 3, 3 };
+      for (const auto& s : m.Mesh.Simplices)
+      {
+        for (const auto& f : { std::array{ s[1], s[2], s[3], s[4] },
+               std::array{ s[0], s[2], s[4], s[3] }, std::array{ s[0], s[1], s[3], s[4] },
+               std::array{ s[0], s[1], s[4], s[2] }, std::array{ s[0], s[1], s[2], s[3] } })
+        {
+          m.Mesh.Facets.push_back(f);
+          m.Mesh.FacetLabels.push_back({ 3, 0 });
+        }
+      }
+      EXPECT_FALSE(m.Check().Has("facets"));
+      EXPECT_FALSE(m.Check().Has("orientation"));
+      m.Of.Options.Interfaces.Manifold = false;
+      EXPECT_FALSE(m.Check().Has("non-manifold"));
+      m.Of.Options.Interfaces.Manifold = true;
+    });
+}
+
 TEST(StressChecks, FindWrongStatistics)
 {
+  ExpectFound<4>("statistics", [](Meshed<4>& m) { m.Stats.Interfaces.NonManifoldLeft = 1; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Delta = 2.0; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Rules.Fired = {}; });
   ExpectFound<3>("statistics", [](Meshed<3>& m) { m.Stats.Interfaces.NonManifoldLeft = 1; });

@@ -61,8 +61,8 @@ struct Opened
     ExtractMesh<3>(triangulation, domain, labels, this->Before, threads);
     this->After = this->Before;
     this->Edges = BadEdgesOf(triangulation, this->Before);
-    this->Result = MakeSpindles(triangulation, domain, labels, this->Edges);
-    Subdivide(triangulation, domain, this->Result.Parts, this->After, threads);
+    this->Result = MakeSpindles<3>(triangulation, domain, labels, this->Edges);
+    Subdivide<3>(triangulation, domain, this->Result.Parts, this->After, threads);
   }
 
   /** Checks what must hold with all labels. */
@@ -84,7 +84,7 @@ struct Opened
   }
 
   std::vector<InterfaceEdge> Edges;
-  SpindleResult Result;
+  SpindleResult<3> Result;
   SimplexMesh<3> Before;
   SimplexMesh<3> After;
 };
@@ -228,7 +228,7 @@ TEST(EdgeSpindles, LeaveSomethingOfEachTetrahedron)
     return SignedVolume<3>(points.data());
   };
   // Pieces come in the order of what they replace, and fill it.
-  const Subdivision& parts = opened.Result.Parts;
+  const Subdivision<3>& parts = opened.Result.Parts;
   ASSERT_GT(parts.Replaced.size(), 100u);
   EXPECT_TRUE(std::is_sorted(parts.Replaced.begin(), parts.Replaced.end()));
   std::size_t next = 0;
@@ -347,7 +347,7 @@ TEST(EdgeSpindles, StopOnRequest)
   stop.request_stop();
   const std::vector<InterfaceEdge> edges = BadEdgesOf(*ring.Source, ring.Extract());
   EXPECT_THROW(
-    MakeSpindles(*ring.Source, PlainLabels(), ring.Labels, edges, stop.get_token()), Cancelled);
+    MakeSpindles<3>(*ring.Source, PlainLabels(), ring.Labels, edges, stop.get_token()), Cancelled);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -78,7 +78,7 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         return mesh;
       };
       const bool wasFar = HasFarFaces(image, extract(), delta);
-      const ManifoldRepairResult repair = RepairManifold(context.Mesh, labels);
+      const ManifoldRepairResult<3> repair = RepairManifold<3>(context.Mesh, labels);
       const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(), delta);

@@ -29,10 +29,10 @@ struct RefinedBlobs
     , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
   {
   }
-  ManifoldRepairResult Repair(
-    const ManifoldRepairOptions& options, unsigned threads = 1, const std::stop_token& stop = {})
+  ManifoldRepairResult<3> Repair(
+    const ManifoldRepairOptions<3>& options, unsigned threads = 1, const std::stop_token& stop = {})
   {
-    return RepairManifold(this->Context->Mesh, this->Labels, options, threads, stop);
+    return RepairManifold<3>(this->Context->Mesh, this->Labels, options, threads, stop);
   }
   SimplexMesh<3> Extract() const
   {
@@ -79,7 +79,7 @@ TEST(InterfaceEdges, AreFoundByTheirLabels)
   EXPECT_TRUE(NonManifoldEdges(Ring({ 1, 1, 2, 2 })).empty());
   const auto alternating = NonManifoldEdges(Ring({ 1, 2, 1, 2 }));
   ASSERT_EQ(alternating.size(), 1u);
-  EXPECT_EQ(alternating[0].Ends, (std::array<std::uint32_t, 2>{ 0, 1 }));
+  EXPECT_EQ(alternating[0].Vertices, (std::array<std::uint32_t, 2>{ 0, 1 }));
   EXPECT_FALSE(alternating[0].IsJunction);
   const auto junction = NonManifoldEdges(Ring({ 1, 2, 1, 3 }));
   ASSERT_EQ(junction.size(), 1u);
@@ -95,7 +95,7 @@ TEST(InterfaceEdges, AgreeWithCountingByLabel)
   std::set<std::array<std::uint32_t, 2>> found;
   for (const InterfaceEdge& edge : NonManifoldEdges(mesh))
   {
-    found.insert(edge.Ends);
+    found.insert(edge.Vertices);
   }
   EXPECT_GT(found.size(), 3u);
   EXPECT_EQ(found, BadEdges(mesh));
@@ -107,7 +107,7 @@ TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
   Triangulated ring(Ring({ 1, 2, 1, 2 }));
   const SimplexLabels before = ring.Labels;
   ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 1u);
   EXPECT_TRUE(result.Left.empty());
   ASSERT_EQ(result.Relabelled.size(), 1u);
@@ -125,7 +125,7 @@ TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
 TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
 {
   Triangulated ring(Ring({ 1, 1, 0, 1, 0 }));
-  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 1u);
   EXPECT_TRUE(result.Left.empty());
   const SimplexMesh<3> mesh = ring.Extract();
@@ -141,16 +141,16 @@ TEST(ManifoldRepair, MakesNoSharpFacets)
   Triangulated ring(SharpRing());
   ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
   const SimplexLabels before = ring.Labels;
-  ManifoldRepairOptions options;
+  ManifoldRepairOptions<3> options;
   options.Shape.FacetAngle = 26.0;
   options.Shape.JunctionFacetAngle = 26.0;
-  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
   EXPECT_EQ(result.Left.size(), 1u);
   EXPECT_TRUE(result.Relabelled.empty());
   EXPECT_EQ(ring.Labels, before);
   options.Shape.FacetAngle = 20.0;
   options.Shape.JunctionFacetAngle = 20.0;
-  const ManifoldRepairResult other = RepairManifold(*ring.Source, ring.Labels, options);
+  const ManifoldRepairResult<3> other = RepairManifold<3>(*ring.Source, ring.Labels, options);
   EXPECT_TRUE(other.Left.empty());
   ASSERT_EQ(other.Relabelled.size(), 1u);
   EXPECT_EQ(before[other.Relabelled[0]], 1); // a wide one stays
@@ -160,7 +160,7 @@ TEST(ManifoldRepair, MakesNoSharpFacets)
 // Off junctions new facets have larger angles than at them.
 TEST(ManifoldRepair, MakesSharpFacetsAtJunctionsOnly)
 {
-  ManifoldRepairOptions options;
+  ManifoldRepairOptions<3> options;
   options.Shape.FacetAngle = 45.0;
   options.Shape.JunctionFacetAngle = 20.0;
   std::size_t sharp = 0;
@@ -214,10 +214,10 @@ TEST(ManifoldRepair, LosesNoLabel)
   RingShape shape;
   shape.Degrees = { 110.0, 30.0, 110.0, 110.0 };
   Triangulated ring(Ring({ 1, 2, 1, 3 }, shape));
-  ManifoldRepairOptions options; // no angle stands in the way
+  ManifoldRepairOptions<3> options; // no angle stands in the way
   options.Shape.FacetAngle = 0.0;
   options.Shape.JunctionFacetAngle = 0.0;
-  EXPECT_TRUE(RepairManifold(*ring.Source, ring.Labels, options).Left.empty());
+  EXPECT_TRUE(RepairManifold<3>(*ring.Source, ring.Labels, options).Left.empty());
   const SimplexMesh<3> mesh = ring.Extract();
   EXPECT_TRUE(checks::Complaints(mesh).empty());
   const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
@@ -230,7 +230,7 @@ TEST(ManifoldRepair, BringsNoInterfaceToInnerVertices)
 {
   RingShape shape;
   shape.Degrees = { 15.0, 15.0, 110.0, 110.0, 110.0 };
-  ManifoldRepairOptions options; // no angle stands in the way
+  ManifoldRepairOptions<3> options; // no angle stands in the way
   options.Shape.FacetAngle = 0.0;
   options.Shape.JunctionFacetAngle = 0.0;
   for (const bool enclosed : { false, true })
@@ -238,7 +238,7 @@ TEST(ManifoldRepair, BringsNoInterfaceToInnerVertices)
     shape.Inner = enclosed ? 1 : 0;
     Triangulated ring(Ring({ 1, 1, 2, 1, 2 }, shape));
     ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-    const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+    const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
     EXPECT_TRUE(result.Left.empty());
     EXPECT_TRUE(checks::Complaints(ring.Extract()).empty());
     EXPECT_EQ(result.Relabelled.size(), enclosed ? 1u : 2u);
@@ -257,7 +257,7 @@ TEST(ManifoldRepair, LeavesAGoodMeshAlone)
 {
   Triangulated ring(Ring({ 1, 1, 2, 3 }));
   const SimplexLabels before = ring.Labels;
-  const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels);
+  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 0u);
   EXPECT_TRUE(result.Relabelled.empty());
   EXPECT_EQ(ring.Labels, before);
@@ -271,7 +271,7 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
   const ImageDomain<3> domain(image, 1.0);
   RingShape shape;
   shape.Degrees = { 60.0, 60.0, 60.0, 180.0 };
-  ManifoldRepairOptions options;
+  ManifoldRepairOptions<3> options;
   for (const bool cut : { false, true })
   {
     options.Surfaces = cut ? &domain : nullptr;
@@ -286,7 +286,7 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
       const std::size_t tetrahedra = mesh.Simplices.size();
       Triangulated ring(mesh);
       ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-      const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+      const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
       EXPECT_EQ(result.Before, 1u);
       EXPECT_TRUE(result.Left.empty());
       mesh = ring.Extract();
@@ -324,10 +324,10 @@ TEST(ManifoldRepair, MakesNoElementLargerThanItsNewLabelAllows)
     const SizeOfLabelTwo sizes(size);
     const SizingField<3> sizing(domain, { .Base = { 0.1 }, .Size = &sizes });
     Triangulated ring(Ring({ 1, 2, 1, 2 }));
-    ManifoldRepairOptions options;
+    ManifoldRepairOptions<3> options;
     options.Surfaces = &domain;
     options.Sizing = &sizing;
-    const ManifoldRepairResult result = RepairManifold(*ring.Source, ring.Labels, options);
+    const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
     EXPECT_TRUE(result.Left.empty());
     ASSERT_EQ(result.Relabelled.size(), 1u);
     EXPECT_EQ(ring.Labels[result.Relabelled[0]], size < 1.0 ? 1 : 2);
@@ -343,7 +343,7 @@ TEST(ManifoldRepair, TakesNoJunctionFromASharpFacet)
   {
     RefinedBlobs blobs(seed);
     const auto before = SharpFacetsOffJunctions(blobs.Extract(), bound);
-    const ManifoldRepairResult result =
+    const ManifoldRepairResult<3> result =
       blobs.Repair({ .Shape = { .FacetAngle = bound, .JunctionFacetAngle = 10.0 } });
     repaired += result.Relabelled.size();
     for (const auto& facet : SharpFacetsOffJunctions(blobs.Extract(), bound))
@@ -363,7 +363,7 @@ TEST(ManifoldRepair, MendsRealMeshes)
     const std::map<std::int64_t, double> volumes = checks::Volumes(first);
     const std::size_t before = BadEdges(first).size();
     double smallest = 180.0;
-    const ManifoldRepairResult result = blobs.Repair({});
+    const ManifoldRepairResult<3> result = blobs.Repair({});
     const SimplexMesh<3> mesh = blobs.Extract();
     EXPECT_EQ(result.Before, before);
     EXPECT_EQ(result.Left.size(), BadEdges(mesh).size());
@@ -389,19 +389,21 @@ TEST(ManifoldRepair, TellsWhatIsLeft)
     {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", angle " << angle);
       RefinedBlobs blobs(seed);
-      const ManifoldRepairResult result =
+      const ManifoldRepairResult<3> result =
         blobs.Repair({ .Shape = { .FacetAngle = angle, .JunctionFacetAngle = angle } });
       std::map<Ends, bool> found;
       for (const InterfaceEdge& edge : result.Left)
       {
-        found[{ blobs.Position(edge.Ends[0]), blobs.Position(edge.Ends[1]) }] = edge.IsJunction;
+        found[{ blobs.Position(edge.Vertices[0]), blobs.Position(edge.Vertices[1]) }] =
+          edge.IsJunction;
       }
       EXPECT_EQ(found.size(), result.Left.size());
       const SimplexMesh<3> mesh = blobs.Extract();
       std::map<Ends, bool> expected;
       for (const InterfaceEdge& edge : NonManifoldEdges(mesh))
       {
-        expected[{ mesh.Points[edge.Ends[0]], mesh.Points[edge.Ends[1]] }] = edge.IsJunction;
+        expected[{ mesh.Points[edge.Vertices[0]], mesh.Points[edge.Vertices[1]] }] =
+          edge.IsJunction;
       }
       EXPECT_EQ(found, expected);
       left += result.Before > result.Left.size() ? result.Left.size() : 0;

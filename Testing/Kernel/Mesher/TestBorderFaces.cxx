@@ -549,9 +549,9 @@ TEST(BorderFaces, GetNoDentsInRepair)
     for (const bool cut : { false, true })
     {
       SimplexLabels repaired = labels;
-      ManifoldRepairOptions repair;
+      ManifoldRepairOptions<3> repair;
       repair.Surfaces = cut ? &domain : nullptr;
-      const ManifoldRepairResult result = RepairManifold(context->Mesh, repaired, repair);
+      const ManifoldRepairResult<3> result = RepairManifold<3>(context->Mesh, repaired, repair);
       EXPECT_GT(result.Before, 0u);
       EXPECT_TRUE(result.Left.empty());
       EXPECT_EQ(lostArea(raw, extract(repaired)) < 1e-9, cut) << delta;

@@ -329,7 +329,7 @@ public:
 /** Those of a mesh. */
 inline std::vector<InterfaceEdge> NonManifoldEdges(const SimplexMesh<3>& mesh)
 {
-  return FindNonManifoldEdges(mesh.Facets, mesh.FacetLabels, mesh.Points.size());
+  return FindNonManifoldRidges<3>(mesh.Facets, mesh.FacetLabels, mesh.Points.size());
 }
 
 } // namespace voxplex::checks

@@ -93,11 +93,13 @@ inline bool IsSphere(const std::vector<Triangle>& triangles)
 /** What keeps boundaries from being 3-manifolds. */
 struct ManifoldDefects
 {
-  std::size_t Triangles = 0; ///< of a label's boundary, in more or less than two of its tetrahedra
-  std::size_t Vertices = 0;  ///< whose link in a label's boundary is no sphere
+  /** Triangles of the boundary of a label, not background, in more or less than two of its tetrahedra. */
+  std::size_t Triangles = 0;
+  /** Vertices away from junctions whose link in a label's boundary is no sphere. */
+  std::size_t Vertices = 0;
 };
 
-/** Boundaries of all labels, away from junctions. */
+/** Boundaries of all labels. */
 inline ManifoldDefects FindManifoldDefects(const SimplexMesh<4>& mesh)
 {
   const std::vector<char> junctions = Junctions(mesh);
@@ -106,8 +108,7 @@ inline ManifoldDefects FindManifoldDefects(const SimplexMesh<4>& mesh)
   {
     for (const auto& [t, count] : triangles)
     {
-      const bool atJunction = junctions[t[0]] || junctions[t[1]] || junctions[t[2]];
-      defects.Triangles += count != 2 && !atJunction ? 1 : 0;
+      defects.Triangles += count != 2 && label != 0 ? 1 : 0;
     }
     std::map<std::uint32_t, std::vector<Triangle>> links;
     for (const Tetrahedron& t : BoundaryOf(mesh, label))

@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Boundaries of labels in space-time are 3-manifolds at all triangles, on any labels, also where the mesh ends flat.
+#include "CallableSize.h"
+#include "Conformity/EdgeSpindles.h"
+#include "Conformity/ManifoldLabels.h"
+#include "MeshChecks.h"
+#include "Refinement/Rules4D.h"
+#include "RefinementChecks.h"
+#include "SpaceTimeCases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <set>
+#include <string>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+/** A ball whose simplices may have any label. */
+class AnyLabels final : public BallDomainOf<4>
+{
+public:
+  using BallDomainOf<4>::BallDomainOf;
+  std::int64_t LabelValue(LabelId id) const override { return id; }
+};
+
+/** Labels of the simplices of an object, at random. */
+SimplexLabels Shuffled(
+  const SimplexLabels& object, unsigned seed, unsigned number, bool withBackground)
+{
+  std::mt19937 random(seed);
+  SimplexLabels labels = object;
+  for (LabelId& label : labels)
+  {
+    const auto drawn = static_cast<LabelId>(random() % (number + (withBackground ? 1 : 0)));
+    label = label == 0 ? LabelId{ 0 } : static_cast<LabelId>(drawn + (withBackground ? 0 : 1));
+  }
+  return labels;
+}
+
+double TotalVolume(const SimplexMesh<4>& mesh)
+{
+  double volume = 0.0;
+  for (const auto& [label, part] : Volumes(mesh))
+  {
+    volume += part;
+  }
+  return volume;
+}
+
+/** The triangles that are not manifold, of all labels. */
+std::vector<InterfaceRidge<4>> BadTriangles(const SimplexMesh<4>& mesh)
+{
+  return FindNonManifoldRidges<4>(mesh.Facets, mesh.FacetLabels, mesh.Points.size());
+}
+
+/** The bad triangles of a triangulation, with vertex ids. */
+std::vector<InterfaceRidge<4>> BadTriangles(
+  const SimplexMesh<4>& mesh, const UninitialisedVector<std::uint32_t>& numbers)
+{
+  std::vector<VertexId> vertexOf(mesh.Points.size());
+  for (VertexId v = 0; v < numbers.size(); ++v)
+  {
+    if (numbers[v] != None)
+    {
+      vertexOf[numbers[v]] = v;
+    }
+  }
+  std::vector<InterfaceRidge<4>> bad = BadTriangles(mesh);
+  for (InterfaceRidge<4>& triangle : bad)
+  {
+    for (std::uint32_t& v : triangle.Vertices)
+    {
+      v = vertexOf[v];
+    }
+    std::sort(triangle.Vertices.begin(), triangle.Vertices.end());
+  }
+  return bad;
+}
+
+/** A mesh before its triangles are opened, and after. */
+struct Opened
+{
+  Opened(const Triangulation<4>& triangulation, const Domain<4>& domain,
+    const SimplexLabels& labels, unsigned threads = 1)
+  {
+    ExtractMesh<4>(triangulation, domain, labels, this->Before, threads, {}, {}, &this->Numbers);
+    this->After = this->Before;
+    this->Triangles = BadTriangles(this->Before, this->Numbers);
+    this->Result = MakeSpindles<4>(triangulation, domain, labels, this->Triangles);
+    Subdivide<4>(
+      triangulation, domain, this->Result.Parts, this->After, threads, {}, { {}, &this->Numbers });
+  }
+
+  void Check() const
+  {
+    EXPECT_TRUE(this->Result.Left.empty());
+    EXPECT_TRUE(BadTriangles(this->After).empty());
+    EXPECT_EQ(FindManifoldDefects(this->After).Triangles, 0u); // code of its own
+    const std::vector<std::string> complaints = Complaints(this->After);
+    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    const std::set<std::int64_t> labels(this->Before.Labels.begin(), this->Before.Labels.end());
+    EXPECT_EQ(std::set<std::int64_t>(this->After.Labels.begin(), this->After.Labels.end()), labels);
+    for (std::size_t v = 0; v < this->Numbers.size(); ++v)
+    {
+      ASSERT_TRUE(this->Numbers[v] == None || this->Numbers[v] < this->After.Points.size());
+    }
+    const std::set<Point<4>> points(this->After.Points.begin(), this->After.Points.end());
+    EXPECT_EQ(points.size(), this->After.Points.size());
+    for (const Point<4>& p : this->Before.Points)
+    {
+      EXPECT_EQ(points.count(p), 1u);
+    }
+  }
+
+  std::vector<InterfaceRidge<4>> Triangles;
+  SpindleResult<4> Result;
+  SimplexMesh<4> Before;
+  SimplexMesh<4> After;
+  UninitialisedVector<std::uint32_t> Numbers;
+};
+
+/** A refined triangulation, and the object in it. */
+class RefinedObject
+{
+public:
+  RefinedObject(const Domain<4>& domain, double delta)
+    : Surfaces(domain)
+  {
+    Box<4> box = Around(domain, delta);
+    for (const unsigned end : { 0u, 1u })
+    {
+      if (domain.HasTimeBorder(end))
+      {
+        (end == 0 ? box.Min : box.Max)[3] =
+          (end == 0 ? domain.Bounds().Min : domain.Bounds().Max)[3];
+      }
+    }
+    RefinementSettings<4> settings;
+    settings.Sizing.Base = { delta };
+    settings.SpaceTime.Slivers.Fight = false;
+    this->Context = std::make_unique<RefinementContext<4>>(domain, settings, box, 1000);
+    EXPECT_TRUE(Refiner<Rules4D>(*this->Context).Run(nullptr));
+    this->Object = LabelSimplices<4>(this->Context->Mesh, domain);
+  }
+
+  const Triangulation<4>& Mesh() const { return this->Context->Mesh; }
+
+  const Domain<4>& Surfaces;
+  std::unique_ptr<RefinementContext<4>> Context;
+  SimplexLabels Object;
+};
+
+/** Independent voxels with `labels` labels and background, all equally likely. */
+LabelImage<4> Noise(unsigned seed, std::int64_t side, std::int64_t frames, unsigned labels)
+{
+  std::mt19937 random(seed);
+  std::vector<std::uint16_t> voxels(static_cast<std::size_t>(side * side * side * frames));
+  for (std::uint16_t& voxel : voxels)
+  {
+    voxel = static_cast<std::uint16_t>(random() % (labels + 1));
+  }
+  return LabelImage<4>::FromScalars<std::uint16_t>(
+    voxels, GridGeometry<4>::Orthogonal({ side, side, side, frames }, { 1.0, 1.0, 1.0, 1.0 }));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(SpaceTimeSpindles, OpenAllTrianglesOfShuffledLabels)
+{
+  const AnyLabels ball(3.0);
+  const RefinedObject refined(ball, 1.4);
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const bool withBackground = seed % 2 == 0;
+    const SimplexLabels labels =
+      Shuffled(refined.Object, seed, (withBackground ? 1 : 2) + seed / 3, withBackground);
+    const Opened opened(refined.Mesh(), ball, labels);
+    opened.Check();
+    EXPECT_GT(opened.Triangles.size(), 20u);
+    EXPECT_EQ(
+      opened.Triangles.empty(), opened.After.Simplices.size() == opened.Before.Simplices.size());
+    if (!withBackground)
+    {
+      EXPECT_NEAR(TotalVolume(opened.After), TotalVolume(opened.Before), 1e-9);
+    }
+  }
+}
+
+// Around triangles on the flat ends, pentatopes form no circle.
+TEST(SpaceTimeSpindles, KeepFlatEnds)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(5, 3.0, 0.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const RefinedObject refined(domain, 4.0);
+  const auto [first, last] = std::pair(0.0, 12.0);
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const bool withBackground = seed % 2 == 0;
+    const Opened opened(refined.Mesh(), domain,
+      Shuffled(refined.Object, seed, withBackground ? 1 : 2, withBackground));
+    opened.Check();
+    std::size_t onEnds = 0;
+    for (const InterfaceRidge<4>& triangle : opened.Triangles)
+    {
+      onEnds += std::all_of(triangle.Vertices.begin(), triangle.Vertices.end(),
+        [&, end = last](VertexId v) { return refined.Mesh().Position(v)[3] == end; });
+    }
+    EXPECT_GT(onEnds, 0u);
+    for (const double end : { first, last })
+    {
+      const auto total = [&](const SimplexMesh<4>& mesh)
+      {
+        double volume = 0.0;
+        for (const auto& [label, part] : EndVolumes(mesh, end))
+        {
+          volume += part;
+        }
+        return volume;
+      };
+      EXPECT_GT(total(opened.Before), 0.0);
+      if (withBackground)
+      {
+        EXPECT_GE(total(opened.After), total(opened.Before) - 1e-9) << "a dent";
+      }
+      else
+      {
+        EXPECT_NEAR(total(opened.After), total(opened.Before), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(SpaceTimeSpindles, DoNotDependOnThreads)
+{
+  const AnyLabels ball(3.0);
+  const RefinedObject refined(ball, 1.4);
+  const SimplexLabels labels = Shuffled(refined.Object, 7, 2, true);
+  const Opened one(refined.Mesh(), ball, labels, 1);
+  const Opened three(refined.Mesh(), ball, labels, 3);
+  EXPECT_EQ(one.After.Points, three.After.Points);
+  EXPECT_EQ(one.After.Simplices, three.After.Simplices);
+  EXPECT_EQ(one.After.Labels, three.After.Labels);
+  EXPECT_EQ(one.After.Facets, three.After.Facets);
+  EXPECT_EQ(one.Numbers, three.Numbers);
+}
+
+TEST(SpaceTimeSpindles, KeepPointsAndPentatopesInOrder)
+{
+  const AnyLabels ball(3.0);
+  const RefinedObject refined(ball, 1.4);
+  const Opened opened(refined.Mesh(), ball, Shuffled(refined.Object, 3, 2, false));
+  const auto placeOf = [&](const Point<4>& p)
+  { return HilbertIndex<4>(p, refined.Mesh().GetBox()); };
+  EXPECT_GT(opened.After.Points.size(), opened.Before.Points.size());
+  EXPECT_TRUE(std::is_sorted(opened.After.Points.begin(), opened.After.Points.end(),
+    [&](const Point<4>& a, const Point<4>& b) { return placeOf(a) < placeOf(b); }));
+  const auto smallest = [](const auto& v) { return *std::min_element(v.begin(), v.end()); };
+  EXPECT_TRUE(std::is_sorted(opened.After.Simplices.begin(), opened.After.Simplices.end(),
+    [&](const auto& a, const auto& b) { return smallest(a) < smallest(b); }));
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
+{
+  const LabelImage<4> image = Noise(3, 6, 8, 2);
+  const ImageDomain<4> domain(image, 1.0);
+  const RefinedObject refined(domain, 1.5);
+  ManifoldRepairOptions<4> options;
+  options.Surfaces = &domain;
+  InterfaceStatistics none;
+  InterfaceStatistics figures;
+  const auto plain = MakeManifoldLabels<4>(refined.Mesh(), false, options, none, 1, {});
+  const auto repaired = MakeManifoldLabels<4>(refined.Mesh(), true, options, figures, 1, {});
+  EXPECT_EQ(plain.Labels, refined.Object);
+  EXPECT_TRUE(plain.NonManifold.empty());
+  EXPECT_EQ(none.NonManifoldRepaired + none.NonManifoldLeft, 0u);
+  EXPECT_NE(repaired.Labels, plain.Labels);
+
+  const auto countBad = [&](const SimplexLabels& labels)
+  {
+    SimplexMesh<4> mesh;
+    ExtractMesh<4>(refined.Mesh(), domain, labels, mesh);
+    EXPECT_TRUE(Complaints(mesh).empty());
+    return BadTriangles(mesh).size();
+  };
+  EXPECT_EQ(countBad(repaired.Labels), repaired.NonManifold.size());
+  EXPECT_EQ(figures.NonManifoldLeft, repaired.NonManifold.size());
+  EXPECT_EQ(figures.NonManifoldRepaired + figures.NonManifoldLeft, countBad(plain.Labels));
+  EXPECT_GT(figures.NonManifoldRepaired, figures.NonManifoldLeft);
+
+  // No pentatope of an end in time is dropped, and the same vertices are on interfaces.
+  for (SimplexId s = 0; s < plain.Labels.size(); ++s)
+  {
+    const auto& beside = refined.Mesh().GetSimplex(s).N;
+    const bool isAtEnd = plain.Labels[s] != 0 &&
+      std::any_of(beside.begin(), beside.end(), [](SimplexId n) { return n == None; });
+    EXPECT_TRUE(!isAtEnd || repaired.Labels[s] != 0);
+  }
+  InterfaceStatistics again;
+  EXPECT_EQ(
+    MakeManifoldLabels<4>(refined.Mesh(), true, options, again, 4, {}).Labels, repaired.Labels);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(SpaceTimeManifolds, HaveNoBadTrianglesOnAnyImage)
+{
+  std::uint64_t opened = 0;
+  for (unsigned seed = 1; seed <= 16; ++seed)
+  {
+    MeshingOptions<4> options;
+    options.Sampling.Delta = 1.2 + 0.4 * (seed % 5);
+    options.Interfaces.Rounds = seed % 4 == 0 ? 0 : seed % 3;
+    options.Interfaces.Fit = seed % 3 != 0;
+    options.Components.Smallest = seed % 3 == 0 ? 0 : 8;
+    options.SmoothingSigma = seed % 2 == 0 ? 0.0 : 1.0;
+    options.Optimisation.Run = seed % 4 < 2;
+    options.SpaceTime.Slivers.Fight = seed % 5 != 0;
+    options.FrameSteps = 1;
+    options.Team.Threads = seed % 6 == 0 ? 3 : 1;
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", delta " << options.Sampling.Delta);
+    ImageMesher<4> mesher(options);
+    SimplexMesh<4> mesh;
+    ASSERT_EQ(mesher.Run(Noise(seed, 5, 7, 1 + seed % 3), mesh), MeshingOutcome::Done);
+    EXPECT_EQ(FindManifoldDefects(mesh).Triangles, 0u);
+    const std::vector<std::string> complaints = Complaints(mesh);
+    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    const InterfaceStatistics& figures = mesher.Statistics().Interfaces;
+    EXPECT_EQ(figures.NonManifoldLeft, 0u);
+    EXPECT_LE(figures.NonManifoldOpened, figures.NonManifoldRepaired);
+    opened += figures.NonManifoldOpened;
+  }
+  EXPECT_GT(opened, 10u);
+}
+
+TEST(SpaceTimeManifolds, AreLeftAsTheyComeOnRequest)
+{
+  MeshingOptions<4> options;
+  options.Sampling.Delta = 1.6;
+  options.SmoothingSigma = 0.0;
+  options.FrameSteps = 1;
+  options.Interfaces.Manifold = false;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  ASSERT_EQ(mesher.Run(Noise(1, 5, 7, 2), mesh), MeshingOutcome::Done);
+  EXPECT_GT(FindManifoldDefects(mesh).Triangles, 0u);
+  EXPECT_EQ(mesher.Statistics().Interfaces.NonManifoldRepaired, 0u);
+}
