@@ -215,7 +215,7 @@ public:
   /**
    * Largest number of rounds that compare the mesh with the image. A round refines where an
    * interface of the image is farther than about 1.5 Delta from the interfaces of the mesh (tips of
-   * thin processes, holes), or where the boundary of a label is not manifold. Default 8;
+   * thin processes, holes), or, in space, where the boundary of a label is not manifold. Default 8;
    * usually 3 to 6 rounds are needed. 0: never.
    */
   vtkSetClampMacro(InterfaceRounds, int, 0, 100);

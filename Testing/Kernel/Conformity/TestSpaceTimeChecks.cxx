@@ -286,7 +286,8 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     const double limit = UniformInterfaceCheck<4>::LargestDistance * options.Sampling.Delta;
     EXPECT_GT(statistics.Interfaces.Rounds, 0u);
     EXPECT_LT(LargestDistance(image, mesh), limit);
-    ExpectGood(mesh, image, { .FacetsOffInterface = 0.05, .VertexLinks = false });
+    // Seeds of components, and vertices where triangles were opened, are off interfaces.
+    ExpectGood(mesh, image, { .FacetsOffInterface = 0.06, .VertexLinks = false });
 
     options.Interfaces.Rounds = 0;
     options.Components.Smallest = 0;
