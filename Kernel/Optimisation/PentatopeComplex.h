@@ -93,9 +93,9 @@ public:
 
   /** Normalized volume. Of pentatopes with the label 0, the least volume that they keep. */
   double QualityOf(std::size_t s) const { return this->Qualities[s]; }
-  bool IsPoor(std::size_t s) const
+  bool IsPoor(std::size_t s, double target) const
   {
-    return this->Labels[s] != 0 && this->IsAlive(s) && this->Qualities[s] < this->Bounds.Target;
+    return this->Labels[s] != 0 && this->IsAlive(s) && this->Qualities[s] < target;
   }
 
   const Point<4>& PointOf(std::uint32_t v) const { return this->Points[v]; }

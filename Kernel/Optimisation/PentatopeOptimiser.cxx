@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,11 +20,14 @@ namespace voxplex
 namespace
 {
 
+/** The first target, in targets: what only just passes would be poor again soon. */
+constexpr double FirstTarget = 2.0;
+
 /** Passes that keep vertices on interfaces, and then passes that do not quite. */
 constexpr unsigned StrictPasses = 2;
-constexpr unsigned LoosePasses = 5;
+constexpr unsigned LoosePasses = 8;
 
-/** Passes end when one leaves more than this part of the poor pentatopes. */
+/** Strict passes end when one leaves more than this part of the poor pentatopes. */
 constexpr double WorthAnotherPass = 0.9;
 
 /** Flips of a pass are made in rounds: a flip may make another one possible. */
@@ -47,7 +51,7 @@ class Optimiser
 public:
   Optimiser(PentatopeComplex& complex, const MoveLimits& limits, const SimplexMesh<4>& mesh,
     const PentatopeBounds& bounds, unsigned threads, const std::stop_token& stop)
-    : Target(complex)
+    : Complex(complex)
     , Limits(limits)
     , Original(mesh)
     , Bounds(bounds)
@@ -59,59 +63,79 @@ public:
 
   PentatopeStatistics Run()
   {
-    this->FindPoor();
+    this->FindPoor(this->Bounds.Target);
     this->Done.PoorBefore = this->Poor.size();
     this->Done.SmallestBefore = this->Smallest();
-    this->RunPasses(StrictPasses);
+    this->RaiseSums();
+    this->RunPasses(FirstTarget * this->Bounds.Target, StrictPasses, WorthAnotherPass);
     this->Tolerance = this->Bounds.InterfaceTolerance;
     std::fill(this->HasNews.begin(), this->HasNews.end(), 1);
-    this->RunPasses(LoosePasses);
+    this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
     this->Done.PoorAfter = this->Poor.size();
     this->Done.SmallestAfter = this->Smallest();
     return this->Done;
   }
 
 private:
-  void RunPasses(unsigned most)
+  /** Moves each vertex once for the sake of the mean. A second time would gain little more. */
+  void RaiseSums()
   {
+    std::vector<std::uint32_t> vertices(this->Original.Points.size());
+    std::iota(vertices.begin(), vertices.end(), 0);
+    this->Smooth(std::move(vertices),
+      [this](PentatopeSmoother& smoother, std::uint32_t v)
+      { return smoother.RaiseSum(v, this->Bounds.Target); });
+  }
+
+  /**
+   * Passes of flips and smoothing of the pentatopes below a target.
+   * @param worthIt no further pass follows one that leaves more than this part of them
+   */
+  void RunPasses(double target, unsigned most, double worthIt)
+  {
+    this->FindPoor(target);
     for (unsigned pass = 0; !this->Poor.empty() && pass < most; ++pass)
     {
       ++this->Done.Passes;
       const auto before = static_cast<double>(this->Poor.size());
       this->Flip();
-      this->Smooth();
-      this->FindPoor();
-      if (static_cast<double>(this->Poor.size()) > WorthAnotherPass * before)
+      this->FindPoor(target);
+      this->Smooth(this->FindVerticesToMove(),
+        [this](PentatopeSmoother& smoother, std::uint32_t v)
+        { return smoother.RaiseWorst(v, this->Goal, this->Tolerance); });
+      this->FindPoor(target);
+      if (static_cast<double>(this->Poor.size()) > worthIt * before)
       {
         return;
       }
     }
   }
 
-  /** The poor pentatopes, worst first. */
-  void FindPoor()
+  /** The pentatopes below a target, worst first. */
+  void FindPoor(double target)
   {
+    this->Goal = target;
     this->Poor.clear();
-    for (std::size_t s = 0; s < this->Target.NumberOfPentatopes(); ++s)
+    for (std::size_t s = 0; s < this->Complex.NumberOfPentatopes(); ++s)
     {
-      if (this->Target.IsPoor(s))
+      if (this->Complex.IsPoor(s, this->Goal))
       {
         this->Poor.push_back(static_cast<std::uint32_t>(s));
       }
     }
     std::stable_sort(this->Poor.begin(), this->Poor.end(),
       [this](std::uint32_t a, std::uint32_t b)
-      { return this->Target.QualityOf(a) < this->Target.QualityOf(b); });
+      { return this->Complex.QualityOf(a) < this->Complex.QualityOf(b); });
   }
 
   double Smallest() const
   {
     double smallest = 1.0;
-    for (std::size_t s = 0; s < this->Target.NumberOfPentatopes(); ++s)
+    for (std::size_t s = 0; s < this->Complex.NumberOfPentatopes(); ++s)
     {
-      if (this->Target.LabelOf(s) != 0 && this->Target.IsAlive(s))
+      if (this->Complex.LabelOf(s) != 0 && this->Complex.IsAlive(s))
       {
-        smallest = std::min(smallest, this->Target.QualityOf(s));
+        smallest = std::min(smallest, this->Complex.QualityOf(s));
       }
     }
     return smallest;
@@ -130,7 +154,7 @@ private:
         {
           for (std::size_t k = first; k < last; ++k)
           {
-            flips[k] = FindFlip(this->Target, candidates[k]);
+            flips[k] = FindFlip(this->Complex, candidates[k]);
           }
         },
         this->Stop);
@@ -140,7 +164,7 @@ private:
         return;
       }
       candidates = this->MakeFlips(flips);
-      this->Target.FindStars();
+      this->Complex.FindStars();
     }
   }
 
@@ -150,7 +174,7 @@ private:
    */
   std::vector<std::uint32_t> MakeFlips(const std::vector<PentatopeFlip>& flips)
   {
-    std::vector<std::uint8_t> hasChanged(this->Target.NumberOfPentatopes(), 0);
+    std::vector<std::uint8_t> hasChanged(this->Complex.NumberOfPentatopes(), 0);
     std::vector<std::uint32_t> next;
     for (const PentatopeFlip& flip : flips)
     {
@@ -162,9 +186,9 @@ private:
         {
           hasChanged[s] = 1;
         }
-        const auto first = static_cast<std::uint32_t>(this->Target.NumberOfPentatopes());
-        MakeFlip(this->Target, flip);
-        for (std::uint32_t s = first; s < this->Target.NumberOfPentatopes(); ++s)
+        const auto first = static_cast<std::uint32_t>(this->Complex.NumberOfPentatopes());
+        MakeFlip(this->Complex, flip);
+        for (std::uint32_t s = first; s < this->Complex.NumberOfPentatopes(); ++s)
         {
           next.push_back(s);
         }
@@ -175,22 +199,25 @@ private:
     }
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
-    std::erase_if(next, [this](std::uint32_t s) { return !this->Target.IsPoor(s); });
+    std::erase_if(next, [this](std::uint32_t s) { return !this->Complex.IsPoor(s, this->Goal); });
     std::stable_sort(next.begin(), next.end(),
       [this](std::uint32_t a, std::uint32_t b)
-      { return this->Target.QualityOf(a) < this->Target.QualityOf(b); });
+      { return this->Complex.QualityOf(a) < this->Complex.QualityOf(b); });
     return next;
   }
 
   /**
-   * Moves the vertices of poor pentatopes, once each. A vertex waits for its neighbours of lower rank.
-   * So the result is that of one thread, which moves them in the order of their ranks.
+   * Moves vertices, once each. A vertex waits for its neighbours of lower rank. So the result is that
+   * of one thread, which moves them in the order of their ranks.
+   * @param improve moves a vertex by a smoother; returns whether it has moved
    */
-  void Smooth()
+  template <typename Function>
+  void Smooth(std::vector<std::uint32_t> vertices, const Function& improve)
   {
-    this->FindPoor();
-    std::vector<std::uint32_t> vertices = this->FindVerticesToMove();
-    std::vector<std::uint32_t> ranks(this->Target.NumberOfPoints(), None);
+    // In the order of points, each vertex would have to wait for the one before.
+    std::sort(vertices.begin(), vertices.end(),
+      [](std::uint32_t a, std::uint32_t b) { return std::pair(Mix(a), a) < std::pair(Mix(b), b); });
+    std::vector<std::uint32_t> ranks(this->Complex.NumberOfPoints(), None);
     for (std::size_t k = 0; k < vertices.size(); ++k)
     {
       ranks[vertices[k]] = static_cast<std::uint32_t>(k);
@@ -222,7 +249,7 @@ private:
         {
           if (isFirst[k] != 0)
           {
-            moves += this->Improve(vertices[k]) ? 1 : 0;
+            moves += this->Improve(vertices[k], improve) ? 1 : 0;
             ranks[vertices[k]] = None;
           }
         });
@@ -239,11 +266,11 @@ private:
 
   bool ComesFirst(std::uint32_t v, const std::vector<std::uint32_t>& ranks) const
   {
-    const std::span<const std::uint32_t> star = this->Target.StarOf(v);
+    const std::span<const std::uint32_t> star = this->Complex.StarOf(v);
     return std::all_of(star.begin(), star.end(),
       [&](std::uint32_t s)
       {
-        const PentatopeComplex::Vertices& corners = this->Target.CornersOf(s);
+        const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
         return std::all_of(corners.begin(), corners.end(),
           [&](std::uint32_t other) { return ranks[other] >= ranks[v]; });
       });
@@ -254,7 +281,7 @@ private:
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t s : this->Poor)
     {
-      for (const std::uint32_t v : this->Target.CornersOf(s))
+      for (const std::uint32_t v : this->Complex.CornersOf(s))
       {
         if (this->HasNews[v] != 0)
         {
@@ -262,24 +289,23 @@ private:
         }
       }
     }
-    // In the order of points, each vertex would have to wait for the one before.
-    std::sort(vertices.begin(), vertices.end(),
-      [](std::uint32_t a, std::uint32_t b) { return std::pair(Mix(a), a) < std::pair(Mix(b), b); });
+    std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
   }
 
-  bool Improve(std::uint32_t v)
+  template <typename Function>
+  bool Improve(std::uint32_t v, const Function& improve)
   {
     std::atomic_ref<std::uint8_t>(this->HasNews[v]).store(0, std::memory_order_relaxed);
-    PentatopeSmoother smoother(this->Target, this->Limits, this->Original.Points);
-    if (!smoother.Improve(v, this->Bounds.Target, this->Tolerance))
+    PentatopeSmoother smoother(this->Complex, this->Limits, this->Original.Points);
+    if (!improve(smoother, v))
     {
       return false;
     }
-    for (const std::uint32_t s : this->Target.StarOf(v))
+    for (const std::uint32_t s : this->Complex.StarOf(v))
     {
-      this->TellVertices(this->Target.CornersOf(s));
+      this->TellVertices(this->Complex.CornersOf(s));
     }
     return true;
   }
@@ -293,7 +319,7 @@ private:
     }
   }
 
-  PentatopeComplex& Target;
+  PentatopeComplex& Complex;
   const MoveLimits& Limits;
   const SimplexMesh<4>& Original;
   const PentatopeBounds& Bounds;
@@ -302,6 +328,7 @@ private:
   std::vector<std::uint32_t> Poor;
   std::vector<std::uint8_t> HasNews; ///< of each vertex, since it was tried
   PentatopeStatistics Done;
+  double Goal = 0.0;      ///< pentatopes below it are poor
   double Tolerance = 0.0; ///< how far vertices may leave interfaces
 };
 

@@ -33,8 +33,9 @@ struct PentatopeStatistics
 
 /**
  * Raises the normalized volumes of pentatopes to a target where possible, by flips (PentatopeFlip)
- * and smoothing (PentatopeSmoother). Only poor pentatopes are improved. A change is made only if
- * the smallest normalized volume of the changed pentatopes grows. The result keeps
+ * and smoothing (PentatopeSmoother). First each vertex is moved once so that those around it are better
+ * on the whole. Then poor pentatopes are improved, up to twice the target at first: a change is made
+ * only if the smallest normalized volume of the changed pentatopes grows. The result keeps
  * - conformity, positive orientation, labels, and the facets of interfaces;
  * - the interfaces: their vertices move along them, by a quarter of an edge or half a voxel at most.
  *   As a last resort they leave them, by PentatopeBounds::InterfaceTolerance at most;
@@ -50,7 +51,7 @@ struct PentatopeStatistics
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested; std::bad_alloc
  *
- * Complexity: linear in the size of the mesh, and in the number of poor pentatopes.
+ * Complexity: linear in the size of the mesh.
  */
 PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings& outside,
   const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <numeric>
 
 namespace voxplex
 {
@@ -16,13 +15,18 @@ namespace voxplex
 namespace
 {
 
-/** Lengths of steps, in shortest edges. */
+/** Lengths of steps that raise the worst, in shortest edges. */
 constexpr double FirstStep = 0.3;
 constexpr double ShortestStep = 0.01;
-constexpr double DifferenceStep = 1e-4;
 
-/** Steps of one vertex, those that fail included. */
+/** Steps of one vertex that raise the worst, those that fail included. */
 constexpr unsigned MostSteps = 12;
+
+/** Steps that raise the sum: the first length, their number, and how lengths change. */
+constexpr double FirstStepOfSum = 0.15;
+constexpr unsigned MostStepsOfSum = 4;
+constexpr double Longer = 1.2;
+constexpr double Shorter = 0.4;
 
 /** A vertex of an interface moves at most this far, in shortest edges. */
 constexpr double LongestMove = 0.25;
@@ -33,101 +37,132 @@ constexpr double LongestMove = 0.25;
  */
 constexpr double NormalShare = 0.15;
 
+/** What a quality adds to the sum. */
+double WorthOf(double quality)
+{
+  return quality * (2.0 - quality);
+}
+
+/** @param direction not 0 */
+Point<4> Along(const Point<4>& p, const Point<4>& direction, double step)
+{
+  const double factor = step / std::sqrt(Dot(direction, direction));
+  Point<4> moved;
+  for (std::size_t a = 0; a < 4; ++a)
+  {
+    moved[a] = p[a] + factor * direction[a];
+  }
+  return moved;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-bool PentatopeSmoother::Improve(std::uint32_t v, double target, double tolerance)
+bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolerance)
 {
   this->Tolerance = tolerance;
-  this->Start = this->Target.PointOf(v);
-  this->GatherStar(v);
-  if (this->Tried.empty() || this->Star.front().Quality >= target)
+  if (!this->Begin(v))
   {
     return false;
   }
-  this->GatherNormals(v);
-  double worst = this->Star.front().Quality;
+  std::size_t worst = this->Worst();
   bool moved = false;
-  double step = FirstStep * this->ShortestEdge;
-  for (unsigned k = 0; k < MostSteps && worst < target; ++k)
+  double step = FirstStep * this->Star.ShortestEdge();
+  const double shortest = ShortestStep * this->Star.ShortestEdge();
+  for (unsigned k = 0; k < MostSteps && step >= shortest; ++k)
   {
-    Point<4> direction = this->GradientOfWorst(v, DifferenceStep * this->ShortestEdge);
-    this->Project(direction);
-    const double length = std::sqrt(Dot(direction, direction));
-    if (!(length > 0.0))
+    const double quality = this->Star.Inside()[worst].Quality;
+    const Point<4> here = this->Target.PointOf(v);
+    if (quality >= target)
     {
       break;
     }
-    Point<4> p = this->Target.PointOf(v);
-    for (std::size_t a = 0; a < 4; ++a)
+    Point<4> direction = this->Star.Inside()[worst].GradientAt(here);
+    this->Project(direction);
+    if (!(Dot(direction, direction) > 0.0))
     {
-      p[a] += step * direction[a] / length;
+      break;
     }
-    if (this->MayMoveTo(v, p) && this->Try(p, worst))
+    const Point<4> p = Along(here, direction, step);
+    if (this->MayMoveTo(v, p) && this->Try(p, quality))
     {
-      this->Target.Move(v, p);
-      for (std::size_t s = 0; s < this->Tried.size(); ++s)
-      {
-        this->Star[s].Quality = this->Tried[s];
-      }
-      this->PutWorstFirst();
-      worst = this->Star.front().Quality;
+      this->Take(v, p);
+      worst = this->Worst();
       moved = true;
     }
     else
     {
       step *= 0.5;
-      if (step < ShortestStep * this->ShortestEdge)
-      {
-        break;
-      }
     }
   }
-  for (std::size_t s = 0; moved && s < this->Tried.size(); ++s)
+  if (moved)
   {
-    this->Target.SetQuality(this->Star[s].Id, this->Star[s].Quality);
+    this->Finish();
   }
   return moved;
 }
 
-void PentatopeSmoother::GatherStar(std::uint32_t v)
+bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
 {
-  this->Star.clear();
-  std::size_t inside = 0;
-  double shortest2 = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t s : this->Target.StarOf(v))
+  this->Tolerance = 0.0;
+  if (!this->Begin(v))
   {
-    const PentatopeComplex::Vertices& corners = this->Target.CornersOf(s);
-    std::uint32_t place = 0;
-    for (std::uint32_t k = 0; k < 5; ++k)
-    {
-      if (corners[k] == v)
-      {
-        place = k;
-      }
-      else
-      {
-        shortest2 = std::min(shortest2, Distance2(this->Target.PointOf(corners[k]), this->Start));
-      }
-    }
-    const LabelId label = this->Target.LabelOf(s);
-    inside += label != 0 ? 1 : 0;
-    this->Star.push_back({ s, place, label, this->Target.QualityOf(s), -1.0 });
+    return false;
   }
-  this->ShortestEdge = std::sqrt(shortest2);
-  this->Tried.resize(inside);
-  std::partition(
-    this->Star.begin(), this->Star.end(), [](const Around& one) { return one.Label != 0; });
-  this->PutWorstFirst();
+  const auto sum = [](double total, double quality) { return total + WorthOf(quality); };
+  double worth = 0.0;
+  double smallest = 1.0;
+  for (const MovedPentatope& one : this->Star.Inside())
+  {
+    worth = sum(worth, one.Quality);
+    smallest = std::min(smallest, one.Quality);
+  }
+  floor = std::min(floor, smallest);
+  bool moved = false;
+  double step = FirstStepOfSum * this->Star.ShortestEdge();
+  for (unsigned k = 0; k < MostStepsOfSum; ++k)
+  {
+    const Point<4> here = this->Target.PointOf(v);
+    Point<4> direction = this->GradientOfSum(here);
+    this->Project(direction);
+    if (!(Dot(direction, direction) > 0.0))
+    {
+      break;
+    }
+    const Point<4> p = Along(here, direction, step);
+    double worthThere = 0.0;
+    if (this->MayMoveTo(v, p) && this->Try(p, floor))
+    {
+      worthThere = std::accumulate(this->Tried.begin(), this->Tried.end(), 0.0, sum);
+    }
+    if (worthThere > worth)
+    {
+      this->Take(v, p);
+      worth = worthThere;
+      moved = true;
+      step *= Longer;
+    }
+    else
+    {
+      step *= Shorter;
+    }
+  }
+  if (moved)
+  {
+    this->Finish();
+  }
+  return moved;
 }
 
-void PentatopeSmoother::PutWorstFirst()
+/** Returns false if no pentatope of the mesh is around the vertex. */
+bool PentatopeSmoother::Begin(std::uint32_t v)
 {
-  const auto end = this->Star.begin() + static_cast<std::ptrdiff_t>(this->Tried.size());
-  const auto worst = std::min_element(this->Star.begin(), end,
-    [](const Around& a, const Around& b)
-    { return std::pair(a.Quality, a.Id) < std::pair(b.Quality, b.Id); });
-  std::iter_swap(this->Star.begin(), worst);
+  this->Start = this->Target.PointOf(v);
+  this->Star.Gather(this->Target, v);
+  this->Tried.resize(this->Star.Inside().size());
+  this->FirstTried = 0;
+  this->GatherNormals(v);
+  return !this->Tried.empty();
 }
 
 void PentatopeSmoother::GatherNormals(std::uint32_t v)
@@ -141,13 +176,16 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
   }
   std::array<Point<4>, 4> sum{};
   double total = 0.0;
+  const bool isOnEnd = this->Limits.IsOnEnd(this->Start);
+  this->FacetNormals.clear();
   for (const std::uint32_t f : facets)
   {
     const std::array<std::uint32_t, 4>& corners = this->Target.Facet(f);
     const Point<4>& origin = this->Target.PointOf(corners[0]);
-    const Point<4> normal = Cross(Subtract(this->Target.PointOf(corners[1]), origin),
+    Point<4> normal = Cross(Subtract(this->Target.PointOf(corners[1]), origin),
       Subtract(this->Target.PointOf(corners[2]), origin),
       Subtract(this->Target.PointOf(corners[3]), origin));
+    normal[3] = isOnEnd ? 0.0 : normal[3]; // such a vertex moves in space only
     const double area = std::sqrt(Dot(normal, normal));
     for (std::size_t a = 0; a < 4 && area > 0.0; ++a)
     {
@@ -157,6 +195,7 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
       }
     }
     total += area;
+    this->FacetNormals.push_back(normal);
   }
   const SymmetricEigen<4> eigen = EigenOf<4>(sum);
   for (std::size_t k = 0; k < 4; ++k)
@@ -166,6 +205,29 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
       this->Normals.push_back(eigen.Vectors[k]);
     }
   }
+  if (this->Normals.size() == 1)
+  {
+    this->Normals.front() = this->SumOfNormals(this->Normals.front());
+  }
+}
+
+/**
+ * The direction of the sum of the facets' normals, each on the side of the given direction. Moves that are
+ * orthogonal to it change no volume, because the volume beneath the facets is linear in the place of
+ * one vertex.
+ */
+Point<4> PentatopeSmoother::SumOfNormals(const Point<4>& side) const
+{
+  Point<4> sum{};
+  for (const Point<4>& normal : this->FacetNormals)
+  {
+    const double sign = Dot(normal, side) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t a = 0; a < 4; ++a)
+    {
+      sum[a] += sign * normal[a];
+    }
+  }
+  return Along({}, sum, 1.0);
 }
 
 /** Removes what a direction has of the normals, unless tolerated, and time on a flat end. */
@@ -185,18 +247,26 @@ void PentatopeSmoother::Project(Point<4>& direction) const
   }
 }
 
-/** By forward differences. */
-Point<4> PentatopeSmoother::GradientOfWorst(std::uint32_t v, double step) const
+std::size_t PentatopeSmoother::Worst() const
 {
-  const Around& worst = this->Star.front();
-  Point<4> gradient;
-  for (std::size_t a = 0; a < 4; ++a)
+  const std::span<const MovedPentatope> star = this->Star.Inside();
+  const auto worst = std::min_element(star.begin(), star.end(),
+    [](const MovedPentatope& a, const MovedPentatope& b) { return a.Quality < b.Quality; });
+  return static_cast<std::size_t>(worst - star.begin());
+}
+
+Point<4> PentatopeSmoother::GradientOfSum(const Point<4>& p) const
+{
+  Point<4> sum{};
+  for (const MovedPentatope& one : this->Star.Inside())
   {
-    Point<4> p = this->Target.PointOf(v);
-    p[a] += step;
-    gradient[a] = ShapeOf(this->PointsWith(worst, p)).Quality - worst.Quality;
+    const Point<4> gradient = one.GradientAt(p);
+    for (std::size_t a = 0; a < 4; ++a)
+    {
+      sum[a] += 2.0 * (1.0 - one.Quality) * gradient[a];
+    }
   }
-  return gradient;
+  return sum;
 }
 
 bool PentatopeSmoother::MayMoveTo(std::uint32_t v, const Point<4>& p) const
@@ -206,7 +276,7 @@ bool PentatopeSmoother::MayMoveTo(std::uint32_t v, const Point<4>& p) const
     return true;
   }
   const Point<4> moved = Subtract(p, this->Originals[v]);
-  const double farthest = LongestMove * this->ShortestEdge;
+  const double farthest = LongestMove * this->Star.ShortestEdge();
   const bool isTolerated = this->Tolerance == 0.0 ||
     std::all_of(this->Normals.begin(), this->Normals.end(),
       [&](const Point<4>& normal) { return std::abs(Dot(moved, normal)) <= this->Tolerance; });
@@ -217,20 +287,20 @@ bool PentatopeSmoother::MayMoveTo(std::uint32_t v, const Point<4>& p) const
 /** Whether all qualities at p are above `floor`, and all bounds are kept. */
 bool PentatopeSmoother::Try(const Point<4>& p, double floor)
 {
-  for (std::size_t s = this->Tried.size(); s < this->Star.size(); ++s)
+  const std::span<const MovedPentatope> outside = this->Star.Outside();
+  if (std::any_of(outside.begin(), outside.end(),
+        [&p](const MovedPentatope& one) { return !(one.VolumeAt(p) > one.Quality); }))
   {
-    if (!(SignedVolume<4>(this->PointsWith(this->Star[s], p).data()) > this->Star[s].Quality))
-    {
-      return false;
-    }
+    return false;
   }
-  for (std::size_t s = 0; s < this->Tried.size(); ++s)
+  const std::span<MovedPentatope> inside = this->Star.Inside();
+  for (std::size_t k = 0; k < inside.size(); ++k)
   {
-    const PentatopeShape shape = ShapeOf(this->PointsWith(this->Star[s], p));
-    if (!(shape.Quality > floor) || !this->Allows(this->Star[s], shape))
+    const std::size_t s = k == 0 ? this->FirstTried : k <= this->FirstTried ? k - 1 : k;
+    const PentatopeShape shape = inside[s].ShapeAt(p);
+    if (!(shape.Quality > floor) || !this->Allows(inside[s], shape))
     {
-      // What fails at one point is likely to fail at the next one.
-      std::swap(this->Star[s], this->Star[std::min<std::size_t>(s, 1)]);
+      this->FirstTried = s;
       return false;
     }
     this->Tried[s] = shape.Quality;
@@ -238,7 +308,7 @@ bool PentatopeSmoother::Try(const Point<4>& p, double floor)
   return true;
 }
 
-bool PentatopeSmoother::Allows(Around& one, const PentatopeShape& shape) const
+bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape) const
 {
   if (this->Target.Allows(shape, 0.0, one.Label))
   {
@@ -246,17 +316,26 @@ bool PentatopeSmoother::Allows(Around& one, const PentatopeShape& shape) const
   }
   if (one.OldRatio < 0.0)
   {
-    one.OldRatio = ShapeOf(this->PointsWith(one, this->Start)).Ratio;
+    one.OldRatio = one.ShapeAt(this->Start).Ratio;
   }
   return this->Target.Allows(shape, one.OldRatio, one.Label);
 }
 
-std::array<const Point<4>*, 5> PentatopeSmoother::PointsWith(
-  const Around& one, const Point<4>& p) const
+void PentatopeSmoother::Take(std::uint32_t v, const Point<4>& p)
 {
-  std::array<const Point<4>*, 5> points = this->Target.PointsOf(this->Target.CornersOf(one.Id));
-  points[one.Place] = &p;
-  return points;
+  this->Target.Move(v, p);
+  for (std::size_t s = 0; s < this->Tried.size(); ++s)
+  {
+    this->Star.Inside()[s].Quality = this->Tried[s];
+  }
+}
+
+void PentatopeSmoother::Finish() const
+{
+  for (const MovedPentatope& one : this->Star.Inside())
+  {
+    this->Target.SetQuality(one.Id, one.Quality);
+  }
 }
 
 } // namespace voxplex

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PentatopeSmoother.h
- * @brief Moves a vertex to improve the worst pentatope around it.
+ * @brief Moves a vertex to improve the pentatopes around it.
  */
 #ifndef voxplex_PentatopeSmoother_h
 #define voxplex_PentatopeSmoother_h
 
 #include "Optimisation/MoveLimits.h"
 #include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/PentatopeStar.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,12 +19,12 @@ namespace voxplex
 {
 
 /**
- * @brief Moves single vertices uphill along the gradient of the worst pentatope around them.
+ * @brief Moves single vertices uphill along the gradient of a measure of the pentatopes around them.
  *
- * A step is taken only if the smallest quality grows and PentatopeComplex::Allows() the result.
+ * A step is taken only if the measure grows and PentatopeComplex::Allows() the result.
  * Vertices of interfaces move along them: in the directions that are tangential to the facets around
  * them. If facets have several normals, at a crease or where interfaces meet, all of these are
- * excluded. Such a vertex moves by at most half a voxel along each axis and a quarter of its
+ * excluded. If they have one, the moves change no label's volume. Such a vertex moves by at most half a voxel along each axis and a quarter of its
  * shortest edge in all, and stays on a flat end. A pentatope outside of the object is not turned
  * over, so the mesh does not overlap itself.
  */
@@ -42,41 +42,43 @@ public:
 
   /**
    * Moves a vertex of the mesh until no pentatope around it is below the target, or no step helps.
-   * Returns whether it has moved. Changes the qualities of the pentatopes around it.
+   * The measure is the smallest quality. Returns whether it has moved. Changes the qualities of the
+   * pentatopes around it.
    * @param tolerance how far, in all, it may move along normals of interfaces
    */
-  bool Improve(std::uint32_t v, double target, double tolerance);
+  bool RaiseWorst(std::uint32_t v, double target, double tolerance);
+
+  /**
+   * Moves a vertex of the mesh by a few steps. The measure is the sum of q (2 - q) for the qualities q,
+   * which counts the gain of a poor pentatope more than that of a good one. No quality falls below
+   * `floor`, or below the smallest one before.
+   */
+  bool RaiseSum(std::uint32_t v, double floor);
 
 private:
-  /** A pentatope around the vertex. */
-  struct Around
-  {
-    std::uint32_t Id;
-    std::uint32_t Place; ///< the vertex' place in its corners
-    LabelId Label;
-    double Quality;  ///< at the current point; of label 0: the volume that it keeps
-    double OldRatio; ///< at the first point; found when it is needed
-  };
-
-  void GatherStar(std::uint32_t v);
-  void PutWorstFirst();
+  bool Begin(std::uint32_t v);
   void GatherNormals(std::uint32_t v);
+  Point<4> SumOfNormals(const Point<4>& side) const;
   void Project(Point<4>& direction) const;
-  Point<4> GradientOfWorst(std::uint32_t v, double step) const;
+  std::size_t Worst() const;
+  Point<4> GradientOfSum(const Point<4>& p) const;
   bool MayMoveTo(std::uint32_t v, const Point<4>& p) const;
-  bool Allows(Around& one, const PentatopeShape& shape) const;
+  bool Allows(MovedPentatope& one, const PentatopeShape& shape) const;
   bool Try(const Point<4>& p, double floor);
-  std::array<const Point<4>*, 5> PointsWith(const Around& one, const Point<4>& p) const;
+  void Take(std::uint32_t v, const Point<4>& p);
+  void Finish() const;
 
   PentatopeComplex& Target;
   const MoveLimits& Limits;
   const std::span<const Point<4>> Originals;
-  std::vector<Around> Star;      ///< the worst comes first, those outside last
-  std::vector<double> Tried;     ///< qualities at the tried point
+  PentatopeStar Star;
+  std::vector<double> Tried; ///< qualities at the tried point
+  std::vector<Point<4>>
+    FacetNormals;                ///< of the interfaces around the vertex, as long as the volumes
   std::vector<Point<4>> Normals; ///< orthonormal: directions in which the vertex does not move
+  std::size_t FirstTried = 0;    ///< what failed at one point is likely to fail at the next one
   bool IsOnInterface = false;
   double Tolerance = 0.0;
-  double ShortestEdge = 0.0;
   Point<4> Start{};
 };
 

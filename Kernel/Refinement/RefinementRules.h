@@ -206,8 +206,7 @@ protected:
     if (label != 0)
     {
       const double radius = std::sqrt(ball.Radius2);
-      if (radius >=
-          BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t) ||
+      if (this->IsRatioBad(ball.Center, radius, this->ShortestEdge(t), label) ||
         radius >= BoundSafety * this->Context.Sizing.ElementSize(ball.Center, label) ||
         static_cast<const Rules*>(this)->IsSliver(t, ball.Radius2))
       {
@@ -318,8 +317,20 @@ protected:
   bool HasBadRatio(const Element& t) const
   {
     return t.Label != 0 &&
-      t.Radius >=
-      BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * this->ShortestEdge(t.Id);
+      this->IsRatioBad(t.Ball.Center, t.Radius, this->ShortestEdge(t.Id), t.Label);
+  }
+
+  /**
+   * Whether the radius-edge ratio is not below its bound, or not below the preferred part of it while
+   * the circumcentre is far enough from all vertices, and not near a face of the box.
+   */
+  bool IsRatioBad(const Point<D>& centre, double radius, double shortestEdge, LabelId label) const
+  {
+    const double least = BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * shortestEdge;
+    return radius >= least ||
+      (radius >= Rules::PreferredRatio * least &&
+        radius >= Rules::PreferredSpacing * this->Context.Sizing.Spacing(centre, label) &&
+        !this->PlaceOf(centre, CentreMargin * radius).Moved);
   }
 
   bool IsTooLarge(const Element& t) const

@@ -73,6 +73,9 @@ private:
   friend RefinementRules;
   /** R6 removes free vertices nearer than this times Delta(z). */
   static constexpr double RemovalRadius = 2.0;
+  /** The bound of the radius-edge ratio is all that R4 asks for; see Rules4D. */
+  static constexpr double PreferredRatio = 1.0;
+  static constexpr double PreferredSpacing = 1.0;
   /**
    * R7 keeps this distance from vertices, times Delta. Free vertices in the way of a feature point
    * are excepted. With 0.4 a few slivers of the knee atlas stay, with 0.25 none.

@@ -3,6 +3,7 @@
 // Whole space-time meshes of phantoms: invariants, accuracy, flat ends, sizes, options, cancelling.
 #include "Base/Error.h"
 #include "CallableSize.h"
+#include "Geometry/Circumball.h"
 #include "Sanitizers.h"
 #include "SpaceTimeCases.h"
 #include "ThreadTesting.h"
@@ -235,6 +236,27 @@ TEST(SpaceTimeMeshing, NothingIsLeftIfDeltaIsTooLargeAndNothingIsChecked)
 }
 
 //------------------------------------------------------------------------------------------------
+// Behind interfaces there are points, so that pentatopes are better than the bound of the ratio asks for.
+TEST(SpaceTimeMeshing, LargePentatopesHaveTheirPreferredRatio)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(12.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const double delta = 2.0;
+  const SimplexMesh<4> mesh = Mesh(image, delta);
+  double ratios = 0.0;
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    Circumball<4> ball;
+    ASSERT_TRUE(ComputeCircumball<4>(mesh.PointsOf(s).data(), ball));
+    ratios += RadiusEdge(mesh, s);
+    if (domain.Label(ball.Center) != 0 && ball.Radius2 > 1.21 * 1.21 * delta * delta)
+    {
+      ASSERT_LT(RadiusEdge(mesh, s), 1.45 + 1e-9);
+    }
+  }
+  EXPECT_LT(ratios / static_cast<double>(mesh.Simplices.size()), 1.12);
+}
+
 TEST(SpaceTimeMeshing, SizesBoundCircumradii)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 1.0));

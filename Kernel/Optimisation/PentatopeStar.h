@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file PentatopeStar.h
+ * @brief The pentatopes around a vertex, ready to be measured with the vertex at any place.
+ */
+#ifndef voxplex_PentatopeStar_h
+#define voxplex_PentatopeStar_h
+
+#include "Optimisation/PentatopeComplex.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief A pentatope with one vertex that moves.
+ *
+ * The facet opposite to this vertex stays. Let c be its circumcentre, r its circumradius, A its
+ * volume over 24, and n the unit normal that points to the vertex. If the vertex is at p, with the
+ * height h = (p - c) . n, the pentatope has the volume A h. Its circumcentre is c + t n with
+ * t = (|p - c|^2 - r^2) / (2 h), and its squared circumradius is r^2 + t^2. So a place costs a few
+ * dozen operations.
+ */
+struct MovedPentatope
+{
+  std::uint32_t Id;
+  LabelId Label;
+  double Quality;  ///< at the current place; of label 0: the volume that it keeps
+  double OldRatio; ///< radius-edge ratio at the first place; below 0 if it is not known yet
+  std::array<const Point<4>*, 4> Facet;
+  Point<4> Centre;      ///< c
+  Point<4> Normal;      ///< n
+  double Radius2;       ///< r^2
+  double Area;          ///< A
+  double ShortestEdge2; ///< of the facet
+
+  double VolumeAt(const Point<4>& p) const
+  {
+    return this->Area * Dot(Subtract(p, this->Centre), this->Normal);
+  }
+  /** Normalized volume, ratio and circumball; quality 0 if it is not positively oriented. */
+  PentatopeShape ShapeAt(const Point<4>& p) const;
+  /** The gradient of the normalized volume. The pentatope must be positively oriented at p. */
+  Point<4> GradientAt(const Point<4>& p) const;
+};
+
+/** @brief The pentatopes around a vertex: first those of the mesh, then those outside. */
+class PentatopeStar
+{
+public:
+  /** Gathers the star of a vertex. All of its pentatopes must be positively oriented. */
+  void Gather(const PentatopeComplex& complex, std::uint32_t v);
+
+  std::span<MovedPentatope> Inside() { return { this->All.data(), this->NumberInside }; }
+  std::span<const MovedPentatope> Inside() const
+  {
+    return { this->All.data(), this->NumberInside };
+  }
+  std::span<const MovedPentatope> Outside() const
+  {
+    return std::span(this->All).subspan(this->NumberInside);
+  }
+  double ShortestEdge() const { return this->Shortest; } ///< of those at the vertex
+
+private:
+  std::vector<MovedPentatope> All;
+  std::size_t NumberInside = 0;
+  double Shortest = 0.0;
+};
+
+} // namespace voxplex
+
+#endif
