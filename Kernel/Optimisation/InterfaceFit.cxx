@@ -539,10 +539,9 @@ private:
       return true;
     }
     const double volume = SignedVolume<4>(after.data());
-    const double volumeBefore = SignedVolume<4>(before.data());
     if (this->Labels[s] == 0)
     {
-      return volume > VolumeKeptOutside * volumeBefore;
+      return volume > VolumeKeptOutside * SignedVolume<4>(before.data());
     }
     if (!(volume > 0.0))
     {

@@ -78,8 +78,8 @@ private:
    * R3 also fires above this part of the bound of the radius-edge ratio, if the circumradius is at
    * least PreferredSpacing times Delta. Interfaces are sampled densely and the inside is not, so most
    * pentatopes have all vertices but one on interfaces, and are as poor as the bound allows. With
-   * points in the layer behind the interface, the mean normalized volume grows by a quarter, for 27 % more
-   * pentatopes. The spacing keeps these points from asking for others, as a smaller bound would.
+   * points in the layer behind the interface, the mean normalized volume grows by a quarter, for up to 27 %
+   * more pentatopes. The spacing keeps these points from asking for others, as a smaller bound would.
    */
   static constexpr double PreferredRatio = 0.725;
   static constexpr double PreferredSpacing = 1.2;
