@@ -213,7 +213,8 @@ bool Triangulation<D>::IsClear(
   for (const VertexId v : worker.Link)
   {
     const Vertex& vertex = this->Vertices[v];
-    const bool givesWay = kind == VertexKind::Feature && vertex.Kind == VertexKind::Free;
+    const bool givesWay = kind == VertexKind::Feature &&
+      (vertex.Kind == VertexKind::Free || vertex.Kind == VertexKind::Shared);
     if (!givesWay && Distance2(vertex.Position, p) < clearance * clearance)
     {
       return false;

@@ -23,7 +23,7 @@ template <int D>
 RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
 {
   assert(this->Owns(worker, v));
-  if (this->Vertices[v].Kind == VertexKind::Box)
+  if (this->Vertices[v].Kind == VertexKind::Box || this->Vertices[v].Kind == VertexKind::Shared)
   {
     return RemovalOutcome::OnBox;
   }

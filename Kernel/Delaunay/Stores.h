@@ -45,9 +45,10 @@ inline constexpr unsigned MaximumNumberOfWorkers = 0xffffu;
 /** The origin of a vertex (thesis, sections 2.1 and 2.2). */
 enum class VertexKind : std::uint8_t
 {
-  Box,    ///< on the box: a corner or a projected circumcentre; never removed
-  Free,   ///< a circumcentre, inside or on a flat end of the object; R6 may remove it
-  Feature ///< on an interface; never removed
+  Box,     ///< on the box: a corner or a projected circumcentre; never removed
+  Free,    ///< a circumcentre, inside or on a flat end of the object; R6 may remove it
+  Feature, ///< on an interface; never removed
+  Shared   ///< a circumcentre on a plane that two slabs of space-time share; never removed
 };
 
 template <int D>

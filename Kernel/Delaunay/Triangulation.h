@@ -18,6 +18,7 @@
 #include <cassert>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace voxplex
@@ -36,7 +37,7 @@ enum class InsertionOutcome
 enum class RemovalOutcome
 {
   Removed,
-  OnBox,    ///< the vertex is of kind Box, and cannot be removed
+  OnBox,    ///< the vertex is of kind Box or Shared, and cannot be removed
   Failed,   ///< the star could not be re-triangulated; the triangulation is unchanged
   Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
 };
@@ -268,7 +269,7 @@ public:
    * @param seed a living simplex that should be in conflict with p. Unless the worker is alone, it
    *   must own at least D vertices of the seed.
    * @param clearance if positive: the point is refused if it is nearer than this to a vertex. If
-   *   the point is a feature point, free vertices give way and do not count.
+   *   the point is a feature point, vertices of the kinds Free and Shared do not count.
    * @param veto if not null: called before anything is changed
    * On success, worker.Created and worker.NewVertex have the new simplices and the new vertex, and
    * the worker owns all their vertices.
@@ -278,12 +279,33 @@ public:
     double clearance = 0.0, InsertionVeto* veto = nullptr);
 
   /**
-   * Removes a living vertex that is not of kind Box. Unless the worker is alone, it must own the
+   * Removes a living vertex that is of kind Free or Feature. Unless the worker is alone, it must own the
    * vertex. A vertex of another kind may lie on the box, but not on a corner. On success,
    * worker.Created has the new simplices.
    * @throws std::bad_alloc; then the triangulation is unchanged
    */
   RemovalOutcome Remove(Worker& worker, VertexId v);
+
+  /** Makes a free vertex a shared one, which stays. No worker may operate meanwhile. */
+  void Share(VertexId v)
+  {
+    Vertex& vertex = this->Vertices[v];
+    vertex.Kind = vertex.Kind == VertexKind::Free ? VertexKind::Shared : vertex.Kind;
+  }
+
+  /**
+   * Replaces everything by the union of triangulations of boxes that are stacked along the last axis.
+   * The box must be their union. Two neighbouring boxes must have a common face, and the same
+   * vertices on it; the triangulations of the face are then the same, since they are functions of
+   * the vertices. The union is Delaunay in each box. States are copied; ids are new; generations are new for their ids. No worker may
+   * operate on the union.
+   *
+   * Takes time O(n log n) for the vertices and facets on common faces, and linear time for the rest.
+   * @param parts in ascending order
+   * @throws std::logic_error if a facet of a common face has no partner; std::bad_alloc. In both
+   *   cases the triangulation cannot be used any more
+   */
+  void Join(std::span<const Triangulation* const> parts);
 
   /**
    * Gives vertices and simplices the numbers 0, 1, ... in an order that depends on the points

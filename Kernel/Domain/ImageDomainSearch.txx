@@ -481,7 +481,8 @@ bool ImageDomain<D, FieldType>::FirstCrossing(
   {
     return false;
   }
-  const double step = 0.5 / longest;
+  // Along a segment to a circumcentre that is very far away, a step must still change t.
+  const double step = std::max(0.5 / longest, 4.0 * std::numeric_limits<double>::epsilon());
   const double perLength = 1.0 / std::sqrt(this->Length2(d));
   const auto pointAt = [&](double t)
   {

@@ -44,7 +44,8 @@ namespace voxplex
  * only: the cut is flat, its edges are sharp.
  *
  * **Time.** In 4D the last axis is time. Where the object reaches the first or the last frame, it
- * continues unchanged beyond that frame, for the smoothing and for queries: the ends are flat.
+ * continues unchanged beyond that frame, for the smoothing and for queries: the ends are flat. If the
+ * image is periodic (LabelImage::IsPeriodicInTime()), the smoothing sees the frames of the other end instead, so both ends are equal.
  *
  * **Storage.** The tiles of a TiledLattice. Tiles outside of the crop are background. A mixed tile
  * has 16-bit fixed-point samples:

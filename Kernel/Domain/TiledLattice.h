@@ -147,7 +147,8 @@ protected:
   /**
    * Calls row(in, x0, x1, k) for each row k of a box of `width` samples along each axis. The
    * samples x0 ... x1 - 1 of the row lie in the crop; their ids begin at `in`. If no sample lies in
-   * the crop, x0 == x1. Rows repeat beyond a flat end and where the image cuts the object; see also
+   * the crop, x0 == x1. Rows repeat beyond a flat end and where the image cuts the object; beyond the ends of
+   * a periodic image they are those of the other end. See also
    * RowEnds(). If row returns false, the function returns early.
    */
   template <typename Function>
@@ -402,6 +403,11 @@ void TiledLattice<D, SampleType>::ForEachRow(
       std::int64_t i = first[a] - 1 + offset[a];
       if (D == 4 && a == 3)
       {
+        if (image.IsPeriodicInTime() && image.ReachesBorderInTime(0))
+        {
+          const std::int64_t period = crop[a] - 1; // the last frame is the first one
+          i = (i % period + period) % period;
+        }
         i = image.ReachesBorderInTime(0) ? std::max<std::int64_t>(i, 0) : i;
         i = image.ReachesBorderInTime(1) ? std::min<std::int64_t>(i, crop[a] - 1) : i;
       }

@@ -552,7 +552,43 @@ LabelImage<D> LabelImage<D>::WithFrames(const GridGeometry<D>& grid, const Index
     ++image.LabelCounts[id];
   }
   image.CutInTime = this->CutInTime;
+  image.Periodic = this->Periodic;
   return image;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void LabelImage<D>::MakePeriodicInTime()
+{
+  const std::int64_t frames = this->WholeGrid.Dimensions[D - 1];
+  Index box = this->Extent;
+  box[D - 1] = 1;
+  std::int64_t differ = 0;
+  Index example{};
+  for (std::size_t k = 0; k < CountCells(box); ++k)
+  {
+    Index first = IndexAt(k, box);
+    Index last = first;
+    first[D - 1] = -this->Origin[D - 1];
+    last[D - 1] = frames - 1 - this->Origin[D - 1];
+    if (this->At(first) != this->At(last))
+    {
+      example = differ++ == 0 ? first : example;
+    }
+  }
+  if (differ > 0)
+  {
+    std::string voxel;
+    for (std::size_t a = 0; a + 1 < D; ++a)
+    {
+      voxel += (a == 0 ? "" : ", ") + std::to_string(this->Origin[a] + example[a]);
+    }
+    throw InputError(
+      "a periodic mesh needs a last frame that is equal to the first one; they differ in " +
+      std::to_string(differ) + " voxels, one of which is (" + voxel +
+      "); if the series ends one frame before the period does, append its first frame");
+  }
+  this->Periodic = true;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -150,6 +150,17 @@ public:
   bool ReachesBorderInTime(unsigned end) const { return this->CutInTime[end]; }
 
   /**
+   * Whether the last frame of a space-time image is the first one again. Then fields continue
+   * beyond the last frame as after the first one, and before the first as before the last.
+   */
+  bool IsPeriodicInTime() const { return this->Periodic; }
+  /**
+   * Makes the image periodic in time.
+   * @throws InputError if the first and the last frame differ, with a voxel where they do
+   */
+  void MakePeriodicInTime();
+
+  /**
    * Whether the first (end 0) or last (end 1) layer of voxels along an axis of a 3D image has
    * foreground. Then the outer faces of these voxels cut the object. False in 4D.
    */
@@ -174,6 +185,7 @@ private:
   std::vector<std::int64_t> LabelValues;
   std::vector<std::int64_t> LabelCounts;
   std::array<bool, 2> CutInTime{};
+  bool Periodic = false;
 };
 
 } // namespace voxplex

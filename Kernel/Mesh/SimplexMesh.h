@@ -30,6 +30,8 @@ namespace voxplex
  *   once per facet. In 3D the right-hand normal points out of the region of the first label of
  *   FacetLabels.
  * - FacetLabels: the two labels of a facet, the larger first, 0 for background.
+ * - Slabs: for a mesh that conforms to time planes, the slab of each simplex, from 0 on in the order of time. Else empty.
+ * - Twins: for a periodic mesh, pairs of points at the first and at the last time, with the same position in space to the bit. Else empty.
  *
  * resize() leaves new entries uninitialised.
  */
@@ -41,6 +43,8 @@ struct SimplexMesh
   UninitialisedVector<std::int64_t> Labels;
   UninitialisedVector<std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
   UninitialisedVector<std::array<std::int64_t, 2>> FacetLabels;
+  std::vector<std::uint32_t> Slabs;
+  std::vector<std::array<std::uint32_t, 2>> Twins;
 
   /** The points of a simplex, for the functions of Geometry/. */
   std::array<const Point<D>*, static_cast<std::size_t>(D + 1)> PointsOf(std::size_t simplex) const

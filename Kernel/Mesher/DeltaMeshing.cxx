@@ -5,12 +5,10 @@
 #include "Base/FreeMemory.h"
 #include "Base/Stopwatch.h"
 #include "Mesher/MeshSizeEstimate.h"
-#include "Parallel/ParallelFor.h"
-#include "Refinement/Refiner.h"
-#include "Refinement/Tiles/TiledRefiner.h"
+#include "Mesher/RefinementStage.h"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -84,31 +82,6 @@ RefinementSettings<D> SettingsOf(const MeshingOptions<D>& options, const SizingS
   return settings;
 }
 
-/** With the numbers of threads that the machine has. */
-TeamOptions TeamOf(TeamOptions team)
-{
-  team.Threads = std::min(NumberOfThreads(team.Threads), MaximumNumberOfWorkers);
-  team.FineGrained = team.FineGrained && team.Threads <= NumberOfThreads(0);
-  return team;
-}
-
-/**
- * A box at least 2 Delta away from every interface (thesis, sections 2.2 and 4.2), except at flat
- * ends.
- */
-template <int D>
-Box<D> BoxAround(const Domain<D>& domain, double largestDistance)
-{
-  Box<D> box = domain.Bounds();
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    const bool isLast = a + 1 == D;
-    box.Min[a] -= isLast && domain.HasTimeBorder(0) ? 0.0 : 2.0 * largestDistance;
-    box.Max[a] += isLast && domain.HasTimeBorder(1) ? 0.0 : 2.0 * largestDistance;
-  }
-  return box;
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, double sizeFloor)
@@ -122,70 +95,6 @@ MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, doubl
     CheckMemory(estimate, run.Options.Limits.Memory);
   }
   return estimate;
-}
-
-//------------------------------------------------------------------------------------------------
-template <int D>
-void AddYielding(MeshingStatistics& statistics, const GridGeometry<D>& grid,
-  const std::vector<YieldingRegion<D>>& regions)
-{
-  for (const YieldingRegion<D>& region : regions)
-  {
-    const Point<D> index = grid.ToIndex(region.Place);
-    YieldingReport report{ static_cast<unsigned>(region.Step), {} };
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const auto last = static_cast<double>(grid.Dimensions[a] - 1);
-      report.Voxel.push_back(std::llround(std::clamp(index[a], 0.0, last)));
-    }
-    statistics.Yielding.push_back(std::move(report));
-  }
-}
-
-/** Runs a refiner. @return false if stopped */
-template <int D, typename AnyRefiner>
-bool RunRefiner(const RunEnvironment<D>& run, AnyRefiner& refiner, std::uint64_t expectedVertices,
-  RunProgress& progress)
-{
-  const Stopwatch time;
-  const bool done = refiner.Run(
-    [&](std::uint64_t vertices)
-    {
-      progress.Refine(static_cast<double>(vertices) / static_cast<double>(expectedVertices));
-      return !run.Stop.stop_requested();
-    });
-  MeshingStatistics& statistics = run.Statistics;
-  statistics.Times.Refinement += time.Seconds();
-  statistics.Rules += refiner.GetRuleStatistics();
-  statistics.Predicates += refiner.GetPredicateStatistics();
-  const std::vector<ThreadStatistics>& threads = refiner.GetThreadStatistics();
-  statistics.Threads.resize(std::max(statistics.Threads.size(), threads.size()));
-  for (std::size_t t = 0; t < threads.size(); ++t)
-  {
-    statistics.Threads[t] += threads[t];
-  }
-  AddYielding(statistics, run.Prepared.Image.Grid(), refiner.GetYielded());
-  return done;
-}
-
-/** @return false if stopped */
-template <int D>
-bool Refine(const RunEnvironment<D>& run, RefinementContext<D>& context,
-  const std::vector<FeatureSeed<D>>& seeds, RefinementStart start, std::uint64_t expectedVertices,
-  RunProgress& progress)
-{
-  using Rules = typename Dimension<D>::Rules;
-  const TeamOptions team = TeamOf(run.Options.Team);
-  if (team.Reproducible)
-  {
-    TiledRefiner<Rules> refiner(context, team, seeds, start);
-    return RunRefiner(run, refiner, expectedVertices, progress);
-  }
-  Refiner<Rules> refiner(context, team, seeds, start);
-  const bool done = RunRefiner(run, refiner, expectedVertices, progress);
-  run.Statistics.SeedingSeconds += refiner.GetSecondsToSeed();
-  run.Statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
-  return done;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -235,16 +144,16 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
   const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
   const MeshSizeEstimate estimate = EstimateOf(run, planned.Equivalent(), planned.SizeFloor());
 
-  RefinementContext<D> context(*run.Prepared.Surfaces, SettingsOf(run.Options, sizing.Sources()),
-    BoxAround(*run.Prepared.Surfaces, planned.Largest()), estimate.InterfaceVertices);
-  typename Dimension<D>::Checks checks(run, context, sizing.LocalBounds());
-  context.Sizing.FollowLocalBounds();
-  std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, context.Sizing);
+  const std::unique_ptr<RefinementStage<D>> stage = Dimension<D>::MakeStage(run,
+    { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
+      estimate.InterfaceVertices });
+  typename Dimension<D>::Checks checks(run, *stage, sizing.LocalBounds());
+  stage->FollowLocalBounds();
+  std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());
   const std::vector<FeatureSeed<D>> more = checks.TakeSeeds();
   seeds.insert(seeds.end(), more.begin(), more.end());
 
-  for (RefinementStart start = RefinementStart::Everywhere;
-       Refine(run, context, seeds, start, estimate.Vertices, progress);
+  for (RefinementStart start = RefinementStart::Everywhere; stage->Refine(seeds, start, progress);
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
@@ -255,7 +164,7 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
       return true;
     }
     seeds = std::move(remedy.Points);
-    context.Sizing.FollowLocalBounds();
+    stage->FollowLocalBounds();
   }
   return false;
 }

@@ -7,6 +7,7 @@
 #include "Junctions/JunctionSeeds.h"
 #include "Mesh/MeshExtraction.h"
 #include "Mesh/Subdivision.h"
+#include "Mesher/SlabRefinement.h"
 #include "Optimisation/InterfaceFit.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/PentatopeOptimiser.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace voxplex
 {
@@ -51,8 +53,15 @@ bool MayBeRefined(const RunEnvironment<4>& run)
 {
   const Box<4> bounds = run.Prepared.Surfaces->Bounds();
   const double spacing = std::pow(run.Prepared.Image.Grid().VoxelVolume(), 0.25);
-  return bounds.Max[3] - bounds.Min[3] >=
-    ShortestDuration * std::min(spacing, run.Statistics.Delta);
+  double shortest = std::numeric_limits<double>::infinity(); // of the slabs
+  double last = bounds.Min[3];
+  for (const double time : run.Prepared.Planes.Times)
+  {
+    shortest = std::min(shortest, time - last);
+    last = time;
+  }
+  shortest = std::min(shortest, bounds.Max[3] - last);
+  return shortest >= ShortestDuration * std::min(spacing, run.Statistics.Delta);
 }
 
 } // namespace
@@ -106,11 +115,11 @@ std::vector<FeatureSeed<3>> Dimension<3>::SampleJunctions(
 
 //------------------------------------------------------------------------------------------------
 Dimension<3>::Checks::Checks(
-  const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local)
+  const RunEnvironment<3>& run, const RefinementStage<3>& stage, LocalDelta<3>& local)
   : Run(run)
-  , Source(context.Mesh)
-  , Interfaces({ context.Mesh, run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
-                 context.Sizing,
+  , Source(stage.Mesh())
+  , Interfaces({ stage.Mesh(), run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+                 stage.Sizing(),
                  ShapeBounds::With(run.Options.Shape.RadiusEdgeRatio, run.Options.Shape.FacetAngle),
                  run.Options.Team.Threads },
       run.Options.Interfaces, local, run.Statistics.Interfaces, run.Statistics.Times.Interfaces,
@@ -120,7 +129,7 @@ Dimension<3>::Checks::Checks(
   {
     const Stopwatch time;
     this->Components.emplace(run.Prepared.Image, *run.Prepared.Surfaces,
-      *run.Prepared.AllComponents, context.Sizing, run.Options.Components.Smallest,
+      *run.Prepared.AllComponents, stage.Sizing(), run.Options.Components.Smallest,
       run.Options.Components.Exact, true, local, run.Statistics.Components,
       run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
     run.Statistics.Times.Components += time.Seconds();
@@ -153,14 +162,26 @@ void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
 }
 
 //------------------------------------------------------------------------------------------------
+std::unique_ptr<RefinementStage<4>> Dimension<4>::MakeStage(
+  const RunEnvironment<4>& run, const RefinementPlan<4>& plan)
+{
+  if (run.Prepared.Planes.Exist())
+  {
+    return std::make_unique<SlabRefinement>(run, plan);
+  }
+  return std::make_unique<WholeRefinement<4>>(run, plan);
+}
+
+//------------------------------------------------------------------------------------------------
 Dimension<4>::Checks::Checks(
-  const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>& local)
+  const RunEnvironment<4>& run, const RefinementStage<4>& stage, LocalDelta<4>& local)
   : Run(run)
-  , Source(context.Mesh)
-  , Sizing(context.Sizing)
+  , Stage(stage)
+  , Source(stage.Mesh())
+  , Sizing(stage.Sizing())
   , MayRefine(MayBeRefined(run))
-  , Interfaces(context.Mesh, run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
-      context.Sizing, run.Options.Interfaces, MayRefine, local, run.Statistics.Interfaces,
+  , Interfaces(stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
+      stage.Sizing(), run.Options.Interfaces, MayRefine, local, run.Statistics.Interfaces,
       run.Statistics.Times.Interfaces, run.Options.Team.Threads, run.Stop)
 {
   const auto start = [&](const std::optional<voxplex::Components<4>>& all,
@@ -169,7 +190,7 @@ Dimension<4>::Checks::Checks(
     if (all)
     {
       const Stopwatch time;
-      check.emplace(run.Prepared.Image, *run.Prepared.Surfaces, *all, context.Sizing,
+      check.emplace(run.Prepared.Image, *run.Prepared.Surfaces, *all, stage.Sizing(),
         run.Options.Components.Smallest, run.Options.Components.Exact, MayRefine, local, statistics,
         run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
       run.Statistics.Times.Components += time.Seconds();
@@ -219,7 +240,7 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
   if (options.Interfaces.Fit)
   {
     const FitBounds bounds{ options.SpaceTime.Slivers.VolumeBound, options.Shape.RadiusEdgeRatio,
-      sizing, this->Run.Prepared.OfDomain() };
+      sizing, this->Run.Prepared.OfDomain(), this->Run.Prepared.Planes, this->Stage.Twins() };
     fitted = FitInterfaces(this->Source, surfaces, made.Labels, bounds, threads, this->Run.Stop);
   }
   UninitialisedVector<std::uint32_t> numbers;
@@ -237,6 +258,36 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
       SurroundingsOf(
         this->Source, made.Labels, spindles.Parts, fitted.Positions, numbers, mesh.Points.size()));
   }
+  this->TellSlabs(mesh, numbers);
+}
+
+void Dimension<4>::Checks::TellSlabs(
+  SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const
+{
+  const TimePlanes& planes = this->Run.Prepared.Planes;
+  if (!planes.Exist())
+  {
+    return;
+  }
+  mesh.Slabs.resize(mesh.Simplices.size());
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    double time = 0.0; // at the centroid, which is on no plane
+    for (const std::uint32_t v : mesh.Simplices[s])
+    {
+      time += 0.2 * mesh.Points[v][3];
+    }
+    mesh.Slabs[s] = static_cast<std::uint32_t>(planes.SlabAt(time));
+  }
+  for (const auto& [first, last] : this->Stage.Twins())
+  {
+    if (numbers[first] != None && numbers[last] != None)
+    {
+      mesh.Twins.push_back({ numbers[first], numbers[last] });
+    }
+  }
+  std::sort(mesh.Twins.begin(), mesh.Twins.end());
+  this->Run.Statistics.Planes.Pairs = mesh.Twins.size();
 }
 
 void Dimension<4>::Checks::Optimise(SimplexMesh<4>& mesh, const Surroundings& outside) const
@@ -249,6 +300,7 @@ void Dimension<4>::Checks::Optimise(SimplexMesh<4>& mesh, const Surroundings& ou
   bounds.RadiusEdgeRatio = options.Shape.RadiusEdgeRatio;
   bounds.InterfaceTolerance = ToleranceIn4D * this->Run.Prepared.Image.Grid().SmallestSpacing();
   bounds.Sizing = this->Run.Prepared.Size ? &this->Sizing : nullptr;
+  bounds.Planes = this->Run.Prepared.Planes;
   const PentatopeStatistics done = OptimisePentatopes(mesh, outside, *this->Run.Prepared.Surfaces,
     image, bounds, options.Team.Threads, this->Run.Stop);
   MeshingStatistics& statistics = this->Run.Statistics;

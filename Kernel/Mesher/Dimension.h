@@ -15,13 +15,13 @@
 #include "Mesher/MeshingOptions.h"
 #include "Mesher/MeshingStatistics.h"
 #include "Mesher/Preparation.h"
-#include "Refinement/RefinementContext.h"
-#include "Refinement/Rules3D.h"
-#include "Refinement/Rules4D.h"
+#include "Mesher/RefinementStage.h"
 #include "Sizing/SizingField.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -36,16 +36,6 @@ struct OwnedBaseDistance
   std::shared_ptr<const void> Grading; ///< null if the distance is uniform
 };
 
-/** The inputs of a run after its preparation. All references must outlive the stages. */
-template <int D>
-struct RunEnvironment
-{
-  const PreparedImage<D>& Prepared;
-  const MeshingOptions<D>& Options;
-  MeshingStatistics& Statistics;
-  std::stop_token Stop;
-};
-
 template <int D>
 struct Dimension;
 
@@ -55,7 +45,11 @@ struct Surroundings;
 template <>
 struct Dimension<3>
 {
-  using Rules = Rules3D;
+  static std::unique_ptr<RefinementStage<3>> MakeStage(
+    const RunEnvironment<3>& run, const RefinementPlan<3>& plan)
+  {
+    return std::make_unique<WholeRefinement<3>>(run, plan);
+  }
 
   /** The base distance. Graded by the local feature size if the options request it. */
   static OwnedBaseDistance<3> GradeBase(const RunEnvironment<3>& run, double delta);
@@ -75,7 +69,7 @@ struct Dimension<3>
   {
   public:
     /** Components may lower local bounds already here. All references must outlive the checks. */
-    Checks(const RunEnvironment<3>& run, RefinementContext<3>& context, LocalDelta<3>& local);
+    Checks(const RunEnvironment<3>& run, const RefinementStage<3>& stage, LocalDelta<3>& local);
 
     /** Points for thin components, to be inserted before refinement. */
     std::vector<FeatureSeed<3>> TakeSeeds();
@@ -100,7 +94,9 @@ struct Dimension<3>
 template <>
 struct Dimension<4>
 {
-  using Rules = Rules4D;
+  /** Slab by slab if the mesh is to conform to time planes or is periodic. */
+  static std::unique_ptr<RefinementStage<4>> MakeStage(
+    const RunEnvironment<4>& run, const RefinementPlan<4>& plan);
 
   static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
   {
@@ -120,7 +116,7 @@ struct Dimension<4>
   {
   public:
     /** Components may lower local bounds already here. All references must outlive the checks. */
-    Checks(const RunEnvironment<4>& run, RefinementContext<4>& context, LocalDelta<4>& local);
+    Checks(const RunEnvironment<4>& run, const RefinementStage<4>& stage, LocalDelta<4>& local);
 
     /** Points for thin components, to be inserted before refinement. */
     std::vector<FeatureSeed<4>> TakeSeeds();
@@ -137,8 +133,11 @@ struct Dimension<4>
 
   private:
     void Optimise(SimplexMesh<4>& mesh, const Surroundings& outside) const;
+    /** Fills Slabs and Twins of the mesh. @param numbers the point of each vertex id, or None */
+    void TellSlabs(SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const;
 
     const RunEnvironment<4> Run;
+    const RefinementStage<4>& Stage;
     const Triangulation<4>& Source;
     const SizingField<4>& Sizing;
     const bool MayRefine;                        ///< false if the image is short in time

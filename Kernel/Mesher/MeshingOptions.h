@@ -66,6 +66,23 @@ struct OptimisationStageOptions
   double Seconds = 0.0;
 };
 
+/** Hyperplanes of constant time that the mesh conforms to; 4D only. */
+struct TimePlaneOptions
+{
+  /**
+   * Times in the mesher's frame, in any order; 0 is that of the first frame. Those of the first and
+   * the last frame, and repeated ones, have no effect.
+   */
+  std::vector<double> Times;
+  /**
+   * The first and the last frame are the same state; they must be equal. The two ends of the mesh
+   * are congruent. If there is no plane between them, one is added half-way.
+   */
+  bool Periodic = false;
+
+  bool AreWanted() const { return this->Periodic || !this->Times.empty(); }
+};
+
 /** What is refused. */
 struct LimitOptions
 {
@@ -96,6 +113,7 @@ struct MeshingOptions
   SamplingOptions<D> Sampling;
   ShapeOptions Shape;
   SpaceTimeRuleOptions SpaceTime; ///< 4D only
+  TimePlaneOptions Planes;        ///< 4D only
   ComponentOptions Components;
   InterfaceOptions Interfaces;
   OptimisationStageOptions Optimisation;

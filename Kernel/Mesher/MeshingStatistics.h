@@ -55,6 +55,19 @@ struct OptimisationSummary
   std::uint64_t PoorAfter = 0;
 };
 
+/** Planes t = constant that the mesh conforms to; 4D only. */
+struct TimePlaneStatistics
+{
+  std::vector<double> Times; ///< of the planes inside, in the mesher's frame
+  bool Periodic = false;
+  unsigned Rounds = 0;          ///< how often points were exchanged between slabs
+  std::uint64_t Vertices = 0;   ///< on planes, in the triangulation
+  std::uint64_t Pairs = 0;      ///< vertices of the mesh with a twin at the other end
+  std::uint64_t Refused = 0;    ///< points that a plane did not take any more
+  std::uint64_t Facets = 0;     ///< of the object on planes
+  std::uint64_t Relabelled = 0; ///< pentatopes beside planes whose circumcentre has another label
+};
+
 /** One refinement in the search for the delta that gives a requested number of elements. */
 struct MeshingRun
 {
@@ -99,6 +112,7 @@ struct MeshingStatistics
   ComponentStatistics Components;
   ComponentStatistics FrameComponents; ///< components of the frames, each for itself; 4D only
   InterfaceStatistics Interfaces;
+  TimePlaneStatistics Planes;
   OptimisationSummary Optimisation;
   std::vector<YieldingReport> Yielding; ///< the steps of all regions, in the order they were taken
   double SizesRaisedTo = 0.0;           ///< the floor of sizes if some sizes were below it, else 0

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/Preparation.h"
 
+#include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomain.h"
 #include "Image/FrameInterpolation.h"
@@ -9,6 +11,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Sizing/GradedSize.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace voxplex
@@ -16,6 +19,9 @@ namespace voxplex
 
 namespace
 {
+
+/** A time plane that is nearer to an end than this part of the duration is at the end. */
+constexpr double EndTolerance = 1e-9;
 
 /** Finds junctions. Only in three dimensions do interfaces meet in curves. */
 template <typename Field>
@@ -41,7 +47,57 @@ void FindJunctions(const ImageDomain<4, Field>&, const MeshingOptions<4>&,
 {
 }
 
-/** Adds frames where labels move far between two frames. */
+/**
+ * The planes that the options ask for, without those at the ends of the object. A periodic mesh without
+ * planes gets one half-way.
+ * @throws InputError if a plane is outside of the image's duration, or the time axis is oblique
+ */
+TimePlanes FindPlanes(
+  const MeshingOptions<4>& options, const LabelImage<4>& image, const Domain<4>& domain)
+{
+  TimePlanes planes;
+  if (!options.Planes.AreWanted())
+  {
+    return planes;
+  }
+  const auto& m = image.Grid().IndexToFrame;
+  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0)
+  {
+    throw InputError("time planes need a time axis at right angles to space");
+  }
+  const double duration = static_cast<double>(image.Grid().Dimensions[3] - 1) * m[3][3];
+  const Box<4> bounds = domain.Bounds();
+  for (const double time : options.Planes.Times)
+  {
+    if (!(time >= 0.0 && time <= duration))
+    {
+      throw InputError("a time plane at " + NumberText(time) +
+        " is not between the first frame, at 0, and the last one, at " + NumberText(duration));
+    }
+    const double rounding = EndTolerance * duration;
+    if (time > bounds.Min[3] + rounding && time < bounds.Max[3] - rounding)
+    {
+      planes.Times.push_back(time);
+    }
+  }
+  std::sort(planes.Times.begin(), planes.Times.end());
+  planes.Times.erase(std::unique(planes.Times.begin(), planes.Times.end()), planes.Times.end());
+  planes.Periodic = options.Planes.Periodic && domain.HasTimeBorder(0) && domain.HasTimeBorder(1);
+  if (planes.Periodic && planes.Times.empty())
+  {
+    planes.Times.push_back(0.5 * (bounds.Min[3] + bounds.Max[3])); // SlabRefinement needs two slabs
+  }
+  planes.First = bounds.Min[3];
+  planes.Last = bounds.Max[3];
+  return planes;
+}
+
+TimePlanes FindPlanes(const MeshingOptions<3>&, const LabelImage<3>&, const Domain<3>&)
+{
+  return {};
+}
+
+/** Adds frames where labels move far between two frames. Makes the image periodic if it is to be. */
 void AddFrames(const MeshingOptions<4>& options, PreparedImage<4>& prepared,
   MeshingStatistics& statistics, const std::stop_token& stop)
 {
@@ -53,9 +109,16 @@ void AddFrames(const MeshingOptions<4>& options, PreparedImage<4>& prepared,
     prepared.WithSteps = std::make_unique<const LabelImage<4>>(
       InterpolateFrames(prepared.Image, statistics.FrameSteps, threads, stop));
   }
+  if (options.Planes.Periodic)
+  {
+    auto image = std::make_unique<LabelImage<4>>(prepared.OfDomain());
+    image->MakePeriodicInTime();
+    prepared.WithSteps = std::move(image);
+  }
 }
 
-void AddFrames(const MeshingOptions<3>&, PreparedImage<3>&, MeshingStatistics&, const std::stop_token&)
+void AddFrames(
+  const MeshingOptions<3>&, PreparedImage<3>&, MeshingStatistics&, const std::stop_token&)
 {
 }
 
@@ -83,9 +146,13 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
 {
   PreparedImage<D> prepared{ image, nullptr, nullptr, nullptr, std::nullopt, std::nullopt,
-    std::nullopt, nullptr };
+    std::nullopt, nullptr, {} };
   if (isosurface)
   {
+    if (options.Planes.Periodic)
+    {
+      throw InputError("isosurfaces have no periodic meshes; make labels of the grey values");
+    }
     TakeDomain<D>(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
                     *isosurface, options.Team.Threads, stop),
       options, prepared, statistics, stop);
@@ -104,6 +171,7 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
       options, prepared, statistics, stop);
     statistics.Times.LabelField += seconds;
   }
+  prepared.Planes = FindPlanes(options, image, *prepared.Surfaces);
   if (options.LooksAfterComponents())
   {
     const Stopwatch time;

@@ -8,6 +8,7 @@
 #define voxplex_Preparation_h
 
 #include "Domain/Domain.h"
+#include "Domain/TimePlanes.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
 #include "Image/IsosurfaceImage.h"
@@ -29,7 +30,7 @@ template <int D>
 struct PreparedImage
 {
   const LabelImage<D>& Image;
-  /** Image with frames between its frames; null if there are none, and in 3D. */
+  /** Image with frames between its frames, or a periodic copy of it; null if neither is needed, and in 3D. */
   std::unique_ptr<const LabelImage<D>> WithSteps;
   std::unique_ptr<const Domain<D>> Surfaces;
   const BitMask<D>* Sites;                     ///< surface voxels of the domain
@@ -37,6 +38,7 @@ struct PreparedImage
   std::optional<Components<D>> AllComponents;  ///< empty if components are not checked
   std::optional<Components<D>> OfFrames;       ///< those of each frame; empty as before, and in 3D
   std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
+  TimePlanes Planes = {};                      ///< none in 3D
 
   /** The image that the domain is made from. Its surface voxels are Sites. */
   const LabelImage<D>& OfDomain() const { return this->WithSteps ? *this->WithSteps : this->Image; }
@@ -48,7 +50,8 @@ struct PreparedImage
  * @param image must outlive the result, and so must the isosurface
  * @param isosurface the isosurface to mesh, or null to mesh the labels alone
  * @param statistics receives times, numbers and bytes
- * @throws InputError if the image has grey values (CheckSegmented); Cancelled; std::bad_alloc
+ * @throws InputError if the image has grey values (CheckSegmented), or does not suit the time planes;
+ *   Cancelled; std::bad_alloc
  */
 template <int D>
 PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,

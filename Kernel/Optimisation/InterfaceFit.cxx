@@ -60,7 +60,7 @@ public:
     , Surfaces(surfaces)
     , Labels(labels)
     , Bounds(bounds)
-    , Limits(bounds.Image, surfaces)
+    , Limits(bounds.Image, surfaces, bounds.Planes)
     , Threads(threads)
     , Stop(stop)
   {
@@ -69,6 +69,7 @@ public:
   FittedPositions Run()
   {
     this->CopyPositions();
+    this->FindTwins();
     this->FindFacets();
     this->FindVertices();
     this->MeasureFacets();
@@ -102,10 +103,11 @@ private:
   struct Corner
   {
     VertexId Id;
+    VertexId Twin;       ///< moves alike; or None
     Point<4> Moved;      ///< the steps of the rounds before
     Point<4> Step;       ///< of this round
     double ShortestEdge; ///< of the facets around it
-    bool IsOnEnd;
+    bool KeepsTime;
     std::uint8_t Halved; ///< how often the step was halved
     std::uint8_t Mark;   ///< a simplex of this vertex is not good; see KeepShapes()
   };
@@ -115,6 +117,26 @@ private:
   {
     ParallelFor(0, iterations, ChunkCounts::Grain, this->Threads, std::forward<Function>(function),
       this->Stop);
+  }
+
+  /** Vertices of the last end of a periodic mesh are known by their twins at the first one. */
+  VertexId FirstOf(VertexId v) const
+  {
+    return this->Twins.empty() || this->Twins[v] == None || this->Twins[v] > v ? v : this->Twins[v];
+  }
+
+  void FindTwins()
+  {
+    if (this->Bounds.Twins.empty())
+    {
+      return;
+    }
+    this->Twins.assign(this->Source.VertexIdEnd(), None);
+    for (const auto& [first, last] : this->Bounds.Twins)
+    {
+      this->Twins[first] = last;
+      this->Twins[last] = first;
+    }
   }
 
   void CopyPositions()
@@ -203,7 +225,7 @@ private:
         {
           for (std::size_t k = 0; k < 4; ++k)
           {
-            memory[4 * f + k] = (std::uint64_t{ this->Facets[f].V[k] } << 32) | f;
+            memory[4 * f + k] = (std::uint64_t{ this->FirstOf(this->Facets[f].V[k]) } << 32) | f;
           }
         }
       });
@@ -220,9 +242,14 @@ private:
       const auto v = static_cast<VertexId>(sorted[k] >> 32);
       if (this->Corners.empty() || this->Corners.back().Id != v)
       {
-        const bool isOnEnd = this->Limits.IsOnEnd(this->Source.Position(v));
+        const bool keepsTime = this->Limits.KeepsTime(this->Source.Position(v));
+        const VertexId twin = this->Twins.empty() ? None : this->Twins[v];
         this->Ranks[v] = static_cast<std::uint32_t>(this->Corners.size());
-        this->Corners.push_back({ v, {}, {}, 0.0, isOnEnd, 0, 0 });
+        if (twin != None)
+        {
+          this->Ranks[twin] = this->Ranks[v];
+        }
+        this->Corners.push_back({ v, twin, {}, {}, 0.0, keepsTime, 0, 0 });
         this->FirstFacet.push_back(k);
       }
       this->FacetsOf[k] = static_cast<std::uint32_t>(sorted[k]);
@@ -366,7 +393,7 @@ private:
     {
       total[a] = corner.Moved[a] + corner.Step[a] + sum[a] / weights;
     }
-    total[3] = corner.IsOnEnd ? 0.0 : total[3];
+    total[3] = corner.KeepsTime ? 0.0 : total[3];
     const double length = std::sqrt(Dot(total, total));
     double factor = std::min(1.0, LongestMove * corner.ShortestEdge / length); // inf if length is 0
     factor = std::min(factor, this->Limits.Shortening(total));
@@ -385,6 +412,20 @@ private:
     {
       this->Positions[corner.Id][a] =
         p[a] + (corner.Moved[a] + shares[corner.Halved] * corner.Step[a]);
+    }
+    if (corner.Twin != None)
+    {
+      Point<4>& twin = this->Positions[corner.Twin];
+      std::copy_n(this->Positions[corner.Id].begin(), 3, twin.begin()); // the time stays
+    }
+  }
+
+  void SetChanged(const Corner& corner, std::uint8_t changed)
+  {
+    this->HasChanged[corner.Id] = changed;
+    if (corner.Twin != None)
+    {
+      this->HasChanged[corner.Twin] = changed;
     }
   }
 
@@ -445,7 +486,7 @@ private:
       areGood = !anyBad.load(std::memory_order_relaxed);
       for (Corner& corner : this->Corners)
       {
-        this->HasChanged[corner.Id] = corner.Mark;
+        this->SetChanged(corner, corner.Mark);
         corner.Halved = static_cast<std::uint8_t>(corner.Halved + corner.Mark);
         corner.Mark = 0;
         this->Place(corner);
@@ -481,7 +522,7 @@ private:
     {
       const bool isWorthIt = Dot(corner.Step, corner.Step) >=
         ShortestStep * ShortestStep * corner.ShortestEdge * corner.ShortestEdge;
-      this->HasChanged[corner.Id] = isWorthIt ? 1 : 0;
+      this->SetChanged(corner, isWorthIt ? 1 : 0);
       corner.Step = isWorthIt ? corner.Step : Point<4>{};
       corner.Halved = 0;
       this->Place(corner);
@@ -616,6 +657,7 @@ private:
   UninitialisedVector<Point<4>> Positions; ///< of each vertex id, with the steps of this round
   std::vector<std::uint8_t> HasChanged;    ///< of each vertex id, since its simplices were checked
   std::vector<std::uint32_t> Ranks;        ///< place in Corners of each vertex id, or None
+  std::vector<VertexId> Twins;             ///< of each vertex id, or None; empty if there are none
 };
 
 } // namespace

@@ -10,11 +10,14 @@
 #include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
+#include "Domain/TimePlanes.h"
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexLabels.h"
 #include "Sizing/SizingField.h"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <stop_token>
 
 namespace voxplex
@@ -31,6 +34,12 @@ struct FitBounds
    * bounding box.
    */
   const LabelImage<4>& Image;
+  const TimePlanes& Planes; ///< their vertices stay on them
+  /**
+   * Pairs of vertices that make the same steps, with the first and the last time of a periodic mesh;
+   * ascending by the first.
+   */
+  std::span<const std::array<VertexId, 2>> Twins = {};
 };
 
 /** The result of FitInterfaces(). */
@@ -56,7 +65,8 @@ struct FittedPositions
  * begin with d = 0, solve this well enough: d remains smooth. Where interfaces meet, the
  * displacement of a vertex serves the facets of all of them.
  *
- * Free vertices stay. Vertices on flat ends stay on them. Where a simplex, inside or outside of the
+ * Free vertices stay. Vertices on flat ends and time planes stay on them. Twins are one vertex with the facets
+ * of both. Where a simplex, inside or outside of the
  * object, would be turned over or violate a bound, the steps of its vertices are halved, twice, then
  * dropped. So the moved triangulation is a triangulation of the same box. There are three rounds. In
  * the second and third, targets h(f) are larger by what the rounds before have missed, so that other

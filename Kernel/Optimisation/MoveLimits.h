@@ -8,6 +8,7 @@
 #define voxplex_MoveLimits_h
 
 #include "Domain/Domain.h"
+#include "Domain/TimePlanes.h"
 #include "Geometry/Point.h"
 #include "Image/LabelImage.h"
 
@@ -20,25 +21,32 @@ namespace voxplex
 {
 
 /**
- * Limits from the image: half a voxel along each axis, about the image's box, and within flat ends.
- * The image and the domain must outlive this.
+ * Limits from the image: half a voxel along each axis, about the image's box, and within flat ends and
+ * time planes. The image, the domain and the planes must outlive this.
  */
 class MoveLimits
 {
 public:
-  MoveLimits(const LabelImage<4>& image, const Domain<4>& surfaces)
+  MoveLimits(const LabelImage<4>& image, const Domain<4>& surfaces, const TimePlanes& planes)
     : Image(image)
+    , Planes(planes)
     , Origin(image.Grid().ToIndex({}))
     , FirstTime(surfaces.HasTimeBorder(0) ? surfaces.Bounds().Min[3] : -Infinity)
     , LastTime(surfaces.HasTimeBorder(1) ? surfaces.Bounds().Max[3] : Infinity)
   {
   }
 
-  /** Whether a vertex is on a flat end. Then its time must not change. */
-  bool IsOnEnd(const Point<4>& p) const
+  /** Whether a vertex is on a flat end or a plane. Then its time must not change. */
+  bool KeepsTime(const Point<4>& p) const
   {
-    return p[3] <= this->FirstTime || p[3] >= this->LastTime;
+    return p[3] <= this->FirstTime || p[3] >= this->LastTime || this->IsOnPlane(p);
   }
+
+  /** Whether a vertex is on a time plane inside of the mesh. */
+  bool IsOnPlane(const Point<4>& p) const { return this->Planes.AreAt(p[3]); }
+
+  /** Whether a vertex has a twin at the other end of a periodic mesh. */
+  bool HasTwin(const Point<4>& p) const { return this->Planes.IsPeriodicEnd(p[3]); }
 
   /** The factor, at most 1, that shortens a displacement to half a voxel along each axis. */
   double Shortening(const Point<4>& displacement) const
@@ -72,6 +80,7 @@ private:
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
 
   const LabelImage<4>& Image;
+  const TimePlanes& Planes;
   const Point<4> Origin; ///< of the frame, in index coordinates
   const double FirstTime;
   const double LastTime;

@@ -218,6 +218,20 @@ std::uint32_t PentatopeComplex::Neighbour(std::size_t s, unsigned i) const
   return None;
 }
 
+bool PentatopeComplex::IsOnPlane(std::size_t s, unsigned i) const
+{
+  const Vertices& corners = this->Corners[s];
+  const double time = this->Points[corners[(i + 1) % 5]][3];
+  for (unsigned k = 2; k < 5; ++k)
+  {
+    if (this->Points[corners[(i + k) % 5]][3] != time)
+    {
+      return false;
+    }
+  }
+  return this->Bounds.Planes.AreAt(time);
+}
+
 bool PentatopeComplex::Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const
 {
   if (!(shape.Ratio <= std::max(this->Bounds.RadiusEdgeRatio, oldRatio)))

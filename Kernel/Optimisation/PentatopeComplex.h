@@ -9,6 +9,7 @@
 
 #include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
+#include "Domain/TimePlanes.h"
 #include "Geometry/Circumball.h"
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexLabels.h"
@@ -62,6 +63,11 @@ struct PentatopeBounds
   /** How far vertices may be moved off interfaces as a last resort; 0: not at all. */
   double InterfaceTolerance = 0.0;
   const SizingField<4>* Sizing = nullptr; ///< circumradii are below its element sizes; may be null
+  /**
+   * The facets on these planes stay, and so does the time of their vertices. The ends of a periodic
+   * mesh are not changed.
+   */
+  TimePlanes Planes = {};
 };
 
 /**
@@ -129,6 +135,9 @@ public:
    * @param oldRatio the largest ratio of those that it replaces
    */
   bool Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const;
+
+  /** Whether the facet of s across vertex i lies on a time plane. */
+  bool IsOnPlane(std::size_t s, unsigned i) const;
 
   void Move(std::uint32_t v, const Point<4>& p) { this->Points[v] = p; }
   void SetQuality(std::size_t s, double quality) { this->Qualities[s] = quality; }

@@ -30,7 +30,7 @@ bool Has(const PentatopeComplex::Vertices& s, std::uint32_t v)
 /**
  * The flip of the six points of s and its neighbour across vertex `across`. No flip is returned if
  * a smaller `across` gives the same one.
- * @param neighbours of s; those of other labels are None
+ * @param neighbours of s; those of other labels or slabs are None
  */
 PentatopeFlip FlipWith(const PentatopeComplex& complex, std::uint32_t s,
   const std::array<std::uint32_t, 5>& neighbours, unsigned across)
@@ -93,7 +93,8 @@ PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
   for (unsigned i = 0; i < 5; ++i)
   {
     neighbours[i] = complex.Neighbour(s, i);
-    if (neighbours[i] != None && complex.LabelOf(neighbours[i]) != complex.LabelOf(s))
+    if (neighbours[i] != None &&
+      (complex.LabelOf(neighbours[i]) != complex.LabelOf(s) || complex.IsOnPlane(s, i)))
     {
       neighbours[i] = None;
     }

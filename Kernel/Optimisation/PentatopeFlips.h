@@ -34,8 +34,8 @@ struct PentatopeFlip
  *
  * Six points of space-time span six pentatopes. Those of one orientation fill the same space as those
  * of the other. If the mesh has all of one kind, the others can take their place: 2 pentatopes with a
- * common tetrahedron, 3 around a triangle, or 4 around an edge. All must have the same label, so
- * interfaces stay as they are.
+ * common tetrahedron, 3 around a triangle, or 4 around an edge. All must have the same label and be on the
+ * same side of all time planes, so interfaces and facets on planes stay as they are.
  *
  * Complexity: linear in the stars of the pentatope's vertices.
  */

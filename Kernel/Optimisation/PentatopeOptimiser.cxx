@@ -339,7 +339,7 @@ PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings&
   const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
   unsigned threads, const std::stop_token& stop)
 {
-  const MoveLimits limits(image, surfaces);
+  const MoveLimits limits(image, surfaces, bounds.Planes);
   PentatopeComplex complex(mesh, outside, image, surfaces, bounds, threads, stop);
   const PentatopeStatistics done = Optimiser(complex, limits, mesh, bounds, threads, stop).Run();
   complex.CopyTo(mesh);

@@ -39,7 +39,8 @@ struct PentatopeStatistics
  * - conformity, positive orientation, labels, and the facets of interfaces;
  * - the interfaces: their vertices move along them, by a quarter of an edge or half a voxel at most.
  *   As a last resort they leave them, by PentatopeBounds::InterfaceTolerance at most;
- * - the bounds of radius-edge ratios and sizes.
+ * - the bounds of radius-edge ratios and sizes;
+ * - facets on time planes and the ends of a periodic mesh (PentatopeBounds::Planes).
  *
  * Points keep their order. So do pentatopes; new ones come last. The result does not depend on the
  * number of threads.

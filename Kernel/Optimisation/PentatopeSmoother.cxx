@@ -158,6 +158,10 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
 bool PentatopeSmoother::Begin(std::uint32_t v)
 {
   this->Start = this->Target.PointOf(v);
+  if (this->Limits.HasTwin(this->Start))
+  {
+    return false;
+  }
   this->Star.Gather(this->Target, v);
   this->Tried.resize(this->Star.Inside().size());
   this->FirstTried = 0;
@@ -197,6 +201,10 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
     total += area;
     this->FacetNormals.push_back(normal);
   }
+  if (this->Limits.IsOnPlane(this->Start))
+  {
+    sum[3][3] += total; // as facets on a flat end do
+  }
   const SymmetricEigen<4> eigen = EigenOf<4>(sum);
   for (std::size_t k = 0; k < 4; ++k)
   {
@@ -230,7 +238,7 @@ Point<4> PentatopeSmoother::SumOfNormals(const Point<4>& side) const
   return Along({}, sum, 1.0);
 }
 
-/** Removes what a direction has of the normals, unless tolerated, and time on a flat end. */
+/** Removes what a direction has of the normals, unless tolerated, and time where it must stay. */
 void PentatopeSmoother::Project(Point<4>& direction) const
 {
   for (std::size_t k = 0; k < this->Normals.size() && this->Tolerance == 0.0; ++k)
@@ -241,7 +249,8 @@ void PentatopeSmoother::Project(Point<4>& direction) const
       direction[a] -= part * this->Normals[k][a];
     }
   }
-  if (this->IsOnInterface && this->Limits.IsOnEnd(this->Start))
+  if ((this->IsOnInterface && this->Limits.KeepsTime(this->Start)) ||
+    this->Limits.IsOnPlane(this->Start))
   {
     direction[3] = 0.0;
   }

@@ -24,8 +24,10 @@ namespace voxplex
  * A step is taken only if the measure grows and PentatopeComplex::Allows() the result.
  * Vertices of interfaces move along them: in the directions that are tangential to the facets around
  * them. If facets have several normals, at a crease or where interfaces meet, all of these are
- * excluded. If they have one, the moves change no label's volume. Such a vertex moves by at most half a voxel along each axis and a quarter of its
- * shortest edge in all, and stays on a flat end. A pentatope outside of the object is not turned
+ * excluded. If they have one, the moves change no label's volume. Such a vertex moves by at most half
+ * a voxel along each axis and a quarter of its shortest edge in all, and stays on a flat end.
+ * Vertices on time planes stay on them; those at the ends of a periodic mesh do not move. A pentatope
+ * outside of the object is not turned
  * over, so the mesh does not overlap itself.
  */
 class PentatopeSmoother

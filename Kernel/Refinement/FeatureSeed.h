@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FeatureSeed.h
- * @brief A feature point that is inserted before refinement begins.
+ * @brief A point that is inserted before refinement begins.
  */
 #ifndef voxplex_FeatureSeed_h
 #define voxplex_FeatureSeed_h
 
+#include "Delaunay/Stores.h"
 #include "Geometry/Point.h"
 
 namespace voxplex
@@ -17,6 +18,12 @@ struct FeatureSeed
 {
   Point<D> Position;
   double Delta; ///< the point is left out if a feature vertex is nearer than this
+  /**
+   * If it is true, the point is one of a plane that two slabs share, and the other slab has it: it is inserted as it is,
+   * whatever is near, and never removed.
+   */
+  bool IsShared = false;
+  VertexKind Kind = VertexKind::Feature; ///< of a shared point; other seeds are feature points
 };
 
 } // namespace voxplex

@@ -89,11 +89,21 @@ struct RefinementContext
     return distance > 0.0 && distance < EndMargin * delta;
   }
 
+  /** Whether a point of the box lies on a flat end where rules may insert nothing any more. */
+  bool IsOnClosedEnd(const Point<D>& p) const
+  {
+    constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
+    return (this->IsClosed[0] && p[Time] == this->Mesh.GetBox().Min[Time]) ||
+      (this->IsClosed[1] && p[Time] == this->Mesh.GetBox().Max[Time]);
+  }
+
   const Domain<D>& Image;
   const RefinementSettings<D> Settings;
   SizingField<D> Sizing;
   const std::array<bool, 2> HasTimeBorder; ///< Domain::HasTimeBorder; the box ends there
-  const ImageBorder<D>* const Border;      ///< Domain::Border; may be null
+  /** Flat ends where the rules insert nothing. To be set between refinements. */
+  std::array<bool, 2> IsClosed{ false, false };
+  const ImageBorder<D>* const Border; ///< Domain::Border; may be null
   Triangulation<D> Mesh;
   FeatureGrid<D> Features;
   RegionalWork<D> Work;

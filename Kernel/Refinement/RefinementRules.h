@@ -80,7 +80,7 @@ public:
 
   /**
    * Inserts a feature point and applies R6, unless the point would crowd others. A point near a
-   * flat end is moved to where an interface meets the end.
+   * flat end is moved to where an interface meets the end. A shared point is inserted as it is.
    * @param near a living simplex, where the search begins; receives one near the point if the point
    *   is inserted
    */
@@ -88,6 +88,11 @@ public:
   {
     Point<D> z = seed.Position;
     Point<D> onEnd;
+    if (seed.IsShared)
+    {
+      this->InsertShared(seed, near);
+      return;
+    }
     if ((this->Context.IsNearEnd(z, seed.Delta, onEnd) &&
           !this->Context.Image.ClosestSurfacePointOnEnd(onEnd, z)) ||
       this->AnyFeatureWithin(z, seed.Delta))
@@ -382,13 +387,21 @@ protected:
     return this->Context.Features.AnyWithin(p, distance);
   }
 
-  /** Inserts a point, unless the evaluation is put off. */
+  /** Inserts a point, unless the evaluation is put off or the point lies on a closed end. */
   InsertionOutcome Insert(const Point<D>& p, VertexKind kind, SimplexId seed, double clearance,
     typename Mesh::InsertionVeto* veto = nullptr)
   {
     if (this->Worker.Zone && this->Worker.Zone->HasLeft)
     {
       return InsertionOutcome::Contended;
+    }
+    if constexpr (D == 4)
+    {
+      if (this->Context.IsOnClosedEnd(p))
+      {
+        ++this->Worker.Statistics.RefusedOnClosedEnd;
+        return InsertionOutcome::Rejected;
+      }
     }
     return this->Context.Mesh.Insert(this->Worker.Kernel, p, kind, seed, clearance, veto);
   }
@@ -529,6 +542,33 @@ protected:
   static constexpr double EndSpacing = 0.6;
 
 private:
+  /** Inserts a point that another slab has on the common plane. R6 follows a feature point. */
+  void InsertShared(const FeatureSeed<D>& seed, SimplexId& near)
+  {
+    const SimplexId conflict =
+      this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
+    if (conflict == None)
+    {
+      return; // it is a vertex already: a corner of the box
+    }
+    this->Context.Mesh.Lock( // no other thread operates, so it succeeds
+      this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
+    if (this->Context.Mesh.Insert(this->Worker.Kernel, seed.Position, seed.Kind, conflict) !=
+      InsertionOutcome::Inserted)
+    {
+      return;
+    }
+    ++this->Worker.Statistics.Shared;
+    near = this->Worker.Kernel.Created[0];
+    this->ScreenCreated();
+    if (seed.Kind == VertexKind::Feature)
+    {
+      this->Context.Features.Add(seed.Position);
+      this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * seed.Delta);
+      near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
+    }
+  }
+
   /** Whether a point of the box is on a face of the box that is not a flat end. */
   bool IsOnSide(const Point<D>& p) const
   {

@@ -59,9 +59,11 @@ struct RuleStatistics
   std::uint64_t Projected = 0;          ///< circumcentres moved onto the box
   std::uint64_t Removed = 0;            ///< free vertices removed near new feature vertices
   std::uint64_t RefusedTooClose = 0;    ///< points closer than the spacing floor to a vertex
-  std::uint64_t RefusedNoConflict = 0;  ///< points that conflict with none of the candidates
-  std::uint64_t RefusedDuplicate = 0;   ///< points equal to a vertex
-  std::uint64_t RemovalsFailed = 0;     ///< vertices whose star could not be re-triangulated
+  std::uint64_t RefusedOnClosedEnd = 0; ///< points on planes between slabs that are closed; 4D
+  std::uint64_t Shared = 0; ///< points of planes inserted because the other slab has them; 4D
+  std::uint64_t RefusedNoConflict = 0; ///< points that conflict with none of the candidates
+  std::uint64_t RefusedDuplicate = 0;  ///< points equal to a vertex
+  std::uint64_t RemovalsFailed = 0;    ///< vertices whose star could not be re-triangulated
   std::uint64_t ClosestSurfacePointCalls = 0;
   std::uint64_t Evaluated = 0;           ///< simplices whose rules were evaluated
   std::uint64_t Created = 0;             ///< simplices created, including those that died
@@ -95,6 +97,8 @@ struct RuleStatistics
     this->Projected += other.Projected;
     this->Removed += other.Removed;
     this->RefusedTooClose += other.RefusedTooClose;
+    this->RefusedOnClosedEnd += other.RefusedOnClosedEnd;
+    this->Shared += other.Shared;
     this->RefusedNoConflict += other.RefusedNoConflict;
     this->RefusedDuplicate += other.RefusedDuplicate;
     this->RemovalsFailed += other.RemovalsFailed;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <utility>
 #include <vector>
 
@@ -106,7 +107,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
 }
 
 /**
- * Inserts feature points along a Hilbert curve.
+ * Inserts points along a Hilbert curve, shared points first.
  *
  * @param Rules as in Refiner
  * @param worker inserts; no other thread may operate meanwhile. New simplices are screened, unless
@@ -117,17 +118,26 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
   const std::vector<FeatureSeed<D>>& seeds)
 {
   Triangulation<D>& mesh = context.Mesh;
-  std::vector<std::pair<std::uint64_t, std::size_t>> along;
+  struct Place
+  {
+    bool IsLate;
+    std::uint64_t Index;
+    std::size_t Seed;
+
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> along;
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
-    along.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
+    along.push_back({ !seeds[i].IsShared,
+      HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
   }
   std::sort(along.begin(), along.end());
   SimplexId near = mesh.FirstAlive();
   Rules rules(context, worker);
-  for (const auto& [index, i] : along)
+  for (const Place& place : along)
   {
-    rules.InsertSeed(seeds[i], near);
+    rules.InsertSeed(seeds[place.Seed], near);
     near = mesh.IsAlive(near) ? near : mesh.FirstAlive();
   }
   mesh.Unlock(worker.Kernel);

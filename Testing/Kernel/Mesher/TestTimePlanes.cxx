@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Space-time meshes that conform to time planes, and periodic ones.
+#include "Base/Error.h"
+#include "SlabChecks.h"
+#include "SpaceTimeCases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+struct Result
+{
+  SimplexMesh<4> Mesh;
+  MeshingStatistics Statistics;
+};
+
+Result MeshOf(const LabelImage<4>& image, const MeshingOptions<4>& options)
+{
+  ImageMesher<4> mesher(options);
+  Result result;
+  EXPECT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
+  result.Statistics = mesher.Statistics();
+  return result;
+}
+
+/** Everything on that users get. */
+MeshingOptions<4> WithPlanes(double delta, std::vector<double> times, unsigned threads = 1)
+{
+  MeshingOptions<4> options;
+  options.Sampling.Delta = delta;
+  options.Optimisation.Run = true;
+  options.Team.Threads = threads;
+  options.Planes.Times = std::move(times);
+  return options;
+}
+
+void ExpectSlabs(const Result& result, double first, double last)
+{
+  const SimplexMesh<4>& mesh = result.Mesh;
+  const std::vector<double>& times = result.Statistics.Planes.Times;
+  ASSERT_EQ(mesh.Slabs.size(), mesh.Simplices.size());
+  const std::vector<std::string> complaints = Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  std::size_t pentatopes = 0;
+  for (std::uint32_t slab = 0; slab <= times.size(); ++slab)
+  {
+    SCOPED_TRACE("slab " + std::to_string(slab));
+    const SlabReport report = CheckSlab(
+      mesh, slab, slab == 0 ? first : times[slab - 1], slab == times.size() ? last : times[slab]);
+    EXPECT_TRUE(report.Complaints.empty()) << report.Complaints.front();
+    EXPECT_GT(report.Pentatopes, 0u);
+    pentatopes += report.Pentatopes;
+  }
+  EXPECT_EQ(pentatopes, mesh.Simplices.size());
+  for (const double time : times)
+  {
+    const auto before = FacetsAt(mesh, time, -1);
+    EXPECT_FALSE(before.empty());
+    EXPECT_TRUE(before == FacetsAt(mesh, time, 1)) << "plane at " << time;
+  }
+}
+
+void ExpectPeriod(const Result& result, double first, double last)
+{
+  const SimplexMesh<4>& mesh = result.Mesh;
+  const auto start = FacetsAt(mesh, first, 1);
+  EXPECT_FALSE(start.empty());
+  EXPECT_TRUE(start == FacetsAt(mesh, last, -1));
+  std::map<std::array<double, 3>, std::uint32_t> at;
+  std::size_t ends = 0;
+  for (std::uint32_t v = 0; v < mesh.Points.size(); ++v)
+  {
+    const Point<4>& p = mesh.Points[v];
+    if (p[3] == first)
+    {
+      at[{ p[0], p[1], p[2] }] = v;
+    }
+  }
+  for (std::uint32_t v = 0; v < mesh.Points.size(); ++v)
+  {
+    const Point<4>& p = mesh.Points[v];
+    if (p[3] == last && at.contains({ p[0], p[1], p[2] }))
+    {
+      const std::array<std::uint32_t, 2> pair = { at.at({ p[0], p[1], p[2] }), v };
+      EXPECT_TRUE(std::binary_search(mesh.Twins.begin(), mesh.Twins.end(), pair));
+      ++ends;
+    }
+  }
+  EXPECT_GT(ends, 0u);
+  EXPECT_EQ(ends, mesh.Twins.size());
+}
+
+} // namespace
+
+TEST(TimePlanes, SlabsMatchOnPlanes)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
+  for (const unsigned threads : { 1u, 2u })
+  {
+    for (const bool isRaw : { false, true })
+    {
+      SCOPED_TRACE(std::to_string(threads) + (isRaw ? " threads, as refined" : " threads"));
+      MeshingOptions<4> options = WithPlanes(2.0, { 11.0, 5.3, 0.0, 8.0, 16.0, 8.0 }, threads);
+      options.Optimisation.Run = !isRaw;
+      options.Interfaces.Fit = !isRaw;
+      const Result result = MeshOf(image, options);
+      EXPECT_EQ(result.Statistics.Planes.Times, (std::vector<double>{ 5.3, 8.0, 11.0 }));
+      EXPECT_TRUE(result.Mesh.Twins.empty());
+      ExpectSlabs(result, 0.0, 16.0);
+      // Seen: 2 to 3 of some 2,000 facets on planes.
+      EXPECT_LT(result.Statistics.Planes.Relabelled, result.Statistics.Planes.Facets / 50);
+      EXPECT_EQ(result.Statistics.Planes.Refused, 0u);
+    }
+  }
+}
+
+// A frame of the object is cut by each plane; facets there are inside of the object, and no interfaces.
+TEST(TimePlanes, VolumesAndShapesAreThoseOfAMeshWithoutPlanes)
+{
+  const LabelImage<4> image = ImageOf(phantoms::MergingBalls());
+  const Result with = MeshOf(image, WithPlanes(2.0, { 4.0, 8.0, 12.0 }));
+  const Result without = MeshOf(image, WithPlanes(2.0, {}));
+  ExpectSlabs(with, 0.0, 16.0);
+  EXPECT_TRUE(without.Mesh.Slabs.empty());
+  const auto expected = Hypervolumes(image);
+  const auto volumes = Volumes(with.Mesh);
+  for (const std::int64_t label : { 1, 2 })
+  {
+    EXPECT_NEAR(volumes.at(label), expected.at(label), 0.02 * expected.at(label));
+  }
+  for (std::size_t f = 0; f < with.Mesh.Facets.size(); ++f)
+  {
+    const auto& facet = with.Mesh.Facets[f];
+    const double time = with.Mesh.Points[facet[0]][3];
+    const bool isFlat = std::all_of(
+      facet.begin(), facet.end(), [&](std::uint32_t v) { return with.Mesh.Points[v][3] == time; });
+    EXPECT_FALSE(isFlat && time > 0.0 && time < 16.0) << "an interface lies in a plane";
+  }
+  // Seen: 27,672 with planes, 27,435 without.
+  EXPECT_LT(with.Mesh.Simplices.size(), 1.1 * static_cast<double>(without.Mesh.Simplices.size()));
+  for (std::size_t s = 0; s < with.Mesh.Simplices.size(); ++s)
+  {
+    ASSERT_LT(RadiusEdge(with.Mesh, s), 2.0 + 1e-9);
+  }
+  EXPECT_GE(with.Statistics.Optimisation.SmallestVolumeAfter, 0.01);
+  EXPECT_TRUE(with.Statistics.Components.Lost.empty());
+  EXPECT_TRUE(with.Statistics.FrameComponents.Lost.empty());
+}
+
+// Motion of several voxels a frame: frames are added between frames. Thin slabs.
+TEST(TimePlanes, EveryFrameOfAFastBall)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::FastBall(7), 4.0));
+  std::vector<double> frames;
+  for (std::int64_t k = 0; k < image.Grid().Dimensions[3]; ++k)
+  {
+    frames.push_back(static_cast<double>(k) * image.Grid().IndexToFrame[3][3]);
+  }
+  const Result result = MeshOf(image, WithPlanes(0.9 * frames[1], frames));
+  EXPECT_EQ(result.Statistics.Planes.Times.size(), frames.size() - 2);
+  ExpectSlabs(result, frames.front(), frames.back());
+}
+
+TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
+{
+  // Begins and ends with motion, so both ends are equal only if the smoothing wraps.
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0, 2.5));
+  for (const unsigned threads : { 1u, 2u })
+  {
+    for (const bool hasPlanes : { false, true })
+    {
+      SCOPED_TRACE(std::to_string(threads) + (hasPlanes ? " threads, planes" : " threads"));
+      MeshingOptions<4> options = WithPlanes(
+        2.0, hasPlanes ? std::vector<double>{ 5.0, 9.5 } : std::vector<double>(), threads);
+      options.Planes.Periodic = true;
+      const Result result = MeshOf(image, options);
+      EXPECT_EQ(result.Statistics.Planes.Times,
+        (hasPlanes ? std::vector<double>{ 5.0, 9.5 } : std::vector<double>{ 8.0 }));
+      ExpectSlabs(result, 0.0, 16.0);
+      ExpectPeriod(result, 0.0, 16.0);
+      EXPECT_EQ(result.Statistics.Planes.Pairs, result.Mesh.Twins.size());
+    }
+  }
+}
+
+TEST(TimePlanes, SmoothingWrapsAtTheEndsOfAPeriod)
+{
+  // The radius is the same in the first and in the last frame, but grows after the first one.
+  LabelImage<4> image = ImageOf(PulsatingBalls(9, 1.0, 3.0));
+  const auto countChanges = [](const LabelImage<4>& of)
+  {
+    const ImageDomain<4> domain(of, 1.0);
+    std::size_t changes = 0;
+    for (double x = 1.05; x < 22.0; x += 0.31)
+    {
+      for (double y = 1.05; y < 22.0; y += 0.31)
+      {
+        changes += domain.Label({ x, y, 11.5, 0.0 }) != domain.Label({ x, y, 11.5, 8.0 }) ? 1 : 0;
+      }
+    }
+    return changes;
+  };
+  EXPECT_GT(countChanges(image), 0u) << "this image shows nothing";
+  image.MakePeriodicInTime();
+  EXPECT_EQ(countChanges(image), 0u);
+}
+
+TEST(TimePlanes, OneThreadGivesTheSameMeshAgain)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
+  MeshingOptions<4> options = WithPlanes(2.5, { 8.0 });
+  options.Planes.Periodic = true;
+  const Result first = MeshOf(image, options);
+  const Result second = MeshOf(image, options);
+  EXPECT_TRUE(first.Mesh.Points == second.Mesh.Points);
+  EXPECT_TRUE(first.Mesh.Simplices == second.Mesh.Simplices);
+  EXPECT_TRUE(first.Mesh.Twins == second.Mesh.Twins);
+}
+
+TEST(TimePlanes, RefusesWhatCannotBe)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
+  const auto messageOf = [](const LabelImage<4>& of, const MeshingOptions<4>& options)
+  {
+    SimplexMesh<4> mesh;
+    try
+    {
+      ImageMesher<4>(options).Run(of, mesh);
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto expect = [&](const MeshingOptions<4>& options, const std::string& part)
+  {
+    const std::string message = messageOf(image, options);
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect(WithPlanes(2.0, { 17.0 }),
+    "at 17 is not between the first frame, at 0, and the last one, at 16");
+  expect(WithPlanes(2.0, { -1.0 }), "at -1 is not between");
+  expect(WithPlanes(2.0, { nan }), "is not between");
+  expect(WithPlanes(2.0, { 8.0, 9.0 }), "a slab of 1 is thinner than delta, which is 2");
+  expect(WithPlanes(2.0, { 15.0 }), "a slab of 1 is thinner than delta, which is 2");
+  MeshingOptions<4> options = WithPlanes(2.0, { 8.0 });
+  options.Team.Reproducible = true;
+  expect(options, "cannot be combined with reproducible threads");
+
+  options = WithPlanes(2.0, {});
+  options.Planes.Periodic = true;
+  const std::string message = messageOf(
+    ImageOf({ image.Grid(),
+      [](const Point<4>& p) -> std::uint8_t {
+        return Distance(p, { 11.5, 11.5, 11.5, 0.0 }) < 8.0 + (p[3] > 0.0 ? 0.5 * p[3] : 0.0);
+      } }),
+    options);
+  EXPECT_NE(
+    message.find("a last frame that is equal to the first one; they differ in"), std::string::npos)
+    << message;
+}
+
+TEST(TimePlanes, CancelStopsARun)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
+  ImageMesher<4> mesher(WithPlanes(0.7, { 8.0 }));
+  double reached = 0.0;
+  mesher.Progress = [&reached](double fraction)
+  {
+    EXPECT_GE(fraction, reached);
+    reached = fraction;
+    return fraction < 0.3;
+  };
+  SimplexMesh<4> mesh;
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Cancelled);
+  EXPECT_TRUE(mesh.Simplices.empty());
+}
