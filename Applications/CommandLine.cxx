@@ -123,6 +123,12 @@ void AddOwn(po::options_description& options, ParameterGroup group)
   if (group == ParameterGroup::SpaceTime)
   {
     options.add_options() //
+      ("time-planes", Text("TIME,...|frames"),
+        "times of planes that the mesh conforms to, or frames for the time of each frame: no "
+        "element has points "
+        "before and after a plane") //
+      ("slabs", Text("PREFIX"),
+        "write each slab between two time planes alone: PREFIX0.vtu, PREFIX1.vtu, ...") //
       ("slices", Text("PREFIX"),
         "write the mesh as it is at several times: PREFIX0.vtu, PREFIX1.vtu, ... and a .pvd file "
         "that ParaView plays") //
@@ -380,7 +386,17 @@ Parameters ToParameters(const po::variables_map& values)
   if (const auto* text = Given(values, "slices"))
   {
     p.Slices = *text;
-    CheckSlicePrefix(*text);
+    CheckFilePrefix("slices", *text, "heart_");
+  }
+  if (const auto* text = Given(values, "time-planes"))
+  {
+    p.TimePlanesAtFrames = *text == "frames";
+    p.TimePlanes = p.TimePlanesAtFrames ? std::vector<double>() : ParseTimes("time-planes", *text);
+  }
+  if (const auto* text = Given(values, "slabs"))
+  {
+    p.Slabs = *text;
+    CheckFilePrefix("slabs", *text, "slab_");
   }
   if (const auto* text = Given(values, "slice-count"))
   {

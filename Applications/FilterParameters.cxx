@@ -53,6 +53,7 @@ const std::map<std::string, Setter, std::less<>>& Setters()
     { "time-scale", To(&Pentatopes::SetTimeScale) },
     { "frame-steps", To(&Pentatopes::SetFrameSteps) },
     { "fit", To(&Pentatopes::SetFitInterfaces) },
+    { "periodic", To(&Pentatopes::SetPeriodic) },
     { "rule-order", To(&Pentatopes::SetRuleOrder) },
     { "picking", To(&Pentatopes::SetPickingRegions) },
     { "picks", To(&Pentatopes::SetNumberOfPicks) },

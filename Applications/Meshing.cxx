@@ -31,6 +31,14 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   {
     filter->SetInputModeToIsosurface();
   }
+  if (auto* const pentatopes = vtkImageToPentatopeMeshFilter::SafeDownCast(filter))
+  {
+    pentatopes->SetTimePlanesAtFrames(p.TimePlanesAtFrames);
+    for (const double time : p.TimePlanes)
+    {
+      pentatopes->AddTimePlane(time);
+    }
+  }
   for (const auto& [labels, size] : selection.InterfaceSizes)
   {
     filter->SetInterfaceSize(labels.first, labels.second, size);

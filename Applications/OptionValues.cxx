@@ -97,6 +97,16 @@ std::vector<std::string> SplitAtCommas(std::string_view text)
   return parts;
 }
 
+std::vector<double> ParseTimes(const std::string& option, std::string_view text)
+{
+  std::vector<double> times;
+  for (const std::string& one : SplitAtCommas(text))
+  {
+    times.push_back(ParseReal(option, one, {}));
+  }
+  return times;
+}
+
 LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
 {
   const std::size_t equals = text.rfind('=');

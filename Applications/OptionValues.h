@@ -37,6 +37,9 @@ std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::str
 /** "1,Tibia,5": the texts between the commas. */
 std::vector<std::string> SplitAtCommas(std::string_view text);
 
+/** "0.5,1": finite numbers with commas between them. */
+std::vector<double> ParseTimes(const std::string& option, std::string_view text);
+
 /** "3=1.5" or "Tibia=1.5"; the last = counts. */
 LabelSizeText ParseLabelSize(const std::string& option, std::string_view text);
 

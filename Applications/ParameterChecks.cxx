@@ -43,6 +43,13 @@ void CheckSpaceTime(const Parameters& p)
 {
   RefuseIf(p.SliceCount && p.Slices.empty(),
     "--slice-count: give the beginning of the slices' names with --slices");
+  const bool hasPlanes = p.TimePlanesAtFrames || !p.TimePlanes.empty() || p.Has("periodic");
+  RefuseIf(!p.Slabs.empty() && !hasPlanes,
+    "--slabs: there is one slab only; give the times of planes with --time-planes");
+  RefuseIf(hasPlanes && p.Has("reproducible"),
+    "--time-planes and --periodic do not go together with --reproducible; with --threads 1 every "
+    "mesh is "
+    "reproducible");
   for (const char* name : { "picks", "sliver-bound", "seed" })
   {
     RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),
@@ -125,6 +132,8 @@ void CheckDimension(const Parameters& p, int dimension)
     RefuseIf(isOfOthers && p.Has(parameter.Name), OptionOf(parameter), why);
   }
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
+  RefuseIf(dimension == 3 && !p.Slabs.empty(), "--slabs", why);
+  RefuseIf(dimension == 3 && (p.TimePlanesAtFrames || !p.TimePlanes.empty()), "--time-planes", why);
   if (!p.Output.empty())
   {
     RequireFormat(OutputOption::Output, p.Output, dimension);

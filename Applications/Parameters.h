@@ -45,6 +45,9 @@ struct Parameters
   std::string LabelTable;
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
+  std::vector<double> TimePlanes; ///< in the image's unit of time
+  bool TimePlanesAtFrames = false;
+  std::string Slabs; ///< the beginning of the names of slabs
 
   /** Of the table, apart from lists of labels and sizes. */
   ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };

@@ -65,21 +65,23 @@ SliceFiles::SliceFiles(
   }
 }
 
-void CheckSlicePrefix(const std::string& prefix)
+void CheckFilePrefix(
+  const std::string& option, const std::string& prefix, const std::string& example)
 {
   const fs::path path(prefix);
   if (prefix.empty())
   {
-    throw UsageError("--slices: the name is empty");
+    throw UsageError("--" + option + ": the name is empty");
   }
   if (!path.has_filename())
   {
-    throw UsageError("--slices: '" + prefix + "' names no file; give the beginning of the names, " +
-      "such as heart_ for heart_0.vtu, heart_1.vtu and so on");
+    throw UsageError("--" + option + ": '" + prefix +
+      "' names no file; give the beginning of the names, such as " + example + " for " + example +
+      "0.vtu, " + example + "1.vtu and so on");
   }
   if (path.extension() == ".vtu" || path.extension() == ".pvd")
   {
-    throw UsageError("--slices: '" + prefix +
+    throw UsageError("--" + option + ": '" + prefix +
       "' is the whole name of a file; give the beginning, " + "such as " + path.stem().string() +
       "_");
   }

@@ -43,8 +43,13 @@ struct SliceFiles
     const std::string& prefix, const std::vector<double>& frameTimes, std::optional<int> count);
 };
 
-/** @throws UsageError: an empty name, or what is rather that of a file */
-void CheckSlicePrefix(const std::string& prefix);
+/**
+ * @param option without dashes
+ * @param example of a prefix
+ * @throws UsageError: an empty name, or what is rather that of a file
+ */
+void CheckFilePrefix(
+  const std::string& option, const std::string& prefix, const std::string& example);
 
 /** Takes one slice after the other out of a pentatope mesh. */
 class Slicer

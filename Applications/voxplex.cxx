@@ -11,6 +11,7 @@
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
 #include "ProgressBar.h"
+#include "SlabFiles.h"
 #include "SliceFiles.h"
 #include "StatisticsReport.h"
 #include "WholeFiles.h"
@@ -245,6 +246,22 @@ void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::
   WriteCollection(slices, files);
 }
 
+/** Slabs are known only when the mesh is there. */
+void WriteSlabs(vtkUnstructuredGrid* mesh, const Parameters& p, io::WholeFiles& files)
+{
+  const std::vector<std::string> names = NamesOfSlabs(p.Slabs, mesh);
+  for (const std::string& name : names)
+  {
+    AnnounceMesh(files, name);
+  }
+  ProtectInputs(files, p);
+  for (std::size_t slab = 0; slab < names.size(); ++slab)
+  {
+    WriteMeshFile(SlabOf(mesh, static_cast<int>(slab)), nullptr, vtkSimplexMeshWriter::CONTENT_MESH,
+      names[slab], files);
+  }
+}
+
 void Run(const Parameters& p)
 {
   io::WholeFiles files;
@@ -272,6 +289,10 @@ void Run(const Parameters& p)
   if (slices)
   {
     WriteSlices(filter->GetOutput(), *slices, files);
+  }
+  if (!p.Slabs.empty())
+  {
+    WriteSlabs(filter->GetOutput(), p, files);
   }
   times.Write = writing.Seconds();
 

@@ -319,6 +319,67 @@ void vtkImageToPentatopeMeshFilter::CheckParameters() const
   CheckRange(this->SliverRadiusFactor, 1.0, largest, "SliverRadiusFactor", "at least 1 and finite");
 }
 
+void vtkImageToPentatopeMeshFilter::AddTimePlane(double time)
+{
+  this->TimePlanes.push_back(time);
+  this->Modified();
+}
+
+void vtkImageToPentatopeMeshFilter::RemoveAllTimePlanes()
+{
+  if (!this->TimePlanes.empty())
+  {
+    this->TimePlanes.clear();
+    this->Modified();
+  }
+}
+
+int vtkImageToPentatopeMeshFilter::GetNumberOfTimePlanes() const
+{
+  return static_cast<int>(this->TimePlanes.size());
+}
+
+double vtkImageToPentatopeMeshFilter::GetTimePlane(int plane) const
+{
+  const bool exists = plane >= 0 && plane < this->GetNumberOfTimePlanes();
+  return exists ? this->TimePlanes[static_cast<std::size_t>(plane)] : 0.0;
+}
+
+namespace
+{
+
+/**
+ * The times of planes in the mesher's frame.
+ * @throws InputError if a time is not within the series
+ */
+std::vector<double> PlanesInFrame(
+  std::vector<double> times, const voxplex::FrameSeries& series, bool atFrames, double timeScale)
+{
+  const double first = series.TimeOf(0);
+  const double last = series.TimeOf(series.NumberOfFrames() - 1);
+  for (const double time : times)
+  {
+    if (!(time >= first && time <= last))
+    {
+      throw InputError("A time plane at " + voxplex::NumberText(time) +
+        " is outside of the series, whose frames are from " + voxplex::NumberText(first) + " to " +
+        voxplex::NumberText(last) + "; correct the times of the planes.");
+    }
+  }
+  for (std::size_t k = 0; k < series.NumberOfFrames() && atFrames; ++k)
+  {
+    times.push_back(series.TimeOf(k));
+  }
+  for (double& time : times)
+  {
+    time = (time - first) * timeScale;
+  }
+  return times;
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
 void vtkImageToPentatopeMeshFilter::Mesh(
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -327,6 +388,9 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   Run<4> run(this, inputVector, frame);
   run.Options.FrameSteps = static_cast<unsigned>(this->FrameSteps);
   run.Options.Interfaces.Fit = this->FitInterfaces;
+  run.Options.Planes.Times =
+    PlanesInFrame(this->TimePlanes, series, this->TimePlanesAtFrames, this->TimeScale);
+  run.Options.Planes.Periodic = this->Periodic;
   run.Options.SpaceTime.Order = static_cast<voxplex::RuleOrder>(this->RuleOrder);
   run.Options.SpaceTime.Slivers.Fight = this->PickingRegions;
   run.Options.SpaceTime.Slivers.PickingRadius = this->PickingRadius;
@@ -357,8 +421,9 @@ void vtkImageToPentatopeMeshFilter::Mesh(
     return;
   }
   const voxplex::Stopwatch writing;
-  voxplex::MoveToOutput(std::move(mesh), frame, vtkUnstructuredGrid::GetData(outputVector, 0),
-    vtkUnstructuredGrid::GetData(outputVector, 1), threads);
+  voxplex::MoveToOutput(std::move(mesh), frame, run.Figures().Run.Planes.Times,
+    vtkUnstructuredGrid::GetData(outputVector, 0), vtkUnstructuredGrid::GetData(outputVector, 1),
+    threads);
   run.Figures().Run.Times.LabelField += this->Gathered->Seconds;
   run.Figures().Run.Times.Extraction += writing.Seconds();
 }
@@ -378,6 +443,14 @@ void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << (this->FrameTimes.empty() ? " (of the input)\n" : "\n");
   os << indent << "FrameSteps: " << this->FrameSteps << "\n";
   os << indent << "FitInterfaces: " << (this->FitInterfaces ? "On" : "Off") << "\n";
+  os << indent << "TimePlanes:";
+  for (const double time : this->TimePlanes)
+  {
+    os << " " << time;
+  }
+  os << "\n";
+  os << indent << "TimePlanesAtFrames: " << (this->TimePlanesAtFrames ? "On" : "Off") << "\n";
+  os << indent << "Periodic: " << (this->Periodic ? "On" : "Off") << "\n";
   os << indent << "RuleOrder: " << this->GetRuleOrderAsString() << "\n";
   os << indent << "PickingRegions: " << (this->PickingRegions ? "On" : "Off") << "\n";
   os << indent << "PickingRadius: " << this->PickingRadius << "\n";

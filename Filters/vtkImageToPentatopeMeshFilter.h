@@ -44,6 +44,11 @@
  *     time. Where several boundaries meet they all have it. 0 at other points.
  *   - Cell array `Label` (1 component, active scalars): the image's own label value. The type is
  *     `vtkIntArray`, or `vtkLongLongArray` if a label does not fit into an int.
+ *   - If the mesh conforms to time planes: cell array `Slab` (vtkIntArray), the number of the slab between two planes,
+ *     from 0 on in the order of time; and field data array `TimePlanes` (vtkDoubleArray), the times of the
+ *     planes inside of the mesh, ascending.
+ *   - If the mesh is periodic: field data array `PeriodicPairs` (vtkIdTypeArray, 2 components), pairs
+ *     of points at the first and at the last time, with the same position in space to the bit.
  * - Port 1, vtkUnstructuredGrid: the boundary as `VTK_TETRA` cells. They are the facets of
  *   pentatopes between two labels, or between a label and the background, each once. The points are
  *   those of port 0 that these cells use.
@@ -93,7 +98,9 @@
  * Those of vtkImageToSimplexMeshFilter. Also: only one frame (use vtkImageToTetMeshFilter), frames
  * that differ in dimensions, spacing, origin, direction or array, times that do not increase or are
  * not finite, two frames so near in time that there would be too many equally spaced ones, another
- * number of frame times than of frames. Messages name frames by their number, from 0, and time. If
+ * number of frame times than of frames; time planes outside of the series or too near to each other; a
+ * periodic series whose first and last frame differ; time planes together with Reproducible. Messages
+ * name frames by their number, from 0, and time. If
  * the input fails while frames are gathered, both outputs stay empty.
  *
  * @sa vtkPentatopeMeshTimeSlice vtkImageToSimplexMeshFilter vtkImageToTetMeshFilter
@@ -174,6 +181,37 @@ public:
   vtkSetMacro(FitInterfaces, bool);
   vtkGetMacro(FitInterfaces, bool);
   vtkBooleanMacro(FitInterfaces, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Times of planes that the mesh conforms to, in the input's unit and in any order: no pentatope has
+   * points before and after a plane. So the mesh is a stack of slabs, whose facets on a plane are the same
+   * on both sides, with the same labels. They need not be times of frames. Those of the first and the last frame
+   * have no effect. Slabs must not be thinner than Delta, as a length (see TimeScale). By default there are none.
+   */
+  void AddTimePlane(double time);
+  void RemoveAllTimePlanes();
+  int GetNumberOfTimePlanes() const;
+  double GetTimePlane(int plane) const; ///< 0 if there is no such plane
+  ///@}
+
+  ///@{
+  /** Whether there is also a plane at the time of each frame. Default off. */
+  vtkSetMacro(TimePlanesAtFrames, bool);
+  vtkGetMacro(TimePlanesAtFrames, bool);
+  vtkBooleanMacro(TimePlanesAtFrames, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the last frame is the first one again, as in a heart that beats. The frames must be equal. The flat ends of
+   * the mesh are then congruent: the same points in space, to the bit, the same tetrahedra and
+   * labels. If there is no time plane, one is added half-way. Default off.
+   */
+  vtkSetMacro(Periodic, bool);
+  vtkGetMacro(Periodic, bool);
+  vtkBooleanMacro(Periodic, bool);
   ///@}
 
   /** Values of RuleOrder. */
@@ -297,6 +335,9 @@ protected:
   std::vector<double> FrameTimes;
   int FrameSteps = 0;
   bool FitInterfaces = true;
+  std::vector<double> TimePlanes;
+  bool TimePlanesAtFrames = false;
+  bool Periodic = false;
   int RuleOrder = RADIUS_EDGE_FIRST;
   bool PickingRegions = true;
   double PickingRadius = 0.5;

@@ -218,6 +218,8 @@ Parameters SpaceTime()
         .Label = "Fit interfaces",
         .Zero = "they lie on the interfaces, and the mesh is Delaunay",
         .Python = "fit_interfaces" }),
+    Flag("periodic", 4, "off",
+      "make both ends of the mesh congruent; the last frame must be the first one again"),
     Word("rule-order", 4, "radius-edge", { "radius-edge", "surface" },
       "which rules come first: those that bound the radius-edge ratio, or those that sample the "
       "interfaces",

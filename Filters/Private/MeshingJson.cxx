@@ -96,6 +96,19 @@ ordered_json InterfacesToJson(const InterfaceStatistics& figures)
   };
 }
 
+/** Null unless the mesh conforms to time planes. */
+ordered_json PlanesToJson(const TimePlaneStatistics& planes)
+{
+  if (planes.Times.empty())
+  {
+    return nullptr;
+  }
+  return { { "slabs", planes.Times.size() + 1 }, { "rounds", planes.Rounds },
+    { "vertices", planes.Vertices }, { "facets", planes.Facets },
+    { "relabelled", planes.Relabelled }, { "refused", planes.Refused },
+    { "periodic", planes.Periodic }, { "periodic_pairs", planes.Pairs } };
+}
+
 /** Dihedral angles of 3D, or normalized volumes of space-time. */
 ordered_json OptimisationToJson(const OptimisationSummary& figures, bool isSpaceTime)
 {
@@ -195,6 +208,7 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     { "lost_frame_components", ComponentsToJson(v.Run.FrameComponents.Lost) },
     { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
     { "yielding_regions", YieldingToJson(v.Run.Yielding) },
+    { "time_planes", PlanesToJson(v.Run.Planes) },
     { "interfaces", InterfacesToJson(v.Run.Interfaces) },
     { "optimisation", OptimisationToJson(v.Run.Optimisation, v.Dimension == 4) },
   });

@@ -150,6 +150,13 @@ std::vector<std::string> WarningsOf(
       "there: elements and interface triangles may be out of bounds. A smaller Delta, or more "
       "smoothing of the labels, helps where the image is rougher than Delta.");
   }
+  if (run.Planes.Refused > 0)
+  {
+    warnings.push_back(
+      "Slabs asked each other for points on their time planes again and again, until the planes "
+      "took none any more; slabs match, but elements beside planes may be out of bounds. "
+      "Thicker slabs or a smaller Delta help.");
+  }
   if (run.SwitchedToLocal)
   {
     warnings.push_back("The threads made no progress with the contention manager '" +

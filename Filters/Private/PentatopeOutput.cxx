@@ -8,6 +8,8 @@
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
@@ -227,10 +229,49 @@ void MakeBoundary(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, bool 
   AddSides(mesh, frame, boundary, threads);
 }
 
+/** The arrays Slab and TimePlanes, and PeriodicPairs of a periodic mesh. */
+void AddSlabs(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame,
+  const std::vector<double>& planes, vtkUnstructuredGrid* pentatopes)
+{
+  vtkFieldData* const fieldData = pentatopes->GetFieldData();
+  fieldData->RemoveArray("TimePlanes"); // of an input that is a mesh' field data
+  fieldData->RemoveArray("PeriodicPairs");
+  if (mesh.Slabs.empty())
+  {
+    return;
+  }
+  vtkNew<vtkIntArray> slabs;
+  slabs->SetName("Slab");
+  slabs->SetNumberOfValues(static_cast<vtkIdType>(mesh.Slabs.size()));
+  std::copy(mesh.Slabs.begin(), mesh.Slabs.end(), slabs->GetPointer(0));
+  pentatopes->GetCellData()->AddArray(slabs);
+  vtkNew<vtkDoubleArray> times;
+  times->SetName("TimePlanes");
+  for (const double time : planes)
+  {
+    times->InsertNextValue(frame.Time({ 0.0, 0.0, 0.0, time }));
+  }
+  fieldData->AddArray(times);
+  if (!mesh.Twins.empty())
+  {
+    vtkNew<vtkIdTypeArray> pairs;
+    pairs->SetName("PeriodicPairs");
+    pairs->SetNumberOfComponents(2);
+    pairs->SetNumberOfTuples(static_cast<vtkIdType>(mesh.Twins.size()));
+    for (std::size_t k = 0; k < mesh.Twins.size(); ++k)
+    {
+      pairs->SetTypedComponent(static_cast<vtkIdType>(k), 0, mesh.Twins[k][0]);
+      pairs->SetTypedComponent(static_cast<vtkIdType>(k), 1, mesh.Twins[k][1]);
+    }
+    fieldData->AddArray(pairs);
+  }
+}
+
 } // namespace
 
 void MoveToOutput(SimplexMesh<4>&& mesh, const SpaceTimeFrame& frame,
-  vtkUnstructuredGrid* pentatopes, vtkUnstructuredGrid* boundary, unsigned threads)
+  const std::vector<double>& planes, vtkUnstructuredGrid* pentatopes, vtkUnstructuredGrid* boundary,
+  unsigned threads)
 {
   const bool fitInt = FitInt(mesh.Labels);
   const auto velocities = MakeVelocities(mesh, frame, threads);
@@ -248,6 +289,7 @@ void MoveToOutput(SimplexMesh<4>&& mesh, const SpaceTimeFrame& frame,
   Release(mesh.Simplices);
   pentatopes->GetCellData()->SetScalars(MakeLabels(mesh.Labels, "Label", fitInt, threads));
   Release(mesh.Labels);
+  AddSlabs(mesh, frame, planes, pentatopes);
 }
 
 } // namespace voxplex

@@ -10,6 +10,8 @@
 #include "Mesh/SimplexMesh.h"
 #include "Private/SpaceTimeFrame.h"
 
+#include <vector>
+
 class vtkUnstructuredGrid;
 
 namespace voxplex
@@ -22,10 +24,12 @@ namespace voxplex
  * For left-handed axes the map to the world is a reflection; two vertices of every pentatope and
  * boundary tetrahedron change places, so that both keep their orientation.
  *
+ * @param planes times of the planes inside of the mesh, in the mesher's frame
  * @param threads 0 means all cores
  */
 void MoveToOutput(SimplexMesh<4>&& mesh, const SpaceTimeFrame& frame,
-  vtkUnstructuredGrid* pentatopes, vtkUnstructuredGrid* boundary, unsigned threads);
+  const std::vector<double>& planes, vtkUnstructuredGrid* pentatopes, vtkUnstructuredGrid* boundary,
+  unsigned threads);
 
 } // namespace voxplex
 

@@ -513,7 +513,7 @@ class Talk(ProgramTestCase):
                      "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--exact-components", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
-                     "--time-scale", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
+                     "--time-scale", "--time-planes", "--slabs", "--periodic", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
                      "--sliver-bound", "--seed", "--no-fine-grained"):
             self.assertIn(flag, done.stdout)
         self.assertIn("\nSpace-time images", done.stdout)
