@@ -443,3 +443,46 @@ TEST(PentatopeFlips, LeaveInterfacesAlone)
   }
   EXPECT_GT(found, 100u);
 }
+
+// Two pentatopes with a common facet on a plane stay two, although four would have better shapes.
+TEST(PentatopeFlips, LeaveFacetsOnTimePlanesAlone)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(4.0));
+  const ImageDomain<4> domain(image, 1.0);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(2.0, 12.0);
+  PentatopeBounds bounds;
+  bounds.RadiusEdgeRatio = 1e9;
+  PentatopeBounds withPlane = bounds;
+  withPlane.Planes.Times = { 1.0, 7.0 };
+  std::size_t found = 0;
+  for (unsigned trial = 0; trial < 1000; ++trial)
+  {
+    std::vector<Point<4>> points(6);
+    Point<4> centre{};
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      points[k] = { uniform(random), uniform(random), uniform(random), 7.0 };
+      for (std::size_t a = 0; a < 4; ++a)
+      {
+        centre[a] += 0.25 * points[k][a];
+      }
+    }
+    points[4] = points[5] = centre; // above and below the middle of the common facet
+    points[4][3] += 0.1 * uniform(random);
+    points[5][3] -= 0.1 * uniform(random);
+    SimplexMesh<4> mesh;
+    mesh.Points.resize(6);
+    std::copy(points.begin(), points.end(), mesh.Points.begin());
+    for (const std::uint32_t left : { 4u, 5u })
+    {
+      mesh.Simplices.push_back(Without(points, left));
+      mesh.Labels.push_back(1);
+    }
+    PentatopeComplex free(mesh, {}, image, domain, bounds, 1, {});
+    found += FindFlip(free, 0).NumberOfOld == 2 ? 1 : 0;
+    PentatopeComplex kept(mesh, {}, image, domain, withPlane, 1, {});
+    ASSERT_EQ(FindFlip(kept, 0).NumberOfOld, 0u);
+  }
+  EXPECT_GT(found, 20u);
+}
