@@ -59,6 +59,32 @@ public:
   virtual bool NearSurfacePoint(
     const Point<D>& p, LabelId label, Point<D>& z, double& error) const = 0;
 
+  /** What StartSearch() has found out about a point: a line from it that meets an interface. */
+  struct Search
+  {
+    bool IsStarted = false;
+    Point<D> End;  ///< where the line ends, in coordinates of the domain's own
+    Point<D> Step; ///< from End to the point
+    double Length; ///< of Step, in the frame
+    /** Two places End + T Step on the line, and the margins of the point's label there. */
+    struct
+    {
+      double T;
+      double Margin;
+    } Outside, Inside;
+  };
+  /** NearSurfacePoint(), and the start of the search for the closest surface point. */
+  virtual bool StartSearch(
+    const Point<D>& p, LabelId label, Point<D>& z, double& error, Search&) const
+  {
+    return this->NearSurfacePoint(p, label, z, error);
+  }
+  /** ClosestSurfacePoint(). @param search of the same point and label, by StartSearch() if at all */
+  virtual bool FinishSearch(const Search&, const Point<D>& p, LabelId label, Point<D>& z) const
+  {
+    return this->ClosestSurfacePoint(p, label, z);
+  }
+
   /**
    * cfp(p) of the thesis: the point of an interface that is closest to p, to about half a voxel.
    * @param label Label(p)

@@ -51,6 +51,7 @@ class ImageDomain final
 {
 public:
   using Index = typename GridGeometry<D>::Index;
+  using typename Domain<D>::Search;
 
   /** Approximate edge of a cell of the feature transform, in smallest voxel spacings. */
   static constexpr double CoarseCell = 4.0;
@@ -87,8 +88,13 @@ public:
     return this->DistanceBoundAt(this->Field.ToLattice(p));
   }
   /** A point on the ray to the nearest site where the margin of `label` is below 0.1. */
-  bool NearSurfacePoint(
-    const Point<D>& p, LabelId label, Point<D>& z, double& error) const override;
+  bool NearSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z, double& error) const override
+  {
+    Search search;
+    return this->StartSearch(p, label, z, error, search);
+  }
+  bool StartSearch(
+    const Point<D>& p, LabelId label, Point<D>& z, double& error, Search& search) const override;
   /**
    * The point lies on an interface of `label`, to FieldType::RootTolerance voxels (0.005, or 0.001
    * for isosurfaces), or where the margin is smaller than that. On average it
@@ -96,7 +102,12 @@ public:
    * of the lattice, the point is near the voxel nearest to the projection of p onto the lattice. The
    * search fails only if p does not have `label`.
    */
-  bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override;
+  bool ClosestSurfacePoint(const Point<D>& p, LabelId label, Point<D>& z) const override
+  {
+    return this->FinishSearch({}, p, label, z);
+  }
+  bool FinishSearch(
+    const Search& search, const Point<D>& p, LabelId label, Point<D>& z) const override;
   /** The steps are half a voxel, or longer where the distance bounds allow it. */
   bool FirstCrossing(
     const Point<D>& a, LabelId labelOfA, const Point<D>& b, Point<D>& z) const override;
@@ -199,11 +210,7 @@ private:
   /** A voxel with another label: the site near x, or a face neighbour of it. */
   bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
   /** A point x + t d of a line, and the margin of a label there. */
-  struct Probe
-  {
-    double T;
-    double Margin;
-  };
+  using Probe = decltype(Search::Outside);
   Probe ProbeAt(const Point<D>& x, const Point<D>& d, LabelId label, double t) const;
   /**
    * The root t of the label's margin on x + t d between `inside` (margin > 0) and `outside`, to
@@ -212,10 +219,10 @@ private:
   double FindRoot(const Point<D>& x, const Point<D>& d, LabelId label, Probe inside, Probe outside,
     double tolerance) const;
   /**
-   * The root t of the label's margin on the ray n + t (x - n), where n is the centre of a voxel
-   * near x with another label.
+   * Finds a line from the centre of a voxel near x with another label to x, and a part of it where
+   * the margin of the label changes its sign.
    */
-  bool FindOnRay(const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& t) const;
+  bool FindLine(const Point<D>& x, LabelId label, Search& search) const;
 
   /**
    * Looks for an interface point on the line from p to its foot point on the tangent plane at z. If

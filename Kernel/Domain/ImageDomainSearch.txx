@@ -361,8 +361,8 @@ inline bool ImageDomain<D, FieldType>::MoveTowardsFoot(
 }
 
 template <int D, typename FieldType>
-inline bool ImageDomain<D, FieldType>::FindOnRay(
-  const Point<D>& x, LabelId label, double tolerance, Point<D>& n, double& root) const
+inline bool ImageDomain<D, FieldType>::FindLine(
+  const Point<D>& x, LabelId label, Search& search) const
 {
   Index voxel{};
   if (!this->NearVoxelOfOtherLabel(x, label, voxel))
@@ -371,72 +371,65 @@ inline bool ImageDomain<D, FieldType>::FindOnRay(
   }
   for (std::size_t a = 0; a < D; ++a)
   {
-    n[a] = static_cast<double>(voxel[a]); // margin < 0 here
+    search.End[a] = static_cast<double>(voxel[a]); // margin < 0 here
   }
-  const Point<D> d = Subtract(x, n);
-  const double length = std::sqrt(this->Length2(d));
-  Probe outside = this->ProbeAt(n, d, label, 0.0);
-  Probe inside{ 1.0, 0.0 };
-  if (length > 1.5 * this->VoxelDiagonal)
+  search.Step = Subtract(x, search.End);
+  search.Length = std::sqrt(this->Length2(search.Step));
+  search.Outside = this->ProbeAt(search.End, search.Step, label, 0.0);
+  if (search.Length > 1.5 * this->VoxelDiagonal)
   {
-    // The interface is near n: search there in steps of half a voxel.
-    const double step = 0.5 / LargestComponent<D>(d);
-    const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / length);
+    // The interface is near the voxel: search there in steps of half a voxel.
+    const double step = 0.5 / LargestComponent<D>(search.Step);
+    const double end = std::min(1.0, 2.0 * this->VoxelDiagonal / search.Length);
     for (double t = step; t < end; t += step)
     {
-      const Probe probe = this->ProbeAt(n, d, label, t);
+      const Probe probe = this->ProbeAt(search.End, search.Step, label, t);
       if (probe.Margin > 0.0)
       {
-        inside = probe;
-        break;
+        search.Inside = probe;
+        return true;
       }
-      outside = probe;
+      search.Outside = probe;
     }
   }
-  if (inside.T == 1.0)
-  {
-    inside.Margin = this->Field.MarginAt(x, label);
-    if (!(inside.Margin > 0.0))
-    {
-      return false;
-    }
-  }
-  root = this->FindRoot(n, d, label, inside, outside, tolerance);
-  return true;
+  search.Inside = { 1.0, this->Field.MarginAt(x, label) };
+  return search.Inside.Margin > 0.0;
 }
 
 template <int D, typename FieldType>
-bool ImageDomain<D, FieldType>::NearSurfacePoint(
-  const Point<D>& p, LabelId label, Point<D>& z, double& error) const
+bool ImageDomain<D, FieldType>::StartSearch(
+  const Point<D>& p, LabelId label, Point<D>& z, double& error, Search& search) const
 {
   const Point<D> x = this->Field.ToLattice(this->ClampToEnds(p));
-  Point<D> n;
-  double t = 0.0;
-  if (!this->FindOnRay(x, label, QuickTolerance, n, t))
+  if (!this->FindLine(x, label, search))
   {
     return false;
   }
-  z = this->Found(Interpolate(n, x, t));
+  search.IsStarted = true;
+  const double t =
+    this->FindRoot(search.End, search.Step, label, search.Inside, search.Outside, QuickTolerance);
+  z = this->Found(Interpolate(search.End, x, t));
   // The margin rises by about 1 per voxel. The error allows for half of this slope.
-  const Point<D> d = Subtract(x, n);
-  const double voxels = LargestComponent<D>(d);
-  error = voxels > 0.0 ? 2.0 * QuickTolerance * std::sqrt(this->Length2(d)) / voxels : 0.0;
+  const double voxels = LargestComponent<D>(search.Step);
+  error = voxels > 0.0 ? 2.0 * QuickTolerance * search.Length / voxels : 0.0;
   return true;
 }
 
 template <int D, typename FieldType>
-bool ImageDomain<D, FieldType>::ClosestSurfacePoint(
-  const Point<D>& p, LabelId label, Point<D>& z) const
+bool ImageDomain<D, FieldType>::FinishSearch(
+  const Search& search, const Point<D>& p, LabelId label, Point<D>& z) const
 {
   const Point<D> q = this->ClampToEnds(p);
   const Point<D> x = this->Field.ToLattice(q);
-  Point<D> n;
-  double t = 0.0;
-  if (!this->FindOnRay(x, label, FieldType::RootTolerance, n, t))
+  Search own;
+  if (!search.IsStarted && !this->FindLine(x, label, own))
   {
     return false;
   }
-  z = this->Found(Interpolate(n, x, t));
+  const Search& line = search.IsStarted ? search : own;
+  const double t =
+    this->FindRoot(line.End, line.Step, label, line.Inside, line.Outside, FieldType::RootTolerance);
+  z = this->Found(Interpolate(line.End, x, t));
   for (int i = 0; i < FootSteps && this->MoveTowardsFoot(q, x, label, z); ++i)
   {
   }

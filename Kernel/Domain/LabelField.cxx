@@ -160,17 +160,24 @@ private:
   {
     constexpr std::size_t four = sizeof(std::uint64_t) / sizeof(LabelId); // labels in a word
     const std::uint64_t wanted = in[0] * 0x0001000100010001u;
-    std::uint64_t difference = 0;
-    std::size_t x = 0;
-    for (; x + four <= this->Width; x += four)
+    const auto differs = [in, wanted](std::size_t x)
     {
       std::uint64_t word;
       std::memcpy(&word, in + x, sizeof(word));
-      difference |= word ^ wanted;
-    }
-    for (; x < this->Width; ++x)
+      return word ^ wanted;
+    };
+    std::uint64_t difference = 0;
+    if (this->Width == 4 * four) // by default
     {
-      difference |= static_cast<std::uint64_t>(in[x] ^ in[0]);
+      difference = differs(0) | differs(four) | differs(2 * four) | differs(3 * four);
+    }
+    else
+    {
+      for (std::size_t x = 0; x + four <= this->Width; x += four)
+      {
+        difference |= differs(x);
+      }
+      difference |= differs(this->Width - four); // the width is at least that of a tile
     }
     return difference == 0;
   }

@@ -393,13 +393,17 @@ bool Smoother::Ascend(Point<3>& p)
 double Smoother::ScoreAt(const Point<3>& p, double floor)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
+  const std::size_t count = this->Tried.size();
   double score = Enough;
-  for (std::size_t k = 0; k < this->Tried.size(); ++k)
+  for (std::size_t k = 0; k < count; k += 2)
   {
-    const Point<3>* const x = &this->Opposite[3 * k];
-    const double own = mesh.Shape(p, x[0], x[1], x[2]);
-    this->Tried[k] = static_cast<float>(own);
-    score = std::min(score, own);
+    const std::size_t next = std::min(k + 1, count - 1);
+    const std::array<double, 2> own =
+      mesh.Shape.OfTwo(p, &this->Opposite[3 * k], &this->Opposite[3 * next]);
+    this->Tried[k] = static_cast<float>(own[0]);
+    this->Tried[next] = static_cast<float>(own[1]);
+    score = std::min(score, own[0]);
+    score = score < floor ? score : std::min(score, own[1]);
     if (score < floor)
     {
       return score;

@@ -261,13 +261,14 @@ protected:
   /**
    * A quick test: most simplices near an interface have a feature vertex near cfp(c(t)). Returns
    * true if neither R1 nor R2 applies.
+   * @param search receives the start of the search for cfp(c(t)), if it was started
    */
-  bool IsSampled(const Element& t) const
+  bool IsSampled(const Element& t, typename Domain<D>::Search& search) const
   {
     Point<D> z;
     double error = 0.0;
     if (t.Radius >= 2.0 * this->Context.Sizing.Largest() ||
-      !this->Context.Image.NearSurfacePoint(t.Ball.Center, t.Label, z, error))
+      !this->Context.Image.StartSearch(t.Ball.Center, t.Label, z, error, search))
     {
       return false;
     }
@@ -278,13 +279,14 @@ protected:
   /** R1 and R2 (thesis, sections 3.1 and 4.2). */
   RuleOutcome SampleInterface(const Element& t)
   {
-    if (!this->Context.Mesh.State(t.Id).NearSurface || this->IsSampled(t))
+    typename Domain<D>::Search search;
+    if (!this->Context.Mesh.State(t.Id).NearSurface || this->IsSampled(t, search))
     {
       return RuleOutcome::Good;
     }
     Point<D> z;
     ++this->Worker.Statistics.ClosestSurfacePointCalls;
-    if (!this->Context.Image.ClosestSurfacePoint(t.Ball.Center, t.Label, z) ||
+    if (!this->Context.Image.FinishSearch(search, t.Ball.Center, t.Label, z) ||
       Distance2(z, t.Ball.Center) > t.Ball.Radius2)
     {
       return RuleOutcome::Good;

@@ -161,6 +161,21 @@ public:
     return cells;
   }
 
+  /** The cell nearest to p. */
+  Index CellOf(const Point<D>& p) const
+  {
+    const Point<D> index = this->Grid.ToIndex(p);
+    Index cell;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      cell[a] = this->CellAlong(a, index[a]);
+    }
+    return cell;
+  }
+
+  /** GridGeometry::VoxelsPerLength() of the image. */
+  const Point<D>& GetVoxelsPerLength() const { return this->VoxelsPerLength; }
+
   void ForgetLowered() { this->LoweredList.clear(); }
 
   /** Growth of bounds over a unit of length. */
@@ -278,18 +293,6 @@ private:
       this->Graded.Write(cell) = value;
       lowered.push_back(cell);
     }
-  }
-
-  /** The cell nearest to p. */
-  Index CellOf(const Point<D>& p) const
-  {
-    const Point<D> index = this->Grid.ToIndex(p);
-    Index cell;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      cell[a] = this->CellAlong(a, index[a]);
-    }
-    return cell;
   }
 
   /** The cell along axis a nearest to a coordinate of the image's index space. */

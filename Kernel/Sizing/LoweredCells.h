@@ -10,6 +10,7 @@
 #include "Base/GridIndex.h"
 #include "Sizing/LocalDelta.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,7 +22,8 @@ namespace voxplex
  * Finds out whether a ball may reach a lowered cell of LocalDelta. Lowered cells are counted in
  * blocks of cells, and the counts are added up in a summed-area table (Crow, 1984). It tells at
  * once that no block, or a block inside of a ball's box, has a lowered cell. Otherwise the cells of
- * the blocks at the border of the box are looked at.
+ * the blocks at the border of the box are looked at. Most balls are far from all lowered cells; a
+ * look at the distance of the block of the ball's centre settles these.
  *
  * It is a snapshot: cells that are lowered later are not counted. Immutable after construction.
  */
@@ -44,12 +46,18 @@ public:
     }
     this->SortCells();
     this->AddUp();
+    this->FindDistances();
   }
 
   /** Whether a cell that a ball in the frame may reach was lowered. */
   bool AnyWithin(const Point<D>& centre, double radius) const
   {
     if (this->Cells.empty())
+    {
+      return false;
+    }
+    const std::size_t block = OffsetOf(BlockOf(this->Bounds.CellOf(centre)), this->Blocks);
+    if (radius * this->BlocksPerLength < static_cast<double>(this->Distances[block]) - 1.0)
     {
       return false;
     }
@@ -77,14 +85,15 @@ public:
     }
     bool any = false;
     ForEachIndex(low, high,
-      [&](const Index& block) { any = any || this->AnyOfBlock(block, cells.first, cells.second); });
+      [&](const Index& b) { any = any || this->AnyOfBlock(b, cells.first, cells.second); });
     return any;
   }
 
 private:
   using Index = typename LocalDelta<D>::Index;
 
-  static constexpr std::int64_t Edge = 8; ///< of a block, in cells
+  static constexpr std::int64_t Edge = 8;         ///< of a block, in cells
+  static constexpr std::uint8_t MostDistance = 5; ///< larger distances count as this one
 
   static Index BlockOf(Index cell)
   {
@@ -152,6 +161,44 @@ private:
     }
   }
 
+  /** Finds how many blocks away from each block, along any axis, the nearest lowered cell is. */
+  void FindDistances()
+  {
+    const std::size_t size = CountCells(this->Blocks);
+    std::vector<std::uint8_t> reached(size);
+    for (std::size_t b = 0; b < size; ++b)
+    {
+      reached[b] = this->First[b + 1] > this->First[b] ? 1 : 0;
+    }
+    this->Distances.assign(size, MostDistance);
+    for (std::uint8_t distance = 0; distance < MostDistance; ++distance)
+    {
+      for (std::size_t b = 0; b < size; ++b)
+      {
+        this->Distances[b] =
+          reached[b] != 0 ? std::min(this->Distances[b], distance) : this->Distances[b];
+      }
+      std::size_t stride = 1;
+      for (const std::int64_t blocks : this->Blocks)
+      {
+        const auto n = static_cast<std::size_t>(blocks);
+        const std::vector<std::uint8_t> before = reached;
+        for (std::size_t b = 0; b < size; ++b)
+        {
+          const std::size_t i = b / stride % n;
+          reached[b] |= i > 0 ? before[b - stride] : std::uint8_t{ 0 };
+          reached[b] |= i + 1 < n ? before[b + stride] : std::uint8_t{ 0 };
+        }
+        stride *= n;
+      }
+    }
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      this->BlocksPerLength = std::max(this->BlocksPerLength,
+        this->Bounds.GetVoxelsPerLength()[a] / static_cast<double>(Edge * LocalDelta<D>::Cell));
+    }
+  }
+
   /** The number of lowered cells in the blocks from `low` to `high`. */
   std::uint32_t Count(const Index& low, const Index& high) const
   {
@@ -195,6 +242,8 @@ private:
   Index Extent{};                   ///< blocks + 1
   std::vector<Index> Cells;         ///< the lowered ones, block by block; empty: none was lowered
   std::vector<std::uint32_t> First; ///< of each block, and the end
+  std::vector<std::uint8_t> Distances;
+  double BlocksPerLength = 0.0; ///< along the axis where it is largest
   /** The number of lowered cells in blocks with smaller indices along all axes. */
   std::vector<std::uint32_t> Below;
 };

@@ -254,6 +254,13 @@ void CheckClosestSurfacePoint(
     Point<D> quick;
     double error;
     ASSERT_TRUE(domain.NearSurfacePoint(p, label, quick, error));
+    typename Domain<D>::Search search;
+    Point<D> again;
+    ASSERT_TRUE(domain.StartSearch(p, label, again, error, search));
+    ASSERT_EQ(again, quick);
+    ASSERT_TRUE(search.IsStarted);
+    ASSERT_TRUE(domain.FinishSearch(search, p, label, again));
+    ASSERT_EQ(again, z);
     ASSERT_LE(error, 0.25 * diagonal);
     off += (Distance(quick, NearestSample<D>(samples, quick)) -
              Distance(z, NearestSample<D>(samples, z))) /

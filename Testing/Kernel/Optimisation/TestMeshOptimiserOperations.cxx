@@ -124,6 +124,33 @@ struct Quadrilateral
 
 } // namespace
 
+TEST(ShapeScore, OfTwoTetrahedraIsThatOfEach)
+{
+  const ShapeScore score(15.0, 155.0, 2.0);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int inverted = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    std::array<Point<3>, 7> p;
+    for (Point<3>& q : p)
+    {
+      q = { uniform(random), uniform(random), uniform(random) };
+    }
+    if (i % 10 == 0)
+    {
+      p[3] = Interpolate(p[1], p[2], 0.5); // flat
+    }
+    const std::array<double, 2> two = score.OfTwo(p[0], &p[1], &p[4]);
+    ASSERT_EQ(two[0], score(p[0], p[1], p[2], p[3]));
+    ASSERT_EQ(two[1], score(p[0], p[4], p[5], p[6]));
+    inverted += two[1] == ShapeScore::Inverted ? 1 : 0;
+  }
+  EXPECT_GT(inverted, 500);
+  EXPECT_LT(inverted, 1500);
+}
+
+//------------------------------------------------------------------------------------------------
 TEST(ShapeScore, IsOneAtEachBound)
 {
   // Tetrahedra of a known dihedral angle at ab, all others being well within.

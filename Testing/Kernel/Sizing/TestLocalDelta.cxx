@@ -3,6 +3,7 @@
 #include "Image/LabelImage.h"
 #include "Sizing/LocalDelta.h"
 #include "Sizing/LoweredCells.h"
+#include "Sizing/SparseCells.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <random>
 #include <vector>
 
 using namespace voxplex;
@@ -114,4 +116,132 @@ TEST(LocalDelta, GrowsSteadilyFromTheBordersOfCells)
       before = here;
     }
   }
+}
+
+//------------------------------------------------------------------------------------------------
+namespace
+{
+
+struct RandomBounds
+{
+  LabelImage<3> Image =
+    LabelImage<3>::FromScalars<std::uint8_t>(std::vector<std::uint8_t>(60 * 50 * 40, 1),
+      GridGeometry<3>::Orthogonal({ 60, 50, 40 }, { 0.5, 0.5, 1.0 }));
+  std::mt19937 Random{ 7 };
+
+  double Uniform(double low, double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(this->Random);
+  }
+  Point<3> Place()
+  {
+    return this->Image.Grid().ToFrame(
+      { this->Uniform(-4.0, 64.0), this->Uniform(-4.0, 54.0), this->Uniform(-4.0, 44.0) });
+  }
+  LocalDelta<3>::Index Voxel()
+  {
+    return { static_cast<std::int64_t>(this->Uniform(0.0, 59.0)),
+      static_cast<std::int64_t>(this->Uniform(0.0, 49.0)),
+      static_cast<std::int64_t>(this->Uniform(0.0, 39.0)) };
+  }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+TEST(LocalDelta, GradesNewBoundsAsIfAllWereSetAtOnce)
+{
+  RandomBounds random;
+  LocalDelta<3> together(random.Image);
+  LocalDelta<3> step(random.Image);
+  LocalDelta<3> near(random.Image);
+  constexpr double Needed = 1.5;
+  for (int round = 0; round < 5; ++round)
+  {
+    for (int i = 0; i < 6; ++i)
+    {
+      const LocalDelta<3>::Index voxel = random.Voxel();
+      const double spacing = random.Uniform(0.2, 1.0);
+      together.SetSpacing(voxel, 1, spacing);
+      step.SetSpacing(voxel, 1, spacing);
+      near.SetSpacing(voxel, 1, spacing);
+    }
+    step.Grade();
+    near.Grade(Needed);
+  }
+  together.Grade();
+  int below = 0;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const Point<3> p = random.Place();
+    const double expected = together.GradedAt(p);
+    ASSERT_NEAR(step.GradedAt(p), expected, 1e-5);
+    if (expected < Needed)
+    {
+      ASSERT_NEAR(near.GradedAt(p), expected, 1e-5);
+      ++below;
+    }
+    else
+    {
+      ASSERT_GE(near.GradedAt(p), Needed);
+    }
+  }
+  EXPECT_GT(below, 500);
+  EXPECT_LT(below, 4500);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(LocalDelta, LoweredCellsAreFoundInBallsOfAllSizes)
+{
+  RandomBounds random;
+  LocalDelta<3> local(random.Image);
+  for (int i = 0; i < 3; ++i)
+  {
+    local.SetBound(random.Voxel(), 1, 1, 0.5);
+  }
+  const LoweredCells<3> lowered(local);
+  int reached = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Point<3> p = random.Place();
+    const double radius = std::pow(10.0, random.Uniform(-2.0, 1.5));
+    const auto [low, high] = local.CellsAround(p, radius);
+    const bool expected = std::any_of(local.Lowered().begin(), local.Lowered().end(),
+      [&, first = low, last = high](const LocalDelta<3>::Index& cell)
+      {
+        bool isBetween = true;
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          isBetween = isBetween && cell[a] >= first[a] && cell[a] <= last[a];
+        }
+        return isBetween;
+      });
+    ASSERT_EQ(lowered.AnyWithin(p, radius), expected) << radius;
+    reached += expected ? 1 : 0;
+  }
+  EXPECT_GT(reached, 2000);
+  EXPECT_LT(reached, 18000);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(SparseCells, HoldWhatWasWrittenAndTheInitialValue)
+{
+  using Cells = SparseCells<3, int>;
+  Cells cells({ 20, 9, 17 }, -1);
+  const std::size_t before = cells.MemoryBytes();
+  EXPECT_TRUE(cells.IsEmpty());
+  EXPECT_TRUE(cells.HasNone({ 0, 0, 0 }, { 1, 1, 1 }));
+  cells.Write({ 0, 0, 0 }) = 1;
+  cells.Write({ 19, 8, 16 }) = 2;
+  cells.Write({ 8, 0, 0 }) = 3;
+  EXPECT_EQ(cells.At({ 0, 0, 0 }), 1);
+  EXPECT_EQ(cells.At({ 19, 8, 16 }), 2);
+  EXPECT_EQ(cells.At({ 8, 0, 0 }), 3);
+  EXPECT_EQ(cells.At({ 7, 0, 0 }), -1);
+  EXPECT_EQ(cells.At({ 0, 8, 0 }), -1);
+  EXPECT_FALSE(cells.IsEmpty());
+  EXPECT_FALSE(cells.HasNone({ 1, 1, 1 }, { 2, 2, 2 }));
+  EXPECT_FALSE(cells.HasNone({ 7, 0, 0 }, { 8, 0, 0 })); // in two blocks
+  EXPECT_TRUE(cells.HasNone({ 0, 8, 0 }, { 1, 8, 1 }));
+  EXPECT_EQ(cells.MemoryBytes(), before + 3 * 512 * sizeof(int));
 }
