@@ -180,7 +180,7 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
   }
   std::array<Point<4>, 4> sum{};
   double total = 0.0;
-  const bool isOnEnd = this->Limits.IsOnEnd(this->Start);
+  const bool keepsTime = this->Limits.KeepsTime(this->Start);
   this->FacetNormals.clear();
   for (const std::uint32_t f : facets)
   {
@@ -189,7 +189,7 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
     Point<4> normal = Cross(Subtract(this->Target.PointOf(corners[1]), origin),
       Subtract(this->Target.PointOf(corners[2]), origin),
       Subtract(this->Target.PointOf(corners[3]), origin));
-    normal[3] = isOnEnd ? 0.0 : normal[3]; // such a vertex moves in space only
+    normal[3] = keepsTime ? 0.0 : normal[3]; // such a vertex moves in space only
     const double area = std::sqrt(Dot(normal, normal));
     for (std::size_t a = 0; a < 4 && area > 0.0; ++a)
     {
@@ -200,10 +200,6 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
     }
     total += area;
     this->FacetNormals.push_back(normal);
-  }
-  if (this->Limits.IsOnPlane(this->Start))
-  {
-    sum[3][3] += total; // as facets on a flat end do
   }
   const SymmetricEigen<4> eigen = EigenOf<4>(sum);
   for (std::size_t k = 0; k < 4; ++k)
