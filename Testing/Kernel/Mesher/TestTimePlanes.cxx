@@ -272,6 +272,33 @@ TEST(TimePlanes, RefusesWhatCannotBe)
     << message;
 }
 
+TEST(TimePlanes, TheUnionOfSlabsCountsInTheMemoryThatIsEstimated)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
+  const auto isRefused = [&](const MeshingOptions<4>& from, std::uint64_t limit)
+  {
+    MeshingOptions<4> options = from;
+    options.Limits.Memory = limit;
+    SimplexMesh<4> mesh;
+    try
+    {
+      ImageMesher<4>(options).Run(image, mesh);
+      return false;
+    }
+    catch (const TooLargeError&)
+    {
+      return true;
+    }
+  };
+  std::uint64_t enough = 1u << 20; // for a mesh without planes, and just so
+  while (isRefused(WithPlanes(2.5, {}), enough))
+  {
+    enough += enough / 8;
+  }
+  EXPECT_TRUE(isRefused(WithPlanes(2.5, { 8.0 }), enough));
+  EXPECT_FALSE(isRefused(WithPlanes(2.5, { 8.0 }), 2 * enough));
+}
+
 TEST(TimePlanes, CancelStopsARun)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
