@@ -9,7 +9,7 @@ import unittest
 import warnings
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
@@ -305,6 +305,26 @@ class SpaceTime(unittest.TestCase):
         self.assertIsInstance(boundary, vtkUnstructuredGrid)
         self.assertEqual(voxplex.labels(boundary).shape, (boundary.GetNumberOfCells(), 2))
         self.assertEqual(voxplex.tets(boundary).shape, (boundary.GetNumberOfCells(), 4))
+
+    def test_time_planes_and_period(self):
+        labels = beating()
+        labels[-1] = labels[0]
+        times = (1.0, 1.5, 2.0, 2.5)
+        mesh = voxplex.mesh(labels, 2.0, times=times, time_scale=8.0, time_planes=(1.8,), periodic=True)
+        slabs = vtk_to_numpy(mesh.GetCellData().GetArray("Slab"))
+        self.assertEqual(set(slabs), {0, 1})
+        self.assertEqual(mesh.GetFieldData().GetArray("TimePlanes").GetNumberOfTuples(), 1)
+        pairs = vtk_to_numpy(mesh.GetFieldData().GetArray("PeriodicPairs"))
+        self.assertGreater(len(pairs), 10)
+        points, at = voxplex.points(mesh), voxplex.times(mesh)
+        numpy.testing.assert_array_equal(points[pairs[:, 0]], points[pairs[:, 1]])
+        self.assertEqual((set(at[pairs[:, 0]]), set(at[pairs[:, 1]])), ({1.0}, {2.5}))
+        mesh = voxplex.mesh(labels, 2.0, times=times, time_scale=8.0, time_planes="frames")
+        self.assertEqual(mesh.GetFieldData().GetArray("TimePlanes").GetNumberOfTuples(), 2)
+        with self.assertRaisesRegex(ValueError, "time_planes: 'frame' is neither"):
+            voxplex.mesh(labels, 2.0, time_planes="frame")
+        with self.assertRaisesRegex(voxplex.MeshingError, "A time plane at 9 is outside"):
+            voxplex.mesh(labels, 2.0, times=times, time_planes=(9,))
 
     def test_frames_carry_their_times(self):
         frames = voxplex.images_from_array(beating(), times=(0.0, 2.0, 4.0, 6.0))
