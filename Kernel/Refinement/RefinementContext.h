@@ -89,12 +89,39 @@ struct RefinementContext
     return distance > 0.0 && distance < EndMargin * delta;
   }
 
+  /**
+   * Finds where an interface meets a flat end that is near z.
+   * @return false if no end is near, z lies on one already, or no interface was found there
+   */
+  bool SnapToEnd(const Point<D>& z, double delta, Point<D>& snapped) const
+  {
+    Point<D> onEnd = z;
+    return this->IsNearEnd(z, delta, onEnd) && this->Image.ClosestSurfacePointOnEnd(onEnd, snapped);
+  }
+
+  /** Whether a point of the box is on a face of the box that is not a flat end. */
+  bool IsOnSide(const Point<D>& p) const
+  {
+    const Box<D>& box = this->Mesh.GetBox();
+    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
+    {
+      const bool time = a + 1 == static_cast<std::size_t>(D);
+      if ((p[a] == box.Min[a] && !(time && this->HasTimeBorder[0])) ||
+        (p[a] == box.Max[a] && !(time && this->HasTimeBorder[1])))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /** Whether a point of the box lies on a flat end where rules may insert nothing any more. */
   bool IsOnClosedEnd(const Point<D>& p) const
   {
     constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
-    return (this->IsClosed[0] && p[Time] == this->Mesh.GetBox().Min[Time]) ||
-      (this->IsClosed[1] && p[Time] == this->Mesh.GetBox().Max[Time]);
+    return D == 4 &&
+      ((this->IsClosed[0] && p[Time] == this->Mesh.GetBox().Min[Time]) ||
+        (this->IsClosed[1] && p[Time] == this->Mesh.GetBox().Max[Time]));
   }
 
   const Domain<D>& Image;

@@ -304,7 +304,7 @@ protected:
     }
     std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling];
     Point<D> snapped;
-    if (!this->SnapToEnd(z, delta, snapped))
+    if (!this->Context.SnapToEnd(z, delta, snapped))
     {
       return this->InsertFeature(z, delta, delta, t.Id, None, fired);
     }
@@ -397,13 +397,10 @@ protected:
     {
       return InsertionOutcome::Contended;
     }
-    if constexpr (D == 4)
+    if (this->Context.IsOnClosedEnd(p))
     {
-      if (this->Context.IsOnClosedEnd(p))
-      {
-        ++this->Worker.Statistics.RefusedOnClosedEnd;
-        return InsertionOutcome::Rejected;
-      }
+      ++this->Worker.Statistics.RefusedOnClosedEnd;
+      return InsertionOutcome::Rejected;
     }
     return this->Context.Mesh.Insert(this->Worker.Kernel, p, kind, seed, clearance, veto);
   }
@@ -434,7 +431,7 @@ protected:
     {
       place.Moved |= time != end;
       time = end;
-      place.Kind = this->IsOnSide(place.Position) ? VertexKind::Box : VertexKind::Free;
+      place.Kind = this->Context.IsOnSide(place.Position) ? VertexKind::Box : VertexKind::Free;
       place.OnEnd = true;
     }
     return place;
@@ -520,17 +517,6 @@ protected:
     return this->InsertFeature(z, delta, spacing, t.Id, otherSeed, fired);
   }
 
-  /**
-   * Finds where an interface meets a flat end that is near z.
-   * @return false if no end is near, z lies on one already, or no interface was found there
-   */
-  bool SnapToEnd(const Point<D>& z, double delta, Point<D>& snapped) const
-  {
-    Point<D> onEnd = z;
-    return this->Context.IsNearEnd(z, delta, onEnd) &&
-      this->Context.Image.ClosestSurfacePointOnEnd(onEnd, snapped);
-  }
-
   // These and EndMargin were chosen on a beating ventricle. Without the last two, R3 and R5 answer
   // each other as long as there is room, and elements of ratio 15 remain.
   /** A circumcentre nearer to a flat end than this, in circumradii, is moved onto it. */
@@ -569,22 +555,6 @@ private:
       this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * seed.Delta);
       near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
     }
-  }
-
-  /** Whether a point of the box is on a face of the box that is not a flat end. */
-  bool IsOnSide(const Point<D>& p) const
-  {
-    const Box<D>& box = this->Context.Mesh.GetBox();
-    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
-    {
-      const bool time = a + 1 == static_cast<std::size_t>(D);
-      if ((p[a] == box.Min[a] && !(time && this->Context.HasTimeBorder[0])) ||
-        (p[a] == box.Max[a] && !(time && this->Context.HasTimeBorder[1])))
-      {
-        return true;
-      }
-    }
-    return false;
   }
 
   /**

@@ -204,7 +204,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
   double clearance = this->FacetClearance(spacing, step);
   std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet];
   Point<4> snapped;
-  if (this->SnapToEnd(z, delta, snapped))
+  if (this->Context.SnapToEnd(z, delta, snapped))
   {
     const double onEnd = EndSpacing * delta;
     if (std::abs(z[3] - snapped[3]) < onEnd || !this->FeatureVertexNear(s, snapped, onEnd))
