@@ -369,7 +369,7 @@ Parameters ToParameters(const po::variables_map& values)
   }
   if (const std::string* text = Given(values, "frame-times"))
   {
-    p.FrameTimes = ParseTimes("frame-times", *text);
+    p.FrameTimes = ParseFrameTimes("frame-times", *text);
   }
   p.LabelTexts = AllGiven(values, "labels");
   for (const std::string& text : p.LabelTexts)

@@ -102,7 +102,7 @@ std::vector<double> ParseTimes(const std::string& option, std::string_view text)
   std::vector<double> times;
   for (const std::string& one : SplitAtCommas(text))
   {
-    times.push_back(ParseReal(option, one, {}));
+    times.push_back(ParseFinite(option, one));
   }
   return times;
 }
@@ -133,16 +133,15 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
     ParseReal(option, text.substr(equals + 1), Lengths) };
 }
 
-std::vector<double> ParseTimes(const std::string& option, std::string_view text)
+std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text)
 {
-  std::vector<double> times;
-  for (const std::string& part : SplitAtCommas(text))
+  const std::vector<double> times = ParseTimes(option, text);
+  for (std::size_t k = 1; k < times.size(); ++k)
   {
-    times.push_back(ParseFinite(option, part));
-    if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
+    if (!(times[k] > times[k - 1]))
     {
-      throw UsageError("--" + option + ": times must increase, but " + part + " follows " +
-        NumberText(times[times.size() - 2]));
+      throw UsageError("--" + option + ": times must increase, but " + NumberText(times[k]) +
+        " follows " + NumberText(times[k - 1]));
     }
   }
   if (times.size() < 2)

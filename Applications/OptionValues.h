@@ -47,7 +47,7 @@ LabelSizeText ParseLabelSize(const std::string& option, std::string_view text);
 InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text);
 
 /** "0,40,80": two or more finite numbers that increase. */
-std::vector<double> ParseTimes(const std::string& option, std::string_view text);
+std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text);
 
 /** "8G": bytes, with K, M, G and T for powers of 1024. */
 std::uint64_t ParseBytes(const std::string& option, const std::string& text);
