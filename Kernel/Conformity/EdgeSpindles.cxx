@@ -310,7 +310,7 @@ private:
     for (std::size_t number = 1; number <= runs.size() && !found; ++number)
     {
       Candidate next;
-      next.How = Fill(ring, runs, label, first, number);
+      next.How = this->Fill(ring, runs, label, first, number);
       if (!IsManifold(ring, next.How))
       {
         continue;
@@ -330,8 +330,8 @@ private:
   }
 
   /** Fills `number` consecutive runs from `first` on. Sectors that already have the label stay. */
-  static Filling Fill(const Ring<D>& ring, std::span<const std::size_t> runs, LabelId label,
-    std::size_t first, std::size_t number)
+  Filling Fill(const Ring<D>& ring, std::span<const std::size_t> runs, LabelId label,
+    std::size_t first, std::size_t number) const
   {
     Filling filling{ label, std::vector<std::uint8_t>(ring.Sectors.size(), 0), 0.0 };
     std::size_t k = runs[first];
@@ -339,7 +339,9 @@ private:
     do
     {
       const Sector<D>& sector = ring.Sectors[k];
-      filling.Gives[k] = sector.Owner != None && sector.Label != label ? 1 : 0;
+      const bool isCut = sector.Owner != None && sector.Label != label &&
+        !(this->Context.Keeps && this->Context.Keeps(sector.Owner));
+      filling.Gives[k] = isCut ? 1 : 0;
       k = ring.Next(k);
     } while (k != end);
     return filling;

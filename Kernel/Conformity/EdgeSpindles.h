@@ -14,6 +14,7 @@
 #include "Quality/InterfaceEdges.h"
 #include "Sizing/SizingField.h"
 
+#include <functional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -36,6 +37,8 @@ struct SpindleContext
   std::span<const Point<D>> Positions; ///< of each vertex id; empty: those of the triangulation
   /** 4D: pieces with a circumradius above its element sizes count as bad shapes. Null: no bound. */
   const SizingField<D>* Sizing = nullptr;
+  /** Whether a simplex must keep its label at each ridge. Empty: none must. */
+  std::function<bool(SimplexId)> Keeps = {};
 };
 
 /**

@@ -104,6 +104,7 @@ public:
     , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
     , Surfaces(options.Surfaces)
     , Sizing(options.Sizing)
+    , Keeps(options.Keeps)
   {
   }
 
@@ -317,7 +318,7 @@ private:
     bool leavesSome = false;
     for (const SimplexId t : change.Cells)
     {
-      if (this->IsTooLarge(t, change.Label))
+      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
       {
         return false;
       }
@@ -504,6 +505,7 @@ private:
   const double JunctionCosine; ///< at least FacetCosine
   const Domain<D>* const Surfaces;
   const SizingField<D>* const Sizing;
+  const std::function<bool(SimplexId)> Keeps;
   std::set<SimplexId> Changed;
 };
 

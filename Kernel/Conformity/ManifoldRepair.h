@@ -14,6 +14,7 @@
 #include "Sizing/SizingField.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -30,6 +31,8 @@ struct ManifoldRepairOptions
   const Domain<D>* Surfaces = nullptr;
   /** Bounds the circumradius of simplices that get another label. Null: no bound. */
   const SizingField<D>* Sizing = nullptr;
+  /** Whether a simplex must keep its label. Empty: none must. */
+  std::function<bool(SimplexId)> Keeps = {};
 };
 
 /** The result of RepairManifold(). */

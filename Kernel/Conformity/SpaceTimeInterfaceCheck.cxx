@@ -10,8 +10,8 @@ namespace voxplex
 SpaceTimeInterfaceCheck::SpaceTimeInterfaceCheck(const Triangulation<4>& mesh,
   const LabelImage<4>& image, const BitMask<4>& sites, const Domain<4>& surfaces,
   const SizingField<4>& sizing, const InterfaceOptions& options, bool mayRefine,
-  LocalDelta<4>& local, InterfaceStatistics& statistics, double& seconds, unsigned threads,
-  const std::stop_token& stop)
+  std::function<bool(SimplexId)> keeps, LocalDelta<4>& local, InterfaceStatistics& statistics,
+  double& seconds, unsigned threads, const std::stop_token& stop)
   : ConformityCheck(seconds)
   , Mesh(mesh)
   , Repairs(options.Manifold)
@@ -24,6 +24,7 @@ SpaceTimeInterfaceCheck::SpaceTimeInterfaceCheck(const Triangulation<4>& mesh,
 {
   this->RepairOptions.Surfaces = &surfaces;
   this->RepairOptions.Sizing = &sizing;
+  this->RepairOptions.Keeps = std::move(keeps);
 }
 
 Remedy<4> SpaceTimeInterfaceCheck::InspectTriangulation()

@@ -15,6 +15,7 @@
 #include "Conformity/ManifoldLabels.h"
 #include "Conformity/UniformInterfaceCheck.h"
 
+#include <functional>
 #include <stop_token>
 #include <vector>
 
@@ -38,14 +39,15 @@ public:
    * All references must outlive the check.
    * @param mayRefine whether points may be requested
    * @param sites surface voxels of the image
+   * @param keeps whether a pentatope must keep its label; empty: none must
    * @param local receives the spacing of the points to be inserted, and bounds
    * @param statistics counts rounds, points and triangles
    * @param threads 0 means all cores
    */
   SpaceTimeInterfaceCheck(const Triangulation<4>& mesh, const LabelImage<4>& image,
     const BitMask<4>& sites, const Domain<4>& surfaces, const SizingField<4>& sizing,
-    const InterfaceOptions& options, bool mayRefine, LocalDelta<4>& local,
-    InterfaceStatistics& statistics, double& seconds, unsigned threads,
+    const InterfaceOptions& options, bool mayRefine, std::function<bool(SimplexId)> keeps,
+    LocalDelta<4>& local, InterfaceStatistics& statistics, double& seconds, unsigned threads,
     const std::stop_token& stop);
 
   /** Requests no points once the number of rounds has reached the limit in the options. */

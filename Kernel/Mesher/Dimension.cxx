@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace voxplex
@@ -162,6 +163,45 @@ void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
 }
 
 //------------------------------------------------------------------------------------------------
+namespace
+{
+
+/**
+ * Tells whether a pentatope has a facet on a time plane or on an end of a periodic mesh. Such
+ * pentatopes keep their labels, so that both sides of the plane have the same ones. Empty if there
+ * are no planes.
+ */
+std::function<bool(SimplexId)> TellKept(const Triangulation<4>& mesh, const TimePlanes& planes)
+{
+  if (!planes.Exist())
+  {
+    return {};
+  }
+  return [&mesh, &planes](SimplexId s)
+  {
+    const auto& v = mesh.GetSimplex(s).V;
+    const auto timeOf = [&](unsigned i) { return mesh.Position(v[i])[3]; };
+    // A facet has one of the first two vertices at least.
+    for (unsigned i = 0; i < 2; ++i)
+    {
+      const double time = timeOf(i);
+      unsigned vertices = 0;
+      for (unsigned k = 0; k < 5; ++k)
+      {
+        vertices += timeOf(k) == time ? 1 : 0;
+      }
+      if (vertices == 4 && (planes.AreAt(time) || planes.IsPeriodicEnd(time)))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
 std::unique_ptr<RefinementStage<4>> Dimension<4>::MakeStage(
   const RunEnvironment<4>& run, const RefinementPlan<4>& plan)
 {
@@ -181,7 +221,8 @@ Dimension<4>::Checks::Checks(
   , Sizing(stage.Sizing())
   , MayRefine(MayBeRefined(run))
   , Interfaces(stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
-      stage.Sizing(), run.Options.Interfaces, MayRefine, local, run.Statistics.Interfaces,
+      stage.Sizing(), run.Options.Interfaces, MayRefine,
+      TellKept(stage.Mesh(), run.Prepared.Planes), local, run.Statistics.Interfaces,
       run.Statistics.Times.Interfaces, run.Options.Team.Threads, run.Stop)
 {
   const auto start = [&](const std::optional<voxplex::Components<4>>& all,
@@ -247,8 +288,9 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
   ExtractMesh<4>(
     this->Source, surfaces, made.Labels, mesh, threads, this->Run.Stop, fitted.Positions, &numbers);
 
-  const SpindleResult<4> spindles = MakeSpindles<4>(this->Source, surfaces, made.Labels,
-    made.NonManifold, this->Run.Stop, { fitted.Positions, sizing });
+  const SpindleResult<4> spindles =
+    MakeSpindles<4>(this->Source, surfaces, made.Labels, made.NonManifold, this->Run.Stop,
+      { fitted.Positions, sizing, TellKept(this->Source, this->Run.Prepared.Planes) });
   this->Run.Statistics.Interfaces.CountOpened(made.NonManifold.size(), spindles.Left.size());
   Subdivide<4>(this->Source, surfaces, spindles.Parts, mesh, threads, this->Run.Stop,
     { fitted.Positions, &numbers });
