@@ -336,7 +336,9 @@ protected:
     const double least = BoundSafety * this->Context.Settings.Shape.RadiusEdgeRatio * shortestEdge;
     return radius >= least ||
       (radius >= Rules::PreferredRatio * least &&
-        radius >= Rules::PreferredSpacing * this->Context.Sizing.Spacing(centre, label) &&
+        radius >= Rules::PreferredSpacing *
+            std::max(
+              this->Context.Sizing.Spacing(centre, label), this->Context.Sizing.Base().Asked) &&
         !this->PlaceOf(centre, CentreMargin * radius).Moved);
   }
 

@@ -14,8 +14,9 @@
  *   cfp(c(s)): insert z.
  * - R2: the circumball of s meets dOmega, and r(s) >= 2 Delta(z): insert c(s). If c(s) is outside
  *   the box, insert its projection onto the box.
- * - R3: c(s) is inside the object, and r(s) / shortest edge >= rho-bar, or >= PreferredRatio rho-bar
- *   where r(s) >= PreferredSpacing Delta: insert c(s). The second is not in the thesis.
+ * - R3: c(s) is inside the object, and r(s) / shortest edge >= rho-bar: insert c(s). The same, which
+ *   is not in the thesis, if it is >= PreferredRatio rho-bar, and r(s) >= PreferredSpacing Delta, for
+ *   the Delta that holds there and for the requested one.
  * - R4: c(s) is inside the object, and the normalized volume of s (section 4.5) is below the bound
  *   (s is a sliver): insert a good point of its picking region, the ball around c(s) of radius zeta
  *   r(s).

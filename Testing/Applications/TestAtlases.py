@@ -71,9 +71,10 @@ class Atlases(ProgramTestCase):
                 plain = self.statistics(*image, "--no-optimise", "--sliver-angle", 0, "--smallest-component", 0,
                                         "--no-junctions", "--interface-rounds", 0, "--no-manifold")
                 self.assertLess(promised["elements"], 1.1 * plain["elements"])
+                # One tetrahedron may stay as it was, since a component is there by it alone.
                 shapes = promised["optimisation"]
-                self.assertLess(shapes["poor_after"], 10)
-                self.assertTrue(shapes["min_dihedral_after"] >= 15 and shapes["max_dihedral_after"] <= 155, shapes)
+                self.assertLessEqual(shapes["poor_after"], 1)
+                self.assertTrue(shapes["min_dihedral_after"] >= 12 and shapes["max_dihedral_after"] <= 160, shapes)
 
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_exact_components_with_every_delta(self):

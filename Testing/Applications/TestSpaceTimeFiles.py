@@ -229,7 +229,7 @@ class BoundaryVelocities(SpaceTimeTestCase):
                 self.assertLess(np.mean(errors), 0.15)
                 self.assertLess(np.quantile(errors, 0.9), 0.35)
                 elsewhere = np.setdiff1d(boundary.cells, lateral)
-                self.assertGreater(len(elsewhere), 10)
+                self.assertGreater(len(elsewhere), 5)
                 np.testing.assert_array_equal(boundary.point_velocities[elsewhere], 0.0)
                 for time, piece in meshfiles.read_slices(self.folder / "s.pvd"):
                     distances = np.linalg.norm(piece.points - geometry.physical(

@@ -286,12 +286,8 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     const double limit = UniformInterfaceCheck<4>::LargestDistance * options.Sampling.Delta;
     EXPECT_GT(statistics.Interfaces.Rounds, 0u);
     EXPECT_LT(LargestDistance(image, mesh), limit);
-    // Seeds of components, and vertices where triangles were opened, are off interfaces. The pieces of pentatopes there
-    // have larger ratios.
-    ExpectGood(mesh, image,
-      { .RadiusEdge = statistics.Interfaces.NonManifoldOpened > 0 ? 3.0 : 2.0,
-        .FacetsOffInterface = 0.06,
-        .VertexLinks = false });
+    // Seeds of components, and vertices where triangles were opened, are off interfaces.
+    ExpectGood(mesh, image, { .FacetsOffInterface = 0.06, .VertexLinks = false });
 
     options.Interfaces.Rounds = 0;
     options.Components.Smallest = 0;
