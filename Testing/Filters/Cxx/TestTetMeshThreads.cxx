@@ -141,7 +141,14 @@ void CheckParallelMesh(Filter* filter, Filter* like)
   CHECK(statistics->GetInvertedElements() == 0);
   CHECK(statistics->GetNumberOfLostLabels() == 0);
   vtkMeshingStatistics* expected = like->GetStatistics();
-  CHECK(statistics->GetFacetAngleViolations() <= expected->GetFacetAngleViolations() + 3,
+  // Optimisation may leave angles from 20 degrees on at junctions.
+  const auto offJunctions = [](vtkMeshingStatistics* of)
+  {
+    return static_cast<double>(of->GetFacetAngleViolations()) -
+      of->GetFigure("/quality/facet_angle_violations_at_junctions");
+  };
+  CHECK(offJunctions(statistics) <= offJunctions(expected), offJunctions(statistics));
+  CHECK(statistics->GetFacetAngleViolations() <= expected->GetFacetAngleViolations() + 10,
     statistics->GetFacetAngleViolations());
   const double elements = static_cast<double>(statistics->GetNumberOfElements());
   const double usual = static_cast<double>(expected->GetNumberOfElements());
