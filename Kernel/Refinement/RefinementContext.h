@@ -33,6 +33,12 @@ namespace voxplex
  */
 inline constexpr double YieldingFraction = 0.5;
 
+/** The clearance of a feature point that is inserted for the sake of facets. */
+constexpr double FacetClearance(double spacing, Yielding step)
+{
+  return (step < Yielding::Spacing ? SpacingFloorFraction : YieldingFraction) * spacing;
+}
+
 /** A feature point nearer to a flat end than this, in delta, is moved onto it. */
 inline constexpr double EndMargin = 0.8;
 
@@ -171,6 +177,12 @@ struct WorkerZone
   bool HasLeft = false;
   /** The insertions that this worker has counted here, by region. RegionalWork gets them later. */
   std::unordered_map<typename RegionalWork<D>::Region, std::uint32_t> Work;
+
+  std::uint32_t WorkIn(typename RegionalWork<D>::Region region) const
+  {
+    const auto found = this->Work.find(region);
+    return found == this->Work.end() ? 0 : found->second;
+  }
 };
 
 /** A region where rules give way, given by a point in it. */

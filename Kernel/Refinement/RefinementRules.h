@@ -637,24 +637,8 @@ protected:
   Yielding YieldingAt(const Point<D>& place, double spacing) const
   {
     const auto region = RegionalWork<D>::RegionOf(place, spacing);
-    return YieldingOf(this->Context.Work.At(region) + this->OwnWork(region), Rules::WorkLimit);
-  }
-
-  /** The insertions in a region that the worker has counted for itself. */
-  std::uint32_t OwnWork(typename RegionalWork<D>::Region region) const
-  {
-    if (!this->Worker.Zone)
-    {
-      return 0;
-    }
-    const auto own = this->Worker.Zone->Work.find(region);
-    return own == this->Worker.Zone->Work.end() ? 0 : own->second;
-  }
-
-  /** The clearance of a feature point that is inserted for the sake of facets. */
-  double FacetClearance(double spacing, Yielding step) const
-  {
-    return (step < Yielding::Spacing ? SpacingFloorFraction : YieldingFraction) * spacing;
+    const std::uint32_t own = this->Worker.Zone ? this->Worker.Zone->WorkIn(region) : 0;
+    return YieldingOf(this->Context.Work.At(region) + own, Rules::WorkLimit);
   }
 
   /** Counts an insertion in the region of a point. */

@@ -352,7 +352,7 @@ RuleOutcome Rules3D::R3(const Element& t)
     {
       continue;
     }
-    double clearance = this->FacetClearance(spacing, step);
+    double clearance = FacetClearance(spacing, step);
     if (shapely)
     {
       clearance = std::max(clearance, CutClearance * delta);

@@ -201,7 +201,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
   {
     return RuleOutcome::Good;
   }
-  double clearance = this->FacetClearance(spacing, step);
+  double clearance = FacetClearance(spacing, step);
   std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet];
   Point<4> snapped;
   if (this->Context.SnapToEnd(z, delta, snapped))
