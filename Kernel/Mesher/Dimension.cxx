@@ -41,6 +41,7 @@ constexpr double GradingTolerance = 0.9;
  * 12 degrees and more; now hardly any does. In 4D in smallest voxel spacings.
  */
 constexpr double ToleranceIn3D = 0.25;
+constexpr double LargestToleranceIn3D = 0.5; ///< in smallest voxel spacings
 constexpr double ToleranceIn4D = 0.1;
 
 /**
@@ -368,7 +369,8 @@ void Dimension<3>::Optimise(const RunEnvironment<3>& run, SimplexMesh<3>& mesh)
   options.Shape = ShapeBounds::With(
     std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
   options.Seconds = asked.Optimisation.Seconds;
-  options.InterfaceTolerance = ToleranceIn3D * std::cbrt(image.Grid().VoxelVolume());
+  options.InterfaceTolerance = std::min(ToleranceIn3D * std::cbrt(image.Grid().VoxelVolume()),
+    LargestToleranceIn3D * image.Grid().SmallestSpacing());
   if (run.Prepared.AllComponents)
   {
     const Components<3>& components = *run.Prepared.AllComponents;

@@ -26,8 +26,12 @@ constexpr double SearchPrecision = 0.02;
  * tenth of a voxel away, the cube root of it.
  */
 constexpr double SearchPrecisionOfIsosurfaces = 0.1;
-/** Distance by which optimisation may move vertices off interfaces, in smallest spacings. */
-constexpr double OptimisationTolerance = 0.1;
+/**
+ * Distance by which optimisation may move vertices off interfaces: in cube roots of the voxel volume,
+ * and at most this part of the smallest spacing.
+ */
+constexpr double OptimisationTolerance = 0.25;
+constexpr double LargestTolerance = 0.5;
 
 /** How far FitInterfaces() and OptimisePentatopes() may each move vertices along each axis, in voxels. */
 constexpr double MoveTolerance = 0.5;
@@ -83,15 +87,20 @@ bool MayBeOnInterface(
     low, high, [&](const Index<D>& voxel) { return image.LabelAt(voxel) == first; });
 }
 
+/** How far optimisation may have moved vertices off the interfaces. */
 template <int D>
-double SmallestSpacing(const Volume<D>& image)
+double ToleranceOf(const Volume<D>& image, const MeshingOptions<D>& options)
 {
+  if (D == 4 || !options.Optimisation.Run)
+  {
+    return 0.0;
+  }
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < 3; ++a)
   {
     least = std::min(least, image.Spacing(a));
   }
-  return least;
+  return std::min(OptimisationTolerance * std::cbrt(image.VoxelVolume()), LargestTolerance * least);
 }
 
 template <int D>
@@ -108,8 +117,7 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
     }
   }
   const MeshingOptions<D>& options = subject.Of.Options;
-  const double tolerance =
-    D == 3 && options.Optimisation.Run ? OptimisationTolerance * SmallestSpacing(image) : 0.0;
+  const double tolerance = ToleranceOf(image, options);
   const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
     (D == 4 && options.Interfaces.Fit ? MoveTolerance : 0.0) +
     (D == 4 && options.Optimisation.Run ? MoveTolerance : 0.0);
