@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <functional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -26,6 +29,10 @@ namespace voxplex
  * **Lazy removal** (the default). Entries of simplices that died meanwhile are recognised by their
  * generation and dropped when taken. Only the owner touches its list, except for a gift while it
  * waits for work. Entries that are put last are always removed lazily.
+ *
+ * Most entries die in the list, so a list that knows which entries are alive (DropDeadBy()) drops the
+ * dead ones when its memory is full, and takes more memory only if more than half of it is then still
+ * in use. Otherwise dead entries take eight bytes for each simplex that was ever made.
  *
  * **Eager removal** (REMOVE_ON_THE_FLY of the thesis, section 3.2.3). The thread that deletes a
  * simplex takes it out of the list that contains it, which may be another thread's. Then the list
@@ -79,6 +86,12 @@ public:
     this->Number = number;
   }
 
+  /** @param isAlive whether the simplex of an entry is alive; called by the thread that pushes */
+  void DropDeadBy(std::function<bool(const Entry&)> isAlive)
+  {
+    this->MayBeAlive = std::move(isAlive);
+  }
+
   void Push(SimplexId s, std::uint32_t generation)
   {
     const Guard guard(*this);
@@ -89,6 +102,10 @@ public:
   void PushLast(SimplexId s, std::uint32_t generation)
   {
     const Guard guard(*this);
+    if (this->Last.size() == this->Last.capacity())
+    {
+      this->MakeRoom(this->Last);
+    }
     this->Last.push_back({ s, generation });
   }
 
@@ -223,8 +240,27 @@ private:
     return taken;
   }
 
+  /** For one more entry. */
+  void MakeRoom(std::vector<Entry>& entries)
+  {
+    if (this->MayBeAlive)
+    {
+      std::erase_if(
+        entries, [this](const Entry& e) { return e.Id == None || !this->MayBeAlive(e); });
+    }
+    if (entries.size() >= entries.capacity() / 2)
+    {
+      entries.reserve(std::max(2 * entries.capacity(), FewestEntries));
+    }
+  }
+
   void PushGuarded(const Entry& e)
   {
+    if (this->Entries.size() == this->Entries.capacity())
+    {
+      this->MakeRoom(this->Entries);
+      this->NoteAll();
+    }
     this->Entries.push_back(e);
     if (this->Where)
     {
@@ -247,6 +283,9 @@ private:
     }
   }
 
+  static constexpr std::size_t FewestEntries = 1024; ///< room for these is always there
+
+  std::function<bool(const Entry&)> MayBeAlive; ///< may be empty
   std::vector<Entry> Entries;
   std::vector<Entry> Last; ///< taken when Entries is empty
   Directory* Where = nullptr;

@@ -208,6 +208,8 @@ struct alignas(CacheLineSize) RefinementWorker
   explicit RefinementWorker(const RefinementContext<D>& context, WorkerId id = 0)
     : Kernel(context.Mesh, id)
   {
+    this->Poor.DropDeadBy([&mesh = context.Mesh](const PoorElementList::Entry& e)
+      { return mesh.State(e.Id).CurrentGeneration() == e.Generation; });
   }
 
   /**
