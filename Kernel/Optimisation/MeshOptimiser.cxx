@@ -33,6 +33,8 @@ constexpr std::size_t SurveyGrain = 16384;
 /** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
 constexpr std::size_t VerticesOfBlock = 4000;
 constexpr std::size_t MostBlocks = 256;
+/** Room for new vertices is one for so many; if it is too little, arrays are copied. */
+constexpr std::size_t VerticesPerSpare = 16;
 /**
  * Passes over one block. A pass also works on tetrahedra that become poor in it, so more passes are
  * seldom needed.
@@ -85,6 +87,14 @@ ShapeScore ScoreOf(const OptimisationOptions& options)
     options.Shape.RadiusEdgeRatio };
 }
 
+/**
+ * Edge removal needs additional slots for rings of six and more. Otherwise it mostly frees slots.
+ */
+std::size_t SpareCells(std::uint64_t poor)
+{
+  return static_cast<std::size_t>(poor) + 64 * MostBlocks;
+}
+
 //------------------------------------------------------------------------------------------------
 /** The stages of one optimisation. */
 class Optimisation
@@ -109,9 +119,7 @@ public:
       }
     }
     const auto cells = static_cast<std::uint32_t>(this->Mesh.Cells.size());
-    // Edge removal needs additional slots for rings of six and more. Otherwise it mostly frees
-    // slots.
-    this->Mesh.AddCells(this->Poor.size() + 64 * MostBlocks);
+    this->Mesh.AddCells(SpareCells(this->Poor.size()));
     for (auto slot = static_cast<std::uint32_t>(this->Mesh.Cells.size()); slot-- > cells;)
     {
       this->Slots.push_back(slot);
@@ -358,7 +366,7 @@ private:
       const auto& v = this->Mesh.Cells[t].V;
       vertices.insert(vertices.end(), v.begin(), v.end());
     }
-    worker.GetPatch().FindStars(vertices);
+    worker.GetPatch().FindStars(vertices, this->Threads, this->Limits.Stop);
   }
 
   TetrahedralComplex& Mesh;
@@ -540,12 +548,14 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
     {
       SimplexMesh<3> result;
       {
-        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores);
+        const SpareRoom spare{ SpareCells(statistics.Before.Poor),
+          mesh.Points.size() / VerticesPerSpare };
+        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores, spare);
         complex.FindBorderFaces(domain);
         complex.Kept = kept;
         Optimisation(complex, domain, options, threads, limits, statistics).Run();
         ThrowIfStopped(stop);
-        complex.Write(result);
+        complex.Write(result, threads, stop);
       }
       const std::vector<std::uint32_t> more =
         options.ShouldHaveStayed ? options.ShouldHaveStayed(result) : std::vector<std::uint32_t>();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimisation/Patch.h"
 
+#include "Parallel/ParallelFor.h"
+
 #include <algorithm>
 
 namespace voxplex
@@ -241,25 +243,46 @@ void Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const flo
 }
 
 //------------------------------------------------------------------------------------------------
-void Patch::FindStars(std::span<const std::uint32_t> vertices)
+void Patch::FindStars(
+  std::span<const std::uint32_t> vertices, unsigned threads, const std::stop_token& stop)
 {
+  constexpr std::size_t Grain = 65536;
   this->FoundStars.clear();
+  if (vertices.empty())
+  {
+    return;
+  }
   std::vector<char> wanted(this->Complex.Points.size(), 0);
   for (const std::uint32_t v : vertices)
   {
     wanted[v] = 1;
   }
-  for (std::uint32_t t = 0; t < this->Complex.Cells.size(); ++t)
-  {
-    if (!this->Complex.IsAlive(t))
+  std::vector<std::vector<std::uint32_t>> parts(this->Complex.Cells.size() / Grain + 1);
+  ParallelFor(
+    0, this->Complex.Cells.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last)
     {
-      continue;
-    }
-    for (const std::uint32_t v : this->Complex.Cells[t].V)
-    {
-      if (wanted[v] != 0)
+      for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
       {
-        this->FoundStars[v].push_back(t);
+        const Vertices& v = this->Complex.Cells[t].V;
+        if (this->Complex.IsAlive(t) &&
+          (wanted[v[0]] | wanted[v[1]] | wanted[v[2]] | wanted[v[3]]) != 0)
+        {
+          parts[first / Grain].push_back(t);
+        }
+      }
+    },
+    stop);
+  for (const std::vector<std::uint32_t>& part : parts)
+  {
+    for (const std::uint32_t t : part)
+    {
+      for (const std::uint32_t v : this->Complex.Cells[t].V)
+      {
+        if (wanted[v] != 0)
+        {
+          this->FoundStars[v].push_back(t);
+        }
       }
     }
   }

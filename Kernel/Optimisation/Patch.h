@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -123,7 +124,8 @@ public:
    * consists of pieces that share no facet. A found star is valid until a change around its vertex.
    * Only for the patch of a whole complex.
    */
-  void FindStars(std::span<const std::uint32_t> vertices);
+  void FindStars(std::span<const std::uint32_t> vertices, unsigned threads = 1,
+    const std::stop_token& stop = {});
 
   /** An unused vertex of this block; None if there is none left. */
   std::uint32_t SpareVertex() const

@@ -32,6 +32,13 @@ enum class VertexRole : std::uint8_t
   Fixed    ///< where three or more labels meet
 };
 
+/** Numbers of tetrahedra and vertices that a complex can take without moving its arrays. */
+struct SpareRoom
+{
+  std::size_t Cells = 0;
+  std::size_t Vertices = 0;
+};
+
 /**
  * @brief The data structure of optimisation: a SimplexMesh<3> with adjacency, kinds of vertices and
  * scores.
@@ -59,11 +66,13 @@ public:
   /**
    * @param mesh a valid mesh: positive orientation, at most two tetrahedra at a facet
    * @param scores of the tetrahedra, if they are known; otherwise empty
+   * @param spare room for this many more tetrahedra and vertices (AddCells(), AddVertices())
    *
-   * Complexity: linear, except for sorting label values.
+   * Complexity: linear, except for sorting label values. The result does not depend on the number of
+   * threads.
    */
   TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score, unsigned threads,
-    const std::stop_token& stop, std::span<const float> scores = {});
+    const std::stop_token& stop, std::span<const float> scores = {}, const SpareRoom& spare = {});
 
   /**
    * Finds the vertices on faces where the image cuts the object. To be called once, before any
@@ -71,8 +80,12 @@ public:
    */
   void FindBorderFaces(const Domain<3>& domain);
 
-  /** Replaces the mesh by the current state: used points, tetrahedra and interfaces. */
-  void Write(SimplexMesh<3>& mesh) const;
+  /**
+   * Replaces the mesh by the current state: used points, tetrahedra and interfaces. The complex is
+   * taken apart while the mesh is written, so that both never take their whole memory. Afterwards
+   * it cannot be used any more.
+   */
+  void Write(SimplexMesh<3>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
 
   /** Adds slots for more tetrahedra. They are not alive. */
   void AddCells(std::size_t number);
@@ -129,10 +142,13 @@ public:
   std::vector<std::uint32_t> Kept; ///< tetrahedra that stay as they are; sorted
 
 private:
-  void CopyCells(const SimplexMesh<3>& mesh);
+  void FindLabels(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);
+  void CopyCells(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);
   void ScoreCells(unsigned threads, const std::stop_token& stop);
   void Connect(unsigned threads, const std::stop_token& stop);
-  void FindKinds();
+  void FindKinds(unsigned threads, const std::stop_token& stop);
+  UninitialisedVector<std::uint32_t> WritePoints(
+    SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop) const;
 };
 
 /**

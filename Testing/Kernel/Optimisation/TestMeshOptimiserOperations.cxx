@@ -339,7 +339,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   EXPECT_GT(flips.Counts().Dropped, 100u);
 
   SimplexMesh<3> after;
-  complex.Write(after);
+  TetrahedralComplex(complex).Write(after);
   EXPECT_TRUE(checks::Complaints(after).empty());
   TetrahedralComplex fresh(after, score, 1, {});
   fresh.FindBorderFaces(domain);
