@@ -125,9 +125,28 @@ std::vector<FeatureSeed<D>> ComponentCheck<D>::TakeSeeds()
 
 //------------------------------------------------------------------------------------------------
 template <int D>
+Remedy<D> ComponentCheck<D>::InspectElements(const LabelledTriangulation<D>& elements)
+{
+  if constexpr (D == 3)
+  {
+    return this->Treat(this->FindLost(elements));
+  }
+  return {};
+}
+
+template <int D>
 Remedy<D> ComponentCheck<D>::InspectMesh(const SimplexMesh<D>& mesh)
 {
-  const std::vector<std::uint32_t> lost = this->FindLost(mesh);
+  if constexpr (D == 4)
+  {
+    return this->Treat(this->FindLost(mesh));
+  }
+  return {};
+}
+
+template <int D>
+Remedy<D> ComponentCheck<D>::Treat(const std::vector<std::uint32_t>& lost)
+{
   this->Statistics.Lost.clear(); // of an earlier round
   if (this->SampleFiner(lost))
   {
@@ -222,12 +241,6 @@ void ComponentCheck<D>::Sample(std::uint32_t component, double delta)
 }
 
 //------------------------------------------------------------------------------------------------
-template <int D>
-std::vector<std::uint32_t> ComponentCheck<D>::FindLost(const SimplexMesh<D>& mesh) const
-{
-  return FindLostComponents(this->All, this->Image, mesh, this->Wanted, this->Threads, this->Stop);
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)

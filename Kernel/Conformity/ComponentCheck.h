@@ -12,6 +12,7 @@
 #include "Domain/Domain.h"
 #include "Image/Components.h"
 #include "Mesh/SimplexMesh.h"
+#include "Quality/LostComponents.h"
 #include "Refinement/FeatureSeed.h"
 #include "Sizing/SizingField.h"
 
@@ -74,12 +75,21 @@ public:
 
   /**
    * Requests points for components without elements. Gives up components that cannot get an
-   * element, and lists them.
+   * element, and lists them. In 4D this is done by InspectMesh(), since extraction moves vertices.
    */
+  Remedy<D> InspectElements(const LabelledTriangulation<D>& elements) override;
   Remedy<D> InspectMesh(const SimplexMesh<D>& mesh) override;
 
-  /** Components without an element of their label within a voxel of them, in increasing order. */
-  std::vector<std::uint32_t> FindLost(const SimplexMesh<D>& mesh) const;
+  /**
+   * Components without an element of their label within a voxel of them, in increasing order.
+   * @param elements a SimplexMesh; in 3D also a LabelledTriangulation
+   */
+  template <typename Elements>
+  std::vector<std::uint32_t> FindLost(const Elements& elements) const
+  {
+    return FindLostComponents(
+      this->All, this->Image, elements, this->Wanted, this->Threads, this->Stop);
+  }
 
   /**
    * Adds seeds for these components, and bounds near them.
@@ -90,6 +100,8 @@ public:
 private:
   using Index = typename GridGeometry<D>::Index;
 
+  /** The remedy for lost components. Lists them if there is none. */
+  Remedy<D> Treat(const std::vector<std::uint32_t>& lost);
   /** The delta that suits the mean thickness of a component. */
   double OwnDelta(std::uint32_t component) const;
   void SampleThickest(std::uint32_t component);

@@ -7,6 +7,7 @@
 #ifndef voxplex_ConformityCheck_h
 #define voxplex_ConformityCheck_h
 
+#include "Mesh/LabelledTriangulation.h"
 #include "Mesh/SimplexMesh.h"
 #include "Refinement/FeatureSeed.h"
 
@@ -27,9 +28,9 @@ struct Remedy
 /**
  * @brief Checks a property of the mesh that the refinement rules alone do not guarantee.
  *
- * After each refinement, all checks inspect the triangulation, in order, and then the mesh
- * extracted from it. If a check needs a remedy, inspection stops and refinement is resumed. Each
- * check gives up after a limited number of remedies, so the run ends.
+ * After each refinement, all checks inspect the triangulation, in order, then the elements that will
+ * be extracted from it, and then the mesh. If a check needs a remedy, inspection stops and refinement
+ * is resumed. Each check gives up after a limited number of remedies, so the run ends.
  *
  * All functions may throw Cancelled and std::bad_alloc.
  */
@@ -45,6 +46,7 @@ public:
   virtual ~ConformityCheck() = default;
 
   virtual Remedy<D> InspectTriangulation() { return {}; }
+  virtual Remedy<D> InspectElements(const LabelledTriangulation<D>&) { return {}; }
   virtual Remedy<D> InspectMesh(const SimplexMesh<D>&) { return {}; }
 
   double& Seconds;

@@ -55,9 +55,15 @@ Remedy<3> InterfaceCheck::InspectTriangulation()
 
 Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
 {
-  return this->Graded && this->MayGoOn()
+  return this->NeedsMesh()
     ? this->Counted(this->Graded->Inspect(mesh, this->Made.Places))
     : Remedy<3>();
+}
+
+void InterfaceCheck::Finish()
+{
+  this->Vertices.Forget();
+  this->Uniform.reset();
 }
 
 /** Makes a remedy of these points. If there are any, counts a round. */
@@ -71,6 +77,8 @@ Remedy<3> InterfaceCheck::Counted(std::vector<FeatureSeed<3>> points)
 //------------------------------------------------------------------------------------------------
 void InterfaceCheck::MakeLabels()
 {
+  this->Made = {}; // the labels of the round before need no memory beside the new ones
+  this->Spindles = {};
   const Triangulation<3>& mesh = this->Of.Mesh;
   ManifoldRepairOptions<3> options;
   options.Shape = this->Of.Shape;

@@ -77,6 +77,11 @@ public:
   Remedy<3> InspectTriangulation() override;
   Remedy<3> InspectMesh(const SimplexMesh<3>& mesh) override;
 
+  /** Whether InspectMesh() may request points. */
+  bool NeedsMesh() const { return this->Graded && this->MayGoOn(); }
+  /** Call this if refinement is not resumed. It frees what only further inspections need. */
+  void Finish();
+
   /** The label of each simplex id. Valid if InspectTriangulation() requested nothing. */
   std::span<const LabelId> Labels() const { return this->Made.Labels; }
 

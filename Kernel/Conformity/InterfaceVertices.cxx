@@ -16,6 +16,29 @@ namespace
 
 constexpr std::size_t Grain = 4096;
 
+/** Merges sorted entries into others, from behind, in place. No two have the same id. */
+template <typename Entry>
+void MergeInto(std::vector<Entry>& entries, std::vector<Entry>& more)
+{
+  auto from = entries.size();
+  auto to = from + more.size();
+  entries.reserve(to); // not twice as much
+  entries.resize(to);
+  while (!more.empty())
+  {
+    --to;
+    if (from > 0 && more.back().first < entries[from - 1].first)
+    {
+      entries[to] = entries[--from];
+    }
+    else
+    {
+      entries[to] = more.back();
+      more.pop_back();
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -27,6 +50,13 @@ InterfaceVertices<D>::InterfaceVertices(const Triangulation<D>& triangulation,
   , Threads(threads)
   , Stop(stop)
 {
+}
+
+template <int D>
+void InterfaceVertices<D>::Forget()
+{
+  this->Seen = std::vector<std::uint32_t>();
+  this->Known = std::vector<Entry>();
 }
 
 template <int D>
@@ -108,6 +138,10 @@ auto InterfaceVertices<D>::FindAll() -> Changes
     },
     this->Stop);
   Changes changes;
+  const auto number = static_cast<std::size_t>(
+    std::count(isOnInterface.begin(), isOnInterface.end(), std::uint8_t{ 1 }));
+  this->Known.reserve(number);
+  changes.Added.reserve(number);
   for (VertexId v = 0; v < isOnInterface.size(); ++v)
   {
     if (isOnInterface[v] != 0)
@@ -125,18 +159,19 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
 {
   const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
   std::vector<SimplexId> star;
-  std::vector<Entry> now;
-  now.reserve(this->Known.size() + candidates.size());
+  std::vector<Entry> fresh; // entries that are not yet in Known
   Changes changes;
-  // Only the stars of the candidates have changed. Some other vertices may have been removed.
+  // Only the stars of the candidates have changed. Some other vertices may have been removed. What
+  // stays moves to the front of Known.
   auto known = this->Known.begin();
+  auto kept = this->Known.begin();
   const auto keepBefore = [&](VertexId end)
   {
     for (; known != this->Known.end() && known->first < end; ++known)
     {
       if (this->Source.GetVertex(known->first).Alive)
       {
-        now.push_back(*known);
+        *kept++ = *known;
       }
       else
       {
@@ -156,18 +191,20 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
     {
       changes.Gone.push_back(known->second);
     }
-    if (isOn)
+    if (isSame)
     {
-      now.emplace_back(v, position);
+      *kept++ = *known;
     }
     if (isOn && !isSame)
     {
+      fresh.emplace_back(v, position);
       changes.Added.push_back(position);
     }
     known += wasKnown ? 1 : 0;
   }
   keepBefore(None);
-  this->Known = std::move(now);
+  this->Known.erase(kept, this->Known.end());
+  MergeInto(this->Known, fresh);
   return changes;
 }
 
@@ -177,6 +214,7 @@ template <int D>
 std::vector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
+  this->Seen.reserve(ids); // not twice as much
   this->Seen.resize(ids, None);
   std::vector<std::vector<VertexId>> parts((ids - 1) / Grain + 1);
   ParallelFor(

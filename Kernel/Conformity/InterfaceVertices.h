@@ -54,6 +54,9 @@ public:
    */
   Changes Update();
 
+  /** Frees all memory. The next Update() is then a first one. */
+  void Forget();
+
 private:
   using Entry = std::pair<VertexId, Point<D>>;
 

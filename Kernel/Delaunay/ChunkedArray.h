@@ -54,11 +54,14 @@ public:
   }
   ChunkedArray(const ChunkedArray&) = delete;
   ChunkedArray& operator=(const ChunkedArray&) = delete;
-  ~ChunkedArray()
+  ~ChunkedArray() { this->Clear(); }
+
+  /** Frees all elements. No other thread may use the array meanwhile. */
+  void Clear()
   {
     for (std::uint32_t c = 0; c < NumberOfChunks; ++c)
     {
-      T* chunk = this->Chunks[c].load(std::memory_order_relaxed);
+      T* chunk = this->Chunks[c].exchange(nullptr, std::memory_order_relaxed);
       if (!chunk)
       {
         // Threads install chunks roughly in the order of element numbers. Races among threads may

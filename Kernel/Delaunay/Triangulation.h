@@ -345,6 +345,13 @@ public:
     return ball.Radius2 >= 0.0 ? ball : this->ComputeBallExactly(s);
   }
 
+  /** Frees marks and states. Afterwards only vertices and simplices can be read. */
+  void Freeze()
+  {
+    this->Marks.Clear();
+    this->States.Clear();
+  }
+
   const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }
   const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }
   const Point<D>& Position(VertexId v) const { return this->Vertices[v].Position; }

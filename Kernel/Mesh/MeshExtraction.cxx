@@ -7,6 +7,7 @@
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
+#include "Parallel/SharedCounts.h"
 
 #include <algorithm>
 #include <atomic>
@@ -25,12 +26,13 @@ class Extraction
 {
 public:
   Extraction(const Triangulation<D>& triangulation, const Domain<D>& image,
-    std::span<const LabelId> labels, std::span<const Point<D>> positions, unsigned threads,
-    const std::stop_token& stop)
+    std::span<const LabelId> labels, std::span<const Point<D>> positions, std::size_t spare,
+    unsigned threads, const std::stop_token& stop)
     : Source(triangulation)
     , Image(image)
     , Labels(labels)
     , Positions(positions)
+    , Spare(spare)
     , Threads(threads)
     , Stop(stop)
     , Ids(labels.size())
@@ -156,28 +158,56 @@ private:
       });
   }
 
-  /** Sorts the ids of the simplices inside by their smallest point. */
+  /**
+   * Sorts the ids of the simplices inside by their smallest point, then by themselves. Counts the
+   * simplices of each point, and writes their ids into lists. Threads write in any order, so each
+   * list, of a few ids, is sorted in the end.
+   */
   void SortSimplices()
   {
-    const std::size_t n = this->NumberOfSimplices;
-    this->SortMemory.resize(2 * n);
-    const std::span<std::uint64_t> memory(this->SortMemory);
+    const std::size_t points = this->Mesh.Points.size();
+    SharedCounts places(points, this->Threads, this->Stop);
+    UninitialisedVector<std::uint32_t> smallest(this->NumberOfSimplices);
+    this->ForSimplices(
+      [&](std::size_t k, SimplexId s)
+      {
+        smallest[k] = this->SmallestPoint(s);
+        places.Add(smallest[k]);
+      });
+    places.TurnIntoPlaces();
+    this->Sorted.resize(this->NumberOfSimplices);
+    this->ForSimplices(
+      [&](std::size_t k, SimplexId s) { this->Sorted[places.Next(smallest[k])] = s; });
+    if (!places.IsInOrder())
+    {
+      this->ForChunks(points,
+        [&](std::size_t first, std::size_t last)
+        {
+          for (std::size_t p = first; p < last; ++p)
+          {
+            std::sort(
+              this->Sorted.data() + places.BeginOf(p), this->Sorted.data() + places.EndOf(p));
+          }
+        });
+    }
+  }
+
+  /** Calls function(number of the simplex, id) for all simplices inside, ascending in each chunk. */
+  template <typename Function>
+  void ForSimplices(Function&& function)
+  {
     this->ForChunks(this->Ids,
-      [this, memory](std::size_t first, std::size_t last)
+      [&](std::size_t first, std::size_t last)
       {
         std::size_t k = this->Inside.OfChunk(first);
         for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
           if (this->Labels[s] != 0)
           {
-            memory[k++] = (std::uint64_t{ this->SmallestPoint(s) } << 32) | s;
+            function(k++, s);
           }
         }
       });
-    this->Sorted = ParallelRadixSort(
-      memory.first(n), memory.last(n),
-      static_cast<unsigned>(std::bit_width(this->Mesh.Points.size())),
-      [](std::uint64_t record) { return record >> 32; }, this->Threads, this->Stop);
   }
 
   std::uint32_t SmallestPoint(SimplexId s) const
@@ -190,13 +220,13 @@ private:
     return smallest;
   }
 
-  SimplexId SortedId(std::size_t k) const { return static_cast<SimplexId>(this->Sorted[k]); }
-
   /** Writes the simplices and labels, and notes which facets are interfaces. */
   void WriteSimplices()
   {
     const std::size_t n = this->NumberOfSimplices;
+    this->Mesh.Simplices.reserve(n + this->Spare);
     this->Mesh.Simplices.resize(n);
+    this->Mesh.Labels.reserve(n + this->Spare);
     this->Mesh.Labels.resize(n);
     this->Interfaces.resize(n);
     this->FacetCounts = ChunkCounts(n);
@@ -208,7 +238,7 @@ private:
         std::size_t facets = 0;
         for (std::size_t k = first; k < last; ++k)
         {
-          __builtin_prefetch(&this->Source.GetSimplex(this->SortedId(std::min(k + Ahead, n - 1))));
+          __builtin_prefetch(&this->Source.GetSimplex(this->Sorted[std::min(k + Ahead, n - 1)]));
           facets += this->WriteSimplex(k);
         }
         this->FacetCounts.OfChunk(first) = facets;
@@ -218,7 +248,7 @@ private:
   /** Returns the number of the simplex' facets to write. */
   unsigned WriteSimplex(std::size_t k)
   {
-    const SimplexId s = this->SortedId(k);
+    const SimplexId s = this->Sorted[k];
     const auto& simplex = this->Source.GetSimplex(s);
     unsigned interfaces = 0;
     for (unsigned i = 0; i < N; ++i)
@@ -247,7 +277,7 @@ private:
           for (unsigned rest = this->Interfaces[k]; rest != 0; rest &= rest - 1)
           {
             const auto i = static_cast<unsigned>(std::countr_zero(rest));
-            const SimplexId other = this->Source.GetSimplex(this->SortedId(k)).N[i];
+            const SimplexId other = this->Source.GetSimplex(this->Sorted[k]).N[i];
             this->Mesh.Facets[f] = OutwardFacet(this->Mesh.Simplices[k], i);
             this->Mesh.FacetLabels[f] = { this->Mesh.Labels[k],
               this->Image.LabelValue(this->LabelOrBackground(other)) };
@@ -293,6 +323,7 @@ private:
   const Domain<D>& Image;
   const std::span<const LabelId> Labels;     ///< of each simplex id
   const std::span<const Point<D>> Positions; ///< of each vertex id, or empty
+  const std::size_t Spare;                   ///< simplices to be added later
   const unsigned Threads;
   const std::stop_token& Stop;
   const std::size_t Ids;      ///< all simplex ids are smaller
@@ -301,8 +332,7 @@ private:
   ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
   std::size_t NumberOfSimplices = 0;          ///< number of simplices inside
   UninitialisedVector<std::uint32_t> Numbers; ///< number of each vertex in the mesh, or None
-  UninitialisedVector<std::uint64_t> SortMemory;
-  std::span<const std::uint64_t> Sorted; ///< smallest point; in the low half the simplex id
+  UninitialisedVector<SimplexId> Sorted;      ///< the simplices inside, as the mesh has them
   /** For each simplex of the mesh, a bit for each facet. */
   UninitialisedVector<std::uint8_t> Interfaces;
   ChunkCounts FacetCounts; ///< by chunks of simplices of the mesh
@@ -315,10 +345,10 @@ template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads,
   const std::stop_token& stop, std::span<const Point<D>> positions,
-  UninitialisedVector<std::uint32_t>* numbers)
+  UninitialisedVector<std::uint32_t>* numbers, std::size_t spare)
 {
   mesh = SimplexMesh<D>();
-  Extraction<D> extraction(triangulation, image, labels, positions, threads, stop);
+  Extraction<D> extraction(triangulation, image, labels, positions, spare, threads, stop);
   mesh = extraction.Run();
   if (numbers)
   {
@@ -337,10 +367,10 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 
 template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, std::span<const LabelId>,
   SimplexMesh<3>&, unsigned, const std::stop_token&, std::span<const Point<3>>,
-  UninitialisedVector<std::uint32_t>*);
+  UninitialisedVector<std::uint32_t>*, std::size_t);
 template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, std::span<const LabelId>,
   SimplexMesh<4>&, unsigned, const std::stop_token&, std::span<const Point<4>>,
-  UninitialisedVector<std::uint32_t>*);
+  UninitialisedVector<std::uint32_t>*, std::size_t);
 template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 template void ExtractMesh<4>(

@@ -32,6 +32,7 @@ namespace voxplex
  * @param threads 0 means all cores
  * @param positions of each vertex id, in place of those of the triangulation; or empty
  * @param numbers receives the point of each vertex id, None if it is not in the mesh; may be null
+ * @param spare the mesh gets room for so many more simplices
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */
@@ -39,7 +40,7 @@ template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads = 1,
   const std::stop_token& stop = {}, std::span<const Point<D>> positions = {},
-  UninitialisedVector<std::uint32_t>* numbers = nullptr);
+  UninitialisedVector<std::uint32_t>* numbers = nullptr, std::size_t spare = 0);
 
 /** The same with the labels of LabelSimplices(). */
 template <int D>
@@ -48,10 +49,10 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 
 extern template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&,
   std::span<const LabelId>, SimplexMesh<3>&, unsigned, const std::stop_token&,
-  std::span<const Point<3>>, UninitialisedVector<std::uint32_t>*);
+  std::span<const Point<3>>, UninitialisedVector<std::uint32_t>*, std::size_t);
 extern template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&,
   std::span<const LabelId>, SimplexMesh<4>&, unsigned, const std::stop_token&,
-  std::span<const Point<4>>, UninitialisedVector<std::uint32_t>*);
+  std::span<const Point<4>>, UninitialisedVector<std::uint32_t>*, std::size_t);
 extern template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 extern template void ExtractMesh<4>(

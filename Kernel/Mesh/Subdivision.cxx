@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -123,12 +124,13 @@ private:
     this->Mesh.Labels.resize(kept);
   }
 
-  /** The points by whose places the mesh is sorted. */
+  /** The points by whose places the mesh is sorted; empty if they are still those of the mesh. */
   std::vector<Point<D>> PointsBeforeMoving() const
   {
-    std::vector<Point<D>> points(this->Mesh.Points.begin(), this->Mesh.Points.end());
+    std::vector<Point<D>> points;
     if (!this->Moved.Positions.empty())
     {
+      points.resize(this->Mesh.Points.size());
       for (VertexId v = 0; v < this->Source.VertexIdEnd(); ++v)
       {
         if ((*this->Moved.Numbers)[v] != None)
@@ -148,7 +150,9 @@ private:
   {
     // The value is the number of the point before which it is inserted.
     std::map<std::pair<std::uint64_t, Point<D>>, std::size_t> added;
-    const std::vector<Point<D>> sorted = this->PointsBeforeMoving();
+    const std::vector<Point<D>> before = this->PointsBeforeMoving();
+    const std::span<const Point<D>> sorted =
+      before.empty() ? std::span<const Point<D>>(this->Mesh.Points) : before;
     for (const Piece<D>& piece : this->Parts.Pieces)
     {
       for (const VertexId v : piece.V)
@@ -285,7 +289,7 @@ private:
         v.begin(), v.end(), [this](std::uint32_t p) { return this->IsTouched(p); });
     };
     SimplexMesh<D> part;
-    part.Points = this->Mesh.Points;
+    part.Points.resize(this->Mesh.Points.size()); // only their number is needed
     for (std::size_t t = 0; t < this->Mesh.Simplices.size(); ++t)
     {
       if (touchedOf(this->Mesh.Simplices[t]) >= D)

@@ -129,14 +129,26 @@ Remedy<D> FindRemedy(const std::vector<ConformityCheck<D>*>& checks, Inspect&& i
 
 /** Inspects the triangulation and the mesh. If no check needs a remedy, the mesh is in `mesh`. */
 template <int D>
-Remedy<D> InspectAndExtract(
-  const RunEnvironment<D>& run, typename Dimension<D>::Checks& checks, SimplexMesh<D>& mesh)
+Remedy<D> InspectAndExtract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
+  typename Dimension<D>::Checks& checks, SimplexMesh<D>& mesh)
 {
   const std::vector<ConformityCheck<D>*> all = checks.All();
   Remedy<D> remedy =
     FindRemedy<D>(all, [](ConformityCheck<D>& check) { return check.InspectTriangulation(); });
   if (!remedy.IsNeeded)
   {
+    const LabelledTriangulation<D> elements = checks.Elements();
+    remedy = FindRemedy<D>(
+      all, [&](ConformityCheck<D>& check) { return check.InspectElements(elements); });
+  }
+  if (!remedy.IsNeeded)
+  {
+    if (!checks.NeedMesh())
+    {
+      checks.Finish();
+      stage.Finish();
+      ReturnFreeMemory();
+    }
     const Stopwatch time;
     StageTimes& times = run.Statistics.Times;
     const double optimisation = times.Optimisation;
@@ -169,8 +181,9 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
+    ReturnFreeMemory(); // the lists of poor elements
     sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
-    Remedy<D> remedy = InspectAndExtract(run, checks, mesh);
+    Remedy<D> remedy = InspectAndExtract(run, *stage, checks, mesh);
     if (!remedy.IsNeeded)
     {
       return true;

@@ -159,8 +159,10 @@ void Dimension<3>::Checks::Extract(SimplexMesh<3>& mesh) const
 {
   const Domain<3>& surfaces = *this->Run.Prepared.Surfaces;
   const unsigned threads = this->Run.Options.Team.Threads;
-  ExtractMesh<3>(this->Source, surfaces, this->Interfaces.Labels(), mesh, threads, this->Run.Stop);
-  Subdivide(this->Source, surfaces, this->Interfaces.Parts(), mesh, threads, this->Run.Stop);
+  const Subdivision<3>& parts = this->Interfaces.Parts();
+  ExtractMesh<3>(this->Source, surfaces, this->Interfaces.Labels(), mesh, threads, this->Run.Stop,
+    {}, nullptr, parts.Pieces.size());
+  Subdivide(this->Source, surfaces, parts, mesh, threads, this->Run.Stop);
 }
 
 //------------------------------------------------------------------------------------------------

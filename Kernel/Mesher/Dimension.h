@@ -77,6 +77,16 @@ struct Dimension<3>
     /** All checks, in order. */
     std::vector<ConformityCheck<3>*> All();
 
+    /** What will be extracted. Valid once all checks have inspected the triangulation. */
+    LabelledTriangulation<3> Elements() const
+    {
+      return { this->Source, this->Interfaces.Labels(), this->Interfaces.Parts() };
+    }
+    /** Whether a check may need refinement after it has inspected the mesh. */
+    bool NeedMesh() const { return this->Interfaces.NeedsMesh(); }
+    /** Call this if refinement is not resumed. It frees what only further inspections need. */
+    void Finish() { this->Interfaces.Finish(); }
+
     /** Extracts the mesh with the labels and pieces that the checks have found. */
     void Extract(SimplexMesh<3>& mesh) const;
 
@@ -124,6 +134,15 @@ struct Dimension<4>
     /** All checks, in order. */
     std::vector<ConformityCheck<4>*> All();
 
+    /** What will be extracted, but for pieces. */
+    LabelledTriangulation<4> Elements() const
+    {
+      return { this->Source, this->Interfaces.Labels().Labels, this->NoParts };
+    }
+    /** Components are looked for in the mesh, after its vertices have been moved. */
+    bool NeedMesh() const { return true; }
+    void Finish() {}
+
     /**
      * Extracts the mesh with the labels that the checks have found. Moves interfaces to the right
      * volumes, opens triangles that are not manifold, and improves shapes, if the options request
@@ -144,6 +163,7 @@ struct Dimension<4>
     std::optional<ComponentCheck<4>> Components; ///< empty if components are not checked
     std::optional<ComponentCheck<4>> OfFrames;   ///< empty if components are not checked
     SpaceTimeInterfaceCheck Interfaces;
+    const Subdivision<4> NoParts;
   };
 };
 

@@ -65,6 +65,11 @@ public:
   virtual const SizingField<D>& Sizing() const = 0;
   /** Call this after bounds were added to the local ones. */
   virtual void FollowLocalBounds() = 0;
+  /**
+   * Call this if there is no more refinement. It frees what only that needs. Afterwards only the
+   * points and the simplices of the mesh can be read. It may do nothing.
+   */
+  virtual void Finish() {}
 
   /**
    * Pairs of vertices at the first and at the last end of a periodic mesh, with the same position in space;
@@ -105,6 +110,11 @@ public:
   const Triangulation<D>& Mesh() const override { return this->Context.Mesh; }
   const SizingField<D>& Sizing() const override { return this->Context.Sizing; }
   void FollowLocalBounds() override { this->Context.Sizing.FollowLocalBounds(); }
+  void Finish() override
+  {
+    this->Context.Mesh.Freeze();
+    this->Context.Features.Release();
+  }
 
 private:
   const RunEnvironment<D> Run;

@@ -21,18 +21,72 @@ namespace voxplex
 namespace
 {
 
-/** The voxels of the crop where elements are looked for. */
+/** The elements of a mesh, as LabelledTriangulation has them. */
 template <int D>
+class MeshElements
+{
+public:
+  /** Both must outlive this object. */
+  MeshElements(const SimplexMesh<D>& mesh, const LabelImage<D>& image)
+    : Mesh(mesh)
+    , Values(image.Values())
+  {
+  }
+
+  std::size_t Size() const { return this->Mesh.Simplices.size(); }
+
+  const Point<D>& PointOf(std::size_t element, std::size_t i) const
+  {
+    return this->Mesh.Points[this->Mesh.Simplices[element][i]];
+  }
+
+  /** Tells the labels of elements; 0 for a value that the image does not have. */
+  class LabelReader
+  {
+  public:
+    explicit LabelReader(const MeshElements& elements)
+      : Of(elements)
+    {
+    }
+
+    LabelId operator()(std::size_t element)
+    {
+      if (this->Of.Mesh.Labels[element] != this->Value)
+      {
+        this->Value = this->Of.Mesh.Labels[element];
+        const auto values = this->Of.Values;
+        const auto at =
+          std::lower_bound(values.begin() + 1, values.end(), this->Value); // after background
+        this->Label = at != values.end() && *at == this->Value
+          ? static_cast<LabelId>(at - values.begin())
+          : LabelId{ 0 };
+      }
+      return this->Label;
+    }
+
+  private:
+    const MeshElements& Of;
+    std::int64_t Value = 0;
+    LabelId Label = 0;
+  };
+
+private:
+  const SimplexMesh<D>& Mesh;
+  const std::span<const std::int64_t> Values;
+};
+
+/** The voxels of the crop where elements are looked for. */
+template <int D, typename Elements>
 class Places
 {
 public:
   using Index = typename GridGeometry<D>::Index;
 
   /** All must outlive this object. */
-  Places(const Components<D>& components, const LabelImage<D>& image, const SimplexMesh<D>& mesh)
+  Places(const Components<D>& components, const LabelImage<D>& image, const Elements& elements)
     : Extent(components.Extent())
     , Image(image)
-    , Mesh(mesh)
+    , All(elements)
   {
   }
 
@@ -43,15 +97,15 @@ public:
   template <typename Visit>
   void ForEachOf(std::size_t element, const Visit& visit) const
   {
-    const auto& vertices = this->Mesh.Simplices[element];
     if (this->Extent == D)
     {
       Point<D> centroid{};
-      for (const std::uint32_t v : vertices)
+      for (std::size_t i = 0; i <= D; ++i)
       {
+        const Point<D>& p = this->All.PointOf(element, i);
         for (std::size_t a = 0; a < D; ++a)
         {
-          centroid[a] += this->Mesh.Points[v][a] / (D + 1);
+          centroid[a] += p[a] / (D + 1);
         }
       }
       visit(this->VoxelOf(this->Image.Grid().ToIndex(centroid)));
@@ -60,7 +114,7 @@ public:
     std::array<Point<D>, D + 1> corners;
     for (std::size_t i = 0; i <= D; ++i)
     {
-      corners[i] = this->Image.Grid().ToIndex(this->Mesh.Points[vertices[i]]);
+      corners[i] = this->Image.Grid().ToIndex(this->All.PointOf(element, i));
     }
     constexpr std::size_t time = D - 1;
     const auto [first, last] = std::minmax_element(corners.begin(), corners.end(),
@@ -151,17 +205,17 @@ private:
 
   const std::size_t Extent;
   const LabelImage<D>& Image;
-  const SimplexMesh<D>& Mesh;
+  const Elements& All;
 };
 
 /** The voxels whose block (Places::ForEachAround) contains a voxel of some components. */
-template <int D>
+template <int D, typename Elements>
 class Surroundings
 {
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  explicit Surroundings(const Places<D>& places, const Index& dimensions)
+  Surroundings(const Places<D, Elements>& places, const Index& dimensions)
     : Where(places)
     , Mask(places.Shifted(dimensions, 2))
   {
@@ -193,35 +247,27 @@ public:
   }
 
 private:
-  const Places<D>& Where;
+  const Places<D, Elements>& Where;
   BitMask<D> Mask;
 };
 
-} // namespace
-
 //------------------------------------------------------------------------------------------------
-template <int D>
-std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
-  const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
-  unsigned threads, const std::stop_token& stop)
+/** FindLostComponents() among the elements of either kind. */
+template <int D, typename Elements>
+std::vector<std::uint32_t> FindLost(const Components<D>& components, const LabelImage<D>& image,
+  const Elements& elements, const std::vector<bool>& wanted, unsigned threads,
+  const std::stop_token& stop)
 {
   using Index = typename GridGeometry<D>::Index;
   const std::vector<Component<D>>& all = components.All();
-  const Places<D> places(components, image, mesh);
+  const Places<D, Elements> places(components, image, elements);
   const auto found = std::make_unique<std::atomic<bool>[]>(all.size());
   // Most elements belong to labels whose components have all been found.
-  const std::span<const std::int64_t> values = image.Values();
-  const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(values.size());
+  const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(image.Values().size());
   for (std::size_t c = 0; c < all.size(); ++c)
   {
     missing[all[c].Label] += wanted[c] ? 1u : 0u;
   }
-  const auto idOf = [&](std::int64_t value)
-  {
-    const auto at = std::lower_bound(values.begin() + 1, values.end(), value); // after background
-    return at != values.end() && *at == value ? static_cast<LabelId>(at - values.begin())
-                                              : LabelId{ 0 };
-  };
   const auto mark = [&](const Index& voxel, LabelId label)
   {
     const std::uint32_t c = components.At(voxel);
@@ -232,27 +278,28 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
       missing[label].fetch_sub(1, std::memory_order_relaxed);
     }
   };
-  constexpr std::size_t SimplicesAtOnce = 4096;
-  ParallelFor(
-    0, mesh.Simplices.size(), SimplicesAtOnce, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::int64_t value = 0;
-      LabelId label = 0;
-      for (std::size_t s = begin; s < end; ++s)
+  /** Calls visit(element, label) for the elements of labels with components that are missing. */
+  const auto forEachOfMissing = [&](auto&& visit)
+  {
+    constexpr std::size_t ElementsAtOnce = 4096;
+    ParallelFor(
+      0, elements.Size(), ElementsAtOnce, threads,
+      [&](std::size_t begin, std::size_t end)
       {
-        if (mesh.Labels[s] != value)
+        typename Elements::LabelReader labelOf(elements);
+        for (std::size_t s = begin; s < end; ++s)
         {
-          value = mesh.Labels[s];
-          label = idOf(value);
+          const LabelId label = labelOf(s);
+          if (missing[label].load(std::memory_order_relaxed) != 0)
+          {
+            visit(s, label);
+          }
         }
-        if (missing[label].load(std::memory_order_relaxed) != 0)
-        {
-          places.ForEachOf(s, [&](const Index& voxel) { mark(voxel, label); });
-        }
-      }
-    },
-    stop);
+      },
+      stop);
+  };
+  forEachOfMissing([&](std::size_t s, LabelId label)
+    { places.ForEachOf(s, [&](const Index& voxel) { mark(voxel, label); }); });
 
   const auto findLost = [&]
   {
@@ -271,30 +318,43 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   {
     return {};
   }
-  Surroundings<D> near(places, image.CropDimensions());
+  Surroundings<D, Elements> near(places, image.CropDimensions());
   for (const std::uint32_t c : seemLost)
   {
     near.Add(components, c);
   }
-  ParallelFor(
-    0, mesh.Simplices.size(), SimplicesAtOnce, threads,
-    [&](std::size_t begin, std::size_t end)
+  forEachOfMissing(
+    [&](std::size_t s, LabelId label)
     {
-      for (std::size_t s = begin; s < end; ++s)
-      {
-        places.ForEachOf(s,
-          [&](const Index& centre)
+      places.ForEachOf(s,
+        [&](const Index& centre)
+        {
+          if (near.Contain(centre))
           {
-            if (near.Contain(centre))
-            {
-              const LabelId label = idOf(mesh.Labels[s]);
-              places.ForEachAround(centre, [&](const Index& voxel) { mark(voxel, label); });
-            }
-          });
-      }
-    },
-    stop);
+            places.ForEachAround(centre, [&](const Index& voxel) { mark(voxel, label); });
+          }
+        });
+    });
   return findLost();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
+  const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
+  unsigned threads, const std::stop_token& stop)
+{
+  return FindLost(components, image, MeshElements<D>(mesh, image), wanted, threads, stop);
+}
+
+template <int D>
+std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
+  const LabelImage<D>& image, const LabelledTriangulation<D>& elements,
+  const std::vector<bool>& wanted, unsigned threads, const std::stop_token& stop)
+{
+  return FindLost(components, image, elements, wanted, threads, stop);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -311,7 +371,15 @@ std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& com
     double Shape = -1.0;
     std::uint32_t Element = 0;
   };
-  const Places<D> places(all, image, mesh);
+  const MeshElements<D> candidates(mesh, image);
+  const Places<D, MeshElements<D>> places(all, image, candidates);
+  Surroundings<D, MeshElements<D>> near(places, image.CropDimensions());
+  std::vector<bool> isWanted(image.Values().size());
+  for (const std::uint32_t c : components)
+  {
+    near.Add(all, c);
+    isWanted[all.All()[c].Label] = true;
+  }
   std::vector<Witness> witnesses(components.size());
   const auto consider = [&](std::uint32_t element, const typename GridGeometry<D>::Index& voxel)
   {
@@ -326,13 +394,21 @@ std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& com
     Witness& best = witnesses[static_cast<std::size_t>(at - components.begin())];
     best = shape > best.Shape ? Witness{ shape, element } : best;
   };
+  typename MeshElements<D>::LabelReader labelOf(candidates);
   for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
   {
+    if (!isWanted[labelOf(s)])
+    {
+      continue;
+    }
     places.ForEachOf(s,
       [&](const auto& centre)
       {
-        places.ForEachAround(
-          centre, [&](const auto& voxel) { consider(static_cast<std::uint32_t>(s), voxel); });
+        if (near.Contain(centre))
+        {
+          places.ForEachAround(
+            centre, [&](const auto& voxel) { consider(static_cast<std::uint32_t>(s), voxel); });
+        }
       });
   }
   std::vector<std::uint32_t> elements;
@@ -353,6 +429,9 @@ template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
   const std::stop_token&);
 template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
   const LabelImage<4>&, const SimplexMesh<4>&, const std::vector<bool>&, unsigned,
+  const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
+  const LabelImage<3>&, const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned,
   const std::stop_token&);
 template std::vector<std::uint32_t> FindWitnessesOf<3>(const std::vector<std::uint32_t>&,
   const Components<3>&, const LabelImage<3>&, const SimplexMesh<3>&);

@@ -8,6 +8,7 @@
 #define voxplex_LostComponents_h
 
 #include "Image/Components.h"
+#include "Mesh/LabelledTriangulation.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <cstdint>
@@ -36,6 +37,12 @@ template <int D>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop = {});
+
+/** The same for a mesh that has not been extracted yet. Instantiated in 3D only. */
+template <int D>
+std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
+  const LabelImage<D>& image, const LabelledTriangulation<D>& elements,
+  const std::vector<bool>& wanted, unsigned threads, const std::stop_token& stop = {});
 
 /**
  * Finds one witness for each of some components: of all elements that keep FindLostComponents()

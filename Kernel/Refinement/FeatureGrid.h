@@ -159,6 +159,13 @@ public:
     return nullptr;
   }
 
+  /** Frees all memory. Afterwards the grid cannot be used any more. */
+  void Release()
+  {
+    this->Heads.reset();
+    this->Nodes.Clear();
+  }
+
   /** The number of vertices that were added. */
   std::uint32_t Size() const { return this->Count.load(std::memory_order_relaxed); }
 
