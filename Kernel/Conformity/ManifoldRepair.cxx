@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ManifoldRepair.h"
 
+#include "Base/UninitialisedVector.h"
 #include "Conformity/RepairNeighbourhood.h"
 #include "Geometry/SimplexQuality.h"
+#include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -43,9 +46,9 @@ Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v,
 template <int D>
 struct InterfaceFacets
 {
-  std::vector<Facet<D>> Facets;
-  std::vector<std::array<std::int64_t, 2>> Labels; ///< on both sides of each
-  std::vector<std::uint8_t> OnHull;                ///< of the triangulation
+  UninitialisedVector<Facet<D>> Facets;
+  UninitialisedVector<std::array<LabelId, 2>> Labels; ///< on both sides of each
+  UninitialisedVector<std::uint8_t> OnHull;           ///< of the triangulation
 };
 
 /** The facets are in the order of the simplices on the side of the larger label. */
@@ -53,40 +56,55 @@ template <int D>
 InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
   std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
 {
-  constexpr std::size_t Grain = 8192;
-  std::vector<InterfaceFacets<D>> parts((labels.size() + Grain - 1) / Grain);
-  ParallelFor(
-    0, labels.size(), Grain, threads,
-    [&](std::size_t first, std::size_t last)
+  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
+  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
+  {
+    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
     {
-      InterfaceFacets<D>& part = parts[first / Grain];
-      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      if (labels[s] == 0)
       {
-        if (labels[s] == 0)
+        continue;
+      }
+      const auto& simplex = triangulation.GetSimplex(s);
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
+        if (beside < labels[s])
         {
-          continue;
-        }
-        const auto& simplex = triangulation.GetSimplex(s);
-        for (unsigned i = 0; i <= D; ++i)
-        {
-          const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
-          if (beside < labels[s])
-          {
-            part.Facets.push_back(FacetOf<D>(simplex.V, i));
-            part.Labels.push_back({ labels[s], beside });
-            part.OnHull.push_back(simplex.N[i] == None ? 1 : 0);
-          }
+          visit(s, i, beside);
         }
       }
-    },
-    stop);
+    }
+  };
+  const auto forChunks = [&](auto&& function)
+  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
+  ChunkCounts places(labels.size());
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t number = 0;
+      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
+      places.OfChunk(first) = number;
+    });
+  const std::size_t number = places.TurnIntoPlaces();
   InterfaceFacets<D> all;
-  for (const InterfaceFacets<D>& part : parts)
-  {
-    all.Facets.insert(all.Facets.end(), part.Facets.begin(), part.Facets.end());
-    all.Labels.insert(all.Labels.end(), part.Labels.begin(), part.Labels.end());
-    all.OnHull.insert(all.OnHull.end(), part.OnHull.begin(), part.OnHull.end());
-  }
+  all.Facets.resize(number);
+  all.Labels.resize(number);
+  all.OnHull.resize(number);
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t place = places.OfChunk(first);
+      forEachOf(first, last,
+        [&](SimplexId s, unsigned i, LabelId beside)
+        {
+          const auto& simplex = triangulation.GetSimplex(s);
+          all.Facets[place] = FacetOf<D>(simplex.V, i);
+          all.Labels[place] = { labels[s], beside };
+          all.OnHull[place] = simplex.N[i] == None ? 1 : 0;
+          ++place;
+        });
+    });
   return all;
 }
 
@@ -145,7 +163,7 @@ public:
 
   bool IsBad(const Ridge<D>& ridge) const
   {
-    return this->Near.CountBad(ridge, this->Near.StarOf(ridge).front(), nullptr) != 0;
+    return this->Near.StateOf(ridge, this->Near.StarOf(ridge).front()).Bad != 0;
   }
 
   const std::set<SimplexId>& GetChanged() const { return this->Changed; }
@@ -170,7 +188,7 @@ public:
     }
     for (const CellRidge& ridge : changed)
     {
-      const auto state = this->Near.StateOf(ridge.Vertices, ridge.Cell, nullptr);
+      const auto state = this->Near.StateOf(ridge.Vertices, ridge.Cell);
       if (state.Bad > 0)
       {
         left.push_back({ ridge.Vertices, state.IsJunction });
@@ -286,14 +304,13 @@ private:
     return ridges;
   }
 
-  /** The decrease of CountBad(), summed over all ridges. */
+  /** Neighbourhood::GainAt(), summed over all ridges. */
   int GainOf(const Change& change) const
   {
     int gain = 0;
     for (const CellRidge& ridge : this->RidgesOf(change.Cells))
     {
-      gain += this->Near.CountBad(ridge.Vertices, ridge.Cell, nullptr) -
-        this->Near.CountBad(ridge.Vertices, ridge.Cell, &change);
+      gain += this->Near.GainAt(ridge.Vertices, ridge.Cell, change);
     }
     return gain;
   }
@@ -329,13 +346,11 @@ private:
         {
           return false;
         }
-        for (const SimplexId other : this->Near.StarOf(v))
+        if (!leavesSome)
         {
-          if (leavesSome)
-          {
-            break;
-          }
-          leavesSome = this->Labels[other] == own && !change.Touches(other);
+          const std::vector<SimplexId>& star = this->Near.StarOf(v);
+          leavesSome = std::any_of(star.begin(), star.end(),
+            [&](SimplexId other) { return this->Labels[other] == own && !change.Touches(other); });
         }
       }
       for (unsigned i = 0; i <= D; ++i)
@@ -519,8 +534,10 @@ ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
 {
   const InterfaceFacets<D> interfaces =
     FindInterfaceFacets<D>(triangulation, labels, threads, stop);
-  const std::vector<InterfaceRidge<D>> ridges = FindNonManifoldRidges<D>(
-    interfaces.Facets, interfaces.Labels, triangulation.VertexIdEnd(), threads, stop);
+  const std::vector<InterfaceRidge<D>> ridges =
+    FindNonManifoldRidges<D>(std::span<const Facet<D>>(interfaces.Facets),
+      std::span<const std::array<LabelId, 2>>(interfaces.Labels), triangulation.VertexIdEnd(),
+      threads, stop);
   if (ridges.empty())
   {
     return {};
@@ -535,13 +552,28 @@ ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
     }
   }
   RidgeRepair<D> repair(triangulation, labels, std::move(onInterface), options);
+  std::size_t changes = 0;
+  constexpr auto Never = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> failedAfter(ridges.size(), Never); ///< after so many changes
   for (bool again = true; again;)
   {
     again = false;
-    for (const InterfaceRidge<D>& ridge : ridges)
+    for (std::size_t r = 0; r < ridges.size(); ++r)
     {
       ThrowIfStopped(stop);
-      again |= repair.IsBad(ridge.Vertices) && repair.Mend(ridge.Vertices);
+      if (failedAfter[r] == changes)
+      {
+        continue; // nothing has changed since
+      }
+      if (repair.IsBad(ridges[r].Vertices) && repair.Mend(ridges[r].Vertices))
+      {
+        ++changes;
+        again = true;
+      }
+      else
+      {
+        failedAfter[r] = changes;
+      }
     }
   }
   const std::set<SimplexId>& changed = repair.GetChanged();

@@ -111,46 +111,88 @@ public:
     bool IsJunction; ///< three or more labels meet there
   };
   /** @param t a simplex at the ridge; the time is linear in the number of those */
-  State StateOf(const Ridge<D>& ridge, SimplexId t, const Change* change) const
+  State StateOf(const Ridge<D>& ridge, SimplexId t) const
   {
+    FacetCounts counts;
+    this->ForEachFacetAround(ridge, t,
+      [&](SimplexId a, SimplexId b) { counts.Add(this->Labels[a], this->LabelOrBackground(b)); });
+    return counts.Evaluate();
+  }
+
+  /**
+   * The weighted number of defects at a ridge, before a change less after it. A defect off
+   * junctions has a larger weight.
+   * @param t a simplex at the ridge
+   */
+  int GainAt(const Ridge<D>& ridge, SimplexId t, const Change& change) const
+  {
+    FacetCounts before;
+    FacetCounts after;
+    LabelId here = this->LabelOf(t, &change);
+    SimplexId last = t;
+    this->ForEachFacetAround(ridge, t,
+      [&](SimplexId a, SimplexId b)
+      {
+        here = a == last ? here : this->LabelOf(a, &change); // the second turn begins at t again
+        const LabelId next = b == None ? LabelId{ 0 } : this->LabelOf(b, &change);
+        before.Add(this->Labels[a], this->LabelOrBackground(b));
+        after.Add(here, next);
+        here = next;
+        last = b;
+      });
+    const auto weightOf = [](const State& state)
+    { return state.Bad * (state.IsJunction ? AtJunction : OffJunction); };
+    return weightOf(before.Evaluate()) - weightOf(after.Evaluate());
+  }
+
+private:
+  /** Counts the facets at a ridge that each label has on one side. */
+  class FacetCounts
+  {
+  public:
+    /** A facet between two labels, or inside of one. */
+    void Add(LabelId a, LabelId b)
+    {
+      if (a != b)
+      {
+        this->Add(a);
+        this->Add(b);
+      }
+    }
+
+    State Evaluate() const
+    {
+      const auto bad = std::count_if(this->Counts.begin(), this->Counts.end(),
+        [](const Count& count) { return count.Label != 0 && count.Facets != 2; });
+      return { static_cast<int>(bad), this->Counts.size() > 2 };
+    }
+
+  private:
     struct Count
     {
       LabelId Label;
       int Facets;
     };
-    constexpr std::size_t most = 8; // enough for nearly all ridges; the list is searched linearly
-    boost::container::small_vector<Count, most> counts;
-    this->ForEachFacetAround(ridge, t, change,
-      [&](LabelId a, LabelId b)
-      {
-        if (a == b)
-        {
-          return;
-        }
-        for (const LabelId label : { a, b })
-        {
-          const auto known = std::find_if(
-            counts.begin(), counts.end(), [&](const Count& count) { return count.Label == label; });
-          ++(known != counts.end() ? *known : counts.emplace_back(Count{ label, 0 })).Facets;
-        }
-      });
-    const auto bad = std::count_if(counts.begin(), counts.end(),
-      [](const Count& count) { return count.Label != 0 && count.Facets != 2; });
-    return { static_cast<int>(bad), counts.size() > 2 };
-  }
+    static constexpr std::size_t Most = 8; ///< enough for nearly all; the list is searched linearly
 
-  /** The weighted number of defects at a ridge. A defect off junctions has a larger weight. */
-  int CountBad(const Ridge<D>& ridge, SimplexId t, const Change* change) const
+    void Add(LabelId label)
+    {
+      const auto known = std::find_if(this->Counts.begin(), this->Counts.end(),
+        [&](const Count& count) { return count.Label == label; });
+      ++(known != this->Counts.end() ? *known : this->Counts.emplace_back(Count{ label, 0 })).Facets;
+    }
+
+    boost::container::small_vector<Count, Most> Counts;
+  };
+
+  LabelId LabelOrBackground(SimplexId t) const
   {
-    const State state = this->StateOf(ridge, t, change);
-    return state.Bad * (state.IsJunction ? AtJunction : OffJunction);
+    return t == None ? LabelId{ 0 } : this->Labels[t];
   }
 
-private:
-  /** Calls visit with the labels on both sides of each facet at a ridge of t. */
+  /** Calls visit with the simplices on both sides of each facet at a ridge of t; the second may be None. */
   template <typename Visit>
-  void ForEachFacetAround(
-    const Ridge<D>& ridge, SimplexId t, const Change* change, Visit&& visit) const
+  void ForEachFacetAround(const Ridge<D>& ridge, SimplexId t, Visit&& visit) const
   {
     const auto isOf = [&](VertexId v)
     { return std::find(ridge.begin(), ridge.end(), v) != ridge.end(); };
@@ -167,16 +209,15 @@ private:
     for (unsigned turn = 0; turn < 2; ++turn)
     {
       SimplexId here = t;
-      LabelId label = this->LabelOf(here, change);
       VertexId behind = others[turn]; // the next facet is opposite to it
       VertexId ahead = others[1 - turn];
       do
       {
         const auto& v = this->VerticesOf(here);
+        const SimplexId before = here;
         here = this->Beside(
           here, static_cast<unsigned>(std::find(v.begin(), v.end(), behind) - v.begin()));
-        const LabelId next = here == None ? LabelId{ 0 } : this->LabelOf(here, change);
-        visit(label, next);
+        visit(before, here);
         if (here == None)
         {
           break;
@@ -184,7 +225,6 @@ private:
         const auto& w = this->VerticesOf(here);
         behind = std::exchange(ahead,
           *std::find_if(w.begin(), w.end(), [&](VertexId x) { return !isOf(x) && x != ahead; }));
-        label = next;
       } while (here != t);
       if (here == t)
       {

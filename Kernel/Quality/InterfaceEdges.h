@@ -12,6 +12,10 @@
 #ifndef voxplex_InterfaceEdges_h
 #define voxplex_InterfaceEdges_h
 
+#include "Base/UninitialisedVector.h"
+#include "Image/LabelImage.h"
+#include "Parallel/SharedCounts.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -45,7 +49,7 @@ public:
   /**
    * @param facets D point numbers each
    * @param points the number of points; all point numbers are smaller
-   * @param threads used to sort; 0 means all cores
+   * @param threads 0 means all cores; the result does not depend on it
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   InterfaceRidgeLists(
@@ -59,26 +63,35 @@ public:
   template <typename Visit>
   void ForEachRidge(Visit&& visit) const
   {
-    for (std::uint32_t low = 0; low + 1 < this->Begins.size(); ++low)
+    this->ForRidgesOf(0, this->Points, visit);
+  }
+
+  /** The same for the ridges whose smallest vertices are first ... last - 1. */
+  template <typename Visit>
+  void ForRidgesOf(std::size_t first, std::size_t last, Visit&& visit) const
+  {
+    for (std::size_t low = first; low < last; ++low)
     {
-      for (std::uint32_t first = this->Begins[low], last = first; first < this->Begins[low + 1];
-           first = last)
+      const std::uint32_t end = this->Lists.EndOf(low);
+      for (std::uint32_t begin = this->Lists.BeginOf(low), behind = begin; begin < end;
+           begin = behind)
       {
-        const auto& others = this->Uses[first].Others;
-        while (last < this->Begins[low + 1] && this->Uses[last].Others == others)
+        const auto& others = this->Uses[begin].Others;
+        while (behind < end && this->Uses[behind].Others == others)
         {
-          ++last;
+          ++behind;
         }
-        Ridge ridge{ low };
+        Ridge ridge{ static_cast<std::uint32_t>(low) };
         std::copy(others.begin(), others.end(), ridge.begin() + 1);
-        visit(ridge, std::span<const RidgeUse<D>>(this->Uses.data() + first, last - first));
+        visit(ridge, std::span<const RidgeUse<D>>(this->Uses.data() + begin, behind - begin));
       }
     }
   }
 
 private:
-  std::vector<std::uint32_t> Begins; ///< begin of the list of each point
-  std::vector<RidgeUse<D>> Uses;
+  std::size_t Points;
+  SharedCounts Lists; ///< of each point
+  UninitialisedVector<RidgeUse<D>> Uses;
 };
 
 extern template class InterfaceRidgeLists<3>;
@@ -91,12 +104,13 @@ struct LabelAtRidge
   std::uint32_t Facets;
 };
 
-/** The labels around a ridge, ascending; background counts as one. */
+/** The labels around a ridge, ascending; background counts as one. A Label is an integer. */
+template <typename Label>
 class LabelsAtRidge
 {
 public:
   /** @param labels the labels on both sides of each facet */
-  explicit LabelsAtRidge(std::span<const std::array<std::int64_t, 2>> labels)
+  explicit LabelsAtRidge(std::span<const std::array<Label, 2>> labels)
     : Labels(labels)
   {
   }
@@ -110,14 +124,22 @@ public:
       const auto& sides = this->Labels[use.Facet];
       this->Sides.insert(this->Sides.end(), sides.begin(), sides.end());
     }
-    return this->CountSides();
+    std::sort(this->Sides.begin(), this->Sides.end());
+    this->Counts.clear();
+    for (const Label label : this->Sides)
+    {
+      if (this->Counts.empty() || this->Counts.back().Label != label)
+      {
+        this->Counts.push_back({ label, 0 });
+      }
+      ++this->Counts.back().Facets;
+    }
+    return this->Counts;
   }
 
 private:
-  std::span<const LabelAtRidge> CountSides();
-
-  const std::span<const std::array<std::int64_t, 2>> Labels;
-  std::vector<std::int64_t> Sides;
+  const std::span<const std::array<Label, 2>> Labels;
+  std::vector<Label> Sides;
   std::vector<LabelAtRidge> Counts;
 };
 
@@ -150,13 +172,20 @@ using InterfaceEdge = InterfaceRidge<3>;
  * @param facets D point numbers each
  * @param labels the labels on both sides of each facet
  * @param points the number of points; all point numbers are smaller
- * @param threads used for a part of the work; 0 means all cores
+ * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 std::vector<InterfaceRidge<D>> FindNonManifoldRidges(
   std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
   std::span<const std::array<std::int64_t, 2>> labels, std::size_t points, unsigned threads = 1,
+  const std::stop_token& stop = {});
+
+/** The same with the labels' ids. */
+template <int D>
+std::vector<InterfaceRidge<D>> FindNonManifoldRidges(
+  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
+  std::span<const std::array<LabelId, 2>> labels, std::size_t points, unsigned threads = 1,
   const std::stop_token& stop = {});
 
 } // namespace voxplex

@@ -44,7 +44,7 @@ InterfaceTopology MeasureTopology(
   InterfaceTopology topology;
   std::map<std::int64_t, LabelTopology> labels;
   std::vector<PointJunction> points(mesh.Points.size());
-  LabelsAtRidge around(mesh.FacetLabels);
+  LabelsAtRidge<std::int64_t> around(mesh.FacetLabels);
   const auto addEdge = [&](const auto& ends, std::span<const RidgeUse<3>> uses)
   {
     const std::span<const LabelAtRidge> labelsHere = around.Count(uses);
