@@ -206,7 +206,6 @@ private:
   double Length2(const Point<D>& step) const;
   /** The site nearest to x, or one that is about as near. */
   bool NearSite(const Point<D>& x, Index& site) const;
-  unsigned NearestOf(const std::array<std::uint32_t, 1u << D>& voxels, const Point<D>& x) const;
   /** A voxel with another label: the site near x, or a face neighbour of it. */
   bool NearVoxelOfOtherLabel(const Point<D>& x, LabelId label, Index& voxel) const;
   /** A point x + t d of a line, and the margin of a label there. */

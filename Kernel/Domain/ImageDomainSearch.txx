@@ -127,9 +127,9 @@ inline bool ImageDomain<D, FieldType>::NearSite(const Point<D>& x, Index& site) 
     low[a] =
       this->Features.CellOf(a, inside[a] - 0.5 * static_cast<double>(this->Features.Stride()[a]));
   }
-  constexpr unsigned corners = 1u << D;
-  std::array<std::uint32_t, corners> voxels;
-  for (unsigned corner = 0; corner < corners; ++corner)
+  double best = std::numeric_limits<double>::infinity();
+  std::uint32_t previous = FeatureTransform<D>::NoSite;
+  for (unsigned corner = 0; corner < (1u << D); ++corner)
   {
     std::size_t cell = 0;
     for (std::size_t a = D; a-- > 0;)
@@ -138,63 +138,26 @@ inline bool ImageDomain<D, FieldType>::NearSite(const Point<D>& x, Index& site) 
         std::min(low[a] + ((corner >> a) & 1u), this->Features.CellDimensions()[a] - 1);
       cell = cell * this->Features.CellDimensions()[a] + c;
     }
-    voxels[corner] = this->Features.Site(cell);
-  }
-  if (voxels[0] == FeatureTransform<D>::NoSite)
-  {
-    return false; // there are no sites
-  }
-  const unsigned nearest = this->NearestOf(voxels, x);
-  site = this->Features.IndexOf(voxels[nearest]);
-  return true;
-}
-
-/** The first of the sites that is nearest to x. All are computed side by side, without divisions. */
-template <int D, typename FieldType>
-inline unsigned ImageDomain<D, FieldType>::NearestOf(
-  const std::array<std::uint32_t, 1u << D>& voxels, const Point<D>& x) const
-{
-  constexpr unsigned corners = 1u << D;
-  std::array<std::array<double, corners>, D> steps;
-  std::array<double, corners> rest;
-  for (unsigned c = 0; c < corners; ++c)
-  {
-    rest[c] = static_cast<double>(voxels[c]);
-  }
-  for (std::size_t a = 0; a + 1 < D; ++a)
-  {
-    const auto length = static_cast<double>(this->Field.LatticeDimensions()[a]);
-    const double perLength = 1.0 / length;
-    for (unsigned c = 0; c < corners; ++c)
+    const std::uint32_t voxel = this->Features.Site(cell);
+    if (voxel == previous || voxel == FeatureTransform<D>::NoSite)
     {
-      // Half a voxel away from a whole number, so rounding does not matter; below 2^31.
-      const double row = static_cast<std::int32_t>((rest[c] + 0.5) * perLength);
-      steps[a][c] = (rest[c] - row * length) - x[a];
-      rest[c] = row;
+      continue;
     }
-  }
-  for (unsigned c = 0; c < corners; ++c)
-  {
-    steps[D - 1][c] = rest[c] - x[D - 1];
-  }
-  std::array<double, corners> distances2;
-  for (unsigned c = 0; c < corners; ++c)
-  {
+    previous = voxel;
+    const Index candidate = this->Features.IndexOf(voxel);
     Point<D> step;
     for (std::size_t a = 0; a < D; ++a)
     {
-      step[a] = steps[a][c];
+      step[a] = static_cast<double>(candidate[a]) - x[a];
     }
-    distances2[c] = this->Length2(step);
+    const double distance2 = this->Length2(step);
+    if (distance2 < best)
+    {
+      best = distance2;
+      site = candidate;
+    }
   }
-  unsigned nearest = 0;
-  double best = distances2[0];
-  for (unsigned c = 1; c < corners; ++c)
-  {
-    nearest = distances2[c] < best ? c : nearest;
-    best = std::min(best, distances2[c]);
-  }
-  return nearest;
+  return best < std::numeric_limits<double>::infinity();
 }
 
 template <int D, typename FieldType>
