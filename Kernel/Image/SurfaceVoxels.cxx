@@ -5,6 +5,9 @@
 #include "Base/GridIndex.h"
 #include "Parallel/ParallelFor.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -12,6 +15,40 @@
 namespace voxplex
 {
 
+namespace
+{
+
+/** A bit for each of 64 ids that is not 0. In most words none is set. */
+std::uint64_t WordOf(const LabelId* ids)
+{
+  LabelId any = 0;
+  for (std::size_t i = 0; i < 64; ++i)
+  {
+    any = static_cast<LabelId>(any | ids[i]);
+  }
+  if (any == 0)
+  {
+    return 0;
+  }
+  std::array<std::uint8_t, 64> flags;
+  for (std::size_t i = 0; i < 64; ++i)
+  {
+    flags[i] = ids[i] != 0;
+  }
+  std::uint64_t word = 0;
+  for (std::size_t byte = 0; byte < 8; ++byte)
+  {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, flags.data() + byte * 8, 8);
+    // Gathers the lowest bits of eight bytes (little-endian) in the top byte.
+    word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
+  }
+  return word;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
 template <int D>
 BitMask<D> FindSurfaceVoxels(
   const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
@@ -46,13 +83,13 @@ BitMask<D> FindSurfaceVoxels(
     0, sites.NumberOfRows(), 64, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<LabelId> differs(n);
-      std::vector<std::uint8_t> flags(sites.WordsPerRow() * 64, std::uint8_t{ 0 });
+      std::vector<LabelId> differs(sites.WordsPerRow() * 64, LabelId{ 0 }); // by lattice index
+      LabelId* const inCrop = differs.data() + 1;
       for (std::size_t row = begin; row < end; ++row)
       {
         const Index index = IndexAt(row * static_cast<std::size_t>(lattice[0]), lattice);
         const LabelId* own = rowAt(index);
-        std::fill(differs.begin(), differs.end(), LabelId{ 0 });
+        std::fill(inCrop, inCrop + n, LabelId{ 0 });
         for (std::size_t a = 1; a < D; ++a)
         {
           Index neighbour = index;
@@ -62,35 +99,26 @@ BitMask<D> FindSurfaceVoxels(
           const LabelId* high = rowAt(neighbour);
           for (std::size_t i = 0; i < n; ++i)
           {
-            differs[i] = static_cast<LabelId>(differs[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
+            inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
           }
         }
-        // Along x, the voxels beyond the crop's two ends are background. They may be sites, too.
-        differs[0] = static_cast<LabelId>(differs[0] | own[0]);
-        differs[n - 1] = static_cast<LabelId>(differs[n - 1] | own[n - 1]);
         for (std::size_t i = 0; i + 1 < n; ++i)
         {
-          flags[i + 1] = (differs[i] | (own[i] ^ own[i + 1])) != 0;
+          inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ own[i + 1]));
         }
-        flags[n] = differs[n - 1] != 0;
         for (std::size_t i = 1; i < n; ++i)
         {
-          flags[i + 1] = static_cast<std::uint8_t>(flags[i + 1] | (own[i] != own[i - 1]));
+          inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ own[i - 1]));
         }
-        flags[0] = own[0] != 0;
-        flags[n + 1] = own[n - 1] != 0;
+        // Along x, the voxels beyond the crop's two ends are background. They may be sites, too.
+        inCrop[0] = static_cast<LabelId>(inCrop[0] | own[0]);
+        inCrop[n - 1] = static_cast<LabelId>(inCrop[n - 1] | own[n - 1]);
+        differs[0] = own[0];
+        differs[n + 1] = own[n - 1];
         const std::span<std::uint64_t> words = sites.Row(row);
         for (std::size_t w = 0; w < words.size(); ++w)
         {
-          std::uint64_t word = 0;
-          for (std::size_t byte = 0; byte < 8; ++byte)
-          {
-            std::uint64_t eight = 0;
-            std::memcpy(&eight, flags.data() + w * 64 + byte * 8, 8);
-            // Gathers the lowest bits of eight bytes (little-endian) in the top byte.
-            word |= ((eight * 0x0102040810204080u) >> 56) << (8 * byte);
-          }
-          words[w] = word;
+          words[w] = WordOf(differs.data() + w * 64);
         }
       }
     },
