@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceCheck.h"
 
+#include "Base/FreeMemory.h"
+
 #include <utility>
 
 namespace voxplex
@@ -55,9 +57,8 @@ Remedy<3> InterfaceCheck::InspectTriangulation()
 
 Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
 {
-  return this->NeedsMesh()
-    ? this->Counted(this->Graded->Inspect(mesh, this->Made.Places))
-    : Remedy<3>();
+  return this->NeedsMesh() ? this->Counted(this->Graded->Inspect(mesh, this->Made.Places))
+                           : Remedy<3>();
 }
 
 void InterfaceCheck::Finish()
@@ -79,6 +80,7 @@ void InterfaceCheck::MakeLabels()
 {
   this->Made = {}; // the labels of the round before need no memory beside the new ones
   this->Spindles = {};
+  ReturnFreeMemory();
   const Triangulation<3>& mesh = this->Of.Mesh;
   ManifoldRepairOptions<3> options;
   options.Shape = this->Of.Shape;

@@ -55,7 +55,7 @@ InterfaceVertices<D>::InterfaceVertices(const Triangulation<D>& triangulation,
 template <int D>
 void InterfaceVertices<D>::Forget()
 {
-  this->Seen = std::vector<std::uint32_t>();
+  this->Seen = std::vector<std::uint16_t>();
   this->Known = std::vector<Entry>();
 }
 
@@ -67,9 +67,11 @@ auto InterfaceVertices<D>::Update() -> Changes
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-std::uint32_t InterfaceVertices<D>::GenerationOf(SimplexId s) const
+std::uint16_t InterfaceVertices<D>::GenerationOf(SimplexId s) const
 {
-  return this->Source.IsAlive(s) ? this->Source.State(s).Generation : None;
+  return this->Source.IsAlive(s) ? static_cast<std::uint16_t>(std::min<std::uint32_t>(
+                                     this->Source.State(s).Generation, NotKnown))
+                                 : NotKnown;
 }
 
 template <int D>
@@ -92,7 +94,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
         this->Seen[s] = this->GenerationOf(s);
-        labels[s] = this->Seen[s] == None ? LabelId{ 0 } : this->LabelOf(s);
+        labels[s] = this->Source.IsAlive(s) ? this->LabelOf(s) : LabelId{ 0 };
       }
     },
     this->Stop);
@@ -130,7 +132,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (this->Source.State(s).NearSurface && this->Seen[s] != None)
+        if (this->Source.State(s).NearSurface && this->Source.IsAlive(s))
         {
           look(s);
         }
@@ -215,7 +217,7 @@ std::vector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.reserve(ids); // not twice as much
-  this->Seen.resize(ids, None);
+  this->Seen.resize(ids, NotKnown);
   std::vector<std::vector<VertexId>> parts((ids - 1) / Grain + 1);
   ParallelFor(
     0, ids, Grain, this->Threads,
@@ -224,8 +226,9 @@ std::vector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
       std::vector<VertexId>& found = parts[first / Grain];
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        const std::uint32_t generation = this->GenerationOf(s);
-        if (generation != this->Seen[s] && generation != None)
+        const std::uint16_t generation = this->GenerationOf(s);
+        const bool isNew = generation != this->Seen[s] || generation == NotKnown;
+        if (isNew && this->Source.IsAlive(s))
         {
           const auto& v = this->Source.GetSimplex(s).V;
           found.insert(found.end(), v.begin(), v.end());

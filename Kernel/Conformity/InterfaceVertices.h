@@ -59,12 +59,13 @@ public:
 
 private:
   using Entry = std::pair<VertexId, Point<D>>;
+  static constexpr std::uint16_t NotKnown = 0xffff;
 
   Changes FindAll();
   Changes FindChanges();
   std::vector<VertexId> VerticesOfNewSimplices();
-  /** The current generation of a simplex, or None if it is not alive. */
-  std::uint32_t GenerationOf(SimplexId s) const;
+  /** The current generation of a simplex, or NotKnown if it is larger or the simplex is not alive. */
+  std::uint16_t GenerationOf(SimplexId s) const;
   LabelId LabelOf(SimplexId s) const;
   /** @param star scratch */
   bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
@@ -73,8 +74,9 @@ private:
   const Domain<D>& Image;
   const unsigned Threads;
   const std::stop_token Stop;
-  std::vector<std::uint32_t> Seen; ///< GenerationOf() every simplex at the last call
-  std::vector<Entry> Known;        ///< interface vertices at the last call, by increasing id
+  /** GenerationOf() every simplex at the last call. Few reach NotKnown; they count as new each time. */
+  std::vector<std::uint16_t> Seen;
+  std::vector<Entry> Known; ///< interface vertices at the last call, by increasing id
 };
 
 extern template class InterfaceVertices<3>;

@@ -179,7 +179,8 @@ private:
     {
       const auto known = std::find_if(this->Counts.begin(), this->Counts.end(),
         [&](const Count& count) { return count.Label == label; });
-      ++(known != this->Counts.end() ? *known : this->Counts.emplace_back(Count{ label, 0 })).Facets;
+      ++(known != this->Counts.end() ? *known : this->Counts.emplace_back(Count{ label, 0 }))
+          .Facets;
     }
 
     boost::container::small_vector<Count, Most> Counts;

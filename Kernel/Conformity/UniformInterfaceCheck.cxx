@@ -21,25 +21,47 @@ namespace
  */
 constexpr double ClearingDistance = 0.25;
 
-/**
- * A subset of the points, at least `distance` apart. Each other point is closer than that to one of
- * the subset.
- */
+/** Finds a subset of points, at least a distance apart, a part of the points after the other. */
 template <int D>
-std::vector<Point<D>> ThinOut(const std::vector<Point<D>>& points, double distance)
+class ThinningOut
 {
-  FeatureGrid<D> kept(Point<D>{}, distance, points.size());
-  std::vector<Point<D>> some;
-  for (const Point<D>& p : points)
+public:
+  ThinningOut(const std::vector<Point<D>>& points, double distance)
+    : Points(points)
+    , Distance(distance)
+    , Kept(Point<D>{}, distance, points.size())
   {
-    if (!kept.AnyWithin(p, distance))
-    {
-      kept.Add(p);
-      some.push_back(p);
-    }
   }
-  return some;
-}
+
+  bool IsDone() const { return this->Looked == this->Points.size(); }
+
+  /**
+   * The subset of the next points. Each point that is not in it is closer than the distance to a
+   * point of this or an earlier subset.
+   */
+  std::vector<Point<D>> Next()
+  {
+    constexpr std::size_t PointsAtOnce = std::size_t{ 1 } << 16;
+    std::vector<Point<D>> some;
+    some.reserve(std::min(PointsAtOnce, this->Points.size() - this->Looked));
+    for (; some.size() < PointsAtOnce && !this->IsDone(); ++this->Looked)
+    {
+      const Point<D>& p = this->Points[this->Looked];
+      if (!this->Kept.AnyWithin(p, this->Distance))
+      {
+        this->Kept.Add(p);
+        some.push_back(p);
+      }
+    }
+    return some;
+  }
+
+private:
+  const std::vector<Point<D>>& Points;
+  const double Distance;
+  FeatureGrid<D> Kept;
+  std::size_t Looked = 0;
+};
 
 } // namespace
 
@@ -148,17 +170,21 @@ std::vector<VoxelFace<D>> UniformInterfaceCheck<D>::FindAllFar(
   if (this->NearVoxel > 0.0)
   {
     // Vertices may be much denser than the sampling distance. The scan below uses all of them.
-    const std::vector<Point<D>> some = ThinOut<D>(vertices, ClearingDistance * this->NearVoxel);
-    ParallelFor(
-      0, some.size(), 1024, this->Threads,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t i = first; i < last; ++i)
+    ThinningOut<D> thinning(vertices, ClearingDistance * this->NearVoxel);
+    while (!thinning.IsDone())
+    {
+      const std::vector<Point<D>> some = thinning.Next();
+      ParallelFor(
+        0, some.size(), 1024, this->Threads,
+        [&](std::size_t first, std::size_t last)
         {
-          this->ClearVoxelsNear(some[i], voxels);
-        }
-      },
-      this->Stop);
+          for (std::size_t i = first; i < last; ++i)
+          {
+            this->ClearVoxelsNear(some[i], voxels);
+          }
+        },
+        this->Stop);
+    }
   }
   return ScanFaces<Hint, D>(this->Image, voxels, this->Threads, this->Stop,
     [this](const VoxelFace<D>& face, Hint& known) { return this->IsFar(face, known); });

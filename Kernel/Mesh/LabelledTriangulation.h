@@ -46,8 +46,7 @@ public:
   {
     if (element < this->Labels.size())
     {
-      return this->Source.Position(
-        this->Source.GetSimplex(static_cast<SimplexId>(element)).V[i]);
+      return this->Source.Position(this->Source.GetSimplex(static_cast<SimplexId>(element)).V[i]);
     }
     const VertexId v = this->Parts.Pieces[element - this->Labels.size()].V[i];
     return v < this->VertexEnd ? this->Source.Position(v) : this->Parts.Points[v - this->VertexEnd];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/MeshExtraction.h"
 
+#include "Base/FreeMemory.h"
 #include "Base/UninitialisedVector.h"
 #include "Geometry/HilbertOrder.h"
 #include "Parallel/ChunkCounts.h"
@@ -41,12 +42,18 @@ public:
   {
   }
 
-  SimplexMesh<D> Run()
+  /** @param keepsNumbers for TakeNumbers() */
+  SimplexMesh<D> Run(bool keepsNumbers)
   {
     this->MarkVertices();
     this->NumberPoints();
     this->SortSimplices();
+    ReturnFreeMemory(); // the memory of sorting, before the mesh takes much more
     this->WriteSimplices();
+    if (!keepsNumbers)
+    {
+      this->Numbers = UninitialisedVector<std::uint32_t>();
+    }
     this->WriteFacets();
     return std::move(this->Mesh);
   }
@@ -145,6 +152,7 @@ private:
       records.first(points), records.last(points), 63,
       [](const Ranked& record) { return record.Key; }, this->Threads, this->Stop);
 
+    this->Mesh.Points.reserve(points + this->Spare);
     this->Mesh.Points.resize(points);
     this->ForChunks(points,
       [&](std::size_t first, std::size_t last)
@@ -349,7 +357,7 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 {
   mesh = SimplexMesh<D>();
   Extraction<D> extraction(triangulation, image, labels, positions, spare, threads, stop);
-  mesh = extraction.Run();
+  mesh = extraction.Run(numbers != nullptr);
   if (numbers)
   {
     *numbers = extraction.TakeNumbers();

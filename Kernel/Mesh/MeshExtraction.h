@@ -32,7 +32,7 @@ namespace voxplex
  * @param threads 0 means all cores
  * @param positions of each vertex id, in place of those of the triangulation; or empty
  * @param numbers receives the point of each vertex id, None if it is not in the mesh; may be null
- * @param spare the mesh gets room for so many more simplices
+ * @param spare the mesh gets room for so many more points and simplices
  * @throws Cancelled if a stop was requested before the end
  * @throws std::bad_alloc
  */

@@ -168,32 +168,31 @@ private:
         }
       }
     }
-    UninitialisedVector<Point<D>> points;
-    std::vector<std::uint8_t> touched;
+    // From behind, so that no point is overwritten before it has moved.
     std::vector<std::uint32_t> numbers(this->Mesh.Points.size());
-    points.reserve(this->Mesh.Points.size() + added.size());
-    auto next = added.begin();
-    for (std::size_t p = 0; p <= numbers.size(); ++p)
+    std::size_t to = numbers.size() + added.size();
+    this->Mesh.Points.resize(to);
+    this->Touched.resize(to);
+    auto next = added.rbegin();
+    for (std::size_t p = numbers.size() + 1; p-- > 0;)
     {
-      for (; next != added.end() && next->second == p; ++next)
-      {
-        this->Numbers[next->first.second] = static_cast<std::uint32_t>(points.size());
-        points.push_back(next->first.second);
-        touched.push_back(1);
-      }
       if (p < numbers.size())
       {
-        numbers[p] = static_cast<std::uint32_t>(points.size());
-        points.push_back(this->Mesh.Points[p]);
-        touched.push_back(this->Touched[p]);
-        if (this->IsTouched(static_cast<std::uint32_t>(p)))
+        numbers[p] = static_cast<std::uint32_t>(--to);
+        this->Mesh.Points[to] = this->Mesh.Points[p];
+        this->Touched[to] = this->Touched[p];
+        if (this->Touched[to] != 0)
         {
-          this->Numbers[this->Mesh.Points[p]] = numbers[p];
+          this->Numbers[this->Mesh.Points[to]] = numbers[p];
         }
       }
+      for (; next != added.rend() && next->second == p; ++next)
+      {
+        this->Numbers[next->first.second] = static_cast<std::uint32_t>(--to);
+        this->Mesh.Points[to] = next->first.second;
+        this->Touched[to] = 1;
+      }
     }
-    this->Mesh.Points = std::move(points);
-    this->Touched = std::move(touched);
     Renumber(numbers, this->Mesh.Simplices);
     Renumber(numbers, this->Mesh.Facets);
     this->TellNumbers(numbers);

@@ -181,7 +181,7 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
-    ReturnFreeMemory(); // the lists of poor elements
+    ReturnFreeMemory();                   // the lists of poor elements
     sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
     Remedy<D> remedy = InspectAndExtract(run, *stage, checks, mesh);
     if (!remedy.IsNeeded)

@@ -114,6 +114,7 @@ public:
   {
     this->Context.Mesh.Freeze();
     this->Context.Features.Release();
+    this->Context.Work = RegionalWork<D>(0);
   }
 
 private:

@@ -45,7 +45,8 @@ void Raise(std::uint32_t& number, std::uint32_t to)
   // Relaxed: the end of the loop orders it before its readers.
   const std::atomic_ref<std::uint32_t> shared(number);
   std::uint32_t old = shared.load(std::memory_order_relaxed);
-  while ((old == TetrahedralComplex::None || old < to) && !shared.compare_exchange_weak(old, to, std::memory_order_relaxed))
+  while ((old == TetrahedralComplex::None || old < to) &&
+    !shared.compare_exchange_weak(old, to, std::memory_order_relaxed))
   {
   }
 }
@@ -54,7 +55,8 @@ void Raise(std::uint32_t& number, std::uint32_t to)
 
 //------------------------------------------------------------------------------------------------
 TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score,
-  unsigned threads, const std::stop_token& stop, std::span<const float> scores, const SpareRoom& spare)
+  unsigned threads, const std::stop_token& stop, std::span<const float> scores,
+  const SpareRoom& spare)
   : Shape(score)
 {
   const std::size_t points = mesh.Points.size();
@@ -243,8 +245,8 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
         {
           const auto f = SortedFacet(this->Cells[list[i] / 4].V, list[i] % 4);
           others[i] = (std::uint64_t{ f[2] } << 32) | f[1];
-          const auto same = std::find(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(i),
-            others[i]);
+          const auto same =
+            std::find(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(i), others[i]);
           const auto j = static_cast<std::size_t>(same - others.begin());
           if (j != i)
           {
@@ -271,8 +273,7 @@ void TetrahedralComplex::FindKinds(unsigned threads, const std::stop_token& stop
   {
     const std::atomic_ref<std::uint64_t> own(sides[v]);
     std::uint64_t known = own.load(std::memory_order_relaxed);
-    if (known == NoPair &&
-      own.compare_exchange_strong(known, pair, std::memory_order_relaxed))
+    if (known == NoPair && own.compare_exchange_strong(known, pair, std::memory_order_relaxed))
     {
       return;
     }
@@ -297,8 +298,7 @@ void TetrahedralComplex::FindKinds(unsigned threads, const std::stop_token& stop
           }
           for (unsigned k = 1; k < 4; ++k)
           {
-            note(this->Cells[t].V[(i + k) & 3],
-              (std::uint64_t{ this->Labels[t] } << 32) | beside);
+            note(this->Cells[t].V[(i + k) & 3], (std::uint64_t{ this->Labels[t] } << 32) | beside);
           }
         }
       }
@@ -367,8 +367,8 @@ UninitialisedVector<std::uint32_t> TetrahedralComplex::WritePoints(
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
-      counts.OfChunk(first) =
-        static_cast<std::size_t>(std::count_if(this->Degrees.begin() + static_cast<std::ptrdiff_t>(first),
+      counts.OfChunk(first) = static_cast<std::size_t>(
+        std::count_if(this->Degrees.begin() + static_cast<std::ptrdiff_t>(first),
           this->Degrees.begin() + static_cast<std::ptrdiff_t>(end),
           [](std::uint32_t degree) { return degree != 0; }));
     });
@@ -390,8 +390,7 @@ UninitialisedVector<std::uint32_t> TetrahedralComplex::WritePoints(
   return numbers;
 }
 
-void TetrahedralComplex::Write(
-  SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
 {
   const auto release = [](auto&... arrays)
   { ((arrays = std::remove_reference_t<decltype(arrays)>()), ...); }; // {} would keep the memory

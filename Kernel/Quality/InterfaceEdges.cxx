@@ -15,34 +15,11 @@ namespace
 /** The number of points whose lists a thread sorts at a time. */
 constexpr std::size_t Grain = 4096;
 
-/** Calls function(smallest vertex, the other vertices and the facet) for the ridges of all facets. */
-template <int D, typename Function>
-void ForEachRidgeOfFacets(
-  std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets, unsigned threads,
-  const std::stop_token& stop, Function&& function)
+template <std::size_t N>
+std::array<std::uint32_t, N> Sorted(std::array<std::uint32_t, N> points)
 {
-  ParallelFor(
-    0, facets.size(), Grain, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f)
-      {
-        const auto& v = facets[f];
-        for (std::size_t i = 0; i < v.size(); ++i)
-        {
-          std::array<std::uint32_t, static_cast<std::size_t>(D - 1)> ridge;
-          for (std::size_t k = 0; k < ridge.size(); ++k)
-          {
-            ridge[k] = v[(i + k) % v.size()];
-          }
-          std::sort(ridge.begin(), ridge.end());
-          RidgeUse<D> use{ {}, f };
-          std::copy(ridge.begin() + 1, ridge.end(), use.Others.begin());
-          function(ridge[0], use);
-        }
-      }
-    },
-    stop);
+  std::sort(points.begin(), points.end());
+  return points;
 }
 
 } // namespace
@@ -51,27 +28,59 @@ template <int D>
 InterfaceRidgeLists<D>::InterfaceRidgeLists(
   std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> facets,
   std::size_t points, unsigned threads, const std::stop_token& stop)
-  : Points(points)
+  : Facets(facets)
+  , Points(points)
   , Lists(points, threads, stop)
 {
-  ForEachRidgeOfFacets<D>(facets, threads, stop,
-    [&](std::uint32_t low, const RidgeUse<D>&) { this->Lists.Add(low); });
-  this->Uses.resize(this->Lists.TurnIntoPlaces());
-  ForEachRidgeOfFacets<D>(facets, threads, stop,
-    [&](std::uint32_t low, const RidgeUse<D>& use) { this->Uses[this->Lists.Next(low)] = use; });
-  const auto before = [](const RidgeUse<D>& a, const RidgeUse<D>& b)
-  { return a.Others < b.Others || (a.Others == b.Others && a.Facet < b.Facet); };
-  ParallelFor(
-    0, points, Grain, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t v = first; v < last; ++v)
+  const auto forEachEntry = [&](auto&& function)
+  {
+    ParallelFor(
+      0, facets.size(), Grain, threads,
+      [&](std::size_t first, std::size_t last)
       {
-        std::sort(this->Uses.data() + this->Lists.BeginOf(v),
-          this->Uses.data() + this->Lists.EndOf(v), before);
+        for (std::size_t f = first; f < last; ++f)
+        {
+          const auto v = Sorted(facets[f]);
+          function(v[0], static_cast<std::uint32_t>(f));
+          function(v[1], static_cast<std::uint32_t>(f));
+        }
+      },
+      stop);
+  };
+  forEachEntry([&](std::uint32_t point, std::uint32_t) { this->Lists.Add(point); });
+  this->Listed.resize(this->Lists.TurnIntoPlaces());
+  forEachEntry([&](std::uint32_t point, std::uint32_t facet)
+    { this->Listed[this->Lists.Next(point)] = facet; });
+}
+
+template <int D>
+void InterfaceRidgeLists<D>::FindUsesAt(std::uint32_t point, std::vector<RidgeUse<D>>& uses) const
+{
+  uses.clear();
+  for (std::uint32_t i = this->Lists.BeginOf(point); i < this->Lists.EndOf(point); ++i)
+  {
+    const std::uint32_t facet = this->Listed[i];
+    const auto v = Sorted(this->Facets[facet]);
+    // A ridge lacks one of the facet's points. The ridge without the smallest begins at the second.
+    const std::size_t begin = v[0] == point ? 0 : 1;
+    const std::size_t firstLeft = begin == 0 ? 1 : 0;
+    const std::size_t lastLeft = begin == 0 ? v.size() - 1 : 0;
+    for (std::size_t left = firstLeft; left <= lastLeft; ++left)
+    {
+      RidgeUse<D>& use = uses.emplace_back(RidgeUse<D>{ {}, facet });
+      std::size_t n = 0;
+      for (std::size_t k = begin + 1; k < v.size(); ++k)
+      {
+        if (k != left)
+        {
+          use.Others[n++] = v[k];
+        }
       }
-    },
-    stop);
+    }
+  }
+  std::sort(uses.begin(), uses.end(),
+    [](const RidgeUse<D>& a, const RidgeUse<D>& b)
+    { return a.Others < b.Others || (a.Others == b.Others && a.Facet < b.Facet); });
 }
 
 template class InterfaceRidgeLists<3>;

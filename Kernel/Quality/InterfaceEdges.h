@@ -47,7 +47,7 @@ public:
   using Ridge = std::array<std::uint32_t, static_cast<std::size_t>(D - 1)>;
 
   /**
-   * @param facets D point numbers each
+   * @param facets D point numbers each; they must outlive this object
    * @param points the number of points; all point numbers are smaller
    * @param threads 0 means all cores; the result does not depend on it
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
@@ -70,28 +70,33 @@ public:
   template <typename Visit>
   void ForRidgesOf(std::size_t first, std::size_t last, Visit&& visit) const
   {
+    std::vector<RidgeUse<D>> uses;
     for (std::size_t low = first; low < last; ++low)
     {
-      const std::uint32_t end = this->Lists.EndOf(low);
-      for (std::uint32_t begin = this->Lists.BeginOf(low), behind = begin; begin < end;
-           begin = behind)
+      this->FindUsesAt(static_cast<std::uint32_t>(low), uses);
+      for (std::size_t begin = 0, behind = 0; begin < uses.size(); begin = behind)
       {
-        const auto& others = this->Uses[begin].Others;
-        while (behind < end && this->Uses[behind].Others == others)
+        const auto& others = uses[begin].Others;
+        while (behind < uses.size() && uses[behind].Others == others)
         {
           ++behind;
         }
         Ridge ridge{ static_cast<std::uint32_t>(low) };
         std::copy(others.begin(), others.end(), ridge.begin() + 1);
-        visit(ridge, std::span<const RidgeUse<D>>(this->Uses.data() + begin, behind - begin));
+        visit(ridge, std::span<const RidgeUse<D>>(uses.data() + begin, behind - begin));
       }
     }
   }
 
 private:
+  /** The ridges whose smallest point is given, with their facets; sorted. */
+  void FindUsesAt(std::uint32_t point, std::vector<RidgeUse<D>>& uses) const;
+
+  const std::span<const std::array<std::uint32_t, static_cast<std::size_t>(D)>> Facets;
   std::size_t Points;
   SharedCounts Lists; ///< of each point
-  UninitialisedVector<RidgeUse<D>> Uses;
+  /** Each facet is in the lists of its two smallest points, one of which each of its ridges has. */
+  UninitialisedVector<std::uint32_t> Listed;
 };
 
 extern template class InterfaceRidgeLists<3>;
