@@ -7,11 +7,15 @@
 #include "Geometry/HilbertOrder.h"
 #include "Geometry/SimplexQuality.h"
 #include "InterfaceChecks.h"
+#include "Mesh/LabelledTriangulation.h"
 #include "RefinementChecks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 using namespace voxplex;
 using namespace voxplex::checks;
@@ -327,6 +331,43 @@ TEST(Subdivision, DoesNotDependOnThreads)
     four.After.Simplices.begin(), four.After.Simplices.end()));
   EXPECT_TRUE(std::equal(one.After.Facets.begin(), one.After.Facets.end(),
     four.After.Facets.begin(), four.After.Facets.end()));
+}
+
+// Before extraction the elements are in another order, and have the same labels and points.
+TEST(LabelledTriangulation, HasTheElementsOfTheMesh)
+{
+  const ShuffledBall shuffled;
+  const SimplexLabels labels = shuffled.Labels(4, 3, true);
+  const Opened opened(shuffled.Context->Mesh, PlainLabels(), labels);
+  ASSERT_FALSE(opened.Result.Parts.Pieces.empty());
+  using Element = std::pair<std::int64_t, std::array<Point<3>, 4>>;
+  std::vector<Element> extracted;
+  for (std::size_t t = 0; t < opened.After.Simplices.size(); ++t)
+  {
+    Element& element = extracted.emplace_back(opened.After.Labels[t], std::array<Point<3>, 4>{});
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      element.second[i] = opened.After.Points[opened.After.Simplices[t][i]];
+    }
+  }
+  const LabelledTriangulation<3> elements(shuffled.Context->Mesh, labels, opened.Result.Parts);
+  LabelledTriangulation<3>::LabelReader labelOf(elements);
+  std::vector<Element> found;
+  for (std::size_t t = 0; t < elements.Size(); ++t)
+  {
+    if (const LabelId label = labelOf(t); label != 0)
+    {
+      Element& element =
+        found.emplace_back(PlainLabels().LabelValue(label), std::array<Point<3>, 4>{});
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        element.second[i] = elements.PointOf(t, i);
+      }
+    }
+  }
+  std::sort(extracted.begin(), extracted.end());
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, extracted);
 }
 
 TEST(Subdivision, LeavesAGoodMeshAlone)
