@@ -128,7 +128,8 @@ void AddOwn(po::options_description& options, ParameterGroup group)
         "element has points "
         "before and after a plane") //
       ("slabs", Text("PREFIX"),
-        "write each slab between two time planes alone: PREFIX0.vtu, PREFIX1.vtu, ...") //
+        "write each slab between two time planes alone: PREFIX0.vtu, PREFIX1.vtu, ..., or in the "
+        "format of --output") //
       ("slices", Text("PREFIX"),
         "write the mesh as it is at several times: PREFIX0.vtu, PREFIX1.vtu, ... and a .pvd file "
         "that ParaView plays") //

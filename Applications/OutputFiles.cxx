@@ -33,7 +33,7 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path)
 }
 
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
-  const std::string& path, const io::WholeFiles& files)
+  const std::string& path, const io::WholeFiles& files, int slab)
 {
   vtkNew<vtkSimplexMeshWriter> writer;
   writer->SetInputData(0, mesh);
@@ -42,6 +42,7 @@ void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
     writer->SetInputData(1, interfaces);
   }
   writer->SetContent(content);
+  writer->SetSlab(slab);
   writer->SetFileName(path.c_str());
   writer->SetTemporaryFileName(files.TemporaryPath(path).c_str());
   const std::string companion = vtkSimplexMeshWriter::CompanionOf(path);

@@ -32,10 +32,11 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path);
  *
  * @param interfaces may be null
  * @param content of vtkSimplexMeshWriter
+ * @param slab the only one to write; -1: the whole mesh
  * @throws RunError with the writer's reason
  */
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
-  const std::string& path, const io::WholeFiles& files);
+  const std::string& path, const io::WholeFiles& files, int slab = -1);
 
 /** Moves all files to their places. @throws io::OutputError */
 void CommitFiles(io::WholeFiles& files);

@@ -7,26 +7,44 @@
 #ifndef voxplex_cli_SlabFiles_h
 #define voxplex_cli_SlabFiles_h
 
-#include <vtkSmartPointer.h>
-
 #include <string>
-#include <vector>
 
 class vtkUnstructuredGrid;
+
+namespace voxplex::io
+{
+class WholeFiles;
+}
 
 namespace voxplex::cli
 {
 
-/** PREFIX0.vtu, PREFIX1.vtu, ..., one for each slab of a mesh that conforms to time planes. */
-std::vector<std::string> NamesOfSlabs(const std::string& prefix, vtkUnstructuredGrid* mesh);
-
 /**
- * The pentatopes of a slab, and the points that they use, with all point and cell arrays. The point
- * array GlobalIds (vtkIdTypeArray, the attribute global ids) has the point's index in the whole mesh: two slabs
- * have the same vertex on their plane where the ids are equal. The field data array SlabTimes has the first and
- * the last time of the slab's points. Points and cells keep their order.
+ * @brief PREFIX0.vtu, PREFIX1.vtu, ..., one for each slab. Their format is that of --output, or .vtu without it.
+ *
+ * How many there are is known only when the mesh is there. The first one is there always.
  */
-vtkSmartPointer<vtkUnstructuredGrid> SlabOf(vtkUnstructuredGrid* mesh, int slab);
+class SlabFiles
+{
+public:
+  SlabFiles(std::string prefix, const std::string& output);
+
+  /** Announces the first one, so that what cannot be written is known before any work. @throws io::OutputError */
+  void AnnounceFirst(io::WholeFiles& files) const;
+
+  /** Announces the others. @throws io::OutputError */
+  void AnnounceOthers(io::WholeFiles& files, vtkUnstructuredGrid* mesh) const;
+
+  /** @throws RunError with the writer's reason */
+  void Write(
+    vtkUnstructuredGrid* mesh, vtkUnstructuredGrid* boundary, const io::WholeFiles& files) const;
+
+private:
+  std::string NameOf(int slab) const;
+
+  const std::string Prefix;
+  const std::string Extension;
+};
 
 } // namespace voxplex::cli
 

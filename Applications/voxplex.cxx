@@ -81,7 +81,7 @@ void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
   }
 }
 
-/** Announces all outputs but slices, so that what cannot be written is known before any work. */
+/** Announces all outputs but slices and slabs, so that what cannot be written is known before any work. */
 void Announce(io::WholeFiles& files, const Parameters& p)
 {
   for (const std::string& path : { p.Output, p.Interfaces })
@@ -119,6 +119,28 @@ std::optional<SliceFiles> AnnounceSlices(
   }
   ProtectInputs(files, p);
   return slices;
+}
+
+/** The number of slabs is known only when the mesh is there. */
+std::optional<SlabFiles> AnnounceSlabs(io::WholeFiles& files, const Parameters& p)
+{
+  if (p.Slabs.empty())
+  {
+    return std::nullopt;
+  }
+  SlabFiles slabs(p.Slabs, p.Output);
+  slabs.AnnounceFirst(files);
+  ProtectInputs(files, p);
+  return slabs;
+}
+
+void WriteSlabs(vtkImageToSimplexMeshFilter* filter, const SlabFiles& slabs, const Parameters& p,
+  io::WholeFiles& files)
+{
+  slabs.AnnounceOthers(files, filter->GetOutput());
+  ProtectInputs(files, p);
+  slabs.Write(
+    filter->GetOutput(), vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1)), files);
 }
 
 void Warn(const std::vector<std::string>& warnings)
@@ -246,22 +268,6 @@ void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::
   WriteCollection(slices, files);
 }
 
-/** Slabs are known only when the mesh is there. */
-void WriteSlabs(vtkUnstructuredGrid* mesh, const Parameters& p, io::WholeFiles& files)
-{
-  const std::vector<std::string> names = NamesOfSlabs(p.Slabs, mesh);
-  for (const std::string& name : names)
-  {
-    AnnounceMesh(files, name);
-  }
-  ProtectInputs(files, p);
-  for (std::size_t slab = 0; slab < names.size(); ++slab)
-  {
-    WriteMeshFile(SlabOf(mesh, static_cast<int>(slab)), nullptr, vtkSimplexMeshWriter::CONTENT_MESH,
-      names[slab], files);
-  }
-}
-
 void Run(const Parameters& p)
 {
   io::WholeFiles files;
@@ -281,6 +287,7 @@ void Run(const Parameters& p)
 
   CheckDimension(p, input.Dimension());
   const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input.Labels);
+  const std::optional<SlabFiles> slabs = AnnounceSlabs(files, p);
 
   const auto filter = MeshOrExit(p, input);
 
@@ -290,9 +297,9 @@ void Run(const Parameters& p)
   {
     WriteSlices(filter->GetOutput(), *slices, files);
   }
-  if (!p.Slabs.empty())
+  if (slabs)
   {
-    WriteSlabs(filter->GetOutput(), p, files);
+    WriteSlabs(filter, *slabs, p, files);
   }
   times.Write = writing.Seconds();
 

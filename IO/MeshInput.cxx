@@ -173,6 +173,34 @@ void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
   }
 }
 
+/** Arrays of time planes, if the mesh has them. */
+void RequireSlabs(vtkUnstructuredGrid* mesh)
+{
+  if (mesh->GetCellData()->HasArray("Slab"))
+  {
+    RequireArray(mesh->GetCellData(), "Slab", 1, mesh->GetNumberOfCells(), "the mesh has");
+  }
+  vtkDataArray* const planes = mesh->GetFieldData()->GetArray("TimePlanes");
+  vtkDataArray* const pairs = mesh->GetFieldData()->GetArray("PeriodicPairs");
+  if ((planes && planes->GetNumberOfComponents() != 1) ||
+    (pairs && pairs->GetNumberOfComponents() != 2))
+  {
+    throw FileError("its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; "
+                    "write a .vtu file");
+  }
+  for (vtkIdType k = 0; pairs && k < pairs->GetNumberOfTuples(); ++k)
+  {
+    for (const int end : { 0, 1 })
+    {
+      const double id = pairs->GetComponent(k, end); // perhaps not a number
+      if (!(id >= 0 && id < static_cast<double>(mesh->GetNumberOfPoints())))
+      {
+        throw FileError("its PeriodicPairs are not its points");
+      }
+    }
+  }
+}
+
 /** The input itself is not touched. */
 template <typename TGrid>
 void EnsurePoints(vtkSmartPointer<TGrid>& grid)
@@ -188,8 +216,9 @@ void EnsurePoints(vtkSmartPointer<TGrid>& grid)
 
 } // namespace
 
-MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces)
+MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab)
   : Dimension(3)
+  , Slab(slab)
   , Space(SpaceOf(mesh))
   , Mesh(vtkUnstructuredGrid::SafeDownCast(mesh))
   , Triangles(vtkPolyData::SafeDownCast(interfaces))
@@ -234,6 +263,10 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces)
 
 void MeshInput::Check(Content content, const std::string& name) const
 {
+  if (this->Slab >= 0)
+  {
+    this->CheckSlab(content);
+  }
   if (content == Content::Interfaces && this->Dimension == 3)
   {
     RequireCells(this->Triangles);
@@ -255,6 +288,7 @@ void MeshInput::Check(Content content, const std::string& name) const
       RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells must be pentatopes in this format");
       RequireArray(
         this->Mesh->GetPointData(), "Time", 1, this->Mesh->GetNumberOfPoints(), "the mesh has");
+      RequireSlabs(this->Mesh);
     }
     vtkDataSet* interfaces = this->Triangles;
     if (this->Dimension == 4)
@@ -283,6 +317,22 @@ void MeshInput::Check(Content content, const std::string& name) const
   }
 }
 
+/** Before it is written alone. */
+void MeshInput::CheckSlab(Content content) const
+{
+  vtkDataArray* const planes = this->Mesh->GetFieldData()->GetArray("TimePlanes");
+  if (content != Content::Mesh || !planes || !this->Mesh->GetCellData()->HasArray("Slab") ||
+    this->Slab > planes->GetNumberOfTuples())
+  {
+    throw FileError("it has no slab " + std::to_string(this->Slab) +
+      "; slabs are those of the pentatopes of a mesh with time planes");
+  }
+  RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells of slabs must be pentatopes");
+  RequireArray(
+    this->Mesh->GetPointData(), "Time", 1, this->Mesh->GetNumberOfPoints(), "the mesh has");
+  RequireSlabs(this->Mesh);
+}
+
 void MeshInput::Write(Content content, const std::string& name, const std::string& path,
   const std::string& companionPath) const
 {
@@ -293,7 +343,8 @@ void MeshInput::Write(Content content, const std::string& name, const std::strin
   }
   else
   {
-    WriteFile(SpaceTimeMeshData{ this->Mesh, this->Tetrahedra, this->Space }, content, name, path);
+    WriteFile(SpaceTimeMeshData{ this->Mesh, this->Tetrahedra, this->Space, this->Slab }, content,
+      name, path);
   }
 }
 

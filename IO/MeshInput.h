@@ -24,9 +24,10 @@ class MeshInput
 public:
   /**
    * @param mesh, interfaces as vtkSimplexMeshWriter describes them; either may be null
+   * @param slab the only slab to write; -1: the whole mesh
    * @throws FileError if they are of different dimensions
    */
-  MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces);
+  MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab = -1);
 
   /**
    * Checks what the format of this name relies on: cells of the one right type, and the arrays.
@@ -40,7 +41,10 @@ public:
     const std::string& companionPath) const;
 
 private:
+  void CheckSlab(Content content) const;
+
   int Dimension;
+  int Slab;
   std::string Space;
   vtkSmartPointer<vtkUnstructuredGrid> Mesh;
   vtkSmartPointer<vtkPolyData> Triangles;          ///< of a 3D mesh

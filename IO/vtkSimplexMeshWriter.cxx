@@ -20,6 +20,7 @@ vtkSimplexMeshWriter::vtkSimplexMeshWriter()
   , TemporaryFileName(nullptr)
   , TemporaryCompanionFileName(nullptr)
   , Content(CONTENT_MESH)
+  , Slab(-1)
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -36,6 +37,7 @@ void vtkSimplexMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "Content: " << (this->Content == CONTENT_MESH ? "mesh" : "interfaces") << "\n"
+     << indent << "Slab: " << this->Slab << "\n"
      << indent
      << "TemporaryFileName: " << (this->TemporaryFileName ? this->TemporaryFileName : "(none)")
      << "\n"
@@ -98,7 +100,7 @@ void vtkSimplexMeshWriter::WriteData()
   const auto content = static_cast<voxplex::io::Content>(this->Content);
   try
   {
-    const voxplex::io::MeshInput input(this->GetInput(0), this->GetInput(1));
+    const voxplex::io::MeshInput input(this->GetInput(0), this->GetInput(1), this->Slab);
     input.Check(content, this->FileName);
     const std::string companionName = CompanionOf(this->FileName);
     if (this->TemporaryFileName)

@@ -28,7 +28,7 @@
  * @par Errors
  * Write() returns 0, reports with vtkErrorMacro and sets the error code; GetErrorMessage() keeps the
  * reason: no or another extension than those for the content and dimension, a missing array or cells of other
- * types, a label that does not fit the format, a folder that does not exist or takes no files, a full disk.
+ * types, a label that does not fit the format, a slab that is not there, a folder that does not exist or takes no files, a full disk.
  *
  * @par Thread safety
  * Distinct instances may write distinct files at the same time.
@@ -68,6 +68,16 @@ public:
   /** CONTENT_MESH (default) or CONTENT_INTERFACES. */
   vtkSetClampMacro(Content, int, CONTENT_MESH, CONTENT_INTERFACES);
   vtkGetMacro(Content, int);
+  ///@}
+
+  ///@{
+  /**
+   * The number of the only slab to write, of a pentatope mesh with time planes, from 0 on; -1 (default): the
+   * whole mesh. The file has the points that the slab uses, and their numbers in the whole mesh. With the
+   * interfaces at port 1, numbers of surfaces are those of the whole mesh.
+   */
+  vtkSetClampMacro(Slab, int, -1, VTK_INT_MAX);
+  vtkGetMacro(Slab, int);
   ///@}
 
   ///@{
@@ -120,6 +130,7 @@ protected:
   char* TemporaryFileName;
   char* TemporaryCompanionFileName;
   int Content;
+  int Slab;
 
 private:
   vtkSimplexMeshWriter(const vtkSimplexMeshWriter&) = delete;

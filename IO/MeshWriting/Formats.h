@@ -39,6 +39,7 @@ struct SpaceTimeMeshData
   vtkUnstructuredGrid* Pentatopes;
   vtkUnstructuredGrid* Boundary;
   std::string Space; ///< "LPS" or "RAS"
+  int Slab = -1;     ///< the only slab to write; -1: the whole mesh
 };
 
 /** The extension of a file name in lower case, with its dot; empty if it has none. */

@@ -35,12 +35,15 @@ std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component = 0);
 std::map<LabelPair, std::int64_t> NumberPairs(
   const std::set<LabelPair>& pairs, std::int64_t largestLabel);
 
-/** The side of a boundary tetrahedron: 0 lateral, 1 at the first time, 2 at the last; and its pair. */
+/**
+ * The side of a boundary tetrahedron, and its pair. 0 is lateral, 1 at the first time, 2 at the last, and 2 + k on
+ * the time plane k, which are counted from 1; both labels are the same there.
+ */
 using SidedPair = std::pair<int, LabelPair>;
 
 /**
  * A number for each pair of labels and side: those of NumberPairs() for lateral ones. Those at the
- * first time follow, then those at the last.
+ * first time follow, then those at the last, and those on planes.
  */
 std::map<SidedPair, std::int64_t> NumberSidedPairs(
   const std::set<SidedPair>& pairs, std::int64_t largestLabel);

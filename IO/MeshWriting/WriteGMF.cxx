@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .mesh file of a 4D mesh: the ASCII Gamma mesh format of libMeshb, version 2 (double
 // precision), with the keyword Pentatopes. The reference of a pentatope is its label, that of a
-// boundary tetrahedron the number of its pair of labels and side; comments tell which.
+// boundary tetrahedron the number of its pair of labels and side; comments tell which. The reference of a
+// vertex of a slab is its number in the whole mesh, from 1 on; of other vertices 0.
 
 #include "SpaceTimeMeshView.h"
 #include "TextFile.h"
@@ -23,6 +24,28 @@ void WriteElement(TextFile& file, const std::array<vtkIdType, N>& vertices, std:
   file << reference << '\n';
 }
 
+void WriteSlabs(TextFile& file, const SpaceTimeMeshView& view)
+{
+  const std::vector<std::array<vtkIdType, 2>> pairs = view.PeriodicPairs();
+  if (!pairs.empty())
+  {
+    file << "PeriodicVertices\n" << pairs.size() << '\n';
+    for (const auto& [first, last] : pairs)
+    {
+      file << first + 1 << ' ' << last + 1 << '\n';
+    }
+  }
+  const std::vector<vtkIdType> slabs = view.SlabsOfPentatopes();
+  if (!slabs.empty())
+  {
+    file << "PrivateTable\n" << slabs.size() << '\n';
+    for (const vtkIdType slab : slabs)
+    {
+      file << slab << '\n';
+    }
+  }
+}
+
 } // namespace
 
 void WriteGMF(const SpaceTimeMeshData& mesh, const std::string& path)
@@ -39,13 +62,14 @@ void WriteGMF(const SpaceTimeMeshData& mesh, const std::string& path)
   for (vtkIdType i = 0; i < view.NumberOfPoints(); ++i)
   {
     const auto [x, y, z, t] = view.Point(i);
-    file << x << ' ' << y << ' ' << z << ' ' << t << " 0\n";
+    file << x << ' ' << y << ' ' << z << ' ' << t << ' '
+         << (view.IsSlab() ? view.NumberInWhole(i) + 1 : 0) << '\n';
   }
 
-  file << "Tetrahedra\n" << view.NumberOfTetrahedra() << '\n';
-  for (vtkIdType cell = 0; cell < view.NumberOfTetrahedra(); ++cell)
+  file << "Tetrahedra\n" << view.Tetrahedra().size() << '\n';
+  for (const auto& [vertices, number] : view.Tetrahedra())
   {
-    WriteElement(file, view.Tetrahedron(cell), view.NumberOf(cell));
+    WriteElement(file, vertices, number);
   }
 
   file << "Pentatopes\n" << view.NumberOfPentatopes() << '\n';
@@ -53,6 +77,7 @@ void WriteGMF(const SpaceTimeMeshData& mesh, const std::string& path)
   {
     WriteElement(file, view.Pentatope(cell), view.LabelOf(cell));
   }
+  WriteSlabs(file, view);
   file << "End\n";
   file.Close();
 }

@@ -3,7 +3,8 @@
 // The .mfem file. Of 3D meshes 'MFEM mesh v1.3', which names sets of attributes; of 4D meshes
 // 'MFEM mesh v1.0' with dimension 4, as MFEM's branch 4d_dev reads it. The attribute of an element is
 // its label, that of a boundary element the number of its pair of labels (and, in 4D, of the side of
-// the mesh); comments tell which.
+// the mesh); comments tell which. In 4D sections follow the vertices. MFEM's reader of version 1.0 stops
+// before them.
 
 #include "MeshView.h"
 #include "SetNames.h"
@@ -45,6 +46,37 @@ void WriteVertices(TextFile& file, const TView& view)
     for (std::size_t k = 0; k < dimension; ++k)
     {
       file << x[k] << (k + 1 < dimension ? ' ' : '\n');
+    }
+  }
+}
+
+/** The slabs and pairs of a whole mesh, or where a slab's vertices are in it. */
+void WriteSlabs(TextFile& file, const SpaceTimeMeshView& view)
+{
+  const std::vector<vtkIdType> slabs = view.SlabsOfPentatopes();
+  if (!slabs.empty())
+  {
+    file << "\nslabs\n" << slabs.size() << '\n';
+    for (const vtkIdType slab : slabs)
+    {
+      file << slab << '\n';
+    }
+  }
+  const std::vector<std::array<vtkIdType, 2>> pairs = view.PeriodicPairs();
+  if (!pairs.empty())
+  {
+    file << "\nperiodic_pairs\n" << pairs.size() << '\n';
+    for (const auto& [first, last] : pairs)
+    {
+      file << first << ' ' << last << '\n';
+    }
+  }
+  if (view.IsSlab())
+  {
+    file << "\nglobal_vertices\n" << view.NumberOfPoints() << '\n';
+    for (vtkIdType i = 0; i < view.NumberOfPoints(); ++i)
+    {
+      file << view.NumberInWhole(i) << '\n';
     }
   }
 }
@@ -116,12 +148,13 @@ void WriteSpaceTimeMFEM(const SpaceTimeMeshData& mesh, const std::string& path)
   {
     WriteElement(file, view.LabelOf(cell), Pentatope, view.Pentatope(cell));
   }
-  file << "\nboundary\n" << view.NumberOfTetrahedra() << '\n';
-  for (vtkIdType cell = 0; cell < view.NumberOfTetrahedra(); ++cell)
+  file << "\nboundary\n" << view.Tetrahedra().size() << '\n';
+  for (const auto& [vertices, number] : view.Tetrahedra())
   {
-    WriteElement(file, view.NumberOf(cell), Tetrahedron, view.Tetrahedron(cell));
+    WriteElement(file, number, Tetrahedron, vertices);
   }
   WriteVertices(file, view);
+  WriteSlabs(file, view);
   file.Close();
 }
 

@@ -3,6 +3,7 @@
 // The .vtu and .vtp files: appended raw data, compressed with zlib, 64-bit block headers.
 
 #include "SpaceTimeSurfaces.h"
+#include "TimeSlabs.h"
 #include "VTKWriting.h"
 #include "Writers.h"
 
@@ -48,7 +49,7 @@ void WriteVTP(const MeshData& mesh, const std::string& path)
 
 void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 {
-  WriteGrid(mesh.Pentatopes, path);
+  WriteGrid(mesh.Slab < 0 ? mesh.Pentatopes : SlabOf(mesh.Pentatopes, mesh.Slab).Get(), path);
 }
 
 void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)

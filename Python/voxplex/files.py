@@ -70,12 +70,14 @@ def read_frames(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", series_uid:
     return [_read(reader, frame) for frame in range(reader.GetNumberOfFrames())]
 
 
-def write(mesh: vtkPointSet, path: Path, *, interfaces: Optional[vtkPointSet] = None) -> None:
+def write(mesh: vtkPointSet, path: Path, *, interfaces: Optional[vtkPointSet] = None,
+          slab: Optional[int] = None) -> None:
     """Writes a mesh, or interfaces, to a file whose extension chooses the format.
 
     mesh: what :func:`mesh` returns; or its interfaces alone (.vtp, .stl ...).
     path: Documentation/FileFormats.md lists the extensions and what each holds.
     interfaces: of the mesh; formats for solvers make named surfaces of them.
+    slab: the only slab to write, from 0, of a mesh with time planes.
 
     The file appears whole or not at all. Raises FileError (an OSError) for an extension that is not known,
     and for what cannot be written.
@@ -85,12 +87,15 @@ def write(mesh: vtkPointSet, path: Path, *, interfaces: Optional[vtkPointSet] = 
     writer.SetFileName(os.fspath(path))
     if _is_mesh(mesh):
         writer.SetContent(writer.CONTENT_MESH)
+        writer.SetSlab(-1 if slab is None else slab)
         writer.SetInputData(0, mesh)
         if interfaces is not None:
             writer.SetInputData(1, interfaces)
     else:
         if interfaces is not None:
             raise ValueError("mesh and interfaces are both interfaces")
+        if slab is not None:
+            raise ValueError("slab: interfaces have no slabs")
         writer.SetContent(writer.CONTENT_INTERFACES)
         writer.SetInputData(0, vtkUnstructuredGrid())  # vtkWriter wants an input there
         writer.SetInputData(1, mesh)

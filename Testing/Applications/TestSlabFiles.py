@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Space-time meshes with time planes: the whole mesh, its slabs as files, periods; the flags for it."""
+import itertools
 import json
 import math
 
@@ -10,6 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import images
+import meshfiles
 from program import ProgramTestCase, main
 
 FIRST, STEP, FRAMES = 3.0, 2.0, 9
@@ -66,13 +68,15 @@ class Grid:
         return counts
 
 
-class Slabs(ProgramTestCase):
+class SlabTestCase(ProgramTestCase):
     def setUp(self):
         super().setUp()
         geometry = images.Geometry((5, -7, 11), (1.0, 1.0, 1.0), first_time=FIRST, time_step=STEP)
         self.input = images.write_space_time_nrrd(self.folder / "heart.nrrd", pulsating_ball(), geometry)
         self.arguments = ["--input", self.input, "--delta", 2, "--threads", 2]
 
+
+class Slabs(SlabTestCase):
     def test_slabs(self):
         self.mesh(*self.arguments, "--time-planes", "7.5,13", "--output", "mesh.vtu", "--slabs", "slab_", "--stats", "s.json")
         whole = Grid(self.folder / "mesh.vtu")
@@ -127,6 +131,17 @@ class Slabs(ProgramTestCase):
         for k in range(FRAMES - 1):
             self.assertTrue((self.folder / f"s{k}.vtu").exists())
 
+    def test_folder_that_takes_no_files(self):
+        """Known before the image is meshed: a mesh of this size would be refused, too."""
+        for prefix, reason in (("none/s_", "there is no folder 'none'"), ("/proc/s_", "does not take new files")):
+            self.assert_refused(1, f"cannot write '{prefix}0.vtu': .*{reason}", *self.arguments[:2], "--delta", 0.01,
+                                "--time-planes", "7.5", "--slabs", prefix)
+
+    def test_plane_at_an_end(self):
+        self.mesh(*self.arguments, "--time-planes", FIRST, "--output", "mesh.mfem", "--slabs", "s_")
+        self.assertEqual((self.folder / "mesh.mfem").read_bytes(), (self.folder / "s_0.mfem").read_bytes())
+        self.assertFalse((self.folder / "s_1.mfem").exists())
+
     def test_refused(self):
         for status, pattern, arguments in (
                 (1, "A time plane at 2 is outside of the series, whose frames are from 3 to 19", ("--time-planes", "2,5")),
@@ -145,6 +160,131 @@ class Slabs(ProgramTestCase):
         geometry = images.Geometry((0, 0, 0), (1.0, 1.0, 1.0), first_time=0.0, time_step=2.0)
         other = images.write_space_time_nrrd(self.folder / "other.nrrd", array, geometry)
         self.assert_refused(1, "a last frame that is equal to the first one; they differ in", "--input", other, "--periodic")
+
+
+def sorted_rows(rows):
+    return np.sort(np.asarray(rows), axis=1)
+
+
+def facets_of(cells):
+    """The sorted facets of pentatopes, five for each."""
+    return sorted_rows(np.concatenate([np.delete(cells, i, axis=1) for i in range(5)]))
+
+
+class FormatsOfSolvers(SlabTestCase):
+    """Slabs and pairs in .mfem and .mesh, beside the .vtu of the same mesh."""
+
+    def run_with(self, extension, *arguments):
+        self.mesh(*self.arguments[:-1], 1, *arguments, "--output", "mesh.vtu", "--plc", "boundary.vtu", "--slabs", "vtk_")
+        self.mesh(*self.arguments[:-1], 1, *arguments, "--output", "mesh." + extension, "--slabs", "slab_")
+        return Grid(self.folder / "mesh.vtu"), meshfiles.read_pentatopes(self.folder / ("mesh." + extension))
+
+    def check_slabs(self, extension):
+        grid, mesh = self.run_with(extension, "--time-planes", "7.5,13")
+        np.testing.assert_array_equal(mesh.points, grid.points)
+        np.testing.assert_array_equal(mesh.cells, grid.cells)
+        np.testing.assert_array_equal(mesh.slabs, grid.slabs)
+        self.assertEqual(mesh.planes, [7.5, 13.0])
+        self.assertIsNone(mesh.pairs)
+        self.assertIsNone(mesh.numbers)
+        self.check_surfaces(mesh)
+        seen, ends = [], {}
+        for k in range(3):
+            slab = meshfiles.read_pentatopes(self.folder / f"slab_{k}.{extension}")
+            vtk = Grid(self.folder / f"vtk_{k}.vtu")
+            np.testing.assert_array_equal(slab.points, vtk.points)
+            np.testing.assert_array_equal(slab.cells, vtk.cells)
+            np.testing.assert_array_equal(slab.labels, vtk.labels)
+            np.testing.assert_array_equal(slab.numbers, vtk_to_numpy(vtk.global_ids))
+            np.testing.assert_array_equal(slab.points, mesh.points[slab.numbers])
+            np.testing.assert_array_equal(slab.slabs, k)
+            self.assertEqual((slab.names, slab.sides, slab.planes), (mesh.names, mesh.sides, mesh.planes))
+            self.check_slab(slab, k)
+            seen += [(*sorted(cell), int(label)) for cell, label in zip(slab.numbers[slab.cells], slab.labels)]
+            for side in ("plane %d" % k, "plane %d" % (k + 1)):
+                at = np.array([slab.sides[number] == side for number in slab.references])
+                facets = slab.numbers[sorted_rows(slab.tetrahedra[at])] if at.any() else np.zeros((0, 4), int)
+                ends[k, side] = {(*sorted(row), int(number)) for row, number in zip(facets, slab.references[at])}
+        self.assertEqual(sorted(seen), sorted((*sorted(cell), int(label)) for cell, label in zip(mesh.cells, mesh.labels)))
+        for k in (1, 2):
+            shared = ends[k - 1, "plane %d" % k]
+            self.assertGreater(len(shared), 50)
+            self.assertEqual(shared, ends[k, "plane %d" % k])
+        for path in self.folder.glob("slab_3.*"):
+            self.fail(path)
+
+    def check_surfaces(self, mesh):
+        """Tetrahedra are those of the boundary, in its order, and all facets on planes inside of a label."""
+        boundary = meshfiles.read_boundary(self.folder / "boundary.vtu")
+        count = len(boundary.cells)
+        np.testing.assert_array_equal(mesh.tetrahedra[:count], boundary.point_ids[boundary.cells])
+        np.testing.assert_array_equal(mesh.references[:count], boundary.surfaces)
+        times = mesh.points[:, 3]
+        labels = {}
+        for facet, label in zip(facets_of(mesh.cells), np.tile(mesh.labels, 5)):
+            if len(set(times[facet])) == 1 and times[facet[0]] in mesh.planes:
+                labels.setdefault(tuple(facet), []).append(int(label))
+        expected = {facet: ((both[0], both[1]), "plane %d" % (mesh.planes.index(times[facet[0]]) + 1))
+                    for facet, both in labels.items()}
+        found = {tuple(row): (mesh.names[number], mesh.sides[number])
+                 for row, number in zip(sorted_rows(mesh.tetrahedra[count:]), mesh.references[count:])}
+        self.assertEqual(found, expected)
+        self.assertEqual(len(found), len(mesh.tetrahedra) - count)
+        self.assertEqual({pair for pair, _ in found.values()}, {(1, 1), (2, 2)})
+
+    def check_slab(self, slab, k):
+        """It is closed: its tetrahedra are the facets that one pentatope has, and those between labels."""
+        self.assertGreater(slab.volumes().min(), 0.0)
+        np.testing.assert_array_equal(np.unique(slab.cells), np.arange(len(slab.points)))
+        sides = {}
+        for facet, label in zip(facets_of(slab.cells), np.tile(slab.labels, 5)):
+            sides.setdefault(tuple(facet), []).append(int(label))
+        expected = {facet for facet, labels in sides.items() if len(set(labels + [0] * (2 - len(labels)))) == 2}
+        rows = sorted_rows(slab.tetrahedra)
+        self.assertEqual({tuple(row) for row in rows}, expected)
+        self.assertEqual(len(rows), len(expected))
+        ends = [FIRST, *slab.planes, FIRST + (FRAMES - 1) * STEP][k:k + 2]
+        names = ["plane %d" % k if k > 0 else "initial", "plane %d" % (k + 1) if k < len(slab.planes) else "final"]
+        for row, number in zip(rows, slab.references):
+            times = set(slab.points[row, 3])
+            flat = names[ends.index(times.pop())] if len(times) == 1 else ""
+            self.assertEqual(slab.sides[number], flat)
+            label, = set(sides[tuple(row)]) if flat else (None,)
+            self.assertIn(slab.names[number], ((label, 0), (label, label)) if flat else ((2, 0), (2, 1)))
+
+    def check_period(self, extension):
+        grid, mesh = self.run_with(extension, "--periodic")
+        np.testing.assert_array_equal(mesh.points, grid.points)
+        np.testing.assert_array_equal(mesh.pairs, grid.field("PeriodicPairs"))
+        first, last = mesh.pairs.T
+        np.testing.assert_array_equal(mesh.points[first, :3], mesh.points[last, :3])
+        self.assertEqual((set(mesh.points[first, 3]), set(mesh.points[last, 3])), ({FIRST}, {FIRST + (FRAMES - 1) * STEP}))
+        # Both ends are congruent, with the same labels.
+        twin = np.arange(len(mesh.points))
+        twin[last] = first
+        at = {end: {(*row, mesh.names[number]) for row, number in zip(sorted_rows(twin[mesh.tetrahedra]), mesh.references)
+                    if mesh.sides[number] == end} for end in ("initial", "final")}
+        self.assertGreater(len(at["initial"]), 50)
+        self.assertEqual(at["initial"], at["final"])
+        # One vertex for both: edges and facets that were different are so still, but those of the ends.
+        for part in (2, 4):
+            edges = np.concatenate([mesh.cells[:, list(k)] for k in itertools.combinations(range(5), part)])
+            before = {tuple(row) for row in sorted_rows(edges)}
+            flat = {row for row in before if (mesh.points[list(row), 3] == FIRST).all()}
+            self.assertEqual(len({tuple(sorted(twin[list(row)])) for row in before}), len(before) - len(flat))
+        self.assertFalse([path for path in self.folder.glob("slab_*") if meshfiles.read_pentatopes(path).pairs is not None])
+
+    def test_mfem(self):
+        self.check_slabs("mfem")
+
+    def test_gmf(self):
+        self.check_slabs("mesh")
+
+    def test_period_in_mfem(self):
+        self.check_period("mfem")
+
+    def test_period_in_gmf(self):
+        self.check_period("mesh")
 
 
 if __name__ == "__main__":

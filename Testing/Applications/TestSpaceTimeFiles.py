@@ -80,6 +80,9 @@ class Formats(SpaceTimeTestCase):
         np.testing.assert_array_equal(mesh.labels, self.reference.labels)
         self.assertGreater(mesh.volumes().min(), 0.0)
         self.assertEqual(mesh.space, "LPS")
+        for array in (mesh.slabs, mesh.pairs, mesh.numbers):
+            self.assertIsNone(array)
+        self.assertEqual(mesh.planes, [])
         self.assertEqual(mesh.names, {3: (3, 0), 7: (7, 0), 8: (7, 3), 9: (3, 0), 10: (7, 0), 11: (3, 0), 12: (7, 0)})
         # Attributes from 9 on are those of the ends: all four vertices have the first or the last time.
         times = mesh.points[mesh.tetrahedra][:, :, 3]

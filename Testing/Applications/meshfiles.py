@@ -63,6 +63,11 @@ class Pentatopes:
     tetrahedra: np.ndarray = None
     references: np.ndarray = None  # of the tetrahedra
     names: dict = field(default_factory=dict)
+    sides: dict = field(default_factory=dict)  # of references: "", "initial", "final", "plane 1" ...
+    planes: list = field(default_factory=list)  # their times
+    slabs: np.ndarray = None  # of the pentatopes
+    pairs: np.ndarray = None  # of points
+    numbers: np.ndarray = None  # of a slab's points in the whole mesh
 
     def volumes(self):
         corners = self.points[self.cells]
@@ -230,6 +235,27 @@ def _pairs_of_comments(lines, start="#"):
     return {int(match[1]): (int(match[2]), int(match[3])) for match in found if match}
 
 
+def _sides_of_comments(lines):
+    """Number: side in time, from the comments at the head; and the times of planes."""
+    found = (re.match(r"#   (\d+): \d+ \d+ ?(.*)$", line) for line in lines)
+    planes = [match for match in (re.match(r"#   plane (\d+) at (.*)$", line) for line in lines) if match]
+    if [int(match[1]) for match in planes] != list(range(1, len(planes) + 1)):
+        raise AssertionError("numbers of planes")
+    return {"sides": {int(match[1]): match[2] for match in found if match},
+            "planes": [float(match[2]) for match in planes]}
+
+
+def _read_optional(words, at, sections):
+    """Sections that may be missing: their tables of whole numbers, or None; and where they end."""
+    tables = {}
+    for name, width in sections:
+        tables[name] = None
+        if at < len(words) and words[at] == name:
+            found, at = _read_sections(words, at, ((name, width),))
+            tables[name] = found[name].astype(int)
+    return tables, at
+
+
 def _names_of_comments(lines, start="#"):
     """Label: name, and pair of labels: name, from the comments at the head."""
     labels, pairs = {}, {}
@@ -261,12 +287,17 @@ def _read_gmf(path):
     if words[:4] != ["MeshVersionFormatted", "2", "Dimension", "4"] or words[-1] != "End":
         raise AssertionError("head or end of the file")
     tables, at = _read_sections(words, 4, (("Vertices", 5), ("Tetrahedra", 5), ("Pentatopes", 6)))
-    if at != len(words) - 1 or tables["Vertices"][:, 4].any():
-        raise AssertionError("references of vertices, or something before End")
+    more, at = _read_optional(words, at, (("PeriodicVertices", 2), ("PrivateTable", 1)))
+    if at != len(words) - 1:
+        raise AssertionError("something before End")
+    numbers = tables["Vertices"][:, 4].astype(int)
     tetrahedra, pentatopes = tables["Tetrahedra"].astype(int), tables["Pentatopes"].astype(int)
     space = next(line.split("SPACE=")[1][:3] for line in lines if "SPACE=" in line)
     return Pentatopes(tables["Vertices"][:, :4], pentatopes[:, :5] - 1, pentatopes[:, 5], space,
-                      tetrahedra[:, :4] - 1, tetrahedra[:, 4], _pairs_of_comments(lines))
+                      tetrahedra[:, :4] - 1, tetrahedra[:, 4], _pairs_of_comments(lines), **_sides_of_comments(lines),
+                      slabs=None if more["PrivateTable"] is None else more["PrivateTable"][:, 0],
+                      pairs=None if more["PeriodicVertices"] is None else more["PeriodicVertices"] - 1,
+                      numbers=numbers - 1 if numbers.any() else None)
 
 
 def _read_space_time_mfem(path):
@@ -283,10 +314,17 @@ def _read_space_time_mfem(path):
         raise AssertionError("geometries")
     if words[at] != "vertices" or words[at + 2] != "4":
         raise AssertionError("vertices")
-    vertices = np.array(words[at + 3:], dtype=float).reshape(int(words[at + 1]), 4)
+    count = int(words[at + 1])
+    end = at + 3 + 4 * count  # where MFEM's reader of version 1.0 stops
+    vertices = np.array(words[at + 3:end], dtype=float).reshape(count, 4)
+    more, at = _read_optional(words, end, (("slabs", 1), ("periodic_pairs", 2), ("global_vertices", 1)))
+    if at != len(words):
+        raise AssertionError("end of the file")
     space = next(line.split("SPACE=")[1][:3] for line in lines if "SPACE=" in line)
     return Pentatopes(vertices, elements[:, 2:], elements[:, 0], space, boundary[:, 2:], boundary[:, 0],
-                      _pairs_of_comments(lines))
+                      _pairs_of_comments(lines), **_sides_of_comments(lines),
+                      slabs=None if more["slabs"] is None else more["slabs"][:, 0], pairs=more["periodic_pairs"],
+                      numbers=None if more["global_vertices"] is None else more["global_vertices"][:, 0])
 
 
 def _read_attribute_sets(words, at, name):

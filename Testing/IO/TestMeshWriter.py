@@ -319,6 +319,53 @@ class Errors(WriterTestCase):
         self.refuse(self.with_data("m.vtu", mesh, pentatopes.GetOutputDataObject(1)), "one is of three dimensions")
         self.refuse(self.with_data("m.mfem", pentatopes.GetOutput(), interfaces), "one is of three dimensions")
 
+    def slabs(self):
+        """A mesh of two slabs, periodic: pentatopes, boundary."""
+        mesher = self.mesher(frames=9)
+        mesher.AddTimePlane(4.0)
+        mesher.PeriodicOn()
+        mesher.Update()
+        return mesher.GetOutput(), mesher.GetOutputDataObject(1)
+
+    def test_slabs(self):
+        mesh, boundary = self.slabs()
+        self.assertEqual(set(vtk_to_numpy(mesh.GetCellData().GetArray("Slab"))), {0, 1})
+        for name in ("s.vtu", "s.mfem", "s.mesh"):
+            for slab in (0, 1):
+                writer = self.with_data(name, mesh, boundary)
+                writer.SetSlab(slab)
+                self.assertEqual((writer.Write(), writer.GetErrorMessage()), (1, ""))
+                self.assertGreater(len(self.files()[name]), 1000)
+            writer.SetSlab(2)
+            self.refuse(writer, "it has no slab 2; slabs are those of the pentatopes of a mesh with time planes")
+        writer = self.with_data("s.vtu", mesh, boundary)
+        writer.SetSlab(0)
+        writer.SetContent(INTERFACES)
+        self.refuse(writer, "it has no slab 0")
+        flat = self.mesher()
+        flat.Update()
+        writer = self.with_data("s.vtu", flat.GetOutput())
+        writer.SetSlab(0)
+        self.refuse(writer, "it has no slab 0")
+
+    def test_damaged_slabs(self):
+        mesh, boundary = self.slabs()
+
+        def refuse(pattern, damage):
+            copy = mesh.NewInstance()
+            copy.DeepCopy(mesh)
+            damage(copy)
+            for name in ("m.mfem", "m.mesh"):
+                self.refuse(self.with_data(name, copy, boundary), pattern)
+
+        def pairs_of(grid):
+            return grid.GetFieldData().GetArray("PeriodicPairs")
+
+        refuse("its PeriodicPairs are not its points", lambda grid: pairs_of(grid).SetComponent(3, 1, 1e9))
+        refuse("its PeriodicPairs are not its points", lambda grid: pairs_of(grid).SetComponent(0, 0, -1))
+        refuse("not those of a meshing filter", lambda grid: pairs_of(grid).SetNumberOfComponents(1))
+        refuse("values 'Slab' for", lambda grid: grid.GetCellData().GetArray("Slab").SetNumberOfTuples(5))
+
     def test_damaged_data(self):
         """What a damaged file may leave: vertices and arrays that are none."""
         mesher = self.mesher()

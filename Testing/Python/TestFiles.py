@@ -156,6 +156,20 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(voxplex.FileError, "for this content; use .vtu"):
             voxplex.write(boundary, self.folder / "boundary.mfem")
 
+    def test_write_a_slab(self):
+        mesh, boundary, _ = voxplex.mesh(self.series, 2.0, pick_slivers=False, time_scale=3.0, time_planes="frames",
+                                         full_output=True)
+        self.assertIsNotNone(mesh.GetCellData().GetArray("Slab"))
+        written = 0
+        for slab in range(mesh.GetFieldData().GetArray("TimePlanes").GetNumberOfTuples() + 1):
+            voxplex.write(mesh, self.folder / "slab.vtu", interfaces=boundary, slab=slab)
+            written += self.grid(self.folder / "slab.vtu").GetNumberOfCells()
+        self.assertEqual(written, mesh.GetNumberOfCells())
+        with self.assertRaisesRegex(voxplex.FileError, "it has no slab 90"):
+            voxplex.write(mesh, self.folder / "slab.vtu", slab=90)
+        with self.assertRaisesRegex(ValueError, "interfaces have no slabs"):
+            voxplex.write(boundary, self.folder / "slab.vtu", slab=0)
+
     def test_refusals(self):
         mesh, interfaces, _ = voxplex.mesh(self.image, 3.0, full_output=True)
         before = sorted(self.folder.iterdir())
