@@ -79,6 +79,10 @@ struct TimePlaneOptions
    * are congruent. If there is no plane between them, one is added half-way.
    */
   bool Periodic = false;
+  /**
+   * Rounds in which slabs may insert points on planes; see SlabRefinement. Fewer make worse shapes beside planes.
+   */
+  unsigned OpenRounds = 8;
 
   bool AreWanted() const { return this->Periodic || !this->Times.empty(); }
 };

@@ -120,7 +120,8 @@ bool SlabRefinement::Refine(
       goOn = true;
       for (std::size_t end = 0; end < 2; ++end)
       {
-        slab->Context.IsClosed[end] = round >= MostOpenRounds && slab->Ends[end] != NoPlane;
+        slab->Context.IsClosed[end] =
+          round >= this->Run.Options.Planes.OpenRounds && slab->Ends[end] != NoPlane;
       }
       if (!this->RefineSlab(*slab, round == 0 ? seeds : std::vector<FeatureSeed<4>>(),
             round == 0 ? start : RefinementStart::AtSeeds, progress))

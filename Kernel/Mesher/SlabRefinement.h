@@ -28,8 +28,8 @@ namespace voxplex
  * what the slab before it has, and keeps it: as *shared* vertices. Where it needs more points there,
  * the slab before it gets these in the next round, and goes on from them, and so on until no plane
  * has a new point. Vertices on planes stay, and the rules keep them apart, so a plane has room for a
- * bounded number of them. After MostOpenRounds rounds planes are closed: the rules insert nothing there any more. So there are at most
- * MostOpenRounds + 2 rounds.
+ * bounded number of them. After TimePlaneOptions::OpenRounds rounds planes are closed: the rules insert nothing there
+ * any more. So there are at most OpenRounds + 2 rounds.
  *
  * A periodic mesh has one plane more: its two ends. It needs two slabs or more: both ends of one slab are
  * refined at the same time, and would get points that are close to each other without being equal.
@@ -43,9 +43,6 @@ namespace voxplex
 class SlabRefinement final : public RefinementStage<4>
 {
 public:
-  /** Rounds in which rules may insert points on planes. */
-  static constexpr unsigned MostOpenRounds = 8;
-
   /** Slabs between two planes are at least this thick, in sampling distances. */
   static constexpr double ThinnestSlab = 1.0;
 

@@ -171,6 +171,31 @@ TEST(TimePlanes, EveryFrameOfAFastBall)
   ExpectSlabs(result, frames.front(), frames.back());
 }
 
+// So few rounds that planes are closed while slabs still ask for points. Slabs match all the same.
+TEST(TimePlanes, ClosedPlanesRefusePointsAndMatch)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0, 2.5));
+  for (const bool isPeriodic : { false, true })
+  {
+    for (const unsigned rounds : { 1u, 2u, 8u })
+    {
+      SCOPED_TRACE(std::to_string(rounds) + (isPeriodic ? " rounds, a period" : " rounds"));
+      MeshingOptions<4> options = WithPlanes(2.0, { 3.0, 5.5, 8.0, 11.0 });
+      options.Planes.Periodic = isPeriodic;
+      options.Planes.OpenRounds = rounds;
+      const Result result = MeshOf(image, options);
+      const TimePlaneStatistics& planes = result.Statistics.Planes;
+      ExpectSlabs(result, 0.0, 16.0);
+      EXPECT_LE(planes.Rounds, rounds + 2);
+      EXPECT_EQ(planes.Refused > 0, rounds < 8) << planes.Rounds << " rounds";
+      if (isPeriodic)
+      {
+        ExpectPeriod(result, 0.0, 16.0);
+      }
+    }
+  }
+}
+
 TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
 {
   // Begins and ends with motion, so both ends are equal only if the smoothing wraps.

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Warnings of runs whose figures are made up, because images that cause them are rare.
+#include "FilterTesting.h"
+
+#include "Private/MeshingFigures.h"
+#include "Private/MeshingMessages.h"
+
+#include <string>
+#include <vector>
+
+using namespace testing;
+
+namespace
+{
+
+void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& part)
+{
+  const std::vector<std::string> warnings = voxplex::WarningsOf(figures, "Local");
+  CHECK(warnings.size() == 1, "one warning");
+  CHECK(warnings.front().find(part) != std::string::npos, warnings.front());
+}
+
+} // namespace
+
+int TestMeshingMessages(int, char*[])
+{
+  CHECK(voxplex::WarningsOf({}, "Local").empty(), "nothing to warn of");
+
+  vtkMeshingStatistics::Figures closed;
+  closed.Run.Planes.Refused = 1;
+  ExpectOne(closed, "Slabs asked each other for points on their time planes again and again");
+
+  vtkMeshingStatistics::Figures switched;
+  switched.Run.SwitchedToLocal = true;
+  ExpectOne(switched, "contention manager 'Local'");
+  return EXIT_SUCCESS;
+}
