@@ -46,10 +46,6 @@ void CheckSpaceTime(const Parameters& p)
   const bool hasPlanes = p.TimePlanesAtFrames || !p.TimePlanes.empty() || p.Has("periodic");
   RefuseIf(!p.Slabs.empty() && !hasPlanes,
     "--slabs: there is one slab only; give the times of planes with --time-planes");
-  RefuseIf(hasPlanes && p.Has("reproducible"),
-    "--time-planes and --periodic do not go together with --reproducible; with --threads 1 every "
-    "mesh is "
-    "reproducible");
   for (const char* name : { "picks", "sliver-bound", "seed" })
   {
     RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),

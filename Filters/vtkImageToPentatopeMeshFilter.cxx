@@ -413,7 +413,9 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   }
   else
   {
-    const auto image = series.MakeIsosurface(frame.Grid, run.ChosenIsosurface(), threads);
+    voxplex::Isosurface surface = run.ChosenIsosurface();
+    surface.PeriodicInTime = this->Periodic;
+    const auto image = series.MakeIsosurface(frame.Grid, surface, threads);
     done = run.Mesh(image, image.Labels(), mesh);
   }
   if (!done)

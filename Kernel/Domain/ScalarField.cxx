@@ -118,6 +118,7 @@ private:
    */
   void ReadMargins(Index lattice, Sample* margins) const
   {
+    this->Wrap(lattice);
     ClampToCut(this->Labels, lattice);
     for (std::size_t a = 1; a < D; ++a)
     {
@@ -151,6 +152,17 @@ private:
       {
         std::fill(to + (end - begin), margins + Width, to[end - begin - 1]);
       }
+    }
+  }
+
+  /** Beyond the ends of a periodic object values are those of the other end, as ids are in ForEachRow(). */
+  void Wrap(Index& lattice) const
+  {
+    constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
+    if (this->Labels.IsPeriodicInTime() && this->Labels.ReachesBorderInTime(0))
+    {
+      const std::int64_t period = this->Labels.CropDimensions()[Time] - 1;
+      lattice[Time] = ((lattice[Time] - 1) % period + period) % period + 1;
     }
   }
 

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <sstream>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -167,16 +168,18 @@ struct StripBuffers
 
 /**
  * Smooths `width` columns of n values each, in place. The values of a column are `stride` apart.
- * Beyond the ends of a column its outermost values are repeated.
+ * Beyond the ends of a column its outermost values are repeated, or, if it is periodic, what comes after the
+ * other end; the last value of such a column is the first one again.
  */
 void SmoothStrip(float* values, std::size_t n, std::size_t stride, std::size_t width,
-  const std::vector<float>& weights, StripBuffers& buffers)
+  bool isPeriodic, const std::vector<float>& weights, StripBuffers& buffers)
 {
   const std::size_t radius = weights.size() - 1;
   buffers.In.resize((n + 2 * radius) * width);
   for (std::size_t j = 0; j < n + 2 * radius; ++j)
   {
-    const std::size_t from = std::clamp(j, radius, n - 1 + radius) - radius;
+    const std::size_t from = isPeriodic ? (j + radius * (n - 2)) % (n - 1) // j - radius
+                                        : std::clamp(j, radius, n - 1 + radius) - radius;
     std::copy_n(values + from * stride, width, buffers.In.data() + j * width);
   }
   buffers.Out.assign(n * width, 0.0f);
@@ -196,10 +199,10 @@ void SmoothStrip(float* values, std::size_t n, std::size_t stride, std::size_t w
   }
 }
 
-/** Smooths along every axis, in place. */
+/** Smooths along every axis, in place. @param isPeriodic along the last one */
 template <int D>
-void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigma, unsigned threads,
-  const std::stop_token& stop)
+void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigma, bool isPeriodic,
+  unsigned threads, const std::stop_token& stop)
 {
   std::vector<float> weights;
   for (const double w : NonShrinkingKernel(sigma, 0.0))
@@ -222,7 +225,8 @@ void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigm
         {
           const std::size_t first = i % strips * StripWidth;
           SmoothStrip(values.data() + i / strips * n * stride + first, n, stride,
-            std::min(StripWidth, stride - first), weights, buffers);
+            std::min(StripWidth, stride - first), isPeriodic && a + 1 == D && n > 1, weights,
+            buffers);
         }
       },
       stop);
@@ -233,7 +237,7 @@ void Smooth(std::vector<float>& values, const GridGeometry<D>& grid, double sigm
 /** The smoothed margins. NaN counts as 0 in the smoothing, and is NaN again in the result. */
 template <int D, typename Function>
 std::vector<float> SmoothedMargins(const Function& read, const GridGeometry<D>& grid,
-  std::size_t voxels, double sigma, unsigned threads, const std::stop_token& stop)
+  std::size_t voxels, const Isosurface& surface, unsigned threads, const std::stop_token& stop)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> margins(voxels);
@@ -250,7 +254,7 @@ std::vector<float> SmoothedMargins(const Function& read, const GridGeometry<D>& 
       }
     },
     stop);
-  Smooth(margins, grid, sigma, threads, stop);
+  Smooth(margins, grid, surface.SmoothingSigma, D == 4 && surface.PeriodicInTime, threads, stop);
   ParallelFor(
     0, voxels, Grain, threads,
     [&](std::size_t begin, std::size_t end)
@@ -282,6 +286,44 @@ std::array<double, 2> RangeOf(
   return range;
 }
 
+/** @throws InputError if the first and the last frame differ; what is not a number equals its like */
+template <int D, typename T>
+void CheckPeriod(std::span<const T> scalars, const GridGeometry<D>& grid)
+{
+  const std::size_t frame = scalars.size() / static_cast<std::size_t>(grid.Dimensions[D - 1]);
+  const T* const last = scalars.data() + (scalars.size() - frame);
+  std::size_t differ = 0;
+  std::size_t example = 0;
+  const auto isNoNumber = [](T x)
+  {
+    if constexpr (std::is_floating_point_v<T>)
+    {
+      return std::isnan(x);
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < frame; ++i)
+  {
+    const bool isSame = scalars[i] == last[i] || (isNoNumber(scalars[i]) && isNoNumber(last[i]));
+    example = isSame || differ > 0 ? example : i;
+    differ += isSame ? 0 : 1;
+  }
+  if (differ > 0)
+  {
+    std::string voxel;
+    for (std::size_t a = 0; a + 1 < D; ++a)
+    {
+      const auto n = static_cast<std::size_t>(grid.Dimensions[a]);
+      voxel += (a == 0 ? "" : ", ") + std::to_string(example % n);
+      example /= n;
+    }
+    throw InputError(
+      "a periodic mesh needs a last frame that is equal to the first one; they differ in " +
+      std::to_string(differ) + " voxels, one of which is (" + voxel +
+      "); if the series ends one frame before the period does, append its first frame");
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -300,6 +342,11 @@ IsosurfaceImage<D> IsosurfaceImage<D>::FromScalars(std::span<const T> scalars,
   image.Values = { census.Min, census.Max };
   CheckRange(surface, image.Values, "");
   const double scale = ScaleOf(census);
+  const bool isPeriodic = D == 4 && surface.PeriodicInTime;
+  if (isPeriodic)
+  {
+    CheckPeriod(scalars, grid);
+  }
   image.Read = [scalars, marginOf, scale](std::size_t first, std::size_t count, float* margins)
   {
     for (std::size_t i = 0; i < count; ++i)
@@ -310,7 +357,7 @@ IsosurfaceImage<D> IsosurfaceImage<D>::FromScalars(std::span<const T> scalars,
   if (surface.SmoothingSigma > 0.0)
   {
     const auto smoothed = std::make_shared<const std::vector<float>>(
-      SmoothedMargins<D>(image.Read, grid, scalars.size(), surface.SmoothingSigma, threads, stop));
+      SmoothedMargins<D>(image.Read, grid, scalars.size(), surface, threads, stop));
     image.Read = [smoothed](std::size_t first, std::size_t count, float* margins)
     { std::copy_n(smoothed->data() + first, count, margins); };
     image.Values = RangeOf(*smoothed, surface, scale);
@@ -331,6 +378,10 @@ IsosurfaceImage<D> IsosurfaceImage<D>::FromScalars(std::span<const T> scalars,
     stop);
   image.Inside = LabelImage<D>::template FromScalars<unsigned char>(mask, grid, {}, threads, stop);
   image.Inside.SetValue(1, surface.Label);
+  if (isPeriodic)
+  {
+    image.Inside.MakePeriodicInTime();
+  }
   return image;
 }
 

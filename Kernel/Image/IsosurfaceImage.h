@@ -39,6 +39,11 @@ struct Isosurface
    * staircase of a label image.
    */
   double SmoothingSigma = 0.0;
+  /**
+   * 4D only. The last frame is the first one again, and must be equal to it. Then the smoothing and the values
+   * continue beyond the last frame as after the first one; see LabelImage::IsPeriodicInTime().
+   */
+  bool PeriodicInTime = false;
 
   static constexpr double LargestSigma = 5.0;
 };
@@ -52,7 +57,7 @@ struct Isosurface
  *
  * Smoothing uses the separable kernel (1 + c) g - c g*g of LabelField, with a second moment of 0.
  * It does not change linear and quadratic functions. So it preserves planes, and nearly preserves
- * curved surfaces. At the image's border the outermost values are repeated.
+ * curved surfaces. At the image's border the outermost values are repeated, except in time if the image is periodic.
  */
 template <int D>
 class IsosurfaceImage
@@ -65,7 +70,7 @@ public:
    *   compared as double. Unless they are smoothed, they must live as long as this object.
    * @param threads threads of this function; 0 means all cores. The result does not depend on it.
    * @throws InputError if the isovalue is not finite, or outside the image's range (the message has
-   *   the range); if all values are NaN; if the label is below 1; if sigma is out of range; and for
+   *   the range); if all values are NaN; if the image is to be periodic and is not; if the label is below 1; if sigma is out of range; and for
    *   the reasons of CheckGrid()
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */

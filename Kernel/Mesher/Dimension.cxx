@@ -297,17 +297,17 @@ void Dimension<4>::Checks::Extract(SimplexMesh<4>& mesh) const
   this->Run.Statistics.Interfaces.CountOpened(made.NonManifold.size(), spindles.Left.size());
   Subdivide<4>(this->Source, surfaces, spindles.Parts, mesh, threads, this->Run.Stop,
     { fitted.Positions, &numbers });
+  this->TellTwins(mesh, numbers);
   if (options.Optimisation.Run)
   {
     this->Optimise(mesh,
       SurroundingsOf(
         this->Source, made.Labels, spindles.Parts, fitted.Positions, numbers, mesh.Points.size()));
   }
-  this->TellSlabs(mesh, numbers);
+  this->TellSlabs(mesh);
 }
 
-void Dimension<4>::Checks::TellSlabs(
-  SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const
+void Dimension<4>::Checks::TellSlabs(SimplexMesh<4>& mesh) const
 {
   const TimePlanes& planes = this->Run.Prepared.Planes;
   if (!planes.Exist())
@@ -324,6 +324,11 @@ void Dimension<4>::Checks::TellSlabs(
     }
     mesh.Slabs[s] = static_cast<std::uint32_t>(planes.SlabAt(time));
   }
+}
+
+void Dimension<4>::Checks::TellTwins(
+  SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const
+{
   for (const auto& [first, last] : this->Stage.Twins())
   {
     if (numbers[first] != None && numbers[last] != None)

@@ -152,8 +152,10 @@ struct Dimension<4>
 
   private:
     void Optimise(SimplexMesh<4>& mesh, const Surroundings& outside) const;
-    /** Fills Slabs and Twins of the mesh. @param numbers the point of each vertex id, or None */
-    void TellSlabs(SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const;
+    /** Fills Slabs of the mesh. */
+    void TellSlabs(SimplexMesh<4>& mesh) const;
+    /** Fills Twins of the mesh. @param numbers the point of each vertex id, or None */
+    void TellTwins(SimplexMesh<4>& mesh, std::span<const std::uint32_t> numbers) const;
 
     const RunEnvironment<4> Run;
     const RefinementStage<4>& Stage;

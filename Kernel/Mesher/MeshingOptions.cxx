@@ -127,12 +127,6 @@ void CheckOptions(const MeshingOptions<D>& options)
     throw InputError("there are at most " + std::to_string(MaximumFrameSteps) +
       " steps between two frames; " + std::to_string(options.FrameSteps) + " were asked for");
   }
-  if (options.Planes.AreWanted() && options.Team.Reproducible)
-  {
-    throw InputError(
-      "time planes and periodic meshes cannot be combined with reproducible threads; use one "
-      "thread, with which every mesh is reproducible");
-  }
   CheckTetSliverOptions(options.Shape.Slivers, options.Limits.Force);
   CheckSliverOptions(options.SpaceTime.Slivers, options.Limits.Force);
   CheckGradingOptions(options.Sampling.Grading);

@@ -122,6 +122,21 @@ void AddFrames(
 {
 }
 
+/**
+ * That an isosurface's image was made to be periodic, and is so still if components were removed from it.
+ * @throws InputError
+ */
+template <int D>
+void CheckPeriodicLabels(const LabelImage<D>& image, const IsosurfaceImage<D>& isosurface)
+{
+  if (!isosurface.Surface().PeriodicInTime)
+  {
+    throw InputError(
+      "a periodic mesh of an isosurface needs an image that was made to be periodic");
+  }
+  LabelImage<D>(image).MakePeriodicInTime();
+}
+
 /** Stores a domain, and computes everything that depends on the type of its field. */
 template <int D, typename Field>
 void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
@@ -151,7 +166,7 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   {
     if (options.Planes.Periodic)
     {
-      throw InputError("isosurfaces have no periodic meshes; make labels of the grey values");
+      CheckPeriodicLabels(image, *isosurface);
     }
     TakeDomain<D>(std::make_unique<const ImageDomain<D, ScalarField<D>>>(
                     *isosurface, options.Team.Threads, stop),

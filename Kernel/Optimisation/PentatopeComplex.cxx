@@ -162,6 +162,12 @@ PentatopeComplex::PentatopeComplex(const SimplexMesh<4>& mesh, const Surrounding
     stop);
   this->FindStars();
   ListUsers(this->MeshPoints, this->Facets, this->FirstFacet, this->FacetsOf);
+  this->Twins.resize(mesh.Twins.empty() ? 0 : this->Points.size(), None);
+  for (const auto& [first, last] : mesh.Twins)
+  {
+    this->Twins[first] = last;
+    this->Twins[last] = first;
+  }
 }
 
 void PentatopeComplex::CopyTo(SimplexMesh<4>& mesh) const

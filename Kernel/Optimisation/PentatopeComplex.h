@@ -64,8 +64,8 @@ struct PentatopeBounds
   double InterfaceTolerance = 0.0;
   const SizingField<4>* Sizing = nullptr; ///< circumradii are below its element sizes; may be null
   /**
-   * The facets on these planes stay, and so does the time of their vertices. The ends of a periodic
-   * mesh are not changed.
+   * The facets on these planes stay, and so does the time of their vertices. So do those at the ends of a
+   * periodic mesh.
    */
   TimePlanes Planes = {};
 };
@@ -73,6 +73,8 @@ struct PentatopeBounds
 /**
  * @brief Vertices, labels and shapes of pentatopes, those around each vertex, and the facets of
  * interfaces.
+ *
+ * At the ends of a periodic mesh a vertex has a twin; both have the same place in space.
  *
  * The pentatopes of Surroundings have the label 0. Threads may read at the same time, and change
  * pentatopes and points that no other thread reads.
@@ -139,7 +141,21 @@ public:
   /** Whether the facet of s across vertex i lies on a time plane. */
   bool IsOnPlane(std::size_t s, unsigned i) const;
 
-  void Move(std::uint32_t v, const Point<4>& p) { this->Points[v] = p; }
+  /** The vertex at the other end of a periodic mesh; None if there is none. */
+  std::uint32_t TwinOf(std::uint32_t v) const
+  {
+    return this->Twins.empty() ? None : this->Twins[v];
+  }
+
+  /** Moves a vertex; its twin to the same place in space. */
+  void Move(std::uint32_t v, const Point<4>& p)
+  {
+    this->Points[v] = p;
+    if (const std::uint32_t twin = this->TwinOf(v); twin != None)
+    {
+      this->Points[twin] = { p[0], p[1], p[2], this->Points[twin][3] };
+    }
+  }
   void SetQuality(std::size_t s, double quality) { this->Qualities[s] = quality; }
   void Replace(std::size_t s, const Vertices& corners, double quality)
   {
@@ -163,6 +179,7 @@ private:
   std::vector<std::uint32_t> Stars;
   std::vector<std::size_t> FirstFacet; ///< by vertex of the mesh, and the end
   std::vector<std::uint32_t> FacetsOf;
+  std::vector<std::uint32_t> Twins; ///< of each vertex; empty if there are none
 };
 
 } // namespace voxplex

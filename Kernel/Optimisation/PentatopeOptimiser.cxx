@@ -82,6 +82,7 @@ private:
   {
     std::vector<std::uint32_t> vertices(this->Original.Points.size());
     std::iota(vertices.begin(), vertices.end(), 0);
+    std::erase_if(vertices, [this](std::uint32_t v) { return this->Leader(v) != v; });
     this->Smooth(std::move(vertices),
       [this](PentatopeSmoother& smoother, std::uint32_t v)
       { return smoother.RaiseSum(v, this->Bounds.Target); });
@@ -206,6 +207,12 @@ private:
     return next;
   }
 
+  /** Of a vertex and its twin the one that is listed. It moves both. */
+  std::uint32_t Leader(std::uint32_t v) const
+  {
+    return std::min(v, this->Complex.TwinOf(v)); // None is the largest number
+  }
+
   /**
    * Moves vertices, once each. A vertex waits for its neighbours of lower rank. So the result is that
    * of one thread, which moves them in the order of their ranks.
@@ -218,9 +225,17 @@ private:
     std::sort(vertices.begin(), vertices.end(),
       [](std::uint32_t a, std::uint32_t b) { return std::pair(Mix(a), a) < std::pair(Mix(b), b); });
     std::vector<std::uint32_t> ranks(this->Complex.NumberOfPoints(), None);
+    const auto setRank = [this, &ranks](std::uint32_t v, std::uint32_t rank)
+    {
+      ranks[v] = rank;
+      if (const std::uint32_t twin = this->Complex.TwinOf(v); twin != None)
+      {
+        ranks[twin] = rank;
+      }
+    };
     for (std::size_t k = 0; k < vertices.size(); ++k)
     {
-      ranks[vertices[k]] = static_cast<std::uint32_t>(k);
+      setRank(vertices[k], static_cast<std::uint32_t>(k));
     }
     std::atomic<std::uint64_t> moves{ 0 };
     while (!vertices.empty())
@@ -250,7 +265,7 @@ private:
           if (isFirst[k] != 0)
           {
             moves += this->Improve(vertices[k], improve) ? 1 : 0;
-            ranks[vertices[k]] = None;
+            setRank(vertices[k], None);
           }
         });
       std::size_t left = 0;
@@ -266,14 +281,18 @@ private:
 
   bool ComesFirst(std::uint32_t v, const std::vector<std::uint32_t>& ranks) const
   {
+    const auto isFirstIn = [&](std::uint32_t s)
+    {
+      const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
+      return std::all_of(corners.begin(), corners.end(),
+        [&](std::uint32_t other) { return ranks[other] >= ranks[v]; });
+    };
     const std::span<const std::uint32_t> star = this->Complex.StarOf(v);
-    return std::all_of(star.begin(), star.end(),
-      [&](std::uint32_t s)
-      {
-        const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
-        return std::all_of(corners.begin(), corners.end(),
-          [&](std::uint32_t other) { return ranks[other] >= ranks[v]; });
-      });
+    const std::uint32_t twin = this->Complex.TwinOf(v);
+    const std::span<const std::uint32_t> other =
+      twin == None ? std::span<const std::uint32_t>() : this->Complex.StarOf(twin);
+    return std::all_of(star.begin(), star.end(), isFirstIn) &&
+      std::all_of(other.begin(), other.end(), isFirstIn);
   }
 
   std::vector<std::uint32_t> FindVerticesToMove() const
@@ -283,9 +302,9 @@ private:
     {
       for (const std::uint32_t v : this->Complex.CornersOf(s))
       {
-        if (this->HasNews[v] != 0)
+        if (this->HasNews[this->Leader(v)] != 0)
         {
-          vertices.push_back(v);
+          vertices.push_back(this->Leader(v));
         }
       }
     }
@@ -303,9 +322,13 @@ private:
     {
       return false;
     }
-    for (const std::uint32_t s : this->Complex.StarOf(v))
+    for (const std::uint32_t of : { v, this->Complex.TwinOf(v) })
     {
-      this->TellVertices(this->Complex.CornersOf(s));
+      for (const std::uint32_t s :
+        of == None ? std::span<const std::uint32_t>() : this->Complex.StarOf(of))
+      {
+        this->TellVertices(this->Complex.CornersOf(s));
+      }
     }
     return true;
   }
@@ -315,7 +338,8 @@ private:
   {
     for (const std::uint32_t v : corners)
     {
-      std::atomic_ref<std::uint8_t>(this->HasNews[v]).store(1, std::memory_order_relaxed);
+      std::atomic_ref<std::uint8_t>(this->HasNews[this->Leader(v)])
+        .store(1, std::memory_order_relaxed);
     }
   }
 

@@ -40,7 +40,8 @@ struct PentatopeStatistics
  * - the interfaces: their vertices move along them, by a quarter of an edge or half a voxel at most.
  *   As a last resort they leave them, by PentatopeBounds::InterfaceTolerance at most;
  * - the bounds of radius-edge ratios and sizes;
- * - facets on time planes and the ends of a periodic mesh (PentatopeBounds::Planes).
+ * - facets on time planes (PentatopeBounds::Planes), and those at the ends of a periodic mesh. Both ends stay
+ *   congruent: a vertex and its twin (SimplexMesh::Twins) move together.
  *
  * Points keep their order. So do pentatopes; new ones come last. The result does not depend on the
  * number of threads.

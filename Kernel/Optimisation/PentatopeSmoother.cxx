@@ -158,7 +158,7 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
 bool PentatopeSmoother::Begin(std::uint32_t v)
 {
   this->Start = this->Target.PointOf(v);
-  if (this->Limits.HasTwin(this->Start))
+  if (this->Limits.HasTwin(this->Start) && this->Target.TwinOf(v) == None)
   {
     return false;
   }
@@ -172,17 +172,40 @@ bool PentatopeSmoother::Begin(std::uint32_t v)
 void PentatopeSmoother::GatherNormals(std::uint32_t v)
 {
   this->Normals.clear();
-  const std::span<const std::uint32_t> facets = this->Target.FacetsAt(v);
-  this->IsOnInterface = !facets.empty();
+  this->FacetNormals.clear();
+  const std::uint32_t twin = this->Target.TwinOf(v);
+  this->IsOnInterface =
+    !this->Target.FacetsAt(v).empty() || (twin != None && !this->Target.FacetsAt(twin).empty());
   if (!this->IsOnInterface)
   {
     return;
   }
   std::array<Point<4>, 4> sum{};
   double total = 0.0;
+  this->AddNormals(v, sum, total);
+  if (twin != None)
+  {
+    this->AddNormals(twin, sum, total);
+  }
+  const SymmetricEigen<4> eigen = EigenOf<4>(sum);
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    if (eigen.Values[k] > NormalShare * total)
+    {
+      this->Normals.push_back(eigen.Vectors[k]);
+    }
+  }
+  if (this->Normals.size() == 1)
+  {
+    this->Normals.front() = this->SumOfNormals(this->Normals.front());
+  }
+}
+
+/** Adds the normals of the facets around a vertex, and their outer products over their areas. */
+void PentatopeSmoother::AddNormals(std::uint32_t v, std::array<Point<4>, 4>& sum, double& total)
+{
   const bool keepsTime = this->Limits.KeepsTime(this->Start);
-  this->FacetNormals.clear();
-  for (const std::uint32_t f : facets)
+  for (const std::uint32_t f : this->Target.FacetsAt(v))
   {
     const std::array<std::uint32_t, 4>& corners = this->Target.Facet(f);
     const Point<4>& origin = this->Target.PointOf(corners[0]);
@@ -200,18 +223,6 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
     }
     total += area;
     this->FacetNormals.push_back(normal);
-  }
-  const SymmetricEigen<4> eigen = EigenOf<4>(sum);
-  for (std::size_t k = 0; k < 4; ++k)
-  {
-    if (eigen.Values[k] > NormalShare * total)
-    {
-      this->Normals.push_back(eigen.Vectors[k]);
-    }
-  }
-  if (this->Normals.size() == 1)
-  {
-    this->Normals.front() = this->SumOfNormals(this->Normals.front());
   }
 }
 

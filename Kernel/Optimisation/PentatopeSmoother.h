@@ -26,9 +26,9 @@ namespace voxplex
  * them. If facets have several normals, at a crease or where interfaces meet, all of these are
  * excluded. If they have one, the moves change no label's volume. Such a vertex moves by at most half
  * a voxel along each axis and a quarter of its shortest edge in all, and stays on a flat end.
- * Vertices on time planes stay on them; those at the ends of a periodic mesh do not move. A pentatope
- * outside of the object is not turned
- * over, so the mesh does not overlap itself.
+ * Vertices on time planes stay on them. At the ends of a periodic mesh a vertex and its twin move together: the
+ * pentatopes and facets around both count. A vertex there without a twin does not move. A pentatope outside of the
+ * object is not turned over, so the mesh does not overlap itself.
  */
 class PentatopeSmoother
 {
@@ -60,6 +60,7 @@ public:
 private:
   bool Begin(std::uint32_t v);
   void GatherNormals(std::uint32_t v);
+  void AddNormals(std::uint32_t v, std::array<Point<4>, 4>& sum, double& total);
   Point<4> SumOfNormals(const Point<4>& side) const;
   void Project(Point<4>& direction) const;
   std::size_t Worst() const;

@@ -62,8 +62,9 @@ void MeasureFacet(MovedPentatope& one, const Point<4>& vertex)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-PentatopeShape MovedPentatope::ShapeAt(const Point<4>& p) const
+PentatopeShape MovedPentatope::ShapeAt(const Point<4>& place) const
 {
+  const Point<4> p = this->PlaceOf(place);
   const Point<4> d = Subtract(p, this->Centre);
   const double height = Dot(d, this->Normal);
   if (!(height > 0.0))
@@ -90,7 +91,7 @@ PentatopeShape MovedPentatope::ShapeAt(const Point<4>& p) const
 // q = A h / (regular R^4), and the gradient of t is (p - circumcentre) / h.
 Point<4> MovedPentatope::GradientAt(const Point<4>& p) const
 {
-  const Point<4> d = Subtract(p, this->Centre);
+  const Point<4> d = Subtract(this->PlaceOf(p), this->Centre);
   const double height = Dot(d, this->Normal);
   const double t = (Dot(d, d) - this->Radius2) / (2.0 * height);
   const double radius2 = this->Radius2 + t * t;
@@ -108,36 +109,51 @@ void PentatopeStar::Gather(const PentatopeComplex& complex, std::uint32_t v)
 {
   this->All.clear();
   this->NumberInside = 0;
-  const Point<4>& vertex = complex.PointOf(v);
-  double shortest2 = std::numeric_limits<double>::infinity();
+  this->Shortest = std::numeric_limits<double>::infinity(); // squared, until all are there
+  const std::uint32_t twin = complex.TwinOf(v);
+  const double shift = twin == None ? 0.0 : complex.PointOf(twin)[3] - complex.PointOf(v)[3];
   for (const bool inside : { true, false })
   {
-    for (const std::uint32_t s : complex.StarOf(v))
+    const auto addStar = [&](std::uint32_t of, double shiftOf)
     {
-      const LabelId label = complex.LabelOf(s);
-      if ((label != 0) != inside)
+      for (const std::uint32_t s : complex.StarOf(of))
       {
-        continue;
-      }
-      MovedPentatope& one = this->All.emplace_back();
-      one.Id = s;
-      one.Label = label;
-      one.Quality = complex.QualityOf(s);
-      one.OldRatio = -1.0;
-      std::size_t k = 0;
-      for (const std::uint32_t corner : complex.CornersOf(s))
-      {
-        if (corner != v)
+        if ((complex.LabelOf(s) != 0) == inside)
         {
-          one.Facet[k++] = &complex.PointOf(corner);
-          shortest2 = std::min(shortest2, Distance2(*one.Facet[k - 1], vertex));
+          this->Add(complex, s, of, shiftOf);
         }
       }
-      MeasureFacet(one, vertex);
+    };
+    addStar(v, 0.0);
+    if (twin != None)
+    {
+      addStar(twin, shift);
     }
     this->NumberInside = inside ? this->All.size() : this->NumberInside;
   }
-  this->Shortest = std::sqrt(shortest2);
+  this->Shortest = std::sqrt(this->Shortest);
+}
+
+void PentatopeStar::Add(
+  const PentatopeComplex& complex, std::uint32_t s, std::uint32_t v, double shift)
+{
+  const Point<4>& vertex = complex.PointOf(v);
+  MovedPentatope& one = this->All.emplace_back();
+  one.Id = s;
+  one.Label = complex.LabelOf(s);
+  one.Quality = complex.QualityOf(s);
+  one.OldRatio = -1.0;
+  one.Shift = shift;
+  std::size_t k = 0;
+  for (const std::uint32_t corner : complex.CornersOf(s))
+  {
+    if (corner != v)
+    {
+      one.Facet[k++] = &complex.PointOf(corner);
+      this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k - 1], vertex));
+    }
+  }
+  MeasureFacet(one, vertex);
 }
 
 } // namespace voxplex

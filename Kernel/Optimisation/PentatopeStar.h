@@ -26,6 +26,8 @@ namespace voxplex
  * height h = (p - c) . n, the pentatope has the volume A h. Its circumcentre is c + t n with
  * t = (|p - c|^2 - r^2) / (2 h), and its squared circumradius is r^2 + t^2. So a place costs a few
  * dozen operations.
+ *
+ * A pentatope at the twin of the vertex is measured at the same place in space, at its own time.
  */
 struct MovedPentatope
 {
@@ -39,18 +41,21 @@ struct MovedPentatope
   double Radius2;       ///< r^2
   double Area;          ///< A
   double ShortestEdge2; ///< of the facet
+  double Shift;         ///< the twin's time minus that of the vertex; 0 at the vertex itself
 
   double VolumeAt(const Point<4>& p) const
   {
-    return this->Area * Dot(Subtract(p, this->Centre), this->Normal);
+    return this->Area * Dot(Subtract(this->PlaceOf(p), this->Centre), this->Normal);
   }
   /** Normalized volume, ratio and circumball; quality 0 if it is not positively oriented. */
   PentatopeShape ShapeAt(const Point<4>& p) const;
   /** The gradient of the normalized volume. The pentatope must be positively oriented at p. */
   Point<4> GradientAt(const Point<4>& p) const;
+  /** Where the vertex of this pentatope is, if that of the star is at p. */
+  Point<4> PlaceOf(const Point<4>& p) const { return { p[0], p[1], p[2], p[3] + this->Shift }; }
 };
 
-/** @brief The pentatopes around a vertex: first those of the mesh, then those outside. */
+/** @brief The pentatopes around a vertex and its twin: first those of the mesh, then those outside. */
 class PentatopeStar
 {
 public:
@@ -66,9 +71,11 @@ public:
   {
     return std::span(this->All).subspan(this->NumberInside);
   }
-  double ShortestEdge() const { return this->Shortest; } ///< of those at the vertex
+  double ShortestEdge() const { return this->Shortest; } ///< of those at the vertex and its twin
 
 private:
+  void Add(const PentatopeComplex& complex, std::uint32_t s, std::uint32_t v, double shift);
+
   std::vector<MovedPentatope> All;
   std::size_t NumberInside = 0;
   double Shortest = 0.0;

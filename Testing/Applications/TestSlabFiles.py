@@ -137,6 +137,33 @@ class Slabs(SlabTestCase):
             self.assert_refused(1, f"cannot write '{prefix}0.vtu': .*{reason}", *self.arguments[:2], "--delta", 0.01,
                                 "--time-planes", "7.5", "--slabs", prefix)
 
+    def test_reproducible(self):
+        """The same file for any number of threads."""
+        for arguments in (("--time-planes", "7.5,13"), ("--periodic",)):
+            files = []
+            for threads in (1, 2, 5):
+                self.mesh(*self.arguments[:-1], threads, *arguments, "--reproducible", "--output", "mesh.mfem")
+                files.append((self.folder / "mesh.mfem").read_bytes())
+            self.assertTrue(files[0] == files[1] == files[2])
+
+    def test_period_of_grey_values(self):
+        k, j, i = np.meshgrid(*[np.arange(18) - 8.5] * 3, indexing="ij")
+        phases = 2 * math.pi * (np.arange(FRAMES) % (FRAMES - 1)) / (FRAMES - 1)
+        values = np.stack([5.5 - np.sqrt((i - math.cos(p))**2 + (j - math.sin(p))**2 + k * k) for p in phases])
+        geometry = images.Geometry((5, -7, 11), (1.0, 1.0, 1.0), first_time=FIRST, time_step=STEP)
+        image = images.write_space_time_nrrd(self.folder / "ct.nrrd", values.astype(np.float32), geometry)
+        arguments = ("--input", image, "--isovalue", 0, "--delta", 2, "--smoothing", 0.8, "--periodic")
+        self.mesh(*arguments, "--output", "mesh.vtu")
+        mesh = Grid(self.folder / "mesh.vtu")
+        first, last = FIRST, FIRST + (FRAMES - 1) * STEP
+        self.assertGreater(len(mesh.facets_at(first)), 50)
+        self.assertEqual(mesh.facets_at(first), mesh.facets_at(last))
+        expected = 4 / 3 * math.pi * 5.5**3 * (last - first)
+        self.assertAlmostEqual(mesh.volumes().sum() / expected, 1, delta=0.03)
+        values[-1, 3, 2, 1] += 1
+        images.write_space_time_nrrd(image, values.astype(np.float32), geometry)
+        self.assert_refused(1, r"they differ in 1 voxels, one of which is \(1, 2, 3\)", *arguments)
+
     def test_plane_at_an_end(self):
         self.mesh(*self.arguments, "--time-planes", FIRST, "--output", "mesh.mfem", "--slabs", "s_")
         self.assertEqual((self.folder / "mesh.mfem").read_bytes(), (self.folder / "s_0.mfem").read_bytes())
@@ -148,8 +175,7 @@ class Slabs(SlabTestCase):
                 (1, "a slab of 1 is thinner than delta, which is 2", ("--time-planes", "7,8")),
                 (2, "--time-planes: 'x' is not a number", ("--time-planes", "5,x")),
                 (2, "--slabs: there is one slab only", ("--slabs", "s_")),
-                (2, "--slabs: 's.vtu' is the whole name of a file", ("--time-planes", "7", "--slabs", "s.vtu")),
-                (2, "do not go together with --reproducible", ("--periodic", "--reproducible"))):
+                (2, "--slabs: 's.vtu' is the whole name of a file", ("--time-planes", "7", "--slabs", "s.vtu"))):
             with self.subTest(pattern):
                 self.assert_refused(status, pattern, *self.arguments, *arguments)
         image = images.write_nrrd(self.folder / "ball.nrrd", images.ball())

@@ -112,6 +112,22 @@ TEST(ReproducibleMeshing, Sizes)
   ExpectSameForAnyNumberOfThreads<3>("20,000 elements", phantoms::Ball(12.0), options);
 }
 
+// Everything on that users get.
+TEST(ReproducibleMeshing, TimePlanesAndPeriods)
+{
+  for (const bool isPeriodic : { false, true })
+  {
+    MeshingOptions<4> options;
+    options.Sampling.Delta = Sanitized ? 3.5 : 2.0;
+    options.Optimisation.Run = true;
+    options.Components.Smallest = 8;
+    options.Planes.Times = isPeriodic ? std::vector<double>() : std::vector<double>{ 5.0, 11.0 };
+    options.Planes.Periodic = isPeriodic;
+    ExpectSameForAnyNumberOfThreads<4>(isPeriodic ? "a period" : "planes",
+      checks::ImageOf(checks::PulsatingBalls(17, 1.0, 2.5)), options);
+  }
+}
+
 TEST(ReproducibleMeshing, SpaceTime)
 {
   const double delta = Sanitized ? 3.5 : 2.5;

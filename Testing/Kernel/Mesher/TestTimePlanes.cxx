@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 using namespace voxplex;
@@ -252,6 +253,112 @@ TEST(TimePlanes, OneThreadGivesTheSameMeshAgain)
   EXPECT_TRUE(first.Mesh.Twins == second.Mesh.Twins);
 }
 
+namespace
+{
+
+/** Values of a ball that moves around a circle once, in 17 frames; the last is the first one. */
+std::vector<float> CirclingBall(const GridGeometry<4>& grid)
+{
+  std::vector<float> values;
+  std::array<std::int64_t, 4> v{};
+  for (v[3] = 0; v[3] < grid.Dimensions[3]; ++v[3])
+  {
+    const double phase = 2.0 * std::numbers::pi *
+      static_cast<double>(v[3] % (grid.Dimensions[3] - 1)) /
+      static_cast<double>(grid.Dimensions[3] - 1);
+    const Point<3> centre = { 12.0 + 2.5 * std::cos(phase), 12.0 + 2.5 * std::sin(phase), 12.0 };
+    for (v[2] = 0; v[2] < grid.Dimensions[2]; ++v[2])
+    {
+      for (v[1] = 0; v[1] < grid.Dimensions[1]; ++v[1])
+      {
+        for (v[0] = 0; v[0] < grid.Dimensions[0]; ++v[0])
+        {
+          const Point<3> x = { static_cast<double>(v[0]), static_cast<double>(v[1]),
+            static_cast<double>(v[2]) };
+          values.push_back(static_cast<float>(7.0 - Distance(x, centre)));
+        }
+      }
+    }
+  }
+  return values;
+}
+
+} // namespace
+
+TEST(TimePlanes, IsosurfacesHavePeriods)
+{
+  const auto grid = GridGeometry<4>::Orthogonal({ 25, 25, 25, 17 }, { 1.0, 1.0, 1.0, 1.0 });
+  std::vector<float> values = CirclingBall(grid);
+  MeshingOptions<4> options = WithPlanes(2.0, {});
+  options.Planes.Periodic = true;
+  for (const double sigma : { 0.0, 1.0 })
+  {
+    SCOPED_TRACE(sigma);
+    Isosurface surface;
+    surface.SmoothingSigma = sigma;
+    surface.PeriodicInTime = true;
+    const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
+    ImageMesher<4> mesher(options);
+    Result result;
+    ASSERT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
+    result.Statistics = mesher.Statistics();
+    ExpectSlabs(result, 0.0, 16.0);
+    ExpectPeriod(result, 0.0, 16.0);
+    const double expected = 16.0 * 4.0 / 3.0 * std::numbers::pi * 343.0;
+    EXPECT_NEAR(Volumes(result.Mesh).at(1), expected, 0.015 * expected);
+    EXPECT_EQ(result.Statistics.Planes.Refused, 0u);
+  }
+
+  const auto refusal = [&](bool isPeriodic)
+  {
+    try
+    {
+      Isosurface surface;
+      surface.PeriodicInTime = isPeriodic;
+      const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
+      SimplexMesh<4> mesh;
+      ImageMesher<4>(options).Run(image, mesh);
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(false).find("an image that was made to be periodic"), std::string::npos);
+  values[(24 * 25 + 3) * 25 + 2] += 1.0f;
+  EXPECT_NE(
+    refusal(true).find("they differ in 1 voxels, one of which is (2, 3, 24)"), std::string::npos)
+    << refusal(true);
+}
+
+// Values that only wrap make both ends equal: they change before the last frame, but not after the first one.
+TEST(TimePlanes, ValuesWrapAtTheEndsOfAPeriod)
+{
+  const auto grid = GridGeometry<4>::Orthogonal({ 25, 25, 25, 17 }, { 1.0, 1.0, 1.0, 1.0 });
+  const std::vector<float> values = CirclingBall(grid);
+  for (const bool isPeriodic : { true, false })
+  {
+    Isosurface surface;
+    surface.SmoothingSigma = 1.0;
+    surface.PeriodicInTime = isPeriodic;
+    const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
+    std::size_t differ = 0;
+    std::vector<float> first(25);
+    std::vector<float> last(25);
+    for (std::int64_t y = 0; y < 25; ++y)
+    {
+      for (std::int64_t z = 0; z < 25; ++z)
+      {
+        image.ReadMargins({ 0, y, z, 0 }, 25, first.data());
+        image.ReadMargins({ 0, y, z, 16 }, 25, last.data());
+        differ += first != last ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(differ > 0, !isPeriodic);
+  }
+}
+
 TEST(TimePlanes, RefusesWhatCannotBe)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
@@ -280,11 +387,8 @@ TEST(TimePlanes, RefusesWhatCannotBe)
   expect(WithPlanes(2.0, { nan }), "is not between");
   expect(WithPlanes(2.0, { 8.0, 9.0 }), "a slab of 1 is thinner than delta, which is 2");
   expect(WithPlanes(2.0, { 15.0 }), "a slab of 1 is thinner than delta, which is 2");
-  MeshingOptions<4> options = WithPlanes(2.0, { 8.0 });
-  options.Team.Reproducible = true;
-  expect(options, "cannot be combined with reproducible threads");
 
-  options = WithPlanes(2.0, {});
+  MeshingOptions<4> options = WithPlanes(2.0, {});
   options.Planes.Periodic = true;
   const std::string message = messageOf(
     ImageOf({ image.Grid(),

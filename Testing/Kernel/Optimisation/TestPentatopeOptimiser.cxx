@@ -266,6 +266,55 @@ TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
   EXPECT_GT(positive, 1000u);
 }
 
+/** The smallest quality of pentatopes with a vertex at a time. */
+double WorstAt(const SimplexMesh<4>& mesh, double time)
+{
+  double worst = 1.0;
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    const std::array<const Point<4>*, 5> points = mesh.PointsOf(s);
+    if (std::any_of(
+          points.begin(), points.end(), [time](const Point<4>* p) { return (*p)[3] == time; }))
+    {
+      worst = std::min(worst, NormalizedVolume<4>(points.data()));
+    }
+  }
+  return worst;
+}
+
+// Both ends of a period: each vertex moves with its twin.
+TEST(PentatopeOptimiser, MovesTwinsTogether)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0, 2.5));
+  MeshingOptions<4> options = UsualOptions(2.0);
+  options.Planes.Periodic = true;
+  const SimplexMesh<4> before = Mesh(image, options, false).Mesh;
+  const SimplexMesh<4> after = Mesh(image, options, true).Mesh;
+  ASSERT_EQ(before.Twins, after.Twins);
+  ASSERT_GT(after.Twins.size(), 100u);
+  std::size_t moved = 0;
+  for (const auto& [first, last] : after.Twins)
+  {
+    const Point<4>& p = after.Points[first];
+    const Point<4>& q = after.Points[last];
+    ASSERT_EQ(p, (Point<4>{ q[0], q[1], q[2], 0.0 }));
+    ASSERT_EQ(q[3], 16.0);
+    moved += p != before.Points[first] ? 1 : 0;
+  }
+  EXPECT_GT(moved, after.Twins.size() / 2);
+  for (const double time : { 0.0, 16.0 })
+  {
+    EXPECT_GT(WorstAt(after, time), 1.5 * WorstAt(before, time));
+    EXPECT_GT(WorstAt(after, time), 0.03);
+  }
+  EXPECT_TRUE(Complaints(after).empty());
+  ExpectSameInterfaces(before, after, image);
+  for (const auto& [label, volume] : Volumes(before))
+  {
+    EXPECT_NEAR(Volumes(after).at(label), volume, 0.002 * volume) << label;
+  }
+}
+
 TEST(PentatopeOptimiser, DoesNotDependOnThreads)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));

@@ -32,6 +32,8 @@ void ExpectSame(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
   EXPECT_TRUE(a.Labels == b.Labels);
   EXPECT_TRUE(a.Facets == b.Facets);
   EXPECT_TRUE(a.FacetLabels == b.FacetLabels);
+  EXPECT_TRUE(a.Slabs == b.Slabs);
+  EXPECT_TRUE(a.Twins == b.Twins);
 }
 
 inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
