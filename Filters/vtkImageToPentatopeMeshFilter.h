@@ -99,9 +99,8 @@
  * that differ in dimensions, spacing, origin, direction or array, times that do not increase or are
  * not finite, two frames so near in time that there would be too many equally spaced ones, another
  * number of frame times than of frames; time planes outside of the series or too near to each other; a
- * periodic series whose first and last frame differ; time planes together with Reproducible. Messages
- * name frames by their number, from 0, and time. If
- * the input fails while frames are gathered, both outputs stay empty.
+ * periodic series whose first and last frame differ. Messages name frames by their number, from 0, and
+ * time. If the input fails while frames are gathered, both outputs stay empty.
  *
  * @sa vtkPentatopeMeshTimeSlice vtkImageToSimplexMeshFilter vtkImageToTetMeshFilter
  * vtkMeshingStatistics
@@ -205,7 +204,8 @@ public:
 
   ///@{
   /**
-   * Whether the last frame is the first one again, as in a heart that beats. The frames must be equal. The flat ends of
+   * Whether the last frame is the first one again, as in a heart that beats. The frames must be equal: labels, or
+   * grey values where isosurfaces are meshed. The flat ends of
    * the mesh are then congruent: the same points in space, to the bit, the same tetrahedra and
    * labels. If there is no time plane, one is added half-way. Default off.
    */

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -537,6 +538,42 @@ TEST(ScalarField, ThreadsMakeNoDifference)
       const Point<3> p = RandomIndex(grid, 1.0, random);
       ASSERT_EQ(a.Margin(p, 1), b.Margin(p, 1));
     }
+  }
+}
+
+// Samples are raised where neighbours in time are much larger, and closed beside voxels without a number. So what is
+// before the first frame matters there.
+TEST(ScalarField, EndsOfAPeriodAreEqual)
+{
+  const auto grid = UnitGrid<4>(7);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> decades(-6.0, 2.0);
+  std::vector<double> values = Fill(grid,
+    [&](const auto& i)
+    {
+      const double r = std::hypot(static_cast<double>(i[0]) - 3.0, static_cast<double>(i[1]) - 3.0,
+        static_cast<double>(i[2]) - 3.0);
+      const double depth = std::pow(10.0, decades(random));
+      return depth < 1e-5 ? NaN : r < 2.5 ? depth : -depth;
+    });
+  const std::size_t frame = values.size() / 7;
+  std::copy_n(values.begin(), frame, values.end() - static_cast<std::ptrdiff_t>(frame));
+  for (const bool isPeriodic : { true, false })
+  {
+    Isosurface surface;
+    surface.PeriodicInTime = isPeriodic;
+    const auto image = IsosurfaceImage<4>::FromScalars<double>(values, grid, surface);
+    const ScalarField<4> field(image);
+    std::size_t differ = 0;
+    for (int k = 0; k < 2000; ++k)
+    {
+      Point<4> p = RandomIndex(grid, 0.0, random);
+      p[3] = 0.0;
+      const double first = field.Margin(p, 1);
+      p[3] = 6.0;
+      differ += std::abs(field.Margin(p, 1) - first) > 1e-5 ? 1 : 0;
+    }
+    EXPECT_EQ(differ > 0, !isPeriodic) << differ;
   }
 }
 
