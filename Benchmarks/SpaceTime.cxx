@@ -54,6 +54,22 @@ struct Series
 
 using Value = std::function<double(const SpaceTimeRecord&)>;
 
+/** The frames of a phantom, and then the same ones back to the first. */
+phantoms::SpaceTimePhantom ThereAndBack(const phantoms::SpaceTimePhantom& phantom)
+{
+  phantoms::SpaceTimePhantom both = phantom;
+  const std::int64_t last = phantom.Grid.Dimensions[3] - 1;
+  both.Grid.Dimensions[3] = 2 * last + 1;
+  const double step = phantom.Grid.IndexToFrame[3][3];
+  both.Label = [label = phantom.Label, last, step](Point<4> p)
+  {
+    const std::int64_t frame = std::llround(p[3] / step);
+    p[3] = frame > last ? static_cast<double>(2 * last - frame) * step : p[3];
+    return label(p);
+  };
+  return both;
+}
+
 phantoms::SpaceTimePhantom MakePhantom(const SpaceTimeOptions& options)
 {
   const std::map<std::string, std::function<phantoms::SpaceTimePhantom()>> phantoms = {
@@ -69,7 +85,9 @@ phantoms::SpaceTimePhantom MakePhantom(const SpaceTimeOptions& options)
   {
     throw std::invalid_argument("no such phantom: " + options.Phantom);
   }
-  return phantoms::WithTimeScale(found->second(), options.TimeScale);
+  const phantoms::SpaceTimePhantom phantom =
+    phantoms::WithTimeScale(found->second(), options.TimeScale);
+  return options.Periodic ? ThereAndBack(phantom) : phantom;
 }
 
 /** All configurations, those of one thread first. */
@@ -106,6 +124,7 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       meshing.Interfaces.Fit = !options.NoFit;
       meshing.Optimisation.Run = !options.NoOptimise;
       meshing.FrameSteps = options.FrameSteps;
+      meshing.Planes.Periodic = options.Periodic;
       // One thread makes the same mesh in every round.
       const bool fit = (options.Frames || options.Row) && (series.Threads > 1 || round == 0);
       const SpaceTimeRecord record =
@@ -282,9 +301,8 @@ void PrintRow(const SpaceTimeOptions& options, double delta, const SpaceTimeReco
   }
   std::printf("| %s | %g | %g | %.0f | %+.2f | %+.2f | %.0f | %.4f | %.3f | %.2f | %.2f | %.2f |\n",
     options.Phantom.c_str(), delta, record.FrameSteps, record.Pentatopes,
-    100.0 * WorstError(wholes), 100.0 * WorstError(frames), record.LostComponents,
-    record.VolumeMin, record.VolumeMean, record.RadiusEdgeMax, record.RefinementSeconds,
-    record.TotalSeconds);
+    100.0 * WorstError(wholes), 100.0 * WorstError(frames), record.LostComponents, record.VolumeMin,
+    record.VolumeMean, record.RadiusEdgeMax, record.RefinementSeconds, record.TotalSeconds);
 }
 
 void Measure(const SpaceTimeOptions& options, const phantoms::SpaceTimePhantom& phantom)

@@ -28,6 +28,7 @@ thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a proces
   --frame-steps N    steps between two frames (default: as many as the motion asks for; 1: no frames are added)
   --no-fit           vertices of interfaces stay where refinement put them
   --no-optimise      shapes stay as refinement makes them
+  --periodic         the phantom's frames run back to the first one, and the mesh is periodic
   --threads LIST     also run with these numbers of threads, e.g. 2,4 (default: 1 only)
   --repeat K         rounds (default 3); medians are printed
   --frames           also compare volumes with the image, frame by frame
@@ -97,6 +98,7 @@ SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
     { "--no-fine-grained", [&] { options.NoFineGrained = true; } },
     { "--no-fit", [&] { options.NoFit = true; } },
     { "--no-optimise", [&] { options.NoOptimise = true; } },
+    { "--periodic", [&] { options.Periodic = true; } },
     { "--frames", [&] { options.Frames = true; } },
     { "--row", [&] { options.Row = true; } },
   };

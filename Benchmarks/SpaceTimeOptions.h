@@ -32,6 +32,7 @@ struct SpaceTimeOptions
   unsigned FrameSteps = 0; ///< 0: as many as the motion asks for
   bool NoFit = false;
   bool NoOptimise = false;
+  bool Periodic = false; ///< the phantom runs back, and the mesh is periodic
   bool Frames = false;
   bool Row = false; ///< print one row of a table, with the worst errors of the first series
 };

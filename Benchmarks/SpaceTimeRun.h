@@ -20,7 +20,7 @@ namespace voxplex::benchmarks
 
 /** The number of labels of the phantoms: 1 and 2. */
 inline constexpr std::size_t MostLabels = 2;
-inline constexpr std::size_t MostFrames = 32;
+inline constexpr std::size_t MostFrames = 64;
 
 /** The same measure of the image and of the mesh. */
 struct Compared
