@@ -117,6 +117,7 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       Series& series = all[(i + static_cast<std::size_t>(round)) % all.size()];
       MeshingOptions<4> meshing;
       meshing.Sampling.Delta = delta;
+      meshing.Sampling.Grading = options.Grading;
       meshing.Team.Threads = series.Threads;
       meshing.SpaceTime.Order = series.Order;
       meshing.SpaceTime.Slivers.Fight = series.Picking;
@@ -129,8 +130,11 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       const bool fit = (options.Frames || options.Row) && (series.Threads > 1 || round == 0);
       const SpaceTimeRecord record =
         RunInChild([&] { return MeshPhantom(scalars, grid, meshing, fit); });
-      std::fprintf(stderr, "  round %d, %s, %u thread(s): %.0f pentatopes, %.3f s\n", round + 1,
-        series.Name().c_str(), series.Threads, record.Pentatopes, record.RefinementSeconds);
+      std::fprintf(stderr,
+        "  round %d, %s, %u thread(s): %.0f pentatopes, %.3f s (grading %.3f s), %.0f MB\n",
+        round + 1, series.Name().c_str(), series.Threads, record.Pentatopes,
+        record.RefinementSeconds, record.GradingSeconds,
+        static_cast<double>(record.PeakBytes) / 1e6);
       series.Records.push_back(record);
     }
   }

@@ -22,6 +22,8 @@ thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a proces
   --coarsening N     N times fewer voxels of the ventricle along x, y and z (default 1)
   --time-scale S     length of a unit of time (default 1)
   --delta D          sampling distance, in the unit of the spacing (default: derived from the spacing)
+  --feature-ratio R  grade interfaces by the local feature size: sampling distance over it (default: uniform)
+  --largest-feature V  upper bound of the local feature size, in voxels (default 12)
   --picking WHAT     picking regions against slivers: off (default), on or both
   --rule-order WHAT  radius-edge (default), surface or both
   --no-fine-grained  waiting threads do not help to expand cavities
@@ -75,6 +77,13 @@ SpaceTimeOptions ParseSpaceTimeOptions(int argc, char** argv)
     { "--coarsening", [&](Text value) { options.Coarsening = ParseCount(value); } },
     { "--time-scale", [&](Text value) { options.TimeScale = ParseNumber(value); } },
     { "--delta", [&](Text value) { options.Delta = ParseNumber(value); } },
+    { "--feature-ratio",
+      [&](Text value)
+      {
+        options.Grading.Mode = GradingMode::LocalFeatureSize;
+        options.Grading.Ratio = ParseNumber(value);
+      } },
+    { "--largest-feature", [&](Text value) { options.Grading.Lambda = ParseNumber(value); } },
     { "--picking",
       [&](Text value)
       {

@@ -8,6 +8,7 @@
 #define voxplex_SpaceTimeOptions_h
 
 #include "Refinement/RuleOptions.h"
+#include "Sizing/Grading/GradingOptions.h"
 
 #include <cstdint>
 #include <string>
@@ -23,7 +24,8 @@ struct SpaceTimeOptions
   std::string Phantom = "beating-ventricle";
   std::int64_t Coarsening = 1; ///< coarsening of the ventricle
   double TimeScale = 1.0;
-  double Delta = 0.0;            ///< 0: derived from the spacing
+  double Delta = 0.0; ///< 0: derived from the spacing
+  GradingOptions Grading;
   std::vector<unsigned> Threads; ///< increasing; includes 1
   int Repeat = 3;
   std::vector<bool> Picking = { false };

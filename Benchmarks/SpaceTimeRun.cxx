@@ -63,12 +63,13 @@ Fit FitOf(const SimplexMesh<4>& mesh, const LabelImage<4>& image, double sigma)
 void TakeStatistics(const MeshingStatistics& statistics, SpaceTimeRecord& record)
 {
   record.PreparationSeconds = statistics.Times.LabelField + statistics.Times.DistanceTransform;
+  record.GradingSeconds = statistics.Times.Grading;
   record.RefinementSeconds = statistics.Times.Refinement;
   record.ExtractionSeconds = statistics.Times.Extraction;
   record.TotalSeconds = statistics.Times.Total();
   record.FrameSteps = statistics.FrameSteps;
-  record.LostComponents = static_cast<double>(
-    statistics.Components.Lost.size() + statistics.FrameComponents.Lost.size());
+  record.LostComponents =
+    static_cast<double>(statistics.Components.Lost.size() + statistics.FrameComponents.Lost.size());
   const RuleStatistics& rules = statistics.Rules;
   record.AverageCavity = static_cast<double>(rules.CavitySimplices) /
     std::max(1.0, static_cast<double>(rules.Insertions()));

@@ -30,6 +30,8 @@ using Filter = vtkImageToSimplexMeshFilter;
 static_assert(Filter::CONTENTION_RANDOM == static_cast<int>(voxplex::ContentionPolicy::Random) &&
   Filter::CONTENTION_GLOBAL == static_cast<int>(voxplex::ContentionPolicy::Global) &&
   Filter::CONTENTION_LOCAL == static_cast<int>(voxplex::ContentionPolicy::Local));
+static_assert(Filter::UNIFORM == static_cast<int>(voxplex::GradingMode::Uniform) &&
+  Filter::LOCAL_FEATURE_SIZE == static_cast<int>(voxplex::GradingMode::LocalFeatureSize));
 static_assert(static_cast<std::int64_t>(Filter::ANY_LABEL) == voxplex::InterfaceSize::AnyLabel);
 static_assert(
   Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
@@ -482,6 +484,9 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
     CheckSize(size, "The size of label " + std::to_string(label));
   }
   CheckRange(this->Gradation, 0.0, largest, "Gradation", "positive and finite, or 0 for no limit");
+  constexpr double tiny = std::numeric_limits<double>::min();
+  CheckRange(this->FeatureRatio, tiny, largest, "FeatureRatio", "positive and finite");
+  CheckRange(this->LargestFeature, tiny, largest, "LargestFeature", "positive and finite");
   for (const auto& [interface, size] : this->Private->InterfaceSizes)
   {
     if (interface.second < ANY_LABEL || interface.first < 0 || interface.first == interface.second)
@@ -502,6 +507,11 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
 const char* vtkImageToSimplexMeshFilter::GetInputModeAsString() const
 {
   return this->InputMode == INPUT_LABELS ? "labels" : "isosurface";
+}
+
+const char* vtkImageToSimplexMeshFilter::GetGradingAsString() const
+{
+  return this->Grading == UNIFORM ? "uniform" : "local-feature-size";
 }
 
 const char* vtkImageToSimplexMeshFilter::GetInsideAsString() const
@@ -553,6 +563,9 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << (this->Private->LabelSizes.empty() ? " (none)\n" : "\n");
   os << indent << "Gradation: " << this->Gradation << "\n";
+  os << indent << "Grading: " << this->GetGradingAsString() << "\n";
+  os << indent << "FeatureRatio: " << this->FeatureRatio << "\n";
+  os << indent << "LargestFeature: " << this->LargestFeature << "\n";
   os << indent << "InterfaceSizes:";
   for (const auto& [interface, size] : this->Private->InterfaceSizes)
   {

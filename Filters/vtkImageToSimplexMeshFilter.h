@@ -311,6 +311,34 @@ public:
   vtkGetMacro(Gradation, double);
   ///@}
 
+  /** Values of Grading; others are clamped. */
+  enum GradingModes
+  {
+    UNIFORM = 0,
+    LOCAL_FEATURE_SIZE = 1
+  };
+
+  ///@{
+  /**
+   * The sampling distance of interfaces: Delta everywhere (UNIFORM, the default), or more where
+   * their shape allows it (LOCAL_FEATURE_SIZE; thesis, 2.2 and 2.6.1). At a point z it is then at
+   * most max(Delta, FeatureRatio x min(lfs(z), LargestFeature)). The local feature size lfs(z) is
+   * the distance from the medial axis of the interfaces: about half the thickness of a thin part.
+   * FeatureRatio is positive, default 1. LargestFeature is positive, default 12, and its unit is the
+   * edge of a (hyper)cube with a voxel's (hyper)volume.
+   */
+  vtkSetClampMacro(Grading, int, UNIFORM, LOCAL_FEATURE_SIZE);
+  vtkGetMacro(Grading, int);
+  void SetGradingToUniform() { this->SetGrading(UNIFORM); }
+  void SetGradingToLocalFeatureSize() { this->SetGrading(LOCAL_FEATURE_SIZE); }
+  /** "uniform" or "local-feature-size". */
+  const char* GetGradingAsString() const;
+  vtkSetMacro(FeatureRatio, double);
+  vtkGetMacro(FeatureRatio, double);
+  vtkSetMacro(LargestFeature, double);
+  vtkGetMacro(LargestFeature, double);
+  ///@}
+
   /**
    * In SetInterfaceSize(), ANY_LABEL stands for all labels that share an interface with the other
    * label.
@@ -644,6 +672,9 @@ protected:
   double SmoothingSigma = 1.0;
   double ElementSize = 0.0;
   double Gradation = 0.3;
+  int Grading = UNIFORM;
+  double FeatureRatio = 1.0;
+  double LargestFeature = 12.0;
   int NumberOfThreads = 0;
   int ContentionManager = CONTENTION_LOCAL;
   int LoadBalancer = HIERARCHICAL_WORK_STEALING;

@@ -21,10 +21,6 @@
 
 vtkStandardNewMacro(vtkImageToTetMeshFilter);
 
-static_assert(vtkImageToTetMeshFilter::UNIFORM == static_cast<int>(voxplex::GradingMode::Uniform));
-static_assert(vtkImageToTetMeshFilter::LOCAL_FEATURE_SIZE ==
-  static_cast<int>(voxplex::GradingMode::LocalFeatureSize));
-
 namespace
 {
 
@@ -63,11 +59,6 @@ vtkImplicitFunction* vtkImageToTetMeshFilter::GetSizeImplicitFunction() const
   return this->SizeImplicitFunction;
 }
 
-const char* vtkImageToTetMeshFilter::GetGradingAsString() const
-{
-  return this->Grading == UNIFORM ? "uniform" : "local-feature-size";
-}
-
 vtkPolyData* vtkImageToTetMeshFilter::GetInterfaces()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
@@ -96,10 +87,6 @@ double vtkImageToTetMeshFilter::FindDefaultDelta(vtkInformationVector** inputVec
 void vtkImageToTetMeshFilter::CheckParameters() const
 {
   this->Superclass::CheckParameters();
-  voxplex::CheckRange(this->FeatureRatio, std::numeric_limits<double>::min(),
-    std::numeric_limits<double>::max(), "FeatureRatio", "positive and finite");
-  voxplex::CheckRange(this->LargestFeature, std::numeric_limits<double>::min(),
-    std::numeric_limits<double>::max(), "LargestFeature", "positive and finite");
   voxplex::CheckRange(this->FacetAngle, 0.0, 30.0, "FacetAngle", "between 0 and 30 degrees");
   voxplex::CheckRange(this->SliverAngle, 0.0, this->Force ? 59.0 : voxplex::LargestSliverAngle,
     "SliverAngle",
@@ -122,9 +109,6 @@ void vtkImageToTetMeshFilter::Mesh(
     scalars, association, "image", " For time series, use vtkImageToPentatopeMeshFilter.");
 
   Run<3> run(this, inputVector, input.Frame);
-  run.Options.Sampling.Grading.Mode = static_cast<voxplex::GradingMode>(this->Grading);
-  run.Options.Sampling.Grading.Ratio = this->FeatureRatio;
-  run.Options.Sampling.Grading.Lambda = this->LargestFeature;
   run.Options.Shape.FacetAngle = this->FacetAngle;
   run.Options.Shape.Slivers.Angle = this->SliverAngle;
   run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
@@ -175,9 +159,6 @@ void vtkImageToTetMeshFilter::Mesh(
 void vtkImageToTetMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Grading: " << this->GetGradingAsString() << "\n";
-  os << indent << "FeatureRatio: " << this->FeatureRatio << "\n";
-  os << indent << "LargestFeature: " << this->LargestFeature << "\n";
   os << indent << "FacetAngle: " << this->FacetAngle << "\n";
   os << indent << "SliverAngle: " << this->SliverAngle << "\n";
   os << indent << "OptimisationTimeLimit: " << this->OptimisationTimeLimit << "\n";

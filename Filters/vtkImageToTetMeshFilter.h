@@ -74,52 +74,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
   ///@}
 
-  /** Values of Grading. */
-  enum GradingModes
-  {
-    UNIFORM = 0,
-    LOCAL_FEATURE_SIZE = 1
-  };
-
-  ///@{
-  /**
-   * The sampling distance of interfaces.
-   * - UNIFORM, the default: Delta everywhere.
-   * - LOCAL_FEATURE_SIZE (thesis, sections 2.2 and 2.6.1): Delta where the shape needs it, and more
-   *   elsewhere. At a point z it is max(Delta, FeatureRatio x min(lfs(z), LargestFeature)). The
-   *   local feature size lfs(z) is the distance from z to the medial axis of the interfaces: about
-   *   half the thickness of a thin part.
-   *
-   * Values outside of GradingModes are clamped.
-   */
-  vtkSetClampMacro(Grading, int, UNIFORM, LOCAL_FEATURE_SIZE);
-  vtkGetMacro(Grading, int);
-  void SetGradingToUniform() { this->SetGrading(UNIFORM); }
-  void SetGradingToLocalFeatureSize() { this->SetGrading(LOCAL_FEATURE_SIZE); }
-  /** "uniform" or "local-feature-size". */
-  const char* GetGradingAsString() const;
-  ///@}
-
-  ///@{
-  /**
-   * Sampling distance over local feature size (delta of the thesis, where it is 2). A larger value
-   * gives a coarser mesh. Positive; default 1. It has an effect only if Grading is
-   * LOCAL_FEATURE_SIZE.
-   */
-  vtkSetMacro(FeatureRatio, double);
-  vtkGetMacro(FeatureRatio, double);
-  ///@}
-
-  ///@{
-  /**
-   * Upper bound of the local feature size (lambda of the thesis), in edges of a cube with a voxel's
-   * volume. Larger local feature sizes are cut to it. Positive; default 12. It has an effect only
-   * if Grading is LOCAL_FEATURE_SIZE.
-   */
-  vtkSetMacro(LargestFeature, double);
-  vtkGetMacro(LargestFeature, double);
-  ///@}
-
   ///@{
   /** Lower bound of the angles of interface triangles in degrees, 0 to 30. Default 30. */
   vtkSetMacro(FacetAngle, double);
@@ -202,9 +156,6 @@ protected:
   void Mesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector) override;
 #endif
 
-  int Grading = UNIFORM;
-  double FeatureRatio = 1.0;
-  double LargestFeature = 12.0;
   double FacetAngle = 30.0;
   double SliverAngle = 9.0;
   double OptimisationTimeLimit = 0.0;

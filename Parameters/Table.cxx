@@ -88,7 +88,7 @@ Parameters Sampling()
       { .Property = "NumberOfElements",
         .Label = "Number of elements",
         .Zero = "it depends on delta" }),
-    Word("grading", 3, "uniform", { "uniform", "lfs" },
+    Word("grading", 0, "uniform", { "uniform", "lfs" },
       "sample interfaces with delta everywhere (uniform), or more coarsely where their shape "
       "allows it, by the local feature size (lfs): the distance to the medial axis, about half the "
       "thickness of a thin part"),
@@ -143,11 +143,11 @@ Parameters Interfaces()
       "sampling distance of all interfaces of a label, or of the interface between two labels (0 "
       "is background), in place of delta; it may be smaller or larger",
       { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
-    Number(Kind::Real, "feature-ratio", 3, Positive, "1", "RATIO",
+    Number(Kind::Real, "feature-ratio", 0, Positive, "1", "RATIO",
       "with {grading} lfs: sampling distance over local feature size where that gives more than "
       "delta",
       { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
-    Number(Kind::Real, "largest-feature", 3, Positive, "12", "VOXELS",
+    Number(Kind::Real, "largest-feature", 0, Positive, "12", "VOXELS",
       "with {grading} lfs: upper bound of the local feature size (lambda), in voxels",
       { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0 }),
     Number(Kind::Real, "gradation", 0, NotNegative, "0.3", "SLOPE",

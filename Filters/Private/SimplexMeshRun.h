@@ -80,6 +80,8 @@ public:
     this->Options.Sampling.Delta = isDeltaIdle ? 0.0 : filter->Delta;
     this->Options.Sampling.Elements = static_cast<std::uint64_t>(filter->NumberOfElements);
     this->Options.Sampling.Gradation = filter->Gradation;
+    this->Options.Sampling.Grading = { static_cast<voxplex::GradingMode>(filter->Grading),
+      filter->FeatureRatio, filter->LargestFeature };
     for (const auto& [interface, size] : filter->Private->InterfaceSizes)
     {
       this->Options.Sampling.InterfaceSizes.push_back({ interface.first, interface.second, size });

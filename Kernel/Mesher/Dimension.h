@@ -99,7 +99,7 @@ struct Dimension<3>
 };
 
 /**
- * The stages in space-time. There is no grading, and there are no junctions.
+ * The stages in space-time. There are no junctions.
  */
 template <>
 struct Dimension<4>
@@ -108,10 +108,8 @@ struct Dimension<4>
   static std::unique_ptr<RefinementStage<4>> MakeStage(
     const RunEnvironment<4>& run, const RefinementPlan<4>& plan);
 
-  static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>&, double delta)
-  {
-    return { BaseDistance<4>{ delta }, nullptr };
-  }
+  /** As in space. */
+  static OwnedBaseDistance<4> GradeBase(const RunEnvironment<4>& run, double delta);
   static std::vector<FeatureSeed<4>> SampleJunctions(
     const RunEnvironment<4>&, const SizingField<4>&)
   {

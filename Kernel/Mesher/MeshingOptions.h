@@ -40,7 +40,7 @@ struct SamplingOptions
    * the result of each refinement.
    */
   std::uint64_t Elements = 0;
-  /** Where to sample interfaces more coarsely than Delta; 3D only. */
+  /** Where to sample interfaces more coarsely than Delta. */
   GradingOptions Grading;
   /** Sampling distances of single interfaces, in place of delta. They may be larger than delta. */
   std::vector<InterfaceSize> InterfaceSizes;

@@ -452,7 +452,7 @@ protected:
     const double delta = place.OnEnd && this->Context.Sizing.DependsOnLabels(place.Position)
       ? this->Context.Sizing.SamplingDistance(
           place.Position, t.Label, this->Context.Image.Label(place.Position))
-      : this->Context.Sizing.Base().Delta;
+      : this->Context.Sizing.BaseAt(place.Position);
     const double spacing =
       std::min(deltaBeside, this->Context.Sizing.Spacing(place.Position, t.Label));
     if (this->YieldingAt(place.Position, spacing) == Yielding::All)

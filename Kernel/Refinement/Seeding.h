@@ -54,7 +54,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
     Point<D> onEnd;
     const LabelId label = context.Image.Label(p);
     if (context.Image.DistanceBound(p) < reach && context.Image.ClosestSurfacePoint(p, label, z) &&
-      !context.IsNearEnd(z, context.Sizing.Base().Delta, onEnd))
+      !context.IsNearEnd(z, context.Sizing.BaseAt(z), onEnd))
     {
       const double delta = context.Sizing.BaseAt(z);
       sample.push_back({ z,

@@ -20,7 +20,7 @@ enum class GradingMode
 /**
  * In mode LocalFeatureSize Delta(z) = max(delta, Ratio x min(lambda, lfs(z))), and less where the
  * interface bends (LocalFeatureSize). lfs(z) is the local feature size: the distance from a point z
- * of the interfaces to their medial axis. 3D only.
+ * of the interfaces to their medial axis; in 4D in space-time, with time in units of length.
  */
 struct GradingOptions
 {
@@ -29,7 +29,7 @@ struct GradingOptions
   double Ratio = 1.0;
   /**
    * Upper bound of the local feature size; the unit is the edge of a cube with the volume of a
-   * voxel.
+   * voxel; in 4D of a hypercube with its hypervolume.
    */
   double Lambda = 12.0;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizing/Grading/InterfaceSamples.h"
 
+#include "Base/GridIndex.h"
 #include "Base/MixBits.h"
 #include "Parallel/ParallelFor.h"
 
@@ -16,19 +17,18 @@ namespace voxplex
 namespace
 {
 
-using Index = GridGeometry<3>::Index;
-
 /** Largest displacement of a point along an axis, in smallest voxel spacings. */
 constexpr double Jitter = 1e-3;
 
 /** A step from a voxel to the next one along an axis. */
+template <int D>
 struct Step
 {
   LabelId From = 0;
   LabelId To = 0;
   double Distance2 =
     std::numeric_limits<double>::infinity(); ///< to the centre of the cell, squared
-  Index Voxel{};
+  typename GridGeometry<D>::Index Voxel{};
   std::size_t Axis = 0;
 };
 
@@ -36,14 +36,15 @@ struct Step
  * The best step of one cell for each ordered pair of labels. If a cell has more pairs than fit, the
  * rest are left out.
  */
+template <int D>
 class BestSteps
 {
 public:
-  void Consider(const Step& step)
+  void Consider(const Step<D>& step)
   {
     for (std::size_t i = 0; i < this->Count; ++i)
     {
-      Step& best = this->Best[i];
+      Step<D>& best = this->Best[i];
       if (best.From == step.From && best.To == step.To)
       {
         if (step.Distance2 < best.Distance2)
@@ -59,17 +60,18 @@ public:
     }
   }
 
-  const Step* begin() const { return this->Best.data(); }
-  const Step* end() const { return this->Best.data() + this->Count; }
+  const Step<D>* begin() const { return this->Best.data(); }
+  const Step<D>* end() const { return this->Best.data() + this->Count; }
   void Clear() { this->Count = 0; }
 
 private:
-  std::array<Step, 8> Best;
+  std::array<Step<D>, 8> Best;
   std::size_t Count = 0;
 };
 
 /** A number in (-1, 1), uniformly distributed, from a voxel and a stream. */
-double PseudoRandom(const Index& voxel, std::uint64_t stream)
+template <std::size_t D>
+double PseudoRandom(const std::array<std::int64_t, D>& voxel, std::uint64_t stream)
 {
   std::uint64_t h = stream;
   for (const std::int64_t x : voxel)
@@ -80,15 +82,16 @@ double PseudoRandom(const Index& voxel, std::uint64_t stream)
 }
 
 /** Samples the layers of cells of one image. Several threads may call the methods at once. */
+template <int D>
 class Sampler
 {
 public:
-  Sampler(const LabelImage<3>& image, const Domain<3>& domain, double spacing)
+  Sampler(const LabelImage<D>& image, const Domain<D>& domain, double spacing)
     : Image(image)
     , Surfaces(domain)
   {
     this->SmallestSpacing = std::numeric_limits<double>::infinity();
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
       this->Spacing[a] = image.Grid().Spacing(static_cast<int>(a));
       this->SmallestSpacing = std::min(this->SmallestSpacing, this->Spacing[a]);
@@ -100,71 +103,101 @@ public:
     }
   }
 
-  std::size_t NumberOfLayers() const { return static_cast<std::size_t>(this->Cells[2]); }
+  /** Layers along the last axis. */
+  std::size_t NumberOfLayers() const { return static_cast<std::size_t>(this->Cells[D - 1]); }
 
-  void SampleLayer(std::size_t layer, LabelChanges& changes) const
+  void SampleLayer(std::size_t layer, LabelChanges<D>& changes) const
   {
-    std::vector<BestSteps> row(static_cast<std::size_t>(this->Cells[0]));
-    for (std::int64_t y = 0; y < this->Cells[1]; ++y)
+    std::vector<BestSteps<D>> row(static_cast<std::size_t>(this->Cells[0]));
+    Index first{}; // the cells at the beginnings of rows
+    Index last;
+    for (std::size_t a = 0; a < D; ++a)
     {
-      Index cell{ 0, y, static_cast<std::int64_t>(layer) };
-      for (std::int64_t k = 0; k < this->Edge[2]; ++k)
-      {
-        for (std::int64_t j = 0; j < this->Edge[1]; ++j)
-        {
-          this->SearchVoxels(cell[1] * this->Edge[1] + j - 1, cell[2] * this->Edge[2] + k - 1, row);
-        }
-      }
-      for (BestSteps& steps : row)
-      {
-        for (const Step& step : steps)
-        {
-          this->AddPoint(step, changes);
-        }
-        steps.Clear();
-      }
+      last[a] = a == 0 ? 0 : this->Cells[a] - 1;
     }
+    first[D - 1] = last[D - 1] = static_cast<std::int64_t>(layer);
+    ForEachIndex(first, last,
+      [&](const Index& cell)
+      {
+        Index low{}; // the voxels at the beginnings of rows
+        Index high{};
+        for (std::size_t a = 1; a < D; ++a)
+        {
+          low[a] = cell[a] * this->Edge[a] - 1;
+          high[a] = low[a] + this->Edge[a] - 1;
+        }
+        ForEachIndex(low, high, [&](const Index& voxel) { this->SearchVoxels(voxel, row); });
+        for (BestSteps<D>& steps : row)
+        {
+          for (const Step<D>& step : steps)
+          {
+            this->AddPoint(step, changes);
+          }
+          steps.Clear();
+        }
+      });
   }
 
 private:
-  /** A row of the crop; null for a row of the layer of background around it. */
-  const LabelId* RowAt(std::int64_t y, std::int64_t z) const
+  using Index = typename GridGeometry<D>::Index;
+
+  /** The row of the crop with a voxel; null for a row of the layer of background around it. */
+  const LabelId* RowAt(const Index& voxel) const
   {
     const Index& n = this->Image.CropDimensions();
-    return y < 0 || z < 0 || y >= n[1] || z >= n[2]
-      ? nullptr
-      : this->Image.Ids().data() + (z * n[1] + y) * n[0];
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      if (voxel[a] < 0 || voxel[a] >= n[a])
+      {
+        return nullptr;
+      }
+    }
+    return this->Image.Ids().data() + RowOf(voxel, n) * static_cast<std::size_t>(n[0]);
   }
 
-  /** Whether the border of the image is half a voxel beyond this voxel. */
-  bool ReachesBorder(std::size_t axis, std::int64_t voxel) const
+  /** Whether the object is cut between this voxel and the next: it has a flat face there. */
+  bool IsCutBehind(std::size_t axis, std::int64_t voxel) const
   {
-    return (voxel == -1 && this->Image.ReachesBorder(axis, 0)) ||
-      (voxel == this->Image.CropDimensions()[axis] - 1 && this->Image.ReachesBorder(axis, 1));
+    const auto isCut = [&](unsigned end)
+    {
+      return D == 4 ? axis == 3 && this->Image.ReachesBorderInTime(end)
+                    : this->Image.ReachesBorder(axis, end);
+    };
+    return (voxel == -1 && isCut(0)) ||
+      (voxel == this->Image.CropDimensions()[axis] - 1 && isCut(1));
   }
 
-  void SearchVoxels(std::int64_t y, std::int64_t z, std::vector<BestSteps>& cells) const
+  void SearchVoxels(Index voxel, std::vector<BestSteps<D>>& cells) const
   {
-    const LabelId* here = this->RowAt(y, z);
-    const std::array<const LabelId*, 3> next = { here, this->RowAt(y + 1, z),
-      this->RowAt(y, z + 1) };
-    const std::int64_t n = this->Image.CropDimensions()[0];
-    const auto at = [n](const LabelId* row, std::int64_t x)
-    { return row && x >= 0 && x < n ? row[x] : LabelId(0); };
-    if (!here && !next[1] && !next[2])
+    std::array<const LabelId*, static_cast<std::size_t>(D)>
+      next; // row of the next voxel along each axis
+    bool any = false;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      Index beside = voxel;
+      beside[a] += a == 0 ? 0 : 1;
+      next[a] = this->RowAt(beside);
+      any = any || next[a];
+    }
+    if (!any)
     {
       return;
     }
-    for (std::int64_t x = -1; x < n; ++x)
+    const LabelId* here = next[0];
+    const std::int64_t n = this->Image.CropDimensions()[0];
+    const auto at = [n](const LabelId* row, std::int64_t x)
+    { return row && x >= 0 && x < n ? row[x] : LabelId(0); };
+    for (voxel[0] = -1; voxel[0] < n; ++voxel[0])
     {
+      const std::int64_t x = voxel[0];
       const LabelId id = at(here, x);
-      for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t a = 0; a < D; ++a)
       {
         const LabelId other = at(next[a], a == 0 ? x + 1 : x);
-        if (other != id && !this->ReachesBorder(a, std::array{ x, y, z }[a]))
+        if (other != id && !this->IsCutBehind(a, voxel[a]))
         {
-          Step step{ id, other, 0.0, { x, y, z }, a };
-          for (std::size_t b = 0; b < 3; ++b)
+          Step<D> step{ id, other, 0.0, voxel, a };
+          for (std::size_t b = 0; b < D; ++b)
           {
             const double inCell =
               static_cast<double>((step.Voxel[b] + 1) % this->Edge[b]) + (a == b ? 0.5 : 0.0);
@@ -178,26 +211,26 @@ private:
     }
   }
 
-  void AddPoint(const Step& step, LabelChanges& changes) const
+  void AddPoint(const Step<D>& step, LabelChanges<D>& changes) const
   {
     Index next = step.Voxel;
     ++next[step.Axis];
-    Point<3> z;
+    Point<D> z;
     if (this->Surfaces.FirstCrossing(
           this->Image.CentreOf(step.Voxel), step.From, this->Image.CentreOf(next), z))
     {
-      for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t a = 0; a < D; ++a)
       {
-        z[a] += Jitter * this->SmallestSpacing * PseudoRandom(step.Voxel, 3 * step.Axis + a);
+        z[a] += Jitter * this->SmallestSpacing * PseudoRandom(step.Voxel, D * step.Axis + a);
       }
       changes.Points.push_back(z);
       changes.Labels.push_back({ std::min(step.From, step.To), std::max(step.From, step.To) });
     }
   }
 
-  const LabelImage<3>& Image;
-  const Domain<3>& Surfaces;
-  Point<3> Spacing;
+  const LabelImage<D>& Image;
+  const Domain<D>& Surfaces;
+  Point<D> Spacing;
   double SmallestSpacing;
   Index Edge{};  ///< of a cell, in voxels
   Index Cells{}; ///< along each axis
@@ -206,11 +239,12 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-LabelChanges SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain, double spacing,
-  unsigned threads, const std::stop_token& stop)
+template <int D>
+LabelChanges<D> SampleLabelChanges(const LabelImage<D>& image, const Domain<D>& domain,
+  double spacing, unsigned threads, const std::stop_token& stop)
 {
-  const Sampler sampler(image, domain, spacing);
-  std::vector<LabelChanges> layers(sampler.NumberOfLayers());
+  const Sampler<D> sampler(image, domain, spacing);
+  std::vector<LabelChanges<D>> layers(sampler.NumberOfLayers());
   ParallelFor(
     0, layers.size(), 1, threads,
     [&](std::size_t begin, std::size_t end)
@@ -221,13 +255,18 @@ LabelChanges SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& dom
       }
     },
     stop);
-  LabelChanges changes;
-  for (const LabelChanges& layer : layers)
+  LabelChanges<D> changes;
+  for (const LabelChanges<D>& layer : layers)
   {
     changes.Points.insert(changes.Points.end(), layer.Points.begin(), layer.Points.end());
     changes.Labels.insert(changes.Labels.end(), layer.Labels.begin(), layer.Labels.end());
   }
   return changes;
 }
+
+template LabelChanges<3> SampleLabelChanges<3>(
+  const LabelImage<3>&, const Domain<3>&, double, unsigned, const std::stop_token&);
+template LabelChanges<4> SampleLabelChanges<4>(
+  const LabelImage<4>&, const Domain<4>&, double, unsigned, const std::stop_token&);
 
 } // namespace voxplex

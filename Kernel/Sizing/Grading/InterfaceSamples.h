@@ -17,9 +17,10 @@ namespace voxplex
 {
 
 /** Points of interfaces, and the two labels of each, the smaller label first. */
+template <int D>
 struct LabelChanges
 {
-  std::vector<Point<3>> Points;
+  std::vector<Point<D>> Points;
   std::vector<std::array<LabelId, 2>> Labels;
 };
 
@@ -28,6 +29,8 @@ struct LabelChanges
  * axis. For each ordered pair of labels, a cell keeps the step between these labels that is nearest
  * to the cell's centre. The step gives one point: where the domain's label changes between the two
  * voxels' centres. So both sides of a sheet are sampled, even of a very thin one.
+ *
+ * Flat faces where the border of the image cuts the object get no points.
  *
  * Points are moved by up to a thousandth of the smallest voxel spacing. The displacement is a
  * pseudo-random vector that depends on the voxel alone. Without it flat faces of an image would
@@ -40,8 +43,14 @@ struct LabelChanges
  * @param threads 0 means all cores; neither the points nor their order depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-LabelChanges SampleLabelChanges(const LabelImage<3>& image, const Domain<3>& domain, double spacing,
-  unsigned threads, const std::stop_token& stop);
+template <int D>
+LabelChanges<D> SampleLabelChanges(const LabelImage<D>& image, const Domain<D>& domain,
+  double spacing, unsigned threads, const std::stop_token& stop);
+
+extern template LabelChanges<3> SampleLabelChanges<3>(
+  const LabelImage<3>&, const Domain<3>&, double, unsigned, const std::stop_token&);
+extern template LabelChanges<4> SampleLabelChanges<4>(
+  const LabelImage<4>&, const Domain<4>&, double, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

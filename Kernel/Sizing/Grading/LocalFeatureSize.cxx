@@ -22,7 +22,8 @@ namespace
 constexpr std::size_t PointsAtOnce = 4096;
 
 /** Voxels of the grid of poles, one bit each, along an edge of a cell of the feature transform. */
-constexpr std::uint32_t Stride = 4;
+template <int D>
+constexpr std::uint32_t Stride = D == 3 ? 4 : 2;
 
 /**
  * Largest growth of Delta over a unit of length. If Delta grows faster, R2 and R6 undo each other's
@@ -41,7 +42,8 @@ constexpr double BendFactor = 1.2;
 
 /**
  * Root mean square roughness of interfaces, in largest voxel spacings. With 0, the stairs of voxels
- * count as bends where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements.
+ * count as bends where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements. The spacing of
+ * frames does not count: stairs between frames are as high as an interface moves meanwhile.
  */
 constexpr double Roughness = 0.15;
 
@@ -52,45 +54,45 @@ constexpr double Roughness = 0.15;
 constexpr int MostBends = 4;
 
 /**
- * @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal.
+ * @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal, in 4D to a quarter.
  */
+template <int D>
 class NearestPole
 {
 public:
   /** Poles outside of the bounds are ignored. */
-  NearestPole(const std::vector<Point<3>>& poles, const Box<3>& bounds, double cell,
+  NearestPole(const std::vector<Point<D>>& poles, const Box<D>& bounds, double cell,
     unsigned threads, const std::stop_token& stop)
     : Origin(bounds.Min)
-    , Voxel(cell / Stride)
-    , Features(this->Enter(poles, bounds), { this->Voxel, this->Voxel, this->Voxel },
-        { Stride, Stride, Stride }, threads, stop)
+    , Voxel(cell / Stride<D>)
+    , Features(this->Enter(poles, bounds), Everywhere(this->Voxel), Strides(), threads, stop)
   {
   }
 
   /** The distance from p to the nearest pole, or `largest` if that is smaller. */
-  double Distance(const Point<3>& p, double largest) const
+  double Distance(const Point<D>& p, double largest) const
   {
-    std::array<std::size_t, 3> low;
-    for (std::size_t a = 0; a < 3; ++a)
+    std::array<std::size_t, static_cast<std::size_t>(D)> low;
+    for (std::size_t a = 0; a < D; ++a)
     {
-      const double x = this->Coordinate(p, a) - 0.5 * Stride;
+      const double x = this->Coordinate(p, a) - 0.5 * Stride<D>;
       low[a] = this->Features.CellOf(a, x);
     }
     double nearest2 = largest * largest;
     const auto& n = this->Features.CellDimensions();
-    for (unsigned corner = 0; corner < 8; ++corner)
+    for (unsigned corner = 0; corner < (1u << D); ++corner)
     {
       std::size_t cell = 0;
-      for (std::size_t a = 3; a-- > 0;)
+      for (std::size_t a = D; a-- > 0;)
       {
         cell = cell * n[a] + std::min<std::size_t>(low[a] + ((corner >> a) & 1u), n[a] - 1);
       }
       const std::uint32_t site = this->Features.Site(cell);
-      if (site != FeatureTransform<3>::NoSite)
+      if (site != FeatureTransform<D>::NoSite)
       {
         const auto index = this->Features.IndexOf(site);
         double d2 = 0.0;
-        for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t a = 0; a < D; ++a)
         {
           const double d = (this->Coordinate(p, a) - static_cast<double>(index[a])) * this->Voxel;
           d2 += d * d;
@@ -102,26 +104,40 @@ public:
   }
 
 private:
+  static Point<D> Everywhere(double x)
+  {
+    Point<D> all;
+    all.fill(x);
+    return all;
+  }
+
+  static typename FeatureTransform<D>::Array Strides()
+  {
+    typename FeatureTransform<D>::Array strides;
+    strides.fill(Stride<D>);
+    return strides;
+  }
+
   /** A continuous index in the grid of poles. */
-  double Coordinate(const Point<3>& p, std::size_t axis) const
+  double Coordinate(const Point<D>& p, std::size_t axis) const
   {
     return (p[axis] - this->Origin[axis]) / this->Voxel - 0.5;
   }
 
-  BitMask<3> Enter(const std::vector<Point<3>>& poles, const Box<3>& bounds) const
+  BitMask<D> Enter(const std::vector<Point<D>>& poles, const Box<D>& bounds) const
   {
-    BitMask<3>::Index dimensions;
-    for (std::size_t a = 0; a < 3; ++a)
+    typename BitMask<D>::Index dimensions;
+    for (std::size_t a = 0; a < D; ++a)
     {
       dimensions[a] = static_cast<std::int64_t>((bounds.Max[a] - bounds.Min[a]) / this->Voxel) + 1;
     }
-    BitMask<3> mask(dimensions);
-    for (const Point<3>& pole : poles)
+    BitMask<D> mask(dimensions);
+    for (const Point<D>& pole : poles)
     {
       if (bounds.Contains(pole))
       {
-        BitMask<3>::Index index;
-        for (std::size_t a = 0; a < 3; ++a)
+        typename BitMask<D>::Index index;
+        for (std::size_t a = 0; a < D; ++a)
         {
           index[a] = std::llround(this->Coordinate(pole, a));
           index[a] = std::clamp<std::int64_t>(index[a], 0, dimensions[a] - 1);
@@ -132,40 +148,43 @@ private:
     return mask;
   }
 
-  const Point<3> Origin;
+  const Point<D> Origin;
   const double Voxel;
-  FeatureTransform<3> Features;
+  FeatureTransform<D> Features;
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& domain,
+template <int D>
+LocalFeatureSize<D>::LocalFeatureSize(const LabelImage<D>& image, const Domain<D>& domain,
   const GradingParameters& parameters, unsigned threads, const std::stop_token& stop)
   : LargestDelta(parameters.Finest)
   , EquivalentDelta(parameters.Finest)
 {
-  LabelChanges changes = SampleLabelChanges(image, domain, parameters.SampleSpacing, threads, stop);
+  LabelChanges<D> changes =
+    SampleLabelChanges<D>(image, domain, parameters.SampleSpacing, threads, stop);
   this->Points = std::move(changes.Points);
-  Box<3> bounds = this->Points.empty() ? domain.Bounds() : BoundsOf(this->Points);
+  Box<D> bounds = this->Points.empty() ? domain.Bounds() : BoundsOf<D>(this->Points);
   const double margin = std::min(parameters.Lambda, Distance(bounds.Min, bounds.Max));
   MedialBalls balls;
   balls.LargestRadius = margin;
   balls.Salience = parameters.Salience;
-  const std::vector<Point<3>> poles = FindPoles(this->Points, balls, threads, stop);
+  const std::vector<Point<D>> poles = FindPoles<D>(this->Points, balls, threads, stop);
   this->Poles = poles.size();
-  this->Graded = std::make_unique<GradedDelta<3>>(bounds, CellEdge(bounds, parameters.Finest));
+  this->Graded = std::make_unique<GradedDelta<D>>(bounds, CellEdge<D>(bounds, parameters.Finest));
 
   this->SizeOfPoint.assign(this->Points.size(), parameters.Lambda);
   if (!poles.empty())
   {
     constexpr double WidestMargin = 16.0;
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
       bounds.Min[a] -= std::min(margin, WidestMargin * parameters.Finest);
       bounds.Max[a] += std::min(margin, WidestMargin * parameters.Finest);
     }
-    const NearestPole nearest(poles, bounds, CellEdge(bounds, parameters.Finest), threads, stop);
+    const NearestPole<D> nearest(
+      poles, bounds, CellEdge<D>(bounds, parameters.Finest), threads, stop);
     ParallelFor(
       0, this->Points.size(), PointsAtOnce, threads,
       [&](std::size_t begin, std::size_t end)
@@ -178,9 +197,11 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
       stop);
   }
 
-  double density = 0.0; // sum of 1 / Delta^2
-  const GridGeometry<3>& grid = image.Grid();
-  const double spacing = std::max(parameters.SampleSpacing, std::cbrt(grid.VoxelVolume()));
+  double density = 0.0; // sum of 1 / Delta^(D - 1)
+  const GridGeometry<D>& grid = image.Grid();
+  const double volume = grid.VoxelVolume();
+  const double spacing =
+    std::max(parameters.SampleSpacing, D == 3 ? std::cbrt(volume) : std::pow(volume, 1.0 / D));
   const double roughness =
     Roughness * std::max({ grid.Spacing(0), grid.Spacing(1), grid.Spacing(2) });
   const std::vector<double> deltas =
@@ -194,23 +215,25 @@ LocalFeatureSize::LocalFeatureSize(const LabelImage<3>& image, const Domain<3>& 
     this->Graded->Lower(bounds.Min, parameters.Finest);
   }
   this->Graded->Grade(std::min(LargestSlope, parameters.Ratio), threads, stop);
-  for (const Point<3>& p : this->Points)
+  for (const Point<D>& p : this->Points)
   {
     const double delta = this->Graded->At(p);
     this->LargestDelta = std::max(this->LargestDelta, delta);
-    density += 1.0 / (delta * delta);
+    density += 1.0 / (D == 3 ? delta * delta : delta * delta * delta);
   }
   this->Graded->Cap(this->LargestDelta);
   if (!this->Points.empty())
   {
-    this->EquivalentDelta = std::sqrt(static_cast<double>(this->Points.size()) / density);
+    const double mean = static_cast<double>(this->Points.size()) / density;
+    this->EquivalentDelta = D == 3 ? std::sqrt(mean) : std::cbrt(mean);
   }
 }
 
 //------------------------------------------------------------------------------------------------
 // Within the local feature size of a point there is only one sheet, so a deviation from a plane is
 // a bend.
-std::vector<double> LocalFeatureSize::DeltaOfPoints(
+template <int D>
+std::vector<double> LocalFeatureSize<D>::DeltaOfPoints(
   const std::vector<std::array<LabelId, 2>>& labels, double spacing, double roughness,
   const GradingParameters& parameters, unsigned threads, const std::stop_token& stop) const
 {
@@ -219,7 +242,7 @@ std::vector<double> LocalFeatureSize::DeltaOfPoints(
   {
     return deltas;
   }
-  const SampleCurvature curvature(this->Points, labels, spacing);
+  const SampleCurvature<D> curvature(this->Points, labels, spacing);
   ParallelFor(
     0, this->Points.size(), PointsAtOnce, threads,
     [&](std::size_t begin, std::size_t end)
@@ -227,11 +250,13 @@ std::vector<double> LocalFeatureSize::DeltaOfPoints(
       for (std::size_t k = begin; k < end; ++k)
       {
         const double size = this->SizeOfPoint[k];
-        double delta = parameters.Ratio * size;
+        // In 4D there are few points within a small size. Then the bend may be that of a ball.
+        const double unknown = D == 3 ? 0.0 : 1.0 / size;
+        double delta = std::min(parameters.Ratio * size, parameters.Coarsest);
         for (int i = 0; i < MostBends && delta > parameters.Finest; ++i)
         {
           const double bend =
-            curvature.At(this->Points[k], labels[k], std::min(size, delta), roughness);
+            curvature.At(this->Points[k], labels[k], std::min(size, delta), roughness, unknown);
           if (bend * delta * delta <= BendFactor * parameters.Tolerance)
           {
             break;
@@ -244,5 +269,8 @@ std::vector<double> LocalFeatureSize::DeltaOfPoints(
     stop);
   return deltas;
 }
+
+template class LocalFeatureSize<3>;
+template class LocalFeatureSize<4>;
 
 } // namespace voxplex

@@ -18,10 +18,11 @@ namespace
 
 constexpr std::size_t SimplicesAtOnce = 8192;
 
-/** A Voronoi vertex of the sample: the circumball of a tetrahedron. */
+/** A Voronoi vertex of the sample: the circumball of a simplex. */
+template <int D>
 struct VoronoiVertex
 {
-  Point<3> Centre;
+  Point<D> Centre;
   double Radius2 = -1.0; ///< negative: the simplex does not exist
   bool IsMedial = false; ///< by its points of contact and its radius
 
@@ -47,19 +48,37 @@ bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
     std::sqrt(radius2) * (1.0 - cosine) >= which.Salience * cosine;
 }
 
-/** Takes the vertices in an order that does not depend on how the triangulation was made. */
-VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const MedialBalls& which)
+/**
+ * Whether a ball passes near all its points. In 4D a tenth of the pentatopes are so flat that no ball
+ * is certified. What such a ball is, depends on the displacements of the sample's points, so exact
+ * arithmetic does not make it better, and takes most of the time.
+ */
+template <int D>
+bool PassesNear(const Circumball<D>& ball,
+  const std::array<const Point<D>*, static_cast<std::size_t>(D) + 1>& points)
 {
-  std::array<const Point<3>*, 4> points = mesh.Points(mesh.GetSimplex(s).V);
+  constexpr double Tolerance = 1e-3;
+  return std::all_of(points.begin(), points.end(),
+    [&](const Point<D>* p)
+    { return std::abs(Distance2(*p, ball.Center) - ball.Radius2) <= Tolerance * ball.Radius2; });
+}
+
+/** Takes the vertices in an order that does not depend on how the triangulation was made. */
+template <int D>
+VoronoiVertex<D> MakeVoronoiVertex(
+  const Triangulation<D>& mesh, SimplexId s, const MedialBalls& which)
+{
+  std::array<const Point<D>*, static_cast<std::size_t>(D) + 1> points =
+    mesh.Points(mesh.GetSimplex(s).V);
   std::sort(
-    points.begin(), points.end(), [](const Point<3>* a, const Point<3>* b) { return *a < *b; });
-  Circumball<3> ball;
-  if (!ComputeCircumball<3>(points.data(), ball))
+    points.begin(), points.end(), [](const Point<D>* a, const Point<D>* b) { return *a < *b; });
+  Circumball<D> ball;
+  if (!ComputeCircumball<D>(points.data(), ball) && !(D == 4 && PassesNear<D>(ball, points)))
   {
-    ComputeCircumballExactly<3>(points.data(), ball);
+    ComputeCircumballExactly<D>(points.data(), ball);
   }
   double longest2 = 0.0;
-  for (unsigned i = 0; i < 4; ++i)
+  for (unsigned i = 0; i <= D; ++i)
   {
     for (unsigned j = 0; j < i; ++j)
     {
@@ -73,9 +92,9 @@ VoronoiVertex MakeVoronoiVertex(const Triangulation<3>& mesh, SimplexId s, const
  * For each vertex, the farthest Voronoi vertex of its cell that passes the test; None if there is
  * none.
  */
-template <typename Admits>
+template <int D, typename Admits>
 std::vector<SimplexId> FarthestOfCells(
-  const Triangulation<3>& mesh, const std::vector<VoronoiVertex>& voronoi, Admits&& admits)
+  const Triangulation<D>& mesh, const std::vector<VoronoiVertex<D>>& voronoi, Admits&& admits)
 {
   std::vector<SimplexId> farthest(mesh.VertexIdEnd(), None);
   for (SimplexId s = 0; s < voronoi.size(); ++s)
@@ -99,21 +118,22 @@ std::vector<SimplexId> FarthestOfCells(
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const MedialBalls& which,
+template <int D>
+std::vector<Point<D>> FindPoles(const std::vector<Point<D>>& sample, const MedialBalls& which,
   unsigned threads, const std::stop_token& stop)
 {
-  std::vector<Point<3>> poles;
-  // A medial ball touches four points. So there is none for fewer points, and none if all points
+  std::vector<Point<D>> poles;
+  // A medial ball touches D + 1 points. So there is none for fewer points, and none if all points
   // are in one place. In the latter case LargestRadius, the margin of the box, may be 0, and there
   // is no box to triangulate.
-  if (sample.size() < 4 || !(which.LargestRadius > 0.0))
+  if (sample.size() < D + 1 || !(which.LargestRadius > 0.0))
   {
     return poles;
   }
   // With this margin no medial ball contains a corner of the box.
-  const SampleTriangulation triangulation(sample, 2.0 * which.LargestRadius, threads, stop);
-  const Triangulation<3>& mesh = triangulation.Mesh();
-  std::vector<VoronoiVertex> voronoi(mesh.SimplexIdEnd());
+  const SampleTriangulation<D> triangulation(sample, 2.0 * which.LargestRadius, threads, stop);
+  const Triangulation<D>& mesh = triangulation.Mesh();
+  std::vector<VoronoiVertex<D>> voronoi(mesh.SimplexIdEnd());
   ParallelFor(
     0, voronoi.size(), SimplicesAtOnce, threads,
     [&](std::size_t begin, std::size_t end)
@@ -129,12 +149,12 @@ std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const Media
     stop);
 
   const std::vector<SimplexId> first =
-    FarthestOfCells(mesh, voronoi, [](VertexId, const VoronoiVertex&) { return true; });
+    FarthestOfCells<D>(mesh, voronoi, [](VertexId, const VoronoiVertex<D>&) { return true; });
   ThrowIfStopped(stop);
-  const std::vector<SimplexId> second = FarthestOfCells(mesh, voronoi,
-    [&](VertexId v, const VoronoiVertex& vertex)
+  const std::vector<SimplexId> second = FarthestOfCells<D>(mesh, voronoi,
+    [&](VertexId v, const VoronoiVertex<D>& vertex)
     {
-      const Point<3>& z = mesh.Position(v);
+      const Point<D>& z = mesh.Position(v);
       return Dot(Subtract(vertex.Centre, z), Subtract(voronoi[first[v]].Centre, z)) < 0.0;
     });
   for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
@@ -151,5 +171,10 @@ std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const Media
   poles.erase(std::unique(poles.begin(), poles.end()), poles.end());
   return poles;
 }
+
+template std::vector<Point<3>> FindPoles<3>(
+  const std::vector<Point<3>>&, const MedialBalls&, unsigned, const std::stop_token&);
+template std::vector<Point<4>> FindPoles<4>(
+  const std::vector<Point<4>>&, const MedialBalls&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -41,15 +41,21 @@ struct MedialBalls
  * enough. Poles on such branches are recognised by their points of contact and left out (the object
  * angle of Dey and Zhao 2004; for balls of few voxels the salience takes its place).
  *
- * Cost: the triangulation by all threads; about six simplices a point.
+ * Cost: the triangulation by all threads; about six simplices a point in 3D.
  *
  * @param sample points in any order, also none; two equal points count as one
  * @param threads 0 means all cores; the result does not depend on it
  * @return centres, in lexicographic order, without duplicates
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-std::vector<Point<3>> FindPoles(const std::vector<Point<3>>& sample, const MedialBalls& which,
+template <int D>
+std::vector<Point<D>> FindPoles(const std::vector<Point<D>>& sample, const MedialBalls& which,
   unsigned threads, const std::stop_token& stop);
+
+extern template std::vector<Point<3>> FindPoles<3>(
+  const std::vector<Point<3>>&, const MedialBalls&, unsigned, const std::stop_token&);
+extern template std::vector<Point<4>> FindPoles<4>(
+  const std::vector<Point<4>>&, const MedialBalls&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

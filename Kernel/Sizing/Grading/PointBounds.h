@@ -17,12 +17,13 @@ namespace voxplex
 {
 
 /** @param points at least one */
-inline Box<3> BoundsOf(std::span<const Point<3>> points)
+template <int D>
+Box<D> BoundsOf(std::span<const Point<D>> points)
 {
-  Box<3> box{ points.front(), points.front() };
-  for (const Point<3>& p : points)
+  Box<D> box{ points.front(), points.front() };
+  for (const Point<D>& p : points)
   {
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
       box.Min[a] = std::min(box.Min[a], p[a]);
       box.Max[a] = std::max(box.Max[a], p[a]);
@@ -33,17 +34,19 @@ inline Box<3> BoundsOf(std::span<const Point<3>> points)
 
 /**
  * The smallest edge of a cell, `edge` or more, for which a grid over the box has about 16 million
- * cells at most.
+ * cells at most; 4 million in 4D, where a cell has more neighbours and parts.
  */
-inline double CellEdge(const Box<3>& box, double edge)
+template <int D>
+double CellEdge(const Box<D>& box, double edge)
 {
-  constexpr double MostCells = 16.0 * 1024.0 * 1024.0;
+  constexpr double MostCells = (D == 3 ? 16.0 : 4.0) * 1024.0 * 1024.0;
   double volume = 1.0;
-  for (std::size_t a = 0; a < 3; ++a)
+  for (std::size_t a = 0; a < D; ++a)
   {
     volume *= std::max(box.Max[a] - box.Min[a], edge);
   }
-  return std::max(edge, std::cbrt(volume / MostCells));
+  return std::max(
+    edge, D == 3 ? std::cbrt(volume / MostCells) : std::pow(volume / MostCells, 1.0 / D));
 }
 
 } // namespace voxplex

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizing/Grading/SampleCurvature.h"
 
+#include "Base/GridIndex.h"
 #include "Base/MixBits.h"
 #include "Geometry/SymmetricEigen.h"
 #include "Sizing/Grading/PointBounds.h"
@@ -17,14 +18,17 @@ namespace voxplex
 namespace
 {
 
-/** Each level has about a quarter of the points of the one before, twice as far apart. */
-constexpr std::size_t PointsOfNext = 4;
+/** Each level has about this part of the points of the one before, twice as far apart. */
+template <int D>
+constexpr std::size_t PointsOfNext = D == 3 ? 4 : 8;
 
 /** Largest radius that a level serves, in spacings of the level: about 450 points. */
-constexpr double LargestRadius = 12.0;
+template <int D>
+constexpr double LargestRadius = D == 3 ? 12.0 : 4.75;
 
 /** Fewer points are not enough to tell a bend from a plane. */
-constexpr std::size_t FewestPoints = 8;
+template <int D>
+constexpr std::size_t FewestPoints = D == 3 ? 8 : 10;
 
 /** Levels with fewer points than this are not made. */
 constexpr std::size_t SmallestLevel = 256;
@@ -33,19 +37,21 @@ constexpr std::size_t SmallestLevel = 256;
 constexpr double CellSpacings = 2.0;
 
 /** Whether the k-th point belongs to the next level; pseudo-random. */
+template <int D>
 bool IsOfNext(std::uint64_t k)
 {
-  return MixBits(k + 1) % PointsOfNext == 0;
+  return MixBits(k + 1) % PointsOfNext<D> == 0;
 }
 
 /** The number of points, their centre, and their covariance. */
+template <int D>
 class Moments
 {
 public:
-  void Add(const Point<3>& p)
+  void Add(const Point<D>& p)
   {
     ++this->Points;
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
       this->Sum[a] += p[a];
       for (std::size_t b = 0; b <= a; ++b)
@@ -61,9 +67,9 @@ public:
   double Curvature(double roughness) const
   {
     const double weight = 1.0 / static_cast<double>(this->Points);
-    std::array<Point<3>, 3> covariance;
+    std::array<Point<D>, static_cast<std::size_t>(D)> covariance;
     double trace = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < D; ++a)
     {
       for (std::size_t b = 0; b <= a; ++b)
       {
@@ -72,22 +78,29 @@ public:
       }
       trace += covariance[a][a];
     }
-    const double smallest = SmallestEigenvalue<3>(covariance);
-    const double along = trace - std::max(smallest, 0.0); // r^2 / 2
+    double smallest = SmallestEigenvalue<D>(covariance);
+    if (D == 4) // a plane fits few points too well
+    {
+      smallest *= static_cast<double>(this->Points) / static_cast<double>(this->Points - D);
+    }
+    const double along = trace - std::max(smallest, 0.0); // r^2 / 2; in 4D 3 r^2 / 5
     const double bend = std::max(smallest - roughness * roughness, 0.0);
-    return along > 0.0 ? std::sqrt(12.0 * bend) / along : 0.0;
+    constexpr double Factor = (D - 1) * (D + 3);
+    return along > 0.0 ? std::sqrt(Factor * bend) / along : 0.0;
   }
 
 private:
   std::size_t Points = 0;
-  Point<3> Sum{};
-  std::array<Point<3>, 3> Products{}; ///< the lower half
+  Point<D> Sum{};
+  std::array<Point<D>, static_cast<std::size_t>(D)> Products{}; ///< the lower half
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-SampleCurvature::Level::Level(const std::vector<Member>& members, const Box<3>& bounds, double cell)
+template <int D>
+SampleCurvature<D>::Level::Level(
+  const std::vector<Member>& members, const Box<D>& bounds, double cell)
   : Grid(bounds, CellEdge(bounds, cell))
   , First(CountCells(this->Grid.Cells) + 1)
   , Members(members.size())
@@ -105,11 +118,12 @@ SampleCurvature::Level::Level(const std::vector<Member>& members, const Box<3>& 
 }
 
 //------------------------------------------------------------------------------------------------
-SampleCurvature::SampleCurvature(
-  const std::vector<Point<3>>& points, const std::vector<Labels>& labels, double spacing)
+template <int D>
+SampleCurvature<D>::SampleCurvature(
+  const std::vector<Point<D>>& points, const std::vector<Labels>& labels, double spacing)
   : Spacing(spacing)
 {
-  const Box<3> bounds = BoundsOf(points);
+  const Box<D> bounds = BoundsOf<D>(points);
   std::vector<Member> members;
   members.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -122,7 +136,7 @@ SampleCurvature::SampleCurvature(
     std::vector<Member> some;
     for (std::size_t k = 0; k < members.size(); ++k)
     {
-      if (IsOfNext(k))
+      if (IsOfNext<D>(k))
       {
         some.push_back(members[k]);
       }
@@ -133,40 +147,46 @@ SampleCurvature::SampleCurvature(
 }
 
 //------------------------------------------------------------------------------------------------
-double SampleCurvature::At(
-  const Point<3>& p, const Labels& labels, double radius, double roughness) const
+template <int D>
+double SampleCurvature<D>::At(
+  const Point<D>& p, const Labels& labels, double radius, double roughness, double unknown) const
 {
   std::size_t number = 0;
-  for (double largest = LargestRadius * this->Spacing;
+  for (double largest = LargestRadius<D> * this->Spacing;
        radius > largest && number + 1 < this->Levels.size(); largest *= 2.0)
   {
     ++number;
   }
   const Level& level = this->Levels[number];
-  std::array<std::size_t, 3> low;
-  std::array<std::size_t, 3> high;
-  for (std::size_t a = 0; a < 3; ++a)
+  std::array<std::int64_t, static_cast<std::size_t>(D)> low;
+  std::array<std::int64_t, static_cast<std::size_t>(D)> high;
+  for (std::size_t a = 0; a < D; ++a)
   {
-    low[a] = level.Grid.CellAlong(a, p[a] - radius);
-    high[a] = level.Grid.CellAlong(a, p[a] + radius);
+    low[a] = static_cast<std::int64_t>(level.Grid.CellAlong(a, p[a] - radius));
+    high[a] = static_cast<std::int64_t>(level.Grid.CellAlong(a, p[a] + radius));
   }
-  Moments moments;
-  for (std::size_t z = low[2]; z <= high[2]; ++z)
-  {
-    for (std::size_t y = low[1]; y <= high[1]; ++y)
+  const auto width = static_cast<std::size_t>(high[0] - low[0] + 1);
+  high[0] = low[0]; // the first cells of rows
+  Moments<D> moments;
+  ForEachIndex(low, high,
+    [&](const auto& index)
     {
-      const std::size_t row = OffsetOf({ 0, y, z }, level.Grid.Cells);
-      for (std::size_t k = level.First[row + low[0]]; k < level.First[row + high[0] + 1]; ++k)
+      typename CellGrid<D>::Index cell;
+      std::copy(index.begin(), index.end(), cell.begin());
+      const std::size_t first = OffsetOf(cell, level.Grid.Cells);
+      for (std::size_t k = level.First[first]; k < level.First[first + width]; ++k)
       {
-        const Point<3> offset = Subtract(level.Members[k].Position, p);
+        const Point<D> offset = Subtract(level.Members[k].Position, p);
         if (Dot(offset, offset) <= radius * radius && level.Members[k].Of == labels)
         {
           moments.Add(offset);
         }
       }
-    }
-  }
-  return moments.Count() < FewestPoints ? 0.0 : moments.Curvature(roughness);
+    });
+  return moments.Count() < FewestPoints<D> ? unknown : moments.Curvature(roughness);
 }
+
+template class SampleCurvature<3>;
+template class SampleCurvature<4>;
 
 } // namespace voxplex

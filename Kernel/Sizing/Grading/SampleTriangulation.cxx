@@ -23,10 +23,11 @@ constexpr std::size_t PieceSize = 1024;
 /** Smaller last rounds are inserted by one thread. */
 constexpr std::size_t FewestForThreads = 4 * PieceSize;
 
-Box<3> MakeBox(const std::vector<Point<3>>& sample, double margin)
+template <int D>
+Box<D> MakeBox(const std::vector<Point<D>>& sample, double margin)
 {
-  Box<3> box = BoundsOf(sample);
-  for (std::size_t a = 0; a < 3; ++a)
+  Box<D> box = BoundsOf<D>(sample);
+  for (std::size_t a = 0; a < D; ++a)
   {
     box.Min[a] -= margin;
     box.Max[a] += margin;
@@ -49,9 +50,10 @@ std::size_t RoundOf(std::size_t k, std::size_t rounds)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-SampleTriangulation::SampleTriangulation(
-  const std::vector<Point<3>>& sample, double margin, unsigned threads, const std::stop_token& stop)
-  : Triangulated(MakeBox(sample, margin))
+template <int D>
+SampleTriangulation<D>::SampleTriangulation(
+  const std::vector<Point<D>>& sample, double margin, unsigned threads, const std::stop_token& stop)
+  : Triangulated(MakeBox<D>(sample, margin))
   , Stop(stop)
 {
   std::size_t rounds = 1;
@@ -63,7 +65,7 @@ SampleTriangulation::SampleTriangulation(
   for (std::size_t k = 0; k < sample.size(); ++k)
   {
     entries[RoundOf(k, rounds)].push_back(
-      { HilbertIndex<3>(sample[k], this->Triangulated.GetBox()), sample[k] });
+      { HilbertIndex<D>(sample[k], this->Triangulated.GetBox()), sample[k] });
   }
   const auto before = [](const Entry& a, const Entry& b)
   { return a.Key != b.Key ? a.Key < b.Key : a.Position < b.Position; };
@@ -91,10 +93,11 @@ SampleTriangulation::SampleTriangulation(
 }
 
 //------------------------------------------------------------------------------------------------
-void SampleTriangulation::InsertAlone(
+template <int D>
+void SampleTriangulation<D>::InsertAlone(
   const std::vector<Entry>& entries, std::vector<Entry>* inserted)
 {
-  Triangulation<3>& mesh = this->Triangulated;
+  Triangulation<D>& mesh = this->Triangulated;
   Worker worker(mesh);
   SimplexId near = mesh.FirstAlive();
   for (std::size_t k = 0; k < entries.size(); ++k)
@@ -119,7 +122,8 @@ void SampleTriangulation::InsertAlone(
 }
 
 //------------------------------------------------------------------------------------------------
-void SampleTriangulation::InsertTogether(const std::vector<Entry>& entries, unsigned threads)
+template <int D>
+void SampleTriangulation<D>::InsertTogether(const std::vector<Entry>& entries, unsigned threads)
 {
   std::atomic<std::size_t> next{ 0 };
   const auto team = std::min<std::size_t>(threads, MaximumNumberOfWorkers - 1);
@@ -138,9 +142,10 @@ void SampleTriangulation::InsertTogether(const std::vector<Entry>& entries, unsi
 }
 
 //------------------------------------------------------------------------------------------------
-void SampleTriangulation::InsertPiece(Worker& worker, const Entry* begin, const Entry* end)
+template <int D>
+void SampleTriangulation<D>::InsertPiece(Worker& worker, const Entry* begin, const Entry* end)
 {
-  Triangulation<3>& mesh = this->Triangulated;
+  Triangulation<D>& mesh = this->Triangulated;
   std::vector<Entry> left;
   SimplexId near = None;
   std::uint32_t generation = 0;
@@ -175,7 +180,8 @@ void SampleTriangulation::InsertPiece(Worker& worker, const Entry* begin, const 
 // Locks a simplex at a vertex of the earlier rounds that is near on the curve. Returns None if
 // another thread owns one of the simplex' vertices. While a thread owns a vertex, no other thread
 // can delete the simplices at it.
-SimplexId SampleTriangulation::LockNear(Worker& worker, const Entry& entry)
+template <int D>
+SimplexId SampleTriangulation<D>::LockNear(Worker& worker, const Entry& entry)
 {
   const auto found = std::lower_bound(this->Before.begin(), this->Before.end(), entry.Key,
     [](const Entry& e, std::uint64_t key) { return e.Key < key; });
@@ -197,13 +203,14 @@ SimplexId SampleTriangulation::LockNear(Worker& worker, const Entry& entry)
 
 //------------------------------------------------------------------------------------------------
 // Like Triangulation::FindConflict. If rounding or another thread stops the walk, it returns None.
-SimplexId SampleTriangulation::WalkLocking(Worker& worker, const Point<3>& p, SimplexId from)
+template <int D>
+SimplexId SampleTriangulation<D>::WalkLocking(Worker& worker, const Point<D>& p, SimplexId from)
 {
-  Triangulation<3>& mesh = this->Triangulated;
+  Triangulation<D>& mesh = this->Triangulated;
   SimplexId s = from;
   const auto power = [&](SimplexId t)
   {
-    const Circumball<3>& ball = mesh.GetSimplex(t).Ball;
+    const Circumball<D>& ball = mesh.GetSimplex(t).Ball;
     return Distance2(p, ball.Center) - ball.Radius2;
   };
   for (double smallest = power(s); !(smallest < 0.0);)
@@ -232,5 +239,8 @@ SimplexId SampleTriangulation::WalkLocking(Worker& worker, const Point<3>& p, Si
   }
   return mesh.InConflict(worker, s, p) ? s : None;
 }
+
+template class SampleTriangulation<3>;
+template class SampleTriangulation<4>;
 
 } // namespace voxplex

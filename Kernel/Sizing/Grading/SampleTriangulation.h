@@ -33,6 +33,7 @@ namespace voxplex
  * The triangulation is a function of the points alone. The numbers of its vertices and simplices
  * are not.
  */
+template <int D>
 class SampleTriangulation
 {
 public:
@@ -43,33 +44,36 @@ public:
    * @param threads 0 means all cores
    * @throws Cancelled, std::bad_alloc
    */
-  SampleTriangulation(const std::vector<Point<3>>& sample, double margin, unsigned threads,
+  SampleTriangulation(const std::vector<Point<D>>& sample, double margin, unsigned threads,
     const std::stop_token& stop);
 
-  const Triangulation<3>& Mesh() const { return this->Triangulated; }
+  const Triangulation<D>& Mesh() const { return this->Triangulated; }
 
 private:
   /** A point, its position along the curve, and its vertex if it has been inserted. */
   struct Entry
   {
     std::uint64_t Key;
-    Point<3> Position;
+    Point<D> Position;
     VertexId Vertex = None;
   };
-  using Worker = Triangulation<3>::Worker;
+  using Worker = typename Triangulation<D>::Worker;
 
   void InsertAlone(const std::vector<Entry>& entries, std::vector<Entry>* inserted);
   void InsertTogether(const std::vector<Entry>& entries, unsigned threads);
   void InsertPiece(Worker& worker, const Entry* begin, const Entry* end);
   SimplexId LockNear(Worker& worker, const Entry& entry);
-  SimplexId WalkLocking(Worker& worker, const Point<3>& p, SimplexId from);
+  SimplexId WalkLocking(Worker& worker, const Point<D>& p, SimplexId from);
 
-  Triangulation<3> Triangulated;
+  Triangulation<D> Triangulated;
   std::stop_token Stop;
   std::vector<Entry> Before; ///< the points of the earlier rounds, sorted by key
   std::mutex Mutex;          ///< guards Left
   std::vector<Entry> Left;   ///< the points that one thread inserts at the end
 };
+
+extern template class SampleTriangulation<3>;
+extern template class SampleTriangulation<4>;
 
 } // namespace voxplex
 

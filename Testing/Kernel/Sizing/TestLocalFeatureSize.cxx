@@ -30,7 +30,7 @@ namespace
 std::vector<Point<3>> Sample(const LabelImage<3>& image, double spacing, unsigned threads = 1)
 {
   const ImageDomain<3> domain(image, 1.0);
-  return SampleLabelChanges(image, domain, spacing, threads, {}).Points;
+  return SampleLabelChanges<3>(image, domain, spacing, threads, {}).Points;
 }
 
 Point<3> Centre(const LabelImage<3>& image)
@@ -91,11 +91,11 @@ std::set<std::array<Point<3>, 4>> Simplices(const Triangulation<3>& mesh)
   return simplices;
 }
 
-LocalFeatureSize Measure(
+LocalFeatureSize<3> Measure(
   const LabelImage<3>& image, const GradingParameters& parameters, unsigned threads = 1)
 {
   const ImageDomain<3> domain(image, 1.0);
-  return LocalFeatureSize(image, domain, parameters, threads, {});
+  return LocalFeatureSize<3>(image, domain, parameters, threads, {});
 }
 
 GradingParameters Parameters(double finest, double lambda)
@@ -117,7 +117,7 @@ double Quantile(std::vector<double> values, double share)
 
 /** The local feature sizes of the sample points that a test admits. */
 template <typename Admits>
-std::vector<double> SizesWhere(const LocalFeatureSize& lfs, Admits&& admits)
+std::vector<double> SizesWhere(const LocalFeatureSize<3>& lfs, Admits&& admits)
 {
   std::vector<double> sizes;
   for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
@@ -225,7 +225,7 @@ TEST(InterfaceSamples, CanBeStopped)
   const ImageDomain<3> domain(image, 1.0);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(SampleLabelChanges(image, domain, 1.0, 2, stop.get_token()), Cancelled);
+  EXPECT_THROW(SampleLabelChanges<3>(image, domain, 1.0, 2, stop.get_token()), Cancelled);
 }
 
 TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
@@ -236,7 +236,7 @@ TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
   std::set<std::array<Point<3>, 4>> expected;
   for (const unsigned threads : { 1u, 2u, 4u })
   {
-    const SampleTriangulation triangulation(points, 1.0, threads, {});
+    const SampleTriangulation<3> triangulation(points, 1.0, threads, {});
     const Triangulation<3>& mesh = triangulation.Mesh();
     const std::vector<std::string> complaints = checks::Verify(mesh);
     ASSERT_TRUE(complaints.empty()) << complaints.front();
@@ -267,7 +267,7 @@ TEST(SampleTriangulation, CanBeStopped)
   for (const unsigned threads : { 1u, 4u })
   {
     EXPECT_THROW(
-      SampleTriangulation(RandomPoints(9000, 2), 1.0, threads, stop.get_token()), Cancelled);
+      SampleTriangulation<3>(RandomPoints(9000, 2), 1.0, threads, stop.get_token()), Cancelled);
   }
 }
 
@@ -276,14 +276,14 @@ TEST(MedialAxis, OfASphereIsItsCentre)
   const Point<3> centre = { 1.0, 2.0, 3.0 };
   MedialBalls balls;
   balls.LargestRadius = 20.0;
-  const std::vector<Point<3>> poles = FindPoles(Sphere(centre, 7.0, 2000), balls, 1, {});
+  const std::vector<Point<3>> poles = FindPoles<3>(Sphere(centre, 7.0, 2000), balls, 1, {});
   ASSERT_FALSE(poles.empty());
   for (const Point<3>& pole : poles)
   {
     EXPECT_NEAR(Distance(pole, centre), 0.0, 1e-6);
   }
   balls.LargestRadius = 6.9;
-  EXPECT_TRUE(FindPoles(Sphere(centre, 7.0, 2000), balls, 1, {}).empty()) << "lambda";
+  EXPECT_TRUE(FindPoles<3>(Sphere(centre, 7.0, 2000), balls, 1, {}).empty()) << "lambda";
 }
 
 // If delta is large compared with the image, one cell holds all of it, with one or two points.
@@ -308,12 +308,12 @@ TEST(MedialAxis, OfFewOrFlatPointsIsEmpty)
   for (const std::vector<Point<3>>& sample : samples)
   {
     const Box<3> bounds =
-      sample.empty() ? Box<3>{ p, p } : BoundsOf(std::span<const Point<3>>(sample));
+      sample.empty() ? Box<3>{ p, p } : BoundsOf<3>(std::span<const Point<3>>(sample));
     for (const double radius : { Distance(bounds.Min, bounds.Max), 0.1, 5.0 })
     {
       MedialBalls balls;
       balls.LargestRadius = radius;
-      EXPECT_TRUE(FindPoles(sample, balls, 1, {}).empty()) << sample.size() << ", " << radius;
+      EXPECT_TRUE(FindPoles<3>(sample, balls, 1, {}).empty()) << sample.size() << ", " << radius;
     }
   }
 }
@@ -336,7 +336,7 @@ TEST(LocalFeatureSize, OfFewSamplesIsWhatIsAskedFor)
   {
     for (const double finest : { 0.3, 3.0, 10.0, 1000.0 })
     {
-      const LocalFeatureSize lfs = Measure(image, Parameters(finest, 12.0));
+      const LocalFeatureSize<3> lfs = Measure(image, Parameters(finest, 12.0));
       for (const Point<3>& p : lfs.Sample())
       {
         EXPECT_GE(lfs.Delta().At(p), finest * (1.0 - 1e-6));
@@ -379,7 +379,7 @@ TEST(MedialAxis, LeavesObtuseEdgesOut)
   balls.ContactAngle = 90.0;
   const auto count = [&](double degrees)
   {
-    const std::vector<Point<3>> poles = FindPoles(Wedge(degrees), balls, 1, {});
+    const std::vector<Point<3>> poles = FindPoles<3>(Wedge(degrees), balls, 1, {});
     // In the inside of the wedge, away from where the squares end.
     return std::count_if(poles.begin(), poles.end(),
       [&](const Point<3>& p)
@@ -399,7 +399,7 @@ TEST(MedialAxis, LeavesLowEdgesOut)
   const auto countBelow = [&](double radius, double salience)
   {
     balls.Salience = salience;
-    const std::vector<Point<3>> poles = FindPoles(Wedge(60.0), balls, 1, {});
+    const std::vector<Point<3>> poles = FindPoles<3>(Wedge(60.0), balls, 1, {});
     return std::count_if(poles.begin(), poles.end(),
       [&](const Point<3>& p) {
         return p[0] > 0.0 && p[1] > 0.3 && p[1] < radius && p[0] < 9.0 && p[2] > 3.0 && p[2] < 17.0;
@@ -426,7 +426,7 @@ TEST(MedialAxis, LiesOnBothSides)
   MedialBalls balls;
   balls.LargestRadius = 5.0;
   balls.Salience = 1.0;
-  const std::vector<Point<3>> poles = FindPoles(points, balls, 1, {});
+  const std::vector<Point<3>> poles = FindPoles<3>(points, balls, 1, {});
   for (const double height : { 1.0, 5.0, 9.0 })
   {
     EXPECT_GT(std::count_if(poles.begin(), poles.end(),
@@ -443,19 +443,19 @@ TEST(MedialAxis, IsTheSameForAnyNumberOfThreads)
   points.insert(points.end(), other.begin(), other.end());
   MedialBalls balls;
   balls.LargestRadius = 12.0;
-  const std::vector<Point<3>> one = FindPoles(points, balls, 1, {});
+  const std::vector<Point<3>> one = FindPoles<3>(points, balls, 1, {});
   EXPECT_GT(one.size(), 100u);
   EXPECT_TRUE(std::is_sorted(one.begin(), one.end()));
-  EXPECT_EQ(one, FindPoles(points, balls, 2, {}));
-  EXPECT_EQ(one, FindPoles(points, balls, 4, {}));
-  EXPECT_TRUE(FindPoles({}, balls, 2, {}).empty());
+  EXPECT_EQ(one, FindPoles<3>(points, balls, 2, {}));
+  EXPECT_EQ(one, FindPoles<3>(points, balls, 4, {}));
+  EXPECT_TRUE(FindPoles<3>({}, balls, 2, {}).empty());
 }
 
 TEST(MedialAxis, OfOnePointIsEmpty)
 {
   MedialBalls balls;
   balls.LargestRadius = 0.0; // the extent of the sample
-  EXPECT_TRUE(FindPoles({ { 1.0, 2.0, 3.0 } }, balls, 1, {}).empty());
+  EXPECT_TRUE(FindPoles<3>({ { 1.0, 2.0, 3.0 } }, balls, 1, {}).empty());
 }
 
 TEST(GradedDelta, SpreadsTheSmallestValues)
@@ -496,7 +496,7 @@ TEST(LocalFeatureSize, OfABallIsItsRadius)
 {
   for (const double spacing : { 1.0, 0.25 })
   {
-    const LocalFeatureSize lfs = Measure(phantoms::Ball(10.0 * spacing, spacing),
+    const LocalFeatureSize<3> lfs = Measure(phantoms::Ball(10.0 * spacing, spacing),
       [&]
       {
         GradingParameters p = Parameters(2.0 * spacing, 100.0 * spacing);
@@ -513,11 +513,11 @@ TEST(LocalFeatureSize, IsTheDistanceToTheNearestPole)
 {
   const LabelImage<3> image = phantoms::Torus(13.0, 9.0);
   const GradingParameters parameters = Parameters(2.0, 14.0);
-  const LocalFeatureSize lfs = Measure(image, parameters);
+  const LocalFeatureSize<3> lfs = Measure(image, parameters);
   MedialBalls balls;
   balls.LargestRadius = parameters.Lambda;
   balls.Salience = parameters.Salience;
-  const std::vector<Point<3>> poles = FindPoles(lfs.Sample(), balls, 1, {});
+  const std::vector<Point<3>> poles = FindPoles<3>(lfs.Sample(), balls, 1, {});
   EXPECT_EQ(poles.size(), lfs.NumberOfPoles());
   for (std::size_t k = 0; k < lfs.Sample().size(); k += 3)
   {
@@ -535,7 +535,7 @@ TEST(LocalFeatureSize, OfATorusIsItsRadiusOrThatOfItsHole)
   // The hole has radius 4, the tube 9; at the outside the medial axis is the circle in the tube.
   const LabelImage<3> image = phantoms::Torus(13.0, 9.0);
   const Point<3> c = Centre(image);
-  const LocalFeatureSize lfs = Measure(image, Parameters(2.0, 100.0));
+  const LocalFeatureSize<3> lfs = Measure(image, Parameters(2.0, 100.0));
   const std::vector<double> outside =
     SizesWhere(lfs, [&](const Point<3>& p) { return std::hypot(p[0] - c[0], p[1] - c[1]) > 20.0; });
   EXPECT_NEAR(Quantile(outside, 0.5), 9.0, 0.8);
@@ -550,7 +550,7 @@ TEST(LocalFeatureSize, BetweenConcentricSpheresIsHalfTheGap)
   // Radii 8, 16 and 24: half the gap is 4.
   const LabelImage<3> image = phantoms::NestedBalls(24.0);
   const Point<3> c = Centre(image);
-  const LocalFeatureSize lfs = Measure(image, Parameters(2.0, 100.0));
+  const LocalFeatureSize<3> lfs = Measure(image, Parameters(2.0, 100.0));
   for (const double radius : { 8.0, 16.0, 24.0 })
   {
     const std::vector<double> sizes =
@@ -568,7 +568,7 @@ TEST(LocalFeatureSize, OfASheetIsHalfItsThickness)
       const double height = (p[2] - 30.0 + 0.3 * (p[0] - 30.0)) / std::hypot(1.0, 0.3);
       return Distance(p, { 30.0, 30.0, 30.0 }) < 28.0 && std::abs(height) < 3.0 ? 1 : 0;
     });
-  const LocalFeatureSize lfs = Measure(image, Parameters(2.0, 12.0));
+  const LocalFeatureSize<3> lfs = Measure(image, Parameters(2.0, 12.0));
   const std::vector<double> sizes = SizesWhere(lfs,
     [&](const Point<3>& p) {
       return Distance(p, { 30.0, 30.0, 30.0 }) < 20.0;
@@ -590,7 +590,7 @@ TEST(LocalFeatureSize, DoesNotVanishAtJunctions)
       const double angle = std::atan2(p[1] - 30.2, p[0] - 30.1);
       return angle < -1.0471975 ? 1 : angle < 1.0471975 ? 2 : 3;
     });
-  const LocalFeatureSize lfs = Measure(image, Parameters(2.0, 12.0));
+  const LocalFeatureSize<3> lfs = Measure(image, Parameters(2.0, 12.0));
   const std::vector<double> near = SizesWhere(lfs,
     [&](const Point<3>& p)
     { return std::hypot(p[0] - 30.1, p[1] - 30.2) < 2.0 && std::abs(p[2] - 30.0) < 10.0; });
@@ -603,7 +603,7 @@ TEST(LocalFeatureSize, DeltaIsBoundedAndLipschitz)
   const LabelImage<3> image = phantoms::NestedBalls(24.0);
   GradingParameters parameters = Parameters(1.5, 6.0);
   parameters.Ratio = 0.8;
-  const LocalFeatureSize lfs = Measure(image, parameters);
+  const LocalFeatureSize<3> lfs = Measure(image, parameters);
   EXPECT_LE(lfs.Largest(), 0.8 * 6.0 + 1e-6);
   EXPECT_GT(lfs.Largest(), 2.5);
   EXPECT_GE(lfs.Equivalent(), 1.5);
@@ -632,7 +632,7 @@ TEST(LocalFeatureSize, DeltaIsBoundedByTheBend)
   for (const double tolerance : { 1.0, 2.0 })
   {
     parameters.Tolerance = tolerance;
-    const LocalFeatureSize lfs = Measure(image, parameters);
+    const LocalFeatureSize<3> lfs = Measure(image, parameters);
     const double expected = std::sqrt(1.2 * 20.0 * tolerance);
     EXPECT_NEAR(lfs.Largest(), expected, 0.1 * expected);
     EXPECT_NEAR(lfs.Equivalent(), expected, 0.2 * expected);
@@ -650,10 +650,10 @@ TEST(LocalFeatureSize, WhatIsThinIsNotBent)
     });
   GradingParameters parameters = Parameters(1.0, 100.0);
   parameters.Ratio = 3.0; // Delta = 12: within it is the other sphere, too
-  const LocalFeatureSize free = Measure(image, parameters);
+  const LocalFeatureSize<3> free = Measure(image, parameters);
   parameters.Tolerance =
     6.0; // the outer sphere's bend would allow 13; half the gap, taken for its radius, 5.4
-  const LocalFeatureSize lfs = Measure(image, parameters);
+  const LocalFeatureSize<3> lfs = Measure(image, parameters);
   EXPECT_EQ(lfs.Sizes(), free.Sizes());
   std::vector<double> outer;
   for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
@@ -671,10 +671,10 @@ TEST(LocalFeatureSize, IsTheSameForAnyNumberOfThreads)
   const LabelImage<3> image = phantoms::Torus(20.0, 10.0);
   GradingParameters parameters = Parameters(1.5, 8.0);
   parameters.Tolerance = 1.6;
-  const LocalFeatureSize one = Measure(image, parameters, 1);
+  const LocalFeatureSize<3> one = Measure(image, parameters, 1);
   for (const unsigned threads : { 2u, 5u })
   {
-    const LocalFeatureSize other = Measure(image, parameters, threads);
+    const LocalFeatureSize<3> other = Measure(image, parameters, threads);
     EXPECT_EQ(one.Sample(), other.Sample());
     EXPECT_EQ(one.Sizes(), other.Sizes());
     EXPECT_EQ(one.NumberOfPoles(), other.NumberOfPoles());
@@ -693,5 +693,5 @@ TEST(LocalFeatureSize, CanBeStopped)
   std::stop_source stop;
   stop.request_stop();
   EXPECT_THROW(
-    LocalFeatureSize(image, domain, Parameters(1.0, 10.0), 2, stop.get_token()), Cancelled);
+    LocalFeatureSize<3>(image, domain, Parameters(1.0, 10.0), 2, stop.get_token()), Cancelled);
 }

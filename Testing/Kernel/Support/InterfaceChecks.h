@@ -272,7 +272,7 @@ class Triangulated
 public:
   explicit Triangulated(const SimplexMesh<3>& mesh)
   {
-    Box<3> box = BoundsOf(mesh.Points);
+    Box<3> box = BoundsOf<3>(mesh.Points);
     for (std::size_t a = 0; a < 3; ++a)
     {
       box.Min[a] -= 10.0;
