@@ -76,6 +76,17 @@ void WriteCheckFlags(const MeshingOptions<D>& options, CommandWriter& to)
   to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
 }
 
+void WriteGrading(const GradingOptions& grading, CommandWriter& to)
+{
+  const GradingOptions usual;
+  if (grading.Mode == GradingMode::LocalFeatureSize)
+  {
+    to.Word("--grading lfs");
+    to.Flag("--feature-ratio", grading.Ratio, usual.Ratio);
+    to.Flag("--largest-feature", grading.Lambda, usual.Lambda);
+  }
+}
+
 void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
 {
   const MeshingOptions<3> usual;
@@ -86,12 +97,7 @@ void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
   to.Word("--no-junctions", !options.Interfaces.SampleJunctions);
   to.Word("--no-optimise", !options.Optimisation.Run);
   to.Flag("--optimise-seconds", options.Optimisation.Seconds, usual.Optimisation.Seconds);
-  if (options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize)
-  {
-    to.Word("--grading lfs");
-    to.Flag("--feature-ratio", options.Sampling.Grading.Ratio, usual.Sampling.Grading.Ratio);
-    to.Flag("--largest-feature", options.Sampling.Grading.Lambda, usual.Sampling.Grading.Lambda);
-  }
+  WriteGrading(options.Sampling.Grading, to);
   to.Flag("--elements", options.Sampling.Elements, usual.Sampling.Elements);
   to.Unavailable("Shape.Slivers.PickingRadius", options.Shape.Slivers.PickingRadius,
     usual.Shape.Slivers.PickingRadius);
@@ -107,6 +113,7 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   WriteCheckFlags(options, to);
   to.Flag("--frame-steps", options.FrameSteps, usual.FrameSteps);
   to.Word("--no-fit", !options.Interfaces.Fit);
+  WriteGrading(options.Sampling.Grading, to);
   to.Word("--no-optimise", !options.Optimisation.Run);
   to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
   to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);

@@ -135,6 +135,16 @@ void DrawInterfaceSizes(StressCase<D>& of, Random& random)
   }
 }
 
+void DrawGrading(GradingOptions& grading, Random& random)
+{
+  if (random.Chance(0.25))
+  {
+    grading.Mode = GradingMode::LocalFeatureSize;
+    grading.Ratio = random.Chance(0.3) ? 1.0 : random.LogUniform(0.1, 4.0);
+    grading.Lambda = random.Chance(0.5) ? 12.0 : random.LogUniform(1.0, 50.0);
+  }
+}
+
 void DrawSpaceOptions(StressCase<3>& of, Random& random)
 {
   MeshingOptions<3>& options = of.Options;
@@ -157,12 +167,7 @@ void DrawSpaceOptions(StressCase<3>& of, Random& random)
   options.Interfaces.Rounds = random.Chance(0.7) ? 5 : static_cast<unsigned>(random.Integer(0, 10));
   options.Optimisation.Run = random.Chance(0.5);
   options.Optimisation.Seconds = random.Chance(0.02) ? random.LogUniform(0.001, 1.0) : 0.0;
-  if (random.Chance(0.25))
-  {
-    options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
-    options.Sampling.Grading.Ratio = random.Chance(0.3) ? 1.0 : random.LogUniform(0.1, 4.0);
-    options.Sampling.Grading.Lambda = random.Chance(0.5) ? 12.0 : random.LogUniform(1.0, 50.0);
-  }
+  DrawGrading(options.Sampling.Grading, random);
   if (random.Chance(0.02))
   {
     options.Sampling.Elements = static_cast<std::uint64_t>(random.LogUniform(0.3, 10.0) *
@@ -194,6 +199,7 @@ void DrawSpaceTimeOptions(StressCase<4>& of, Random& random)
   options.Interfaces.Fit = random.Chance(0.7);
   options.Optimisation.Run = random.Chance(0.7);
   options.FrameSteps = random.Chance(0.7) ? 0 : static_cast<unsigned>(random.Integer(1, 4));
+  DrawGrading(options.Sampling.Grading, random);
 }
 
 } // namespace

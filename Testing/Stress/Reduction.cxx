@@ -172,14 +172,14 @@ bool Reducer<D>::ResetOptionsOfDimension()
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FrameSteps), 1u, usual.FrameSteps);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Fit), false, usual.Interfaces.Fit);
   changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Run), false);
+  changed |=
+    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Mode), usual.Sampling.Grading.Mode);
+  changed |=
+    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Ratio), usual.Sampling.Grading.Ratio);
+  changed |=
+    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Lambda), usual.Sampling.Grading.Lambda);
   if constexpr (D == 3)
   {
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Mode), usual.Sampling.Grading.Mode);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Ratio), usual.Sampling.Grading.Ratio);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.Sampling.Grading.Lambda), usual.Sampling.Grading.Lambda);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Seconds), 0.0);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Shape.FacetAngle), usual.Shape.FacetAngle);
     changed |=
