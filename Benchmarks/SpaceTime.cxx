@@ -79,6 +79,7 @@ phantoms::SpaceTimePhantom MakePhantom(const SpaceTimeOptions& options)
     { "rotating-sheet", [] { return phantoms::RotatingSheet(); } },
     { "opening-tube", [] { return phantoms::OpeningTube(); } },
     { "fast-ball", [] { return phantoms::FastBall(); } },
+    { "small-and-large", [] { return phantoms::SmallAndLarge(); } },
   };
   const auto found = phantoms.find(options.Phantom);
   if (found == phantoms.end())
@@ -131,9 +132,10 @@ void RunAll(const SpaceTimeOptions& options, double delta, const std::vector<std
       const SpaceTimeRecord record =
         RunInChild([&] { return MeshPhantom(scalars, grid, meshing, fit); });
       std::fprintf(stderr,
-        "  round %d, %s, %u thread(s): %.0f pentatopes, %.3f s (grading %.3f s), %.0f MB\n",
+        "  round %d, %s, %u thread(s): %.0f pentatopes, %.3f s (grading %.3f s, %.0f samples), "
+        "%.0f MB\n",
         round + 1, series.Name().c_str(), series.Threads, record.Pentatopes,
-        record.RefinementSeconds, record.GradingSeconds,
+        record.RefinementSeconds, record.GradingSeconds, record.GradingSamples,
         static_cast<double>(record.PeakBytes) / 1e6);
       series.Records.push_back(record);
     }

@@ -18,7 +18,7 @@ Meshes a space-time phantom into pentatopes and prints tables in Markdown: sizes
 thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a process of its own; all take turns.
 
   --phantom NAME     beating-ventricle (default), four-ball (radius 12), merging-balls, rotating-sheet,
-                     opening-tube or fast-ball
+                     opening-tube, fast-ball or small-and-large
   --coarsening N     N times fewer voxels of the ventricle along x, y and z (default 1)
   --time-scale S     length of a unit of time (default 1)
   --delta D          sampling distance, in the unit of the spacing (default: derived from the spacing)

@@ -64,6 +64,7 @@ void TakeStatistics(const MeshingStatistics& statistics, SpaceTimeRecord& record
 {
   record.PreparationSeconds = statistics.Times.LabelField + statistics.Times.DistanceTransform;
   record.GradingSeconds = statistics.Times.Grading;
+  record.GradingSamples = static_cast<double>(statistics.GradingSamples);
   record.RefinementSeconds = statistics.Times.Refinement;
   record.ExtractionSeconds = statistics.Times.Extraction;
   record.TotalSeconds = statistics.Times.Total();

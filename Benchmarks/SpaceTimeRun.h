@@ -65,6 +65,7 @@ struct SpaceTimeRecord
   double LostComponents = 0.0; ///< those of frames included
   double PreparationSeconds = 0.0;
   double GradingSeconds = 0.0;
+  double GradingSamples = 0.0;
   double RefinementSeconds = 0.0;
   double ExtractionSeconds = 0.0;
   double TotalSeconds = 0.0;

@@ -164,6 +164,20 @@ inline SpaceTimePhantom OpeningTube(std::int64_t frames = 15)
     } };
 }
 
+/** A large ball (label 1, radius 20) that rests, and a small one (label 2, radius 5) that moves past it. */
+inline SpaceTimePhantom SmallAndLarge(std::int64_t frames = 13)
+{
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 58, 46, 46, frames }, { 1.0, 1.0, 1.0, 1.0 });
+  return { grid,
+    [](const Point<4>& p) -> std::uint8_t
+    {
+      const bool isLarge = std::hypot(p[0] - 22.5, p[1] - 22.5, p[2] - 22.5) < 20.0;
+      const double y = 16.0 + 1.1 * p[3];
+      return isLarge ? 1 : std::hypot(p[0] - 50.0, p[1] - y, p[2] - 22.5) < 5.0 ? 2 : 0;
+    } };
+}
+
 /** A ball of label 1, radius 7, that moves 4 voxels a frame there and back. */
 inline SpaceTimePhantom FastBall(std::int64_t frames = 17)
 {
