@@ -27,8 +27,8 @@ namespace
 {
 
 /**
- * Spacing of the points used to measure local feature sizes, in delta. In 4D a spacing of 0.75 takes
- * up to three times as long and as much memory, and meshes are as good.
+ * Spacing of the points used to measure local feature sizes, in delta. In 4D a spacing of 0.75 takes up
+ * to three times as many points, and meshes are as good.
  */
 template <int D>
 constexpr double GradingSampleSpacing = D == 3 ? 0.75 : 1.0;
@@ -40,9 +40,8 @@ constexpr double GradingSampleSpacing = D == 3 ? 0.75 : 1.0;
 constexpr double GradingTolerance = 0.9;
 
 /**
- * The tolerance of grading in 4D, in delta. There are no triangles whose distances are checked, and
- * volumes of frames suffer from chords first: with 0.6 those of a 4-ball are up to 12 % off, with 0.3
- * 5 % (radius 6 delta).
+ * The tolerance of grading in 4D, in delta. Distances of facets are not checked, and volumes of frames
+ * suffer from chords first.
  */
 constexpr double SpaceTimeTolerance = 0.3;
 

@@ -169,6 +169,25 @@ class Times(SpaceTimeTestCase):
         self.assertLess(len(self.mesh_of("fast.nrrd").cells), 0.7 * len(fast.cells))
 
 
+class Grading(SpaceTimeTestCase):
+    def test_saves_pentatopes(self):
+        """The volumes stay, and the statistics tell what was done."""
+        geometry = images.Geometry()
+        z, y, x = np.indices((24, 24, 24)) - 11.5
+        array = np.repeat((np.sqrt(x * x + y * y + z * z) < 10)[None], 8, axis=0).astype(np.uint8)
+        images.write_space_time_nrrd(self.folder / "ball.nrrd", array, geometry)
+        uniform = self.mesh_of("ball.nrrd", delta=2)
+        graded = self.mesh_of("ball.nrrd", "--grading", "lfs", "--stats", "graded.json", delta=2)
+        self.check_balls(graded, array, geometry, tolerance=0.03)
+        self.assertLess(len(graded.cells), 0.8 * len(uniform.cells))
+        report = json.loads((self.folder / "graded.json").read_text())
+        self.assertEqual(report["parameters"]["grading"], "lfs")
+        self.assertGreater(report["grading"]["poles"], 10)
+        self.assertGreater(report["largest_delta"], 2.2)
+        self.assert_refused(2, "--feature-ratio: .*give --grading lfs as well", "--input", "ball.nrrd", "--feature-ratio",
+                            2, "--output", "m.vtu")
+
+
 class Space(SpaceTimeTestCase):
     def test_left_handed_axes(self):
         array = images.moving_balls()

@@ -260,6 +260,19 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(voxplex.MeshingError, "FeatureRatio"):
             voxplex.mesh(self.image, grading="lfs", feature_ratio=0)
 
+    def test_grading_of_series(self):
+        z, y, x = numpy.indices((22, 22, 22)) - 10.5
+        series = numpy.repeat((numpy.sqrt(x * x + y * y + z * z) < 9)[None], 8, axis=0).astype(numpy.uint8)
+        uniform = voxplex.mesh(series, 2.0, threads=1)
+        graded, _, statistics = voxplex.mesh(series, 2.0, threads=1, grading="lfs", full_output=True)
+        self.assertLess(graded.GetNumberOfCells(), 0.8 * uniform.GetNumberOfCells())
+        self.assertGreater(statistics["largest_delta"], 2.2)
+        self.assertGreater(statistics["grading"]["samples"], 500)
+        for options in (dict(feature_ratio=0.1), dict(largest_feature=1)):
+            self.assertTrue(same(uniform, voxplex.mesh(series, 2.0, threads=1, grading="lfs", **options)), options)
+        with self.assertRaisesRegex(ValueError, "^feature_ratio: only .* graded"):
+            voxplex.mesh(series, 2.0, feature_ratio=2)
+
     def test_refuses_what_has_no_effect(self):
         for grading in (None, "uniform"):
             for name in ("feature_ratio", "largest_feature"):

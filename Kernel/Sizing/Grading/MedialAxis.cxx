@@ -49,9 +49,9 @@ bool IsMedialBall(double radius2, double longest2, const MedialBalls& which)
 }
 
 /**
- * Whether a ball passes near all its points. In 4D a tenth of the pentatopes are so flat that no ball
+ * Whether a ball passes near all its points. In 4D many pentatopes are so flat that no ball
  * is certified. What such a ball is, depends on the displacements of the sample's points, so exact
- * arithmetic does not make it better, and takes most of the time.
+ * arithmetic does not make it better, and takes two thirds of the time.
  */
 template <int D>
 bool PassesNear(const Circumball<D>& ball,
