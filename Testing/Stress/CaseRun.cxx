@@ -107,7 +107,7 @@ bool SameMesh(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
 {
   return SameBytes(a.Points, b.Points) && SameBytes(a.Simplices, b.Simplices) &&
     SameBytes(a.Labels, b.Labels) && SameBytes(a.Facets, b.Facets) &&
-    SameBytes(a.FacetLabels, b.FacetLabels);
+    SameBytes(a.FacetLabels, b.FacetLabels) && a.Slabs == b.Slabs && a.Twins == b.Twins;
 }
 
 /** The second run of a case. If the number of threads must not matter, it has another one. */

@@ -58,6 +58,8 @@ template <int D>
 void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& findings)
 {
   const std::vector<Ridge<D>> ridges = RidgesOf(subject.Mesh);
+  const std::vector<double> planes = subject.PlaneTimes();
+  std::uint64_t offPlanes = 0;
   for (std::size_t i = 0; i < ridges.size();)
   {
     std::size_t end = i + 1;
@@ -69,13 +71,17 @@ void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& 
     {
       findings.Add("open-boundary", "of label " + std::to_string(ridges[i].Label));
     }
-    figures.NonManifold += end - i != 2 && ridges[i].Label != 0 ? 1 : 0;
+    if (end - i != 2 && ridges[i].Label != 0)
+    {
+      ++figures.NonManifold;
+      // A pentatope that keeps its label has four vertices on a plane, and each of its triangles two or three.
+      offPlanes += OnOnePlane<D>(subject, planes, ridges[i].Vertices) < 2 ? 1 : 0;
+    }
     i = end;
   }
-  if (figures.NonManifold > 0 && subject.Of.Options.Interfaces.Manifold)
+  if (offPlanes > 0 && subject.Of.Options.Interfaces.Manifold)
   {
-    findings.Add(
-      "non-manifold", std::to_string(figures.NonManifold) + (D == 3 ? " edges" : " triangles"));
+    findings.Add("non-manifold", std::to_string(offPlanes) + (D == 3 ? " edges" : " triangles"));
   }
 }
 

@@ -90,6 +90,10 @@ MeshFigures CheckMesh(const Subject<D>& subject, Findings& findings)
   CheckBoundaries(subject, figures, findings);
   CheckShapes(subject, findings);
   CheckAgainstImage(subject, findings);
+  if constexpr (D == 4)
+  {
+    CheckTimePlanes(subject, findings);
+  }
   CheckStatistics(subject, figures, findings);
   return figures;
 }

@@ -301,6 +301,8 @@ void CheckConformity(const Subject<D>& subject, Findings& findings)
   const MeshingOptions<D>& options = subject.Of.Options;
   const bool hasMoved = options.Optimisation.Run || (D == 4 && options.Interfaces.Fit);
   const bool isDelaunay = !hasMoved && subject.Stats.Interfaces.NonManifoldOpened == 0;
+  // Each slab is Delaunay, their union is not.
+  const std::vector<double> planes = subject.PlaneTimes();
   const std::vector<Side<D>> sides = SidesOf(mesh);
   std::vector<Face<D>> expected;
   for (std::size_t i = 0; i < sides.size();)
@@ -316,7 +318,8 @@ void CheckConformity(const Subject<D>& subject, Findings& findings)
     }
     else if (end - i == 2)
     {
-      CheckPair(subject, sides[i], sides[i + 1], isDelaunay, findings);
+      CheckPair(subject, sides[i], sides[i + 1],
+        isDelaunay && OnOnePlane<D>(subject, planes, sides[i].Vertices) < D, findings);
     }
     const Side<D>* other = end - i > 1 ? &sides[i + 1] : nullptr;
     if (!other || mesh.Labels[sides[i].Simplex] != mesh.Labels[other->Simplex])

@@ -18,6 +18,7 @@
 #include "SimplexGeometry.h"
 #include "StressCase.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -43,6 +44,21 @@ struct Subject
     return corners;
   }
 
+  /** The times of planes and of the ends of a periodic mesh, ascending. */
+  std::vector<double> PlaneTimes() const
+  {
+    std::vector<double> times = this->Stats.Planes.Times;
+    if (this->Stats.Planes.Periodic && !this->Mesh.Points.empty())
+    {
+      const auto [low, high] =
+        std::minmax_element(this->Mesh.Points.begin(), this->Mesh.Points.end(),
+          [](const Point<D>& p, const Point<D>& q) { return p[D - 1] < q[D - 1]; });
+      times.insert(times.begin(), (*low)[D - 1]);
+      times.push_back((*high)[D - 1]);
+    }
+    return times;
+  }
+
   /**
    * Number of pieces of simplices, or new vertices, around an opened ridge that may break a bound. A
    * tetrahedron is cut in at most 5 pieces, a pentatope in 7.
@@ -62,6 +78,21 @@ struct Subject
       : this->Mesh.Simplices.size() * (D + 1);
   }
 };
+
+/** The largest number of vertices that lie on one of the planes. */
+template <int D, std::size_t N>
+std::size_t OnOnePlane(const Subject<D>& subject, const std::vector<double>& planes,
+  const std::array<std::uint32_t, N>& vertices)
+{
+  std::size_t most = 0;
+  for (const double time : planes)
+  {
+    const auto there = std::count_if(vertices.begin(), vertices.end(),
+      [&](std::uint32_t v) { return subject.Mesh.Points[v][D - 1] == time; });
+    most = std::max(most, static_cast<std::size_t>(there));
+  }
+  return most;
+}
 
 /** Counts that are no failure by themselves. */
 struct MeshFigures
@@ -108,9 +139,18 @@ void CheckAgainstImage(const Subject<D>& subject, Findings& findings);
 template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 
-/** Boundaries of labels: closed, and manifold at their edges (4D: triangles) if that is asked for. */
+/**
+ * Boundaries of labels: closed, and manifold at their edges (4D: triangles) if that is asked for. At time planes, where
+ * pentatopes keep their labels, a triangle need not be manifold.
+ */
 template <int D>
 void CheckBoundaries(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
+
+/**
+ * No pentatope crosses a time plane. Both sides of a plane, and both ends of a periodic mesh, have the same tetrahedra
+ * with the same labels. Numbers of slabs and pairs of twins are right.
+ */
+void CheckTimePlanes(const Subject<4>& subject, Findings& findings);
 
 /** The statistics agree with the options and with the mesh. */
 template <int D>

@@ -110,10 +110,18 @@ void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
   const MeshingOptions<4>& options = of.Options;
   const MeshingOptions<4> usual;
   to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
+  std::string times;
+  for (const double time : options.Planes.Times)
+  {
+    times += (times.empty() ? "" : ",") + Text(time / of.Image.Axes[3][3], 17);
+  }
+  to.Word("--time-planes " + times, !times.empty());
+  to.Word("--periodic", options.Planes.Periodic);
   WriteCheckFlags(options, to);
   to.Flag("--frame-steps", options.FrameSteps, usual.FrameSteps);
   to.Word("--no-fit", !options.Interfaces.Fit);
   WriteGrading(options.Sampling.Grading, to);
+  to.Word("--no-manifold", !options.Interfaces.Manifold);
   to.Word("--no-optimise", !options.Optimisation.Run);
   to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
   to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);

@@ -543,6 +543,12 @@ std::string FillWithGreyValues(Volume<D>& image, Random& random)
   return names[kind];
 }
 
+void RepeatFirstFrame(Volume<4>& image)
+{
+  const auto frame = static_cast<std::ptrdiff_t>(image.Labels.size()) / image.Dimensions[3];
+  std::copy_n(image.Labels.begin(), frame, image.Labels.end() - frame);
+}
+
 template Volume<3> RandomGrid<3>(Random&);
 template Volume<4> RandomGrid<4>(Random&);
 template std::string FillWithLabels<3>(Volume<3>&, Random&);

@@ -38,6 +38,9 @@ std::string FillWithLabels(Volume<D>& image, Random& random);
 template <int D>
 std::string FillWithGreyValues(Volume<D>& image, Random& random);
 
+/** Makes the last frame equal to the first one. */
+void RepeatFirstFrame(Volume<4>& image);
+
 /** Sets Labels from Grey and Surface, without smoothing. */
 template <int D>
 void ClassifyGreyValues(Volume<D>& image);

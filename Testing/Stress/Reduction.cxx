@@ -27,6 +27,23 @@ constexpr double Grace = 30.0;
 /** Single voxels are tried one by one only in images with at most this number of voxels. */
 constexpr std::size_t FewVoxels = 600;
 
+/** Moves planes to earlier times, and leaves out those that are not in the image any more. */
+template <int D>
+void ShiftPlanes(StressCase<D>& of, double by)
+{
+  const double duration =
+    static_cast<double>(of.Image.Dimensions[D - 1] - 1) * of.Image.Axes[D - 1][D - 1];
+  std::vector<double> times;
+  for (const double time : of.Options.Planes.Times)
+  {
+    if (time - by >= 0.0 && time - by <= duration)
+    {
+      times.push_back(time - by);
+    }
+  }
+  of.Options.Planes.Times = times;
+}
+
 template <int D>
 class Reducer
 {
@@ -85,6 +102,13 @@ private:
     }
     StressCase<D> candidate = this->Best;
     change(candidate);
+    if constexpr (D == 4)
+    {
+      if (candidate.Options.Planes.Periodic)
+      {
+        RepeatFirstFrame(candidate.Image);
+      }
+    }
     candidate.Measure();
     if (!this->Fails(candidate))
     {
@@ -112,6 +136,7 @@ private:
 
   bool ResetOptions();
   bool ResetOptionsOfDimension();
+  bool LeaveOutPlanes();
   bool Crop();
   bool CropTo(std::size_t axis, std::int64_t first, std::int64_t count);
   bool MergeLabels();
@@ -196,6 +221,9 @@ bool Reducer<D>::ResetOptionsOfDimension()
   }
   else
   {
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Planes.Periodic), false);
+    changed |= this->LeaveOutPlanes();
+    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Fight), false);
     changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Order), usual.SpaceTime.Order);
     changed |=
@@ -215,6 +243,24 @@ bool Reducer<D>::ResetOptionsOfDimension()
 #undef VOXPLEX_MEMBER
 
 //------------------------------------------------------------------------------------------------
+/** Leaves out time planes one by one. */
+template <int D>
+bool Reducer<D>::LeaveOutPlanes()
+{
+  bool changed = false;
+  for (std::size_t k = this->Best.Options.Planes.Times.size(); k-- > 0;)
+  {
+    changed |= this->Try(
+      [&](StressCase<D>& c)
+      {
+        std::vector<double>& times = c.Options.Planes.Times;
+        times.erase(times.begin() + static_cast<std::ptrdiff_t>(k));
+      });
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------------------------
 template <int D>
 bool Reducer<D>::CropTo(std::size_t axis, std::int64_t first, std::int64_t count)
 {
@@ -224,6 +270,10 @@ bool Reducer<D>::CropTo(std::size_t axis, std::int64_t first, std::int64_t count
       Volume<D> old = c.Image;
       Volume<D>& image = c.Image;
       image.Dimensions[axis] = count;
+      if (axis == 3)
+      {
+        ShiftPlanes(c, static_cast<double>(first) * image.Axes[axis][axis]);
+      }
       image.Labels.resize(image.Size());
       image.Grey.resize(old.Grey.empty() ? 0 : image.Size());
       image.ForEach(
@@ -328,6 +378,10 @@ bool Reducer<D>::SimplifyGrid()
   const double voxel = std::pow(this->Best.Image.VoxelVolume(), 1.0 / D);
   const auto unit = [&](StressCase<D>& c)
   {
+    for (double& time : c.Options.Planes.Times)
+    {
+      time /= c.Image.Axes[D - 1][D - 1];
+    }
     for (std::size_t r = 0; r < static_cast<std::size_t>(D); ++r)
     {
       c.Image.Axes[r].fill(0.0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <sstream>
 
 namespace voxplex::stress
 {
@@ -42,6 +43,21 @@ std::string Beginning(const std::string& refusal)
   return words;
 }
 
+/** What a kind has after commas. */
+std::vector<std::string> FeaturesOf(const std::string& kind)
+{
+  std::vector<std::string> features;
+  std::istringstream stream(kind.find(',') == std::string::npos ? "" : kind.substr(kind.find(',')));
+  for (std::string feature; std::getline(stream, feature, ',');)
+  {
+    if (!feature.empty())
+    {
+      features.push_back(feature.substr(1));
+    }
+  }
+  return features;
+}
+
 double Per(std::uint64_t a, std::uint64_t b)
 {
   return static_cast<double>(a) / static_cast<double>(b);
@@ -68,7 +84,14 @@ void Report::Ranking::Add(double figure, const std::string& what)
 void Report::Add(const CaseId& id, const CaseResult& result)
 {
   ++this->Cases;
-  ++this->Kinds[result.Kind.substr(0, result.Kind.find('+'))];
+  ++this->Kinds[result.Kind.substr(0, result.Kind.find_first_of("+,"))];
+  for (const std::string& feature : FeaturesOf(result.Kind))
+  {
+    Outcomes& outcomes = this->Features[feature];
+    ++(result.Status == CaseStatus::Passed    ? outcomes.Passed
+        : result.Status == CaseStatus::Failed ? outcomes.Failed
+                                              : outcomes.Refused);
+  }
   this->Elements += result.Elements;
   this->Seconds += result.Seconds;
   this->CheckSeconds += result.CheckSeconds;
@@ -133,6 +156,12 @@ void Report::Print() const
   for (const auto& [kind, n] : this->Kinds)
   {
     std::printf("  %8llu %s\n", count(n), kind.empty() ? "of unknown kind" : kind.c_str());
+  }
+  for (const auto& [feature, n] : this->Features)
+  {
+    std::printf("  %8llu with %s: %llu passed, %llu failed, %llu refused\n",
+      count(n.Passed + n.Failed + n.Refused), feature.c_str(), count(n.Passed), count(n.Failed),
+      count(n.Refused));
   }
   std::printf("  %8llu refused\n", count(this->Refused));
   for (const auto& [words, n] : this->Refusals)

@@ -46,6 +46,13 @@ private:
     std::string Message;
   };
 
+  struct Outcomes
+  {
+    std::uint64_t Passed = 0;
+    std::uint64_t Failed = 0;
+    std::uint64_t Refused = 0;
+  };
+
   void Rank(const CaseId& id, const CaseResult& result);
 
   std::uint64_t Cases = 0;
@@ -61,6 +68,7 @@ private:
   std::map<std::string, Cause> Causes;
   std::map<std::string, std::uint64_t> Refusals; ///< counts by the first words of the message
   std::map<std::string, std::uint64_t> Kinds;
+  std::map<std::string, Outcomes> Features; ///< what some cases have beside their image
   Ranking Slowest{ "seconds of processor time", {} };
   Ranking SlowestPerElement{ "microseconds per element (meshes of 300 or more)", {} };
   Ranking CreatedPerElement{ "simplices created per element (meshes of 300 or more)", {} };

@@ -19,6 +19,22 @@ Random StreamOf(const CaseId& id)
   return Random(id.Seed * 3 + static_cast<std::uint64_t>(id.Kind), id.Number);
 }
 
+Random LaterStreamOf(const CaseId& id)
+{
+  constexpr std::uint64_t salt = 0x5374726573733444;
+  return Random(id.Seed * 3 + static_cast<std::uint64_t>(id.Kind), id.Number ^ salt);
+}
+
+/** Makes some images periodic. For a few, the options ask for a period that the image does not have. */
+void DrawPeriod(StressCase<4>& of, Random& later)
+{
+  of.Options.Planes.Periodic = !of.Image.Surface && later.Chance(0.25);
+  if (of.Options.Planes.Periodic && !later.Chance(0.02))
+  {
+    RepeatFirstFrame(of.Image);
+  }
+}
+
 /** A SizeRequest as the size function that the kernel takes. */
 template <int D>
 class RequestedSize final : public SizeFunction<D>
@@ -151,10 +167,22 @@ StressCase<D> MakeCase(const CaseId& id)
   StressCase<D> made;
   made.Id = id;
   made.Image = RandomGrid<D>(random);
-  made.Kind = id.Kind == Family::Isosurface ? FillWithGreyValues(made.Image, random)
-                                            : FillWithLabels(made.Image, random);
+  // Draws that were added later have a stream of their own, so that the others keep their meaning.
+  Random later = LaterStreamOf(id);
+  const bool isGrey =
+    id.Kind == Family::Isosurface || (id.Kind == Family::SpaceTime && later.Chance(0.15));
+  made.Kind = isGrey ? FillWithGreyValues(made.Image, random) : FillWithLabels(made.Image, random);
+  if constexpr (D == 4)
+  {
+    DrawPeriod(made, later);
+  }
   made.Measure();
   DrawOptions(made, random);
+  if constexpr (D == 4)
+  {
+    made.Options.Interfaces.Manifold = later.Chance(0.9);
+    DrawTimePlanes(made, later);
+  }
   return made;
 }
 

@@ -24,7 +24,7 @@ namespace voxplex::stress
 enum class Family
 {
   Space,     ///< label images in 3D
-  SpaceTime, ///< label images in 4D
+  SpaceTime, ///< label images in 4D, and some grey-value images
   Isosurface ///< grey-value images, mostly in 3D
 };
 
@@ -56,7 +56,7 @@ template <int D>
 struct StressCase
 {
   CaseId Id;
-  std::string Kind; ///< kind of the image
+  std::string Kind; ///< kind of the image, and after commas what else the case has
   Volume<D> Image;
   MeshingOptions<D> Options; ///< except Options.Size
   SizeRequest Size;
@@ -110,6 +110,12 @@ std::string ShellCommand(
 /** Draws options; the image must be complete and measured. */
 template <int D>
 void DrawOptions(StressCase<D>& of, Random& random);
+
+/**
+ * Draws time planes, and changes other options so that most planes are possible: there may be a smaller delta, and a longer
+ * step in time. All other options must have been drawn, and whether the mesh is periodic.
+ */
+void DrawTimePlanes(StressCase<4>& of, Random& random);
 
 } // namespace voxplex::stress
 

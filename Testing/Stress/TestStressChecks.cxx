@@ -11,9 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <unistd.h>
 
@@ -89,12 +92,87 @@ void ExpectNothing(const Meshed<D>& meshed)
 
 /** The checks must find a change of a good mesh. */
 template <int D>
-void ExpectFound(const std::string& cause, const std::function<void(Meshed<D>&)>& spoil)
+void ExpectFoundIn(
+  const Meshed<D>& good, const std::string& cause, const std::function<void(Meshed<D>&)>& spoil)
 {
-  static const Meshed<D> good;
   Meshed<D> bad = good;
   spoil(bad);
   EXPECT_TRUE(bad.Check().Has(cause)) << cause;
+}
+
+template <int D>
+void ExpectFound(const std::string& cause, const std::function<void(Meshed<D>&)>& spoil)
+{
+  static const Meshed<D> good;
+  ExpectFoundIn<D>(good, cause, spoil);
+}
+
+/** Two slabs; both ends are the same. */
+void MakePeriodicWithPlane(StressCase<4>& c)
+{
+  c.Options.Planes.Times = { 1.5 };
+  c.Options.Planes.Periodic = true;
+}
+
+/** A pentatope with a facet at a time. */
+std::size_t PentatopeAt(const SimplexMesh<4>& mesh, double time)
+{
+  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    const auto& v = mesh.Simplices[s];
+    const auto flat =
+      std::count_if(v.begin(), v.end(), [&](std::uint32_t i) { return mesh.Points[i][3] == time; });
+    if (flat == 4)
+    {
+      return s;
+    }
+  }
+  ADD_FAILURE() << "no facet at " << time;
+  return 0;
+}
+
+/** Replaces the mesh by two simplices of label 3 that share only an edge, in 4D a triangle. */
+template <int D>
+void MakePairAtRidge(Meshed<D>& m)
+{
+  constexpr auto N = static_cast<std::uint32_t>(D);
+  m.Mesh = {};
+  m.Mesh.Points.resize(N + 3, Point<D>{});
+  // The ridge: the origin and one point on each of the first axes. Two axes are left.
+  for (std::uint32_t v = 1; v < N - 1; ++v)
+  {
+    m.Mesh.Points[v][v - 1] = 1.0;
+  }
+  for (std::uint32_t k = 0; k < 4; ++k)
+  {
+    m.Mesh.Points[N - 1 + k][N - 2 + k % 2] = k < 2 ? 1.0 : -1.0;
+  }
+  for (const std::uint32_t first : { N - 1, N + 1 })
+  {
+    auto& simplex = m.Mesh.Simplices.emplace_back();
+    std::iota(simplex.begin(), simplex.end(), 0u);
+    simplex[N - 1] = first;
+    simplex[N] = first + 1;
+    m.Mesh.Labels.push_back(3);
+    for (std::uint32_t apex = 0; apex <= N; ++apex)
+    {
+      auto& facet = m.Mesh.Facets.emplace_back();
+      for (std::uint32_t k = 0, to = 0; k <= N; ++k)
+      {
+        if (k != apex)
+        {
+          facet[to++] = simplex[k];
+        }
+      }
+      if (apex % 2 == 1)
+      {
+        std::swap(facet[N - 2], facet[N - 1]);
+      }
+      m.Mesh.FacetLabels.push_back({ 3, 0 });
+    }
+  }
+  EXPECT_FALSE(m.Check().Has("facets"));
+  EXPECT_FALSE(m.Check().Has("orientation"));
 }
 
 } // namespace
@@ -254,26 +332,7 @@ TEST(StressChecks, FindEdgesThatAreNotManifold)
   ExpectFound<3>("non-manifold",
     [](Meshed<3>& m)
     {
-      // Two tetrahedra of a label that share only an edge.
-      m.Mesh = {};
-      for (const Point<3>& p : { Point<3>{ 0, 0, 0 }, Point<3>{ 0, 0, 1 }, Point<3>{ 1, 0, 0 },
-             Point<3>{ 0, 1, 0 }, Point<3>{ -1, 0, 0 }, Point<3>{ 0, -1, 0 } })
-      {
-        m.Mesh.Points.push_back(p);
-      }
-      m.Mesh.Simplices = { { 0, 2, 3, 1 }, { 0, 4, 5, 1 } };
-      m.Mesh.Labels = { 3, 3 };
-      for (const auto& t : m.Mesh.Simplices)
-      {
-        for (const auto& f : { std::array{ t[1], t[2], t[3] }, std::array{ t[0], t[3], t[2] },
-               std::array{ t[0], t[1], t[3] }, std::array{ t[0], t[2], t[1] } })
-        {
-          m.Mesh.Facets.push_back(f);
-          m.Mesh.FacetLabels.push_back({ 3, 0 });
-        }
-      }
-      EXPECT_FALSE(m.Check().Has("facets"));
-      EXPECT_FALSE(m.Check().Has("orientation"));
+      MakePairAtRidge<3>(m);
       m.Of.Options.Interfaces.Manifold = false;
       EXPECT_FALSE(m.Check().Has("non-manifold"));
       m.Of.Options.Interfaces.Manifold = true;
@@ -286,32 +345,84 @@ TEST(StressChecks, FindTrianglesThatAreNotManifold)
   ExpectFound<4>("non-manifold",
     [](Meshed<4>& m)
     {
-      // Two pentatopes of a label that share only a triangle.
-      m.Mesh = {};
-      for (const Point<4>& p : { Point<4>{ 0, 0, 0, 0 }, Point<4>{ 1, 0, 0, 0 },
-             Point<4>{ 0, 1, 0, 0 }, Point<4>{ 0, 0, 1, 0 }, Point<4>{ 0, 0, 0, 1 },
-             Point<4>{ 0, 0, -1, 0 }, Point<4>{ 0, 0, 0, -1 } })
-      {
-        m.Mesh.Points.push_back(p);
-      }
-      m.Mesh.Simplices = { { 0, 1, 2, 3, 4 }, { 0, 1, 2, 5, 6 } };
-      m.Mesh.Labels = { 3, 3 };
-      for (const auto& s : m.Mesh.Simplices)
-      {
-        for (const auto& f : { std::array{ s[1], s[2], s[3], s[4] },
-               std::array{ s[0], s[2], s[4], s[3] }, std::array{ s[0], s[1], s[3], s[4] },
-               std::array{ s[0], s[1], s[4], s[2] }, std::array{ s[0], s[1], s[2], s[3] } })
-        {
-          m.Mesh.Facets.push_back(f);
-          m.Mesh.FacetLabels.push_back({ 3, 0 });
-        }
-      }
-      EXPECT_FALSE(m.Check().Has("facets"));
-      EXPECT_FALSE(m.Check().Has("orientation"));
+      MakePairAtRidge<4>(m);
       m.Of.Options.Interfaces.Manifold = false;
       EXPECT_FALSE(m.Check().Has("non-manifold"));
       m.Of.Options.Interfaces.Manifold = true;
+      m.Stats.Planes.Times = { 0.0 }; // the triangle lies on a plane
+      EXPECT_FALSE(m.Check().Has("non-manifold"));
+      m.Stats.Planes.Times = { 0.5 };
     });
+}
+
+TEST(StressChecks, FindNothingAtGoodPlanes)
+{
+  ExpectNothing(Meshed<4>(MakePeriodicWithPlane));
+  const Meshed<4> refined(
+    [](StressCase<4>& c)
+    {
+      MakePeriodicWithPlane(c);
+      c.Options.Interfaces.Fit = false; // each slab is Delaunay
+    });
+  ExpectNothing(refined);
+  ExpectFoundIn<4>(refined, "delaunay",
+    [](Meshed<4>& m)
+    {
+      for (std::size_t v = 0; v < m.Mesh.Points.size(); v += 10)
+      {
+        m.Mesh.Points[v][0] += 0.1;
+      }
+    });
+}
+
+TEST(StressChecks, FindWhatIsWrongAtPlanes)
+{
+  const Meshed<4> good(MakePeriodicWithPlane);
+  const auto expect = [&good](
+                        const std::string& cause, const std::function<void(Meshed<4>&)>& spoil)
+  { ExpectFoundIn<4>(good, cause, spoil); };
+  expect("planes", [](Meshed<4>& m) { m.Of.Options.Planes.Times = { 1.4 }; });
+  expect("planes", [](Meshed<4>& m) { m.Of.Options.Planes.Times.push_back(2.5); });
+  expect("planes", [](Meshed<4>& m) { m.Of.Options.Planes.Periodic = false; });
+  expect("planes", [](Meshed<4>& m) { m.Stats.Planes.Periodic = false; });
+  expect("planes", [](Meshed<4>& m) { m.Stats.Planes.Times = { 1.5, 1.5 }; });
+  expect("slab", [](Meshed<4>& m) { m.Mesh.Slabs.clear(); });
+  expect("slab", [](Meshed<4>& m) { m.Mesh.Slabs[6] = 1 - m.Mesh.Slabs[6]; });
+  expect("crosses-plane",
+    [](Meshed<4>& m)
+    {
+      for (auto& p : m.Mesh.Points)
+      {
+        p[3] += p[3] == 1.5 ? 1e-12 : 0.0;
+      }
+    });
+  const auto relabel = [](double time)
+  {
+    return [time](Meshed<4>& m)
+    {
+      std::int64_t& label = m.Mesh.Labels[PentatopeAt(m.Mesh, time)];
+      label = label == 3 ? 7 : 3;
+    };
+  };
+  expect("plane-sides", relabel(1.5));
+  expect("period", relabel(0.0));
+  expect("period", relabel(3.0));
+  expect("twins",
+    [](Meshed<4>& m)
+    {
+      double& x = m.Mesh.Points[m.Mesh.Twins[2][1]][0];
+      x = std::nextafter(x, 100.0);
+    });
+  expect("twins", [](Meshed<4>& m) { m.Mesh.Twins.pop_back(); });
+  expect("twins", [](Meshed<4>& m) { m.Mesh.Twins.push_back(m.Mesh.Twins.front()); });
+  expect("twins",
+    [](Meshed<4>& m)
+    {
+      m.Of.Options.Planes.Periodic = false;
+      m.Stats.Planes.Periodic = false;
+    });
+  expect("statistics", [](Meshed<4>& m) { ++m.Stats.Planes.Pairs; });
+  expect("statistics", [](Meshed<4>& m) { ++m.Stats.Planes.Facets; });
 }
 
 TEST(StressChecks, FindWrongStatistics)
@@ -380,6 +491,39 @@ TEST(StressCases, ASeedRepeatsACase)
   }
 }
 
+TEST(StressCases, SomeOfFourDimensionsHavePlanesOrPeriodsOrGreyValues)
+{
+  std::size_t planes = 0;
+  std::size_t periods = 0;
+  std::size_t series = 0;
+  std::size_t refused = 0;
+  constexpr std::uint64_t cases = 200;
+  for (std::uint64_t number = 0; number < cases; ++number)
+  {
+    const CaseId id{ Family::SpaceTime, 5, number };
+    const StressCase<4> c = MakeCase<4>(id);
+    const std::string words = Describe(c);
+    EXPECT_EQ(words, Describe(MakeCase<4>(id)));
+    const TimePlaneOptions& options = c.Options.Planes;
+    EXPECT_EQ(!options.Times.empty(), words.find("--time-planes") != std::string::npos);
+    EXPECT_EQ(options.Periodic, words.find("--periodic") != std::string::npos);
+    EXPECT_EQ(c.Image.Surface.has_value(), words.find("--isovalue") != std::string::npos);
+    planes += !options.Times.empty();
+    periods += options.Periodic;
+    series += c.Image.Surface.has_value();
+    refused += options.AreWanted() && c.Options.Team.Reproducible;
+    EXPECT_FALSE(options.Periodic && c.Image.Surface.has_value()); // is refused
+    const auto frame = static_cast<std::ptrdiff_t>(c.Image.Labels.size()) / c.Image.Dimensions[3];
+    refused += options.Periodic &&
+      !std::equal(
+        c.Image.Labels.begin(), c.Image.Labels.begin() + frame, c.Image.Labels.end() - frame);
+  }
+  EXPECT_GT(planes, cases / 5);
+  EXPECT_GT(periods, cases / 10);
+  EXPECT_GT(series, cases / 10);
+  EXPECT_LT(refused, cases / 20);
+}
+
 TEST(StressCases, EndlessRunsAreEnded)
 {
   StressCase<3> of = Boxes<3>();
@@ -427,5 +571,18 @@ TEST(StressCases, ReductionKeepsTheCause)
   EXPECT_TRUE(RunCase(smaller, limits).Has("work"));
   EXPECT_EQ(smaller.Options.Team.Threads, 1u);
   EXPECT_EQ(smaller.Options.Sampling.Gradation, MeshingOptions<3>().Sampling.Gradation);
+  EXPECT_LT(smaller.Image.Size(), of.Image.Size() / 8);
+}
+
+TEST(StressCases, ReductionLeavesOutPlanes)
+{
+  StressCase<4> of = Boxes<4>();
+  MakePeriodicWithPlane(of);
+  RunLimits limits;
+  limits.OperationsPerVertex = 0.01;
+  ASSERT_TRUE(RunCase(of, limits).Has("work"));
+  const StressCase<4> smaller = Reduce(of, "work", limits, {});
+  EXPECT_TRUE(RunCase(smaller, limits).Has("work"));
+  EXPECT_FALSE(smaller.Options.Planes.AreWanted());
   EXPECT_LT(smaller.Image.Size(), of.Image.Size() / 8);
 }
