@@ -12,6 +12,7 @@
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/PentatopeOptimiser.h"
 #include "Quality/LostComponents.h"
+#include "Refinement/PlaneLabels.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 
 #include <algorithm>
@@ -229,23 +230,9 @@ std::function<bool(SimplexId)> TellKept(const Triangulation<4>& mesh, const Time
   }
   return [&mesh, &planes](SimplexId s)
   {
-    const auto& v = mesh.GetSimplex(s).V;
-    const auto timeOf = [&](unsigned i) { return mesh.Position(v[i])[3]; };
-    // A facet has one of the first two vertices at least.
-    for (unsigned i = 0; i < 2; ++i)
-    {
-      const double time = timeOf(i);
-      unsigned vertices = 0;
-      for (unsigned k = 0; k < 5; ++k)
-      {
-        vertices += timeOf(k) == time ? 1 : 0;
-      }
-      if (vertices == 4 && (planes.AreAt(time) || planes.IsPeriodicEnd(time)))
-      {
-        return true;
-      }
-    }
-    return false;
+    return FacetOnPlane(
+      mesh, s, [&planes](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); })
+      .has_value();
   };
 }
 

@@ -5,8 +5,8 @@
 #include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
-#include "Geometry/Circumball.h"
 #include "Mesh/SimplexLabels.h"
+#include "Refinement/PlaneLabels.h"
 
 #include <algorithm>
 #include <array>
@@ -83,6 +83,7 @@ SlabRefinement::SlabRefinement(const RunEnvironment<4>& run, const RefinementPla
       k < inner           ? k
         : planes.Periodic ? inner
                           : NoPlane };
+    slab.Context.IsPlane = { slab.Ends[0] != NoPlane, slab.Ends[1] != NoPlane };
   }
   TimePlaneStatistics& statistics = run.Statistics.Planes;
   statistics.Times = planes.Times;
@@ -291,55 +292,26 @@ void SlabRefinement::LabelAtPlanes()
     {
       continue;
     }
-    const auto& v = this->Whole.GetSimplex(s).V;
-    for (unsigned apex = 0; apex < 5; ++apex)
+    auto facet = FacetOnPlane(this->Whole, s,
+      [&](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); });
+    if (!facet)
     {
-      const double time = this->Whole.Position(v[(apex + 1) % 5])[3];
-      std::array<VertexId, 4> facet;
-      bool isFlat = planes.AreAt(time) || planes.IsPeriodicEnd(time);
-      for (unsigned k = 0, m = 0; k < 5 && isFlat; ++k)
-      {
-        if (k != apex)
-        {
-          isFlat = this->Whole.Position(v[k])[3] == time;
-          facet[m++] = twinOf[v[k]] == None ? v[k] : twinOf[v[k]];
-        }
-      }
-      if (isFlat)
-      {
-        const LabelId label = this->LabelOnPlane(facet);
-        SimplexState& state = this->Whole.State(s);
-        const LabelId atCentre = LabelAtCentre(this->Whole, *this->Run.Prepared.Surfaces, s);
-        statistics.Facets += label != 0 ? 1 : 0;
-        statistics.Relabelled += label != atCentre ? 1 : 0;
-        state.Label = label;
-        state.Labelled = true;
-        state.NearSurface = state.NearSurface || label != atCentre;
-        break; // a pentatope has one facet on planes at most
-      }
+      continue;
     }
+    for (VertexId& vertex : *facet)
+    {
+      vertex = twinOf[vertex] == None ? vertex : twinOf[vertex];
+    }
+    const LabelId label = LabelOnPlane(this->Whole, *this->Run.Prepared.Surfaces, *facet);
+    const LabelId atCentre = LabelAtCentre(this->Whole, *this->Run.Prepared.Surfaces, s);
+    statistics.Facets += label != 0 ? 1 : 0;
+    statistics.Relabelled += label != atCentre ? 1 : 0;
+    SimplexState& state = this->Whole.State(s);
+    state.Label = label;
+    state.Labelled = true;
+    state.NearSurface = state.NearSurface || label != atCentre;
   }
   statistics.Facets /= 2; // each was seen from both sides
-}
-
-/** The label at the centre of a facet's circumball, which lies on the plane. */
-LabelId SlabRefinement::LabelOnPlane(const std::array<VertexId, 4>& facet) const
-{
-  std::array<Point<3>, 4> corners;
-  for (std::size_t k = 0; k < 4; ++k)
-  {
-    corners[k] = InSpace(this->Whole.Position(facet[k]));
-  }
-  // The same arithmetic from both sides.
-  std::sort(corners.begin(), corners.end());
-  std::array<const Point<3>*, 4> points = { &corners[0], &corners[1], &corners[2], &corners[3] };
-  Circumball<3> ball;
-  if (!ComputeCircumball<3>(points.data(), ball))
-  {
-    ComputeCircumballExactly<3>(points.data(), ball);
-  }
-  return this->Run.Prepared.Surfaces->Label(
-    { ball.Center[0], ball.Center[1], ball.Center[2], this->Whole.Position(facet[0])[3] });
 }
 
 } // namespace voxplex

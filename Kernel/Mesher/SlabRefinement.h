@@ -36,7 +36,7 @@ namespace voxplex
  *
  * **Labels.** A pentatope with a facet on a plane has the label that the image has, on the plane, at
  * the centre of the facet's circumball. So the pentatopes on both sides have the same label, and so
- * have those at both ends of a periodic mesh.
+ * have those at both ends of a periodic mesh. The rules know of it.
  *
  * Memory: while Refine() runs, that of the triangulations; then twice as much.
  */
@@ -73,7 +73,6 @@ private:
   void Unite();
   void FindTwins();
   void LabelAtPlanes();
-  LabelId LabelOnPlane(const std::array<VertexId, 4>& facet) const;
 
   const RunEnvironment<4> Run;
   const RefinementPlan<4> Plan;

@@ -134,6 +134,11 @@ struct RefinementContext
   const RefinementSettings<D> Settings;
   SizingField<D> Sizing;
   const std::array<bool, 2> HasTimeBorder; ///< Domain::HasTimeBorder; the box ends there
+  /**
+   * Flat ends that are planes between slabs: pentatopes with a facet there get the label of the plane
+   * (SlabRefinement). To be set before refinement.
+   */
+  std::array<bool, 2> IsPlane{ false, false };
   /** Flat ends where the rules insert nothing. To be set between refinements. */
   std::array<bool, 2> IsClosed{ false, false };
   const ImageBorder<D>* const Border; ///< Domain::Border; may be null

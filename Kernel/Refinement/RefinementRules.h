@@ -157,7 +157,8 @@ protected:
     SimplexId Id;
     Circumball<D> Ball;
     double Radius;
-    LabelId Label; ///< of the circumcentre
+    LabelId Label;       ///< of the circumcentre
+    LabelId LabelInMesh; ///< the same, except beside planes between slabs
   };
 
   Element MakeElement(SimplexId id)
@@ -167,7 +168,7 @@ protected:
     t.Id = id;
     t.Ball = this->Context.Mesh.GetCircumball(id);
     t.Radius = std::sqrt(t.Ball.Radius2);
-    t.Label = this->LabelOf(id, t.Ball.Center);
+    t.Label = t.LabelInMesh = this->LabelOf(id, t.Ball.Center);
     return t;
   }
 
@@ -323,8 +324,8 @@ protected:
 
   bool HasBadRatio(const Element& t) const
   {
-    return t.Label != 0 &&
-      this->IsRatioBad(t.Ball.Center, t.Radius, this->ShortestEdge(t.Id), t.Label);
+    return t.LabelInMesh != 0 &&
+      this->IsRatioBad(t.Ball.Center, t.Radius, this->ShortestEdge(t.Id), t.LabelInMesh);
   }
 
   /**
@@ -344,8 +345,8 @@ protected:
 
   bool IsTooLarge(const Element& t) const
   {
-    return t.Label != 0 &&
-      t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.Label);
+    return t.LabelInMesh != 0 &&
+      t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.LabelInMesh);
   }
 
   /**

@@ -4,6 +4,7 @@
 
 #include "Geometry/SimplexQuality.h"
 #include "Refinement/PickingRegion.h"
+#include "Refinement/PlaneLabels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,8 @@ namespace voxplex
 RuleOutcome Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
-  const Element s = this->MakeElement(id);
+  Element s = this->MakeElement(id);
+  s.LabelInMesh = this->LabelBesidePlane(s);
   const bool ratioFirst = this->Context.Settings.SpaceTime.Order == RuleOrder::RadiusEdgeFirst;
   RuleOutcome outcome = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
   if (outcome == RuleOutcome::Good)
@@ -27,7 +29,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
   {
     outcome = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
   }
-  if (outcome == RuleOutcome::Good && s.Label != 0 && this->IsSliver(id, s.Ball.Radius2))
+  if (outcome == RuleOutcome::Good && s.LabelInMesh != 0 && this->IsSliver(id, s.Ball.Radius2))
   {
     if (this->Worker.Poor.OnlyLast())
     {
@@ -36,6 +38,24 @@ RuleOutcome Rules4D::Refine(SimplexId id)
     this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
   }
   return outcome;
+}
+
+//------------------------------------------------------------------------------------------------
+LabelId Rules4D::LabelBesidePlane(const Element& s) const
+{
+  const std::array<bool, 2>& isPlane = this->Context.IsPlane;
+  if (!isPlane[0] && !isPlane[1])
+  {
+    return s.Label;
+  }
+  const Triangulation<4>& mesh = this->Context.Mesh;
+  const auto facet = FacetOnPlane(mesh, s.Id,
+    [&](double time)
+    {
+      return (isPlane[0] && time == mesh.GetBox().Min[3]) ||
+        (isPlane[1] && time == mesh.GetBox().Max[3]);
+    });
+  return facet ? LabelOnPlane(mesh, this->Context.Image, *facet) : s.Label;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -34,6 +34,9 @@
  * keeps cavities small. R4 comes last, when the thread has no other poor element: most slivers die
  * while the interfaces are sampled. In the thesis R4 precedes R5.
  *
+ * **Planes between slabs.** A pentatope with a facet on one gets the label of the plane
+ * (SlabRefinement). For R3, R4 and the size rule this label counts, not that of c(s).
+ *
  * **Slivers** are pentatopes here. The shape of their faces does not count. A face that is a sliver makes
  * the pentatopes around it slivers, too, or is harmless.
  *
@@ -90,6 +93,8 @@ private:
    */
   static constexpr double SliverSpacing = 0.5;
 
+  /** The label that a pentatope gets in the mesh. */
+  LabelId LabelBesidePlane(const Element& s) const;
   bool IsSliver(SimplexId s, double radius2) const;
   RuleOutcome R3(const Element& s);
   RuleOutcome R4(const Element& s);
