@@ -302,7 +302,7 @@ void SlabRefinement::LabelAtPlanes()
     {
       vertex = twinOf[vertex] == None ? vertex : twinOf[vertex];
     }
-    const LabelId label = LabelOnPlane(this->Whole, *this->Run.Prepared.Surfaces, *facet);
+    const LabelId label = this->Run.Prepared.Surfaces->Label(CentreOnPlane(this->Whole, *facet));
     const LabelId atCentre = LabelAtCentre(this->Whole, *this->Run.Prepared.Surfaces, s);
     statistics.Facets += label != 0 ? 1 : 0;
     statistics.Relabelled += label != atCentre ? 1 : 0;

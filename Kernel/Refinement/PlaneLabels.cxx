@@ -9,8 +9,7 @@
 namespace voxplex
 {
 
-LabelId LabelOnPlane(
-  const Triangulation<4>& mesh, const Domain<4>& image, const FacetVertices& facet)
+Point<4> CentreOnPlane(const Triangulation<4>& mesh, const FacetVertices& facet)
 {
   std::array<Point<3>, 4> corners;
   for (std::size_t k = 0; k < 4; ++k)
@@ -26,8 +25,7 @@ LabelId LabelOnPlane(
   {
     ComputeCircumballExactly<3>(points.data(), ball);
   }
-  return image.Label(
-    { ball.Center[0], ball.Center[1], ball.Center[2], mesh.Position(facet[0])[3] });
+  return { ball.Center[0], ball.Center[1], ball.Center[2], mesh.Position(facet[0])[3] };
 }
 
 } // namespace voxplex

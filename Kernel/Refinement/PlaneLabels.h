@@ -51,11 +51,10 @@ std::optional<FacetVertices> FacetOnPlane(
 }
 
 /**
- * The label at the centre of the circumball of a facet of constant time. It is the same for all orders of the
- * corners, and so from both sides of a plane.
+ * The centre of the circumball of a facet of constant time. It is the same for all orders of the corners, and
+ * so from both sides of a plane.
  */
-LabelId LabelOnPlane(
-  const Triangulation<4>& mesh, const Domain<4>& image, const FacetVertices& facet);
+Point<4> CentreOnPlane(const Triangulation<4>& mesh, const FacetVertices& facet);
 
 } // namespace voxplex
 

@@ -121,6 +121,9 @@ struct RefinementContext
     return false;
   }
 
+  /** Whether a flat end is a plane between slabs. */
+  bool HasPlanes() const { return this->IsPlane[0] || this->IsPlane[1]; }
+
   /** Whether a point of the box lies on a flat end where rules may insert nothing any more. */
   bool IsOnClosedEnd(const Point<D>& p) const
   {

@@ -241,7 +241,7 @@ protected:
 
   /**
    * Whether a neighbour that was judged before may have got a restricted facet: its ball meets an
-   * interface, and the labels at the two circumcentres differ.
+   * interface, and the labels at the two circumcentres differ, or, beside planes, those in the mesh may.
    */
   bool MayRestrictNeighbour(SimplexId t, LabelId label) const
   {
@@ -250,7 +250,8 @@ protected:
       if (n != None)
       {
         const SimplexState& other = this->Context.Mesh.State(n);
-        if (other.NearSurface && other.Labelled && other.Label != label)
+        if (other.NearSurface && other.Labelled &&
+          (other.Label != label || this->Context.HasPlanes()))
         {
           return true;
         }
@@ -419,7 +420,7 @@ protected:
     bool OnEnd;
   };
 
-  /** Moves p into the box, and onto a flat end that is nearer than the margin. */
+  /** Moves p into the box, and onto a flat end if p, not only its projection, is that near or beyond it. */
   Place PlaceOf(const Point<D>& p, double margin) const
   {
     const Box<D>& box = this->Context.Mesh.GetBox();
@@ -430,7 +431,7 @@ protected:
     }
     double& time = place.Position[static_cast<std::size_t>(D) - 1];
     const double end = this->Context.NearestFlatEnd(time);
-    if (std::abs(time - end) < margin)
+    if (time == end || std::abs(p[D - 1] - end) < margin)
     {
       place.Moved |= time != end;
       time = end;
