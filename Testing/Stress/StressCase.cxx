@@ -68,7 +68,8 @@ double SizeRequest::At(double x, std::int64_t label) const
   double size = std::numeric_limits<double>::infinity();
   size = this->Everywhere > 0.0 ? this->Everywhere : size;
   size = this->OfLabel > 0.0 && label == this->Label ? std::min(size, this->OfLabel) : size;
-  return size + this->Slope * std::abs(x);
+  return this->Slope > 0.0 ? size + this->Slope * std::abs(x)
+                           : size; // x is infinite for flat elements
 }
 
 //------------------------------------------------------------------------------------------------

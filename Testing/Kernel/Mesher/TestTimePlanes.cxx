@@ -34,6 +34,21 @@ Result MeshOf(const LabelImage<4>& image, const MeshingOptions<4>& options)
   return result;
 }
 
+/** Background, except some voxels with the labels 1, 2 and so on in turn, at most `labels`. */
+LabelImage<4> ImageOfVoxels(const GridGeometry<4>& grid,
+  const std::vector<std::array<std::int64_t, 4>>& voxels, std::uint8_t labels)
+{
+  const auto& n = grid.Dimensions;
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]), 0);
+  for (std::size_t k = 0; k < voxels.size(); ++k)
+  {
+    const auto& v = voxels[k];
+    const std::int64_t at = v[0] + n[0] * (v[1] + n[1] * (v[2] + n[2] * v[3]));
+    values[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(k % labels + 1);
+  }
+  return LabelImage<4>::FromScalars<std::uint8_t>(values, grid);
+}
+
 /** Everything on that users get. */
 MeshingOptions<4> WithPlanes(double delta, std::vector<double> times, unsigned threads = 1)
 {
@@ -195,6 +210,53 @@ TEST(TimePlanes, ClosedPlanesRefusePointsAndMatch)
       }
     }
   }
+}
+
+// Single voxels that come and go. A pentatope beside a plane gets the label of the plane, which is not that of its
+// circumcentre for many of them here; the rules must know.
+TEST(TimePlanes, PentatopesBesidePlanesKeepTheBoundsOfTheLabelThatTheyGet)
+{
+  const LabelImage<4> image =
+    ImageOfVoxels(GridGeometry<4>::Orthogonal({ 3, 6, 2, 4 }, { 1.0, 1.0, 1.0, 3.1956 }),
+      { { 2, 4, 1, 0 }, { 1, 5, 1, 0 }, { 2, 3, 1, 1 }, { 0, 5, 0, 2 }, { 2, 4, 1, 3 },
+        { 1, 5, 1, 3 } },
+      1);
+  MeshingOptions<4> options = WithPlanes(0.73, {});
+  options.Planes.Periodic = true;
+  options.Optimisation.Run = false;
+  options.Interfaces.Fit = false;
+  options.Interfaces.Manifold = false;
+  options.SpaceTime.Slivers.Fight = false;
+  options.Sampling.InterfaceSizes = { { 1, 0, 1.62 } };
+  const Result result = MeshOf(image, options);
+  EXPECT_GT(result.Statistics.Planes.Relabelled, 0u);
+  for (std::size_t s = 0; s < result.Mesh.Simplices.size(); ++s)
+  {
+    ASSERT_LT(RadiusEdge(result.Mesh, s), 2.0 + 1e-9);
+  }
+}
+
+// The object begins and ends within the image, so the first and the last slab have one flat end each, and are flat.
+TEST(TimePlanes, AFlatSlabAtTheBeginningTakesFewPoints)
+{
+  GridGeometry<4> grid = GridGeometry<4>::Orthogonal({ 3, 2, 7, 8 }, { 1.0, 1.0, 1.0, 0.4622 });
+  grid.IndexToFrame[0][1] = -0.507;
+  grid.IndexToFrame[0][2] = -0.027;
+  grid.IndexToFrame[1][2] = -0.585;
+  const LabelImage<4> image = ImageOfVoxels(grid, { { 0, 0, 4, 5 }, { 2, 0, 6, 6 } }, 2);
+  std::vector<double> frames;
+  for (int k = 0; k < 8; ++k)
+  {
+    frames.push_back(0.4622 * k);
+  }
+  MeshingOptions<4> options = WithPlanes(0.3039, frames);
+  options.SmoothingSigma = 0.4229;
+  options.Shape.RadiusEdgeRatio = 2.28;
+  options.SpaceTime.Slivers.Fight = false;
+  const Result result = MeshOf(image, options);
+  EXPECT_FALSE(result.Mesh.Simplices.empty());
+  EXPECT_LT(result.Statistics.Rules.Insertions(), 3000u);
+  EXPECT_TRUE(result.Statistics.Yielding.empty());
 }
 
 TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
