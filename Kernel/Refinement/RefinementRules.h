@@ -241,7 +241,7 @@ protected:
 
   /**
    * Whether a neighbour that was judged before may have got a restricted facet: its ball meets an
-   * interface, and the labels at the two circumcentres differ.
+   * interface, and the labels at the two circumcentres differ, or, beside planes, those in the mesh may.
    */
   bool MayRestrictNeighbour(SimplexId t, LabelId label) const
   {
@@ -250,7 +250,8 @@ protected:
       if (n != None)
       {
         const SimplexState& other = this->Context.Mesh.State(n);
-        if (other.NearSurface && other.Labelled && other.Label != label)
+        if (other.NearSurface && other.Labelled &&
+          (other.Label != label || this->Context.HasPlanes()))
         {
           return true;
         }

@@ -25,7 +25,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
   {
     outcome = ratioFirst ? this->SampleInterface(s) : this->R3(s);
   }
-  outcome = outcome == RuleOutcome::Good ? this->R5(s) : outcome;
+  outcome = outcome == RuleOutcome::Good ? this->R5(s, onPlane) : outcome;
   if (outcome == RuleOutcome::Good && this->IsTooLarge(s))
   {
     outcome = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
@@ -179,7 +179,7 @@ RuleOutcome Rules4D::R4(const Element& s)
 }
 
 //------------------------------------------------------------------------------------------------
-RuleOutcome Rules4D::R5(const Element& s)
+RuleOutcome Rules4D::R5(const Element& s, const std::optional<Point<4>>& onPlane)
 {
   const Triangulation<4>& mesh = this->Context.Mesh;
   const Triangulation<4>::Simplex& simplex = mesh.GetSimplex(s.Id);
@@ -191,13 +191,23 @@ RuleOutcome Rules4D::R5(const Element& s)
     {
       continue;
     }
-    const LabelId other = this->LabelOf(n);
-    if (other == s.Label || this->FacetIsGood(simplex.V, i))
+    const LabelId atOther = this->LabelOf(n);
+    const std::optional<Point<4>> otherOnPlane = this->CentreOnPlaneOf(n);
+    const LabelId other = otherOnPlane ? this->Context.Image.Label(*otherOnPlane) : atOther;
+    if (other == s.LabelInMesh || this->FacetIsGood(simplex.V, i))
     {
       continue;
     }
+    // The labels along the way from s to n: on the plane, at c(s), at c(n), on the plane.
+    const Point<4>& centre = s.Ball.Center;
+    const Point<4> centreOfOther = mesh.GetCircumball(n).Center;
     Point<4> z;
-    if (!this->Context.Image.FirstCrossing(s.Ball.Center, s.Label, mesh.GetCircumball(n).Center, z))
+    const bool isFound = s.LabelInMesh != s.Label
+      ? this->Context.Image.FirstCrossing(*onPlane, s.LabelInMesh, centre, z)
+      : s.Label != atOther
+      ? this->Context.Image.FirstCrossing(centre, s.Label, centreOfOther, z)
+      : this->Context.Image.FirstCrossing(centreOfOther, atOther, *otherOnPlane, z);
+    if (!isFound)
     {
       continue;
     }
@@ -215,7 +225,7 @@ RuleOutcome Rules4D::R5(const Element& s)
 RuleOutcome Rules4D::InsertFeatureAt(
   const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
 {
-  const double delta = this->Context.Sizing.SamplingDistance(z, s.Label, labelOfOther);
+  const double delta = this->Context.Sizing.SamplingDistance(z, s.LabelInMesh, labelOfOther);
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   const Yielding step = this->YieldingAt(z, spacing);
   if (step == Yielding::All)

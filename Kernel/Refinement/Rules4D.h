@@ -35,7 +35,8 @@
  * while the interfaces are sampled. In the thesis R4 precedes R5.
  *
  * **Planes between slabs.** A pentatope with a facet on one gets the label of the plane
- * (SlabRefinement). For R3, R4 and the size rule this label counts, not that of c(s).
+ * (SlabRefinement). For R3, R4, R5 and the size rule this label counts, not that of c(s). The dual edges of its
+ * facets lead from the centre of its facet on the plane to c(s), and on.
  *
  * **Slivers** are pentatopes here. The shape of their faces does not count. A face that is a sliver makes
  * the pentatopes around it slivers, too, or is harmless.
@@ -100,7 +101,7 @@ private:
   bool IsSliver(SimplexId s, double radius2) const;
   RuleOutcome R3(const Element& s);
   RuleOutcome R4(const Element& s);
-  RuleOutcome R5(const Element& s);
+  RuleOutcome R5(const Element& s, const std::optional<Point<4>>& onPlane);
   RuleOutcome InsertFeatureAt(
     const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther);
   RuleOutcome InsertFeaturePick(

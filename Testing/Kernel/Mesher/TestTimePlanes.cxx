@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 
 using namespace voxplex;
@@ -233,6 +234,47 @@ TEST(TimePlanes, PentatopesBesidePlanesKeepTheBoundsOfTheLabelThatTheyGet)
   for (std::size_t s = 0; s < result.Mesh.Simplices.size(); ++s)
   {
     ASSERT_LT(RadiusEdge(result.Mesh, s), 2.0 + 1e-9);
+  }
+}
+
+// The vertices of their facets are on interfaces, too. Otherwise vertices of the background come into the mesh.
+TEST(TimePlanes, FacetsOfPentatopesBesidePlanesAreSampled)
+{
+  const std::vector<float> noise = { -0.206680313f, 0.620040953f, -0.9300614f, 1.6534425f,
+    0.413360626f, 1.4467622f, 0.9300614f, -0.9300614f, -0.826721251f, 0.620040953f, 0.620040953f,
+    0.826721251f, 1.13674176f, 0.723381102f, 0.310020477f, 0.620040953f, 0.413360626f,
+    -0.723381102f, -0.103340156f, 0.206680313f, 0.310020477f, -0.620040953f, -1.13674176f,
+    0.9300614f, 0.0f, -0.413360626f, 0.103340156f, -0.413360626f, -0.826721251f, 1.4467622f,
+    0.413360626f, 0.826721251f, 0.206680313f, 0.9300614f, -1.03340161f, -1.8601228f, 0.516700804f,
+    -1.6534425f, -0.826721251f, -0.206680313f, 0.620040953f, -0.103340156f, -0.826721251f,
+    0.310020477f, 0.620040953f, -0.723381102f, 1.96346295f, -0.413360626f, 1.13674176f,
+    0.413360626f, 0.826721251f, 0.723381102f, -0.206680313f, -1.4467622f, -1.03340161f,
+    0.516700804f, 1.24008191f, 0.310020477f, -0.9300614f, 1.24008191f, 0.620040953f, 0.206680313f,
+    0.206680313f, -1.4467622f, -0.206680313f, 0.516700804f, 0.0f, -0.206680313f, 0.723381102f,
+    0.206680313f, -0.310020477f, -0.103340156f, 0.310020477f, -0.620040953f, -0.413360626f,
+    1.13674176f, -1.8601228f, -1.03340161f, -0.9300614f, -0.310020477f, -0.413360626f, 0.826721251f,
+    -0.413360626f, 0.103340156f };
+  const GridGeometry<4> grid =
+    GridGeometry<4>::Orthogonal({ 3, 2, 2, 7 }, { 1.0, 1.0, 1.0, 1.5165657989938228 });
+  Isosurface surface;
+  surface.Inside = IsosurfaceSide::Below;
+  const auto image = IsosurfaceImage<4>::FromScalars(std::span<const float>(noise), grid, surface);
+  MeshingOptions<4> options = WithPlanes(1.1060022271093888, { 1.5165657989938228 });
+  options.Optimisation.Run = false;
+  options.Interfaces.Fit = false;
+  options.Interfaces.Manifold = false;
+  options.Interfaces.Rounds = 0;
+  options.Components.Smallest = 0;
+  options.SpaceTime.Slivers.Fight = false;
+  options.SpaceTime.Order = RuleOrder::SurfaceFirst;
+  ImageMesher<4> mesher(options);
+  SimplexMesh<4> mesh;
+  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  EXPECT_GT(mesher.Statistics().Planes.Relabelled, 0u);
+  for (const Point<4>& p : mesh.Points)
+  {
+    EXPECT_TRUE(
+      p[0] > -1.0 && p[0] < 3.0 && p[1] > -1.0 && p[1] < 2.0 && p[2] > -1.0 && p[2] < 2.0);
   }
 }
 
