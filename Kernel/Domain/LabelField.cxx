@@ -22,11 +22,10 @@ namespace
 {
 
 /**
- * The least margin of a voxel's own label, and the least margin where its object is one voxel thin.
- * In the thin case the label loses by about as much at the voxels beside it, so that the object
- * becomes about one voxel thick. Both are even and in units of samples (SampleOne is 1).
+ * The least margin of a voxel's own label where its object is one voxel thin. The label loses by about as
+ * much at the voxels beside it, so that the object becomes about one voxel thick. Even, and in
+ * units of samples (SampleOne is 1).
  */
-constexpr int KeptMargin = 328;
 constexpr int ThinMargin = 16384;
 /** If a voxel's label wins by less, its interface may be missed: the voxel is weak. */
 constexpr int SolidMargin = 4916;
@@ -451,7 +450,14 @@ LabelField<D>::LabelField(
     image, threads, stop, [&] { return std::make_unique<Builder>(image, smoothing); },
     [&](const Builder& builder)
     { weak.insert(weak.end(), builder.Weak.begin(), builder.Weak.end()); });
-  if constexpr (D == 3)
+  if constexpr (D == 4)
+  {
+    if (smoothing.Radius() > 0)
+    {
+      this->BalanceVolumes(image, sigma, threads, stop);
+    }
+  }
+  else
   {
     for (const Index& sample : FindBuriedVoxels(image, std::move(weak), threads, stop))
     {

@@ -29,7 +29,8 @@ namespace voxplex
  * wins at a voxel afterwards, the value of the voxel's own label is raised above the winner's, so
  * that *every voxel centre keeps its label*. Where an object is one voxel thin, the value is raised
  * farther, so that the object stays about one voxel thick. In 3D the same is done at tips of
- * processes and at ends of slots that smoothing would take away (FindBuriedVoxels). Between the voxels u_l is interpolated
+ * processes and at ends of slots that smoothing would take away (FindBuriedVoxels). In 4D interfaces are
+ * moved so that labels keep their volumes (VolumeBalance). Between the voxels u_l is interpolated
  * multilinearly. Label(p) is the label with the largest u_l(p). If several labels have the largest
  * value, the smallest id wins.
  *
@@ -115,13 +116,18 @@ private:
   using typename Base::Cell;
   using typename Base::Sample;
   static constexpr double SampleOne = 16384.0; ///< fixed-point representation of 1
+  /** The least margin of a voxel's own label, in units of samples; even. */
+  static constexpr int KeptMargin = 328;
 
   static float InterpolatePlane(const Sample* plane, const Cell& cell);
   static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
 
   void Raise(const Index& sample, LabelId label);
+  void BalanceVolumes(
+    const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop);
 
   class Builder;
+  class Balancer;
 };
 
 // Four pairs of samples at a time, if the compiler supports vectors. The result is the same.

@@ -198,6 +198,23 @@ protected:
   template <typename Make, typename Done>
   void MakeTiles(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop,
     Make&& make, Done&& done);
+  /**
+   * Replaces the mixed tiles, by builders as above. RemakeTile(first, samples) gets the samples of the
+   * tile and returns others of the same layout. Until all tiles are made, the lattice is as it was.
+   */
+  template <typename Make>
+  void RemakeTiles(unsigned threads, const std::stop_token& stop, Make&& make);
+
+  /**
+   * Calls run(tile, label, offset, count, place) for runs of samples along x in one tile.
+   * @param samples lattice coordinates along each axis; -1 is outside of the lattice. A run ends
+   *   where they do not ascend by 1.
+   * tile: null if all of its samples have the label, or if the run is outside. offset: of the first
+   * sample in a plane. place: its number in the box of these coordinates, x fastest.
+   */
+  template <typename Function>
+  void ForEachRun(const std::array<std::vector<std::int64_t>, static_cast<std::size_t>(D)>& samples,
+    Function&& run) const;
 
   /**
    * Calls change(samples, i) for each mixed tile that has the sample at these lattice coordinates:
@@ -207,6 +224,11 @@ protected:
   void ChangeSample(const Index& sample, Function&& change);
 
 private:
+  /** Sets each entry of the directory to entry(builder, first, number), and keeps the builders' memory. */
+  template <typename Make, typename Entry, typename Done>
+  void FillDirectory(
+    unsigned threads, const std::stop_token& stop, Make&& make, Entry&& entry, Done&& done);
+
   GridGeometry<D> Grid;
   bool IsOrthogonal = true;
   Point<D> PerSpacing{};
@@ -470,12 +492,48 @@ template <typename Make, typename Done>
 void TiledLattice<D, SampleType>::MakeTiles(const LabelImage<D>& image, unsigned threads,
   const std::stop_token& stop, Make&& make, Done&& done)
 {
+  this->FillDirectory(
+    threads, stop, make,
+    [&image](auto& builder, const Index& first, std::size_t)
+    {
+      LabelId label = 0;
+      return IsUniform(image, first, label)
+        ? (static_cast<std::uintptr_t>(label) << 1) | 1u
+        : reinterpret_cast<std::uintptr_t>(builder.MakeTile(first));
+    },
+    done);
+}
+
+template <int D, typename SampleType>
+template <typename Make>
+void TiledLattice<D, SampleType>::RemakeTiles(
+  unsigned threads, const std::stop_token& stop, Make&& make)
+{
+  this->FillDirectory(
+    threads, stop, make,
+    [this](auto& builder, const Index& first, std::size_t number)
+    {
+      const std::uintptr_t old = this->Directory[number];
+      return old & 1
+        ? old
+        : reinterpret_cast<std::uintptr_t>(builder.RemakeTile(first,
+            reinterpret_cast<const Sample*>(old))); // NOLINT(performance-no-int-to-ptr): tagged
+    },
+    [](const auto&) {});
+}
+
+template <int D, typename SampleType>
+template <typename Make, typename Entry, typename Done>
+void TiledLattice<D, SampleType>::FillDirectory(
+  unsigned threads, const std::stop_token& stop, Make&& make, Entry&& entry, Done&& done)
+{
   std::vector<std::invoke_result_t<Make>> builders;
   using Builder = typename std::invoke_result_t<Make>::element_type;
   std::vector<Builder*> idle;
   std::mutex mutex;
+  std::vector<std::uintptr_t> entries(this->Directory.size());
   ParallelFor(
-    0, this->Directory.size(), 128, threads,
+    0, entries.size(), 128, threads,
     [&](std::size_t begin, std::size_t end)
     {
       Builder* builder = nullptr;
@@ -500,20 +558,15 @@ void TiledLattice<D, SampleType>::MakeTiles(const LabelImage<D>& image, unsigned
           first[a] = static_cast<std::int64_t>(rest % n * TileCells);
           rest /= n;
         }
-        LabelId label = 0;
-        if (IsUniform(image, first, label))
-        {
-          this->Directory[tile] = (static_cast<std::uintptr_t>(label) << 1) | 1u;
-        }
-        else
-        {
-          this->Directory[tile] = reinterpret_cast<std::uintptr_t>(builder->MakeTile(first));
-        }
+        entries[tile] = entry(*builder, first, tile);
       }
       const std::scoped_lock lock(mutex);
       idle.push_back(builder);
     },
     stop);
+  this->Directory.swap(entries);
+  this->Blocks.clear();
+  this->BlockBytes = 0;
   for (const auto& builder : builders)
   {
     this->BlockBytes += builder->Memory.Bytes;
@@ -522,6 +575,75 @@ void TiledLattice<D, SampleType>::MakeTiles(const LabelImage<D>& image, unsigned
       this->Blocks.push_back(std::move(block));
     }
     done(*builder);
+  }
+}
+
+template <int D, typename SampleType>
+template <typename Function>
+void TiledLattice<D, SampleType>::ForEachRun(
+  const std::array<std::vector<std::int64_t>, static_cast<std::size_t>(D)>& samples,
+  Function&& run) const
+{
+  // A sample on the common face of two tiles is the first of one and the last of the other. The last
+  // tile has no next one.
+  const auto tileOf = [this](std::int64_t sample, std::size_t axis)
+  {
+    return std::min(
+      static_cast<std::uint32_t>(sample) / TileCells, this->LastCell[axis] / TileCells);
+  };
+  std::size_t rows = 1;
+  for (std::size_t a = 1; a < D; ++a)
+  {
+    rows *= samples[a].size();
+  }
+  const std::vector<std::int64_t>& x = samples[0];
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    bool isInside = true;
+    std::size_t number = 0;
+    unsigned offset = 0;
+    for (std::size_t a = 1, rest = row; a < D; ++a)
+    {
+      const std::int64_t sample = samples[a][rest % samples[a].size()];
+      rest /= samples[a].size();
+      isInside = isInside && sample >= 0;
+      if (isInside)
+      {
+        const std::uint32_t tile = tileOf(sample, a);
+        number += std::size_t{ tile } * this->TileStride[a];
+        offset += (static_cast<unsigned>(sample) - tile * TileCells) << (3 * a);
+      }
+    }
+    for (std::size_t begin = 0, end = 0; begin < x.size(); begin = end)
+    {
+      const std::int64_t sample = x[begin];
+      const bool exists = isInside && sample >= 0;
+      const std::uint32_t tile = exists ? tileOf(sample, 0) : 0;
+      for (end = begin + 1; end < x.size(); ++end)
+      {
+        const bool goesOn = sample < 0
+          ? x[end] < 0
+          : x[end] == x[end - 1] + 1 && (!exists || tileOf(x[end], 0) == tile);
+        if (!goesOn)
+        {
+          break;
+        }
+      }
+      const std::size_t place = row * x.size() + begin;
+      const auto count = static_cast<unsigned>(end - begin);
+      if (!exists)
+      {
+        run(static_cast<const Sample*>(nullptr), LabelId{ 0 }, 0u, count, place);
+        continue;
+      }
+      const std::uintptr_t entry = this->Directory[number + tile * this->TileStride[0]];
+      const bool isUniform = (entry & 1) != 0;
+      run(isUniform
+          ? nullptr
+          : reinterpret_cast<const Sample*>(entry), // NOLINT(performance-no-int-to-ptr): tagged
+        static_cast<LabelId>(isUniform ? entry >> 1 : 0),
+        offset + (static_cast<unsigned>(sample) - tile * TileCells), count, place);
+    }
   }
 }
 

@@ -313,6 +313,11 @@ LabelSmoothing::LabelSmoothing(int dimension, double sigma)
   this->Tables = ByteTables(weights);
 }
 
+std::vector<double> LabelSmoothing::Kernel() const
+{
+  return { this->Weights.begin(), this->Weights.end() };
+}
+
 void LabelSmoothing::Smooth(const std::uint64_t* words, Buffers& buffers, std::int16_t* plane) const
 {
   const std::size_t width = 8 + 2 * this->Radius();

@@ -56,6 +56,9 @@ public:
    */
   LabelSmoothing(int dimension, double sigma);
 
+  /** The 1D kernel: weights of the distances 0, 1, ... Radius(), in units that add up to 1. */
+  std::vector<double> Kernel() const;
+
   /** A sample depends on this number of voxels on each side, along each axis: ceil(4 sigma). */
   std::size_t Radius() const { return this->Weights.size() - 1; }
 

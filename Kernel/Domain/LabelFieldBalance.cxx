@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Domain/LabelField.h"
+
+#include "Image/LabelSmoothing.h"
+#include "Image/VolumeBalance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace voxplex
+{
+
+/** Makes tiles whose labels have the volumes of their voxels; one instance serves one thread at a time. */
+template <int D>
+class LabelField<D>::Balancer
+{
+public:
+  Balancer(const LabelField& field, const LabelImage<D>& image, const VolumeBalance& balance)
+    : Field(field)
+    , Image(image)
+    , Balance(balance)
+    , Shifts(PlaneSize)
+  {
+    std::size_t size = 1;
+    for (int a = 0; a < D; ++a)
+    {
+      size *= TileSamples + 2 * balance.Radius();
+    }
+    this->Margins.resize(size);
+  }
+
+  const Sample* RemakeTile(const Index& first, const Sample* tile)
+  {
+    this->FindBox(first);
+    const auto labels = static_cast<std::size_t>(tile[0]);
+    const std::size_t planes = labels == 2 ? 1 : labels;
+    const std::size_t size = HeaderSize(labels) + planes * PlaneSize;
+    Sample* made = this->Memory.Allocate(size);
+    std::copy_n(tile, size, made);
+    for (std::size_t l = 0; l < planes; ++l)
+    {
+      this->GatherMargins(static_cast<LabelId>(tile[1 + l]));
+      this->Balance.Find(this->Margins.data(), this->Buffers, this->Shifts.data());
+      Sample* plane = made + HeaderSize(labels) + l * PlaneSize;
+      for (std::size_t i = 0; i < PlaneSize; ++i)
+      {
+        const int shift =
+          static_cast<int>(std::lround(this->Shifts[i] * static_cast<float>(SampleOne)));
+        plane[i] = static_cast<Sample>(std::clamp<int>(plane[i] - shift,
+          std::numeric_limits<Sample>::min(), std::numeric_limits<Sample>::max()));
+      }
+    }
+    KeepLabels(tile, made);
+    return made;
+  }
+
+  typename Base::Arena Memory;
+
+private:
+  /** The coordinates of the box around a tile. Beyond a flat end they are those of the end. */
+  void FindBox(const Index& first)
+  {
+    const auto radius = static_cast<std::int64_t>(this->Balance.Radius());
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      std::vector<std::int64_t>& samples = this->Box[a];
+      samples.clear();
+      const std::int64_t crop = this->Image.CropDimensions()[a];
+      for (std::int64_t i = first[a] - radius; i < first[a] + TileSamples + radius; ++i)
+      {
+        std::int64_t sample = i;
+        if (a == 3)
+        {
+          const bool begins = this->Image.ReachesBorderInTime(0);
+          const bool ends = this->Image.ReachesBorderInTime(1);
+          if (this->Image.IsPeriodicInTime() && begins)
+          {
+            const std::int64_t period = crop - 1; // the last frame is the first one
+            sample = 1 + ((i - 1) % period + period) % period;
+          }
+          sample = begins ? std::max<std::int64_t>(sample, 1) : sample;
+          sample = ends ? std::min(sample, crop) : sample;
+        }
+        samples.push_back(sample >= 0 && sample < crop + 2 ? sample : -1);
+      }
+    }
+  }
+
+  /** Half the margin of a label at each sample of the box, as VolumeBalance asks for it. */
+  void GatherMargins(LabelId label)
+  {
+    this->Field.ForEachRun(this->Box,
+      [this, label](
+        const Sample* tile, LabelId uniform, unsigned offset, unsigned count, std::size_t place)
+      {
+        float* const to = this->Margins.data() + place;
+        if (!tile)
+        {
+          std::fill_n(to, count, uniform == label ? 1.0f : -1.0f);
+          return;
+        }
+        constexpr auto one = static_cast<float>(SampleOne);
+        const auto labels = static_cast<std::size_t>(tile[0]);
+        const Sample* planes = tile + HeaderSize(labels) + offset;
+        const auto own = static_cast<std::size_t>(
+          std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+        if (own == labels)
+        {
+          std::fill_n(to, count, -1.0f);
+          return;
+        }
+        for (unsigned i = 0; i < count; ++i)
+        {
+          if (labels == 2)
+          {
+            to[i] = static_cast<float>(own == 0 ? planes[i] : -planes[i]) / one;
+            continue;
+          }
+          const int value = planes[own * PlaneSize + i];
+          int other = std::numeric_limits<Sample>::min();
+          for (std::size_t l = 0; l < labels; ++l)
+          {
+            other = l == own ? other : std::max<int>(other, planes[l * PlaneSize + i]);
+          }
+          // A label that is out of the kernel's reach has exactly -1.
+          to[i] = value <= -static_cast<int>(SampleOne)
+            ? -1.0f
+            : std::min(1.0f, 0.5f * static_cast<float>(value - other) / one);
+        }
+      });
+  }
+
+  /** Makes the label of each voxel centre win in `made` as it did in `tile`. */
+  static void KeepLabels(const Sample* tile, Sample* made)
+  {
+    const auto labels = static_cast<std::size_t>(tile[0]);
+    const Sample* before = tile + HeaderSize(labels);
+    Sample* after = made + HeaderSize(labels);
+    for (std::size_t i = 0; i < PlaneSize; ++i)
+    {
+      if (labels == 2)
+      {
+        constexpr Sample kept = KeptMargin / 2;
+        after[i] =
+          before[i] > 0 ? std::max(after[i], kept) : std::min(after[i], static_cast<Sample>(-kept));
+        continue;
+      }
+      std::size_t own = 0;
+      for (std::size_t l = 1; l < labels; ++l)
+      {
+        own = before[l * PlaneSize + i] > before[own * PlaneSize + i] ? l : own;
+      }
+      int other = std::numeric_limits<Sample>::min();
+      for (std::size_t l = 0; l < labels; ++l)
+      {
+        other = l == own ? other : std::max<int>(other, after[l * PlaneSize + i]);
+      }
+      Sample& value = after[own * PlaneSize + i];
+      value = static_cast<Sample>(std::max<int>(value, other + KeptMargin));
+    }
+  }
+
+  const LabelField& Field;
+  const LabelImage<D>& Image;
+  const VolumeBalance& Balance;
+  std::array<std::vector<std::int64_t>, static_cast<std::size_t>(D)> Box;
+  std::vector<float> Margins;
+  std::vector<float> Shifts;
+  VolumeBalance::Buffers Buffers;
+};
+
+/** Moves interfaces so that labels have the volumes of their voxels (VolumeBalance). */
+template <int D>
+void LabelField<D>::BalanceVolumes(
+  const LabelImage<D>& image, double sigma, unsigned threads, const std::stop_token& stop)
+{
+  const VolumeBalance balance(sigma, LabelSmoothing(D, sigma).Kernel());
+  this->RemakeTiles(
+    threads, stop, [&] { return std::make_unique<Balancer>(*this, image, balance); });
+}
+
+template void LabelField<4>::BalanceVolumes(
+  const LabelImage<4>&, double, unsigned, const std::stop_token&);
+
+} // namespace voxplex

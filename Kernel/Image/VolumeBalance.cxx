@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/VolumeBalance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxplex
+{
+
+namespace
+{
+
+constexpr std::size_t Tile = 8;
+
+/** The mean of the interpolation over a voxel is a product of this kernel along the axes. */
+constexpr std::array<float, 2> MeanOfVoxel = { 0.75f, 0.125f };
+
+/**
+ * Integral of 1 - (2 V - 1)^2 across a plane interface, voxels. V falls from 1 to 0 over one voxel.
+ */
+constexpr float AreaOfPlane = 2.0f / 3.0f;
+
+/** Less area around a sample counts as this much. A plane through the sample has 0.27. */
+constexpr float LeastArea = 0.05f;
+
+/** Moves are a little longer than the volume asks for, because samples far from 0 do not move. */
+constexpr float Lengthening = 1.15f;
+
+/** Longest move, voxels. */
+constexpr float LongestMove = 0.5f;
+
+/** Samples move by the whole distance if they are at least 1 / FullMove away from 1 and -1. */
+constexpr float FullMove = 4.0f;
+
+/** The number of samples along each axis. */
+using Extent = std::array<std::size_t, 4>;
+
+std::size_t SizeOf(const Extent& n)
+{
+  return n[0] * n[1] * n[2] * n[3];
+}
+
+/** Filters along one axis by a symmetric kernel. The result is shorter by its radius on both sides. */
+template <typename Weights>
+void Filter(const float* in, Extent& n, std::size_t axis, const Weights& weights, float* out)
+{
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < axis; ++a)
+  {
+    stride *= n[a];
+  }
+  const std::size_t radius = weights.size() - 1;
+  const std::size_t length = (n[axis] - 2 * radius) * stride; // the results of one row of planes
+  const std::size_t rows = SizeOf(n) / (n[axis] * stride);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    const float* const middle = in + row * n[axis] * stride + radius * stride;
+    float* const to = out + row * length;
+    for (std::size_t i = 0; i < length; ++i)
+    {
+      to[i] = weights[0] * middle[i];
+    }
+    for (std::size_t r = 1; r <= radius; ++r)
+    {
+      const float* const below = middle - r * stride;
+      const float* const above = middle + r * stride;
+      for (std::size_t i = 0; i < length; ++i)
+      {
+        to[i] += weights[r] * (below[i] + above[i]);
+      }
+    }
+  }
+  n[axis] -= 2 * radius;
+}
+
+/** Filters along all axes, the slowest first. The result is in `values`. */
+template <typename Weights>
+void FilterAll(
+  std::vector<float>& values, Extent n, const Weights& weights, std::vector<float>& other)
+{
+  for (std::size_t axis = 4; axis-- > 0;)
+  {
+    Filter(values.data(), n, axis, weights, other.data());
+    values.swap(other);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+VolumeBalance::VolumeBalance(double sigma, const std::vector<double>& kernel)
+{
+  const auto radius = static_cast<std::size_t>(std::ceil(2.0 * sigma));
+  double sum = 0.0;
+  for (std::size_t t = 0; t <= radius; ++t)
+  {
+    const double x = static_cast<double>(t) / sigma;
+    this->Spread.push_back(static_cast<float>(std::exp(-0.5 * x * x)));
+    sum += (t == 0 ? 1.0 : 2.0) * static_cast<double>(this->Spread.back());
+  }
+  for (float& weight : this->Spread)
+  {
+    weight = static_cast<float>(weight / sum);
+  }
+  // Half a voxel away from a plane, samples are kernel[0], and their means over voxels are:
+  const double next = kernel.size() > 1 ? kernel[1] : 0.0;
+  const double mean = (1.0 - 2.0 * MeanOfVoxel[1]) * kernel[0] + 2.0 * MeanOfVoxel[1] * next;
+  this->Slope = static_cast<float>(2.0 * kernel[0]);
+  this->PerFilling = static_cast<float>(1.0 / mean);
+}
+
+//------------------------------------------------------------------------------------------------
+void VolumeBalance::Find(const float* margins, Buffers& buffers, float* shifts) const
+{
+  const std::size_t width = Tile + 2 * this->Radius();
+  const Extent whole = { width, width, width, width };
+  const std::size_t inner = width - 2;
+  const Extent within = { inner, inner, inner, inner };
+  auto& [excess, area, other] = buffers;
+  excess.assign(margins, margins + SizeOf(whole));
+  other.resize(SizeOf(whole));
+  FilterAll(excess, whole, MeanOfVoxel, other);
+
+  area.resize(SizeOf(whole));
+  const float* const corner = margins + ((width + 1) * width + 1) * width + 1; // of `within`
+  std::size_t i = 0;
+  for (std::size_t row = 0; row < inner * inner * inner; ++row)
+  {
+    const std::size_t y = row % inner;
+    const std::size_t z = row / inner % inner;
+    const std::size_t t = row / inner / inner;
+    const float* const own = corner + ((t * width + z) * width + y) * width;
+    for (std::size_t x = 0; x < inner; ++x, ++i)
+    {
+      const float filling = std::clamp(excess[i] * this->PerFilling, -1.0f, 1.0f); // 2 V - 1
+      excess[i] = 0.5f * (filling - (own[x] > 0.0f ? 1.0f : -1.0f));
+      area[i] = 1.0f - filling * filling;
+    }
+  }
+  other.resize(SizeOf(whole));
+  FilterAll(excess, within, this->Spread, other);
+  FilterAll(area, within, this->Spread, other);
+
+  const std::size_t r = this->Radius();
+  i = 0;
+  for (std::size_t row = 0; row < Tile * Tile * Tile; ++row)
+  {
+    const std::size_t y = row % Tile + r;
+    const std::size_t z = row / Tile % Tile + r;
+    const std::size_t t = row / Tile / Tile + r;
+    const float* const own = margins + ((t * width + z) * width + y) * width + r;
+    for (std::size_t x = 0; x < Tile; ++x, ++i)
+    {
+      const float move = Lengthening * AreaOfPlane * excess[i] / std::max(area[i], LeastArea);
+      const float share = std::clamp(FullMove * (1.0f - std::abs(own[x])), 0.0f, 1.0f);
+      shifts[i] = share * this->Slope * std::clamp(move, -LongestMove, LongestMove);
+    }
+  }
+}
+
+} // namespace voxplex
