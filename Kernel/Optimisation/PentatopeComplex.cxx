@@ -131,6 +131,7 @@ PentatopeComplex::PentatopeComplex(const SimplexMesh<4>& mesh, const Surrounding
   , Surfaces(surfaces)
   , Values(image.Values())
   , MeshPoints(mesh.Points.size())
+  , FirstPoints(mesh.Points.size() + outside.Points.size())
   , Facets(mesh.Facets)
   , Points(mesh.Points.begin(), mesh.Points.end())
   , Corners(mesh.Simplices.begin(), mesh.Simplices.end())
@@ -172,7 +173,11 @@ PentatopeComplex::PentatopeComplex(const SimplexMesh<4>& mesh, const Surrounding
 
 void PentatopeComplex::CopyTo(SimplexMesh<4>& mesh) const
 {
+  const std::size_t made = this->Points.size() - this->FirstPoints;
+  mesh.Points.resize(this->MeshPoints + made);
   std::copy_n(this->Points.begin(), this->MeshPoints, mesh.Points.begin());
+  std::copy_n(this->Points.end() - static_cast<std::ptrdiff_t>(made), made,
+    mesh.Points.begin() + static_cast<std::ptrdiff_t>(this->MeshPoints));
   std::size_t n = 0;
   for (std::size_t s = 0; s < this->Corners.size(); ++s)
   {
@@ -185,6 +190,11 @@ void PentatopeComplex::CopyTo(SimplexMesh<4>& mesh) const
     if (this->Labels[s] != 0 && this->IsAlive(s))
     {
       mesh.Simplices[k] = this->Corners[s];
+      for (std::uint32_t& v : mesh.Simplices[k])
+      {
+        v -= static_cast<std::uint32_t>(
+          v < this->FirstPoints ? 0 : this->FirstPoints - this->MeshPoints);
+      }
       mesh.Labels[k] = this->Values[this->Labels[s]];
       ++k;
     }
@@ -264,6 +274,12 @@ std::uint32_t PentatopeComplex::Append(LabelId label)
   this->Labels.push_back(label);
   this->Qualities.push_back(0.0);
   return static_cast<std::uint32_t>(this->Corners.size() - 1);
+}
+
+std::uint32_t PentatopeComplex::AddPoint(const Point<4>& p)
+{
+  this->Points.push_back(p);
+  return static_cast<std::uint32_t>(this->Points.size() - 1);
 }
 
 } // namespace voxplex

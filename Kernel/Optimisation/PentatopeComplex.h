@@ -88,7 +88,7 @@ public:
     const LabelImage<4>& image, const Domain<4>& surfaces, const PentatopeBounds& bounds,
     unsigned threads, const std::stop_token& stop);
 
-  /** Replaces the points, pentatopes and labels of the mesh. Facets stay. */
+  /** Replaces the points, pentatopes and labels of the mesh; new points come last. Facets stay. */
   void CopyTo(SimplexMesh<4>& mesh) const;
 
   /** Numbers of pentatopes are smaller. Some may be dead. */
@@ -121,9 +121,13 @@ public:
   }
   void FindStars();
 
-  /** The facets of interfaces around a vertex of the mesh. */
+  /** The facets of interfaces around a vertex of the mesh. New vertices have none. */
   std::span<const std::uint32_t> FacetsAt(std::uint32_t v) const
   {
+    if (v >= this->MeshPoints)
+    {
+      return {};
+    }
     return { this->FacetsOf.data() + this->FirstFacet[v],
       this->FirstFacet[v + 1] - this->FirstFacet[v] };
   }
@@ -164,12 +168,14 @@ public:
   }
   void Kill(std::size_t s) { this->Corners[s][0] = None; }
   std::uint32_t Append(LabelId label);
+  std::uint32_t AddPoint(const Point<4>& p);
 
 private:
   const PentatopeBounds Bounds;
   const Domain<4>& Surfaces;
   const std::span<const std::int64_t> Values; ///< of labels in the image
   const std::size_t MeshPoints;
+  const std::size_t FirstPoints; ///< those of the mesh and those outside; new ones come after them
   std::span<const std::array<std::uint32_t, 4>> Facets;
   std::vector<Point<4>> Points;
   std::vector<Vertices> Corners;

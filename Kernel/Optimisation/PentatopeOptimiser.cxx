@@ -4,6 +4,7 @@
 
 #include "Optimisation/MoveLimits.h"
 #include "Optimisation/PentatopeFlips.h"
+#include "Optimisation/PentatopeInsertion.h"
 #include "Optimisation/PentatopeSmoother.h"
 #include "Parallel/ParallelFor.h"
 
@@ -29,6 +30,12 @@ constexpr unsigned LoosePasses = 8;
 
 /** Strict passes end when one leaves more than this part of the poor pentatopes. */
 constexpr double WorthAnotherPass = 0.9;
+
+/** Insertions, each followed by passes. */
+constexpr unsigned InsertionRounds = 3;
+
+/** New pentatopes are to be better than the target by this factor. */
+constexpr double KeptGain = 1.02;
 
 /** Flips of a pass are made in rounds: a flip may make another one possible. */
 constexpr unsigned MostRounds = 8;
@@ -71,6 +78,10 @@ public:
     this->Tolerance = this->Bounds.InterfaceTolerance;
     std::fill(this->HasNews.begin(), this->HasNews.end(), 1);
     this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
+    for (unsigned round = 0; round < InsertionRounds && this->Insert(); ++round)
+    {
+      this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
+    }
     this->Done.PoorAfter = this->Poor.size();
     this->Done.SmallestAfter = this->Smallest();
     return this->Done;
@@ -277,6 +288,42 @@ private:
       vertices.resize(left);
     }
     this->Done.Moves += moves;
+  }
+
+  /**
+   * Inserts vertices where pentatopes are still poor. Returns whether there was one. Cavities do not
+   * reach into new pentatopes, because their stars are found at the end.
+   */
+  bool Insert()
+  {
+    if (this->Poor.empty())
+    {
+      return false;
+    }
+    PentatopeCavity cavity(this->Complex);
+    const std::uint64_t before = this->Done.Insertions;
+    const double target = KeptGain * this->Goal;
+    for (const std::uint32_t s : this->Poor)
+    {
+      if (!this->Complex.IsPoor(s, this->Goal))
+      {
+        continue; // part of an earlier cavity
+      }
+      const PentatopeInsertion insertion = cavity.Find(s, target);
+      if (insertion.After > insertion.Before)
+      {
+        MakeInsertion(this->Complex, insertion);
+        ++this->Done.Insertions;
+        this->HasNews.push_back(1);
+        for (const std::uint32_t old : insertion.Old)
+        {
+          this->TellVertices(this->Complex.CornersOf(old));
+        }
+      }
+    }
+    this->Complex.FindStars();
+    this->FindPoor(this->Goal);
+    return this->Done.Insertions > before;
   }
 
   bool ComesFirst(std::uint32_t v, const std::vector<std::uint32_t>& ranks) const

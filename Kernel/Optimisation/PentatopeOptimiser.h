@@ -28,12 +28,13 @@ struct PentatopeStatistics
   std::uint64_t PoorAfter = 0;
   std::array<std::uint64_t, 3> Flips{}; ///< 2-4, 3-3, 4-2
   std::uint64_t Moves = 0;              ///< of vertices
+  std::uint64_t Insertions = 0;         ///< of vertices
   std::uint32_t Passes = 0;
 };
 
 /**
- * Raises the normalized volumes of pentatopes to a target where possible, by flips (PentatopeFlip)
- * and smoothing (PentatopeSmoother). First each vertex is moved once so that those around it are better
+ * Raises the normalized volumes of pentatopes to a target where possible, by flips (PentatopeFlip),
+ * smoothing (PentatopeSmoother) and, as a last resort, new vertices (PentatopeCavity). First each vertex is moved once so that those around it are better
  * on the whole. Then poor pentatopes are improved, up to twice the target at first: a change is made
  * only if the smallest normalized volume of the changed pentatopes grows. The result keeps
  * - conformity, positive orientation, labels, and the facets of interfaces;
@@ -43,7 +44,7 @@ struct PentatopeStatistics
  * - facets on time planes (PentatopeBounds::Planes), and those at the ends of a periodic mesh. Both ends stay
  *   congruent: a vertex and its twin (SimplexMesh::Twins) move together.
  *
- * Points keep their order. So do pentatopes; new ones come last. The result does not depend on the
+ * Points keep their order. So do pentatopes; new ones come last, of both. The result does not depend on the
  * number of threads.
  *
  * @param mesh a valid mesh; unchanged if this throws

@@ -22,6 +22,12 @@ constexpr double ShortestStep = 0.01;
 /** Steps of one vertex that raise the worst, those that fail included. */
 constexpr unsigned MostSteps = 12;
 
+/**
+ * A step raises the worst alone. As a last resort it also raises those that are better by up to this
+ * part of its quality.
+ */
+constexpr std::array<double, 3> Shares = { 0.0, 0.25, 1.0 };
+
 /** Steps that raise the sum: the first length, their number, and how lengths change. */
 constexpr double FirstStepOfSum = 0.15;
 constexpr unsigned MostStepsOfSum = 4;
@@ -65,34 +71,31 @@ bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolera
   {
     return false;
   }
-  std::size_t worst = this->Worst();
+  double quality = this->Smallest();
   bool moved = false;
   double step = FirstStep * this->Star.ShortestEdge();
   const double shortest = ShortestStep * this->Star.ShortestEdge();
-  for (unsigned k = 0; k < MostSteps && step >= shortest; ++k)
+  const bool isLast = tolerance > 0.0;
+  const std::size_t shares = isLast ? Shares.size() : 1;
+  const unsigned most = isLast ? 2 * MostSteps : MostSteps;
+  std::size_t share = 0;
+  for (unsigned k = 0; k < most && step >= shortest && quality < target; ++k)
   {
-    const double quality = this->Star.Inside()[worst].Quality;
     const Point<4> here = this->Target.PointOf(v);
-    if (quality >= target)
-    {
-      break;
-    }
-    Point<4> direction = this->Star.Inside()[worst].GradientAt(here);
+    Point<4> direction = this->GradientOfWorst(here, (1.0 + Shares[share]) * quality);
     this->Project(direction);
-    if (!(Dot(direction, direction) > 0.0))
-    {
-      break;
-    }
-    const Point<4> p = Along(here, direction, step);
-    if (this->MayMoveTo(v, p) && this->Try(p, quality))
+    const bool leads = Dot(direction, direction) > 0.0;
+    const Point<4> p = leads ? Along(here, direction, step) : here;
+    if (leads && this->MayMoveTo(v, p) && this->Try(p, quality))
     {
       this->Take(v, p);
-      worst = this->Worst();
+      quality = this->Smallest();
       moved = true;
     }
     else
     {
-      step *= 0.5;
+      share = (share + 1) % shares;
+      step *= share == 0 ? 0.5 : 1.0;
     }
   }
   if (moved)
@@ -263,12 +266,33 @@ void PentatopeSmoother::Project(Point<4>& direction) const
   }
 }
 
-std::size_t PentatopeSmoother::Worst() const
+double PentatopeSmoother::Smallest() const
 {
-  const std::span<const MovedPentatope> star = this->Star.Inside();
-  const auto worst = std::min_element(star.begin(), star.end(),
-    [](const MovedPentatope& a, const MovedPentatope& b) { return a.Quality < b.Quality; });
-  return static_cast<std::size_t>(worst - star.begin());
+  double smallest = 1.0;
+  for (const MovedPentatope& one : this->Star.Inside())
+  {
+    smallest = std::min(smallest, one.Quality);
+  }
+  return smallest;
+}
+
+/** The sum of the directions in which pentatopes become better, over those below a quality. */
+Point<4> PentatopeSmoother::GradientOfWorst(const Point<4>& p, double below) const
+{
+  Point<4> sum{};
+  for (const MovedPentatope& one : this->Star.Inside())
+  {
+    if (one.Quality <= below)
+    {
+      const Point<4> gradient = one.GradientAt(p);
+      const double length = std::sqrt(Dot(gradient, gradient));
+      for (std::size_t a = 0; a < 4 && length > 0.0; ++a)
+      {
+        sum[a] += gradient[a] / length;
+      }
+    }
+  }
+  return sum;
 }
 
 Point<4> PentatopeSmoother::GradientOfSum(const Point<4>& p) const

@@ -46,7 +46,8 @@ public:
    * Moves a vertex of the mesh until no pentatope around it is below the target, or no step helps.
    * The measure is the smallest quality. Returns whether it has moved. Changes the qualities of the
    * pentatopes around it.
-   * @param tolerance how far, in all, it may move along normals of interfaces
+   * @param tolerance how far, in all, it may move along normals of interfaces. If it is not 0, more
+   *   directions are tried.
    */
   bool RaiseWorst(std::uint32_t v, double target, double tolerance);
 
@@ -63,7 +64,8 @@ private:
   void AddNormals(std::uint32_t v, std::array<Point<4>, 4>& sum, double& total);
   Point<4> SumOfNormals(const Point<4>& side) const;
   void Project(Point<4>& direction) const;
-  std::size_t Worst() const;
+  double Smallest() const;
+  Point<4> GradientOfWorst(const Point<4>& p, double below) const;
   Point<4> GradientOfSum(const Point<4>& p) const;
   bool MayMoveTo(std::uint32_t v, const Point<4>& p) const;
   bool Allows(MovedPentatope& one, const PentatopeShape& shape) const;

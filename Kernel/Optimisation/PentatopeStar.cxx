@@ -17,20 +17,22 @@ namespace
 /** The volume of the regular pentatope with the circumradius 1; see NormalizedVolume(). */
 const double RegularVolume = 25.0 * std::sqrt(5.0) / 384.0;
 
-/** Puts the circumcentre of the facet, the normal and the sizes into `one`. */
-void MeasureFacet(MovedPentatope& one, const Point<4>& vertex)
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+void MovedPentatope::MeasureFacet(const Point<4>& vertex)
 {
-  const Point<4>& origin = *one.Facet[0];
-  const std::array<Point<4>, 3> e = { Subtract(*one.Facet[1], origin),
-    Subtract(*one.Facet[2], origin), Subtract(*one.Facet[3], origin) };
-  one.Normal = Cross(e[0], e[1], e[2]);
-  const double length = std::sqrt(Dot(one.Normal, one.Normal));
-  const double sign = Dot(Subtract(vertex, origin), one.Normal) < 0.0 ? -1.0 : 1.0;
-  for (double& x : one.Normal)
+  const Point<4>& origin = *this->Facet[0];
+  const std::array<Point<4>, 3> e = { Subtract(*this->Facet[1], origin),
+    Subtract(*this->Facet[2], origin), Subtract(*this->Facet[3], origin) };
+  this->Normal = Cross(e[0], e[1], e[2]);
+  const double length = std::sqrt(Dot(this->Normal, this->Normal));
+  const double sign = Dot(Subtract(vertex, origin), this->Normal) < 0.0 ? -1.0 : 1.0;
+  for (double& x : this->Normal)
   {
     x *= sign / length;
   }
-  one.Area = length / 24.0;
+  this->Area = length / 24.0;
 
   // The circumcentre is origin + sum x_i e_i, and has (sum x_i e_i) . e_j = |e_j|^2 / 2.
   const double g01 = Dot(e[0], e[1]);
@@ -48,20 +50,17 @@ void MeasureFacet(MovedPentatope& one, const Point<4>& vertex)
   const double x0 = half * (c00 * g[0] + c01 * g[1] + c02 * g[2]);
   const double x1 = half * (c01 * g[0] + c11 * g[1] + c12 * g[2]);
   const double x2 = half * (c02 * g[0] + c12 * g[1] + c22 * g[2]);
-  one.Radius2 = 0.0;
+  this->Radius2 = 0.0;
   for (std::size_t a = 0; a < 4; ++a)
   {
     const double offset = x0 * e[0][a] + x1 * e[1][a] + x2 * e[2][a];
-    one.Centre[a] = origin[a] + offset;
-    one.Radius2 += offset * offset;
+    this->Centre[a] = origin[a] + offset;
+    this->Radius2 += offset * offset;
   }
-  one.ShortestEdge2 = std::min({ g[0], g[1], g[2], g[0] + g[1] - 2.0 * g01, g[0] + g[2] - 2.0 * g02,
-    g[1] + g[2] - 2.0 * g12 });
+  this->ShortestEdge2 = std::min({ g[0], g[1], g[2], g[0] + g[1] - 2.0 * g01,
+    g[0] + g[2] - 2.0 * g02, g[1] + g[2] - 2.0 * g12 });
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------------------------
 PentatopeShape MovedPentatope::ShapeAt(const Point<4>& place) const
 {
   const Point<4> p = this->PlaceOf(place);
@@ -153,7 +152,7 @@ void PentatopeStar::Add(
       this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k - 1], vertex));
     }
   }
-  MeasureFacet(one, vertex);
+  one.MeasureFacet(vertex);
 }
 
 } // namespace voxplex

@@ -41,7 +41,10 @@ struct MovedPentatope
   double Radius2;       ///< r^2
   double Area;          ///< A
   double ShortestEdge2; ///< of the facet
-  double Shift;         ///< the twin's time minus that of the vertex; 0 at the vertex itself
+  double Shift = 0.0;   ///< the twin's time minus that of the vertex; 0 at the vertex itself
+
+  /** Sets the circumcentre of the facet, the normal and the sizes. The vertex is on the normal's side. */
+  void MeasureFacet(const Point<4>& vertex);
 
   double VolumeAt(const Point<4>& p) const
   {

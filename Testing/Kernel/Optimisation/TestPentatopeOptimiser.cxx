@@ -5,6 +5,7 @@
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
 #include "Optimisation/PentatopeFlips.h"
+#include "Optimisation/PentatopeInsertion.h"
 #include "Optimisation/PentatopeOptimiser.h"
 #include "Optimisation/PentatopeStar.h"
 #include "SpaceTimeCases.h"
@@ -81,7 +82,7 @@ void ExpectSameInterfaces(
 {
   ASSERT_EQ(before.Facets, after.Facets);
   ASSERT_EQ(before.FacetLabels, after.FacetLabels);
-  ASSERT_EQ(before.Points.size(), after.Points.size());
+  ASSERT_LE(before.Points.size(), after.Points.size()); // new vertices are inside and come last
   const auto [first, last] = TimeSpan(before);
   std::set<std::uint32_t> corners;
   for (const auto& facet : before.Facets)
@@ -178,7 +179,7 @@ double Hypervolume(const SimplexMesh<4>& mesh)
 
 } // namespace
 
-// Seen: 1,911 poor pentatopes become 6, 1,417 become 2, 1,108 become 1.
+// Without insertions one to six pentatopes stay poor.
 TEST(PentatopeOptimiser, RaisesTheWorst)
 {
   const std::map<std::string, phantoms::SpaceTimePhantom> phantoms = {
@@ -195,8 +196,7 @@ TEST(PentatopeOptimiser, RaisesTheWorst)
     const std::vector<double> worst = Qualities(before.Mesh);
     const std::vector<double> better = Qualities(after.Mesh);
     EXPECT_GT(Poor(worst), 500u);
-    EXPECT_LT(Poor(better), Poor(worst) / 50);
-    EXPECT_GT(better.front(), 2.0 * worst.front());
+    EXPECT_EQ(Poor(better), 0u);
     EXPECT_GT(Mean(better), Mean(worst) + 0.015);
 
     EXPECT_TRUE(Complaints(after.Mesh).empty());
@@ -217,6 +217,76 @@ TEST(PentatopeOptimiser, RaisesTheWorst)
     EXPECT_EQ(said.SmallestVolumeBefore, worst.front());
     EXPECT_NEAR(said.SmallestVolumeAfter, better.front(), 1e-12);
   }
+}
+
+// Several cavities one after the other, without stars that know of the new pentatopes.
+TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(), 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  SimplexMesh<4> mesh = Mesh(image, UsualOptions(3.0), false).Mesh;
+  const SimplexMesh<4> before = mesh;
+  const PentatopeBounds bounds;
+  PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+  PentatopeCavity cavity(complex);
+  std::size_t made = 0;
+  for (std::uint32_t s = 0; s < mesh.Simplices.size() && made < 40; ++s)
+  {
+    if (!complex.IsPoor(s, bounds.Target))
+    {
+      continue;
+    }
+    const PentatopeInsertion insertion = cavity.Find(s, bounds.Target);
+    if (!(insertion.After > insertion.Before))
+    {
+      continue;
+    }
+    ++made;
+    double smallest = 1.0;
+    double hypervolume = 0.0;
+    for (const std::uint32_t old : insertion.Old)
+    {
+      ASSERT_EQ(complex.LabelOf(old), complex.LabelOf(s));
+      smallest = std::min(smallest, complex.QualityOf(old));
+      hypervolume += SignedVolume<4>(complex.PointsOf(complex.CornersOf(old)).data());
+    }
+    ASSERT_EQ(insertion.Before, smallest);
+    const auto first = static_cast<std::uint32_t>(complex.NumberOfPentatopes());
+    const std::uint32_t v = MakeInsertion(complex, insertion);
+    std::vector<std::uint32_t> now = insertion.Old;
+    for (std::uint32_t n = first; n < complex.NumberOfPentatopes(); ++n)
+    {
+      now.push_back(n);
+    }
+    smallest = 1.0;
+    for (const std::uint32_t n : now)
+    {
+      if (complex.IsAlive(n))
+      {
+        const PentatopeShape shape = ShapeOf(complex.PointsOf(complex.CornersOf(n)));
+        ASSERT_NEAR(shape.Quality, complex.QualityOf(n), 1e-9);
+        ASSERT_EQ(std::count(complex.CornersOf(n).begin(), complex.CornersOf(n).end(), v), 1);
+        smallest = std::min(smallest, shape.Quality);
+        hypervolume -= SignedVolume<4>(complex.PointsOf(complex.CornersOf(n)).data());
+      }
+    }
+    ASSERT_NEAR(insertion.After, smallest, 1e-9);
+    ASSERT_NEAR(hypervolume, 0.0, 1e-6);
+  }
+  EXPECT_EQ(made, 40u);
+  complex.CopyTo(mesh);
+  EXPECT_EQ(mesh.Points.size(), before.Points.size() + made);
+  EXPECT_TRUE(Complaints(mesh).empty());
+  std::vector<std::uint8_t> isUsed(mesh.Points.size(), 0);
+  for (const auto& simplex : mesh.Simplices)
+  {
+    for (const std::uint32_t v : simplex)
+    {
+      isUsed[v] = 1;
+    }
+  }
+  EXPECT_EQ(std::count(isUsed.begin(), isUsed.end(), 0), 0);
+  ASSERT_EQ(mesh.Facets, before.Facets);
 }
 
 // What a star says of a vertex at another place, against the measures of a pentatope that is there.
@@ -378,7 +448,9 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
   ASSERT_GT(outside.Simplices.size(), 500u);
   OptimisePentatopes(mesh, outside, domain, image, {});
   EXPECT_NE(mesh.Points, before.Mesh.Points);
-  std::vector<Point<4>> points(mesh.Points.begin(), mesh.Points.end());
+  // Inserted vertices come after those of the mesh, and have no pentatope outside.
+  std::vector<Point<4>> points(mesh.Points.begin(),
+    mesh.Points.begin() + static_cast<std::ptrdiff_t>(before.Mesh.Points.size()));
   points.insert(points.end(), outside.Points.begin(), outside.Points.end());
   for (const auto& simplex : outside.Simplices)
   {
