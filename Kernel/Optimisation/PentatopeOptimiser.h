@@ -34,9 +34,10 @@ struct PentatopeStatistics
 
 /**
  * Raises the normalized volumes of pentatopes to a target where possible, by flips (PentatopeFlip),
- * smoothing (PentatopeSmoother) and, as a last resort, new vertices (PentatopeCavity). First each vertex is moved once so that those around it are better
- * on the whole. Then poor pentatopes are improved, up to twice the target at first: a change is made
- * only if the smallest normalized volume of the changed pentatopes grows. The result keeps
+ * smoothing (PentatopeSmoother) and, as a last resort, new vertices (PentatopeCavity). First each
+ * vertex is moved once so that those around it are better on the whole. Then poor pentatopes are improved, up
+ * to twice the target at first: a change is made only if the smallest normalized volume of the
+ * changed pentatopes grows. The result keeps
  * - conformity, positive orientation, labels, and the facets of interfaces;
  * - the interfaces: their vertices move along them, by a quarter of an edge or half a voxel at most.
  *   As a last resort they leave them, by PentatopeBounds::InterfaceTolerance at most;

@@ -289,6 +289,33 @@ TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
   ASSERT_EQ(mesh.Facets, before.Facets);
 }
 
+// One point is inside of five pentatopes, near a facet. A cavity of all five would be best without it.
+TEST(PentatopeInsertion, LosesNoVertex)
+{
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(4.0));
+  const ImageDomain<4> domain(image, 1.0);
+  SimplexMesh<4> mesh;
+  const double below = (1.0 - std::sqrt(5.0)) / 4.0; // makes a regular pentatope
+  for (const Point<4>& p :
+    { Point<4>{ 1.0, 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0, 0.0 },
+      { 0.0, 0.0, 0.0, 1.0 }, { below, below, below, below }, { 0.24, 0.24, 0.24, 0.24 } })
+  {
+    mesh.Points.push_back(p);
+  }
+  for (std::uint32_t left = 0; left < 5; ++left)
+  {
+    std::vector<Point<4>> points(mesh.Points.begin(), mesh.Points.end());
+    mesh.Simplices.push_back(Without(points, left));
+    mesh.Labels.push_back(1);
+  }
+  PentatopeBounds bounds;
+  bounds.RadiusEdgeRatio = 100.0;
+  const PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+  ASSERT_TRUE(complex.IsPoor(4, bounds.Target));
+  const PentatopeInsertion insertion = PentatopeCavity(complex).Find(4, 0.2);
+  EXPECT_LT(insertion.Old.size(), 5u);
+}
+
 // What a star says of a vertex at another place, against the measures of a pentatope that is there.
 TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
 {
