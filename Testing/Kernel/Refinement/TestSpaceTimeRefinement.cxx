@@ -158,7 +158,7 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
 
 TEST(SpaceTimeRefinement, PickingRegionsFollowTheSeed)
 {
-  const LabelImage<4> image = ImageOf(phantoms::FourBall(6.0));
+  const LabelImage<4> image = ImageOf(phantoms::FourBall(7.0));
   const SimplexMesh<4> first = MeshWithPicking(image, 2.0, 0);
   const SimplexMesh<4> same = MeshWithPicking(image, 2.0, 0);
   const SimplexMesh<4> other = MeshWithPicking(image, 2.0, 1);
