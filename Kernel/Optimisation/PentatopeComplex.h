@@ -113,9 +113,16 @@ public:
       &this->Points[v[4]] };
   }
 
-  /** The pentatopes around a vertex. Those that flips have made are missing until FindStars(). */
+  /**
+   * The pentatopes around a vertex. Those that flips and insertions have made are missing until FindStars(); a
+   * new vertex has none.
+   */
   std::span<const std::uint32_t> StarOf(std::uint32_t v) const
   {
+    if (v + std::size_t{ 1 } >= this->FirstOfStar.size())
+    {
+      return {};
+    }
     return { this->Stars.data() + this->FirstOfStar[v],
       this->FirstOfStar[v + 1] - this->FirstOfStar[v] };
   }
