@@ -112,13 +112,17 @@ private:
           std::fill_n(to, count, -1.0f);
           return;
         }
+        if (labels == 2)
+        {
+          const float scale = own == 0 ? 1.0f / one : -1.0f / one; // a power of two
+          for (unsigned i = 0; i < count; ++i)
+          {
+            to[i] = scale * static_cast<float>(planes[i]);
+          }
+          return;
+        }
         for (unsigned i = 0; i < count; ++i)
         {
-          if (labels == 2)
-          {
-            to[i] = static_cast<float>(own == 0 ? planes[i] : -planes[i]) / one;
-            continue;
-          }
           const int value = planes[own * PlaneSize + i];
           int other = std::numeric_limits<Sample>::min();
           for (std::size_t l = 0; l < labels; ++l)

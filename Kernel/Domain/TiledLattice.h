@@ -584,65 +584,78 @@ void TiledLattice<D, SampleType>::ForEachRun(
   const std::array<std::vector<std::int64_t>, static_cast<std::size_t>(D)>& samples,
   Function&& run) const
 {
-  // A sample on the common face of two tiles is the first of one and the last of the other. The last
-  // tile has no next one.
-  const auto tileOf = [this](std::int64_t sample, std::size_t axis)
+  // Where the samples of an axis are in tiles. A sample on the common face of two tiles is the first of
+  // one and the last of the other. The last tile has no next one.
+  struct Part
   {
-    return std::min(
-      static_cast<std::uint32_t>(sample) / TileCells, this->LastCell[axis] / TileCells);
+    bool Exists = false;
+    std::size_t Number = 0; // of the tile
+    unsigned Offset = 0;
   };
+  std::array<std::vector<Part>, static_cast<std::size_t>(D)> parts;
   std::size_t rows = 1;
-  for (std::size_t a = 1; a < D; ++a)
+  for (std::size_t a = 0; a < D; ++a)
   {
-    rows *= samples[a].size();
-  }
-  const std::vector<std::int64_t>& x = samples[0];
-  for (std::size_t row = 0; row < rows; ++row)
-  {
-    bool isInside = true;
-    std::size_t number = 0;
-    unsigned offset = 0;
-    for (std::size_t a = 1, rest = row; a < D; ++a)
+    for (const std::int64_t sample : samples[a])
     {
-      const std::int64_t sample = samples[a][rest % samples[a].size()];
-      rest /= samples[a].size();
-      isInside = isInside && sample >= 0;
-      if (isInside)
+      Part& part = parts[a].emplace_back();
+      if (sample >= 0)
       {
-        const std::uint32_t tile = tileOf(sample, a);
-        number += std::size_t{ tile } * this->TileStride[a];
-        offset += (static_cast<unsigned>(sample) - tile * TileCells) << (3 * a);
+        const std::uint32_t tile = std::min(
+          static_cast<std::uint32_t>(sample) / TileCells, this->LastCell[a] / TileCells);
+        part = { true, std::size_t{ tile } * this->TileStride[a],
+          (static_cast<unsigned>(sample) - tile * TileCells) << (3 * a) };
       }
     }
-    for (std::size_t begin = 0, end = 0; begin < x.size(); begin = end)
+    rows *= a == 0 ? 1 : samples[a].size();
+  }
+  const std::vector<Part>& x = parts[0];
+  std::vector<std::size_t> ends; // of the runs of a row
+  for (std::size_t k = 1; k <= x.size(); ++k)
+  {
+    const bool goesOn = k < x.size() && x[k].Exists == x[k - 1].Exists &&
+      (!x[k].Exists ||
+        (x[k].Number == x[k - 1].Number && samples[0][k] == samples[0][k - 1] + 1));
+    if (!goesOn)
     {
-      const std::int64_t sample = x[begin];
-      const bool exists = isInside && sample >= 0;
-      const std::uint32_t tile = exists ? tileOf(sample, 0) : 0;
-      for (end = begin + 1; end < x.size(); ++end)
-      {
-        const bool goesOn = sample < 0
-          ? x[end] < 0
-          : x[end] == x[end - 1] + 1 && (!exists || tileOf(x[end], 0) == tile);
-        if (!goesOn)
-        {
-          break;
-        }
-      }
+      ends.push_back(k);
+    }
+  }
+
+  std::array<std::size_t, static_cast<std::size_t>(D)> at{};
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    Part other{ true };
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      const Part& part = parts[a][at[a]];
+      other.Exists = other.Exists && part.Exists;
+      other.Number += part.Number;
+      other.Offset += part.Offset;
+    }
+    for (std::size_t a = 1; a < D && ++at[a] == parts[a].size(); ++a)
+    {
+      at[a] = 0;
+    }
+    std::size_t begin = 0;
+    for (const std::size_t end : ends)
+    {
       const std::size_t place = row * x.size() + begin;
       const auto count = static_cast<unsigned>(end - begin);
-      if (!exists)
+      const Part& first = x[begin];
+      begin = end;
+      if (!other.Exists || !first.Exists)
       {
         run(static_cast<const Sample*>(nullptr), LabelId{ 0 }, 0u, count, place);
         continue;
       }
-      const std::uintptr_t entry = this->Directory[number + tile * this->TileStride[0]];
+      const std::uintptr_t entry = this->Directory[other.Number + first.Number];
       const bool isUniform = (entry & 1) != 0;
       run(isUniform
           ? nullptr
           : reinterpret_cast<const Sample*>(entry), // NOLINT(performance-no-int-to-ptr): tagged
-        static_cast<LabelId>(isUniform ? entry >> 1 : 0),
-        offset + (static_cast<unsigned>(sample) - tile * TileCells), count, place);
+        static_cast<LabelId>(isUniform ? entry >> 1 : 0), other.Offset + first.Offset, count,
+        place);
     }
   }
 }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/VolumeBalance.h"
 
+#include "Base/VectorClones.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace voxplex
 {
@@ -42,9 +45,28 @@ std::size_t SizeOf(const Extent& n)
   return n[0] * n[1] * n[2] * n[3];
 }
 
+/** Adds weight (below + above), or sets weight below if `above` is null. */
+VOXPLEX_VECTOR_CLONES
+void AddWeighted(
+  float weight, const float* below, const float* above, std::size_t n, float* __restrict to)
+{
+  if (!above)
+  {
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      to[i] = weight * below[i];
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    to[i] += weight * (below[i] + above[i]);
+  }
+}
+
 /** Filters along one axis by a symmetric kernel. The result is shorter by its radius on both sides. */
-template <typename Weights>
-void Filter(const float* in, Extent& n, std::size_t axis, const Weights& weights, float* out)
+void Filter(
+  const float* in, Extent& n, std::size_t axis, std::span<const float> weights, float* out)
 {
   std::size_t stride = 1;
   for (std::size_t a = 0; a < axis; ++a)
@@ -58,32 +80,52 @@ void Filter(const float* in, Extent& n, std::size_t axis, const Weights& weights
   {
     const float* const middle = in + row * n[axis] * stride + radius * stride;
     float* const to = out + row * length;
-    for (std::size_t i = 0; i < length; ++i)
-    {
-      to[i] = weights[0] * middle[i];
-    }
+    AddWeighted(weights[0], middle, nullptr, length, to);
     for (std::size_t r = 1; r <= radius; ++r)
     {
-      const float* const below = middle - r * stride;
-      const float* const above = middle + r * stride;
-      for (std::size_t i = 0; i < length; ++i)
-      {
-        to[i] += weights[r] * (below[i] + above[i]);
-      }
+      AddWeighted(weights[r], middle - r * stride, middle + r * stride, length, to);
     }
   }
   n[axis] -= 2 * radius;
 }
 
 /** Filters along all axes, the slowest first. The result is in `values`. */
-template <typename Weights>
 void FilterAll(
-  std::vector<float>& values, Extent n, const Weights& weights, std::vector<float>& other)
+  std::vector<float>& values, Extent n, std::span<const float> weights, std::vector<float>& other)
 {
   for (std::size_t axis = 4; axis-- > 0;)
   {
     Filter(values.data(), n, axis, weights, other.data());
     values.swap(other);
+  }
+}
+
+/**
+ * Excess and area of voxels in a row.
+ * @param excess holds means of samples over voxels, and receives the excess
+ */
+VOXPLEX_VECTOR_CLONES
+void MeasureVoxels(const float* __restrict margins, float perFilling, std::size_t n,
+  float* __restrict excess, float* __restrict area)
+{
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const float filling = std::clamp(excess[i] * perFilling, -1.0f, 1.0f); // 2 V - 1
+    excess[i] = 0.5f * (filling - (margins[i] > 0.0f ? 1.0f : -1.0f));
+    area[i] = 1.0f - filling * filling;
+  }
+}
+
+/** What is to be subtracted from 8 samples in a row. */
+VOXPLEX_VECTOR_CLONES
+void FindShifts(const float* __restrict margins, float slope, const float* __restrict excess,
+  const float* __restrict area, float* __restrict shifts)
+{
+  for (std::size_t i = 0; i < Tile; ++i)
+  {
+    const float move = Lengthening * AreaOfPlane * excess[i] / std::max(area[i], LeastArea);
+    const float share = std::clamp(FullMove * (1.0f - std::abs(margins[i])), 0.0f, 1.0f);
+    shifts[i] = share * slope * std::clamp(move, -LongestMove, LongestMove);
   }
 }
 
@@ -125,38 +167,26 @@ void VolumeBalance::Find(const float* margins, Buffers& buffers, float* shifts) 
 
   area.resize(SizeOf(whole));
   const float* const corner = margins + ((width + 1) * width + 1) * width + 1; // of `within`
-  std::size_t i = 0;
   for (std::size_t row = 0; row < inner * inner * inner; ++row)
   {
     const std::size_t y = row % inner;
     const std::size_t z = row / inner % inner;
     const std::size_t t = row / inner / inner;
-    const float* const own = corner + ((t * width + z) * width + y) * width;
-    for (std::size_t x = 0; x < inner; ++x, ++i)
-    {
-      const float filling = std::clamp(excess[i] * this->PerFilling, -1.0f, 1.0f); // 2 V - 1
-      excess[i] = 0.5f * (filling - (own[x] > 0.0f ? 1.0f : -1.0f));
-      area[i] = 1.0f - filling * filling;
-    }
+    MeasureVoxels(corner + ((t * width + z) * width + y) * width, this->PerFilling, inner,
+      excess.data() + row * inner, area.data() + row * inner);
   }
   other.resize(SizeOf(whole));
   FilterAll(excess, within, this->Spread, other);
   FilterAll(area, within, this->Spread, other);
 
   const std::size_t r = this->Radius();
-  i = 0;
   for (std::size_t row = 0; row < Tile * Tile * Tile; ++row)
   {
     const std::size_t y = row % Tile + r;
     const std::size_t z = row / Tile % Tile + r;
     const std::size_t t = row / Tile / Tile + r;
-    const float* const own = margins + ((t * width + z) * width + y) * width + r;
-    for (std::size_t x = 0; x < Tile; ++x, ++i)
-    {
-      const float move = Lengthening * AreaOfPlane * excess[i] / std::max(area[i], LeastArea);
-      const float share = std::clamp(FullMove * (1.0f - std::abs(own[x])), 0.0f, 1.0f);
-      shifts[i] = share * this->Slope * std::clamp(move, -LongestMove, LongestMove);
-    }
+    FindShifts(margins + ((t * width + z) * width + y) * width + r, this->Slope,
+      excess.data() + row * Tile, area.data() + row * Tile, shifts + row * Tile);
   }
 }
 

@@ -279,6 +279,10 @@ std::uint32_t PentatopeComplex::Append(LabelId label)
 std::uint32_t PentatopeComplex::AddPoint(const Point<4>& p)
 {
   this->Points.push_back(p);
+  if (!this->Twins.empty())
+  {
+    this->Twins.push_back(None);
+  }
   return static_cast<std::uint32_t>(this->Points.size() - 1);
 }
 

@@ -15,6 +15,9 @@ namespace
 /** Most pentatopes of a cavity. */
 constexpr std::size_t MostOld = 100;
 
+/** A cavity that has grown so often without being worth more is given up. */
+constexpr unsigned Patience = 24;
+
 /** Steps of the new vertex after each growth; lengths in mean heights of the boundary. */
 constexpr unsigned MostSteps = 12;
 constexpr double FirstStep = 0.3;
@@ -66,9 +69,15 @@ void PentatopeCavity::Try(std::uint32_t s, Point<4> p, double target, PentatopeI
   this->Facets.clear();
   this->Before = 1.0;
   this->Add(s);
-  while (best.After < target)
+  double reached = -std::numeric_limits<double>::infinity();
+  for (unsigned inVain = 0; best.After < target && inVain < Patience; ++inVain)
   {
     const double worth = this->Improve(p);
+    if (worth > reached)
+    {
+      reached = worth;
+      inVain = 0;
+    }
     if (worth > this->Before && worth > best.After && this->IsAllowed(p))
     {
       best = this->Result(p, worth);
@@ -109,7 +118,7 @@ void PentatopeCavity::Add(std::uint32_t s)
         facet.New.Facet[m++] = &this->Complex.PointOf(corners[k]);
       }
     }
-    facet.New.MeasureFacet(this->Complex.PointOf(corners[i]));
+    facet.New.MeasureFacet(i);
   }
 }
 
@@ -117,7 +126,7 @@ void PentatopeCavity::Add(std::uint32_t s)
 double PentatopeCavity::WorthOf(const BoundaryFacet& facet, const Point<4>& p)
 {
   const double height = Dot(Subtract(p, facet.New.Centre), facet.New.Normal);
-  return height > 0.0 ? facet.New.ShapeAt(p).Quality : height;
+  return height > 0.0 ? facet.New.QualityAt(p) : height;
 }
 
 /** The worth of the worst new pentatope; less than `enough` if that is certain. */
@@ -202,7 +211,7 @@ bool PentatopeCavity::Grow(const Point<4>& p)
   {
     const BoundaryFacet& facet = this->Facets[k];
     const double one = facet.Behind == None ? worth : WorthOf(facet, p);
-    if (one < worth && this->Keeps(facet.Behind))
+    if (one < worth && !this->Contains(facet.Behind) && this->Keeps(facet.Behind))
     {
       worth = one;
       worst = k;
@@ -214,6 +223,12 @@ bool PentatopeCavity::Grow(const Point<4>& p)
   }
   this->Add(this->Facets[worst].Behind);
   return true;
+}
+
+/** Beside earlier insertions a facet inside of the cavity may still be listed, because stars are out of date. */
+bool PentatopeCavity::Contains(std::uint32_t s) const
+{
+  return std::find(this->Cavity.begin(), this->Cavity.end(), s) != this->Cavity.end();
 }
 
 /** Whether all vertices of the cavity stay on its boundary if a pentatope is added. Others would be lost. */

@@ -68,6 +68,7 @@ private:
   double WorthAt(const Point<4>& p, double enough) const;
   Point<4> DirectionAt(const Point<4>& p, double worth, double share) const;
   bool Grow(const Point<4>& p);
+  bool Contains(std::uint32_t s) const;
   bool Keeps(std::uint32_t s) const;
   bool IsAllowed(const Point<4>& p) const;
   PentatopeInsertion Result(const Point<4>& p, double worth) const;

@@ -34,6 +34,10 @@ constexpr double WorthAnotherPass = 0.9;
 /** Insertions, each followed by passes. */
 constexpr unsigned InsertionRounds = 3;
 
+/** A round tries to insert vertices in this number of the worst pentatopes, and in one more for so many others. */
+constexpr std::size_t FewestInsertions = 16;
+constexpr std::size_t PentatopesPerInsertion = 500;
+
 /** New pentatopes are to be better than the target by this factor. */
 constexpr double KeptGain = 1.02;
 
@@ -303,7 +307,9 @@ private:
     PentatopeCavity cavity(this->Complex);
     const std::uint64_t before = this->Done.Insertions;
     const double target = KeptGain * this->Goal;
-    for (const std::uint32_t s : this->Poor)
+    const std::size_t most =
+      FewestInsertions + this->Complex.NumberOfPentatopes() / PentatopesPerInsertion;
+    for (const std::uint32_t s : std::span(this->Poor).first(std::min(most, this->Poor.size())))
     {
       if (!this->Complex.IsPoor(s, this->Goal))
       {

@@ -20,14 +20,15 @@ const double RegularVolume = 25.0 * std::sqrt(5.0) / 384.0;
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-void MovedPentatope::MeasureFacet(const Point<4>& vertex)
+void MovedPentatope::MeasureFacet(std::size_t opposite)
 {
   const Point<4>& origin = *this->Facet[0];
   const std::array<Point<4>, 3> e = { Subtract(*this->Facet[1], origin),
     Subtract(*this->Facet[2], origin), Subtract(*this->Facet[3], origin) };
   this->Normal = Cross(e[0], e[1], e[2]);
   const double length = std::sqrt(Dot(this->Normal, this->Normal));
-  const double sign = Dot(Subtract(vertex, origin), this->Normal) < 0.0 ? -1.0 : 1.0;
+  // Not asked of the vertex itself: if the pentatope is flat, rounding decides on which side it is.
+  const double sign = opposite % 2 == 0 ? -1.0 : 1.0;
   for (double& x : this->Normal)
   {
     x *= sign / length;
@@ -87,11 +88,28 @@ PentatopeShape MovedPentatope::ShapeAt(const Point<4>& place) const
   return shape;
 }
 
+double MovedPentatope::QualityAt(const Point<4>& p) const
+{
+  const Point<4> d = Subtract(this->PlaceOf(p), this->Centre);
+  const double height = Dot(d, this->Normal);
+  if (!(height > 0.0))
+  {
+    return 0.0;
+  }
+  const double t = (Dot(d, d) - this->Radius2) / (2.0 * height);
+  const double radius2 = this->Radius2 + t * t;
+  return this->Area * height / (RegularVolume * radius2 * radius2);
+}
+
 // q = A h / (regular R^4), and the gradient of t is (p - circumcentre) / h.
 Point<4> MovedPentatope::GradientAt(const Point<4>& p) const
 {
   const Point<4> d = Subtract(this->PlaceOf(p), this->Centre);
   const double height = Dot(d, this->Normal);
+  if (!(height > 0.0))
+  {
+    return this->Normal; // flat, to rounding
+  }
   const double t = (Dot(d, d) - this->Radius2) / (2.0 * height);
   const double radius2 = this->Radius2 + t * t;
   const double factor = this->Area / (RegularVolume * radius2 * radius2 * radius2);
@@ -143,16 +161,19 @@ void PentatopeStar::Add(
   one.Quality = complex.QualityOf(s);
   one.OldRatio = -1.0;
   one.Shift = shift;
-  std::size_t k = 0;
-  for (const std::uint32_t corner : complex.CornersOf(s))
+  const PentatopeComplex::Vertices& corners = complex.CornersOf(s);
+  std::size_t opposite = 0;
+  for (std::size_t i = 0, k = 0; i < corners.size(); ++i)
   {
-    if (corner != v)
+    if (corners[i] == v)
     {
-      one.Facet[k++] = &complex.PointOf(corner);
-      this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k - 1], vertex));
+      opposite = i;
+      continue;
     }
+    one.Facet[k] = &complex.PointOf(corners[i]);
+    this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k++], vertex));
   }
-  one.MeasureFacet(vertex);
+  one.MeasureFacet(opposite);
 }
 
 } // namespace voxplex

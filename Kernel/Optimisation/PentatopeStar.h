@@ -43,8 +43,11 @@ struct MovedPentatope
   double ShortestEdge2; ///< of the facet
   double Shift = 0.0;   ///< the twin's time minus that of the vertex; 0 at the vertex itself
 
-  /** Sets the circumcentre of the facet, the normal and the sizes. The vertex is on the normal's side. */
-  void MeasureFacet(const Point<4>& vertex);
+  /**
+   * Sets the circumcentre of the facet, the normal and the sizes. The facet has the corners of a positively
+   * oriented pentatope in their order, without corner `opposite`, which is on the normal's side.
+   */
+  void MeasureFacet(std::size_t opposite);
 
   double VolumeAt(const Point<4>& p) const
   {
@@ -52,7 +55,9 @@ struct MovedPentatope
   }
   /** Normalized volume, ratio and circumball; quality 0 if it is not positively oriented. */
   PentatopeShape ShapeAt(const Point<4>& p) const;
-  /** The gradient of the normalized volume. The pentatope must be positively oriented at p. */
+  /** The normalized volume alone; 0 if it is not positively oriented. */
+  double QualityAt(const Point<4>& p) const;
+  /** The gradient of the normalized volume; the normal if the pentatope is not positively oriented at p. */
   Point<4> GradientAt(const Point<4>& p) const;
   /** Where the vertex of this pentatope is, if that of the star is at p. */
   Point<4> PlaceOf(const Point<4>& p) const { return { p[0], p[1], p[2], p[3] + this->Shift }; }

@@ -54,7 +54,8 @@ constexpr double Roughness = 0.15;
 constexpr int MostBends = 4;
 
 /**
- * @brief The distance to the nearest of a set of points, exact to an eighth of a cell's diagonal, in 4D to a quarter.
+ * @brief The distance to the nearest of a set of points. It is nearly always exact to an eighth of a cell's
+ * diagonal, in 4D to a quarter. Otherwise it is too large, by about a diagonal at most.
  */
 template <int D>
 class NearestPole

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -167,6 +168,9 @@ double SampleCurvature<D>::At(
   }
   const auto width = static_cast<std::size_t>(high[0] - low[0] + 1);
   high[0] = low[0]; // the first cells of rows
+  const Point<D> centre = p;
+  const Labels own = labels;
+  const double radius2 = radius * radius;
   Moments<D> moments;
   ForEachIndex(low, high,
     [&](const auto& index)
@@ -174,14 +178,18 @@ double SampleCurvature<D>::At(
       typename CellGrid<D>::Index cell;
       std::copy(index.begin(), index.end(), cell.begin());
       const std::size_t first = OffsetOf(cell, level.Grid.Cells);
-      for (std::size_t k = level.First[first]; k < level.First[first + width]; ++k)
+      const std::span<const Member> row(level.Members.data() + level.First[first],
+        level.First[first + width] - level.First[first]);
+      Moments<D> sums = moments; // a copy stays in registers
+      for (const Member& member : row)
       {
-        const Point<D> offset = Subtract(level.Members[k].Position, p);
-        if (Dot(offset, offset) <= radius * radius && level.Members[k].Of == labels)
+        const Point<D> offset = Subtract(member.Position, centre);
+        if (Dot(offset, offset) <= radius2 && member.Of == own)
         {
-          moments.Add(offset);
+          sums.Add(offset);
         }
       }
+      moments = sums;
     });
   return moments.Count() < FewestPoints<D> ? unknown : moments.Curvature(roughness);
 }

@@ -272,9 +272,9 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
       [&](const Index& v)
       {
         const auto t = static_cast<double>(v[3]);
-        const double x = static_cast<double>(v[0]) - (isBall ? 5.0 + 1.4 * t : 14.5);
+        const double x = static_cast<double>(v[0]) - (isBall ? 3.5 + 1.4 * t : 14.5);
         const double y =
-          static_cast<double>(v[1]) - (isBall ? 15.0 + 6.0 * std::sin(t / 1.5) : 14.5);
+          static_cast<double>(v[1]) - (isBall ? 15.0 + 8.0 * std::sin(t / 1.5) : 14.5);
         const double z = static_cast<double>(v[2]) - 11.5;
         const double off = std::abs(x * std::cos(0.2 * t) + y * std::sin(0.2 * t));
         return static_cast<std::uint8_t>(
@@ -286,8 +286,11 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     const double limit = UniformInterfaceCheck<4>::LargestDistance * options.Sampling.Delta;
     EXPECT_GT(statistics.Interfaces.Rounds, 0u);
     EXPECT_LT(LargestDistance(image, mesh), limit);
-    // Seeds of components, and vertices where triangles were opened, are off interfaces.
-    ExpectGood(mesh, image, { .FacetsOffInterface = 0.06, .VertexLinks = false });
+    // Seeds of components, and vertices where triangles were opened, are off interfaces. Pieces of opened ones have
+    // larger ratios.
+    ExpectGood(mesh, image,
+      { .RadiusEdge = statistics.Interfaces.NonManifoldOpened > 0 ? 3.0 : 2.0,
+        .FacetsOffInterface = 0.08, .VertexLinks = false });
 
     options.Interfaces.Rounds = 0;
     options.Components.Smallest = 0;

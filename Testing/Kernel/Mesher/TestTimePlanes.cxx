@@ -218,17 +218,17 @@ TEST(TimePlanes, ClosedPlanesRefusePointsAndMatch)
 TEST(TimePlanes, PentatopesBesidePlanesKeepTheBoundsOfTheLabelThatTheyGet)
 {
   const LabelImage<4> image =
-    ImageOfVoxels(GridGeometry<4>::Orthogonal({ 3, 6, 2, 4 }, { 1.0, 1.0, 1.0, 3.1956 }),
-      { { 2, 4, 1, 0 }, { 1, 5, 1, 0 }, { 2, 3, 1, 1 }, { 0, 5, 0, 2 }, { 2, 4, 1, 3 },
-        { 1, 5, 1, 3 } },
+    ImageOfVoxels(GridGeometry<4>::Orthogonal({ 3, 6, 2, 4 }, { 1.0, 1.0, 1.0, 3.0 }),
+      { { 2, 2, 0, 0 }, { 2, 5, 0, 0 }, { 2, 1, 0, 1 }, { 1, 5, 0, 2 }, { 2, 2, 0, 3 },
+        { 2, 5, 0, 3 } },
       1);
-  MeshingOptions<4> options = WithPlanes(0.73, {});
+  MeshingOptions<4> options = WithPlanes(0.75, {});
   options.Planes.Periodic = true;
   options.Optimisation.Run = false;
   options.Interfaces.Fit = false;
   options.Interfaces.Manifold = false;
   options.SpaceTime.Slivers.Fight = false;
-  options.Sampling.InterfaceSizes = { { 1, 0, 1.62 } };
+  options.Sampling.InterfaceSizes = { { 1, 0, 2.0 } };
   const Result result = MeshOf(image, options);
   EXPECT_GT(result.Statistics.Planes.Relabelled, 0u);
   for (std::size_t s = 0; s < result.Mesh.Simplices.size(); ++s)
