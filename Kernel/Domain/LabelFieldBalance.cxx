@@ -92,8 +92,11 @@ private:
   /** Half the margin of a label at each sample of the box, as VolumeBalance asks for it. */
   void GatherMargins(LabelId label)
   {
+    const Sample* last = nullptr; // a tile that was looked at before
+    std::size_t labels = 0;
+    std::size_t own = 0;
     this->Field.ForEachRun(this->Box,
-      [this, label](
+      [&](
         const Sample* tile, LabelId uniform, unsigned offset, unsigned count, std::size_t place)
       {
         float* const to = this->Margins.data() + place;
@@ -103,10 +106,14 @@ private:
           return;
         }
         constexpr auto one = static_cast<float>(SampleOne);
-        const auto labels = static_cast<std::size_t>(tile[0]);
-        const Sample* planes = tile + HeaderSize(labels) + offset;
-        const auto own = static_cast<std::size_t>(
-          std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+        if (tile != last)
+        {
+          last = tile;
+          labels = static_cast<std::size_t>(tile[0]);
+          own = static_cast<std::size_t>(
+            std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+        }
+        const Sample* const planes = tile + HeaderSize(labels) + offset;
         if (own == labels)
         {
           std::fill_n(to, count, -1.0f);

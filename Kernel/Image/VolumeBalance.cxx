@@ -31,8 +31,9 @@ constexpr float LeastArea = 0.05f;
 /** Moves are a little longer than the volume asks for, because samples far from 0 do not move. */
 constexpr float Lengthening = 1.15f;
 
-/** Longest move, voxels. */
-constexpr float LongestMove = 0.5f;
+/** Longest move, voxels. With 0.5, parts that are about a voxel thick become rough, and refinement of a tube that
+ * opens took many times the work that it needs. */
+constexpr float LongestMove = 0.16f;
 
 /** Samples move by the whole distance if they are at least 1 / FullMove away from 1 and -1. */
 constexpr float FullMove = 4.0f;
@@ -64,27 +65,39 @@ void AddWeighted(
   }
 }
 
-/** Filters along one axis by a symmetric kernel. The result is shorter by its radius on both sides. */
+/**
+ * Filters along one axis by a symmetric kernel. The result is shorter by its radius on both sides. Along x it keeps
+ * its length, and what is nearer to an end of a row than the radius has no meaning: rows are too short to be
+ * treated one by one.
+ */
 void Filter(
   const float* in, Extent& n, std::size_t axis, std::span<const float> weights, float* out)
 {
+  const std::size_t radius = weights.size() - 1;
   std::size_t stride = 1;
   for (std::size_t a = 0; a < axis; ++a)
   {
     stride *= n[a];
   }
-  const std::size_t radius = weights.size() - 1;
-  const std::size_t length = (n[axis] - 2 * radius) * stride; // the results of one row of planes
-  const std::size_t rows = SizeOf(n) / (n[axis] * stride);
-  for (std::size_t row = 0; row < rows; ++row)
+  const std::size_t all = SizeOf(n);
+  const std::size_t block = axis == 0 ? all : n[axis] * stride;
+  const std::size_t length = block - 2 * radius * stride; // the results of a block
+  const std::size_t made = axis == 0 ? all : length;
+  for (std::size_t k = 0; k < all / block; ++k)
   {
-    const float* const middle = in + row * n[axis] * stride + radius * stride;
-    float* const to = out + row * length;
+    const float* const middle = in + k * block + radius * stride;
+    float* const to = out + k * made + (axis == 0 ? radius : 0);
     AddWeighted(weights[0], middle, nullptr, length, to);
     for (std::size_t r = 1; r <= radius; ++r)
     {
       AddWeighted(weights[r], middle - r * stride, middle + r * stride, length, to);
     }
+  }
+  if (axis == 0)
+  {
+    std::fill_n(out, radius, 0.0f);
+    std::fill_n(out + all - radius, radius, 0.0f);
+    return;
   }
   n[axis] -= 2 * radius;
 }
@@ -159,21 +172,20 @@ void VolumeBalance::Find(const float* margins, Buffers& buffers, float* shifts) 
   const std::size_t width = Tile + 2 * this->Radius();
   const Extent whole = { width, width, width, width };
   const std::size_t inner = width - 2;
-  const Extent within = { inner, inner, inner, inner };
+  const Extent within = { width, inner, inner, inner }; // see Filter() for the rows
   auto& [excess, area, other] = buffers;
   excess.assign(margins, margins + SizeOf(whole));
   other.resize(SizeOf(whole));
   FilterAll(excess, whole, MeanOfVoxel, other);
 
   area.resize(SizeOf(whole));
-  const float* const corner = margins + ((width + 1) * width + 1) * width + 1; // of `within`
   for (std::size_t row = 0; row < inner * inner * inner; ++row)
   {
-    const std::size_t y = row % inner;
-    const std::size_t z = row / inner % inner;
-    const std::size_t t = row / inner / inner;
-    MeasureVoxels(corner + ((t * width + z) * width + y) * width, this->PerFilling, inner,
-      excess.data() + row * inner, area.data() + row * inner);
+    const std::size_t y = row % inner + 1;
+    const std::size_t z = row / inner % inner + 1;
+    const std::size_t t = row / inner / inner + 1;
+    MeasureVoxels(margins + ((t * width + z) * width + y) * width, this->PerFilling, width,
+      excess.data() + row * width, area.data() + row * width);
   }
   other.resize(SizeOf(whole));
   FilterAll(excess, within, this->Spread, other);
@@ -186,7 +198,7 @@ void VolumeBalance::Find(const float* margins, Buffers& buffers, float* shifts) 
     const std::size_t z = row / Tile % Tile + r;
     const std::size_t t = row / Tile / Tile + r;
     FindShifts(margins + ((t * width + z) * width + y) * width + r, this->Slope,
-      excess.data() + row * Tile, area.data() + row * Tile, shifts + row * Tile);
+      excess.data() + row * width + r, area.data() + row * width + r, shifts + row * Tile);
   }
 }
 
