@@ -257,18 +257,25 @@ bool PentatopeCavity::Keeps(std::uint32_t s) const
     });
 }
 
+/** Whether new pentatopes keep the bounds. As many as among the old ones may break them, by no more than those. */
 bool PentatopeCavity::IsAllowed(const Point<4>& p) const
 {
+  const LabelId label = this->Complex.LabelOf(this->Cavity.front());
   double oldRatio = 0.0;
+  std::size_t excused = 0;
   for (const std::uint32_t s : this->Cavity)
   {
-    oldRatio =
-      std::max(oldRatio, ShapeOf(this->Complex.PointsOf(this->Complex.CornersOf(s))).Ratio);
+    const PentatopeShape shape = ShapeOf(this->Complex.PointsOf(this->Complex.CornersOf(s)));
+    oldRatio = std::max(oldRatio, shape.Ratio);
+    excused += this->Complex.Allows(shape, 0.0, label) ? 0 : 1;
   }
-  const LabelId label = this->Complex.LabelOf(this->Cavity.front());
   return std::all_of(this->Facets.begin(), this->Facets.end(),
     [&](const BoundaryFacet& facet)
-    { return this->Complex.Allows(facet.New.ShapeAt(p), oldRatio, label); });
+    {
+      const PentatopeShape shape = facet.New.ShapeAt(p);
+      return this->Complex.Allows(shape, 0.0, label) ||
+        (excused > 0 && excused-- > 0 && this->Complex.Allows(shape, oldRatio, label));
+    });
 }
 
 PentatopeInsertion PentatopeCavity::Result(const Point<4>& p, double worth) const
