@@ -353,7 +353,9 @@ private:
     ParallelFor(0, threads, 1, this->Threads(),
       [&](std::size_t thread, std::size_t)
       {
-        for (std::size_t k = next++; k < order.size(); k = next++)
+        // Ids of a single tile are not replaced, so they must come from the first worker, as those before.
+        const bool mayTake = thread == 0 || order.size() > 1;
+        for (std::size_t k = mayTake ? next++ : order.size(); k < order.size(); k = next++)
         {
           const Finished finished(unfinished);
           this->RefineTile(*this->Workers[thread], tasks[order[k]], smallest, putsSliversOff);

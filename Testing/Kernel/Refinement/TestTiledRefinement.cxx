@@ -104,6 +104,29 @@ TEST(TiledRefinement, DoesNotDependOnThreads4D)
   }
 }
 
+// Without tiles side by side ids are not replaced in the end. They come from the first worker, so it must do all.
+TEST(TiledRefinement, OneTileIsTheFirstWorkers)
+{
+  const BallDomainOf<4> ball(3.0);
+  RefinementSettings<4> settings;
+  settings.Sizing.Base = { 2.0 };
+  TeamOptions team = TeamOptions::Default<4>();
+  team.Threads = 8;
+  for (int run = 0; run < (Sanitized ? 20 : 200); ++run)
+  {
+    RefinementContext<4> context(ball, settings, Around(ball, 2.0), 1000);
+    TiledRefiner<Rules4D> refiner(context, team);
+    ASSERT_TRUE(refiner.Run(nullptr));
+    ASSERT_EQ(refiner.GetNumberOfTiles(), 0u);
+    const std::vector<ThreadStatistics> threads = refiner.GetThreadStatistics();
+    EXPECT_GT(threads[0].Insertions, 0u);
+    for (std::size_t t = 1; t < threads.size(); ++t)
+    {
+      ASSERT_EQ(threads[t].Insertions, 0u) << run;
+    }
+  }
+}
+
 TEST(TiledRefinement, StopsWhenItIsAskedTo)
 {
   const BallDomain ball(20.0);
