@@ -241,7 +241,6 @@ void ComponentCheck<D>::Sample(std::uint32_t component, double delta)
 }
 
 //------------------------------------------------------------------------------------------------
-//------------------------------------------------------------------------------------------------
 template <int D>
 bool ComponentCheck<D>::SampleFiner(const std::vector<std::uint32_t>& lost)
 {

@@ -289,8 +289,8 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     // Seeds of components, and vertices where triangles were opened, are off interfaces. Pieces of opened ones have
     // larger ratios.
     ExpectGood(mesh, image,
-      { .RadiusEdge = statistics.Interfaces.NonManifoldOpened > 0 ? 3.0 : 2.0,
-        .FacetsOffInterface = 0.1, .VertexLinks = false });
+      { .RadiusEdge = statistics.Interfaces.NonManifoldOpened > 0 ? 2.5 : 2.0,
+        .FacetsOffInterface = 0.09, .VertexLinks = false });
 
     options.Interfaces.Rounds = 0;
     options.Components.Smallest = 0;

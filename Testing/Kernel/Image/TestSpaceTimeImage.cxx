@@ -360,7 +360,7 @@ TEST(SpaceTimeImage, ClosestPointsOnAnEnd)
             excess += std::max(0.0, Distance(p, z) - nearest);
           }
         }
-        EXPECT_GT(found, asked * 17 / 20);
+        EXPECT_GT(found, asked * 7 / 8);
         EXPECT_LT(excess / found, 0.15);
       }
     }
