@@ -3,6 +3,7 @@
 // Samples of interfaces, their triangulation and poles, and local feature sizes of known shapes.
 #include "Base/Error.h"
 #include "Domain/ImageDomain.h"
+#include "FeatureSizeTesting.h"
 #include "Phantoms.h"
 #include "Sizing/GradedDelta.h"
 #include "Sizing/Grading/InterfaceSamples.h"
@@ -23,6 +24,10 @@
 #include <span>
 
 using namespace voxplex;
+using checks::Measure;
+using checks::Parameters;
+using checks::Quantile;
+using checks::SizesWhere;
 
 namespace
 {
@@ -89,45 +94,6 @@ std::set<std::array<Point<3>, 4>> Simplices(const Triangulation<3>& mesh)
     }
   }
   return simplices;
-}
-
-LocalFeatureSize<3> Measure(
-  const LabelImage<3>& image, const GradingParameters& parameters, unsigned threads = 1)
-{
-  const ImageDomain<3> domain(image, 1.0);
-  return LocalFeatureSize<3>(image, domain, parameters, threads, {});
-}
-
-GradingParameters Parameters(double finest, double lambda)
-{
-  GradingParameters parameters;
-  parameters.Finest = finest;
-  parameters.Lambda = lambda;
-  parameters.SampleSpacing = 0.75 * finest;
-  parameters.Salience = std::max(1.0, parameters.SampleSpacing);
-  return parameters;
-}
-
-/** What a share of the values is below. */
-double Quantile(std::vector<double> values, double share)
-{
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-/** The local feature sizes of the sample points that a test admits. */
-template <typename Admits>
-std::vector<double> SizesWhere(const LocalFeatureSize<3>& lfs, Admits&& admits)
-{
-  std::vector<double> sizes;
-  for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
-  {
-    if (admits(lfs.Sample()[k]))
-    {
-      sizes.push_back(lfs.Sizes()[k]);
-    }
-  }
-  return sizes;
 }
 
 } // namespace

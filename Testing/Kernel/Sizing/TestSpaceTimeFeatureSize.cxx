@@ -4,6 +4,7 @@
 #include "../../Phantoms/SpaceTimePhantoms.h"
 #include "Base/Error.h"
 #include "Domain/ImageDomain.h"
+#include "FeatureSizeTesting.h"
 #include "Sizing/Grading/InterfaceSamples.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 #include "Sizing/Grading/MedialAxis.h"
@@ -18,6 +19,10 @@
 #include <set>
 
 using namespace voxplex;
+using checks::Measure;
+using checks::Parameters;
+using checks::Quantile;
+using checks::SizesWhere;
 
 namespace
 {
@@ -37,44 +42,6 @@ LabelImage<4> RestingBall(double timeStep = 1.0)
   return Image({ 26, 26, 26, 13 }, { 1.0, 1.0, 1.0, timeStep },
     [](const Point<4>& p) -> std::uint8_t
     { return std::hypot(p[0] - 12.5, p[1] - 12.5, p[2] - 12.5) < 10.0; });
-}
-
-GradingParameters Parameters(double finest, double lambda)
-{
-  GradingParameters parameters;
-  parameters.Finest = finest;
-  parameters.Lambda = lambda;
-  parameters.SampleSpacing = 0.75 * finest;
-  parameters.Salience = std::max(1.0, parameters.SampleSpacing);
-  return parameters;
-}
-
-LocalFeatureSize<4> Measure(
-  const LabelImage<4>& image, const GradingParameters& parameters, unsigned threads = 1)
-{
-  const ImageDomain<4> domain(image, 1.0);
-  return LocalFeatureSize<4>(image, domain, parameters, threads, {});
-}
-
-double Quantile(std::vector<double> values, double share)
-{
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-/** The local feature sizes of the sample points that a test admits. */
-template <typename Admits>
-std::vector<double> SizesWhere(const LocalFeatureSize<4>& lfs, Admits&& admits)
-{
-  std::vector<double> sizes;
-  for (std::size_t k = 0; k < lfs.Sample().size(); ++k)
-  {
-    if (admits(lfs.Sample()[k]))
-    {
-      sizes.push_back(lfs.Sizes()[k]);
-    }
-  }
-  return sizes;
 }
 
 } // namespace
