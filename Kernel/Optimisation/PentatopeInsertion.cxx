@@ -269,12 +269,13 @@ bool PentatopeCavity::IsAllowed(const Point<4>& p) const
     oldRatio = std::max(oldRatio, shape.Ratio);
     excused += this->Complex.Allows(shape, 0.0, label) ? 0 : 1;
   }
+  std::size_t broken = 0;
   return std::all_of(this->Facets.begin(), this->Facets.end(),
     [&](const BoundaryFacet& facet)
     {
       const PentatopeShape shape = facet.New.ShapeAt(p);
       return this->Complex.Allows(shape, 0.0, label) ||
-        (excused > 0 && excused-- > 0 && this->Complex.Allows(shape, oldRatio, label));
+        (++broken <= excused && this->Complex.Allows(shape, oldRatio, label));
     });
 }
 

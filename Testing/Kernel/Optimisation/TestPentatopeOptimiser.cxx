@@ -5,10 +5,9 @@
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
 #include "Optimisation/PentatopeFlips.h"
-#include "Optimisation/PentatopeInsertion.h"
 #include "Optimisation/PentatopeOptimiser.h"
 #include "Optimisation/PentatopeStar.h"
-#include "SpaceTimeCases.h"
+#include "PentatopeCases.h"
 
 #include <gtest/gtest.h>
 
@@ -28,30 +27,6 @@ using namespace voxplex::checks;
 
 namespace
 {
-
-struct Result
-{
-  SimplexMesh<4> Mesh;
-  MeshingStatistics Statistics;
-};
-
-Result Mesh(const LabelImage<4>& image, MeshingOptions<4> options, bool optimise)
-{
-  options.Optimisation.Run = optimise;
-  ImageMesher<4> mesher(options);
-  Result result;
-  EXPECT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
-  result.Statistics = mesher.Statistics();
-  return result;
-}
-
-MeshingOptions<4> UsualOptions(double delta)
-{
-  MeshingOptions<4> options = SpaceTimeOptions(delta);
-  options.Interfaces.Fit = true;
-  options.SpaceTime.Slivers.Fight = true;
-  return options;
-}
 
 std::vector<double> Qualities(const SimplexMesh<4>& mesh)
 {
@@ -106,26 +81,6 @@ void ExpectSameInterfaces(
     }
   }
   EXPECT_GT(moved, 100u);
-}
-
-/** Six points; the pentatope `left` is without one of them. Positively oriented. */
-PentatopeComplex::Vertices Without(const std::vector<Point<4>>& points, std::uint32_t left)
-{
-  PentatopeComplex::Vertices v{};
-  for (std::uint32_t k = 0, m = 0; k < 6; ++k)
-  {
-    if (k != left)
-    {
-      v[m++] = k;
-    }
-  }
-  std::array<const Point<4>*, 5> corners;
-  std::transform(v.begin(), v.end(), corners.begin(), [&](std::uint32_t x) { return &points[x]; });
-  if (SignedVolume<4>(corners.data()) < 0.0)
-  {
-    std::swap(v[0], v[1]);
-  }
-  return v;
 }
 
 /** The two ways to fill the hull of six points, where both have two pentatopes or more. */
@@ -217,103 +172,6 @@ TEST(PentatopeOptimiser, RaisesTheWorst)
     EXPECT_EQ(said.SmallestVolumeBefore, worst.front());
     EXPECT_NEAR(said.SmallestVolumeAfter, better.front(), 1e-12);
   }
-}
-
-// Several cavities one after the other, without stars that know of the new pentatopes.
-TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
-{
-  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(), 2.0));
-  const ImageDomain<4> domain(image, 1.0);
-  SimplexMesh<4> mesh = Mesh(image, UsualOptions(3.0), false).Mesh;
-  const SimplexMesh<4> before = mesh;
-  const PentatopeBounds bounds;
-  PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
-  PentatopeCavity cavity(complex);
-  std::size_t made = 0;
-  for (std::uint32_t s = 0; s < mesh.Simplices.size() && made < 40; ++s)
-  {
-    if (!complex.IsPoor(s, bounds.Target))
-    {
-      continue;
-    }
-    const PentatopeInsertion insertion = cavity.Find(s, bounds.Target);
-    if (!(insertion.After > insertion.Before))
-    {
-      continue;
-    }
-    ++made;
-    double smallest = 1.0;
-    double hypervolume = 0.0;
-    for (const std::uint32_t old : insertion.Old)
-    {
-      ASSERT_EQ(complex.LabelOf(old), complex.LabelOf(s));
-      smallest = std::min(smallest, complex.QualityOf(old));
-      hypervolume += SignedVolume<4>(complex.PointsOf(complex.CornersOf(old)).data());
-    }
-    ASSERT_EQ(insertion.Before, smallest);
-    const auto first = static_cast<std::uint32_t>(complex.NumberOfPentatopes());
-    const std::uint32_t v = MakeInsertion(complex, insertion);
-    std::vector<std::uint32_t> now = insertion.Old;
-    for (std::uint32_t n = first; n < complex.NumberOfPentatopes(); ++n)
-    {
-      now.push_back(n);
-    }
-    smallest = 1.0;
-    for (const std::uint32_t n : now)
-    {
-      if (complex.IsAlive(n))
-      {
-        const PentatopeShape shape = ShapeOf(complex.PointsOf(complex.CornersOf(n)));
-        ASSERT_NEAR(shape.Quality, complex.QualityOf(n), 1e-9);
-        ASSERT_EQ(std::count(complex.CornersOf(n).begin(), complex.CornersOf(n).end(), v), 1);
-        smallest = std::min(smallest, shape.Quality);
-        hypervolume -= SignedVolume<4>(complex.PointsOf(complex.CornersOf(n)).data());
-      }
-    }
-    ASSERT_NEAR(insertion.After, smallest, 1e-9);
-    ASSERT_NEAR(hypervolume, 0.0, 1e-6);
-  }
-  EXPECT_EQ(made, 40u);
-  complex.CopyTo(mesh);
-  EXPECT_EQ(mesh.Points.size(), before.Points.size() + made);
-  EXPECT_TRUE(Complaints(mesh).empty());
-  std::vector<std::uint8_t> isUsed(mesh.Points.size(), 0);
-  for (const auto& simplex : mesh.Simplices)
-  {
-    for (const std::uint32_t v : simplex)
-    {
-      isUsed[v] = 1;
-    }
-  }
-  EXPECT_EQ(std::count(isUsed.begin(), isUsed.end(), 0), 0);
-  ASSERT_EQ(mesh.Facets, before.Facets);
-}
-
-// One point is inside of five pentatopes, near a facet. A cavity of all five would be best without it.
-TEST(PentatopeInsertion, LosesNoVertex)
-{
-  const LabelImage<4> image = ImageOf(phantoms::FourBall(4.0));
-  const ImageDomain<4> domain(image, 1.0);
-  SimplexMesh<4> mesh;
-  const double below = (1.0 - std::sqrt(5.0)) / 4.0; // makes a regular pentatope
-  for (const Point<4>& p :
-    { Point<4>{ 1.0, 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0, 0.0 },
-      { 0.0, 0.0, 0.0, 1.0 }, { below, below, below, below }, { 0.24, 0.24, 0.24, 0.24 } })
-  {
-    mesh.Points.push_back(p);
-  }
-  for (std::uint32_t left = 0; left < 5; ++left)
-  {
-    std::vector<Point<4>> points(mesh.Points.begin(), mesh.Points.end());
-    mesh.Simplices.push_back(Without(points, left));
-    mesh.Labels.push_back(1);
-  }
-  PentatopeBounds bounds;
-  bounds.RadiusEdgeRatio = 100.0;
-  const PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
-  ASSERT_TRUE(complex.IsPoor(4, bounds.Target));
-  const PentatopeInsertion insertion = PentatopeCavity(complex).Find(4, 0.2);
-  EXPECT_LT(insertion.Old.size(), 5u);
 }
 
 // What a star says of a vertex at another place, against the measures of a pentatope that is there.
