@@ -214,7 +214,8 @@ private:
     const std::size_t labels = this->Labels.size();
     const std::size_t header = HeaderSize(labels);
     const std::size_t planes = labels == 2 ? 1 : labels;
-    Sample* tile = this->Memory.Allocate(header + planes * PlaneSize);
+    const bool isBalanced = D == 4 && this->Radius > 0 && labels > 2;
+    Sample* tile = this->Memory.Allocate(header + (planes + (isBalanced ? 2 : 0)) * PlaneSize);
     tile[0] = static_cast<Sample>(labels);
     for (std::size_t l = 0; l < labels; ++l)
     {
@@ -228,7 +229,33 @@ private:
     this->GatherMargins();
     KeepOwnLabels(this->OwnSlots.data(), this->Margins.data(), labels, PlaneSize, tile + header,
       this->Other.data());
+    if (isBalanced)
+    {
+      FindTwoLargest(tile + header, labels);
+    }
     return tile;
+  }
+
+  /** Writes, behind a tile's planes, the largest and the second largest value of all labels. */
+  static void FindTwoLargest(Sample* planes, std::size_t labels)
+  {
+    Sample* const largest = planes + labels * PlaneSize;
+    Sample* const second = largest + PlaneSize;
+    std::copy_n(planes, PlaneSize, largest);
+    std::fill_n(second, PlaneSize, std::numeric_limits<Sample>::min());
+    for (std::size_t l = 1; l < labels; ++l)
+    {
+      const Sample* const plane = planes + l * PlaneSize;
+      for (std::size_t i = 0; i < PlaneSize; ++i)
+      {
+        const Sample value = plane[i];
+        const Sample most = largest[i];
+        const Sample next = second[i];
+        const Sample smaller = value < most ? value : most;
+        largest[i] = value < most ? most : value;
+        second[i] = smaller < next ? next : smaller;
+      }
+    }
   }
 
   /** Notes the weak voxels of a tile that Smooth() has made. */

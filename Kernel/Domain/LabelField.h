@@ -57,6 +57,9 @@ namespace voxplex
  *     +---+----------+ k > 2: k, u_l of each label |
  *                    +-----------------------------+
  *
+ * While volumes are balanced, tiles with k > 2 have two more planes: the largest and the second
+ * largest u_l.
+ *
  * If all samples of a tile have one label, no other label can win in it, by the definition: the
  * tile is uniform.
  *

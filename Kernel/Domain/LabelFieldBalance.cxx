@@ -23,6 +23,9 @@ public:
     , Image(image)
     , Balance(balance)
     , Shifts(PlaneSize)
+    , OwnSlots(PlaneSize)
+    , KeptMargins(PlaneSize, Sample{ KeptMargin })
+    , Other(PlaneSize)
   {
     std::size_t size = 1;
     for (int a = 0; a < D; ++a)
@@ -60,6 +63,9 @@ public:
   typename Base::Arena Memory;
 
 private:
+  using Row = std::array<float, TileSamples>;
+  static constexpr auto PerSample = static_cast<float>(1.0 / SampleOne);
+
   /** The coordinates of the box around a tile. Beyond a flat end they are those of the end. */
   void FindBox(const Index& first)
   {
@@ -92,12 +98,8 @@ private:
   /** Half the margin of a label at each sample of the box, as VolumeBalance asks for it. */
   void GatherMargins(LabelId label)
   {
-    const Sample* last = nullptr; // a tile that was looked at before
-    std::size_t labels = 0;
-    std::size_t own = 0;
     this->Field.ForEachRun(this->Box,
-      [&](
-        const Sample* tile, LabelId uniform, unsigned offset, unsigned count, std::size_t place)
+      [&](const Sample* tile, LabelId uniform, unsigned offset, unsigned count, std::size_t place)
       {
         float* const to = this->Margins.data() + place;
         if (!tile)
@@ -105,73 +107,82 @@ private:
           std::fill_n(to, count, uniform == label ? 1.0f : -1.0f);
           return;
         }
-        constexpr auto one = static_cast<float>(SampleOne);
-        if (tile != last)
-        {
-          last = tile;
-          labels = static_cast<std::size_t>(tile[0]);
-          own = static_cast<std::size_t>(
-            std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
-        }
-        const Sample* const planes = tile + HeaderSize(labels) + offset;
+        const auto labels = static_cast<std::size_t>(tile[0]);
+        const auto own = static_cast<std::size_t>(
+          std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
         if (own == labels)
         {
           std::fill_n(to, count, -1.0f);
           return;
         }
+        const unsigned begin = offset % TileSamples; // rows are made as a whole: in vectors
+        const Sample* const planes = tile + HeaderSize(labels) + (offset - begin);
+        Row row;
         if (labels == 2)
         {
-          const float scale = own == 0 ? 1.0f / one : -1.0f / one; // a power of two
-          for (unsigned i = 0; i < count; ++i)
-          {
-            to[i] = scale * static_cast<float>(planes[i]);
-          }
-          return;
+          MarginsOfTwo(planes, own == 0, row);
+        }
+        else
+        {
+          const Sample* const largest = planes + labels * PlaneSize;
+          MarginsOfMany(planes + own * PlaneSize, largest, largest + PlaneSize, row);
         }
         for (unsigned i = 0; i < count; ++i)
         {
-          const int value = planes[own * PlaneSize + i];
-          int other = std::numeric_limits<Sample>::min();
-          for (std::size_t l = 0; l < labels; ++l)
-          {
-            other = l == own ? other : std::max<int>(other, planes[l * PlaneSize + i]);
-          }
-          // A label that is out of the kernel's reach has exactly -1.
-          to[i] = value <= -static_cast<int>(SampleOne)
-            ? -1.0f
-            : std::min(1.0f, 0.5f * static_cast<float>(value - other) / one);
+          to[i] = row[begin + i];
         }
       });
   }
 
+  static void MarginsOfTwo(const Sample* plane, bool isFirst, Row& margins)
+  {
+    const float scale = isFirst ? PerSample : -PerSample;
+    for (std::size_t i = 0; i < TileSamples; ++i)
+    {
+      margins[i] = scale * static_cast<float>(plane[i]);
+    }
+  }
+
+  static void MarginsOfMany(
+    const Sample* plane, const Sample* largest, const Sample* second, Row& margins)
+  {
+    for (std::size_t i = 0; i < TileSamples; ++i)
+    {
+      const Sample value = plane[i];
+      const Sample other = value == largest[i] ? second[i] : largest[i];
+      const float margin = 0.5f * PerSample * static_cast<float>(value - other);
+      // A label that is out of the kernel's reach has exactly -1.
+      margins[i] = value <= static_cast<Sample>(-SampleOne) ? -1.0f : margin < 1.0f ? margin : 1.0f;
+    }
+  }
+
   /** Makes the label of each voxel centre win in `made` as it did in `tile`. */
-  static void KeepLabels(const Sample* tile, Sample* made)
+  void KeepLabels(const Sample* tile, Sample* made)
   {
     const auto labels = static_cast<std::size_t>(tile[0]);
-    const Sample* before = tile + HeaderSize(labels);
-    Sample* after = made + HeaderSize(labels);
-    for (std::size_t i = 0; i < PlaneSize; ++i)
+    const Sample* const before = tile + HeaderSize(labels);
+    if (labels == 2)
     {
-      if (labels == 2)
+      for (std::size_t i = 0; i < PlaneSize; ++i)
       {
-        constexpr Sample kept = KeptMargin / 2;
-        after[i] =
-          before[i] > 0 ? std::max(after[i], kept) : std::min(after[i], static_cast<Sample>(-kept));
-        continue;
+        this->OwnSlots[i] = before[i] > 0 ? 0 : 1;
       }
-      std::size_t own = 0;
-      for (std::size_t l = 1; l < labels; ++l)
-      {
-        own = before[l * PlaneSize + i] > before[own * PlaneSize + i] ? l : own;
-      }
-      int other = std::numeric_limits<Sample>::min();
-      for (std::size_t l = 0; l < labels; ++l)
-      {
-        other = l == own ? other : std::max<int>(other, after[l * PlaneSize + i]);
-      }
-      Sample& value = after[own * PlaneSize + i];
-      value = static_cast<Sample>(std::max<int>(value, other + KeptMargin));
     }
+    else
+    {
+      const Sample* const largest = before + labels * PlaneSize;
+      for (std::size_t l = labels; l-- > 0;) // of equal ones, the first
+      {
+        const Sample* const plane = before + l * PlaneSize;
+        for (std::size_t i = 0; i < PlaneSize; ++i)
+        {
+          this->OwnSlots[i] =
+            plane[i] == largest[i] ? static_cast<std::uint16_t>(l) : this->OwnSlots[i];
+        }
+      }
+    }
+    KeepOwnLabels(this->OwnSlots.data(), this->KeptMargins.data(), labels, PlaneSize,
+      made + HeaderSize(labels), this->Other.data());
   }
 
   const LabelField& Field;
@@ -181,6 +192,9 @@ private:
   std::vector<float> Margins;
   std::vector<float> Shifts;
   VolumeBalance::Buffers Buffers;
+  std::vector<std::uint16_t> OwnSlots;
+  std::vector<Sample> KeptMargins;
+  std::vector<Sample> Other;
 };
 
 /** Moves interfaces so that labels have the volumes of their voxels (VolumeBalance). */
