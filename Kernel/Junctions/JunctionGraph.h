@@ -9,6 +9,7 @@
 
 #include "Junctions/JunctionCurves.h"
 #include "Junctions/JunctionLattice.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
 
 #include <algorithm>
@@ -191,16 +192,7 @@ public:
     , Numbers(space.LatticeDimensions())
   {
     this->JoinEnds(segments, threads, stop);
-    this->Positions.resize(this->Places.size());
-    Locator<Field> locator(space);
-    for (std::uint32_t n = 0; n < this->Places.size(); ++n)
-    {
-      if (!this->IsCorner(n))
-      {
-        this->Positions[n] =
-          space.ToFrame(locator.Locate(this->Numbers.PlaceOf(this->Places[n]), this->Labels[n]));
-      }
-    }
+    this->LocatePlaces(threads, stop);
     for (std::uint32_t n = 0; n < this->Places.size(); ++n)
     {
       if (!this->IsCorner(n))
@@ -291,6 +283,30 @@ private:
       this->Join(positions[e], positions[e + 1]);
       this->Join(positions[e + 1], positions[e]);
     }
+  }
+
+  /** Computes the positions of all places but corners. */
+  void LocatePlaces(unsigned threads, const std::stop_token& stop)
+  {
+    this->Positions.resize(this->Places.size());
+    // Each chunk has a cache of its own.
+    const std::size_t chunks = 4 * std::size_t{ NumberOfThreads(threads) };
+    const std::size_t grain = std::max<std::size_t>(4096, this->Places.size() / chunks);
+    ParallelFor(
+      0, this->Places.size(), grain, threads,
+      [this](std::size_t first, std::size_t last)
+      {
+        Locator<Field> locator(this->Space);
+        for (auto n = static_cast<std::uint32_t>(first); n < last; ++n)
+        {
+          if (!this->IsCorner(n))
+          {
+            this->Positions[n] = this->Space.ToFrame(
+              locator.Locate(this->Numbers.PlaceOf(this->Places[n]), this->Labels[n]));
+          }
+        }
+      },
+      stop);
   }
 
   void Join(std::uint32_t from, std::uint32_t to)

@@ -318,13 +318,13 @@ private:
       const PentatopeInsertion insertion = cavity.Find(s, target);
       if (insertion.After > insertion.Before)
       {
-        MakeInsertion(this->Complex, insertion);
-        ++this->Done.Insertions;
-        this->HasNews.push_back(1);
-        for (const std::uint32_t old : insertion.Old)
+        for (const std::uint32_t old : insertion.Old) // while they have vertices
         {
           this->TellVertices(this->Complex.CornersOf(old));
         }
+        MakeInsertion(this->Complex, insertion);
+        ++this->Done.Insertions;
+        this->HasNews.push_back(1);
       }
     }
     this->Complex.FindStars();

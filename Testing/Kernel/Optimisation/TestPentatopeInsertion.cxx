@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 using namespace voxplex;
@@ -155,4 +157,44 @@ TEST(PentatopeInsertion, LosesNoVertex)
   ASSERT_TRUE(complex.IsPoor(4, bounds.Target));
   const PentatopeInsertion insertion = PentatopeCavity(complex).Find(4, 0.2);
   EXPECT_LT(insertion.Old.size(), 5u);
+}
+
+// A cavity with more pentatopes than facets: some of the old ones are left without vertices.
+TEST(PentatopeInsertion, MayLeaveFewerPentatopes)
+{
+  const std::string voxels = // 16 of each frame
+    "0001111111111111"
+    "0001000100011111"
+    "0011001100110011"
+    "0111011101110111"
+    "0111011101110111"
+    "1111111111111111"
+    "0001111111111111";
+  std::vector<std::uint8_t> labels(voxels.size());
+  std::transform(voxels.begin(), voxels.end(), labels.begin(),
+    [](char c) { return static_cast<std::uint8_t>(c - '0'); });
+  const double step = 4.6004168467952447;
+  const auto image = LabelImage<4>::FromScalars<std::uint8_t>(
+    labels, GridGeometry<4>::Orthogonal({ 4, 2, 2, 7 }, { 1.0, 1.0, 1.0, step }));
+  MeshingOptions<4> options;
+  options.Optimisation.Run = true;
+  options.SmoothingSigma = 0.86067485254147424;
+  options.Planes.Times = { 2.0858202825744367 * step };
+  options.Planes.Periodic = true;
+  options.Components.Smallest = 1;
+  options.Components.Exact = true;
+  options.Interfaces.Rounds = 4;
+  options.Interfaces.Fit = true;
+  options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
+  options.Sampling.Grading.Ratio = 3.1846078395545083;
+  options.Sampling.Grading.Lambda = 22.898033687866945;
+  options.SpaceTime.Slivers.Fight = false;
+  for (const double delta : { 5.764, 5.768, 5.772 })
+  {
+    options.Sampling.Delta = delta;
+    ImageMesher<4> mesher(options);
+    SimplexMesh<4> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    EXPECT_TRUE(Complaints(mesh).empty());
+  }
 }
