@@ -316,7 +316,6 @@ TEST(LabelField, TilesOfSpaceTimeAgreeOnTheirFaces)
   }
 }
 
-/** Sheets that stay or move. Without the balance those of 2 and 3 voxels are 4 to 21 % too large. */
 // Both smoothing and the balance of volumes see the frames of the other end.
 TEST(LabelField, APeriodIsAsTheMiddleOneOfThree)
 {
@@ -359,6 +358,7 @@ TEST(LabelField, APeriodIsAsTheMiddleOneOfThree)
   EXPECT_GT(near, 1000);
 }
 
+/** Sheets that stay or move. Without the balance those of 2 and 3 voxels are 4 to 21 % too large. */
 TEST(LabelField, ThinSheetsOfSpaceTimeKeepTheirVolume)
 {
   struct Case
