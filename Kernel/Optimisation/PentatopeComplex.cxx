@@ -6,6 +6,7 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxplex
 {
@@ -201,9 +202,99 @@ void PentatopeComplex::CopyTo(SimplexMesh<4>& mesh) const
   }
 }
 
+void PentatopeComplex::NoteChange(std::size_t s)
+{
+  for (std::size_t k = 0; k < 5 && this->IsAlive(s); ++k)
+  {
+    this->Left.push_back({ this->Corners[s][k], static_cast<std::uint32_t>(s) });
+  }
+  this->Changed.push_back(static_cast<std::uint32_t>(s));
+}
+
 void PentatopeComplex::FindStars()
 {
-  ListUsers<Vertices>(this->Points.size(), this->Corners, this->FirstOfStar, this->Stars);
+  std::vector<std::size_t> begins;
+  ListUsers<Vertices>(this->Points.size(), this->Corners, begins, this->Stars);
+  this->PlacesOfStars.resize(this->Points.size());
+  for (std::size_t v = 0; v < this->Points.size(); ++v)
+  {
+    this->PlacesOfStars[v] = { begins[v], begins[v + 1] };
+  }
+  this->StarsFound = this->Stars.size();
+}
+
+void PentatopeComplex::UpdateStars(unsigned threads, const std::stop_token& stop)
+{
+  std::vector<Corner> corners = std::move(this->Left);
+  this->Left.clear();
+  for (const std::uint32_t s : this->Changed)
+  {
+    for (std::size_t k = 0; k < 5 && this->IsAlive(s); ++k)
+    {
+      corners.push_back({ this->Corners[s][k], s });
+    }
+  }
+  this->Changed.clear();
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+
+  // A star that changes moves to the end, where there is room for what it had and what it may get.
+  struct NewStar
+  {
+    std::span<const Corner> Changes;
+    std::size_t Begin;
+  };
+  std::vector<NewStar> stars;
+  std::size_t end = this->Stars.size();
+  this->PlacesOfStars.resize(this->Points.size());
+  for (std::size_t k = 0, next = 0; k < corners.size(); k = next)
+  {
+    while (next < corners.size() && corners[next].Vertex == corners[k].Vertex)
+    {
+      ++next;
+    }
+    stars.push_back({ std::span(corners).subspan(k, next - k), end });
+    end += this->StarOf(corners[k].Vertex).size() + next - k;
+  }
+  if (end > 2 * this->StarsFound)
+  {
+    this->FindStars();
+    return;
+  }
+  this->Stars.resize(end);
+  ParallelFor(
+    0, stars.size(), 16, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        this->UpdateStar(stars[k].Changes, stars[k].Begin);
+      }
+    },
+    stop);
+}
+
+/** @param changes a vertex, and the pentatopes that have changed and had it or have it now; ascending */
+void PentatopeComplex::UpdateStar(std::span<const Corner> changes, std::size_t newBegin)
+{
+  const std::uint32_t v = changes.front().Vertex;
+  const std::span<const std::uint32_t> star = this->StarOf(v);
+  std::uint32_t* end = this->Stars.data() + newBegin;
+  auto old = star.begin();
+  for (const Corner& change : changes)
+  {
+    const auto place = std::lower_bound(old, star.end(), change.Pentatope);
+    end = std::copy(old, place, end);
+    old = place + (place != star.end() && *place == change.Pentatope ? 1 : 0);
+    const Vertices& corners = this->Corners[change.Pentatope];
+    if (this->IsAlive(change.Pentatope) &&
+      std::find(corners.begin(), corners.end(), v) != corners.end())
+    {
+      *end++ = change.Pentatope;
+    }
+  }
+  end = std::copy(old, star.end(), end);
+  this->PlacesOfStars[v] = { newBegin, static_cast<std::size_t>(end - this->Stars.data()) };
 }
 
 std::uint32_t PentatopeComplex::Neighbour(std::size_t s, unsigned i) const

@@ -18,9 +18,11 @@
 #include "Sizing/SizingField.h"
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex
@@ -114,19 +116,24 @@ public:
   }
 
   /**
-   * The pentatopes around a vertex. Those that flips and insertions have made are missing until FindStars(); a
-   * new vertex has none.
+   * The pentatopes around a vertex, in ascending order. What Replace(), Kill() and Append() change in them is
+   * seen after UpdateStars(). Until then a new vertex has none.
    */
   std::span<const std::uint32_t> StarOf(std::uint32_t v) const
   {
-    if (v + std::size_t{ 1 } >= this->FirstOfStar.size())
+    if (v >= this->PlacesOfStars.size())
     {
       return {};
     }
-    return { this->Stars.data() + this->FirstOfStar[v],
-      this->FirstOfStar[v + 1] - this->FirstOfStar[v] };
+    const auto& [begin, end] = this->PlacesOfStars[v];
+    return { this->Stars.data() + begin, end - begin };
   }
-  void FindStars();
+
+  /**
+   * Complexity: linear in the stars of the vertices of pentatopes that have changed, but for a sort; now and then
+   * in all stars, to free memory.
+   */
+  void UpdateStars(unsigned threads, const std::stop_token& stop);
 
   /** The facets of interfaces around a vertex of the mesh. New vertices have none. */
   std::span<const std::uint32_t> FacetsAt(std::uint32_t v) const
@@ -170,14 +177,36 @@ public:
   void SetQuality(std::size_t s, double quality) { this->Qualities[s] = quality; }
   void Replace(std::size_t s, const Vertices& corners, double quality)
   {
+    this->NoteChange(s);
     this->Corners[s] = corners;
     this->Qualities[s] = quality;
   }
-  void Kill(std::size_t s) { this->Corners[s][0] = None; }
+  void Kill(std::size_t s)
+  {
+    this->NoteChange(s);
+    this->Corners[s][0] = None;
+  }
   std::uint32_t Append(LabelId label);
   std::uint32_t AddPoint(const Point<4>& p);
 
 private:
+  struct Range
+  {
+    std::size_t Begin = 0;
+    std::size_t End = 0;
+  };
+
+  struct Corner
+  {
+    std::uint32_t Vertex;
+    std::uint32_t Pentatope;
+    auto operator<=>(const Corner&) const = default;
+  };
+
+  void FindStars();
+  void UpdateStar(std::span<const Corner> changes, std::size_t newBegin);
+  void NoteChange(std::size_t s);
+
   const PentatopeBounds Bounds;
   const Domain<4>& Surfaces;
   const std::span<const std::int64_t> Values; ///< of labels in the image
@@ -188,8 +217,11 @@ private:
   std::vector<Vertices> Corners;
   std::vector<LabelId> Labels;
   std::vector<double> Qualities;
-  std::vector<std::size_t> FirstOfStar; ///< by vertex, and the end
-  std::vector<std::uint32_t> Stars;
+  std::vector<Range> PlacesOfStars;   ///< of each vertex, in Stars
+  std::vector<std::uint32_t> Stars;   ///< with gaps
+  std::size_t StarsFound = 0;         ///< the length of Stars after all were found
+  std::vector<std::uint32_t> Changed; ///< pentatopes, since stars were brought up to date; repeated
+  std::vector<Corner> Left;           ///< of such pentatopes, before they changed
   std::vector<std::size_t> FirstFacet; ///< by vertex of the mesh, and the end
   std::vector<std::uint32_t> FacetsOf;
   std::vector<std::uint32_t> Twins; ///< of each vertex; empty if there are none

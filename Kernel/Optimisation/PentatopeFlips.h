@@ -41,7 +41,7 @@ struct PentatopeFlip
  */
 PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s);
 
-/** Makes a flip. Stars then have to be found again. */
+/** Makes a flip. Stars then have to be brought up to date. */
 void MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip);
 
 } // namespace voxplex

@@ -51,6 +51,7 @@ PentatopeInsertion PentatopeCavity::Find(std::uint32_t s, double target)
     return p;
   };
   PentatopeInsertion best;
+  this->Seen.clear();
   for (const double share : { 0.0, 1.0, 0.5 })
   {
     this->Try(s, between(centroid, centre, share), target, best);
@@ -59,6 +60,7 @@ PentatopeInsertion PentatopeCavity::Find(std::uint32_t s, double target)
   {
     this->Try(s, between(centroid, *corners[k], -0.5), target, best);
   }
+  best.Seen = this->Seen;
   return best;
 }
 
@@ -93,11 +95,16 @@ void PentatopeCavity::Try(std::uint32_t s, Point<4> p, double target, PentatopeI
 void PentatopeCavity::Add(std::uint32_t s)
 {
   this->Cavity.push_back(s);
+  this->Seen.push_back(s);
   this->Before = std::min(this->Before, this->Complex.QualityOf(s));
   const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
   for (unsigned i = 0; i < 5; ++i)
   {
     const std::uint32_t behind = this->Complex.Neighbour(s, i);
+    if (behind != None)
+    {
+      this->Seen.push_back(behind);
+    }
     const auto common = std::find_if(this->Facets.begin(), this->Facets.end(),
       [&](const BoundaryFacet& facet) { return facet.Inside == behind && facet.Behind == s; });
     if (common != this->Facets.end())

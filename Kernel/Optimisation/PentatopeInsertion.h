@@ -26,6 +26,7 @@ struct PentatopeInsertion
   Point<4> Place{};                            ///< of the new vertex
   double Before = 0.0;                         ///< smallest quality of the old ones
   double After = 0.0;                          ///< smallest quality of the new ones
+  std::vector<std::uint32_t> Seen; ///< as long as these are as they were, it is the best; repeated
 };
 
 /**
@@ -76,10 +77,11 @@ private:
   const PentatopeComplex& Complex;
   std::vector<std::uint32_t> Cavity;
   std::vector<BoundaryFacet> Facets;
+  std::vector<std::uint32_t> Seen;
   double Before = 0.0;
 };
 
-/** Makes an insertion, and returns the new vertex. Stars then have to be found again. */
+/** Makes an insertion, and returns the new vertex. Stars then have to be brought up to date. */
 std::uint32_t MakeInsertion(PentatopeComplex& complex, const PentatopeInsertion& insertion);
 
 } // namespace voxplex

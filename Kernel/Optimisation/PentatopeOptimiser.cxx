@@ -45,6 +45,10 @@ constexpr double KeptGain = 1.02;
 constexpr unsigned MostRounds = 8;
 
 constexpr std::size_t Grain = 64;
+constexpr std::size_t MovesGrain = 4; // a move is long, and few may be made at the same time
+
+/** Insertions that each of several threads finds before the first of them is made. */
+constexpr std::size_t InsertionsAtOnce = 16;
 
 /** Spreads numbers, so that the order of vertices says nothing about where they are. */
 std::uint32_t Mix(std::uint32_t x)
@@ -180,7 +184,7 @@ private:
         return;
       }
       candidates = this->MakeFlips(flips);
-      this->Complex.FindStars();
+      this->Complex.UpdateStars(this->Threads, this->Stop);
     }
   }
 
@@ -253,83 +257,131 @@ private:
       setRank(vertices[k], static_cast<std::uint32_t>(k));
     }
     std::atomic<std::uint64_t> moves{ 0 };
+    const auto forEach = [this](std::size_t number, std::size_t grain, const auto& function)
+    {
+      ParallelFor(
+        0, number, grain, this->Threads,
+        [&](std::size_t first, std::size_t last)
+        {
+          for (std::size_t k = first; k < last; ++k)
+          {
+            function(k);
+          }
+        },
+        this->Stop);
+    };
     while (!vertices.empty())
     {
       std::vector<std::uint8_t> isFirst(vertices.size(), 1);
-      const auto forVertices = [&](const auto& function)
-      {
-        ParallelFor(
-          0, vertices.size(), Grain, this->Threads,
-          [&](std::size_t first, std::size_t last)
-          {
-            for (std::size_t k = first; k < last; ++k)
-            {
-              function(k);
-            }
-          },
-          this->Stop);
-      };
       if (NumberOfThreads(this->Threads) > 1)
       {
-        forVertices(
+        forEach(vertices.size(), Grain,
           [&](std::size_t k) { isFirst[k] = this->ComesFirst(vertices[k], ranks) ? 1 : 0; });
       }
-      forVertices(
-        [&](std::size_t k)
-        {
-          if (isFirst[k] != 0)
-          {
-            moves += this->Improve(vertices[k], improve) ? 1 : 0;
-            setRank(vertices[k], None);
-          }
-        });
+      std::vector<std::uint32_t> first;
       std::size_t left = 0;
       for (std::size_t k = 0; k < vertices.size(); ++k)
       {
-        vertices[left] = vertices[k];
-        left += isFirst[k] == 0 ? 1 : 0;
+        if (isFirst[k] != 0)
+        {
+          first.push_back(vertices[k]);
+        }
+        else
+        {
+          vertices[left++] = vertices[k];
+        }
       }
       vertices.resize(left);
+      forEach(first.size(), MovesGrain,
+        [&](std::size_t k)
+        {
+          moves += this->Improve(first[k], improve) ? 1 : 0;
+          setRank(first[k], None);
+        });
     }
     this->Done.Moves += moves;
   }
 
   /**
    * Inserts vertices where pentatopes are still poor. Returns whether there was one. Cavities do not
-   * reach into new pentatopes, because their stars are found at the end.
+   * reach into new pentatopes, because stars are brought up to date at the end.
+   *
+   * Several insertions are found at the same time. One that has seen a pentatope that has changed since is found
+   * again. So the result is that of one thread.
    */
   bool Insert()
   {
-    if (this->Poor.empty())
-    {
-      return false;
-    }
-    PentatopeCavity cavity(this->Complex);
-    const std::uint64_t before = this->Done.Insertions;
     const double target = KeptGain * this->Goal;
     const std::size_t most =
       FewestInsertions + this->Complex.NumberOfPentatopes() / PentatopesPerInsertion;
-    for (const std::uint32_t s : std::span(this->Poor).first(std::min(most, this->Poor.size())))
+    const auto worst =
+      std::span<const std::uint32_t>(this->Poor).first(std::min(most, this->Poor.size()));
+    const std::size_t threads = NumberOfThreads(this->Threads);
+    const std::size_t atOnce = threads == 1 ? 1 : threads * InsertionsAtOnce;
+    const std::uint64_t before = this->Done.Insertions;
+    std::vector<PentatopeInsertion> insertions(std::min(atOnce, worst.size()));
+    std::vector<std::uint8_t> hasChanged(this->Complex.NumberOfPentatopes(), 0);
+    for (std::size_t begin = 0; begin < worst.size(); begin += atOnce)
     {
-      if (!this->Complex.IsPoor(s, this->Goal))
+      const auto some = worst.subspan(begin, std::min(atOnce, worst.size() - begin));
+      ParallelFor(
+        0, some.size(), 1, this->Threads,
+        [&](std::size_t first, std::size_t)
+        { insertions[first] = this->FindInsertion(some[first], target); },
+        this->Stop);
+      std::vector<std::uint32_t> changed;
+      for (std::size_t k = 0; k < some.size(); ++k)
       {
-        continue; // part of an earlier cavity
-      }
-      const PentatopeInsertion insertion = cavity.Find(s, target);
-      if (insertion.After > insertion.Before)
-      {
-        for (const std::uint32_t old : insertion.Old) // while they have vertices
+        if (std::any_of(insertions[k].Seen.begin(), insertions[k].Seen.end(),
+              [&](std::uint32_t s) { return hasChanged[s] != 0; }))
         {
-          this->TellVertices(this->Complex.CornersOf(old));
+          insertions[k] = this->FindInsertion(some[k], target);
         }
-        MakeInsertion(this->Complex, insertion);
-        ++this->Done.Insertions;
-        this->HasNews.push_back(1);
+        if (this->Make(insertions[k]))
+        {
+          for (const std::uint32_t s : insertions[k].Old)
+          {
+            hasChanged[s] = 1;
+            changed.push_back(s);
+          }
+        }
+      }
+      for (const std::uint32_t s : changed)
+      {
+        hasChanged[s] = 0;
       }
     }
-    this->Complex.FindStars();
+    if (this->Done.Insertions == before)
+    {
+      return false;
+    }
+    this->Complex.UpdateStars(this->Threads, this->Stop);
     this->FindPoor(this->Goal);
-    return this->Done.Insertions > before;
+    return true;
+  }
+
+  /** The best insertion for a pentatope; none if it was part of an earlier cavity. */
+  PentatopeInsertion FindInsertion(std::uint32_t s, double target) const
+  {
+    return this->Complex.IsPoor(s, this->Goal) ? PentatopeCavity(this->Complex).Find(s, target)
+                                               : PentatopeInsertion();
+  }
+
+  /** Makes an insertion if it is worth it. Returns whether it was. */
+  bool Make(const PentatopeInsertion& insertion)
+  {
+    if (!(insertion.After > insertion.Before))
+    {
+      return false;
+    }
+    for (const std::uint32_t old : insertion.Old) // while they have vertices
+    {
+      this->TellVertices(this->Complex.CornersOf(old));
+    }
+    MakeInsertion(this->Complex, insertion);
+    ++this->Done.Insertions;
+    this->HasNews.push_back(1);
+    return true;
   }
 
   bool ComesFirst(std::uint32_t v, const std::vector<std::uint32_t>& ranks) const

@@ -3,7 +3,9 @@
 // Vertices that are inserted in poor pentatopes make better ones, and lose nothing.
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
+#include "Optimisation/PentatopeFlips.h"
 #include "Optimisation/PentatopeInsertion.h"
+#include "Optimisation/PentatopeOptimiser.h"
 #include "PentatopeCases.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -131,6 +134,92 @@ TEST(PentatopeInsertion, BreaksNoMoreBoundsThanBefore)
   }
   EXPECT_EQ(made, 40);
   EXPECT_GT(broken, 0);
+}
+
+// Threads find insertions side by side, also where cavities overlap.
+TEST(PentatopeInsertion, DoesNotDependOnThreads)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(), 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const SimplexMesh<4> before = Mesh(image, UsualOptions(4.0), false).Mesh;
+  PentatopeBounds bounds;
+  bounds.Target = 0.12; // so that there are many
+  SimplexMesh<4> first = before;
+  const PentatopeStatistics done = OptimisePentatopes(first, {}, domain, image, bounds, 1, {});
+  EXPECT_GT(done.Insertions, 20u);
+  for (const unsigned threads : { 2u, 3u, 8u })
+  {
+    SimplexMesh<4> mesh = before;
+    EXPECT_EQ(
+      OptimisePentatopes(mesh, {}, domain, image, bounds, threads, {}).Insertions, done.Insertions);
+    ExpectSame(mesh, first);
+  }
+}
+
+// Flips and insertions change stars, and vertices are new.
+TEST(PentatopeComplex, StarsFollowChanges)
+{
+  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(), 2.0));
+  const ImageDomain<4> domain(image, 1.0);
+  const SimplexMesh<4> mesh = Mesh(image, UsualOptions(4.0), false).Mesh;
+  const PentatopeBounds bounds;
+  PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+  PentatopeCavity cavity(complex);
+  const std::size_t points = complex.NumberOfPoints();
+  std::size_t flips = 0;
+  for (const unsigned threads : { 1u, 3u, 1u, 3u, 1u, 3u })
+  {
+    // Neighbours are found by stars, so nothing may change twice before these are up to date.
+    std::vector<std::uint8_t> hasChanged(complex.NumberOfPentatopes(), 0);
+    const auto isFree = [&](auto first, auto last)
+    {
+      const bool free =
+        std::none_of(first, last, [&](std::uint32_t s) { return hasChanged[s] != 0; });
+      std::for_each(
+        first, last, [&](std::uint32_t s) { hasChanged[s] = free ? 1 : hasChanged[s]; });
+      return free;
+    };
+    std::size_t insertions = 0;
+    for (std::uint32_t s = 0; s < hasChanged.size(); ++s)
+    {
+      if (!complex.IsPoor(s, 2.0 * bounds.Target) || hasChanged[s] != 0)
+      {
+        continue;
+      }
+      const PentatopeFlip flip = FindFlip(complex, s);
+      if (flip.NumberOfOld != 0 && isFree(flip.Old.begin(), flip.Old.begin() + flip.NumberOfOld))
+      {
+        MakeFlip(complex, flip);
+        ++flips;
+      }
+      else if (flip.NumberOfOld == 0 && insertions < 10)
+      {
+        const PentatopeInsertion insertion = cavity.Find(s, bounds.Target);
+        if (insertion.After > insertion.Before &&
+          isFree(insertion.Old.begin(), insertion.Old.end()))
+        {
+          MakeInsertion(complex, insertion);
+          ++insertions;
+        }
+      }
+    }
+    complex.UpdateStars(threads, {});
+    std::vector<std::vector<std::uint32_t>> stars(complex.NumberOfPoints());
+    for (std::uint32_t s = 0; s < complex.NumberOfPentatopes(); ++s)
+    {
+      for (std::size_t k = 0; k < 5 && complex.IsAlive(s); ++k)
+      {
+        stars[complex.CornersOf(s)[k]].push_back(s);
+      }
+    }
+    for (std::uint32_t v = 0; v < stars.size(); ++v)
+    {
+      const std::span<const std::uint32_t> star = complex.StarOf(v);
+      ASSERT_TRUE(std::equal(star.begin(), star.end(), stars[v].begin(), stars[v].end())) << v;
+    }
+  }
+  EXPECT_GT(flips, 200u);
+  EXPECT_GT(complex.NumberOfPoints(), points + 20);
 }
 
 TEST(PentatopeInsertion, LosesNoVertex)
