@@ -3,19 +3,18 @@
 #include "Conformity/ManifoldRepair.h"
 
 #include "Base/UninitialisedVector.h"
-#include "Conformity/RepairNeighbourhood.h"
-#include "Geometry/SimplexQuality.h"
+#include "Conformity/RidgeRepair.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,21 +25,6 @@ namespace
 {
 
 using namespace repair;
-
-template <int D>
-using Facet = std::array<VertexId, static_cast<std::size_t>(D)>;
-
-/** The vertices of a simplex but vertex i, in cyclic order. */
-template <int D>
-Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v, unsigned i)
-{
-  Facet<D> facet;
-  for (unsigned k = 0; k < facet.size(); ++k)
-  {
-    facet[k] = v[(i + k + 1) % v.size()];
-  }
-  return facet;
-}
 
 /** The facets of the interfaces of a triangulation. */
 template <int D>
@@ -109,419 +93,275 @@ InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
 }
 
 //------------------------------------------------------------------------------------------------
-/** Finds and applies changes that leave fewer bad ridges. */
-template <int D>
-class RidgeRepair
+/** When something around each vertex has changed last. */
+class ChangeStamps
 {
 public:
-  RidgeRepair(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-    std::vector<std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
-    : Labels(labels)
-    , Near(triangulation, labels, std::move(onInterface))
-    , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
-    , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
-    , Surfaces(options.Surfaces)
-    , Sizing(options.Sizing)
-    , Keeps(options.Keeps)
+  explicit ChangeStamps(std::size_t vertices)
+    : Last(vertices, 0)
   {
   }
 
-  /** Applies the best change around a ridge. @return false if none helps */
-  bool Mend(const Ridge<D>& ridge)
+  /** @param time not before any other */
+  template <typename Vertices>
+  void Set(const Vertices& vertices, std::uint32_t time)
   {
-    std::optional<Change> best;
-    bool bestDents = true;
-    int bestGain = 0;
-    double bestVolume = 0.0;
-    for (Change& change : this->ChangesAt(ridge))
+    for (const VertexId v : vertices)
     {
-      const int gain = this->GainOf(change);
-      const double volume = this->VolumeOf(change);
-      const bool dents = this->Dents(change);
-      const bool isBetter = dents != bestDents ? bestDents
-        : gain != bestGain                     ? gain > bestGain
-                                               : volume < bestVolume;
-      if (gain > 0 && isBetter && this->IsAllowed(change))
-      {
-        bestDents = dents;
-        bestGain = gain;
-        bestVolume = volume;
-        best = std::move(change);
-      }
+      this->Last[v] = time;
     }
-    if (!best)
-    {
-      return false;
-    }
-    for (const SimplexId t : best->Cells)
-    {
-      this->Labels[t] = best->Label;
-      this->Changed.insert(t);
-    }
-    return true;
   }
 
-  bool IsBad(const Ridge<D>& ridge) const
+  /** Whether something around one of these vertices has changed after a time. */
+  bool AnyAfter(const std::vector<VertexId>& vertices, std::uint32_t time) const
   {
-    return this->Near.StateOf(ridge, this->Near.StarOf(ridge).front()).Bad != 0;
-  }
-
-  const std::set<SimplexId>& GetChanged() const { return this->Changed; }
-
-  /**
-   * The bad ridges now, in the order of their vertices. Only ridges that were bad before, and ridges
-   * of changed simplices, need to be checked.
-   * @param before the bad ridges before any change
-   */
-  std::vector<InterfaceRidge<D>> FindLeft(const std::vector<InterfaceRidge<D>>& before) const
-  {
-    std::vector<InterfaceRidge<D>> left;
-    const std::vector<CellRidge> changed = this->RidgesOf(this->Changed);
-    for (const InterfaceRidge<D>& ridge : before)
-    {
-      const auto at = std::lower_bound(changed.begin(), changed.end(), ridge.Vertices,
-        [](const CellRidge& r, const Ridge<D>& vertices) { return r.Vertices < vertices; });
-      if (at == changed.end() || at->Vertices != ridge.Vertices)
-      {
-        left.push_back(ridge);
-      }
-    }
-    for (const CellRidge& ridge : changed)
-    {
-      const auto state = this->Near.StateOf(ridge.Vertices, ridge.Cell);
-      if (state.Bad > 0)
-      {
-        left.push_back({ ridge.Vertices, state.IsJunction });
-      }
-    }
-    std::sort(left.begin(), left.end(),
-      [](const auto& a, const auto& b) { return a.Vertices < b.Vertices; });
-    return left;
+    return std::any_of(
+      vertices.begin(), vertices.end(), [&](VertexId v) { return this->Last[v] > time; });
   }
 
 private:
-  Facet<D> FacetOf(SimplexId t, unsigned i) const
+  std::vector<std::uint32_t> Last;
+};
+
+/**
+ * Mends bad ridges one after the other, in passes, until nothing helps any more.
+ *
+ * At the beginning of a pass, threads try to mend the ridges of parts of space, each part with labels of its own. Then
+ * the changes are made in the order of the list. If something around a ridge is not as the thread had it, a change
+ * is looked for again. So the result is that of one thread.
+ */
+template <int D>
+class RepairTeam
+{
+public:
+  RepairTeam(const Triangulation<D>& triangulation, std::span<LabelId> labels,
+    std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options,
+    const std::vector<InterfaceRidge<D>>& ridges, unsigned threads, const std::stop_token& stop)
+    : Source(triangulation)
+    , Labels(labels)
+    , Ridges(ridges)
+    , Stop(stop)
+    , Finder(triangulation, labels, onInterface, options)
+    , Changes(triangulation.VertexIdEnd())
+    , Entries(ridges.size())
   {
-    return voxplex::FacetOf<D>(this->Near.VerticesOf(t), i);
+    const std::size_t parts =
+      std::min<std::size_t>({ NumberOfThreads(threads), MostParts, ridges.size() / FewestOfPart });
+    if (parts > 1)
+    {
+      this->Parts.resize(parts);
+      this->ForParts([&](std::size_t p)
+        { this->Parts[p] = std::make_unique<Part>(triangulation, labels, onInterface, options); });
+      this->FindParts();
+    }
   }
 
-  /**
-   * All candidate changes: each simplex around the ridge, and each run of a label, gets a label
-   * beside it.
-   */
-  std::vector<Change> ChangesAt(const Ridge<D>& ridge) const
+  void Mend()
   {
-    const std::vector<SimplexId> star = this->Near.StarOf(ridge);
-    std::vector<std::vector<SimplexId>> groups;
-    std::set<SimplexId> grouped;
-    for (const SimplexId t : star)
+    std::size_t before = 0;
+    do
     {
-      if (this->Labels[t] == 0) // is not in the mesh
+      before = this->Relabelled.size();
+      ++this->Pass;
+      this->ForParts([this](std::size_t p) { this->Try(*this->Parts[p]); });
+      for (std::uint32_t r = 0; r < this->Entries.size(); ++r)
+      {
+        ThrowIfStopped(this->Stop);
+        this->Mend(r);
+      }
+      for (const std::unique_ptr<Part>& part : this->Parts)
+      {
+        this->Update(*part, before);
+      }
+    } while (this->Relabelled.size() > before);
+  }
+
+  /** The simplices that have another label. */
+  std::set<SimplexId> GetChanged() const
+  {
+    return { this->Relabelled.begin(), this->Relabelled.end() };
+  }
+
+  std::vector<InterfaceRidge<D>> FindLeft() const
+  {
+    return this->Finder.FindLeft(this->Ridges, this->GetChanged());
+  }
+
+private:
+  /** A part has labels of its own, 2 bytes a simplex. */
+  static constexpr std::size_t MostParts = 8;
+  static constexpr std::size_t FewestOfPart = 32; ///< ridges; trying fewer is not worth a thread
+
+  /** What a thread needs to try a part. */
+  struct Part
+  {
+    Part(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
+      std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
+      : Labels(labels.begin(), labels.end())
+      , Finder(triangulation, this->Labels, onInterface, options)
+      , Tried(triangulation.VertexIdEnd())
+      , Surprises(triangulation.VertexIdEnd())
+    {
+    }
+
+    std::vector<std::uint32_t> Ridges; ///< ascending
+    std::vector<LabelId> Labels;
+    const RidgeRepair<D> Finder;
+    std::vector<SimplexId> Relabelled; ///< in this pass
+    ChangeStamps Tried;                ///< its own changes; time is the pass
+    ChangeStamps Surprises; ///< where it does not know the labels that there are; time is the pass
+  };
+
+  /** The last proposal for a ridge. */
+  struct Entry
+  {
+    Proposal Proposed;
+    Part* TriedBy = nullptr;
+    std::uint32_t TriedIn = 0; ///< the pass
+    std::uint32_t Time = 0;    ///< the number of changes when it was right
+    bool IsMade = false;
+  };
+
+  template <typename Function>
+  void ForParts(const Function& function)
+  {
+    ParallelFor(
+      0, this->Parts.size(), 1, static_cast<unsigned>(this->Parts.size()),
+      [&](std::size_t p, std::size_t) { function(p); }, this->Stop);
+  }
+
+  /** Cuts space into slabs with as many ridges each. */
+  void FindParts()
+  {
+    const auto placeOf = [this](std::uint32_t r) -> const Point<D>&
+    { return this->Source.Position(this->Ridges[r].Vertices[0]); };
+    std::vector<std::uint32_t> order(this->Ridges.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::size_t longest = 0;
+    double length = -1.0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
+    {
+      const auto [first, last] = std::minmax_element(order.begin(), order.end(),
+        [&](std::uint32_t r, std::uint32_t q) { return placeOf(r)[a] < placeOf(q)[a]; });
+      if (placeOf(*last)[a] - placeOf(*first)[a] > length)
+      {
+        length = placeOf(*last)[a] - placeOf(*first)[a];
+        longest = a;
+      }
+    }
+    std::sort(order.begin(), order.end(),
+      [&](std::uint32_t r, std::uint32_t q) { return placeOf(r)[longest] < placeOf(q)[longest]; });
+    for (std::size_t k = 0; k < order.size(); ++k)
+    {
+      this->Parts[k * this->Parts.size() / order.size()]->Ridges.push_back(order[k]);
+    }
+    for (const std::unique_ptr<Part>& part : this->Parts)
+    {
+      std::sort(part->Ridges.begin(), part->Ridges.end());
+    }
+  }
+
+  /** Whether nothing around a ridge has changed since it had its proposal. */
+  bool IsRight(const Entry& entry) const
+  {
+    return entry.IsMade && !this->Changes.AnyAfter(entry.Proposed.Seen, entry.Time);
+  }
+
+  /** Mends a part by changes of its own labels. */
+  void Try(Part& part)
+  {
+    for (const std::uint32_t r : part.Ridges)
+    {
+      ThrowIfStopped(this->Stop);
+      Entry& entry = this->Entries[r];
+      if (this->IsRight(entry) && !part.Tried.AnyAfter(entry.Proposed.Seen, this->Pass - 1))
       {
         continue;
       }
-      groups.push_back({ t });
-      if (!grouped.insert(t).second)
+      entry.Proposed = part.Finder.Propose(this->Ridges[r].Vertices);
+      entry.IsMade = true;
+      entry.TriedBy = &part;
+      entry.TriedIn = this->Pass;
+      if (entry.Proposed.Best)
       {
-        continue;
-      }
-      std::vector<SimplexId> run{ t };
-      for (std::size_t k = 0; k < run.size(); ++k)
-      {
-        for (unsigned i = 0; i <= D; ++i)
+        for (const SimplexId t : entry.Proposed.Best->Cells)
         {
-          const SimplexId other = this->Near.Beside(run[k], i);
-          if (std::binary_search(star.begin(), star.end(), other) &&
-            this->Labels[other] == this->Labels[t] && grouped.insert(other).second)
-          {
-            run.push_back(other);
-          }
+          part.Labels[t] = entry.Proposed.Best->Label;
+          part.Relabelled.push_back(t);
         }
-      }
-      if (run.size() > 1)
-      {
-        groups.push_back(std::move(run));
+        this->Stamp(part.Tried, entry.Proposed.Best);
       }
     }
-    std::vector<Change> changes;
-    for (const std::vector<SimplexId>& group : groups)
-    {
-      std::set<LabelId> labels;
-      for (const SimplexId t : group)
-      {
-        for (unsigned i = 0; i <= D; ++i)
-        {
-          labels.insert(this->Near.LabelBeside(t, i));
-        }
-      }
-      labels.erase(this->Labels[group.front()]);
-      for (const LabelId label : labels)
-      {
-        changes.push_back({ group, label });
-      }
-    }
-    return changes;
   }
 
-  /** A ridge, and a simplex that has it. */
-  struct CellRidge
+  /** Makes the change that a thread has tried, or another one if that did not see the labels that there are. */
+  void Mend(std::uint32_t r)
   {
-    Ridge<D> Vertices;
-    SimplexId Cell;
-  };
-
-  /** The ridges of some simplices, ascending. */
-  template <typename Cells>
-  std::vector<CellRidge> RidgesOf(const Cells& cells) const
-  {
-    std::vector<CellRidge> ridges;
-    for (const SimplexId t : cells)
+    Entry& entry = this->Entries[r];
+    const bool isTried = entry.TriedIn == this->Pass;
+    bool isKnown = isTried; // by the part
+    if (isTried ? entry.TriedBy->Surprises.AnyAfter(entry.Proposed.Seen, this->Pass - 1)
+                : !this->IsRight(entry))
     {
-      auto v = this->Near.VerticesOf(t);
-      std::sort(v.begin(), v.end());
-      for (unsigned i = 0; i <= D; ++i)
+      const std::optional<Change> tried = std::exchange(entry.Proposed.Best, std::nullopt);
+      entry.Proposed = this->Finder.Propose(this->Ridges[r].Vertices);
+      entry.IsMade = true;
+      isKnown = isTried && tried == entry.Proposed.Best;
+      if (isTried && !isKnown)
       {
-        for (unsigned j = 0; j < i; ++j)
-        {
-          CellRidge& ridge = ridges.emplace_back();
-          ridge.Cell = t;
-          std::size_t n = 0;
-          for (unsigned k = 0; k <= D; ++k)
-          {
-            if (k != i && k != j)
-            {
-              ridge.Vertices[n++] = v[k];
-            }
-          }
-        }
+        this->Stamp(entry.TriedBy->Surprises, tried);
       }
     }
-    std::sort(ridges.begin(), ridges.end(),
-      [](const CellRidge& a, const CellRidge& b) { return a.Vertices < b.Vertices; });
-    ridges.erase(std::unique(ridges.begin(), ridges.end(),
-                   [](const CellRidge& a, const CellRidge& b) { return a.Vertices == b.Vertices; }),
-      ridges.end());
-    return ridges;
-  }
-
-  /** Neighbourhood::GainAt(), summed over all ridges. */
-  int GainOf(const Change& change) const
-  {
-    int gain = 0;
-    for (const CellRidge& ridge : this->RidgesOf(change.Cells))
+    entry.Time = this->Time;
+    if (!entry.Proposed.Best)
     {
-      gain += this->Near.GainAt(ridge.Vertices, ridge.Cell, change);
+      return;
     }
-    return gain;
-  }
-
-  double VolumeOf(const Change& change) const
-  {
-    double volume = 0.0;
-    for (const SimplexId t : change.Cells)
+    ++this->Time;
+    for (const SimplexId t : entry.Proposed.Best->Cells)
     {
-      std::array<const Point<D>*, D + 1> points;
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
-      }
-      volume += std::abs(SignedVolume<D>(points.data()));
+      this->Labels[t] = entry.Proposed.Best->Label;
+      this->Relabelled.push_back(t);
     }
-    return volume;
-  }
-
-  bool IsAllowed(const Change& change) const
-  {
-    bool leavesSome = false;
-    for (const SimplexId t : change.Cells)
+    this->Stamp(this->Changes, entry.Proposed.Best);
+    for (const std::unique_ptr<Part>& part : this->Parts)
     {
-      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
+      if (!isKnown || part.get() != entry.TriedBy)
       {
-        return false;
-      }
-      const LabelId own = this->Labels[t];
-      for (const VertexId v : this->Near.VerticesOf(t))
-      {
-        if (!this->Near.IsOnInterface(v))
-        {
-          return false;
-        }
-        if (!leavesSome)
-        {
-          const std::vector<SimplexId>& star = this->Near.StarOf(v);
-          leavesSome = std::any_of(star.begin(), star.end(),
-            [&](SimplexId other) { return this->Labels[other] == own && !change.Touches(other); });
-        }
-      }
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        if (change.Label == 0 && this->Near.Beside(t, i) == None)
-        {
-          return false;
-        }
-        const bool isNew = this->Near.LabelBeside(t, i) == own &&
-          !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
-        if (isNew && !this->HasGoodAngles(t, i, change))
-        {
-          return false;
-        }
+        this->Stamp(part->Surprises, entry.Proposed.Best);
       }
     }
-    return leavesSome && !this->UncoversSharpFacet(change);
   }
 
-  /**
-   * Whether a change takes a junction away from an interface facet whose angles are allowed at
-   * junctions only.
-   */
-  bool UncoversSharpFacet(const Change& change) const
+  void Stamp(ChangeStamps& stamps, const std::optional<Change>& change) const
   {
-    if constexpr (D != 3)
+    for (const SimplexId t : change ? change->Cells : std::vector<SimplexId>())
     {
-      return false;
+      stamps.Set(this->Source.GetSimplex(t).V, &stamps == &this->Changes ? this->Time : this->Pass);
     }
-    for (const SimplexId t : change.Cells)
-    {
-      for (const VertexId v : this->Near.VerticesOf(t))
-      {
-        if (!this->IsAtJunction(v, nullptr) || this->IsAtJunction(v, &change))
-        {
-          continue;
-        }
-        for (const SimplexId s : this->Near.StarOf(v))
-        {
-          for (unsigned i = 0; i <= D; ++i)
-          {
-            const SimplexId beside = this->Near.Beside(s, i);
-            const LabelId other =
-              beside == None ? LabelId{ 0 } : this->Near.LabelOf(beside, &change);
-            if (this->Near.VerticesOf(s)[i] != v && other < this->Near.LabelOf(s, &change) &&
-              this->SharpnessOf(s, i) == Sharpness::AtJunctionsOnly &&
-              !this->HasJunction(s, i, change))
-            {
-              return true;
-            }
-          }
-        }
-      }
-    }
-    return false;
   }
 
-  /** Whether a tetrahedron is larger than the elements of a label may be. */
-  bool IsTooLarge(SimplexId t, LabelId label) const
+  /** Gives a part the labels that there are now. @param before length of Relabelled before this pass */
+  void Update(Part& part, std::size_t before) const
   {
-    if (!this->Sizing || label == 0)
-    {
-      return false;
-    }
-    const Circumball<D> ball = this->Near.Circumball(t);
-    const double size = this->Sizing->ElementSize(ball.Center, label);
-    return ball.Radius2 > size * size;
+    const auto update = [&](SimplexId t) { part.Labels[t] = this->Labels[t]; };
+    std::for_each(part.Relabelled.begin(), part.Relabelled.end(), update);
+    std::for_each(this->Relabelled.begin() + static_cast<std::ptrdiff_t>(before),
+      this->Relabelled.end(), update);
+    part.Relabelled.clear();
   }
 
-  /**
-   * Whether a change drops a tetrahedron with a facet on a flat face where the image cuts the
-   * object.
-   */
-  bool Dents(const Change& change) const
-  {
-    const ImageBorder<D>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
-    if (!border || change.Label != 0)
-    {
-      return false;
-    }
-    for (const SimplexId t : change.Cells)
-    {
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        unsigned faces = ~0u;
-        for (const VertexId v : this->FacetOf(t, i))
-        {
-          faces &= border->FacesAt(this->Near.Position(v));
-        }
-        if (faces != 0)
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /** Where a facet with these angles may be; anywhere in 4D. */
-  enum class Sharpness
-  {
-    Anywhere,
-    AtJunctionsOnly,
-    Nowhere
-  };
-  Sharpness SharpnessOf(SimplexId t, unsigned i) const
-  {
-    if constexpr (D != 3)
-    {
-      return Sharpness::Anywhere;
-    }
-    const Facet<D> facet = this->FacetOf(t, i);
-    Sharpness sharpness = Sharpness::Anywhere;
-    for (unsigned k = 0; k < 3; ++k)
-    {
-      const Point<D>& p = this->Near.Position(facet[k]);
-      const Point<D> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
-      const Point<D> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
-      const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
-      if (Dot(a, b) > this->JunctionCosine * lengths)
-      {
-        return Sharpness::Nowhere;
-      }
-      sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
-    }
-    return sharpness;
-  }
-
-  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
-  {
-    const Sharpness sharpness = this->SharpnessOf(t, i);
-    return sharpness == Sharpness::Anywhere ||
-      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
-  }
-
-  /** Whether a vertex of a facet is at a junction after a change. */
-  bool HasJunction(SimplexId t, unsigned i, const Change& change) const
-  {
-    const Facet<D> facet = this->FacetOf(t, i);
-    return std::any_of(
-      facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
-  }
-
-  /** Whether three or more labels, including background, meet at a vertex. */
-  bool IsAtJunction(VertexId v, const Change* change) const
-  {
-    std::array<LabelId, 2> known{};
-    unsigned count = 0;
-    for (const SimplexId t : this->Near.StarOf(v))
-    {
-      const LabelId label = this->Near.LabelOf(t, change);
-      if (std::find(known.begin(), known.begin() + count, label) == known.begin() + count)
-      {
-        if (count == known.size())
-        {
-          return true;
-        }
-        known[count++] = label;
-      }
-    }
-    return false;
-  }
-
+  const Triangulation<D>& Source;
   const std::span<LabelId> Labels; ///< by simplex id
-  const Neighbourhood<D> Near;
-  const double FacetCosine;
-  const double JunctionCosine; ///< at least FacetCosine
-  const Domain<D>* const Surfaces;
-  const SizingField<D>* const Sizing;
-  const std::function<bool(SimplexId)> Keeps;
-  std::set<SimplexId> Changed;
+  const std::vector<InterfaceRidge<D>>& Ridges;
+  const std::stop_token& Stop;
+  const RidgeRepair<D> Finder;
+  ChangeStamps Changes;                     ///< time is the number of changes
+  std::vector<Entry> Entries;               ///< of each ridge
+  std::vector<std::unique_ptr<Part>> Parts; ///< none: one thread
+  std::vector<SimplexId> Relabelled;        ///< may be repeated
+  std::uint32_t Time = 0;
+  std::uint32_t Pass = 0;
 };
 
 } // namespace
@@ -551,33 +391,10 @@ ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
       onInterface[v] = onInterface[v] != 0 || interfaces.OnHull[f] == 0 ? 1 : 0;
     }
   }
-  RidgeRepair<D> repair(triangulation, labels, std::move(onInterface), options);
-  std::size_t changes = 0;
-  constexpr auto Never = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> failedAfter(ridges.size(), Never); ///< after so many changes
-  for (bool again = true; again;)
-  {
-    again = false;
-    for (std::size_t r = 0; r < ridges.size(); ++r)
-    {
-      ThrowIfStopped(stop);
-      if (failedAfter[r] == changes)
-      {
-        continue; // nothing has changed since
-      }
-      if (repair.IsBad(ridges[r].Vertices) && repair.Mend(ridges[r].Vertices))
-      {
-        ++changes;
-        again = true;
-      }
-      else
-      {
-        failedAfter[r] = changes;
-      }
-    }
-  }
-  const std::set<SimplexId>& changed = repair.GetChanged();
-  return { ridges.size(), repair.FindLeft(ridges), { changed.begin(), changed.end() } };
+  RepairTeam<D> team(triangulation, labels, onInterface, options, ridges, threads, stop);
+  team.Mend();
+  const std::set<SimplexId> changed = team.GetChanged();
+  return { ridges.size(), team.FindLeft(), { changed.begin(), changed.end() } };
 }
 
 template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&, std::span<LabelId>,

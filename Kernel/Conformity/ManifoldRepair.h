@@ -63,7 +63,7 @@ struct ManifoldRepairResult
  * itself takes little time if few ridges are bad.
  *
  * @param labels by simplex id; some are changed
- * @param threads used to find the ridges; 0 means all cores
+ * @param threads used; 0 means all cores. With several, labels are copied for each of up to 8 threads
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>

@@ -34,6 +34,7 @@ struct Change
   std::vector<SimplexId> Cells;
   LabelId Label;
 
+  bool operator==(const Change&) const = default;
   bool Touches(SimplexId t) const
   {
     return std::find(this->Cells.begin(), this->Cells.end(), t) != this->Cells.end();
@@ -48,10 +49,10 @@ class Neighbourhood
 public:
   /** @param onInterface for each vertex, whether it is on an interface before any change */
   Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::vector<std::uint8_t> onInterface)
+    std::span<const std::uint8_t> onInterface)
     : Source(triangulation)
     , Labels(labels)
-    , OnInterface(std::move(onInterface))
+    , OnInterface(onInterface)
   {
   }
 
@@ -67,12 +68,26 @@ public:
   const std::vector<SimplexId>& StarOf(VertexId v) const
   {
     const auto [entry, isNew] = this->Stars.try_emplace(v);
+    Star& star = entry->second;
     if (isNew)
     {
-      entry->second = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
-      std::sort(entry->second.begin(), entry->second.end());
+      star.Cells = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
+      std::sort(star.Cells.begin(), star.Cells.end());
     }
-    return entry->second;
+    if (star.SeenIn != this->Search)
+    {
+      star.SeenIn = this->Search;
+      this->SeenVertices.push_back(v);
+    }
+    return star.Cells;
+  }
+
+  /** The vertices whose stars were asked for, since ForgetSeen(). */
+  const std::vector<VertexId>& Seen() const { return this->SeenVertices; }
+  void ForgetSeen() const
+  {
+    ++this->Search;
+    this->SeenVertices.clear();
   }
 
   LabelId LabelOf(SimplexId t, const Change* change) const
@@ -110,39 +125,60 @@ public:
     int Bad; ///< labels, except background, with boundary facets at the ridge, but not exactly two
     bool IsJunction; ///< three or more labels meet there
   };
-  /** @param t a simplex at the ridge; the time is linear in the number of those */
-  State StateOf(const Ridge<D>& ridge, SimplexId t) const
+
+  static constexpr std::size_t UsualLength = 16; ///< of a ring, at most
+  using RingLabels = boost::container::small_vector<LabelId, UsualLength>;
+
+  /** What lies around a ridge. */
+  struct Ring
   {
-    FacetCounts counts;
-    this->ForEachFacetAround(ridge, t,
-      [&](SimplexId a, SimplexId b) { counts.Add(this->Labels[a], this->LabelOrBackground(b)); });
-    return counts.Evaluate();
+    Ridge<D> Vertices;
+    /**
+     * The simplices that have it, each beside the next. The last is the first again; or both are None, which is
+     * what lies outside of the hull.
+     */
+    boost::container::small_vector<SimplexId, UsualLength> Cells;
+    RingLabels Labels; ///< of these
+    State Now;
+  };
+
+  /** @param t a simplex at the ridge; the time is linear in the number of those */
+  Ring RingOf(const Ridge<D>& ridge, SimplexId t) const
+  {
+    Ring ring;
+    ring.Vertices = ridge;
+    ring.Cells.push_back(t);
+    const std::array<VertexId, 2> others = this->OthersOf(t, ridge);
+    if (!this->Walk(ridge, others[0], others[1], ring.Cells))
+    {
+      std::reverse(ring.Cells.begin(), ring.Cells.end());
+      this->Walk(ridge, others[1], others[0], ring.Cells);
+    }
+    for (const SimplexId cell : ring.Cells)
+    {
+      ring.Labels.push_back(cell == None ? LabelId{ 0 } : this->Labels[cell]);
+    }
+    ring.Now = StateOf(ring.Labels);
+    return ring;
   }
 
   /**
    * The weighted number of defects at a ridge, before a change less after it. A defect off
    * junctions has a larger weight.
-   * @param t a simplex at the ridge
    */
-  int GainAt(const Ridge<D>& ridge, SimplexId t, const Change& change) const
+  static int GainAt(const Ring& ring, const Change& change)
   {
-    FacetCounts before;
-    FacetCounts after;
-    LabelId here = this->LabelOf(t, &change);
-    SimplexId last = t;
-    this->ForEachFacetAround(ridge, t,
-      [&](SimplexId a, SimplexId b)
+    RingLabels labels = ring.Labels;
+    for (const SimplexId t : change.Cells)
+    {
+      for (std::size_t k = 0; k < labels.size(); ++k)
       {
-        here = a == last ? here : this->LabelOf(a, &change); // the second turn begins at t again
-        const LabelId next = b == None ? LabelId{ 0 } : this->LabelOf(b, &change);
-        before.Add(this->Labels[a], this->LabelOrBackground(b));
-        after.Add(here, next);
-        here = next;
-        last = b;
-      });
+        labels[k] = ring.Cells[k] == t ? change.Label : labels[k];
+      }
+    }
     const auto weightOf = [](const State& state)
     { return state.Bad * (state.IsJunction ? AtJunction : OffJunction); };
-    return weightOf(before.Evaluate()) - weightOf(after.Evaluate());
+    return weightOf(ring.Now) - weightOf(StateOf(labels));
   }
 
 private:
@@ -186,62 +222,79 @@ private:
     boost::container::small_vector<Count, Most> Counts;
   };
 
-  LabelId LabelOrBackground(SimplexId t) const
+  static State StateOf(const RingLabels& labels)
   {
-    return t == None ? LabelId{ 0 } : this->Labels[t];
+    FacetCounts counts;
+    for (std::size_t k = 1; k < labels.size(); ++k)
+    {
+      counts.Add(labels[k - 1], labels[k]);
+    }
+    return counts.Evaluate();
   }
 
-  /** Calls visit with the simplices on both sides of each facet at a ridge of t; the second may be None. */
-  template <typename Visit>
-  void ForEachFacetAround(const Ridge<D>& ridge, SimplexId t, Visit&& visit) const
+  /** The vertices of a simplex that are not in a ridge of it. */
+  std::array<VertexId, 2> OthersOf(SimplexId t, const Ridge<D>& ridge) const
   {
-    const auto isOf = [&](VertexId v)
-    { return std::find(ridge.begin(), ridge.end(), v) != ridge.end(); };
     std::array<VertexId, 2> others;
     unsigned found = 0;
     for (const VertexId v : this->VerticesOf(t))
     {
-      if (!isOf(v))
+      if (std::find(ridge.begin(), ridge.end(), v) == ridge.end())
       {
         others[found++] = v;
       }
     }
-    // If one turn ends at the hull, the other one begins at t as well.
-    for (unsigned turn = 0; turn < 2; ++turn)
+    return others;
+  }
+
+  /**
+   * Appends the simplices around a ridge, from the last of a list on, up to the first of it or to None.
+   * @param behind, ahead the vertices of the last one that are not in the ridge; the next is opposite to `behind`
+   * @return whether it came to the first one
+   */
+  template <typename Cells>
+  bool Walk(const Ridge<D>& ridge, VertexId behind, VertexId ahead, Cells& cells) const
+  {
+    const SimplexId first = cells.front();
+    do
     {
-      SimplexId here = t;
-      VertexId behind = others[turn]; // the next facet is opposite to it
-      VertexId ahead = others[1 - turn];
-      do
+      const auto& v = this->VerticesOf(cells.back());
+      const auto i = static_cast<unsigned>(std::find(v.begin(), v.end(), behind) - v.begin());
+      const SimplexId next = this->Beside(cells.back(), i);
+      cells.push_back(next);
+      if (next == None)
       {
-        const auto& v = this->VerticesOf(here);
-        const SimplexId before = here;
-        here = this->Beside(
-          here, static_cast<unsigned>(std::find(v.begin(), v.end(), behind) - v.begin()));
-        visit(before, here);
-        if (here == None)
-        {
-          break;
-        }
-        const auto& w = this->VerticesOf(here);
-        behind = std::exchange(ahead,
-          *std::find_if(w.begin(), w.end(), [&](VertexId x) { return !isOf(x) && x != ahead; }));
-      } while (here != t);
-      if (here == t)
-      {
-        return;
+        return false;
       }
-    }
+      VertexId other = ahead; // becomes the vertex that is neither in the ridge nor the one ahead
+      for (const VertexId x : this->VerticesOf(next))
+      {
+        other ^= x;
+      }
+      for (const VertexId x : ridge)
+      {
+        other ^= x;
+      }
+      behind = std::exchange(ahead, other);
+    } while (cells.back() != first);
+    return true;
   }
 
   static constexpr int AtJunction = 2;
   static constexpr int OffJunction = 3;
 
+  struct Star
+  {
+    std::vector<SimplexId> Cells;
+    std::size_t SeenIn = 0;
+  };
+
   const Triangulation<D>& Source;
-  const std::span<const LabelId> Labels;       ///< by simplex id; the owner may change them
-  const std::vector<std::uint8_t> OnInterface; ///< by vertex
-  mutable std::unordered_map<VertexId, std::vector<SimplexId>>
-    Stars; ///< cache of the requested stars
+  const std::span<const LabelId> Labels;            ///< by simplex id; the owner may change them
+  const std::span<const std::uint8_t> OnInterface;  ///< by vertex
+  mutable std::unordered_map<VertexId, Star> Stars; ///< cache of the requested ones
+  mutable std::vector<VertexId> SeenVertices;
+  mutable std::size_t Search = 1;
 };
 
 } // namespace voxplex::repair

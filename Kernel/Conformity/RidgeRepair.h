@@ -1,0 +1,505 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file RidgeRepair.h
+ * @brief Internal to ManifoldRepair: the best change of labels around a bad interface ridge.
+ */
+#ifndef voxplex_RidgeRepair_h
+#define voxplex_RidgeRepair_h
+
+#include "Conformity/ManifoldRepair.h"
+#include "Conformity/RepairNeighbourhood.h"
+#include "Geometry/SimplexQuality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace voxplex::repair
+{
+
+template <int D>
+using Facet = std::array<VertexId, static_cast<std::size_t>(D)>;
+
+/** The vertices of a simplex but vertex i, in cyclic order. */
+template <int D>
+Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v, unsigned i)
+{
+  Facet<D> facet;
+  for (unsigned k = 0; k < facet.size(); ++k)
+  {
+    facet[k] = v[(i + k + 1) % v.size()];
+  }
+  return facet;
+}
+
+/** What is best for a ridge, as long as no simplex around the vertices that were seen changes. */
+struct Proposal
+{
+  std::optional<Change> Best; ///< none: the ridge is not bad, or nothing helps
+  std::vector<VertexId> Seen; ///< may be repeated
+};
+
+/** A ridge, and a simplex that has it. */
+template <int D>
+struct CellRidge
+{
+  Ridge<D> Vertices;
+  SimplexId Cell;
+};
+
+/** @brief Finds changes that leave fewer bad ridges. Each thread needs its own. */
+template <int D>
+class RidgeRepair
+{
+public:
+  /**
+   * @param labels by simplex id; they may change between calls
+   * @param onInterface for each vertex, whether it is on an interface before any change
+   */
+  RidgeRepair(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
+    std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
+    : Labels(labels)
+    , Near(triangulation, labels, onInterface)
+    , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
+    , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
+    , Surfaces(options.Surfaces)
+    , Sizing(options.Sizing)
+    , Keeps(options.Keeps)
+  {
+  }
+
+  /** The best change around a ridge. */
+  Proposal Propose(const Ridge<D>& ridge) const
+  {
+    this->Near.ForgetSeen();
+    const std::vector<SimplexId> star = this->Near.StarOf(ridge);
+    Proposal proposal;
+    if (this->Near.RingOf(ridge, star.front()).Now.Bad != 0)
+    {
+      proposal.Best = this->BestOf(this->ChangesAt(star));
+    }
+    proposal.Seen = this->Near.Seen();
+    for (const SimplexId t : star)
+    {
+      const auto& v = this->Near.VerticesOf(t);
+      proposal.Seen.insert(proposal.Seen.end(), v.begin(), v.end());
+    }
+    return proposal;
+  }
+
+  /**
+   * The bad ridges now, in the order of their vertices. Only ridges that were bad before, and ridges
+   * of changed simplices, need to be checked.
+   * @param before the bad ridges before any change
+   * @param relabelled the changed simplices
+   */
+  std::vector<InterfaceRidge<D>> FindLeft(
+    const std::vector<InterfaceRidge<D>>& before, const std::set<SimplexId>& relabelled) const
+  {
+    std::vector<InterfaceRidge<D>> left;
+    const std::vector<CellRidge<D>> changed = this->RidgesOf(relabelled);
+    for (const InterfaceRidge<D>& ridge : before)
+    {
+      const auto at = std::lower_bound(changed.begin(), changed.end(), ridge.Vertices,
+        [](const CellRidge<D>& r, const Ridge<D>& vertices) { return r.Vertices < vertices; });
+      if (at == changed.end() || at->Vertices != ridge.Vertices)
+      {
+        left.push_back(ridge);
+      }
+    }
+    for (const CellRidge<D>& ridge : changed)
+    {
+      const auto state = this->Near.RingOf(ridge.Vertices, ridge.Cell).Now;
+      if (state.Bad > 0)
+      {
+        left.push_back({ ridge.Vertices, state.IsJunction });
+      }
+    }
+    std::sort(left.begin(), left.end(),
+      [](const auto& a, const auto& b) { return a.Vertices < b.Vertices; });
+    return left;
+  }
+
+private:
+  using Rings = std::vector<typename Neighbourhood<D>::Ring>;
+  static constexpr std::size_t UsualRings = 32; ///< around a ridge, in 3D
+
+  Facet<D> FacetOf(SimplexId t, unsigned i) const
+  {
+    return repair::FacetOf<D>(this->Near.VerticesOf(t), i);
+  }
+
+  std::optional<Change> BestOf(std::vector<Change> changes) const
+  {
+    Rings rings;
+    rings.reserve(UsualRings);
+    std::optional<Change> best;
+    bool bestDents = true;
+    int bestGain = 0;
+    double bestVolume = 0.0;
+    for (Change& change : changes)
+    {
+      const int gain = this->GainOf(change, rings);
+      const double volume = this->VolumeOf(change);
+      const bool dents = this->Dents(change);
+      const bool isBetter = dents != bestDents ? bestDents
+        : gain != bestGain                     ? gain > bestGain
+                                               : volume < bestVolume;
+      if (gain > 0 && isBetter && this->IsAllowed(change))
+      {
+        bestDents = dents;
+        bestGain = gain;
+        bestVolume = volume;
+        best = std::move(change);
+      }
+    }
+    return best;
+  }
+
+  /**
+   * All candidate changes: each simplex around a ridge, and each run of a label, gets a label
+   * beside it.
+   * @param star the simplices around it, ascending
+   */
+  std::vector<Change> ChangesAt(const std::vector<SimplexId>& star) const
+  {
+    std::vector<std::vector<SimplexId>> groups;
+    std::set<SimplexId> grouped;
+    for (const SimplexId t : star)
+    {
+      if (this->Labels[t] == 0) // is not in the mesh
+      {
+        continue;
+      }
+      groups.push_back({ t });
+      if (!grouped.insert(t).second)
+      {
+        continue;
+      }
+      std::vector<SimplexId> run{ t };
+      for (std::size_t k = 0; k < run.size(); ++k)
+      {
+        for (unsigned i = 0; i <= D; ++i)
+        {
+          const SimplexId other = this->Near.Beside(run[k], i);
+          if (std::binary_search(star.begin(), star.end(), other) &&
+            this->Labels[other] == this->Labels[t] && grouped.insert(other).second)
+          {
+            run.push_back(other);
+          }
+        }
+      }
+      if (run.size() > 1)
+      {
+        groups.push_back(std::move(run));
+      }
+    }
+    std::vector<Change> changes;
+    for (const std::vector<SimplexId>& group : groups)
+    {
+      std::set<LabelId> labels;
+      for (const SimplexId t : group)
+      {
+        for (unsigned i = 0; i <= D; ++i)
+        {
+          labels.insert(this->Near.LabelBeside(t, i));
+        }
+      }
+      labels.erase(this->Labels[group.front()]);
+      for (const LabelId label : labels)
+      {
+        changes.push_back({ group, label });
+      }
+    }
+    return changes;
+  }
+
+  /** The ridges of some simplices, ascending. */
+  template <typename Cells>
+  std::vector<CellRidge<D>> RidgesOf(const Cells& cells) const
+  {
+    std::vector<CellRidge<D>> ridges;
+    for (const SimplexId t : cells)
+    {
+      auto v = this->Near.VerticesOf(t);
+      std::sort(v.begin(), v.end());
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        for (unsigned j = 0; j < i; ++j)
+        {
+          CellRidge<D>& ridge = ridges.emplace_back();
+          ridge.Cell = t;
+          std::size_t n = 0;
+          for (unsigned k = 0; k <= D; ++k)
+          {
+            if (k != i && k != j)
+            {
+              ridge.Vertices[n++] = v[k];
+            }
+          }
+        }
+      }
+    }
+    std::sort(ridges.begin(), ridges.end(),
+      [](const CellRidge<D>& a, const CellRidge<D>& b) { return a.Vertices < b.Vertices; });
+    ridges.erase(
+      std::unique(ridges.begin(), ridges.end(),
+        [](const CellRidge<D>& a, const CellRidge<D>& b) { return a.Vertices == b.Vertices; }),
+      ridges.end());
+    return ridges;
+  }
+
+  /**
+   * Neighbourhood::GainAt(), summed over all ridges.
+   * @param rings those that are known; more are added
+   */
+  int GainOf(const Change& change, Rings& rings) const
+  {
+    int gain = 0;
+    for (const CellRidge<D>& ridge : this->RidgesOf(change.Cells))
+    {
+      auto ring = rings.begin();
+      while (ring != rings.end() && !IsSame(ring->Vertices, ridge.Vertices))
+      {
+        ++ring;
+      }
+      if (ring == rings.end())
+      {
+        ring = rings.insert(ring, this->Near.RingOf(ridge.Vertices, ridge.Cell));
+      }
+      gain += Neighbourhood<D>::GainAt(*ring, change);
+    }
+    return gain;
+  }
+
+  /** The compiler makes a call of memcmp() of std::array's own comparison. */
+  static bool IsSame(const Ridge<D>& a, const Ridge<D>& b)
+  {
+    bool isSame = true;
+    for (std::size_t k = 0; k < a.size(); ++k)
+    {
+      isSame = isSame && a[k] == b[k];
+    }
+    return isSame;
+  }
+
+  double VolumeOf(const Change& change) const
+  {
+    double volume = 0.0;
+    for (const SimplexId t : change.Cells)
+    {
+      std::array<const Point<D>*, D + 1> points;
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
+      }
+      volume += std::abs(SignedVolume<D>(points.data()));
+    }
+    return volume;
+  }
+
+  bool IsAllowed(const Change& change) const
+  {
+    bool leavesSome = false;
+    for (const SimplexId t : change.Cells)
+    {
+      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
+      {
+        return false;
+      }
+      const LabelId own = this->Labels[t];
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        if (!this->Near.IsOnInterface(v))
+        {
+          return false;
+        }
+        if (!leavesSome)
+        {
+          const std::vector<SimplexId>& star = this->Near.StarOf(v);
+          leavesSome = std::any_of(star.begin(), star.end(),
+            [&](SimplexId other) { return this->Labels[other] == own && !change.Touches(other); });
+        }
+      }
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        if (change.Label == 0 && this->Near.Beside(t, i) == None)
+        {
+          return false;
+        }
+        const bool isNew = this->Near.LabelBeside(t, i) == own &&
+          !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
+        if (isNew && !this->HasGoodAngles(t, i, change))
+        {
+          return false;
+        }
+      }
+    }
+    return leavesSome && !this->UncoversSharpFacet(change);
+  }
+
+  /**
+   * Whether a change takes a junction away from an interface facet whose angles are allowed at
+   * junctions only.
+   */
+  bool UncoversSharpFacet(const Change& change) const
+  {
+    if constexpr (D != 3)
+    {
+      return false;
+    }
+    for (const SimplexId t : change.Cells)
+    {
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        if (!this->IsAtJunction(v, nullptr) || this->IsAtJunction(v, &change))
+        {
+          continue;
+        }
+        for (const SimplexId s : this->Near.StarOf(v))
+        {
+          for (unsigned i = 0; i <= D; ++i)
+          {
+            const SimplexId beside = this->Near.Beside(s, i);
+            const LabelId other =
+              beside == None ? LabelId{ 0 } : this->Near.LabelOf(beside, &change);
+            if (this->Near.VerticesOf(s)[i] != v && other < this->Near.LabelOf(s, &change) &&
+              this->SharpnessOf(s, i) == Sharpness::AtJunctionsOnly &&
+              !this->HasJunction(s, i, change))
+            {
+              return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  /** Whether a tetrahedron is larger than the elements of a label may be. */
+  bool IsTooLarge(SimplexId t, LabelId label) const
+  {
+    if (!this->Sizing || label == 0)
+    {
+      return false;
+    }
+    const Circumball<D> ball = this->Near.Circumball(t);
+    const double size = this->Sizing->ElementSize(ball.Center, label);
+    return ball.Radius2 > size * size;
+  }
+
+  /**
+   * Whether a change drops a tetrahedron with a facet on a flat face where the image cuts the
+   * object.
+   */
+  bool Dents(const Change& change) const
+  {
+    const ImageBorder<D>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
+    if (!border || change.Label != 0)
+    {
+      return false;
+    }
+    for (const SimplexId t : change.Cells)
+    {
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        unsigned faces = ~0u;
+        for (const VertexId v : this->FacetOf(t, i))
+        {
+          faces &= border->FacesAt(this->Near.Position(v));
+        }
+        if (faces != 0)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /** Where a facet with these angles may be; anywhere in 4D. */
+  enum class Sharpness
+  {
+    Anywhere,
+    AtJunctionsOnly,
+    Nowhere
+  };
+  Sharpness SharpnessOf(SimplexId t, unsigned i) const
+  {
+    if constexpr (D != 3)
+    {
+      return Sharpness::Anywhere;
+    }
+    const Facet<D> facet = this->FacetOf(t, i);
+    Sharpness sharpness = Sharpness::Anywhere;
+    for (unsigned k = 0; k < 3; ++k)
+    {
+      const Point<D>& p = this->Near.Position(facet[k]);
+      const Point<D> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
+      const Point<D> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
+      const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
+      if (Dot(a, b) > this->JunctionCosine * lengths)
+      {
+        return Sharpness::Nowhere;
+      }
+      sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
+    }
+    return sharpness;
+  }
+
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Sharpness sharpness = this->SharpnessOf(t, i);
+    return sharpness == Sharpness::Anywhere ||
+      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
+  }
+
+  /** Whether a vertex of a facet is at a junction after a change. */
+  bool HasJunction(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Facet<D> facet = this->FacetOf(t, i);
+    return std::any_of(
+      facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
+  }
+
+  /** Whether three or more labels, including background, meet at a vertex. */
+  bool IsAtJunction(VertexId v, const Change* change) const
+  {
+    std::array<LabelId, 2> known{};
+    unsigned count = 0;
+    for (const SimplexId t : this->Near.StarOf(v))
+    {
+      const LabelId label = this->Near.LabelOf(t, change);
+      if (std::find(known.begin(), known.begin() + count, label) == known.begin() + count)
+      {
+        if (count == known.size())
+        {
+          return true;
+        }
+        known[count++] = label;
+      }
+    }
+    return false;
+  }
+
+  const std::span<const LabelId> Labels; ///< by simplex id
+  const Neighbourhood<D> Near;
+  const double FacetCosine;
+  const double JunctionCosine; ///< at least FacetCosine
+  const Domain<D>* const Surfaces;
+  const SizingField<D>* const Sizing;
+  const std::function<bool(SimplexId)> Keeps;
+};
+
+} // namespace voxplex::repair
+
+#endif
