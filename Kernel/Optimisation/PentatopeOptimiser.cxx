@@ -34,9 +34,13 @@ constexpr double WorthAnotherPass = 0.9;
 /** Insertions, each followed by passes. */
 constexpr unsigned InsertionRounds = 3;
 
-/** A round tries to insert vertices in this number of the worst pentatopes, and in one more for so many others. */
-constexpr std::size_t FewestInsertions = 16;
-constexpr std::size_t PentatopesPerInsertion = 500;
+/** A round looks at this number of the worst pentatopes, and at one more for so many others. */
+constexpr std::size_t MostOfRound = 16;
+constexpr std::size_t PentatopesPerPoor = 500;
+
+/** Rounds that move what is around poor pentatopes, each followed by passes, while that helps; their target, in targets. */
+constexpr unsigned RoomRounds = 8;
+constexpr double RoomTarget = 4.0;
 
 /** New pentatopes are to be better than the target by this factor. */
 constexpr double KeptGain = 1.02;
@@ -89,6 +93,17 @@ public:
     for (unsigned round = 0; round < InsertionRounds && this->Insert(); ++round)
     {
       this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
+    }
+    for (unsigned round = 0; round < RoomRounds && !this->Poor.empty(); ++round)
+    {
+      const std::size_t poor = this->Poor.size();
+      const double smallest = this->QualityOfWorst();
+      this->MakeRoom();
+      this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
+      if (this->Poor.size() >= poor && !(this->QualityOfWorst() > smallest))
+      {
+        break;
+      }
     }
     this->Done.PoorAfter = this->Poor.size();
     this->Done.SmallestAfter = this->Smallest();
@@ -146,6 +161,18 @@ private:
     std::stable_sort(this->Poor.begin(), this->Poor.end(),
       [this](std::uint32_t a, std::uint32_t b)
       { return this->Complex.QualityOf(a) < this->Complex.QualityOf(b); });
+  }
+
+  /** Of the poor pentatopes those that a round looks at. */
+  std::span<const std::uint32_t> Worst() const
+  {
+    const std::size_t most = MostOfRound + this->Complex.NumberOfPentatopes() / PentatopesPerPoor;
+    return std::span(this->Poor).first(std::min(most, this->Poor.size()));
+  }
+
+  double QualityOfWorst() const
+  {
+    return this->Poor.empty() ? 1.0 : this->Complex.QualityOf(this->Poor.front());
   }
 
   double Smallest() const
@@ -312,10 +339,7 @@ private:
   bool Insert()
   {
     const double target = KeptGain * this->Goal;
-    const std::size_t most =
-      FewestInsertions + this->Complex.NumberOfPentatopes() / PentatopesPerInsertion;
-    const auto worst =
-      std::span<const std::uint32_t>(this->Poor).first(std::min(most, this->Poor.size()));
+    const std::span<const std::uint32_t> worst = this->Worst();
     const std::size_t threads = NumberOfThreads(this->Threads);
     const std::size_t atOnce = threads == 1 ? 1 : threads * InsertionsAtOnce;
     const std::uint64_t before = this->Done.Insertions;
@@ -358,6 +382,34 @@ private:
     this->Complex.UpdateStars(this->Threads, this->Stop);
     this->FindPoor(this->Goal);
     return true;
+  }
+
+  /**
+   * Moves the vertices around the worst pentatopes, so that these have room. What is around them may be good
+   * already, and then no pass moves it.
+   */
+  void MakeRoom()
+  {
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t s : this->Worst())
+    {
+      for (const std::uint32_t v : this->Complex.CornersOf(s))
+      {
+        for (const std::uint32_t beside : this->Complex.StarOf(v))
+        {
+          for (const std::uint32_t other : this->Complex.CornersOf(beside))
+          {
+            vertices.push_back(this->Leader(other));
+          }
+        }
+      }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const double target = RoomTarget * this->Bounds.Target;
+    this->Smooth(std::move(vertices),
+      [this, target](PentatopeSmoother& smoother, std::uint32_t v)
+      { return smoother.RaiseWorst(v, target, this->Tolerance); });
   }
 
   /** The best insertion for a pentatope; none if it was part of an earlier cavity. */

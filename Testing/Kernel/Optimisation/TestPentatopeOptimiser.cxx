@@ -174,6 +174,26 @@ TEST(PentatopeOptimiser, RaisesTheWorst)
   }
 }
 
+// One to three pentatopes of these stay poor unless what is around them gives them room.
+TEST(PentatopeOptimiser, MakesRoomForTheLast)
+{
+  struct Case
+  {
+    double TimeScale;
+    double Delta;
+  };
+  for (const auto& [scale, delta] : { Case{ 3.0, 1.74 }, Case{ 2.0, 2.16 }, Case{ 2.0, 2.37 } })
+  {
+    SCOPED_TRACE(testing::Message() << "time scale " << scale << ", delta " << delta);
+    const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(9), scale));
+    const Result result = Mesh(image, UsualOptions(delta), true);
+    EXPECT_GT(result.Statistics.Optimisation.PoorBefore, 500u);
+    EXPECT_EQ(result.Statistics.Optimisation.PoorAfter, 0u);
+    EXPECT_EQ(Poor(Qualities(result.Mesh)), 0u);
+    EXPECT_TRUE(Complaints(result.Mesh).empty());
+  }
+}
+
 // What a star says of a vertex at another place, against the measures of a pentatope that is there.
 TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
 {
