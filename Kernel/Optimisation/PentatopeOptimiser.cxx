@@ -38,7 +38,7 @@ constexpr unsigned InsertionRounds = 3;
 constexpr std::size_t MostOfRound = 16;
 constexpr std::size_t PentatopesPerPoor = 500;
 
-/** Rounds that move what is around poor pentatopes, each followed by passes, while that helps; their target, in targets. */
+/** Rounds that move what is around poor pentatopes, each followed by passes; and their target, in targets. */
 constexpr unsigned RoomRounds = 8;
 constexpr double RoomTarget = 4.0;
 
@@ -96,14 +96,8 @@ public:
     }
     for (unsigned round = 0; round < RoomRounds && !this->Poor.empty(); ++round)
     {
-      const std::size_t poor = this->Poor.size();
-      const double smallest = this->QualityOfWorst();
       this->MakeRoom();
       this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
-      if (this->Poor.size() >= poor && !(this->QualityOfWorst() > smallest))
-      {
-        break;
-      }
     }
     this->Done.PoorAfter = this->Poor.size();
     this->Done.SmallestAfter = this->Smallest();
@@ -168,11 +162,6 @@ private:
   {
     const std::size_t most = MostOfRound + this->Complex.NumberOfPentatopes() / PentatopesPerPoor;
     return std::span(this->Poor).first(std::min(most, this->Poor.size()));
-  }
-
-  double QualityOfWorst() const
-  {
-    return this->Poor.empty() ? 1.0 : this->Complex.QualityOf(this->Poor.front());
   }
 
   double Smallest() const
