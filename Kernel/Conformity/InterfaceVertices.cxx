@@ -16,24 +16,32 @@ namespace
 
 constexpr std::size_t Grain = 4096;
 
-/** Merges sorted entries into others, from behind, in place. No two have the same id. */
-template <typename Entry>
-void MergeInto(std::vector<Entry>& entries, std::vector<Entry>& more)
+/**
+ * Inserts more ids, and what belongs to them, where they belong. Both lists are ascending.
+ * @param more becomes empty
+ */
+template <typename Value>
+void MergeInto(std::vector<VertexId>& ids, std::vector<Value>& values, std::vector<VertexId>& more,
+  const std::vector<Value>& moreValues)
 {
-  auto from = entries.size();
+  auto from = ids.size();
   auto to = from + more.size();
-  entries.reserve(to); // not twice as much
-  entries.resize(to);
+  ids.reserve(to); // not twice as much
+  ids.resize(to);
+  values.reserve(to);
+  values.resize(to);
   while (!more.empty())
   {
     --to;
-    if (from > 0 && more.back().first < entries[from - 1].first)
+    if (from > 0 && more.back() < ids[from - 1])
     {
-      entries[to] = entries[--from];
+      ids[to] = ids[--from];
+      values[to] = values[from];
     }
     else
     {
-      entries[to] = more.back();
+      ids[to] = more.back();
+      values[to] = moreValues[more.size() - 1];
       more.pop_back();
     }
   }
@@ -56,7 +64,9 @@ template <int D>
 void InterfaceVertices<D>::Forget()
 {
   this->Seen = std::vector<std::uint16_t>();
-  this->Known = std::vector<Entry>();
+  this->Known = std::vector<VertexId>();
+  this->Positions = std::vector<Point<D>>();
+  this->LastAdded = std::vector<Point<D>>();
 }
 
 template <int D>
@@ -139,20 +149,19 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       }
     },
     this->Stop);
-  Changes changes;
   const auto number = static_cast<std::size_t>(
     std::count(isOnInterface.begin(), isOnInterface.end(), std::uint8_t{ 1 }));
   this->Known.reserve(number);
-  changes.Added.reserve(number);
+  this->Positions.reserve(number);
   for (VertexId v = 0; v < isOnInterface.size(); ++v)
   {
     if (isOnInterface[v] != 0)
     {
-      this->Known.emplace_back(v, this->Source.Position(v));
-      changes.Added.push_back(this->Source.Position(v));
+      this->Known.push_back(v);
+      this->Positions.push_back(this->Source.Position(v));
     }
   }
-  return changes;
+  return { this->Positions, {} };
 }
 
 //------------------------------------------------------------------------------------------------
@@ -161,23 +170,31 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
 {
   const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
   std::vector<SimplexId> star;
-  std::vector<Entry> fresh; // entries that are not yet in Known
+  std::vector<VertexId>
+    fresh; // vertices that are not yet in Known; their positions are in LastAdded
+  this->LastAdded.clear();
   Changes changes;
   // Only the stars of the candidates have changed. Some other vertices may have been removed. What
   // stays moves to the front of Known.
-  auto known = this->Known.begin();
-  auto kept = this->Known.begin();
+  std::size_t known = 0;
+  std::size_t kept = 0;
+  const auto keep = [&](std::size_t k)
+  {
+    this->Known[kept] = this->Known[k];
+    this->Positions[kept] = this->Positions[k];
+    ++kept;
+  };
   const auto keepBefore = [&](VertexId end)
   {
-    for (; known != this->Known.end() && known->first < end; ++known)
+    for (; known < this->Known.size() && this->Known[known] < end; ++known)
     {
-      if (this->Source.GetVertex(known->first).Alive)
+      if (this->Source.GetVertex(this->Known[known]).Alive)
       {
-        *kept++ = *known;
+        keep(known);
       }
       else
       {
-        changes.Gone.push_back(known->second);
+        changes.Gone.push_back(this->Positions[known]);
       }
     }
   };
@@ -187,26 +204,28 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
     keepBefore(v);
     const Point<D>& position = this->Source.Position(v);
     const bool isOn = this->IsOnInterface(v, star);
-    const bool wasKnown = known != this->Known.end() && known->first == v;
-    const bool isSame = isOn && wasKnown && known->second == position; // ids are reused
+    const bool wasKnown = known < this->Known.size() && this->Known[known] == v;
+    const bool isSame = isOn && wasKnown && this->Positions[known] == position; // ids are reused
     if (wasKnown && !isSame)
     {
-      changes.Gone.push_back(known->second);
+      changes.Gone.push_back(this->Positions[known]);
     }
     if (isSame)
     {
-      *kept++ = *known;
+      keep(known);
     }
     if (isOn && !isSame)
     {
-      fresh.emplace_back(v, position);
-      changes.Added.push_back(position);
+      fresh.push_back(v);
+      this->LastAdded.push_back(position);
     }
     known += wasKnown ? 1 : 0;
   }
   keepBefore(None);
-  this->Known.erase(kept, this->Known.end());
-  MergeInto(this->Known, fresh);
+  this->Known.resize(kept);
+  this->Positions.resize(kept);
+  MergeInto(this->Known, this->Positions, fresh, this->LastAdded);
+  changes.Added = this->LastAdded;
   return changes;
 }
 

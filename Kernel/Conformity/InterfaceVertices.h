@@ -11,6 +11,7 @@
 #include "Domain/Domain.h"
 
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -31,7 +32,7 @@ public:
   /** Positions, each in the order of the vertices' ids. */
   struct Changes
   {
-    std::vector<Point<D>> Added;
+    std::span<const Point<D>> Added; ///< valid until the next call
     std::vector<Point<D>> Gone;
   };
 
@@ -58,7 +59,6 @@ public:
   void Forget();
 
 private:
-  using Entry = std::pair<VertexId, Point<D>>;
   static constexpr std::uint16_t NotKnown = 0xffff;
 
   Changes FindAll();
@@ -76,7 +76,9 @@ private:
   const std::stop_token Stop;
   /** GenerationOf() every simplex at the last call. Few reach NotKnown; they count as new each time. */
   std::vector<std::uint16_t> Seen;
-  std::vector<Entry> Known; ///< interface vertices at the last call, by increasing id
+  std::vector<VertexId> Known;     ///< interface vertices at the last call, ascending
+  std::vector<Point<D>> Positions; ///< of these
+  std::vector<Point<D>> LastAdded; ///< by a call that was not the first
 };
 
 extern template class InterfaceVertices<3>;

@@ -145,8 +145,10 @@ public:
     , Changes(triangulation.VertexIdEnd())
     , Entries(ridges.size())
   {
+    // Labels are copied for each part, so it must have many ridges.
+    const std::size_t fewest = std::max(FewestOfPart, labels.size() / SimplicesPerRidge);
     const std::size_t parts =
-      std::min<std::size_t>({ NumberOfThreads(threads), MostParts, ridges.size() / FewestOfPart });
+      std::min<std::size_t>({ NumberOfThreads(threads), MostParts, ridges.size() / fewest });
     if (parts > 1)
     {
       this->Parts.resize(parts);
@@ -191,6 +193,7 @@ private:
   /** A part has labels of its own, 2 bytes a simplex. */
   static constexpr std::size_t MostParts = 8;
   static constexpr std::size_t FewestOfPart = 32; ///< ridges; trying fewer is not worth a thread
+  static constexpr std::size_t SimplicesPerRidge = 5000; ///< at most, of all simplices and one part
 
   /** What a thread needs to try a part. */
   struct Part

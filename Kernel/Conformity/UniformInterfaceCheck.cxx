@@ -26,7 +26,7 @@ template <int D>
 class ThinningOut
 {
 public:
-  ThinningOut(const std::vector<Point<D>>& points, double distance)
+  ThinningOut(std::span<const Point<D>> points, double distance)
     : Points(points)
     , Distance(distance)
     , Kept(Point<D>{}, distance, points.size())
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  const std::vector<Point<D>>& Points;
+  const std::span<const Point<D>> Points;
   const double Distance;
   FeatureGrid<D> Kept;
   std::size_t Looked = 0;
@@ -164,7 +164,7 @@ void UniformInterfaceCheck<D>::ClearVoxelsNear(
 //------------------------------------------------------------------------------------------------
 template <int D>
 std::vector<VoxelFace<D>> UniformInterfaceCheck<D>::FindAllFar(
-  const std::vector<Point<D>>& vertices) const
+  std::span<const Point<D>> vertices) const
 {
   BitMask<D> voxels = this->Sites;
   if (this->NearVoxel > 0.0)

@@ -12,6 +12,7 @@
 #include "Refinement/FeatureGrid.h"
 
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -88,7 +89,7 @@ private:
 
   double LargestDistanceOf(const VoxelFace<D>& face, const Point<D>& centre) const;
   bool IsFar(const VoxelFace<D>& face, Hint& known) const;
-  std::vector<VoxelFace<D>> FindAllFar(const std::vector<Point<D>>& vertices) const;
+  std::vector<VoxelFace<D>> FindAllFar(std::span<const Point<D>> vertices) const;
   std::vector<VoxelFace<D>> FindFarAgain(const std::vector<Point<D>>& gone) const;
   void ClearVoxelsNear(const Point<D>& p, BitMask<D>& voxels) const;
   void ClearVoxelsNear(

@@ -274,6 +274,8 @@ private:
   void WriteFacets()
   {
     const std::size_t facets = this->FacetCounts.TurnIntoPlaces();
+    this->Mesh.Facets.reserve(facets + N * this->Spare);
+    this->Mesh.FacetLabels.reserve(facets + N * this->Spare);
     this->Mesh.Facets.resize(facets);
     this->Mesh.FacetLabels.resize(facets);
     this->ForChunks(this->NumberOfSimplices,

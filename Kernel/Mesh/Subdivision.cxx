@@ -288,13 +288,26 @@ private:
         v.begin(), v.end(), [this](std::uint32_t p) { return this->IsTouched(p); });
     };
     SimplexMesh<D> part;
-    part.Points.resize(this->Mesh.Points.size()); // only their number is needed
+    std::vector<std::uint32_t>
+      points; // of the part, ascending, so that its numbers have the same order
     for (std::size_t t = 0; t < this->Mesh.Simplices.size(); ++t)
     {
       if (touchedOf(this->Mesh.Simplices[t]) >= D)
       {
         part.Simplices.push_back(this->Mesh.Simplices[t]);
         part.Labels.push_back(this->Mesh.Labels[t]);
+        points.insert(points.end(), part.Simplices.back().begin(), part.Simplices.back().end());
+      }
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    part.Points.resize(points.size()); // only their number is needed
+    for (auto& simplex : part.Simplices)
+    {
+      for (std::uint32_t& v : simplex)
+      {
+        v = static_cast<std::uint32_t>(
+          std::lower_bound(points.begin(), points.end(), v) - points.begin());
       }
     }
     FindInterfaces<D>(part, threads, stop);
@@ -312,9 +325,12 @@ private:
     this->Mesh.FacetLabels.resize(kept);
     for (std::size_t f = 0; f < part.Facets.size(); ++f)
     {
-      if (touchedOf(part.Facets[f]) == D)
+      auto facet = part.Facets[f];
+      std::transform(
+        facet.begin(), facet.end(), facet.begin(), [&](std::uint32_t v) { return points[v]; });
+      if (touchedOf(facet) == D)
       {
-        this->Mesh.Facets.push_back(part.Facets[f]);
+        this->Mesh.Facets.push_back(facet);
         this->Mesh.FacetLabels.push_back(part.FacetLabels[f]);
       }
     }

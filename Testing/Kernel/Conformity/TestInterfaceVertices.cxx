@@ -38,7 +38,7 @@ std::set<Point<3>> VerticesOfFacets(const RefinementContext<3>& refined, const D
   return vertices;
 }
 
-std::set<Point<3>> AsSet(const std::vector<Point<3>>& points)
+std::set<Point<3>> AsSet(std::span<const Point<3>> points)
 {
   const std::set<Point<3>> set(points.begin(), points.end());
   EXPECT_EQ(set.size(), points.size());
