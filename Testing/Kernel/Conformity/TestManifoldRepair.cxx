@@ -12,7 +12,6 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <random>
 
 using namespace voxplex;
 using namespace voxplex::checks;
@@ -24,11 +23,7 @@ namespace
 struct RefinedBlobs
 {
   explicit RefinedBlobs(unsigned seed)
-    : RefinedBlobs(Blobs(seed))
-  {
-  }
-  explicit RefinedBlobs(const LabelImage<3>& image)
-    : Image(image)
+    : Image(Blobs(seed))
     , Surfaces(this->Image, 1.0)
     , Context(Refined(this->Surfaces, 3.0))
     , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
@@ -415,44 +410,6 @@ TEST(ManifoldRepair, TellsWhatIsLeft)
     }
   }
   EXPECT_GT(left, 5u); // where some were mended, but not all
-}
-
-// Cubes of random labels. There are enough bad edges for each of the threads to have many, and neighbours that another
-// thread changes.
-TEST(ManifoldRepair, DoesNotDependOnThreads)
-{
-  constexpr std::size_t Size = 64;
-  std::mt19937 generator(1);
-  std::vector<std::uint8_t> cubes(Size * Size * Size / 64);
-  std::generate(
-    cubes.begin(), cubes.end(), [&] { return static_cast<std::uint8_t>(generator() % 4); });
-  std::vector<std::uint8_t> labels;
-  for (std::size_t k = 0; k < Size; ++k)
-  {
-    for (std::size_t j = 0; j < Size; ++j)
-    {
-      for (std::size_t i = 0; i < Size; ++i)
-      {
-        labels.push_back(cubes[i / 4 + Size / 4 * (j / 4 + Size / 4 * (k / 4))]);
-      }
-    }
-  }
-  const auto image = LabelImage<3>::FromScalars<std::uint8_t>(
-    labels, GridGeometry<3>::Orthogonal({ Size, Size, Size }, { 1.0, 1.0, 1.0 }));
-  RefinedBlobs one(image);
-  const SimplexLabels before = one.Labels;
-  const ManifoldRepairResult<3> result = one.Repair({});
-  EXPECT_GT(result.Before, 600u);
-  EXPECT_GT(result.Relabelled.size(), 300u);
-  for (const unsigned threads : { 2u, 3u, 8u })
-  {
-    SimplexLabels repaired = before;
-    const ManifoldRepairResult<3> same =
-      RepairManifold<3>(one.Context->Mesh, repaired, {}, threads);
-    EXPECT_EQ(repaired, one.Labels) << threads;
-    EXPECT_EQ(same.Relabelled, result.Relabelled) << threads;
-    EXPECT_EQ(same.Left.size(), result.Left.size()) << threads;
-  }
 }
 
 TEST(ManifoldRepair, CanBeCancelled)

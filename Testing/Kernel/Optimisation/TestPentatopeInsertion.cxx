@@ -5,7 +5,6 @@
 #include "MeshChecks.h"
 #include "Optimisation/PentatopeFlips.h"
 #include "Optimisation/PentatopeInsertion.h"
-#include "Optimisation/PentatopeOptimiser.h"
 #include "PentatopeCases.h"
 
 #include <gtest/gtest.h>
@@ -134,26 +133,6 @@ TEST(PentatopeInsertion, BreaksNoMoreBoundsThanBefore)
   }
   EXPECT_EQ(made, 40);
   EXPECT_GT(broken, 0);
-}
-
-// Threads find insertions side by side, also where cavities overlap.
-TEST(PentatopeInsertion, DoesNotDependOnThreads)
-{
-  const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::OpeningTube(), 2.0));
-  const ImageDomain<4> domain(image, 1.0);
-  const SimplexMesh<4> before = Mesh(image, UsualOptions(4.0), false).Mesh;
-  PentatopeBounds bounds;
-  bounds.Target = 0.12; // so that there are many
-  SimplexMesh<4> first = before;
-  const PentatopeStatistics done = OptimisePentatopes(first, {}, domain, image, bounds, 1, {});
-  EXPECT_GT(done.Insertions, 20u);
-  for (const unsigned threads : { 2u, 3u, 8u })
-  {
-    SimplexMesh<4> mesh = before;
-    EXPECT_EQ(
-      OptimisePentatopes(mesh, {}, domain, image, bounds, threads, {}).Insertions, done.Insertions);
-    ExpectSame(mesh, first);
-  }
 }
 
 // Flips and insertions change stars, and vertices are new.

@@ -319,20 +319,6 @@ TEST(PentatopeOptimiser, MovesTwinsTogether)
   }
 }
 
-TEST(PentatopeOptimiser, DoesNotDependOnThreads)
-{
-  const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
-  MeshingOptions<4> options = UsualOptions(2.5);
-  options.Team.Reproducible = true;
-  const Result first = Mesh(image, options, true);
-  EXPECT_GT(first.Statistics.Optimisation.PoorBefore, first.Statistics.Optimisation.PoorAfter);
-  for (const unsigned threads : { 2u, 3u, 8u })
-  {
-    options.Team.Threads = threads;
-    ExpectSame(Mesh(image, options, true).Mesh, first.Mesh);
-  }
-}
-
 // Moves must not make the mesh overlap itself where a gap is thin: the pentatopes outside stay positive.
 TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
 {
