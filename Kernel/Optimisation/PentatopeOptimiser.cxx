@@ -34,9 +34,13 @@ constexpr double WorthAnotherPass = 0.9;
 /** Insertions, each followed by passes. */
 constexpr unsigned InsertionRounds = 3;
 
-/** A round looks at this number of the worst pentatopes, and at one more for so many others. */
-constexpr std::size_t MostOfRound = 16;
+/**
+ * A round looks at this number of the worst pentatopes, and at one more for so many others, but at no more than that:
+ * noise may leave tens of thousands, and each may take milliseconds.
+ */
+constexpr std::size_t FewestOfRound = 16;
 constexpr std::size_t PentatopesPerPoor = 500;
+constexpr std::size_t MostOfRound = 1000;
 
 /** Rounds that move what is around poor pentatopes, each followed by passes; and their target, in targets. */
 constexpr unsigned RoomRounds = 8;
@@ -94,7 +98,10 @@ public:
     {
       this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
     }
-    for (unsigned round = 0; round < RoomRounds && !this->Poor.empty(); ++round)
+    // Of many poor pentatopes most would stay.
+    for (unsigned round = 0;
+         round < RoomRounds && !this->Poor.empty() && this->Worst().size() == this->Poor.size();
+         ++round)
     {
       this->MakeRoom();
       this->RunPasses(this->Bounds.Target, LoosePasses, 1.0);
@@ -160,8 +167,8 @@ private:
   /** Of the poor pentatopes those that a round looks at. */
   std::span<const std::uint32_t> Worst() const
   {
-    const std::size_t most = MostOfRound + this->Complex.NumberOfPentatopes() / PentatopesPerPoor;
-    return std::span(this->Poor).first(std::min(most, this->Poor.size()));
+    const std::size_t most = FewestOfRound + this->Complex.NumberOfPentatopes() / PentatopesPerPoor;
+    return std::span(this->Poor).first(std::min({ most, MostOfRound, this->Poor.size() }));
   }
 
   double Smallest() const
