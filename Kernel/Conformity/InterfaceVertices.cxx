@@ -17,31 +17,31 @@ namespace
 constexpr std::size_t Grain = 4096;
 
 /**
- * Inserts more ids, and what belongs to them, where they belong. Both lists are ascending.
+ * Inserts more ids, and their positions, where they belong. Both lists are ascending.
  * @param more becomes empty
  */
-template <typename Value>
-void MergeInto(std::vector<VertexId>& ids, std::vector<Value>& values, std::vector<VertexId>& more,
-  const std::vector<Value>& moreValues)
+template <int D>
+void MergeInto(std::vector<VertexId>& ids, std::vector<Point<D>>& positions,
+  std::vector<VertexId>& more, const std::vector<Point<D>>& morePositions)
 {
   auto from = ids.size();
   auto to = from + more.size();
   ids.reserve(to); // not twice as much
   ids.resize(to);
-  values.reserve(to);
-  values.resize(to);
+  positions.reserve(to);
+  positions.resize(to);
   while (!more.empty())
   {
     --to;
     if (from > 0 && more.back() < ids[from - 1])
     {
       ids[to] = ids[--from];
-      values[to] = values[from];
+      positions[to] = positions[from];
     }
     else
     {
       ids[to] = more.back();
-      values[to] = moreValues[more.size() - 1];
+      positions[to] = morePositions[more.size() - 1];
       more.pop_back();
     }
   }
@@ -170,8 +170,7 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
 {
   const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
   std::vector<SimplexId> star;
-  std::vector<VertexId>
-    fresh; // vertices that are not yet in Known; their positions are in LastAdded
+  std::vector<VertexId> fresh; // not yet in Known; their positions are in LastAdded
   this->LastAdded.clear();
   Changes changes;
   // Only the stars of the candidates have changed. Some other vertices may have been removed. What
@@ -224,7 +223,7 @@ auto InterfaceVertices<D>::FindChanges() -> Changes
   keepBefore(None);
   this->Known.resize(kept);
   this->Positions.resize(kept);
-  MergeInto(this->Known, this->Positions, fresh, this->LastAdded);
+  MergeInto<D>(this->Known, this->Positions, fresh, this->LastAdded);
   changes.Added = this->LastAdded;
   return changes;
 }

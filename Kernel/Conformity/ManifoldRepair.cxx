@@ -292,7 +292,7 @@ private:
           part.Labels[t] = entry.Proposed.Best->Label;
           part.Relabelled.push_back(t);
         }
-        this->Stamp(part.Tried, entry.Proposed.Best);
+        this->Stamp(part.Tried, entry.Proposed.Best, this->Pass);
       }
     }
   }
@@ -312,7 +312,7 @@ private:
       isKnown = isTried && tried == entry.Proposed.Best;
       if (isTried && !isKnown)
       {
-        this->Stamp(entry.TriedBy->Surprises, tried);
+        this->Stamp(entry.TriedBy->Surprises, tried, this->Pass);
       }
     }
     entry.Time = this->Time;
@@ -326,21 +326,21 @@ private:
       this->Labels[t] = entry.Proposed.Best->Label;
       this->Relabelled.push_back(t);
     }
-    this->Stamp(this->Changes, entry.Proposed.Best);
+    this->Stamp(this->Changes, entry.Proposed.Best, this->Time);
     for (const std::unique_ptr<Part>& part : this->Parts)
     {
       if (!isKnown || part.get() != entry.TriedBy)
       {
-        this->Stamp(part->Surprises, entry.Proposed.Best);
+        this->Stamp(part->Surprises, entry.Proposed.Best, this->Pass);
       }
     }
   }
 
-  void Stamp(ChangeStamps& stamps, const std::optional<Change>& change) const
+  void Stamp(ChangeStamps& stamps, const std::optional<Change>& change, std::uint32_t time) const
   {
     for (const SimplexId t : change ? change->Cells : std::vector<SimplexId>())
     {
-      stamps.Set(this->Source.GetSimplex(t).V, &stamps == &this->Changes ? this->Time : this->Pass);
+      stamps.Set(this->Source.GetSimplex(t).V, time);
     }
   }
 

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <random>
 #include <set>
+#include <span>
 #include <vector>
 
 using namespace voxplex;
