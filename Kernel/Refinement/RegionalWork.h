@@ -27,7 +27,7 @@ namespace voxplex
 enum class Yielding : unsigned
 {
   Nothing,
-  Slivers, ///< slivers stay
+  Slivers, ///< slivers stay, and R5 of 4D inserts centres of surface balls only
   Spacing, ///< points inserted for the sake of facets keep half the spacing instead of a tenth
   All      ///< only R1 inserts points, and nothing is removed
 };

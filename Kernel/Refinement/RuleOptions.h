@@ -71,7 +71,7 @@ inline constexpr double LargestSliverBound = 0.03;
 struct SliverOptions
 {
   bool Fight = true;
-  /** zeta: radius of picking regions over that of the ball, 0 to 1. */
+  /** zeta: radius of picking regions over that of the ball, 0 to 1; R5 takes 0.5 at most. */
   double PickingRadius = 0.5;
   /** b: a new sliver is small if its circumradius is below this times the radius of the ball. */
   double RadiusFactor = 4.0;

@@ -249,7 +249,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
     ++this->Worker.Statistics.RefusedTooClose;
     return RuleOutcome::Good;
   }
-  return this->Context.Settings.SpaceTime.Slivers.Fight
+  return this->Context.Settings.SpaceTime.Slivers.Fight && step == Yielding::Nothing
     ? this->InsertFeaturePick(z, delta, clearance, s, other)
     : this->InsertFeature(z, delta, clearance, s.Id, other, fired);
 }
@@ -267,6 +267,7 @@ RuleOutcome Rules4D::InsertFeaturePick(
   const auto shared = std::find_if(
     v.begin(), v.end(), [&w](VertexId x) { return std::find(w.begin(), w.end(), x) != w.end(); });
   const double radius = Distance(z, mesh.Position(*shared));
+  const double reach = std::min(options.PickingRadius, LargestInterfacePick) * radius;
   PseudoRandom<4> random(options.Seed, z);
   BestPick veto(this->Context, radius, z);
   return InsertPick(
@@ -274,11 +275,11 @@ RuleOutcome Rules4D::InsertFeaturePick(
     [&](Point<4>& p)
     {
       Point<4> onEnd;
-      const Point<4> q = random.InBall(z, options.PickingRadius * radius);
+      const Point<4> q = random.InBall(z, reach);
       ++this->Worker.Statistics.ClosestSurfacePointCalls;
       return this->Context.Image.ClosestSurfacePoint(q, this->Context.Image.Label(q), p) &&
-        Distance(p, z) < options.PickingRadius * radius &&
-        !this->Context.IsNearEnd(p, delta, onEnd) && !this->AnyFeatureWithin(p, clearance);
+        Distance(p, z) < reach && !this->Context.IsNearEnd(p, delta, onEnd) &&
+        !this->AnyFeatureWithin(p, clearance);
     },
     [&](const Point<4>& p)
     {

@@ -14,11 +14,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,19 @@ double SmallestNormalizedVolume(const SimplexMesh<4>& mesh)
     smallest = std::min(smallest, NormalizedVolumeOf(mesh, s));
   }
   return smallest;
+}
+
+/** Every voxel has one of the labels 1, 2 and so on, by chance. */
+LabelImage<4> Noise(const std::array<std::int64_t, 4>& n, unsigned labels)
+{
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]));
+  std::mt19937 random(1);
+  for (std::uint8_t& value : values)
+  {
+    value = static_cast<std::uint8_t>(random() % labels + 1);
+  }
+  return LabelImage<4>::FromScalars<std::uint8_t>(
+    values, GridGeometry<4>::Orthogonal(n, { 0.5, 0.5, 2.0, 6.0 }));
 }
 
 SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::uint64_t seed,
@@ -154,6 +169,29 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
       ASSERT_LT(RadiusEdge(mesh, s), 2.0 + 1e-9);
     }
   }
+}
+
+// Large picking regions of facets let R3 and R5 answer each other, with many times the points.
+TEST(SpaceTimeRefinement, LargePickingRegionsTakeFewPoints)
+{
+  const LabelImage<4> image = Noise({ 5, 6, 6, 3 }, 4);
+  std::array<std::uint64_t, 2> insertions{};
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    MeshingOptions<4> options = SpaceTimeOptions(4.0);
+    options.Components.Smallest = 1;
+    options.SpaceTime.Order = RuleOrder::SurfaceFirst;
+    options.SpaceTime.Slivers.Fight = true;
+    options.SpaceTime.Slivers.VolumeBound = 0.028;
+    options.SpaceTime.Slivers.PickingRadius = k == 0 ? 0.5 : 0.9;
+    options.Optimisation.Run = false;
+    ImageMesher<4> mesher(options);
+    SimplexMesh<4> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    insertions[k] = mesher.Statistics().Rules.Insertions();
+    EXPECT_TRUE(mesher.Statistics().Yielding.empty());
+  }
+  EXPECT_LT(insertions[1], 2 * insertions[0]);
 }
 
 TEST(SpaceTimeRefinement, PickingRegionsFollowTheSeed)
