@@ -33,13 +33,18 @@ struct Box
     return true;
   }
 
-  /** The point of the box closest to p. A coordinate outside is set exactly to that of the box. */
-  Point<D> Clamp(const Point<D>& p) const
+  /**
+   * The point of the box closest to p. A coordinate outside, or inside but nearer to a face than the margin, is set
+   * exactly to that of the face.
+   */
+  Point<D> Clamp(const Point<D>& p, double margin = 0.0) const
   {
     Point<D> q = p;
     for (std::size_t i = 0; i < D; ++i)
     {
-      q[i] = p[i] < this->Min[i] ? this->Min[i] : p[i] > this->Max[i] ? this->Max[i] : p[i];
+      q[i] = p[i] < this->Min[i] + margin ? this->Min[i]
+        : p[i] > this->Max[i] - margin    ? this->Max[i]
+                                          : p[i];
     }
     return q;
   }

@@ -39,8 +39,8 @@
  * (SlabRefinement). For R3, R4, R5 and the size rule this label counts, not that of c(s). The dual edges of its
  * facets lead from the centre of its facet on the plane to c(s), and on.
  *
- * **Slivers** are pentatopes here. The shape of their faces does not count. A face that is a sliver makes
- * the pentatopes around it slivers, too, or is harmless.
+ * **Slivers** are pentatopes here. No face has a smaller normalized volume than its pentatope
+ * (Algorithm.md), so a pentatope that is no sliver has none among its faces.
  *
  * **Termination** for every input, as in Rules3D. Feature vertices stay, and none is inserted
  * nearer than the spacing floor to another, so R1 and R5 fire finitely often. Between two of them

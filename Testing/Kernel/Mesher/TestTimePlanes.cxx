@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Space-time meshes that conform to time planes, and periodic ones.
 #include "Base/Error.h"
+#include "CallableSize.h"
 #include "SlabChecks.h"
 #include "SpaceTimeCases.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
@@ -298,6 +300,28 @@ TEST(TimePlanes, AFlatSlabAtTheBeginningTakesFewPoints)
   const Result result = MeshOf(image, options);
   EXPECT_FALSE(result.Mesh.Simplices.empty());
   EXPECT_LT(result.Statistics.Rules.Insertions(), 3000u);
+  EXPECT_TRUE(result.Statistics.Yielding.empty());
+}
+
+// A circumcentre lay 1e-14 inside of a face of the box. Rounding made the balls of the flat pentatopes beside it meet the
+// interface, and R2 covered the face: 6,775 points.
+TEST(TimePlanes, PointsNextToAFaceOfTheBoxAreMovedOntoIt)
+{
+  const double voxel = 20.535581761938751;
+  const double frame = 1360.4283379679866;
+  const LabelImage<4> image =
+    ImageOfVoxels(GridGeometry<4>::Orthogonal({ 6, 3, 8, 2 }, { voxel, voxel, voxel, frame }),
+      { { 0, 0, 6, 0 }, { 0, 0, 6, 1 } }, 1);
+  MeshingOptions<4> options = WithPlanes(0.0, {});
+  options.Planes.Periodic = true;
+  options.SmoothingSigma = 0.0;
+  options.Sampling.Size = std::make_shared<CallableSizeOf<4>>(
+    [](const Point<4>&, std::int64_t) { return 45.419866406846104; });
+  options.Shape.RadiusEdgeRatio = 3.632;
+  options.Interfaces.Fit = false;
+  const Result result = MeshOf(image, options);
+  EXPECT_FALSE(result.Mesh.Simplices.empty());
+  EXPECT_LT(result.Statistics.Rules.Insertions(), 1000u);
   EXPECT_TRUE(result.Statistics.Yielding.empty());
 }
 
