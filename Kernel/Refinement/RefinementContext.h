@@ -42,6 +42,9 @@ constexpr double FacetClearance(double spacing, Yielding step)
 /** A feature point nearer to a flat end than this, in delta, is moved onto it. */
 inline constexpr double EndMargin = 0.8;
 
+/** A feature point nearer to a flat end than this, in delta, is on it but for rounding. */
+inline constexpr double NextToEnd = 1e-6;
+
 /** Parameters of the rules, in the unit of length of the mesher's frame. */
 template <int D>
 struct RefinementSettings
@@ -93,6 +96,19 @@ struct RefinementContext
     onEnd[Time] = this->NearestFlatEnd(z[Time]);
     const double distance = std::abs(z[Time] - onEnd[Time]);
     return distance > 0.0 && distance < EndMargin * delta;
+  }
+
+  /**
+   * z, or its projection onto a flat end if it is so near that a vertex there would make pentatopes without a volume.
+   * Interfaces along an end lie there up to rounding.
+   */
+  Point<D> OnEndIfNextTo(const Point<D>& z, double delta) const
+  {
+    constexpr std::size_t Time = static_cast<std::size_t>(D) - 1;
+    Point<D> onEnd;
+    const bool isNext =
+      this->IsNearEnd(z, delta, onEnd) && std::abs(z[Time] - onEnd[Time]) < NextToEnd * delta;
+    return isNext ? onEnd : z;
   }
 
   /**

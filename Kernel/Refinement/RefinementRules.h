@@ -298,8 +298,9 @@ protected:
     return verdict == RuleOutcome::Good ? this->R2(t, delta) : verdict;
   }
 
-  RuleOutcome R1(const Element& t, const Point<D>& z, double delta)
+  RuleOutcome R1(const Element& t, const Point<D>& closest, double delta)
   {
+    const Point<D> z = this->Context.OnEndIfNextTo(closest, delta);
     if (this->FeatureVertexNear(t, z, delta))
     {
       return RuleOutcome::Good;

@@ -223,9 +223,10 @@ RuleOutcome Rules4D::R5(const Element& s, const std::optional<Point<4>>& onPlane
 //------------------------------------------------------------------------------------------------
 // Inserts a feature point at the centre of the surface ball of a facet, or near it.
 RuleOutcome Rules4D::InsertFeatureAt(
-  const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther)
+  const Point<4>& crossing, const Element& s, SimplexId other, LabelId labelOfOther)
 {
-  const double delta = this->Context.Sizing.SamplingDistance(z, s.LabelInMesh, labelOfOther);
+  const double delta = this->Context.Sizing.SamplingDistance(crossing, s.LabelInMesh, labelOfOther);
+  const Point<4> z = this->Context.OnEndIfNextTo(crossing, delta);
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
   const Yielding step = this->YieldingAt(z, spacing);
   if (step == Yielding::All)

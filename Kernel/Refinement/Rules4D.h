@@ -110,7 +110,7 @@ private:
   RuleOutcome R4(const Element& s);
   RuleOutcome R5(const Element& s, const std::optional<Point<4>>& onPlane);
   RuleOutcome InsertFeatureAt(
-    const Point<4>& z, const Element& s, SimplexId other, LabelId labelOfOther);
+    const Point<4>& crossing, const Element& s, SimplexId other, LabelId labelOfOther);
   RuleOutcome InsertFeaturePick(
     const Point<4>& z, double delta, double clearance, const Element& s, SimplexId other);
   bool FacetIsGood(const std::array<VertexId, 5>& v, unsigned facet) const;

@@ -325,6 +325,36 @@ TEST(TimePlanes, PointsNextToAFaceOfTheBoxAreMovedOntoIt)
   EXPECT_TRUE(result.Statistics.Yielding.empty());
 }
 
+// The closest point of an interface lay on a plane, and was one bit beside it. Its pentatopes had no volume.
+TEST(TimePlanes, FeaturePointsOnPlanesAreExactlyThere)
+{
+  const double frame = 0.43664573019466985;
+  const GridGeometry<4> grid = GridGeometry<4>::Orthogonal(
+    { 8, 4, 2, 5 }, { 1.1908350403630583, 1.3419092246714037, 1.3803457941103172, frame });
+  std::vector<std::uint8_t> values(8 * 4 * 2 * 5, 0);
+  const std::vector<std::array<std::size_t, 5>> voxels = { { 0, 0, 0, 0, 1 }, { 7, 2, 0, 0, 1 },
+    { 7, 1, 0, 1, 1 }, { 7, 0, 0, 2, 1 }, { 1, 0, 0, 3, 2 }, { 0, 0, 0, 4, 2 }, { 0, 1, 1, 4, 2 } };
+  for (const auto& v : voxels)
+  {
+    values[v[0] + 8 * (v[1] + 4 * (v[2] + 2 * v[3]))] = static_cast<std::uint8_t>(v[4]);
+  }
+  MeshingOptions<4> options = WithPlanes(0.36515245651547584, { 0.0, frame, 3.0 * frame });
+  options.SmoothingSigma = 1.4580878140394968;
+  options.FrameSteps = 3;
+  options.Sampling.Size =
+    std::make_shared<CallableSizeOf<4>>([](const Point<4>& p, std::int64_t label)
+      { return label == 2 ? 3.7737989278716904 + 0.44577933495228039 * std::abs(p[0]) : 0.0; });
+  const Result result = MeshOf(LabelImage<4>::FromScalars<std::uint8_t>(values, grid), options);
+  ASSERT_FALSE(result.Mesh.Simplices.empty());
+  for (const Point<4>& p : result.Mesh.Points)
+  {
+    for (const double time : result.Statistics.Planes.Times)
+    {
+      EXPECT_TRUE(p[3] == time || std::abs(p[3] - time) > 1e-9) << p[3] - time;
+    }
+  }
+}
+
 TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
 {
   // Begins and ends with motion, so both ends are equal only if the smoothing wraps.
