@@ -424,7 +424,8 @@ protected:
   /** Moves p into the box, onto a face next to it, and onto a flat end if p itself is that near or beyond it. */
   Place PlaceOf(const Point<D>& p, double margin) const
   {
-    const Point<D> inBox = this->Context.Mesh.GetBox().Clamp(p, FaceMargin * margin);
+    const Point<D> inBox =
+      this->Context.Mesh.GetBox().Clamp(p, FaceMargin * this->Context.Sizing.SpacingFloor());
     const bool moved = inBox != p;
     Place place{ inBox, moved ? VertexKind::Box : VertexKind::Free, moved, false };
     double& time = place.Position[static_cast<std::size_t>(D) - 1];
@@ -523,8 +524,8 @@ protected:
   // each other as long as there is room, and elements of ratio 15 remain.
   /** A circumcentre nearer to a flat end than this, in circumradii, is moved onto it. */
   static constexpr double CentreMargin = 0.5;
-  /** In margins. A point nearer to a face of the box makes balls so large that rounding tells what they meet. */
-  static constexpr double FaceMargin = 1e-6;
+  /** In spacing floors. Points nearer to a face of the box make balls so large that rounding tells what they meet. */
+  static constexpr double FaceMargin = 1e-5;
   /**
    * A point on an end that is nearer to an interface than this, in delta, is moved onto the
    * interface.

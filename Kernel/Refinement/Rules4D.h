@@ -94,7 +94,7 @@ private:
   /**
    * Upper bound of zeta in R5. The surface ball of a facet is empty, so a point of the picking
    * region is at least half of its radius from all vertices. Points nearer to them make bad ratios;
-   * then R3 and R5 answer each other: in noise of four labels zeta = 0.9 took 12 times the points.
+   * then R3 and R5 answer each other: in noise of four labels zeta = 0.9 took 8 times the points.
    */
   static constexpr double LargestInterfacePick = 0.5;
   /**

@@ -59,6 +59,17 @@ LabelImage<4> Noise(const std::array<std::int64_t, 4>& n, unsigned labels)
     values, GridGeometry<4>::Orthogonal(n, { 0.5, 0.5, 2.0, 6.0 }));
 }
 
+/** Shows where points that must keep off the faces of the box are inserted. */
+class Placing : public Rules4D
+{
+public:
+  using Rules4D::Rules4D;
+  Point<4> At(const Point<4>& p, double radius) const
+  {
+    return this->PlaceOf(p, CentreMargin * radius).Position;
+  }
+};
+
 SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::uint64_t seed,
   unsigned threads = 1, RuleOrder order = RuleOrder::RadiusEdgeFirst)
 {
@@ -133,6 +144,26 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
       EXPECT_NEAR(Volumes(mesh)[5], volume, 0.15 * volume); // chords
     }
   }
+}
+
+TEST(SpaceTimeRefinement, PointsGoToTheNearestPlaceInTheBox)
+{
+  const BallDomainOf<4> ball(5.0);
+  RefinementSettings<4> settings;
+  settings.Sizing.Base = { 1.4 };
+  const Box<4> box = Around(ball, 1.4);
+  RefinementContext<4> context(ball, settings, box, 1000);
+  RefinementWorker<4> worker(context);
+  const Placing place(context, worker);
+  const Point<4> inside = { 1.0, 2.0, -3.0, 0.5 };
+  Point<4> p = inside;
+  EXPECT_EQ(place.At(p, 1e18), inside);
+  p[2] = std::nextafter(box.Min[2], 0.0);
+  Point<4> onFace = inside;
+  onFace[2] = box.Min[2];
+  EXPECT_EQ(place.At(p, 3.0), onFace) << "next to a face";
+  p[2] = -1e18; // the centre of a huge ball
+  EXPECT_EQ(place.At(p, 1e18), onFace) << "not in a corner";
 }
 
 TEST(SpaceTimeRefinement, PickingRegionsLeaveNoSlivers)
