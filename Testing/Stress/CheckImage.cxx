@@ -139,7 +139,10 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The mesh is where the object is, to a voxel; its ends in time are those of the image. */
+/**
+ * The mesh is where the object is, to a voxel and what optimisation may move vertices; its ends in time
+ * are those of the image.
+ */
 template <int D>
 void CheckExtent(const Subject<D>& subject, Findings& findings)
 {
@@ -157,6 +160,7 @@ void CheckExtent(const Subject<D>& subject, Findings& findings)
         high[a] = std::max(high[a], voxel[a]);
       }
     });
+  const double tolerance = ToleranceOf(image, subject.Of.Options);
   std::uint64_t outside = 0;
   for (const Vector<D>& p : subject.Mesh.Points)
   {
@@ -164,9 +168,9 @@ void CheckExtent(const Subject<D>& subject, Findings& findings)
     for (std::size_t a = 0; a < low.size(); ++a)
     {
       const bool isTime = a == 3;
-      const double before = isTime && low[a] == 0 ? 1e-9 : 1.0 + SearchPrecision;
-      const double after =
-        isTime && high[a] + 1 == image.Dimensions[a] ? 1e-9 : 1.0 + SearchPrecision;
+      const double reach = 1.0 + SearchPrecision + tolerance / image.LayerDistance(a);
+      const double before = isTime && low[a] == 0 ? 1e-9 : reach;
+      const double after = isTime && high[a] + 1 == image.Dimensions[a] ? 1e-9 : reach;
       if (at[a] < static_cast<double>(low[a]) - before ||
         at[a] > static_cast<double>(high[a]) + after)
       {
