@@ -71,6 +71,14 @@ public:
     this->Bits[this->RowOf(index) * this->Words + x / 64] |= std::uint64_t{ 1 } << (x % 64);
   }
 
+  /** The bits of word w of a row that belong to the voxels from `first` to `last` of this row. */
+  static std::uint64_t RunInWord(std::int64_t first, std::int64_t last, std::int64_t w)
+  {
+    const std::int64_t low = std::max(first - 64 * w, std::int64_t{ 0 });
+    const std::int64_t high = std::min(last - 64 * w, std::int64_t{ 63 });
+    return low > high ? 0 : (~std::uint64_t{ 0 } >> (63 - (high - low))) << low;
+  }
+
   /**
    * Clears a run of voxels along the first axis. Several threads may clear any runs at the same
    * time. A thread sees the changes of other threads only after a synchronisation, such as the end
@@ -85,10 +93,7 @@ public:
     const auto words = this->Row(this->RowOf(first));
     for (std::int64_t w = first[0] / 64; 64 * w <= last; ++w)
     {
-      const std::int64_t low = std::max(first[0] - 64 * w, std::int64_t{ 0 });
-      const std::int64_t high = std::min(last - 64 * w, std::int64_t{ 63 });
-      const std::uint64_t bits =
-        low > high ? 0 : (~std::uint64_t{ 0 } >> (63 - (high - low))) << low;
+      const std::uint64_t bits = RunInWord(first[0], last, w);
       const std::atomic_ref<std::uint64_t> word(words[static_cast<std::size_t>(w)]);
       if ((word.load(std::memory_order_relaxed) & bits) != 0)
       {

@@ -27,6 +27,17 @@ struct Block
   Index Low;
   Index High;
 
+  /** The number of rows along the first axis. */
+  std::size_t NumberOfRows() const
+  {
+    std::size_t rows = 1;
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      rows *= static_cast<std::size_t>(this->High[a] - this->Low[a] + 1);
+    }
+    return rows;
+  }
+
   std::size_t LongestAxis() const
   {
     std::size_t longest = 0;
@@ -76,6 +87,11 @@ private:
   void Visit(const Block<D>& block, std::size_t first)
   {
     const std::size_t own = this->Reaching.size();
+    // Many balls may overlap where the image has no interface.
+    if (block.NumberOfRows() <= own - first && !this->HasSites(block))
+    {
+      return;
+    }
     const bool isWithinOne = this->KeepReaching(this->BoundsOf(block), first);
     const std::size_t axis = block.LongestAxis();
     if (this->Reaching.size() > own)
@@ -156,9 +172,10 @@ private:
     return false;
   }
 
-  void AddFacesOf(const Block<D>& block, std::size_t first)
+  /** Calls f for each site of the block until f returns false. */
+  template <typename Function>
+  void ForEachSite(const Block<D>& block, Function f) const
   {
-    ThrowIfStopped(this->Stop);
     Index voxel = block.Low;
     for (bool isInside = true; isInside; isInside = NextRow(voxel, block))
     {
@@ -168,18 +185,45 @@ private:
         ++c;
       }
       const auto words = this->Sites.Row(this->Sites.RowOf(inMask));
-      for (std::int64_t w = (block.Low[0] + 1) / 64; 64 * w <= block.High[0] + 1; ++w)
+      const std::int64_t low = block.Low[0] + 1;
+      const std::int64_t high = block.High[0] + 1;
+      for (std::int64_t w = low / 64; 64 * w <= high; ++w)
       {
-        for (std::uint64_t bits = words[static_cast<std::size_t>(w)]; bits != 0; bits &= bits - 1)
+        std::uint64_t bits =
+          words[static_cast<std::size_t>(w)] & BitMask<D>::RunInWord(low, high, w);
+        for (; bits != 0; bits &= bits - 1)
         {
           voxel[0] = 64 * w + std::countr_zero(bits) - 1;
-          if (voxel[0] >= block.Low[0] && voxel[0] <= block.High[0])
+          if (!f(voxel))
           {
-            this->AddFacesOf(voxel, first);
+            return;
           }
         }
       }
     }
+  }
+
+  bool HasSites(const Block<D>& block) const
+  {
+    bool any = false;
+    this->ForEachSite(block,
+      [&](const Index&)
+      {
+        any = true;
+        return false;
+      });
+    return any;
+  }
+
+  void AddFacesOf(const Block<D>& block, std::size_t first)
+  {
+    ThrowIfStopped(this->Stop);
+    this->ForEachSite(block,
+      [&](const Index& voxel)
+      {
+        this->AddFacesOf(voxel, first);
+        return true;
+      });
   }
 
   /** Moves to the block's next row along the first axis. False if there is none. */
