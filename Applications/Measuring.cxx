@@ -137,7 +137,9 @@ std::string SummarizeMeasurement(const ordered_json& report)
        << " degrees off junctions, " << Rounded(quality["min_planar_at_junctions"], 1)
        << " at them\n  " << topology["junction_edges"] << " junction edges, " << topology["corners"]
        << " corners; " << topology["non_manifold_edges"] << " non-manifold edges, "
-       << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n";
+       << topology["non_manifold_edges_at_junctions"] << " of them at junctions\n"
+       << "  fragments of labels that are connected through faces: " << topology["fragments"]
+       << "\n";
   if (!image.is_null())
   {
     text << "  " << image["lost_labels"].size() << " labels and " << image["lost_components"].size()

@@ -270,7 +270,8 @@ public:
   ///@{
   /**
    * Sample the components that SmallestComponent selects as finely as their thickness requires, for
-   * any Delta. Default off: thin components are only as exact as Delta allows, and the number of
+   * any Delta; in 3D also as it takes to connect their tetrahedra through faces, unless
+   * InterfaceRounds is 0. Default off: thin components are only as exact as Delta allows, and the number of
    * elements falls as Delta grows.
    */
   vtkSetMacro(ExactComponents, bool);

@@ -124,8 +124,11 @@ Parameters Shapes()
       "get elements for every delta; in space-time so do those of each frame",
       { .Zero = "no guarantee" }),
     Flag("exact-components", 0, "off",
-      "sample these components as finely as their thickness requires, for every delta; otherwise "
-      "components that are thin compared with delta have few elements"),
+      "sample these components as finely as their thickness requires, for every delta, and in 3D "
+      "as it "
+      "takes to connect their elements through faces; otherwise components that are thin compared "
+      "with "
+      "delta have few elements"),
     Number(Kind::Real, "min-component-volume", 3, Positive, "", "VOLUME",
       "leave out connected components that are smaller, such as specks: they get the label around "
       "them",

@@ -21,6 +21,7 @@ struct LabelFigures
 {
   LabelComparison Comparison;
   LabelTopology Topology;
+  std::uint64_t Fragments = 0;
 };
 
 std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measurement)
@@ -35,6 +36,10 @@ std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measur
   for (const LabelTopology& topology : measurement.Topology.Labels)
   {
     labels[topology.Label].Topology = topology;
+  }
+  for (const auto& [label, number] : measurement.Fragments)
+  {
+    labels[label].Fragments = number;
   }
   if (measurement.Image)
   {
@@ -60,6 +65,7 @@ ordered_json LabelsToJson(const MeshMeasurement& measurement)
       one["image_volume"] = volume;
       one["volume_error"] = (figures.Comparison.Volume - volume) / volume;
     }
+    one["fragments"] = figures.Fragments;
     one["boundary_edges"] = figures.Topology.BoundaryEdges;
     one["non_manifold_edges"] = figures.Topology.NonManifoldEdges;
     one["non_manifold_edges_at_junctions"] = figures.Topology.NonManifoldEdgesAtJunctions;
@@ -68,9 +74,16 @@ ordered_json LabelsToJson(const MeshMeasurement& measurement)
   return labels;
 }
 
-ordered_json TopologyToJson(const InterfaceTopology& topology)
+ordered_json TopologyToJson(const MeshMeasurement& measurement)
 {
+  const InterfaceTopology& topology = measurement.Topology;
+  std::uint64_t fragments = 0;
+  for (const auto& [label, number] : measurement.Fragments)
+  {
+    fragments += number;
+  }
   return {
+    { "fragments", fragments },
     { "interface_edges", topology.InterfaceEdges },
     { "junction_edges", topology.JunctionEdges },
     { "junction_points", topology.JunctionPoints },
@@ -174,7 +187,7 @@ void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
 {
   json["labels"] = LabelsToJson(measurement);
   json["quality"] = QualityToJson(measurement.Quality);
-  json["topology"] = TopologyToJson(measurement.Topology);
+  json["topology"] = TopologyToJson(measurement);
   if (measurement.Image)
   {
     AddImage(json, *measurement.Image);

@@ -25,8 +25,9 @@ struct ComponentOptions
   std::int64_t Smallest = 8;
   /**
    * If true, the components that are checked are sampled as finely as their thickness requires from
-   * the start, however large delta is. If false, a component that is thin compared with delta is
-   * only as exact as delta allows, but has at least one element.
+   * the start, however large delta is. In 3D also as it takes to connect their elements through faces
+   * (FragmentCheck), unless InterfaceOptions::Rounds is 0. If false, a component that is thin compared
+   * with delta is only as exact as delta allows, but has at least one element.
    */
   bool Exact = false;
 };

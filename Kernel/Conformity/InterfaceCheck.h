@@ -37,7 +37,8 @@ namespace voxplex
  * InspectTriangulation() takes these steps:
  * - It looks for voxel faces that are far from all vertices of interfaces.
  * - If there are none, each tetrahedron gets the label at its circumcentre. Some tetrahedra get
- *   another label, to make the boundary of a label manifold (RepairManifold).
+ *   another label, so that a label holds together (RelabelCrumbs) and its boundary is manifold
+ *   (RepairManifold).
  * - It checks the edges that are still not manifold, and the faces that the repair made far
  *   (UniformInterfaceCheck).
  *

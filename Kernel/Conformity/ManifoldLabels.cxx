@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ManifoldLabels.h"
 
+#include "Conformity/Crumbs.h"
 #include "Delaunay/VertexStar.h"
 
 #include <algorithm>
@@ -69,6 +70,11 @@ ManifoldLabels<D> MakeManifoldLabels(const Triangulation<D>& triangulation, bool
   made.Labels = LabelSimplices(triangulation, *options.Surfaces, threads, stop);
   if (repair)
   {
+    std::vector<SimplexId> changed;
+    if constexpr (D == 3)
+    {
+      changed = RelabelCrumbs(triangulation, made.Labels, options, threads, stop);
+    }
     ManifoldRepairResult<D> result =
       RepairManifold<D>(triangulation, made.Labels, options, threads, stop);
     statistics.NonManifoldRepaired = result.Before - result.Left.size();
@@ -78,7 +84,8 @@ ManifoldLabels<D> MakeManifoldLabels(const Triangulation<D>& triangulation, bool
     {
       made.Places.push_back({ CentroidOf(triangulation, ridge.Vertices), ridge.IsJunction });
     }
-    made.Gone = VerticesWithin(triangulation, made.Labels, result.Relabelled);
+    changed.insert(changed.end(), result.Relabelled.begin(), result.Relabelled.end());
+    made.Gone = VerticesWithin(triangulation, made.Labels, changed);
   }
   return made;
 }

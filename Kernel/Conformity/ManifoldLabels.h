@@ -30,13 +30,13 @@ struct ManifoldLabels
 };
 
 /**
- * Each simplex gets the label at its circumcentre. Then RepairManifold() gives some of them another
- * label, if that is requested.
+ * Each simplex gets the label at its circumcentre. Then RelabelCrumbs() (3D) and RepairManifold() give
+ * some of them another label, if that is requested.
  *
  * No thread may change the triangulation during the call. The result does not depend on the number
  * of threads. Takes time linear in the number of simplices, if few are repaired.
  *
- * @param repair whether labels are repaired; if not, no ridge is looked for
+ * @param repair whether labels are repaired; if not, no crumb and no ridge is looked for
  * @param options of the repair. Surfaces must not be null.
  * @param statistics receives the numbers of ridges that were repaired and are left
  * @param threads 0 means all cores

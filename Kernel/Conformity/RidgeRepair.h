@@ -7,8 +7,7 @@
 #ifndef voxplex_RidgeRepair_h
 #define voxplex_RidgeRepair_h
 
-#include "Conformity/ManifoldRepair.h"
-#include "Conformity/RepairNeighbourhood.h"
+#include "Conformity/ChangeRules.h"
 #include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
@@ -25,21 +24,6 @@
 
 namespace voxplex::repair
 {
-
-template <int D>
-using Facet = std::array<VertexId, static_cast<std::size_t>(D)>;
-
-/** The vertices of a simplex but vertex i, in cyclic order. */
-template <int D>
-Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v, unsigned i)
-{
-  Facet<D> facet;
-  for (unsigned k = 0; k < facet.size(); ++k)
-  {
-    facet[k] = v[(i + k + 1) % v.size()];
-  }
-  return facet;
-}
 
 /** What is best for a ridge, as long as no simplex around the vertices that were seen changes. */
 struct Proposal
@@ -69,13 +53,12 @@ public:
     std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
     : Labels(labels)
     , Near(triangulation, labels, onInterface)
-    , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
-    , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
-    , Surfaces(options.Surfaces)
-    , Sizing(options.Sizing)
-    , Keeps(options.Keeps)
+    , Rules(this->Near, labels, options)
   {
   }
+
+  RidgeRepair(const RidgeRepair&) = delete; // Rules refer to Near
+  RidgeRepair& operator=(const RidgeRepair&) = delete;
 
   /** The best change around a ridge. */
   Proposal Propose(const Ridge<D>& ridge) const
@@ -133,11 +116,6 @@ private:
   using Rings = std::vector<typename Neighbourhood<D>::Ring>;
   static constexpr std::size_t UsualRings = 32; ///< around a ridge, in 3D
 
-  Facet<D> FacetOf(SimplexId t, unsigned i) const
-  {
-    return repair::FacetOf<D>(this->Near.VerticesOf(t), i);
-  }
-
   std::optional<Change> BestOf(std::vector<Change> changes) const
   {
     Rings rings;
@@ -150,11 +128,11 @@ private:
     {
       const int gain = this->GainOf(change, rings);
       const double volume = this->VolumeOf(change);
-      const bool dents = this->Dents(change);
+      const bool dents = this->Rules.Dents(change);
       const bool isBetter = dents != bestDents ? bestDents
         : gain != bestGain                     ? gain > bestGain
                                                : volume < bestVolume;
-      if (gain > 0 && isBetter && this->IsAllowed(change))
+      if (gain > 0 && isBetter && this->Rules.IsAllowed(change))
       {
         bestDents = dents;
         bestGain = gain;
@@ -307,197 +285,9 @@ private:
     return volume;
   }
 
-  bool IsAllowed(const Change& change) const
-  {
-    bool leavesSome = false;
-    for (const SimplexId t : change.Cells)
-    {
-      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
-      {
-        return false;
-      }
-      const LabelId own = this->Labels[t];
-      for (const VertexId v : this->Near.VerticesOf(t))
-      {
-        if (!this->Near.IsOnInterface(v))
-        {
-          return false;
-        }
-        if (!leavesSome)
-        {
-          const std::vector<SimplexId>& star = this->Near.StarOf(v);
-          leavesSome = std::any_of(star.begin(), star.end(),
-            [&](SimplexId other) { return this->Labels[other] == own && !change.Touches(other); });
-        }
-      }
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        if (change.Label == 0 && this->Near.Beside(t, i) == None)
-        {
-          return false;
-        }
-        const bool isNew = this->Near.LabelBeside(t, i) == own &&
-          !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
-        if (isNew && !this->HasGoodAngles(t, i, change))
-        {
-          return false;
-        }
-      }
-    }
-    return leavesSome && !this->UncoversSharpFacet(change);
-  }
-
-  /**
-   * Whether a change takes a junction away from an interface facet whose angles are allowed at
-   * junctions only.
-   */
-  bool UncoversSharpFacet(const Change& change) const
-  {
-    if constexpr (D != 3)
-    {
-      return false;
-    }
-    for (const SimplexId t : change.Cells)
-    {
-      for (const VertexId v : this->Near.VerticesOf(t))
-      {
-        if (!this->IsAtJunction(v, nullptr) || this->IsAtJunction(v, &change))
-        {
-          continue;
-        }
-        for (const SimplexId s : this->Near.StarOf(v))
-        {
-          for (unsigned i = 0; i <= D; ++i)
-          {
-            const SimplexId beside = this->Near.Beside(s, i);
-            const LabelId other =
-              beside == None ? LabelId{ 0 } : this->Near.LabelOf(beside, &change);
-            if (this->Near.VerticesOf(s)[i] != v && other < this->Near.LabelOf(s, &change) &&
-              this->SharpnessOf(s, i) == Sharpness::AtJunctionsOnly &&
-              !this->HasJunction(s, i, change))
-            {
-              return true;
-            }
-          }
-        }
-      }
-    }
-    return false;
-  }
-
-  /** Whether a tetrahedron is larger than the elements of a label may be. */
-  bool IsTooLarge(SimplexId t, LabelId label) const
-  {
-    if (!this->Sizing || label == 0)
-    {
-      return false;
-    }
-    const Circumball<D> ball = this->Near.Circumball(t);
-    const double size = this->Sizing->ElementSize(ball.Center, label);
-    return ball.Radius2 > size * size;
-  }
-
-  /**
-   * Whether a change drops a tetrahedron with a facet on a flat face where the image cuts the
-   * object.
-   */
-  bool Dents(const Change& change) const
-  {
-    const ImageBorder<D>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
-    if (!border || change.Label != 0)
-    {
-      return false;
-    }
-    for (const SimplexId t : change.Cells)
-    {
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        unsigned faces = ~0u;
-        for (const VertexId v : this->FacetOf(t, i))
-        {
-          faces &= border->FacesAt(this->Near.Position(v));
-        }
-        if (faces != 0)
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /** Where a facet with these angles may be; anywhere in 4D. */
-  enum class Sharpness
-  {
-    Anywhere,
-    AtJunctionsOnly,
-    Nowhere
-  };
-  Sharpness SharpnessOf(SimplexId t, unsigned i) const
-  {
-    if constexpr (D != 3)
-    {
-      return Sharpness::Anywhere;
-    }
-    const Facet<D> facet = this->FacetOf(t, i);
-    Sharpness sharpness = Sharpness::Anywhere;
-    for (unsigned k = 0; k < 3; ++k)
-    {
-      const Point<D>& p = this->Near.Position(facet[k]);
-      const Point<D> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
-      const Point<D> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
-      const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
-      if (Dot(a, b) > this->JunctionCosine * lengths)
-      {
-        return Sharpness::Nowhere;
-      }
-      sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
-    }
-    return sharpness;
-  }
-
-  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
-  {
-    const Sharpness sharpness = this->SharpnessOf(t, i);
-    return sharpness == Sharpness::Anywhere ||
-      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
-  }
-
-  /** Whether a vertex of a facet is at a junction after a change. */
-  bool HasJunction(SimplexId t, unsigned i, const Change& change) const
-  {
-    const Facet<D> facet = this->FacetOf(t, i);
-    return std::any_of(
-      facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
-  }
-
-  /** Whether three or more labels, including background, meet at a vertex. */
-  bool IsAtJunction(VertexId v, const Change* change) const
-  {
-    std::array<LabelId, 2> known{};
-    unsigned count = 0;
-    for (const SimplexId t : this->Near.StarOf(v))
-    {
-      const LabelId label = this->Near.LabelOf(t, change);
-      if (std::find(known.begin(), known.begin() + count, label) == known.begin() + count)
-      {
-        if (count == known.size())
-        {
-          return true;
-        }
-        known[count++] = label;
-      }
-    }
-    return false;
-  }
-
   const std::span<const LabelId> Labels; ///< by simplex id
   const Neighbourhood<D> Near;
-  const double FacetCosine;
-  const double JunctionCosine; ///< at least FacetCosine
-  const Domain<D>* const Surfaces;
-  const SizingField<D>* const Sizing;
-  const std::function<bool(SimplexId)> Keeps;
+  const ChangeRules<D> Rules;
 };
 
 } // namespace voxplex::repair

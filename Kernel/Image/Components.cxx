@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/Components.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
 #include "Parallel/ParallelFor.h"
@@ -29,41 +30,6 @@ Point<D> FaceAreas(const GridGeometry<D>& grid)
 }
 
 } // namespace
-
-/** Disjoint sets of runs. The root of a set is its smallest member. */
-template <int D>
-class Components<D>::DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t size)
-    : Parent(size)
-  {
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      this->Parent[i] = static_cast<std::uint32_t>(i);
-    }
-  }
-
-  std::uint32_t Find(std::uint32_t i)
-  {
-    while (this->Parent[i] != i)
-    {
-      this->Parent[i] = this->Parent[this->Parent[i]];
-      i = this->Parent[i];
-    }
-    return i;
-  }
-
-  void Join(std::uint32_t i, std::uint32_t j)
-  {
-    i = this->Find(i);
-    j = this->Find(j);
-    this->Parent[std::max(i, j)] = std::min(i, j);
-  }
-
-private:
-  std::vector<std::uint32_t> Parent;
-};
 
 //------------------------------------------------------------------------------------------------
 template <int D>

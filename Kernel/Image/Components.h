@@ -16,6 +16,8 @@
 namespace voxplex
 {
 
+class DisjointSets;
+
 /** A connected component: voxels of one label that are connected through common faces. */
 template <int D>
 struct Component
@@ -91,8 +93,6 @@ private:
     std::uint32_t Start;     ///< index of the first voxel along the first axis
     std::uint32_t Component; ///< None for background
   };
-
-  class DisjointSets;
 
   std::vector<LabelId> FindRuns(
     const LabelImage<D>& image, unsigned threads, const std::stop_token& stop);

@@ -39,6 +39,11 @@ public:
   {
   }
 
+  const Triangulation<D>& GetTriangulation() const { return this->Source; }
+
+  /** The label of each simplex id, also of those that are replaced by pieces. */
+  std::span<const LabelId> GetLabels() const { return this->Labels; }
+
   std::size_t Size() const { return this->Labels.size() + this->Parts.Pieces.size(); }
 
   /** Point i of an element that has a label. */

@@ -184,6 +184,14 @@ Dimension<3>::Checks::Checks(
       run.Options.Components.Exact, true, local, run.Statistics.Components,
       run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
     run.Statistics.Times.Components += time.Seconds();
+    if (run.Options.Components.Exact)
+    {
+      this->Fragments.emplace(
+        FragmentCheck::Subject{ run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
+          stage.Sizing(), *run.Prepared.AllComponents },
+        run.Options.Components.Smallest, run.Options.Interfaces.Rounds, local,
+        run.Statistics.Components, run.Statistics.Times.Components, run.Stop);
+    }
   }
 }
 
@@ -200,6 +208,10 @@ std::vector<ConformityCheck<3>*> Dimension<3>::Checks::All()
     all.push_back(&*this->Components);
   }
   all.push_back(&this->Interfaces);
+  if (this->Fragments)
+  {
+    all.push_back(&*this->Fragments);
+  }
   return all;
 }
 

@@ -9,6 +9,7 @@
 
 #include "Conformity/ComponentCheck.h"
 #include "Conformity/ConformityCheck.h"
+#include "Conformity/FragmentCheck.h"
 #include "Conformity/InterfaceCheck.h"
 #include "Conformity/SpaceTimeInterfaceCheck.h"
 #include "Mesh/SimplexMesh.h"
@@ -94,6 +95,7 @@ struct Dimension<3>
     const RunEnvironment<3> Run;
     const Triangulation<3>& Source;
     std::optional<ComponentCheck<3>> Components; ///< empty if components are not checked
+    std::optional<FragmentCheck> Fragments;      ///< empty unless components are to be exact
     InterfaceCheck Interfaces;
   };
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/MeshMeasurement.h"
 
+#include "Quality/Fragments.h"
 #include "Domain/ImageDomain.h"
 #include "Domain/InterfacePoints.h"
 #include "Image/Components.h"
@@ -108,6 +109,7 @@ MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* ima
     MeasureQuality(mesh, options.RadiusEdgeBound, options.FacetAngleBound, options.Threads);
   ThrowIfStopped(stop);
   measurement.Topology = MeasureTopology(mesh, options.Threads, stop);
+  measurement.Fragments = CountFragments(mesh, stop);
   if (image)
   {
     ImageComparison& comparison = measurement.Image.emplace();

@@ -16,6 +16,7 @@
 #include "Quality/MeshQuality.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -71,6 +72,7 @@ struct MeshMeasurement
 {
   MeshQuality Quality;
   InterfaceTopology Topology;
+  std::map<std::int64_t, std::uint64_t> Fragments; ///< CountFragments()
   std::optional<ImageComparison> Image;
 };
 

@@ -266,7 +266,8 @@ class Quality(ProgramTestCase):
         z, y, x = np.mgrid[:24, :24, :24] - 11.5
         images.write_nrrd(self.folder / "two.nrrd", (100 * np.sqrt(x**2 + y**2 + z**2)).astype(np.float32))
         text, report = self.report("--isovalue", 800, "--inside", "below", "--quality")
-        self.assertRegex(text, r"\n  0 junction edges, 0 corners; 0 non-manifold edges, 0 of them at junctions\n$")
+        self.assertRegex(text, r"\n  0 junction edges, 0 corners; 0 non-manifold edges, 0 of them at junctions\n"
+                         r"  fragments of labels that are connected through faces: 1\n$")
         self.assertEqual((report["image"], report["hausdorff"]), (None, {}))
         self.assertEqual(report["topology"]["non_manifold_edges"], 0)
         self.assertEqual(sum(report["quality"]["dihedral_histogram"]), 6 * report["elements"])

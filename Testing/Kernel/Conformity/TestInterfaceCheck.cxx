@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Refinement goes on for the sake of interfaces where it has to, and nowhere else.
+#include "Conformity/Crumbs.h"
 #include "Conformity/InterfaceCheck.h"
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
@@ -78,6 +79,7 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         return mesh;
       };
       const bool wasFar = HasFarFaces(image, extract(), delta);
+      RelabelCrumbs(context.Mesh, labels, {}, 1, {});
       const ManifoldRepairResult<3> repair = RepairManifold<3>(context.Mesh, labels);
       const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });

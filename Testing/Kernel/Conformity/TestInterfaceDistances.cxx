@@ -168,7 +168,8 @@ TEST(InterfaceDistances, KeepsGradedMeshesNear)
     EXPECT_LE(distances[1], largest * options.Sampling.Delta) << seed;
   }
   EXPECT_GE(far, 6u);
-  EXPECT_LT(elements[1], 1.05 * static_cast<double>(elements[0])); // finer only where it has to be
+  // Finer only where it has to be, and where exact components would be in fragments.
+  EXPECT_LT(elements[1], 1.12 * static_cast<double>(elements[0]));
 }
 
 // Also where no feature is so small that delta would be used anywhere.

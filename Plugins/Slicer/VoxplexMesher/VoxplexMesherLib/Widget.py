@@ -136,7 +136,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
                                                               "with at least this number of voxels, and its largest one, get "
                                                               "tetrahedra for every delta")
         self.exactComponentsCheckBox = self.makeCheckBox("Sample these components as finely as their thickness requires, for every "
-                                                         "delta. Otherwise those that are thin compared with delta have few tetrahedra")
+                                                         "delta, and as it takes to connect their tetrahedra through faces. Otherwise those that are thin compared with delta have few tetrahedra")
         self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
                                                  "non-manifold edges. The log has the figures")
         form.addRow("Optimise:", self.optimiseCheckBox)

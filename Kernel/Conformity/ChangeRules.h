@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ChangeRules.h
+ * @brief Internal to ManifoldLabels: which simplices may get another label.
+ */
+#ifndef voxplex_ChangeRules_h
+#define voxplex_ChangeRules_h
+
+#include "Conformity/ManifoldRepair.h"
+#include "Conformity/RepairNeighbourhood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace voxplex::repair
+{
+
+template <int D>
+using Facet = std::array<VertexId, static_cast<std::size_t>(D)>;
+
+/** The vertices of a simplex but vertex i, in cyclic order. */
+template <int D>
+Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v, unsigned i)
+{
+  Facet<D> facet;
+  for (unsigned k = 0; k < facet.size(); ++k)
+  {
+    facet[k] = v[(i + k + 1) % v.size()];
+  }
+  return facet;
+}
+
+/** @brief The rules for changes of labels, whatever they are made for. See RepairManifold(). */
+template <int D>
+class ChangeRules
+{
+public:
+  /**
+   * @param near, labels must outlive this object; labels, by simplex id, may change between calls
+   * @param options Surfaces and Sizing must outlive this object
+   */
+  ChangeRules(const Neighbourhood<D>& near, std::span<const LabelId> labels,
+    const ManifoldRepairOptions<D>& options)
+    : Labels(labels)
+    , Near(near)
+    , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
+    , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
+    , Surfaces(options.Surfaces)
+    , Sizing(options.Sizing)
+    , Keeps(options.Keeps)
+  {
+  }
+
+  /**
+   * Whether a change keeps the bounds of shapes and sizes, and leaves some of the label beside it.
+   */
+  bool IsAllowed(const Change& change) const
+  {
+    bool leavesSome = false;
+    for (const SimplexId t : change.Cells)
+    {
+      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
+      {
+        return false;
+      }
+      const LabelId own = this->Labels[t];
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        if (!this->Near.IsOnInterface(v))
+        {
+          return false;
+        }
+        if (!leavesSome)
+        {
+          const std::vector<SimplexId>& star = this->Near.StarOf(v);
+          leavesSome = std::any_of(star.begin(), star.end(),
+            [&](SimplexId other) { return this->Labels[other] == own && !change.Touches(other); });
+        }
+      }
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        if (change.Label == 0 && this->Near.Beside(t, i) == None)
+        {
+          return false;
+        }
+        const bool isNew = this->Near.LabelBeside(t, i) == own &&
+          !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
+        if (isNew && !this->HasGoodAngles(t, i, change))
+        {
+          return false;
+        }
+      }
+    }
+    return leavesSome && !this->UncoversSharpFacet(change);
+  }
+
+  /**
+   * Whether a change drops a tetrahedron with a facet on a flat face where the image cuts the
+   * object.
+   */
+  bool Dents(const Change& change) const
+  {
+    const ImageBorder<D>* const border = this->Surfaces ? this->Surfaces->Border() : nullptr;
+    if (!border || change.Label != 0)
+    {
+      return false;
+    }
+    for (const SimplexId t : change.Cells)
+    {
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        unsigned faces = ~0u;
+        for (const VertexId v : this->FacetOf(t, i))
+        {
+          faces &= border->FacesAt(this->Near.Position(v));
+        }
+        if (faces != 0)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+private:
+  Facet<D> FacetOf(SimplexId t, unsigned i) const
+  {
+    return repair::FacetOf<D>(this->Near.VerticesOf(t), i);
+  }
+
+  /**
+   * Whether a change takes a junction away from an interface facet whose angles are allowed at
+   * junctions only.
+   */
+  bool UncoversSharpFacet(const Change& change) const
+  {
+    if constexpr (D != 3)
+    {
+      return false;
+    }
+    for (const SimplexId t : change.Cells)
+    {
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        if (!this->IsAtJunction(v, nullptr) || this->IsAtJunction(v, &change))
+        {
+          continue;
+        }
+        for (const SimplexId s : this->Near.StarOf(v))
+        {
+          for (unsigned i = 0; i <= D; ++i)
+          {
+            const SimplexId beside = this->Near.Beside(s, i);
+            const LabelId other =
+              beside == None ? LabelId{ 0 } : this->Near.LabelOf(beside, &change);
+            if (this->Near.VerticesOf(s)[i] != v && other < this->Near.LabelOf(s, &change) &&
+              this->SharpnessOf(s, i) == Sharpness::AtJunctionsOnly &&
+              !this->HasJunction(s, i, change))
+            {
+              return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  /** Whether a tetrahedron is larger than the elements of a label may be. */
+  bool IsTooLarge(SimplexId t, LabelId label) const
+  {
+    if (!this->Sizing || label == 0)
+    {
+      return false;
+    }
+    const Circumball<D> ball = this->Near.Circumball(t);
+    const double size = this->Sizing->ElementSize(ball.Center, label);
+    return ball.Radius2 > size * size;
+  }
+
+  /** Where a facet with these angles may be; anywhere in 4D. */
+  enum class Sharpness
+  {
+    Anywhere,
+    AtJunctionsOnly,
+    Nowhere
+  };
+  Sharpness SharpnessOf(SimplexId t, unsigned i) const
+  {
+    if constexpr (D != 3)
+    {
+      return Sharpness::Anywhere;
+    }
+    const Facet<D> facet = this->FacetOf(t, i);
+    Sharpness sharpness = Sharpness::Anywhere;
+    for (unsigned k = 0; k < 3; ++k)
+    {
+      const Point<D>& p = this->Near.Position(facet[k]);
+      const Point<D> a = Subtract(this->Near.Position(facet[(k + 1) % 3]), p);
+      const Point<D> b = Subtract(this->Near.Position(facet[(k + 2) % 3]), p);
+      const double lengths = std::sqrt(Dot(a, a) * Dot(b, b));
+      if (Dot(a, b) > this->JunctionCosine * lengths)
+      {
+        return Sharpness::Nowhere;
+      }
+      sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
+    }
+    return sharpness;
+  }
+
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Sharpness sharpness = this->SharpnessOf(t, i);
+    return sharpness == Sharpness::Anywhere ||
+      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
+  }
+
+  /** Whether a vertex of a facet is at a junction after a change. */
+  bool HasJunction(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Facet<D> facet = this->FacetOf(t, i);
+    return std::any_of(
+      facet.begin(), facet.end(), [&](VertexId v) { return this->IsAtJunction(v, &change); });
+  }
+
+  /** Whether three or more labels, including background, meet at a vertex. */
+  bool IsAtJunction(VertexId v, const Change* change) const
+  {
+    std::array<LabelId, 2> known{};
+    unsigned count = 0;
+    for (const SimplexId t : this->Near.StarOf(v))
+    {
+      const LabelId label = this->Near.LabelOf(t, change);
+      if (std::find(known.begin(), known.begin() + count, label) == known.begin() + count)
+      {
+        if (count == known.size())
+        {
+          return true;
+        }
+        known[count++] = label;
+      }
+    }
+    return false;
+  }
+
+  const std::span<const LabelId> Labels;
+  const Neighbourhood<D>& Near;
+  const double FacetCosine;
+  const double JunctionCosine; ///< at least FacetCosine
+  const Domain<D>* const Surfaces;
+  const SizingField<D>* const Sizing;
+  const std::function<bool(SimplexId)> Keeps;
+};
+
+} // namespace voxplex::repair
+
+#endif
