@@ -42,6 +42,12 @@ constexpr std::size_t FewestOfRound = 16;
 constexpr std::size_t PentatopesPerPoor = 500;
 constexpr std::size_t MostOfRound = 1000;
 
+/**
+ * A round of insertions ends after so many in vain, one after the other: on rough images hardly any helps, and each takes
+ * 40 ms.
+ */
+constexpr std::size_t MostInVain = 32;
+
 /** Rounds that move what is around poor pentatopes, each followed by passes; and their target, in targets. */
 constexpr unsigned RoomRounds = 8;
 constexpr double RoomTarget = 4.0;
@@ -341,7 +347,8 @@ private:
     const std::uint64_t before = this->Done.Insertions;
     std::vector<PentatopeInsertion> insertions(std::min(atOnce, worst.size()));
     std::vector<std::uint8_t> hasChanged(this->Complex.NumberOfPentatopes(), 0);
-    for (std::size_t begin = 0; begin < worst.size(); begin += atOnce)
+    std::size_t inVain = 0;
+    for (std::size_t begin = 0; begin < worst.size() && inVain < MostInVain; begin += atOnce)
     {
       const auto some = worst.subspan(begin, std::min(atOnce, worst.size() - begin));
       ParallelFor(
@@ -350,15 +357,17 @@ private:
         { insertions[first] = this->FindInsertion(some[first], target); },
         this->Stop);
       std::vector<std::uint32_t> changed;
-      for (std::size_t k = 0; k < some.size(); ++k)
+      for (std::size_t k = 0; k < some.size() && inVain < MostInVain; ++k)
       {
         if (std::any_of(insertions[k].Seen.begin(), insertions[k].Seen.end(),
               [&](std::uint32_t s) { return hasChanged[s] != 0; }))
         {
           insertions[k] = this->FindInsertion(some[k], target);
         }
+        ++inVain;
         if (this->Make(insertions[k]))
         {
+          inVain = 0;
           for (const std::uint32_t s : insertions[k].Old)
           {
             hasChanged[s] = 1;
