@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/SpaceTimeTopology.h"
 
+#include "Base/DisjointSets.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace voxplex
@@ -46,36 +46,6 @@ std::vector<Facet> SortedFacets(const SimplexMesh<4>& mesh)
   return facets;
 }
 
-/** Sets of pentatopes, with paths that are halved. */
-class Sets
-{
-public:
-  explicit Sets(std::size_t size)
-    : Parents(size)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), 0u);
-  }
-
-  std::uint32_t Find(std::uint32_t s)
-  {
-    while (this->Parents[s] != s)
-    {
-      s = this->Parents[s] = this->Parents[this->Parents[s]];
-    }
-    return s;
-  }
-
-  void Join(std::uint32_t a, std::uint32_t b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->Parents[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> Parents;
-};
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -84,7 +54,7 @@ SpaceTimeTopology MeasureTopology(const SimplexMesh<4>& mesh, const std::stop_to
   SpaceTimeTopology topology;
   const std::vector<Facet> facets = SortedFacets(mesh);
   ThrowIfStopped(stop);
-  Sets sets(mesh.Simplices.size());
+  DisjointSets sets(mesh.Simplices.size());
   for (auto first = facets.begin(); first != facets.end();)
   {
     const auto last = std::find_if_not(
