@@ -4,6 +4,7 @@
 
 #include "Base/DisjointSets.h"
 #include "Conformity/FinestSpacing.h"
+#include "Conformity/InterfaceSampling.h"
 #include "Mesh/LabelledTriangulation.h"
 
 #include <algorithm>
@@ -219,11 +220,7 @@ std::vector<FeatureSeed<3>> FragmentCheck::Sample(const std::vector<VoxelFace<3>
   {
     const LabelId before = this->Of.Image.At(face.Voxel);
     const LabelId after = this->Of.Image.At(face.Next());
-    Index cell = face.Voxel;
-    for (std::int64_t& c : cell)
-    {
-      c = (c + 1) / LocalDelta<3>::Cell;
-    }
+    const Index cell = InterfaceSampling<3>::CellOf(face);
     auto spacing = now.find(cell);
     if (spacing == now.end())
     {

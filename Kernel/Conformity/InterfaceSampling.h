@@ -74,10 +74,12 @@ public:
   /** The faces around which points were proposed so far, ascending. */
   const std::vector<VoxelFace<D>>& Sampled() const { return this->Faces; }
 
-private:
   using Index = typename GridGeometry<D>::Index;
 
+  /** The cell of LocalDelta that a face is sampled with. */
   static Index CellOf(const VoxelFace<D>& face);
+
+private:
   double FirstDistance(const VoxelFace<D>& face) const;
   double SpacingAt(const VoxelFace<D>& face, unsigned visit) const;
   void LowerBound(const VoxelFace<D>& face);
