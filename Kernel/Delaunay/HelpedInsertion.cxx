@@ -85,7 +85,7 @@ bool Triangulation<D>::ExpandLevel(
     this->Marks[n] = SimplexMark::Cavity;
     const Simplex& neighbour = this->Simplices[n];
     worker.Joined.Push(neighbour.V[candidate.Back]);
-    this->Prefetch(n, neighbour, candidate.Back);
+    this->Prefetch(n, neighbour, worker.Joined.Back());
   }
   for (std::size_t k = first; k < last; ++k)
   {

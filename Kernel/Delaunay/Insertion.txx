@@ -68,10 +68,12 @@ InsertionOutcome Triangulation<D>::Insert(Worker& worker, const Point<D>& p, Ver
 }
 
 //------------------------------------------------------------------------------------------------
-// Breadth-first search over neighbours. Simplices in conflict are marked Cavity. Tested simplices
-// without conflict are marked Outside, so that each simplex is tested once. A simplex that joins
+// Breadth-first search over neighbours. Simplices in conflict are marked Cavity. A simplex that joins
 // the cavity adds at most one new vertex. The vertices of a simplex are taken before its neighbours
 // are tested. Returns false if a vertex belongs to another worker.
+//
+// A simplex without conflict is tested again from each of its neighbours in the cavity: a test costs
+// less than a mark that has to be restored. Only if exact arithmetic has decided, it is marked Outside.
 template <int D>
 bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexId seed)
 {
@@ -127,18 +129,25 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
         }
         const Simplex& neighbour = this->Simplices[n];
         back = IndexOfNeighbour(neighbour, s);
-        if (mark == SimplexMark::Alive)
+        ++worker.BallTests;
+        const int side = SideOfCircumball(neighbour.Ball, p);
+        bool inConflict = side > 0;
+        if (side == 0 && mark == SimplexMark::Alive) [[unlikely]]
         {
-          if (this->InConflict(worker, n, p))
+          inConflict = this->InConflictExactly(worker, n, p);
+          if (!inConflict)
           {
-            worker.Deleted.Push(n);
-            mark = SimplexMark::Cavity;
-            worker.Joined.Push(neighbour.V[back]);
-            this->Prefetch(n, neighbour, back);
-            continue;
+            worker.Touched.Push(n);
+            mark = SimplexMark::Outside;
           }
-          worker.Touched.Push(n);
-          mark = SimplexMark::Outside;
+        }
+        if (inConflict)
+        {
+          worker.Deleted.Push(n);
+          mark = SimplexMark::Cavity;
+          worker.Joined.Push(neighbour.V[back]);
+          this->Prefetch(n, neighbour, neighbour.V[back]);
+          continue;
         }
       }
       else if (planes != 0 && this->OnPlane(simplex.V, i, planes))
@@ -188,11 +197,11 @@ inline void Triangulation<D>::NumberLink(Worker& worker, const Point<D>& apex)
 // that the search will read next.
 template <int D>
 inline void Triangulation<D>::Prefetch([[maybe_unused]] SimplexId s,
-  [[maybe_unused]] const Simplex& simplex, [[maybe_unused]] std::uint32_t newVertex) const
+  [[maybe_unused]] const Simplex& simplex, [[maybe_unused]] VertexId newVertex) const
 {
 #if defined(__GNUC__)
   __builtin_prefetch(&this->States[s], 1);
-  __builtin_prefetch(&this->Vertices[simplex.V[newVertex]], 1);
+  __builtin_prefetch(&this->Vertices[newVertex], 1);
   for (const SimplexId n : simplex.N)
   {
     if (n != None)

@@ -78,13 +78,6 @@ public:
     return Nothing;
   }
 
-  /** True if the set was given once, and not yet taken out. */
-  bool IsOpen(const Face& face)
-  {
-    const Entry& e = this->Find(MakeKey(face));
-    return e.Stamp == this->Stamp && e.Payload != Nothing;
-  }
-
 private:
   /** Up to three vertex numbers per word, the smallest first. */
   using Key = std::array<std::uint64_t, (K + 2) / 3>;

@@ -98,12 +98,14 @@ void Triangulation<D>::BuildCorners()
     this->WriteSimplex(worker, s, simplex);
     const std::uint32_t number = static_cast<std::uint32_t>(made.size());
     made.push_back(s);
+    std::array<std::uint32_t, N> local;
     for (unsigned i = 0; i < N; ++i)
     {
-      BoundaryFacet facet;
-      facet.V = simplex;
-      facet.Apex = i;
-      const std::uint32_t partner = facets.Match(this->LocalFacet(facet), number * N + i);
+      local[i] = this->Vertices[simplex[i]].Local;
+    }
+    for (unsigned i = 0; i < N; ++i)
+    {
+      const std::uint32_t partner = facets.Match(FaceOf(local, i), number * N + i);
       this->Simplices[s].N[i] = None;
       if (partner != FacetTable<D>::Nothing)
       {

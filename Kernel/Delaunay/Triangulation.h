@@ -9,6 +9,7 @@
 
 #include "Delaunay/RidgeTable.h"
 #include "Delaunay/Stack.h"
+#include "Delaunay/StarFilling.h"
 #include "Delaunay/Stores.h"
 #include "Geometry/Box.h"
 #include "Geometry/Predicates.h"
@@ -183,7 +184,8 @@ public:
       std::uint32_t Apex;
       SimplexId Outer;          ///< outer simplex or None; if OuterInFilling, a number in Filling
       std::uint32_t OuterIndex; ///< number of the facet in Outer
-      bool OuterInFilling = false;
+      bool OuterInFilling;      ///< in a star only, as Closed
+      bool Closed;              ///< the simplices on both sides are known
     };
     /** A simplex that may be in conflict. */
     struct Candidate
@@ -193,19 +195,6 @@ public:
       std::uint32_t Back; ///< number of From among its neighbours
       bool InConflict;
     };
-    /** A new simplex in a star, before it has an id. */
-    struct FillingSimplex
-    {
-      struct Neighbour
-      {
-        std::uint32_t Id;
-        std::uint32_t Index;
-        bool InFilling;
-      };
-      std::array<VertexId, N> V;
-      std::array<Neighbour, N> Neighbours;
-    };
-
     const WorkerId Id;
     Stack<VertexId> Owned;
     Stack<SimplexId> FreeSimplices;
@@ -219,8 +208,7 @@ public:
     Stack<double> LinkNorms2;    ///< squared norms of the offsets
     RidgeTable<D> Ridges;
     EdgeTable Edges;
-    FacetTable<D> Front;
-    Stack<FillingSimplex> Filling;
+    StarFilling<D> Star;
   };
 
   /** Accepts or rejects an insertion by its new simplices. */
@@ -386,7 +374,6 @@ private:
   friend class TriangulationVerifier; // of the tests
 
   using BoundaryFacet = typename Worker::BoundaryFacet;
-  using FillingSimplex = typename Worker::FillingSimplex;
   using Candidate = typename Worker::Candidate;
 
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
@@ -425,16 +412,21 @@ private:
   inline void LinkRidges(Worker& worker);
   inline void LinkEdges(Worker& worker, bool closed) requires(D == 3);
   bool IsClear(Worker& worker, const Point<D>& p, VertexKind kind, double clearance) const;
-  inline void Prefetch(SimplexId s, const Simplex& simplex, std::uint32_t newVertex) const;
+  inline void Prefetch(SimplexId s, const Simplex& simplex, VertexId newVertex) const;
   unsigned PlanesOfPoint(const Point<D>& p) const;
   bool OnPlane(const std::array<VertexId, N>& v, unsigned except, unsigned planes) const;
 
   // Removal
   [[nodiscard]] bool CollectStar(Worker& worker, VertexId v);
+  inline void PrefetchStar(SimplexId s, const Simplex& simplex) const;
+  void NumberStar(Worker& worker);
+  static typename FacetTable<D>::Face FaceOf(
+    const std::array<std::uint32_t, N>& local, unsigned apex);
   bool FillStar(Worker& worker, unsigned planes);
-  VertexId BestApex(Worker& worker, const BoundaryFacet& facet);
+  bool FillFacet(Worker& worker, const BoundaryFacet& facet, unsigned planes);
+  std::uint32_t GuessApex(Worker& worker, std::size_t facet) const;
+  bool FindApex(Worker& worker, BoundaryFacet& facet, std::uint32_t guess, Circumball<D>& ball);
   void CommitFilling(Worker& worker);
-  typename FacetTable<D>::Face LocalFacet(const BoundaryFacet& facet) const;
 
   Box<D> Domain;
   ChunkedArray<Vertex> Vertices;

@@ -152,7 +152,10 @@ bool InsertAndCompare(
   EXPECT_TRUE(LockedVertices(helped).empty());
   const PredicateStatistics expected = sequential.GetPredicateStatistics();
   const PredicateStatistics actual = team.Predicates();
-  EXPECT_EQ(actual.Calls, expected.Calls) << "each test was made once";
+  // A cavity with help tests each simplex once. Otherwise one without conflict is tested from several
+  // sides, unless exact arithmetic decides.
+  EXPECT_LE(actual.Calls, expected.Calls);
+  EXPECT_EQ(actual.StaticFailures, expected.StaticFailures) << "each test was made once";
   EXPECT_EQ(actual.ExactCalls, expected.ExactCalls);
   EXPECT_EQ(actual.Perturbed, expected.Perturbed);
   return team.WasHelped();
