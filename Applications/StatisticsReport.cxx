@@ -117,6 +117,10 @@ void NameLabels(ordered_json& report, const LabelReport& labels)
     lost.push_back(OrNull(labels.Names.NameOf(label.get<std::int64_t>())));
   }
   report["lost_label_names"] = lost;
+  for (ordered_json& label : report["shrunk_labels"])
+  {
+    label["name"] = OrNull(labels.Names.NameOf(label["label"].get<std::int64_t>()));
+  }
   report["label_names_from"] = OrNull(labels.Source);
 }
 
@@ -218,6 +222,30 @@ std::string DescribeYielding(const ordered_json& regions)
     "; a smaller --delta helps where the image is rougher than delta";
 }
 
+/** Labels of which the mesh has too little: the worst ones, and how many there are. */
+std::string DescribeShrunk(const ordered_json& report)
+{
+  constexpr std::size_t most = 5;
+  std::vector<ordered_json> labels = report["shrunk_labels"];
+  std::stable_sort(labels.begin(), labels.end(),
+    [](const ordered_json& a, const ordered_json& b)
+    { return a["fraction"].get<double>() < b["fraction"].get<double>(); });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, labels.size()); ++i)
+  {
+    const ordered_json& name = labels[i]["name"];
+    text += (i ? ", " : "") + labels[i]["label"].dump() + " (" +
+      (name.is_null() ? "" : name.get<std::string>() + ", ") +
+      Rounded(100.0 * labels[i]["fraction"].get<double>(), 0) + " %)";
+  }
+  const bool exact = report["parameters"]["exact_components"].get<bool>();
+  return "the mesh has less than half of the volume of " + std::to_string(labels.size()) +
+    (labels.size() == 1 ? " label, which is" : " labels, which are") +
+    " thin for this delta: " + text + (labels.size() > most ? ", ..." : "") + "; " +
+    (exact ? "a smaller --delta keeps " : "--exact-components or a smaller --delta keeps ") +
+    (labels.size() == 1 ? "it" : "them");
+}
+
 } // namespace
 
 ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
@@ -260,6 +288,10 @@ std::vector<std::string> Warnings(const ordered_json& report)
     warnings.push_back("too small for this delta and not in the mesh: label" +
       std::string(lost.size() == 1 ? " " : "s ") + labels + "; use a smaller --delta to keep " +
       (lost.size() == 1 ? "it" : "them"));
+  }
+  if (!report["shrunk_labels"].empty())
+  {
+    warnings.push_back(DescribeShrunk(report));
   }
   for (const ordered_json& component : report["lost_components"])
   {

@@ -49,6 +49,7 @@ VOXPLEX_FIGURE(vtkTypeInt64, NumberOfInterfaceFacets, InterfaceFacets)
 VOXPLEX_FIGURE(double, Delta, Run.Delta)
 VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
+VOXPLEX_FIGURE(int, NumberOfShrunkLabels, ShrunkLabels.size())
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components.Found)
 VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.Components.Lost.size())
 VOXPLEX_FIGURE(int, NumberOfDroppedComponents, DroppedComponents.size())
@@ -79,6 +80,20 @@ vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
   return index >= 0 && index < this->GetNumberOfLostLabels()
     ? this->Values->LostLabels[static_cast<std::size_t>(index)]
     : 0;
+}
+
+vtkTypeInt64 vtkMeshingStatistics::GetShrunkLabel(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfShrunkLabels()
+    ? this->Values->ShrunkLabels[static_cast<std::size_t>(index)].Label
+    : 0;
+}
+
+double vtkMeshingStatistics::GetShrunkLabelFraction(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfShrunkLabels()
+    ? this->Values->ShrunkLabels[static_cast<std::size_t>(index)].Fraction
+    : 0.0;
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetLabel(int index) const
@@ -157,6 +172,7 @@ void vtkMeshingStatistics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfRuns: " << this->GetNumberOfRuns() << "\n";
   os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << "\n";
   os << indent << "NumberOfLostLabels: " << this->GetNumberOfLostLabels() << "\n";
+  os << indent << "NumberOfShrunkLabels: " << this->GetNumberOfShrunkLabels() << "\n";
   os << indent << "HasQuality: " << this->GetHasQuality() << "\n";
   os << indent << "NumberOfLabels: " << this->GetNumberOfLabels() << "\n";
   os << indent << "TotalTime: " << this->GetTotalTime() << "\n";

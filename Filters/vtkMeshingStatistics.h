@@ -74,6 +74,17 @@ public:
 
   ///@{
   /**
+   * Labels of 100 voxels or more of which the mesh has less than half of the volume, in increasing
+   * order, and the fraction of the volume that it has. They are thin compared with Delta, and the
+   * filter warns of them. Filled for meshes of tetrahedra.
+   */
+  int GetNumberOfShrunkLabels() const;
+  vtkTypeInt64 GetShrunkLabel(int index) const;
+  double GetShrunkLabelFraction(int index) const;
+  ///@}
+
+  ///@{
+  /**
    * Connected components (through voxel faces) of all labels; 0 if components were not searched for
    * (vtkImageToTetMeshFilter::SetSmallestComponent()). A lost component has no element, although
    * the filter tried to keep it. A dropped component was left out on request

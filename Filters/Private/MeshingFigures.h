@@ -9,6 +9,7 @@
 
 #include "Mesher/MeshingStatistics.h"
 #include "Quality/MeshQuality.h"
+#include "Quality/ShrunkLabels.h"
 
 #include "vtkMeshingStatistics.h"
 
@@ -34,6 +35,7 @@ struct vtkMeshingStatistics::Figures
   int Threads = 0;
   IsosurfaceFigures Isosurface;
   std::vector<std::int64_t> LostLabels;                    ///< in the image, not in the mesh
+  std::vector<voxplex::ShrunkLabel> ShrunkLabels;          ///< in 3D
   std::vector<voxplex::ComponentReport> DroppedComponents; ///< left out on request
   voxplex::MeshingStatistics Run; ///< its Times include what the filter itself does
 

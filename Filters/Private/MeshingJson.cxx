@@ -48,6 +48,16 @@ void AddRuns(ordered_json& json, const MeshingStatistics& run)
   }
 }
 
+ordered_json ShrunkToJson(const std::vector<ShrunkLabel>& labels)
+{
+  ordered_json shrunk = ordered_json::array();
+  for (const ShrunkLabel& label : labels)
+  {
+    shrunk.push_back({ { "label", label.Label }, { "fraction", label.Fraction } });
+  }
+  return shrunk;
+}
+
 ordered_json YieldingToJson(const std::vector<YieldingReport>& yielding)
 {
   ordered_json regions = ordered_json::array();
@@ -201,6 +211,7 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     { "sizes_raised_to", v.Run.SizesRaisedTo },
     { "isosurface", IsosurfaceToJson(v.Isosurface) },
     { "lost_labels", v.LostLabels },
+    { "shrunk_labels", ShrunkToJson(v.ShrunkLabels) },
     { "components", v.Run.Components.Found },
     { "lost_components", ComponentsToJson(v.Run.Components.Lost) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },

@@ -6,6 +6,7 @@
 #include "Base/NumberText.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace voxplex
@@ -127,6 +128,24 @@ std::vector<std::string> WarningsOf(
     warnings.push_back(
       "The mesh lacks these labels of the image, which are too small for a Delta of " +
       NumberText(run.Delta) + ": " + ListLabels(figures.LostLabels) + ".");
+  }
+  if (!figures.ShrunkLabels.empty())
+  {
+    constexpr std::size_t Most = 20;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(Most, figures.ShrunkLabels.size()); ++i)
+    {
+      const ShrunkLabel& label = figures.ShrunkLabels[i];
+      text += (i ? ", " : "") + std::to_string(label.Label) + " (" +
+        std::to_string(std::lround(100.0 * label.Fraction)) + " %)";
+    }
+    warnings.push_back("The mesh has less than half of the volume of these labels, which are "
+                       "thin for a Delta of " +
+      NumberText(run.Delta) + ": " + text +
+      (figures.ShrunkLabels.size() > Most
+          ? ", ... (" + std::to_string(figures.ShrunkLabels.size()) + " in all)"
+          : "") +
+      ". ExactComponents or a smaller Delta keeps them.");
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {

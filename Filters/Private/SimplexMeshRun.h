@@ -16,6 +16,7 @@
 #include "Private/MeshingFigures.h"
 #include "Private/MeshingMessages.h"
 #include "Quality/MeshQuality.h"
+#include "Quality/ShrunkLabels.h"
 
 #include "vtkImageData.h"
 #include "vtkImageToSimplexMeshFilter.h"
@@ -194,6 +195,10 @@ public:
       throw voxplex::InputError(
         "The mesh is empty, because every label is too small for a Delta of " +
         voxplex::NumberText(figures.Run.Delta) + "; use a smaller one.");
+    }
+    if constexpr (D == 3)
+    {
+      figures.ShrunkLabels = voxplex::FindShrunkLabels(mesh, labels, this->Options.Team.Threads);
     }
     if (filter->ComputeQuality)
     {

@@ -169,6 +169,15 @@ class Output(NamesTestCase):
         self.assertEqual((report["lost_labels"], report["lost_label_names"]), ([9], ["Speck"]))
         self.assertEqual((report["label_names_from"], report["parameters"]["label_table"]), ("names.txt",) * 2)
 
+        array = images.two_labels(24, 6.0)
+        array[:, 2:5, 2:5] = 9  # a rod that is thin for delta
+        path = images.write_nrrd(self.folder / "rod.nrrd", array)
+        self.mesh("--input", path, "--label-table", "names.txt", "--delta", 7, "--stats", "s.json",
+                  warning=r"less than half of the volume of \d labels, which are thin for this delta: .*"
+                          r"9 \(Speck, \d+ %\).*; --exact-components or a smaller --delta keeps them")
+        shrunk = json.loads((self.folder / "s.json").read_text())["shrunk_labels"]
+        self.assertIn((9, "Speck"), [(one["label"], one["name"]) for one in shrunk])
+
         report = self.statistics("--input", self.image, "--delta", 3)
         self.assertEqual({figures["name"] for figures in report["labels"].values()}, {None})
         self.assertEqual((report["label_names_from"], report["parameters"]["label_table"]), (None, None))

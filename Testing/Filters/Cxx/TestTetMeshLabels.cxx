@@ -176,6 +176,39 @@ void TestLostLabels()
   CHECK(statistics->GetLostLabel(5) == 0);
 }
 
+/** A sheet that is thin for Delta loses volume: the statistics and one warning say so. */
+void TestShrunkLabels()
+{
+  const auto filter = MakeFilter(MakeImage({},
+    [](const Vector& x)
+    {
+      const bool ball = std::hypot(x[0] - 18, x[1] - 18, x[2] - 22) < 8.0;
+      const bool sheet = x[2] >= 8 && x[2] < 10 && std::hypot(x[0] - 16, x[1] - 16) < 14.0;
+      return ball ? 4.0 : sheet ? 9.0 : 0.0;
+    }));
+  filter->SetDelta(4.0);
+  const auto errors = vtkSmartPointer<ErrorCollector>::Take(ErrorCollector::New());
+  errors->Watch(filter);
+  filter->Update();
+  const auto* statistics = filter->GetStatistics();
+  CHECK(statistics->GetNumberOfShrunkLabels() == 1 && statistics->GetShrunkLabel(0) == 9);
+  const double fraction = statistics->GetShrunkLabelFraction(0);
+  CHECK(fraction > 0.0 && fraction < 0.5);
+  CHECK(statistics->ToJSON().find("\"shrunk_labels\":[{\"label\":9,\"fraction\":0.") !=
+    std::string::npos);
+  CHECK(errors->FromFilter.size() == 1 &&
+    errors->FromFilter.front().find(
+      "less than half of the volume of these labels, which are thin for a Delta of 4: 9 (") !=
+      std::string::npos);
+  CHECK(statistics->GetShrunkLabel(1) == 0 && statistics->GetShrunkLabelFraction(-1) == 0.0);
+
+  filter->ExactComponentsOn();
+  filter->Update();
+  CHECK(statistics->GetNumberOfShrunkLabels() == 0);
+  CHECK(statistics->ToJSON().find("\"shrunk_labels\":[]") != std::string::npos);
+  CHECK(errors->FromFilter.size() == 1);
+}
+
 } // namespace
 
 int TestTetMeshLabels(int, char*[])
@@ -187,5 +220,6 @@ int TestTetMeshLabels(int, char*[])
   TestExcluded();
   TestRows();
   TestLostLabels();
+  TestShrunkLabels();
   return Result();
 }

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/ShrunkLabels.h"
+
+#include "Geometry/SimplexQuality.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace voxplex
+{
+
+//------------------------------------------------------------------------------------------------
+// Volumes are summed in blocks of elements, and then over the blocks, so that the sums do not depend
+// on the threads.
+std::vector<ShrunkLabel> FindShrunkLabels(
+  const SimplexMesh<3>& mesh, const LabelImage<3>& image, unsigned threads)
+{
+  constexpr std::size_t BlockSize = 1u << 16;
+  const std::span<const std::int64_t> values = image.Values();
+  const std::size_t elements = mesh.Simplices.size();
+  std::vector<std::vector<double>> blocks((elements + BlockSize - 1) / BlockSize);
+  ParallelFor(0, blocks.size(), 1, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        std::vector<double>& volumes = blocks[b];
+        volumes.assign(values.size(), 0.0);
+        std::int64_t value = values[0];
+        std::size_t id = 0;
+        for (std::size_t s = b * BlockSize; s < std::min(elements, (b + 1) * BlockSize); ++s)
+        {
+          if (mesh.Labels[s] != value) // neighbours in the list mostly have the same label
+          {
+            value = mesh.Labels[s];
+            id = static_cast<std::size_t>(
+              std::lower_bound(values.begin(), values.end(), value) - values.begin());
+          }
+          volumes[id] += SignedVolume<3>(mesh.PointsOf(s).data());
+        }
+      }
+    });
+
+  std::vector<ShrunkLabel> shrunk;
+  for (std::size_t id = 1; id < values.size(); ++id)
+  {
+    double volume = 0.0;
+    for (const std::vector<double>& volumes : blocks)
+    {
+      volume += volumes[id];
+    }
+    const std::int64_t voxels = image.Counts()[id];
+    const double whole = static_cast<double>(voxels) * image.Grid().VoxelVolume();
+    if (voxels >= FewestVoxelsOfShrunk && volume > 0.0 && volume < ShrunkFraction * whole)
+    {
+      shrunk.push_back({ values[id], volume / whole });
+    }
+  }
+  return shrunk;
+}
+
+} // namespace voxplex

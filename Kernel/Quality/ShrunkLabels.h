@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ShrunkLabels.h
+ * @brief Labels of which a mesh has much less volume than its image.
+ */
+#ifndef voxplex_ShrunkLabels_h
+#define voxplex_ShrunkLabels_h
+
+#include "Image/LabelImage.h"
+#include "Mesh/SimplexMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxplex
+{
+
+struct ShrunkLabel
+{
+  std::int64_t Label = 0;
+  double Fraction = 0.0; ///< of its volume in the image
+};
+
+/** A label is shrunk if the mesh has less than this part of its volume... */
+inline constexpr double ShrunkFraction = 0.5;
+/** ... and it has at least this number of voxels. Specks are only kept, with few elements. */
+inline constexpr std::int64_t FewestVoxelsOfShrunk = 100;
+
+/**
+ * The shrunk labels, in increasing order. Labels without an element are not among them.
+ *
+ * O(elements).
+ *
+ * @param mesh in the frame of the image
+ * @param threads 0 means all cores; the result does not depend on it
+ * @throws std::bad_alloc
+ */
+std::vector<ShrunkLabel> FindShrunkLabels(
+  const SimplexMesh<3>& mesh, const LabelImage<3>& image, unsigned threads = 1);
+
+} // namespace voxplex
+
+#endif
