@@ -364,6 +364,7 @@ private:
         {
           insertions[k] = this->FindInsertion(some[k], target);
         }
+        ++this->Done.InsertionsTried;
         ++inVain;
         if (this->Make(insertions[k]))
         {

@@ -29,6 +29,7 @@ struct PentatopeStatistics
   std::array<std::uint64_t, 3> Flips{}; ///< 2-4, 3-3, 4-2
   std::uint64_t Moves = 0;              ///< of vertices
   std::uint64_t Insertions = 0;         ///< of vertices
+  std::uint64_t InsertionsTried = 0;    ///< pentatopes for which one was looked for
   std::uint32_t Passes = 0;
 };
 

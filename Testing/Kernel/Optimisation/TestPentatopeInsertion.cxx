@@ -5,6 +5,7 @@
 #include "MeshChecks.h"
 #include "Optimisation/PentatopeFlips.h"
 #include "Optimisation/PentatopeInsertion.h"
+#include "Optimisation/PentatopeOptimiser.h"
 #include "PentatopeCases.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -228,6 +230,27 @@ TEST(PentatopeInsertion, LosesNoVertex)
 }
 
 // A cavity with more pentatopes than facets: some of the old ones are left without vertices.
+// In random labels hardly any insertion helps. To look for one at each of the worst pentatopes would take
+// most of the time.
+TEST(PentatopeInsertion, EndsARoundThatIsInVain)
+{
+  const auto grid = GridGeometry<4>::Orthogonal({ 14, 14, 14, 6 }, { 1.0, 1.0, 1.0, 1.0 });
+  std::mt19937_64 random(3);
+  std::vector<std::uint8_t> voxels(14 * 14 * 14 * 6);
+  for (std::uint8_t& voxel : voxels)
+  {
+    voxel = static_cast<std::uint8_t>(random() % 3);
+  }
+  const LabelImage<4> image = LabelImage<4>::FromScalars<std::uint8_t>(voxels, grid);
+  const ImageDomain<4> domain(image, 1.0);
+  SimplexMesh<4> mesh = Mesh(image, UsualOptions(1.5), false).Mesh;
+  PentatopeBounds bounds;
+  bounds.Target = 0.5; // out of reach for most
+  const PentatopeStatistics done = OptimisePentatopes(mesh, {}, domain, image, bounds, 1, {});
+  EXPECT_GT(done.PoorAfter, 10000u);
+  EXPECT_LT(done.InsertionsTried, 100u) << "of " << done.Insertions << " made";
+}
+
 TEST(PentatopeInsertion, MayLeaveFewerPentatopes)
 {
   const std::string voxels = // 16 of each frame
