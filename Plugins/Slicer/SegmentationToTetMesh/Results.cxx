@@ -29,6 +29,18 @@ std::string MissingLabels(vtkMeshingStatistics* statistics)
   return list;
 }
 
+/** The labels of which the mesh has too little, and how much it has. */
+std::string ShrunkLabels(vtkMeshingStatistics* statistics)
+{
+  std::string list;
+  for (int i = 0; i < statistics->GetNumberOfShrunkLabels(); ++i)
+  {
+    list += (i == 0 ? "" : ", ") + std::to_string(statistics->GetShrunkLabel(i)) + " (" +
+      std::to_string(std::lround(100.0 * statistics->GetShrunkLabelFraction(i))) + " %)";
+  }
+  return list;
+}
+
 } // namespace
 
 void Warn(const std::string& warning)
@@ -95,6 +107,11 @@ void PrintResults(vtkMeshingStatistics* statistics, const std::optional<Comparis
   if (const std::string missing = MissingLabels(statistics); !missing.empty())
   {
     Warn("the mesh lacks labels that are too small for delta: " + missing);
+  }
+  if (const std::string shrunk = ShrunkLabels(statistics); !shrunk.empty())
+  {
+    Warn("the mesh has less than half of the volume of labels that are thin for delta: " + shrunk +
+      "; exact components or a smaller delta keep them");
   }
   if (const int missing = statistics->GetNumberOfLostComponents(); missing > 0)
   {

@@ -257,6 +257,18 @@ class Runs(ModuleTestCase):
         self.assertEqual(parse_parameter_file(self.folder / "results.params")["missingLabels"], "9")
         self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: the mesh lacks labels .*: 9\n$")
 
+    def test_labels_that_are_thin(self):
+        z, y, x = np.meshgrid(*3 * [np.arange(32)], indexing="ij")
+        array = np.where(np.hypot(np.hypot(x - 18, y - 18), z - 22) < 8, 4, 0)
+        array[(z >= 8) & (z < 10) & (np.hypot(x - 16, y - 16) < 14)] = 9
+        images.write_nrrd(self.input, array.astype(np.uint8))
+        done = self.call("--delta", 4, "--threads", 1, self.input, "mesh.vtu")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"^SegmentationToTetMesh: warning: the mesh has less than half of the volume of labels "
+                                      r"that are thin for delta: 9 \(\d+ %\); exact components or a smaller delta keep them\n$")
+        done = self.call("--delta", 4, "--threads", 1, "--exactcomponents", self.input, "mesh.vtu")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_echo(self):
         output = self.run_module("--echo", "--delta", 3, "--labels", "3,7", self.input, "mesh.vtu")
         echo = output[:output.index("<filter-start>")].split("\n")
