@@ -47,6 +47,23 @@ std::string Describe(const std::vector<YieldingReport>& regions)
     text + (count > Most ? ", ...)" : ")");
 }
 
+/** At most 20 items, separated by commas, and how many there are. */
+template <typename Item, typename Describer>
+std::string ListSome(std::span<const Item> items, const Describer& describe)
+{
+  constexpr std::size_t shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, items.size()); ++i)
+  {
+    text.append(i ? ", " : "").append(describe(items[i]));
+  }
+  if (items.size() > shown)
+  {
+    text.append(", ... (").append(std::to_string(items.size())).append(" in all)");
+  }
+  return text;
+}
+
 } // namespace
 
 void CheckRange(double value, double low, double high, const char* name, const char* must)
@@ -59,17 +76,7 @@ void CheckRange(double value, double low, double high, const char* name, const c
 
 std::string ListLabels(std::span<const std::int64_t> labels)
 {
-  constexpr std::size_t shown = 20;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(shown, labels.size()); ++i)
-  {
-    text.append(i ? ", " : "").append(std::to_string(labels[i]));
-  }
-  if (labels.size() > shown)
-  {
-    text.append(", ... (").append(std::to_string(labels.size())).append(" in all)");
-  }
-  return text;
+  return ListSome(labels, [](std::int64_t label) { return std::to_string(label); });
 }
 
 std::vector<std::int64_t> FindLostLabels(
@@ -131,20 +138,15 @@ std::vector<std::string> WarningsOf(
   }
   if (!figures.ShrunkLabels.empty())
   {
-    constexpr std::size_t Most = 20;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(Most, figures.ShrunkLabels.size()); ++i)
+    const auto describe = [](const ShrunkLabel& label)
     {
-      const ShrunkLabel& label = figures.ShrunkLabels[i];
-      text += (i ? ", " : "") + std::to_string(label.Label) + " (" +
+      return std::to_string(label.Label) + " (" +
         std::to_string(std::lround(100.0 * label.Fraction)) + " %)";
-    }
+    };
     warnings.push_back("The mesh has less than half of the volume of these labels, which are "
                        "thin for a Delta of " +
-      NumberText(run.Delta) + ": " + text +
-      (figures.ShrunkLabels.size() > Most
-          ? ", ... (" + std::to_string(figures.ShrunkLabels.size()) + " in all)"
-          : "") +
+      NumberText(run.Delta) + ": " +
+      ListSome(std::span<const ShrunkLabel>(figures.ShrunkLabels), describe) +
       ". ExactComponents or a smaller Delta keeps them.");
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)

@@ -282,16 +282,7 @@ std::uint32_t Triangulation<D>::GuessApex(Worker& worker, std::size_t k) const
       points[m++] = this->Position(facet.V[i]);
     }
   }
-  Point<D> normal;
-  if constexpr (D == 3)
-  {
-    normal = Cross(Subtract(points[1], points[0]), Subtract(points[2], points[0]));
-  }
-  else
-  {
-    normal = Cross(Subtract(points[1], points[0]), Subtract(points[2], points[0]),
-      Subtract(points[3], points[0]));
-  }
+  Point<D> normal = FacetNormal(points);
   // A deleted simplex is on the side of the star, and one of the filling on the other.
   const double side = Dot(normal, Subtract(this->Position(opposite), points[0]));
   if ((side < 0.0) != inside)

@@ -79,7 +79,7 @@ enum class SimplexMark : std::uint8_t
   Unused, ///< not part of the triangulation
   Alive,
   Cavity, ///< in the cavity (or star) of the current operation
-  Outside ///< not in conflict: the current operation remembers a test that was not cheap
+  Outside ///< not in conflict, as the current operation has found and remembers
 };
 
 /** Data of a simplex for the refinement. */

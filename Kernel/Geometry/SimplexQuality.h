@@ -49,6 +49,17 @@ inline Point<4> Cross(const Point<4>& a, const Point<4>& b, const Point<4>& c)
   return normal;
 }
 
+/** The normal of the facet of D points, as long as the volume that its edges span. */
+inline Point<3> FacetNormal(const std::array<Point<3>, 3>& p)
+{
+  return Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]));
+}
+
+inline Point<4> FacetNormal(const std::array<Point<4>, 4>& p)
+{
+  return Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
+}
+
 /** D-dimensional volume, positive for positively oriented simplices. */
 template <int D>
 inline double SignedVolume(const Point<D>* const* v)

@@ -7,8 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace voxplex;
@@ -32,15 +37,9 @@ Point<D> RandomPoint(std::mt19937_64& random)
 template <int D>
 Point<D> NormalTowards(const std::array<Point<D>, D + 1>& v)
 {
-  Point<D> normal;
-  if constexpr (D == 3)
-  {
-    normal = Cross(Subtract(v[1], v[0]), Subtract(v[2], v[0]));
-  }
-  else
-  {
-    normal = Cross(Subtract(v[1], v[0]), Subtract(v[2], v[0]), Subtract(v[3], v[0]));
-  }
+  std::array<Point<D>, static_cast<std::size_t>(D)> facet;
+  std::copy_n(v.begin(), facet.size(), facet.begin());
+  Point<D> normal = FacetNormal(facet);
   const double sign = Dot(normal, Subtract(v[D], v[0])) < 0.0 ? -1.0 : 1.0;
   for (double& x : normal)
   {
