@@ -10,6 +10,7 @@
 #include "Meshing.h"
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
+#include "ProcessMemory.h"
 #include "ProgressBar.h"
 #include "SlabFiles.h"
 #include "SliceFiles.h"
@@ -383,5 +384,6 @@ int Main(int argc, const char* const* argv)
 
 int main(int argc, char* argv[])
 {
+  voxplex::cli::KeepFreedMemory();
   return voxplex::cli::Main(argc, argv);
 }

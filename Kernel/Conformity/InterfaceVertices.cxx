@@ -3,6 +3,7 @@
 #include "Conformity/InterfaceVertices.h"
 
 #include "Mesh/SimplexLabels.h"
+#include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -15,20 +16,83 @@ namespace
 {
 
 constexpr std::size_t Grain = 4096;
+constexpr std::size_t StarGrain = 256;
+
+/** A set of vertices that all threads may add to. */
+class MarkedVertices
+{
+public:
+  explicit MarkedVertices(VertexId end)
+    : Marks(end)
+  {
+  }
+
+  void Mark(VertexId v)
+  {
+    // Relaxed: all threads write the same value, and the end of the loop orders the writes before
+    // reads.
+    const std::atomic_ref<std::uint8_t> mark(this->Marks[v]);
+    if (mark.load(std::memory_order_relaxed) == 0)
+    {
+      mark.store(1, std::memory_order_relaxed);
+    }
+  }
+
+  /** The marked vertices, in ascending order. */
+  UninitialisedVector<VertexId> List(unsigned threads, const std::stop_token& stop) const
+  {
+    const auto forChunks = [&](auto&& function)
+    { ParallelFor(0, this->Marks.size(), ChunkCounts::Grain, threads, function, stop); };
+    ChunkCounts counts(this->Marks.size());
+    forChunks(
+      [&](std::size_t first, std::size_t last)
+      {
+        counts.OfChunk(first) = static_cast<std::size_t>(
+          std::count(this->Marks.data() + first, this->Marks.data() + last, std::uint8_t{ 1 }));
+      });
+    UninitialisedVector<VertexId> list(counts.TurnIntoPlaces());
+    forChunks(
+      [&](std::size_t first, std::size_t last)
+      {
+        std::size_t place = counts.OfChunk(first);
+        for (std::size_t v = first; v < last; ++v)
+        {
+          if (this->Marks[v] != 0)
+          {
+            list[place++] = static_cast<VertexId>(v);
+          }
+        }
+      });
+    return list;
+  }
+
+private:
+  std::vector<std::uint8_t> Marks;
+};
+
+/** Makes room for a number of elements and a few more, but not for twice as many. */
+template <typename Vector>
+void MakeRoom(Vector& vector, std::size_t elements)
+{
+  if (elements > vector.capacity())
+  {
+    vector.reserve(elements + elements / 16);
+  }
+}
 
 /**
  * Inserts more ids, and their positions, where they belong. Both lists are ascending.
  * @param more becomes empty
  */
 template <int D>
-void MergeInto(std::vector<VertexId>& ids, std::vector<Point<D>>& positions,
+void MergeInto(UninitialisedVector<VertexId>& ids, UninitialisedVector<Point<D>>& positions,
   std::vector<VertexId>& more, const std::vector<Point<D>>& morePositions)
 {
   auto from = ids.size();
   auto to = from + more.size();
-  ids.reserve(to); // not twice as much
+  MakeRoom(ids, to);
   ids.resize(to);
-  positions.reserve(to);
+  MakeRoom(positions, to);
   positions.resize(to);
   while (!more.empty())
   {
@@ -63,9 +127,9 @@ InterfaceVertices<D>::InterfaceVertices(const Triangulation<D>& triangulation,
 template <int D>
 void InterfaceVertices<D>::Forget()
 {
-  this->Seen = std::vector<std::uint16_t>();
-  this->Known = std::vector<VertexId>();
-  this->Positions = std::vector<Point<D>>();
+  this->Seen = UninitialisedVector<std::uint16_t>();
+  this->Known = UninitialisedVector<VertexId>();
+  this->Positions = UninitialisedVector<Point<D>>();
   this->LastAdded = std::vector<Point<D>>();
 }
 
@@ -108,17 +172,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       }
     },
     this->Stop);
-  std::vector<std::uint8_t> isOnInterface(this->Source.VertexIdEnd());
-  const auto mark = [&](VertexId v)
-  {
-    // Relaxed: all threads write the same value, and the end of the loop orders the writes before
-    // reads.
-    const std::atomic_ref<std::uint8_t> known(isOnInterface[v]);
-    if (known.load(std::memory_order_relaxed) == 0)
-    {
-      known.store(1, std::memory_order_relaxed);
-    }
-  };
+  MarkedVertices onInterfaces(this->Source.VertexIdEnd());
   // If two neighbouring simplices have different labels, the circumball of one of them meets an
   // interface, because the union of the two balls contains the dual edge.
   const auto look = [&](SimplexId s)
@@ -131,7 +185,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       {
         for (unsigned m = 1; m <= D; ++m)
         {
-          mark(simplex.V[(i + m) % (D + 1)]);
+          onInterfaces.Mark(simplex.V[(i + m) % (D + 1)]);
         }
       }
     }
@@ -149,18 +203,18 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       }
     },
     this->Stop);
-  const auto number = static_cast<std::size_t>(
-    std::count(isOnInterface.begin(), isOnInterface.end(), std::uint8_t{ 1 }));
-  this->Known.reserve(number);
-  this->Positions.reserve(number);
-  for (VertexId v = 0; v < isOnInterface.size(); ++v)
-  {
-    if (isOnInterface[v] != 0)
+  this->Known = onInterfaces.List(this->Threads, this->Stop);
+  this->Positions.resize(this->Known.size());
+  ParallelFor(
+    0, this->Known.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
     {
-      this->Known.push_back(v);
-      this->Positions.push_back(this->Source.Position(v));
-    }
-  }
+      for (std::size_t k = first; k < last; ++k)
+      {
+        this->Positions[k] = this->Source.Position(this->Known[k]);
+      }
+    },
+    this->Stop);
   return { this->Positions, {} };
 }
 
@@ -168,104 +222,132 @@ auto InterfaceVertices<D>::FindAll() -> Changes
 template <int D>
 auto InterfaceVertices<D>::FindChanges() -> Changes
 {
-  const std::vector<VertexId> candidates = this->VerticesOfNewSimplices();
-  std::vector<SimplexId> star;
+  const UninitialisedVector<VertexId> candidates = this->VerticesOfNewSimplices();
+  const UninitialisedVector<std::uint8_t> areOnInterfaces = this->AreOnInterfaces(candidates);
+  UninitialisedVector<std::uint8_t> isGone = this->AreRemoved();
   std::vector<VertexId> fresh; // not yet in Known; their positions are in LastAdded
   this->LastAdded.clear();
-  Changes changes;
-  // Only the stars of the candidates have changed. Some other vertices may have been removed. What
-  // stays moves to the front of Known.
-  std::size_t known = 0;
-  std::size_t kept = 0;
-  const auto keep = [&](std::size_t k)
+  // Only the stars of the candidates have changed.
+  auto known = this->Known.begin();
+  for (std::size_t c = 0; c < candidates.size(); ++c)
   {
-    this->Known[kept] = this->Known[k];
-    this->Positions[kept] = this->Positions[k];
-    ++kept;
-  };
-  const auto keepBefore = [&](VertexId end)
-  {
-    for (; known < this->Known.size() && this->Known[known] < end; ++known)
-    {
-      if (this->Source.GetVertex(this->Known[known]).Alive)
-      {
-        keep(known);
-      }
-      else
-      {
-        changes.Gone.push_back(this->Positions[known]);
-      }
-    }
-  };
-  for (const VertexId v : candidates)
-  {
-    ThrowIfStopped(this->Stop);
-    keepBefore(v);
+    const VertexId v = candidates[c];
     const Point<D>& position = this->Source.Position(v);
-    const bool isOn = this->IsOnInterface(v, star);
-    const bool wasKnown = known < this->Known.size() && this->Known[known] == v;
-    const bool isSame = isOn && wasKnown && this->Positions[known] == position; // ids are reused
+    known = std::lower_bound(known, this->Known.end(), v);
+    const auto k = static_cast<std::size_t>(known - this->Known.begin());
+    const bool wasKnown = known != this->Known.end() && *known == v;
+    const bool isOn = areOnInterfaces[c] != 0;
+    const bool isSame = isOn && wasKnown && this->Positions[k] == position; // ids are reused
     if (wasKnown && !isSame)
     {
-      changes.Gone.push_back(this->Positions[known]);
-    }
-    if (isSame)
-    {
-      keep(known);
+      isGone[k] = 1;
     }
     if (isOn && !isSame)
     {
       fresh.push_back(v);
       this->LastAdded.push_back(position);
     }
-    known += wasKnown ? 1 : 0;
   }
-  keepBefore(None);
-  this->Known.resize(kept);
-  this->Positions.resize(kept);
+  Changes changes;
+  changes.Gone = this->Drop(isGone);
   MergeInto<D>(this->Known, this->Positions, fresh, this->LastAdded);
   changes.Added = this->LastAdded;
   return changes;
 }
 
 //------------------------------------------------------------------------------------------------
+template <int D>
+UninitialisedVector<std::uint8_t> InterfaceVertices<D>::AreRemoved() const
+{
+  UninitialisedVector<std::uint8_t> answers(this->Known.size());
+  ParallelFor(
+    0, this->Known.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        answers[k] = this->Source.GetVertex(this->Known[k]).Alive ? 0 : 1;
+      }
+    },
+    this->Stop);
+  return answers;
+}
+
+template <int D>
+std::vector<Point<D>> InterfaceVertices<D>::Drop(std::span<const std::uint8_t> isGone)
+{
+  std::vector<Point<D>> gone;
+  auto kept = static_cast<std::size_t>(
+    std::find(isGone.begin(), isGone.end(), std::uint8_t{ 1 }) - isGone.begin());
+  for (std::size_t k = kept; k < isGone.size(); ++k)
+  {
+    if (isGone[k] != 0)
+    {
+      gone.push_back(this->Positions[k]);
+    }
+    else
+    {
+      this->Known[kept] = this->Known[k];
+      this->Positions[kept] = this->Positions[k];
+      ++kept;
+    }
+  }
+  this->Known.resize(kept);
+  this->Positions.resize(kept);
+  return gone;
+}
+
+//------------------------------------------------------------------------------------------------
 /** The vertices of simplices created since the last call, in ascending order. */
 template <int D>
-std::vector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
+UninitialisedVector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
-  this->Seen.reserve(ids); // not twice as much
+  MakeRoom(this->Seen, ids);
   this->Seen.resize(ids, NotKnown);
-  std::vector<std::vector<VertexId>> parts((ids - 1) / Grain + 1);
+  MarkedVertices found(this->Source.VertexIdEnd());
   ParallelFor(
     0, ids, Grain, this->Threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<VertexId>& found = parts[first / Grain];
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
         const std::uint16_t generation = this->GenerationOf(s);
         const bool isNew = generation != this->Seen[s] || generation == NotKnown;
         if (isNew && this->Source.IsAlive(s))
         {
-          const auto& v = this->Source.GetSimplex(s).V;
-          found.insert(found.end(), v.begin(), v.end());
+          for (const VertexId v : this->Source.GetSimplex(s).V)
+          {
+            found.Mark(v);
+          }
         }
         this->Seen[s] = generation;
       }
     },
     this->Stop);
-  std::vector<VertexId> vertices;
-  for (const std::vector<VertexId>& part : parts)
-  {
-    vertices.insert(vertices.end(), part.begin(), part.end());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
+  return found.List(this->Threads, this->Stop);
 }
 
 //------------------------------------------------------------------------------------------------
+template <int D>
+UninitialisedVector<std::uint8_t> InterfaceVertices<D>::AreOnInterfaces(
+  std::span<const VertexId> vertices) const
+{
+  UninitialisedVector<std::uint8_t> answers(vertices.size());
+  ParallelFor(
+    0, vertices.size(), StarGrain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::vector<SimplexId> star;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        answers[k] = this->IsOnInterface(vertices[k], star) ? 1 : 0;
+      }
+    },
+    this->Stop);
+  return answers;
+}
+
 template <int D>
 bool InterfaceVertices<D>::IsOnInterface(VertexId v, std::vector<SimplexId>& star) const
 {

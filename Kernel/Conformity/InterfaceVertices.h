@@ -7,6 +7,7 @@
 #ifndef voxplex_InterfaceVertices_h
 #define voxplex_InterfaceVertices_h
 
+#include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 
@@ -63,10 +64,16 @@ private:
 
   Changes FindAll();
   Changes FindChanges();
-  std::vector<VertexId> VerticesOfNewSimplices();
+  UninitialisedVector<VertexId> VerticesOfNewSimplices();
   /** The current generation of a simplex, or NotKnown if it is larger or the simplex is not alive. */
   std::uint16_t GenerationOf(SimplexId s) const;
   LabelId LabelOf(SimplexId s) const;
+  /** Which of the known vertices are no longer alive: 1 or 0. */
+  UninitialisedVector<std::uint8_t> AreRemoved() const;
+  /** Drops known vertices. @return their positions */
+  std::vector<Point<D>> Drop(std::span<const std::uint8_t> isGone);
+  /** Which of these vertices are on interfaces: 1 or 0. */
+  UninitialisedVector<std::uint8_t> AreOnInterfaces(std::span<const VertexId> vertices) const;
   /** @param star scratch */
   bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
 
@@ -75,10 +82,10 @@ private:
   const unsigned Threads;
   const std::stop_token Stop;
   /** GenerationOf() every simplex at the last call. Few reach NotKnown; they count as new each time. */
-  std::vector<std::uint16_t> Seen;
-  std::vector<VertexId> Known;     ///< interface vertices at the last call, ascending
-  std::vector<Point<D>> Positions; ///< of these
-  std::vector<Point<D>> LastAdded; ///< by a call that was not the first
+  UninitialisedVector<std::uint16_t> Seen;
+  UninitialisedVector<VertexId> Known;     ///< interface vertices at the last call, ascending
+  UninitialisedVector<Point<D>> Positions; ///< of these
+  std::vector<Point<D>> LastAdded;         ///< by a call that was not the first
 };
 
 extern template class InterfaceVertices<3>;

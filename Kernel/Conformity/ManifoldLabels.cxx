@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ManifoldLabels.h"
 
+#include "Base/UninitialisedVector.h"
 #include "Conformity/Crumbs.h"
 #include "Delaunay/VertexStar.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace voxplex
@@ -17,7 +20,8 @@ namespace
 /** Vertices of these simplices that are inside of a label. */
 template <int D>
 std::vector<Point<D>> VerticesWithin(const Triangulation<D>& triangulation,
-  const SimplexLabels& labels, const std::vector<SimplexId>& simplices)
+  const SimplexLabels& labels, const std::vector<SimplexId>& simplices, unsigned threads,
+  const std::stop_token& stop)
 {
   std::vector<VertexId> vertices;
   for (const SimplexId s : simplices)
@@ -27,15 +31,31 @@ std::vector<Point<D>> VerticesWithin(const Triangulation<D>& triangulation,
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::vector<Point<D>> within;
-  for (const VertexId v : vertices)
+  const auto isWithin = [&](VertexId v)
   {
     const std::vector<SimplexId> star =
       StarOf(triangulation, v, triangulation.GetVertex(v).Incident);
-    if (std::all_of(
-          star.begin(), star.end(), [&](SimplexId s) { return labels[s] == labels[star.front()]; }))
+    return std::all_of(
+      star.begin(), star.end(), [&](SimplexId s) { return labels[s] == labels[star.front()]; });
+  };
+  constexpr std::size_t Grain = 256;
+  UninitialisedVector<std::uint8_t> areWithin(vertices.size());
+  ParallelFor(
+    0, vertices.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last)
     {
-      within.push_back(triangulation.Position(v));
+      for (std::size_t k = first; k < last; ++k)
+      {
+        areWithin[k] = isWithin(vertices[k]) ? 1 : 0;
+      }
+    },
+    stop);
+  std::vector<Point<D>> within;
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+  {
+    if (areWithin[k] != 0)
+    {
+      within.push_back(triangulation.Position(vertices[k]));
     }
   }
   return within;
@@ -85,7 +105,7 @@ ManifoldLabels<D> MakeManifoldLabels(const Triangulation<D>& triangulation, bool
       made.Places.push_back({ CentroidOf(triangulation, ridge.Vertices), ridge.IsJunction });
     }
     changed.insert(changed.end(), result.Relabelled.begin(), result.Relabelled.end());
-    made.Gone = VerticesWithin(triangulation, made.Labels, changed);
+    made.Gone = VerticesWithin(triangulation, made.Labels, changed, threads, stop);
   }
   return made;
 }

@@ -126,9 +126,10 @@ private:
 /**
  * Mends bad ridges one after the other, in passes, until nothing helps any more.
  *
- * At the beginning of a pass, threads try to mend the ridges of parts of space, each part with labels of its own. Then
- * the changes are made in the order of the list. If something around a ridge is not as the thread had it, a change
- * is looked for again. So the result is that of one thread.
+ * At the beginning of a pass, threads look for changes. If there are many ridges, they mend parts of
+ * space, each part with labels of its own; otherwise they look at each ridge alone. Then the
+ * changes are made in the order of the list. If something around a ridge is not as the thread had
+ * it, a change is looked for again. So the result is that of one thread.
  */
 template <int D>
 class RepairTeam
@@ -139,7 +140,10 @@ public:
     const std::vector<InterfaceRidge<D>>& ridges, unsigned threads, const std::stop_token& stop)
     : Source(triangulation)
     , Labels(labels)
+    , OnInterface(onInterface)
+    , Options(options)
     , Ridges(ridges)
+    , Threads(NumberOfThreads(threads))
     , Stop(stop)
     , Finder(triangulation, labels, onInterface, options)
     , Changes(triangulation.VertexIdEnd())
@@ -148,7 +152,7 @@ public:
     // Labels are copied for each part, so it must have many ridges.
     const std::size_t fewest = std::max(FewestOfPart, labels.size() / SimplicesPerRidge);
     const std::size_t parts =
-      std::min<std::size_t>({ NumberOfThreads(threads), MostParts, ridges.size() / fewest });
+      std::min<std::size_t>({ this->Threads, MostParts, ridges.size() / fewest });
     if (parts > 1)
     {
       this->Parts.resize(parts);
@@ -165,6 +169,10 @@ public:
     {
       before = this->Relabelled.size();
       ++this->Pass;
+      if (this->Parts.empty() && this->Threads > 1)
+      {
+        this->ProposeForEach();
+      }
       this->ForParts([this](std::size_t p) { this->Try(*this->Parts[p]); });
       for (std::uint32_t r = 0; r < this->Entries.size(); ++r)
       {
@@ -270,6 +278,29 @@ private:
     return entry.IsMade && !this->Changes.AnyAfter(entry.Proposed.Seen, entry.Time);
   }
 
+  /** Finds a change for each ridge as if there were no other. */
+  void ProposeForEach()
+  {
+    constexpr std::size_t RidgesAtOnce = 8; // near each other, so that stars are found once
+    ParallelFor(
+      0, this->Entries.size(), RidgesAtOnce, this->Threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        const RidgeRepair<D> finder(this->Source, this->Labels, this->OnInterface, this->Options);
+        for (std::size_t r = first; r < last; ++r)
+        {
+          Entry& entry = this->Entries[r];
+          if (!this->IsRight(entry))
+          {
+            entry.Proposed = finder.Propose(this->Ridges[r].Vertices);
+            entry.IsMade = true;
+            entry.Time = this->Time;
+          }
+        }
+      },
+      this->Stop);
+  }
+
   /** Mends a part by changes of its own labels. */
   void Try(Part& part)
   {
@@ -356,7 +387,10 @@ private:
 
   const Triangulation<D>& Source;
   const std::span<LabelId> Labels; ///< by simplex id
+  const std::span<const std::uint8_t> OnInterface;
+  const ManifoldRepairOptions<D>& Options;
   const std::vector<InterfaceRidge<D>>& Ridges;
+  const unsigned Threads;
   const std::stop_token& Stop;
   const RidgeRepair<D> Finder;
   ChangeStamps Changes;                     ///< time is the number of changes

@@ -15,53 +15,20 @@ namespace voxplex
 namespace
 {
 
-/**
- * If vertices are closer to each other than this factor times NearVoxel, one of them is enough to
- * clear the voxels around them.
- */
-constexpr double ClearingDistance = 0.25;
+constexpr std::size_t Grain = 1024;
 
-/** Finds a subset of points, at least a distance apart, a part of the points after the other. */
+/** The voxel whose centre is nearest along each axis. */
 template <int D>
-class ThinningOut
+typename GridGeometry<D>::Index NearestVoxel(
+  const Point<D>& place, const typename GridGeometry<D>::Index& dimensions)
 {
-public:
-  ThinningOut(std::span<const Point<D>> points, double distance)
-    : Points(points)
-    , Distance(distance)
-    , Kept(Point<D>{}, distance, points.size())
+  typename GridGeometry<D>::Index voxel;
+  for (std::size_t a = 0; a < D; ++a)
   {
+    voxel[a] = std::clamp<std::int64_t>(std::llround(place[a]), 0, dimensions[a] - 1);
   }
-
-  bool IsDone() const { return this->Looked == this->Points.size(); }
-
-  /**
-   * The subset of the next points. Each point that is not in it is closer than the distance to a
-   * point of this or an earlier subset.
-   */
-  std::vector<Point<D>> Next()
-  {
-    constexpr std::size_t PointsAtOnce = std::size_t{ 1 } << 16;
-    std::vector<Point<D>> some;
-    some.reserve(std::min(PointsAtOnce, this->Points.size() - this->Looked));
-    for (; some.size() < PointsAtOnce && !this->IsDone(); ++this->Looked)
-    {
-      const Point<D>& p = this->Points[this->Looked];
-      if (!this->Kept.AnyWithin(p, this->Distance))
-      {
-        this->Kept.Add(p);
-        some.push_back(p);
-      }
-    }
-    return some;
-  }
-
-private:
-  const std::span<const Point<D>> Points;
-  const double Distance;
-  FeatureGrid<D> Kept;
-  std::size_t Looked = 0;
-};
+  return voxel;
+}
 
 } // namespace
 
@@ -116,16 +83,23 @@ bool UniformInterfaceCheck<D>::IsFar(const VoxelFace<D>& face, Hint& known) cons
 }
 
 //------------------------------------------------------------------------------------------------
+// The mask has the voxels of the crop and one layer around it.
+template <int D>
+Point<D> UniformInterfaceCheck<D>::PlaceInMask(const Point<D>& p) const
+{
+  Point<D> place = this->Image.Grid().ToIndex(p);
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    place[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
+  }
+  return place;
+}
+
 // Clears the ball row by row. IndexToFrame is upper triangular, so along an axis the coordinates of
 // all later axes are constant.
 template <int D>
-void UniformInterfaceCheck<D>::ClearVoxelsNear(const Point<D>& p, BitMask<D>& voxels) const
+void UniformInterfaceCheck<D>::ClearVoxelsNear(const Point<D>& centre, BitMask<D>& voxels) const
 {
-  Point<D> centre = this->Image.Grid().ToIndex(p); // in the mask: the crop and one layer around it
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    centre[a] -= static_cast<double>(this->Image.CropOrigin()[a] - 1);
-  }
   Index voxel{};
   this->ClearVoxelsNear(centre, D - 1, this->NearVoxel * this->NearVoxel, voxel, voxels);
 }
@@ -169,22 +143,23 @@ std::vector<VoxelFace<D>> UniformInterfaceCheck<D>::FindAllFar(
   BitMask<D> voxels = this->Sites;
   if (this->NearVoxel > 0.0)
   {
-    // Vertices may be much denser than the sampling distance. The scan below uses all of them.
-    ThinningOut<D> thinning(vertices, ClearingDistance * this->NearVoxel);
-    while (!thinning.IsDone())
-    {
-      const std::vector<Point<D>> some = thinning.Next();
-      ParallelFor(
-        0, some.size(), 1024, this->Threads,
-        [&](std::size_t first, std::size_t last)
+    // Vertices may be much denser than voxels. Those of one voxel clear nearly the same voxels, so
+    // one of them is enough. The scan below uses all.
+    BitMask<D> isUsed(voxels.Dimensions());
+    ParallelFor(
+      0, vertices.size(), Grain, this->Threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (const Point<D>& p : vertices.subspan(first, last - first))
         {
-          for (std::size_t i = first; i < last; ++i)
+          const Point<D> place = this->PlaceInMask(p);
+          if (isUsed.SetIfClear(NearestVoxel<D>(place, isUsed.Dimensions())))
           {
-            this->ClearVoxelsNear(some[i], voxels);
+            this->ClearVoxelsNear(place, voxels);
           }
-        },
-        this->Stop);
-    }
+        }
+      },
+      this->Stop);
   }
   return ScanFaces<Hint, D>(this->Image, voxels, this->Threads, this->Stop,
     [this](const VoxelFace<D>& face, Hint& known) { return this->IsFar(face, known); });
@@ -215,16 +190,24 @@ std::vector<FeatureSeed<D>> UniformInterfaceCheck<D>::InspectVertices(
   const bool isFirst = !this->Vertices;
   if (isFirst)
   {
-    this->Vertices.emplace(Point<D>{}, this->Reach, changes.Added.size());
+    // With one sampling distance all queries are of the first level.
+    this->Vertices.emplace(Point<D>{}, this->Reach, changes.Added.size(),
+      this->Sizing.IsUniform() ? 1 : FeatureGrid<D>::Levels);
   }
   for (const Point<D>& p : changes.Gone)
   {
     this->Vertices->Remove(p);
   }
-  for (const Point<D>& p : changes.Added)
-  {
-    this->Vertices->Add(p);
-  }
+  ParallelFor(
+    0, changes.Added.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (const Point<D>& p : changes.Added.subspan(first, last - first))
+      {
+        this->Vertices->Add(p);
+      }
+    },
+    this->Stop);
   const std::vector<VoxelFace<D>> far =
     isFirst ? this->FindAllFar(changes.Added) : this->FindFarAgain(changes.Gone);
   this->FarFaces = far.size();

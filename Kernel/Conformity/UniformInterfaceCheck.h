@@ -91,7 +91,8 @@ private:
   bool IsFar(const VoxelFace<D>& face, Hint& known) const;
   std::vector<VoxelFace<D>> FindAllFar(std::span<const Point<D>> vertices) const;
   std::vector<VoxelFace<D>> FindFarAgain(const std::vector<Point<D>>& gone) const;
-  void ClearVoxelsNear(const Point<D>& p, BitMask<D>& voxels) const;
+  Point<D> PlaceInMask(const Point<D>& p) const;
+  void ClearVoxelsNear(const Point<D>& centre, BitMask<D>& voxels) const;
   void ClearVoxelsNear(
     const Point<D>& centre, std::size_t axis, double left2, Index& voxel, BitMask<D>& voxels) const;
 

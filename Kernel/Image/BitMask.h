@@ -102,6 +102,22 @@ public:
     }
   }
 
+  /**
+   * Sets a bit. Several threads may set any bits at the same time.
+   *
+   * @param index inside the grid
+   * @return whether this call has set it; if several threads set a bit, this is true for one
+   */
+  bool SetIfClear(const Index& index)
+  {
+    const auto x = static_cast<std::size_t>(index[0]);
+    const std::uint64_t bit = std::uint64_t{ 1 } << (x % 64);
+    const std::atomic_ref<std::uint64_t> word(
+      this->Bits[this->RowOf(index) * this->Words + x / 64]);
+    return (word.load(std::memory_order_relaxed) & bit) == 0 &&
+      (word.fetch_or(bit, std::memory_order_relaxed) & bit) == 0;
+  }
+
   std::size_t MemoryBytes() const { return this->Bits.size() * sizeof(std::uint64_t); }
 
 private:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Junctions/JunctionCurves.h"
 
+#include "Base/UninitialisedVector.h"
 #include "Junctions/JunctionGraph.h"
 #include "Junctions/JunctionLattice.h"
 #include "Parallel/ParallelFor.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <mutex>
 #include <set>
 #include <span>
 #include <utility>
@@ -155,25 +157,41 @@ public:
     std::vector<Segment>& segments, unsigned threads, const std::stop_token& stop) const
   {
     using Number = Numbering::Number;
-    std::vector<Number> memory(4 * segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i)
-    {
-      std::copy(segments[i].Ends.begin(), segments[i].Ends.end(), memory.begin() + 2 * i);
-    }
+    constexpr std::size_t Grain = std::size_t{ 1 } << 14;
+    const std::size_t ends = 2 * segments.size();
+    UninitialisedVector<Number> memory(2 * ends);
+    ParallelFor(
+      0, ends, Grain, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t e = first; e < last; ++e)
+        {
+          memory[e] = segments[e / 2].Ends[e % 2];
+        }
+      },
+      stop);
     const std::span<Number> all(memory);
     const std::span<const Number> places = ParallelRadixSort(
-      all.first(2 * segments.size()), all.last(2 * segments.size()), this->Numbers.Bits(),
-      [](Number number) { return number; }, threads, stop);
+      all.first(ends), all.last(ends), this->Numbers.Bits(), [](Number number) { return number; },
+      threads, stop);
     std::set<Number> open; // triangles with a segment on one side only
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const bool again = (i > 0 && places[i] == places[i - 1]) ||
-        (i + 1 < places.size() && places[i] == places[i + 1]);
-      if (!again && !Numbering::IsCorner(places[i]))
+    std::mutex mutex;      // guards it
+    ParallelFor(
+      0, ends, Grain, threads,
+      [&](std::size_t first, std::size_t last)
       {
-        open.insert(places[i]);
-      }
-    }
+        for (std::size_t i = first; i < last; ++i)
+        {
+          const bool again =
+            (i > 0 && places[i] == places[i - 1]) || (i + 1 < ends && places[i] == places[i + 1]);
+          if (!again && !Numbering::IsCorner(places[i]))
+          {
+            const std::scoped_lock lock(mutex); // there are few
+            open.insert(places[i]);
+          }
+        }
+      },
+      stop);
     std::set<Index> followed;
     std::vector<Number> todo(open.begin(), open.end());
     while (!todo.empty())

@@ -7,8 +7,10 @@
 #ifndef voxplex_JunctionGraph_h
 #define voxplex_JunctionGraph_h
 
+#include "Base/UninitialisedVector.h"
 #include "Junctions/JunctionCurves.h"
 #include "Junctions/JunctionLattice.h"
+#include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
 
@@ -186,7 +188,7 @@ class Graph
 public:
   static constexpr std::uint32_t Nobody = 0xffffffffu;
 
-  Graph(const std::vector<Segment>& segments, const LabelledSpace<Field>& space, unsigned threads,
+  Graph(std::span<const Segment> segments, const LabelledSpace<Field>& space, unsigned threads,
     const std::stop_token& stop)
     : Space(space)
     , Numbers(space.LatticeDimensions())
@@ -250,7 +252,7 @@ private:
   bool IsCorner(std::uint32_t n) const { return Numbering::IsCorner(this->Places[n]); }
 
   /** Finds the places, in ascending order, and their neighbours, in the order of the segments. */
-  void JoinEnds(const std::vector<Segment>& segments, unsigned threads, const std::stop_token& stop)
+  void JoinEnds(std::span<const Segment> segments, unsigned threads, const std::stop_token& stop)
   {
     struct End
     {
@@ -258,31 +260,74 @@ private:
       std::uint32_t Segment; ///< twice the number of the segment, plus 0 or 1 for the end
     };
     const std::size_t count = 2 * segments.size();
-    std::vector<End> memory(2 * count);
-    for (std::uint32_t e = 0; e < count; ++e)
-    {
-      memory[e] = { segments[e / 2].Ends[e % 2], e };
-    }
+    const auto forChunks = [&](auto&& function)
+    { ParallelFor(0, count, ChunkCounts::Grain, threads, function, stop); };
+    UninitialisedVector<End> memory(2 * count);
+    forChunks(
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t e = first; e < last; ++e)
+        {
+          memory[e] = { segments[e / 2].Ends[e % 2], static_cast<std::uint32_t>(e) };
+        }
+      });
     const std::span<End> all(memory);
+    // Ends with the same place keep their order.
     const std::span<const End> ends = ParallelRadixSort(
       all.first(count), all.last(count), this->Numbers.Bits(),
       [](const End& end) { return end.Place; }, threads, stop);
-    std::vector<std::uint32_t> positions(count); // index of each end's place
-    for (const End& end : ends)
-    {
-      if (this->Places.empty() || this->Places.back() != end.Place)
+
+    const auto isFirst = [&](std::size_t i) // of a place
+    { return i == 0 || ends[i].Place != ends[i - 1].Place; };
+    ChunkCounts places(count);
+    forChunks(
+      [&](std::size_t first, std::size_t last)
       {
-        this->Places.push_back(end.Place);
-        this->Labels.push_back(segments[end.Segment / 2].Labels[end.Segment % 2]);
-      }
-      positions[end.Segment] = static_cast<std::uint32_t>(this->Places.size() - 1);
-    }
-    this->Neighbours.assign(this->Places.size(), { Nobody, Nobody, Nobody, Nobody });
-    for (std::size_t e = 0; e < count; e += 2)
-    {
-      this->Join(positions[e], positions[e + 1]);
-      this->Join(positions[e + 1], positions[e]);
-    }
+        std::size_t number = 0;
+        for (std::size_t i = first; i < last; ++i)
+        {
+          number += isFirst(i) ? 1 : 0;
+        }
+        places.OfChunk(first) = number;
+      });
+    const std::size_t number = places.TurnIntoPlaces();
+    this->Places.resize(number);
+    this->Labels.resize(number);
+    this->Neighbours.resize(number);
+    UninitialisedVector<std::uint32_t> positions(count); // index of each end's place
+    forChunks(
+      [&](std::size_t first, std::size_t last)
+      {
+        std::size_t n = places.OfChunk(first) - 1; // of the place that began before
+        for (std::size_t i = first; i < last; ++i)
+        {
+          const End& end = ends[i];
+          if (isFirst(i))
+          {
+            ++n;
+            this->Places[n] = end.Place;
+            this->Labels[n] = segments[end.Segment / 2].Labels[end.Segment % 2];
+          }
+          positions[end.Segment] = static_cast<std::uint32_t>(n);
+        }
+      });
+    forChunks(
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          if (isFirst(i))
+          {
+            auto& neighbours = this->Neighbours[positions[ends[i].Segment]];
+            neighbours.fill(Nobody);
+            std::size_t ways = 0;
+            for (std::size_t k = i; k < count && ends[k].Place == ends[i].Place; ++k)
+            {
+              neighbours[ways++] = positions[ends[k].Segment ^ 1u]; // at the segment's other end
+            }
+          }
+        }
+      });
   }
 
   /** Computes the positions of all places but corners. */
@@ -307,12 +352,6 @@ private:
         }
       },
       stop);
-  }
-
-  void Join(std::uint32_t from, std::uint32_t to)
-  {
-    auto& neighbours = this->Neighbours[from];
-    *std::find(neighbours.begin(), neighbours.end(), Nobody) = to;
   }
 
   /**
@@ -348,11 +387,11 @@ private:
 
   const LabelledSpace<Field>& Space;
   const Numbering Numbers;
-  std::vector<Numbering::Number> Places; ///< ascending
+  UninitialisedVector<Numbering::Number> Places; ///< ascending
   /** The labels of their triangles; at a corner, three of its four labels. */
-  std::vector<std::array<LabelId, 3>> Labels;
+  UninitialisedVector<std::array<LabelId, 3>> Labels;
   /** Two of each point; up to four of a corner; one of an open end. */
-  std::vector<std::array<std::uint32_t, 4>> Neighbours;
+  UninitialisedVector<std::array<std::uint32_t, 4>> Neighbours;
   std::vector<Point<3>> Positions;
 };
 

@@ -3,6 +3,7 @@
 #include "Mesher/ImageMesher.h"
 
 #include "Mesher/MeshingPipeline.h"
+#include "Parallel/ThreadTeam.h"
 
 #include <algorithm>
 #include <chrono>
@@ -47,6 +48,7 @@ MeshingOutcome ImageMesher<D>::Run(
   std::stop_source stop;
   const auto run = [&]
   {
+    const ThreadTeam team(this->Options.Team.Threads); // for the loops of the stages
     return RunPipeline(
       image, isosurface, this->Options, this->Stats, progress, stop.get_token(), mesh);
   };

@@ -33,6 +33,8 @@ constexpr std::size_t SurveyGrain = 16384;
 /** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
 constexpr std::size_t VerticesOfBlock = 4000;
 constexpr std::size_t MostBlocks = 256;
+/** Slabs are thin. With fewer of them, fewer tetrahedra lie between slabs. */
+constexpr std::size_t MostSlabs = 48;
 /** Room for new vertices is one for so many; if it is too little, arrays are copied. */
 constexpr std::size_t VerticesPerSpare = 16;
 /**
@@ -133,9 +135,10 @@ public:
     if (blocks > 1)
     {
       this->WorkInBlocks(blocks, this->BlocksByOrder(blocks));
+      const std::size_t slabs = std::min(blocks, MostSlabs);
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        this->WorkInBlocks(blocks, this->BlocksByCoordinate(blocks, axis));
+        this->WorkInBlocks(slabs, this->BlocksByCoordinate(slabs, axis));
       }
     }
     this->WorkOnAll();
@@ -254,6 +257,7 @@ private:
    */
   void WorkOnAll()
   {
+    this->WorkWithoutInsertions();
     const std::size_t points = this->Mesh.Points.size();
     const std::size_t spare = 8 * this->Poor.size();
     this->Mesh.AddVertices(spare);
@@ -266,10 +270,8 @@ private:
     patch.SetSpareVertices(
       static_cast<std::uint32_t>(points), static_cast<std::uint32_t>(points + spare));
     worker.WorkOn(this->Poor);
-    for (const Effort effort : { Effort::Plain, Effort::Insertions, Effort::MovesOffInterfaces })
-    {
-      this->WorkWith(effort, worker);
-    }
+    this->WorkWith(Effort::Insertions, worker);
+    this->WorkWith(Effort::MovesOffInterfaces, worker);
     for (unsigned round = 0; round < RoundsOfRoom; ++round)
     {
       if (worker.Left().empty() || this->Limits.OutOfTime())
@@ -280,6 +282,22 @@ private:
       this->WorkWith(Effort::Insertions, worker);
       this->WorkWith(Effort::MovesOffInterfaces, worker);
     }
+    this->Count(worker);
+  }
+
+  /** Most of the poor tetrahedra go, so that few vertices need room afterwards. */
+  void WorkWithoutInsertions()
+  {
+    const Blocks blocks(this->Mesh.Points.size(), 0);
+    PatchWorker worker(this->Mesh, blocks, 0, this->Image, this->Rules,
+      this->Options.InterfaceTolerance, this->Limits);
+    worker.GetPatch().Clock = this->LastClock;
+    worker.GetPatch().SetSlots(std::move(this->Slots));
+    worker.WorkOn(this->Poor);
+    this->WorkWith(Effort::Plain, worker);
+    this->Poor = worker.Left();
+    this->Slots = worker.GetPatch().TakeSlots();
+    this->LastClock = worker.GetPatch().Clock;
     this->Count(worker);
   }
 

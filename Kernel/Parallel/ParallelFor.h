@@ -8,6 +8,7 @@
 #define voxplex_ParallelFor_h
 
 #include "Base/Error.h"
+#include "Parallel/ThreadTeam.h"
 
 #include <algorithm>
 #include <atomic>
@@ -43,6 +44,9 @@ inline void ThrowIfStopped(const std::stop_token& stop)
  * A chunk has `grain` iterations (the last chunk may have fewer). Threads take chunks dynamically,
  * so that uneven work balances. If there is one thread or one chunk, everything runs in the calling
  * thread, in order. The calling thread always takes part. Returns when all chunks are done.
+ *
+ * If the calling thread leads a ThreadTeam, the other threads are helpers of this team. Otherwise
+ * they are started for this loop.
  *
  * @param grain iterations of a chunk, at least 1
  * @param threads threads that take part, the caller included; 0 means all cores
@@ -94,6 +98,15 @@ void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned
     }
   };
 
+  if (workers == 1)
+  {
+    work();
+  }
+  else if (ThreadTeam* const team = ThreadTeam::Idle())
+  {
+    team->Run(workers - 1, work);
+  }
+  else
   {
     std::vector<std::jthread> others;
     others.reserve(workers - 1);

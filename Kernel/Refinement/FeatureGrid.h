@@ -40,15 +40,20 @@ template <int D>
 class FeatureGrid
 {
 public:
+  static constexpr std::size_t Levels = 4; ///< the most that a grid has
+
   /**
    * @param radius queries up to this radius visit few cells; larger ones are correct but slower
    * @param expected the expected number of vertices; with more vertices queries are correct but
    *   slower
+   * @param levels 1 ... Levels; with fewer, queries with small radii visit more vertices
    */
-  FeatureGrid(const Point<D>& origin, double radius, std::uint64_t expected)
+  FeatureGrid(
+    const Point<D>& origin, double radius, std::uint64_t expected, std::size_t levels = Levels)
     : Origin(origin)
+    , NumberOfLevels(levels)
   {
-    for (std::size_t level = 0; level < Levels; ++level)
+    for (std::size_t level = 0; level < levels; ++level)
     {
       this->Radius[level] = radius;
       this->InverseCell[level] = 0.5 / radius;
@@ -57,8 +62,8 @@ public:
     const std::uint64_t buckets =
       std::bit_ceil(std::clamp<std::uint64_t>(expected / 2, FewestBuckets, MostBuckets));
     this->Mask = static_cast<std::uint32_t>(buckets - 1);
-    this->Heads.reset(new std::atomic<std::uint32_t>[Levels * buckets]);
-    for (std::uint64_t b = 0; b < Levels * buckets; ++b)
+    this->Heads.reset(new std::atomic<std::uint32_t>[levels * buckets]);
+    for (std::uint64_t b = 0; b < levels * buckets; ++b)
     {
       this->Heads[b].store(End, std::memory_order_relaxed);
     }
@@ -70,7 +75,7 @@ public:
     this->Nodes.Grow(n + 1);
     Node& node = this->Nodes[n];
     node.Position = p;
-    for (std::size_t level = 0; level < Levels; ++level)
+    for (std::size_t level = 0; level < this->NumberOfLevels; ++level)
     {
       std::atomic<std::uint32_t>& head = this->HeadOf(this->CellOf(p, level), level);
       node.Next[level] = head.load(std::memory_order_relaxed);
@@ -88,7 +93,7 @@ public:
    */
   bool Remove(const Point<D>& p)
   {
-    constexpr std::size_t finest = Levels - 1;
+    const std::size_t finest = this->NumberOfLevels - 1;
     std::uint32_t n = this->HeadOf(this->CellOf(p, finest), finest).load(std::memory_order_relaxed);
     while (n != End && this->Nodes[n].Position != p)
     {
@@ -110,7 +115,7 @@ public:
   /** A vertex nearer to p than `distance`, or null if there is none. The pointer stays valid. */
   const Point<D>* FindWithin(const Point<D>& p, double distance) const
   {
-    std::size_t level = Levels - 1;
+    std::size_t level = this->NumberOfLevels - 1;
     while (level > 0 && distance > this->Radius[level])
     {
       --level;
@@ -171,7 +176,6 @@ public:
 
 private:
   static constexpr std::uint32_t End = 0xffffffffu;
-  static constexpr std::size_t Levels = 4;
   /** Ratio of the radii of successive levels. */
   static constexpr double LevelFactor = 5.0;
   static constexpr std::uint64_t FewestBuckets = 1u << 14; ///< of one level
@@ -243,6 +247,7 @@ private:
   }
 
   Point<D> Origin;
+  std::size_t NumberOfLevels;
   std::array<double, Levels> Radius;
   std::array<double, Levels> InverseCell;
   std::uint32_t Mask = 0;

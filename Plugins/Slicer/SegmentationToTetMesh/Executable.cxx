@@ -5,11 +5,13 @@
 
 #include "Interruption.h"
 #include "Module.h"
+#include "ProcessMemory.h"
 
 #include <vtkObject.h>
 
 int main(int argc, char* argv[])
 {
+  voxplex::cli::KeepFreedMemory();
   voxplex::cli::Interruption::Install();
   vtkObject::GlobalWarningDisplayOff();
   return ModuleEntryPoint(argc, argv);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -15,35 +16,35 @@
 using namespace voxplex;
 using namespace voxplex::checks;
 
-// Cubes of random labels. There are enough bad edges for each of the threads to have many, and neighbours that another
-// thread changes.
-TEST(ManifoldRepair, DoesNotDependOnThreads)
+namespace
 {
-  constexpr std::size_t Size = 64;
+
+/** Repairs cubes of random labels. @return the bad edges, and the number of changes */
+std::array<std::size_t, 2> CheckThatThreadsDoNotMatter(std::size_t size)
+{
+  const auto n = static_cast<std::int64_t>(size);
   std::mt19937 generator(1);
-  std::vector<std::uint8_t> cubes(Size * Size * Size / 64);
+  std::vector<std::uint8_t> cubes(size * size * size / 64);
   std::generate(
     cubes.begin(), cubes.end(), [&] { return static_cast<std::uint8_t>(generator() % 4); });
   std::vector<std::uint8_t> voxels;
-  for (std::size_t k = 0; k < Size; ++k)
+  for (std::size_t k = 0; k < size; ++k)
   {
-    for (std::size_t j = 0; j < Size; ++j)
+    for (std::size_t j = 0; j < size; ++j)
     {
-      for (std::size_t i = 0; i < Size; ++i)
+      for (std::size_t i = 0; i < size; ++i)
       {
-        voxels.push_back(cubes[i / 4 + Size / 4 * (j / 4 + Size / 4 * (k / 4))]);
+        voxels.push_back(cubes[i / 4 + size / 4 * (j / 4 + size / 4 * (k / 4))]);
       }
     }
   }
   const auto image = LabelImage<3>::FromScalars<std::uint8_t>(
-    voxels, GridGeometry<3>::Orthogonal({ Size, Size, Size }, { 1.0, 1.0, 1.0 }));
+    voxels, GridGeometry<3>::Orthogonal(GridGeometry<3>::Index{ n, n, n }, { 1.0, 1.0, 1.0 }));
   const ImageDomain<3> domain(image, 1.0);
   const auto context = Refined(domain, 3.0);
   const SimplexLabels before = LabelSimplices<3>(context->Mesh, domain);
   SimplexLabels labels = before;
   const ManifoldRepairResult<3> result = RepairManifold<3>(context->Mesh, labels);
-  EXPECT_GT(result.Before, 600u);
-  EXPECT_GT(result.Relabelled.size(), 300u);
   for (const unsigned threads : { 2u, 3u, 8u })
   {
     SimplexLabels repaired = before;
@@ -52,4 +53,24 @@ TEST(ManifoldRepair, DoesNotDependOnThreads)
     EXPECT_EQ(same.Relabelled, result.Relabelled) << threads;
     EXPECT_EQ(same.Left.size(), result.Left.size()) << threads;
   }
+  return { result.Before, result.Relabelled.size() };
+}
+
+} // namespace
+
+// Each thread has many bad edges, and neighbours that another thread changes.
+TEST(ManifoldRepair, DoesNotDependOnThreads)
+{
+  const auto [ridges, changes] = CheckThatThreadsDoNotMatter(64);
+  EXPECT_GT(ridges, 600u);
+  EXPECT_GT(changes, 300u);
+}
+
+// There are too few bad edges for parts with labels of their own.
+TEST(ManifoldRepair, DoesNotDependOnThreadsWithFewEdges)
+{
+  const auto [ridges, changes] = CheckThatThreadsDoNotMatter(20);
+  EXPECT_GT(ridges, 10u);
+  EXPECT_LT(ridges, 64u);
+  EXPECT_GT(changes, 5u);
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <random>
 #include <vector>
 
@@ -76,5 +77,38 @@ TEST(BitMask, ClearsRuns)
       }
     }
     EXPECT_GT(std::count(expected.begin(), expected.end(), true), 300);
+  }
+}
+
+// Neighbours share words. Each bit is set by one call.
+TEST(BitMask, ThreadsSetEachBitOnce)
+{
+  using Index = BitMask<3>::Index;
+  const Index n{ 70, 3, 2 };
+  constexpr std::size_t Calls = 20000;
+  BitMask<3> mask(n);
+  std::atomic<int> set = 0;
+  ParallelFor(0, Calls, 16, 4,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        const auto x = static_cast<std::int64_t>(k * 7919 % 65); // not all of a row
+        set +=
+          mask.SetIfClear({ x, static_cast<std::int64_t>(k % 3), static_cast<std::int64_t>(k % 2) })
+          ? 1
+          : 0;
+      }
+    });
+  EXPECT_EQ(set, 65 * 3 * 2);
+  for (Index p{}; p[2] < n[2]; ++p[2])
+  {
+    for (p[1] = 0; p[1] < n[1]; ++p[1])
+    {
+      for (p[0] = 0; p[0] < n[0]; ++p[0])
+      {
+        ASSERT_EQ(mask.Test(p), p[0] < 65) << p[0] << " " << p[1] << " " << p[2];
+      }
+    }
   }
 }
