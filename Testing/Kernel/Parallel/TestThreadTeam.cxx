@@ -16,23 +16,25 @@ using namespace voxplex;
 namespace
 {
 
-/** Counts the threads that have ever called Visit(). */
+/** Counts the threads that call Visit(). */
 class Visitors
 {
 public:
   void Visit()
   {
-    thread_local const Visitors* known = nullptr;
-    if (known != this)
+    thread_local int last = 0;
+    if (last != this->Id)
     {
-      known = this;
+      last = this->Id;
       ++this->Number;
     }
   }
   int Count() const { return this->Number; }
 
 private:
-  std::atomic<int> Number{ 0 };
+  static inline std::atomic<int> Ids = 0;
+  const int Id = ++Ids;
+  std::atomic<int> Number = 0;
 };
 
 /** The sum of 0 ... n-1, by a loop. */
@@ -73,22 +75,36 @@ TEST(ThreadTeam, ItsThreadsWorkAtTheSameTime)
   }
 }
 
+// Each chunk waits for the others, so that all threads take one.
 TEST(ThreadTeam, ALoopUsesTheTeamOfItsThread)
 {
-  constexpr int Loops = 40;
+  constexpr int Threads = 3;
   Visitors visitors;
   const auto loop = [&]
-  { ParallelFor(0, 64, 1, 3, [&](std::size_t, std::size_t) { visitors.Visit(); }); };
   {
-    const ThreadTeam team(3);
-    for (int k = 0; k < Loops; ++k)
+    std::atomic<int> arrived = 0;
+    ParallelFor(0, Threads, 1, Threads,
+      [&](std::size_t, std::size_t)
+      {
+        visitors.Visit();
+        ++arrived;
+        while (arrived < Threads)
+        {
+          std::this_thread::yield();
+        }
+      });
+  };
+  {
+    const ThreadTeam team(Threads);
+    for (int k = 0; k < 40; ++k)
     {
       loop();
     }
-    EXPECT_LE(visitors.Count(), 3);
+    EXPECT_EQ(visitors.Count(), Threads);
   }
   EXPECT_EQ(ThreadTeam::Idle(), nullptr);
   loop(); // starts threads
+  EXPECT_EQ(visitors.Count(), 2 * Threads - 1);
 }
 
 // Neither side uses atomics, so the thread sanitizer sees what the team does not order.
