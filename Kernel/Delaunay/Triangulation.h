@@ -7,6 +7,7 @@
 #ifndef voxplex_Triangulation_h
 #define voxplex_Triangulation_h
 
+#include "Delaunay/Outcomes.h"
 #include "Delaunay/RidgeTable.h"
 #include "Delaunay/Stack.h"
 #include "Delaunay/StarFilling.h"
@@ -24,31 +25,6 @@
 
 namespace voxplex
 {
-
-enum class InsertionOutcome
-{
-  Inserted,
-  NoConflict, ///< the point is not in conflict with the given simplex
-  Duplicate,  ///< the point is already a vertex
-  TooClose,   ///< the point is nearer than the clearance to a vertex that does not give way
-  Rejected,   ///< the veto did not accept the new simplices
-  Contended   ///< another worker owns a vertex of the cavity
-};
-
-enum class RemovalOutcome
-{
-  Removed,
-  OnBox,    ///< the vertex is of kind Box or Shared, and cannot be removed
-  Failed,   ///< the star could not be re-triangulated; the triangulation is unchanged
-  Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
-};
-
-enum class LockOutcome
-{
-  Locked,
-  Dead,     ///< the simplex was deleted
-  Contended ///< another worker owns one of its vertices
-};
 
 /**
  * @brief The perturbed Delaunay triangulation of a set of points in a box, corners included.
@@ -313,6 +289,15 @@ public:
    */
   SimplexId FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const;
 
+  /**
+   * As FindConflict(), while other workers operate. The worker takes the vertices of all simplices
+   * on the way, so a walk that is not short is in the way of others.
+   * @param near a living vertex, where the walk begins. No other worker may remove it meanwhile.
+   * @param conflict receives the simplex if it is found; the worker owns its vertices
+   */
+  LocationOutcome FindConflictBesideOthers(
+    Worker& worker, const Point<D>& p, VertexId near, SimplexId& conflict);
+
   /** True if p is in the (perturbed) open circumball of a simplex. The answer is exact. Forced
    * inline, since a call costs more than the test. */
   [[gnu::always_inline]] bool InConflict(Worker& worker, SimplexId s, const Point<D>& p) const
@@ -378,7 +363,10 @@ private:
 
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
   Circumball<D> ComputeBallExactly(SimplexId s) const;
-  SimplexId FindConflictExactly(Worker& worker, const Point<D>& p, SimplexId hint) const;
+  template <typename Enter>
+  bool WalkTo(Worker& worker, const Point<D>& p, SimplexId& s, Enter&& enter) const;
+  template <typename Enter>
+  bool WalkExactly(Worker& worker, const Point<D>& p, SimplexId& s, Enter&& enter) const;
   static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
   std::uint32_t NumberVertex(Worker& worker, VertexId v);
   bool TryOwn(Worker& worker, VertexId v);

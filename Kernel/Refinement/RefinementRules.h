@@ -80,35 +80,21 @@ public:
 
   /**
    * Inserts a feature point and applies R6, unless the point would crowd others. A point near a
-   * flat end is moved to where an interface meets the end. A shared point is inserted as it is.
+   * flat end is moved to where an interface meets the end. A shared point is inserted as it is. No
+   * other thread may operate meanwhile.
    * @param near a living simplex, where the search begins; receives one near the point if the point
    *   is inserted
+   * @return whether the point is inserted; then the worker's NewVertex has it
    */
-  void InsertSeed(const FeatureSeed<D>& seed, SimplexId& near)
-  {
-    Point<D> z = seed.Position;
-    Point<D> onEnd;
-    if (seed.IsShared)
-    {
-      this->InsertShared(seed, near);
-      return;
-    }
-    if ((this->Context.IsNearEnd(z, seed.Delta, onEnd) &&
-          !this->Context.Image.ClosestSurfacePointOnEnd(onEnd, z)) ||
-      this->AnyFeatureWithin(z, seed.Delta))
-    {
-      return;
-    }
-    const SimplexId conflict = this->Context.Mesh.FindConflict(this->Worker.Kernel, z, near);
-    if (conflict != None)
-    {
-      this->Context.Mesh.Lock( // no other thread operates, so it succeeds
-        this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
-      this->InsertFeature(z, seed.Delta, 0.0, conflict, None,
-        this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
-      near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
-    }
-  }
+  bool InsertSeed(const FeatureSeed<D>& seed, SimplexId& near);
+
+  /**
+   * As InsertSeed() for a point that is not shared, while other threads operate.
+   * @param near a vertex that is not free, where the search begins; receives the new
+   *   vertex
+   * @return Contended if another thread is in the way
+   */
+  RuleOutcome InsertSeedBesideOthers(const FeatureSeed<D>& seed, VertexId& near);
 
   /**
    * Tries the last of the worker's pending removals again. Vertices that a removal brings within
@@ -535,32 +521,8 @@ protected:
   static constexpr double EndSpacing = 0.6;
 
 private:
-  /** Inserts a point that another slab has on the common plane. R6 follows a feature point. */
-  void InsertShared(const FeatureSeed<D>& seed, SimplexId& near)
-  {
-    const SimplexId conflict =
-      this->Context.Mesh.FindConflict(this->Worker.Kernel, seed.Position, near);
-    if (conflict == None)
-    {
-      return; // it is a vertex already: a corner of the box
-    }
-    this->Context.Mesh.Lock( // no other thread operates, so it succeeds
-      this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
-    if (this->Context.Mesh.Insert(this->Worker.Kernel, seed.Position, seed.Kind, conflict) !=
-      InsertionOutcome::Inserted)
-    {
-      return;
-    }
-    ++this->Worker.Statistics.Shared;
-    near = this->Worker.Kernel.Created[0];
-    this->ScreenCreated();
-    if (seed.Kind == VertexKind::Feature)
-    {
-      this->Context.Features.Add(seed.Position);
-      this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * seed.Delta);
-      near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
-    }
-  }
+  bool InsertShared(const FeatureSeed<D>& seed, SimplexId& near);
+  bool HasPlace(const FeatureSeed<D>& seed, Point<D>& z) const;
 
   /**
    * Removes the free vertices adjacent to z that are nearer than the radius. A removal can make
@@ -696,5 +658,7 @@ private:
 };
 
 } // namespace voxplex
+
+#include "Refinement/SeedInsertion.txx"
 
 #endif

@@ -156,19 +156,19 @@ private:
       this->StartAtSeeds();
       return;
     }
-    SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0);
+    SeedTriangulation<Rules>(this->Context, this->Workers, this->Seeds, 0);
     const std::vector<SimplexId> simplices = this->LivingSimplices();
     this->template Screen<Rules>(
       *this->Workers[0], simplices.data(), simplices.data() + simplices.size());
   }
 
-  /** Pushes the simplices at the seeds and at lowered bounds, all to the first worker. */
+  /** Pushes the simplices at the seeds, and to the first worker those at lowered bounds. */
   void StartAtSeeds()
   {
-    RefinementWorker<D>& worker = *this->Workers[0];
-    InsertSeeds<Rules>(this->Context, worker, this->Seeds);
+    InsertSeeds<Rules>(this->Context, this->Workers, this->Seeds);
     const std::vector<SimplexId> changed = this->FindReaching();
-    this->template Screen<Rules>(worker, changed.data(), changed.data() + changed.size());
+    this->template Screen<Rules>(
+      *this->Workers[0], changed.data(), changed.data() + changed.size());
   }
 
   /** Makes the workers 1, 2 ..., each with its share of a seeded triangulation. */
@@ -194,15 +194,16 @@ private:
       this->StartAtSeeds();
       return;
     }
-    SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds,
+    SeedTriangulation<Rules>(this->Context, this->Workers, this->Seeds,
       std::size_t{ this->Options.SeedsPerThread } * threads);
-    const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh);
-    for (std::size_t t = 0; t < threads; ++t)
-    {
-      this->template Screen<Rules>(*this->Workers[t],
-        simplices.data() + simplices.size() * t / threads,
-        simplices.data() + simplices.size() * (t + 1) / threads);
-    }
+    const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh, threads);
+    ParallelFor(0, threads, 1, threads,
+      [&](std::size_t t, std::size_t)
+      {
+        this->template Screen<Rules>(*this->Workers[t],
+          simplices.data() + simplices.size() * t / threads,
+          simplices.data() + simplices.size() * (t + 1) / threads);
+      });
   }
 
   void RemoveEagerly()

@@ -10,11 +10,14 @@
 #include "Base/GridIndex.h"
 #include "Geometry/HilbertOrder.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelSort.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,7 +34,7 @@ namespace voxplex
  */
 template <int D>
 std::vector<FeatureSeed<D>> SampleInterfaces(
-  const RefinementContext<D>& context, double spacing, double reach, unsigned threads = 1)
+  const RefinementContext<D>& context, double spacing, double reach, unsigned threads)
 {
   constexpr std::size_t grain = 1024;
   const Box<D> bounds = context.Image.Bounds();
@@ -87,7 +90,7 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
  */
 template <int D>
 std::vector<FeatureSeed<D>> SampleInterfaces(
-  const RefinementContext<D>& context, std::size_t number)
+  const RefinementContext<D>& context, std::size_t number, unsigned threads)
 {
   if (number == 0)
   {
@@ -103,7 +106,37 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
   constexpr double FewestDeltas = 4.0;
   const double spacing =
     std::max(FewestDeltas * finest, std::pow(volume / static_cast<double>(number), 1.0 / D));
-  return SampleInterfaces(context, spacing, spacing);
+  return SampleInterfaces(context, spacing, spacing, threads);
+}
+
+/** The order in which seeds are inserted: shared points first, then along a Hilbert curve. */
+template <int D>
+std::vector<std::size_t> SeedsAlongCurve(
+  const Triangulation<D>& mesh, const std::vector<FeatureSeed<D>>& seeds)
+{
+  struct Place
+  {
+    bool IsLate;
+    std::uint64_t Index;
+    std::size_t Seed;
+
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> along;
+  along.reserve(seeds.size());
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    along.push_back({ !seeds[i].IsShared,
+      HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
+  }
+  std::sort(along.begin(), along.end());
+  std::vector<std::size_t> order;
+  order.reserve(along.size());
+  for (const Place& place : along)
+  {
+    order.push_back(place.Seed);
+  }
+  return order;
 }
 
 /**
@@ -118,29 +151,117 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
   const std::vector<FeatureSeed<D>>& seeds)
 {
   Triangulation<D>& mesh = context.Mesh;
-  struct Place
-  {
-    bool IsLate;
-    std::uint64_t Index;
-    std::size_t Seed;
-
-    auto operator<=>(const Place&) const = default;
-  };
-  std::vector<Place> along;
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-  {
-    along.push_back({ !seeds[i].IsShared,
-      HilbertIndex<D>(mesh.GetBox().Clamp(seeds[i].Position), mesh.GetBox()), i });
-  }
-  std::sort(along.begin(), along.end());
   SimplexId near = mesh.FirstAlive();
   Rules rules(context, worker);
-  for (const Place& place : along)
+  for (const std::size_t i : SeedsAlongCurve(mesh, seeds))
   {
-    rules.InsertSeed(seeds[place.Seed], near);
+    rules.InsertSeed(seeds[i], near);
     near = mesh.IsAlive(near) ? near : mesh.FirstAlive();
   }
   mesh.Unlock(worker.Kernel);
+}
+
+/**
+ * As above, with all workers at the same time.
+ *
+ * The curve is cut into a few stretches for each worker. The first worker inserts the first points
+ * of all stretches. So the others start near their points, and apart from each other. Then each
+ * worker inserts the rest of its stretches. A point that another worker is in the way of is tried
+ * again at the end; the first worker inserts what is left then. Few points are inserted by one
+ * worker alone.
+ *
+ * @param workers have distinct numbers
+ */
+template <typename Rules, int D = Rules::Dimension>
+void InsertSeeds(RefinementContext<D>& context,
+  const std::vector<std::unique_ptr<RefinementWorker<D>>>& workers,
+  const std::vector<FeatureSeed<D>>& seeds)
+{
+  constexpr std::size_t StretchesPerWorker = 8;
+  constexpr std::size_t FewestOfStretch = 8; // with fewer, there is nothing to gain
+  const std::size_t stretches = StretchesPerWorker * workers.size();
+  const auto shared = static_cast<std::size_t>(std::count_if(
+    seeds.begin(), seeds.end(), [](const FeatureSeed<D>& seed) { return seed.IsShared; }));
+  if (workers.size() == 1 || seeds.size() - shared < FewestOfStretch * stretches)
+  {
+    InsertSeeds<Rules>(context, *workers[0], seeds);
+    return;
+  }
+  Triangulation<D>& mesh = context.Mesh;
+  const std::vector<std::size_t> order = SeedsAlongCurve(mesh, seeds);
+  SimplexId near = mesh.FirstAlive();
+  VertexId last = 0; // it is not free, so it is never removed
+  while (!mesh.GetVertex(last).Alive || mesh.GetVertex(last).Kind == VertexKind::Free)
+  {
+    ++last;
+  }
+  Rules first(context, *workers[0]);
+  const auto insertAlone = [&](std::size_t i)
+  {
+    if (first.InsertSeed(seeds[i], near))
+    {
+      last = workers[0]->Kernel.NewVertex;
+    }
+    near = mesh.IsAlive(near) ? near : mesh.FirstAlive();
+  };
+  for (std::size_t n = 0; n < shared; ++n)
+  {
+    insertAlone(order[n]);
+  }
+  const auto beginOf = [&](std::size_t stretch)
+  { return shared + (order.size() - shared) * stretch / stretches; };
+  std::vector<VertexId> starts(stretches);
+  for (std::size_t k = 0; k < stretches; ++k)
+  {
+    insertAlone(order[beginOf(k)]);
+    starts[k] = last;
+  }
+  mesh.Unlock(workers[0]->Kernel);
+
+  std::vector<std::vector<std::size_t>> left(workers.size());
+  ParallelFor(0, workers.size(), 1, static_cast<unsigned>(workers.size()),
+    [&](std::size_t w, std::size_t)
+    {
+      struct Attempt
+      {
+        std::size_t Seed;
+        VertexId Near;
+      };
+      Rules rules(context, *workers[w]);
+      std::vector<Attempt> contended;
+      const auto insert = [&](std::size_t i, VertexId& from)
+      {
+        const RuleOutcome outcome = rules.InsertSeedBesideOthers(seeds[i], from);
+        mesh.Unlock(workers[w]->Kernel);
+        return outcome != RuleOutcome::Contended;
+      };
+      for (std::size_t k = StretchesPerWorker * w; k < StretchesPerWorker * (w + 1); ++k)
+      {
+        VertexId from = starts[k];
+        for (std::size_t n = beginOf(k) + 1; n < beginOf(k + 1); ++n)
+        {
+          if (!insert(order[n], from))
+          {
+            contended.push_back({ order[n], from });
+          }
+        }
+      }
+      for (Attempt& again : contended)
+      {
+        if (!insert(again.Seed, again.Near))
+        {
+          left[w].push_back(again.Seed);
+        }
+      }
+    });
+  for (const std::vector<std::size_t>& ofWorker : left)
+  {
+    for (const std::size_t i : ofWorker)
+    {
+      insertAlone(i);
+    }
+  }
+  mesh.Unlock(workers[0]->Kernel);
 }
 
 /**
@@ -151,20 +272,29 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
  * thread begins with work of its own. The points are counted as insertions by R1.
  *
  * @param Rules as in Refiner
- * @param worker inserts; no other thread may operate meanwhile. Nothing is screened: most of the
+ * @param workers insert; no other thread may operate meanwhile. Nothing is screened: most of the
  *   new simplices do not last.
  * @param seeds are inserted before the sample
  * @param nodes approximate number of points of the sample, 0 for none
  */
 template <typename Rules, int D = Rules::Dimension>
-void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
+void SeedTriangulation(RefinementContext<D>& context,
+  const std::vector<std::unique_ptr<RefinementWorker<D>>>& workers,
   const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
 {
-  worker.ScreensLater = true;
+  const auto screenLater = [&](bool later)
+  {
+    for (const auto& worker : workers)
+    {
+      worker->ScreensLater = later;
+    }
+  };
+  screenLater(true);
   // The seeds come first: points of the sample would be in the way of junctions.
-  InsertSeeds<Rules>(context, worker, seeds);
-  InsertSeeds<Rules>(context, worker, SampleInterfaces(context, nodes));
-  worker.ScreensLater = false;
+  InsertSeeds<Rules>(context, workers, seeds);
+  InsertSeeds<Rules>(
+    context, workers, SampleInterfaces(context, nodes, static_cast<unsigned>(workers.size())));
+  screenLater(false);
 }
 
 /**
@@ -172,30 +302,52 @@ void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worke
  * thread starts well from a piece of the list.
  */
 template <int D>
-std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh)
+std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh, unsigned threads)
 {
-  std::vector<std::pair<std::uint64_t, SimplexId>> order;
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+  struct Place
   {
-    if (mesh.IsAlive(s))
+    std::uint32_t Index;
+    SimplexId Id;
+  };
+  constexpr std::size_t grain = 4096;
+  constexpr unsigned dropped = 63 / D * D - 30; // bits: 30 are enough for places
+  std::vector<std::vector<Place>> parts(mesh.SimplexIdEnd() / grain + 1);
+  ParallelFor(0, mesh.SimplexIdEnd(), grain, threads,
+    [&](std::size_t first, std::size_t last)
     {
-      Point<D> centre{};
-      for (const VertexId v : mesh.GetSimplex(s).V)
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        for (std::size_t a = 0; a < D; ++a)
+        if (!mesh.IsAlive(s))
         {
-          centre[a] += mesh.Position(v)[a] / (D + 1);
+          continue;
         }
+        Point<D> centre{};
+        for (const VertexId v : mesh.GetSimplex(s).V)
+        {
+          for (std::size_t a = 0; a < D; ++a)
+          {
+            centre[a] += mesh.Position(v)[a] / (D + 1);
+          }
+        }
+        const std::uint64_t index =
+          HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()) >> dropped;
+        parts[first / grain].push_back({ static_cast<std::uint32_t>(index), s });
       }
-      order.push_back({ HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()), s });
-    }
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<SimplexId> simplices;
-  simplices.reserve(order.size());
-  for (const auto& [index, s] : order)
+    });
+  std::vector<Place> places;
+  for (const std::vector<Place>& part : parts)
   {
-    simplices.push_back(s);
+    places.insert(places.end(), part.begin(), part.end());
+  }
+  std::vector<Place> scratch(places.size());
+  const std::span<const Place> along = ParallelRadixSort(
+    std::span<Place>(places), std::span<Place>(scratch), 30,
+    [](const Place& place) { return place.Index; }, threads);
+  std::vector<SimplexId> simplices;
+  simplices.reserve(along.size());
+  for (const Place& place : along)
+  {
+    simplices.push_back(place.Id);
   }
   return simplices;
 }

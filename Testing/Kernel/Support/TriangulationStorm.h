@@ -167,16 +167,20 @@ private:
     return true;
   }
 
-  /** A simplex of the star of a vertex that stays for the whole storm. */
+  /** A vertex that stays for the whole storm. */
+  VertexId AnyStaying()
+  {
+    return this->Staying.empty() || this->Chance(8)
+      ? static_cast<VertexId>(this->Random() % (1u << D)) // a corner of the box
+      : this->Staying[this->Random() % this->Staying.size()].Id;
+  }
+
+  /** A simplex of the star of a vertex that stays. */
   bool Restart(Met& met)
   {
     for (;;)
     {
-      VertexId v = static_cast<VertexId>(this->Random() % (1u << D)); // a corner of the box
-      if (!this->Staying.empty() && !this->Chance(8))
-      {
-        v = this->Staying[this->Random() % this->Staying.size()].Id;
-      }
+      const VertexId v = this->AnyStaying();
       if (this->T.TryLock(this->Worker, v))
       {
         met.Id = this->T.GetVertex(v).Incident;
@@ -215,8 +219,33 @@ private:
     Nowhere     ///< stuck
   };
 
+  /** Walks towards p, with all simplices on the way locked. */
+  Place LocateLocked(const Point<D>& p, Met& met)
+  {
+    for (;;)
+    {
+      const LocationOutcome outcome =
+        this->T.FindConflictBesideOthers(this->Worker, p, this->AnyStaying(), met.Id);
+      this->MayYield();
+      if (outcome == LocationOutcome::Found)
+      {
+        this->ExpectOwned(met.Id);
+        EXPECT_TRUE(this->T.InConflict(this->Worker, met.Id, p));
+        return Place::InConflict;
+      }
+      if (outcome == LocationOutcome::IsVertex)
+      {
+        return Place::IsVertex;
+      }
+      if (!this->RollBack())
+      {
+        return Place::Nowhere;
+      }
+    }
+  }
+
   /** Walks towards p, one simplex locked at a time. */
-  Place Locate(const Point<D>& p, Met& met)
+  Place LocateLoosely(const Point<D>& p, Met& met)
   {
     if (!this->Restart(met))
     {
@@ -286,7 +315,8 @@ private:
     for (;;)
     {
       Met met;
-      const Place place = this->Locate(p, met);
+      const Place place =
+        this->Chance(2) ? this->LocateLocked(p, met) : this->LocateLoosely(p, met);
       if (place != Place::InConflict)
       {
         this->Duplicates += place == Place::IsVertex ? 1 : 0;
