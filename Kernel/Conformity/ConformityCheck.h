@@ -29,8 +29,9 @@ struct Remedy
  * @brief Checks a property of the mesh that the refinement rules alone do not guarantee.
  *
  * After each refinement, all checks inspect the triangulation, in order, then the elements that will
- * be extracted from it, and then the mesh. If a check needs a remedy, inspection stops and refinement
- * is resumed. Each check gives up after a limited number of remedies, so the run ends.
+ * be extracted from it, and then the mesh. If any of them needs a remedy at one of these steps,
+ * inspection stops after the step, and refinement is resumed for all of them together. Each check
+ * gives up after a limited number of remedies, so the run ends.
  *
  * All functions may throw Cancelled and std::bad_alloc.
  */

@@ -34,25 +34,24 @@ InterfaceCheck::InterfaceCheck(const Subject& subject, const InterfaceOptions& o
 //------------------------------------------------------------------------------------------------
 Remedy<3> InterfaceCheck::InspectTriangulation()
 {
-  const bool looks = this->Uniform && this->MayGoOn();
-  Remedy<3> remedy;
-  if (looks)
+  if (this->Uniform && this->MayGoOn())
   {
-    remedy = this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()));
-  }
-  if (!remedy.IsNeeded)
-  {
-    this->MakeLabels();
-    if (looks)
+    Remedy<3> remedy = this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()));
+    if (remedy.IsNeeded)
     {
-      remedy = this->Counted(this->Uniform->InspectLabels(this->Made.Gone, this->Made.Places));
+      return remedy;
     }
   }
-  if (!remedy.IsNeeded)
-  {
-    this->OpenEdges();
-  }
-  return remedy;
+  this->MakeLabels();
+  this->OpenEdges();
+  return {};
+}
+
+Remedy<3> InterfaceCheck::InspectElements(const LabelledTriangulation<3>&)
+{
+  return this->Uniform && this->MayGoOn()
+    ? this->Counted(this->Uniform->InspectLabels(this->Made.Gone, this->Made.Places))
+    : Remedy<3>();
 }
 
 Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)

@@ -34,17 +34,16 @@ namespace voxplex
  * @brief Gives tetrahedra their labels, and decides where refinement has to be resumed to correct
  * interfaces.
  *
- * InspectTriangulation() takes these steps:
- * - It looks for voxel faces that are far from all vertices of interfaces.
- * - If there are none, each tetrahedron gets the label at its circumcentre. Some tetrahedra get
- *   another label, so that a label holds together (RelabelCrumbs) and its boundary is manifold
- *   (RepairManifold).
- * - It checks the edges that are still not manifold, and the faces that the repair made far
- *   (UniformInterfaceCheck).
+ * InspectTriangulation() looks for voxel faces that are far from all vertices of interfaces. If
+ * there are none, it takes these steps:
+ * - Each tetrahedron gets the label at its circumcentre. Some tetrahedra get another label, so that
+ *   a label holds together (RelabelCrumbs) and its boundary is manifold (RepairManifold).
+ * - Edges that are still not manifold are opened: the mesh gets the tetrahedra around them in pieces
+ *   (MakeSpindles).
  *
- * All steps use the triangulation, so no mesh is extracted before its interfaces are correct. If
- * refinement is not resumed, the remaining non-manifold edges are opened: the mesh gets the
- * tetrahedra around them in pieces (MakeSpindles).
+ * InspectElements() checks the edges that were opened, and the faces that the repair made far
+ * (UniformInterfaceCheck). Both use the triangulation, so no mesh is extracted before its interfaces
+ * are correct.
  *
  * If sampling distances are graded, distances are measured to triangles instead of vertices. Then
  * only InspectMesh() requests points (GradedInterfaceCheck).
@@ -76,6 +75,7 @@ public:
 
   /** Requests no points once the number of rounds has reached the limit in the options. */
   Remedy<3> InspectTriangulation() override;
+  Remedy<3> InspectElements(const LabelledTriangulation<3>& elements) override;
   Remedy<3> InspectMesh(const SimplexMesh<3>& mesh) override;
 
   /** Whether InspectMesh() may request points. */

@@ -110,21 +110,20 @@ MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, doubl
 }
 
 //------------------------------------------------------------------------------------------------
-/** Runs the checks in order. Returns the first remedy that is needed. */
+/** Runs the checks in order. Returns what they need together. */
 template <int D, typename Inspect>
 Remedy<D> FindRemedy(const std::vector<ConformityCheck<D>*>& checks, Inspect&& inspect)
 {
+  Remedy<D> all;
   for (ConformityCheck<D>* check : checks)
   {
     const Stopwatch time;
-    Remedy<D> remedy = inspect(*check);
+    const Remedy<D> remedy = inspect(*check);
     check->Seconds += time.Seconds();
-    if (remedy.IsNeeded)
-    {
-      return remedy;
-    }
+    all.IsNeeded = all.IsNeeded || remedy.IsNeeded;
+    all.Points.insert(all.Points.end(), remedy.Points.begin(), remedy.Points.end());
   }
-  return {};
+  return all;
 }
 
 /** Inspects the triangulation and the mesh. If no check needs a remedy, the mesh is in `mesh`. */
