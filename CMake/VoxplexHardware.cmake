@@ -3,7 +3,7 @@
 # VOXPLEX_HARDWARE_DEFINITIONS for the kernel. Files, not targets: an export of a static build would
 # have to carry targets along.
 
-option(VOXPLEX_USE_HWLOC "Place threads by the machine's topology (where hwloc 2 is found)" ON)
+option(VOXPLEX_USE_HWLOC "Place threads by the machine's topology (where hwloc 2.3 is found)" ON)
 option(VOXPLEX_USE_PAPI "Count TLB and cache misses per thread with PAPI" OFF)
 
 set(VOXPLEX_HARDWARE_LIBRARIES)
@@ -30,11 +30,11 @@ macro (voxplex_find_hardware_library name package header library)
 endmacro ()
 
 if (VOXPLEX_USE_HWLOC)
-  # hwloc/distances.h came with hwloc 2; in hwloc 1, NUMA nodes are ancestors of processors.
-  voxplex_find_hardware_library(HWLOC "hwloc>=2.0" hwloc/distances.h hwloc)
+  # hwloc/memattrs.h came with hwloc 2.3; parts of hwloc can be left out since 2.1.
+  voxplex_find_hardware_library(HWLOC "hwloc>=2.3" hwloc/memattrs.h hwloc)
   if (NOT VOXPLEX_HAVE_HWLOC)
     voxplex_skip("Placing threads by the machine's topology"
-      "hwloc 2 was not found (apt-get install libhwloc-dev)")
+      "hwloc 2.3 was not found (apt-get install libhwloc-dev)")
   endif ()
 endif ()
 if (VOXPLEX_USE_PAPI)

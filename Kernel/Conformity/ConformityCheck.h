@@ -30,8 +30,9 @@ struct Remedy
  *
  * After each refinement, all checks inspect the triangulation, in order, then the elements that will
  * be extracted from it, and then the mesh. If any of them needs a remedy at one of these steps,
- * inspection stops after the step, and refinement is resumed for all of them together. Each check
- * gives up after a limited number of remedies, so the run ends.
+ * inspection stops after the step, and refinement is resumed for all of them together. A check that
+ * needed nothing before may be left out then. Each check gives up after a limited number of
+ * remedies, so the run ends.
  *
  * All functions may throw Cancelled and std::bad_alloc.
  */

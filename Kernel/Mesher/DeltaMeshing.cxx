@@ -110,34 +110,61 @@ MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, doubl
 }
 
 //------------------------------------------------------------------------------------------------
-/** Runs the checks in order. Returns what they need together. */
-template <int D, typename Inspect>
-Remedy<D> FindRemedy(const std::vector<ConformityCheck<D>*>& checks, Inspect&& inspect)
+/** A step of inspection, as ConformityCheck describes them. It may be taken once a round. */
+template <int D>
+class InspectionStep
 {
-  Remedy<D> all;
-  for (ConformityCheck<D>* check : checks)
+public:
+  /**
+   * Runs the checks in order. Returns what they need together. If one needs a remedy, this round is
+   * not the last. Then checks that needed nothing in the round before can wait.
+   */
+  template <typename Inspect>
+  Remedy<D> Take(const std::vector<ConformityCheck<D>*>& checks, Inspect&& inspect)
   {
-    const Stopwatch time;
-    const Remedy<D> remedy = inspect(*check);
-    check->Seconds += time.Seconds();
-    all.IsNeeded = all.IsNeeded || remedy.IsNeeded;
-    all.Points.insert(all.Points.end(), remedy.Points.begin(), remedy.Points.end());
+    this->NeededNothing.resize(checks.size(), false);
+    Remedy<D> all;
+    for (std::size_t k = 0; k < checks.size(); ++k)
+    {
+      if (all.IsNeeded && this->NeededNothing[k])
+      {
+        continue;
+      }
+      const Stopwatch time;
+      const Remedy<D> remedy = inspect(*checks[k]);
+      checks[k]->Seconds += time.Seconds();
+      this->NeededNothing[k] = !remedy.IsNeeded;
+      all.IsNeeded = all.IsNeeded || remedy.IsNeeded;
+      all.Points.insert(all.Points.end(), remedy.Points.begin(), remedy.Points.end());
+    }
+    return all;
   }
-  return all;
-}
+
+private:
+  std::vector<bool> NeededNothing; ///< of each check, at its last inspection
+};
+
+/** The steps of inspection. */
+template <int D>
+struct Inspection
+{
+  InspectionStep<D> OfTriangulation;
+  InspectionStep<D> OfElements;
+  InspectionStep<D> OfMesh;
+};
 
 /** Inspects the triangulation and the mesh. If no check needs a remedy, the mesh is in `mesh`. */
 template <int D>
 Remedy<D> InspectAndExtract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
-  typename Dimension<D>::Checks& checks, SimplexMesh<D>& mesh)
+  typename Dimension<D>::Checks& checks, Inspection<D>& inspection, SimplexMesh<D>& mesh)
 {
   const std::vector<ConformityCheck<D>*> all = checks.All();
-  Remedy<D> remedy =
-    FindRemedy<D>(all, [](ConformityCheck<D>& check) { return check.InspectTriangulation(); });
+  Remedy<D> remedy = inspection.OfTriangulation.Take(
+    all, [](ConformityCheck<D>& check) { return check.InspectTriangulation(); });
   if (!remedy.IsNeeded)
   {
     const LabelledTriangulation<D> elements = checks.Elements();
-    remedy = FindRemedy<D>(
+    remedy = inspection.OfElements.Take(
       all, [&](ConformityCheck<D>& check) { return check.InspectElements(elements); });
   }
   if (!remedy.IsNeeded)
@@ -153,7 +180,8 @@ Remedy<D> InspectAndExtract(const RunEnvironment<D>& run, RefinementStage<D>& st
     const double optimisation = times.Optimisation;
     checks.Extract(mesh);
     times.Extraction += time.Seconds() - (times.Optimisation - optimisation);
-    remedy = FindRemedy<D>(all, [&](ConformityCheck<D>& check) { return check.InspectMesh(mesh); });
+    remedy = inspection.OfMesh.Take(
+      all, [&](ConformityCheck<D>& check) { return check.InspectMesh(mesh); });
   }
   return remedy;
 }
@@ -171,6 +199,7 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
     { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
       estimate.InterfaceVertices });
   typename Dimension<D>::Checks checks(run, *stage, sizing.LocalBounds());
+  Inspection<D> inspection;
   stage->FollowLocalBounds();
   std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());
   const std::vector<FeatureSeed<D>> more = checks.TakeSeeds();
@@ -182,7 +211,7 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
     progress.EndRefinement();
     ReturnFreeMemory();                   // the lists of poor elements
     sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
-    Remedy<D> remedy = InspectAndExtract(run, *stage, checks, mesh);
+    Remedy<D> remedy = InspectAndExtract(run, *stage, checks, inspection, mesh);
     if (!remedy.IsNeeded)
     {
       return true;
