@@ -197,13 +197,13 @@ private:
     SeedTriangulation<Rules>(this->Context, this->Workers, this->Seeds,
       std::size_t{ this->Options.SeedsPerThread } * threads);
     const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh, threads);
-    ParallelFor(0, threads, 1, threads,
-      [&](std::size_t t, std::size_t)
-      {
-        this->template Screen<Rules>(*this->Workers[t],
-          simplices.data() + simplices.size() * t / threads,
-          simplices.data() + simplices.size() * (t + 1) / threads);
-      });
+    // By one thread: screening a simplex also writes what it finds out about its neighbours.
+    for (std::size_t t = 0; t < threads; ++t)
+    {
+      this->template Screen<Rules>(*this->Workers[t],
+        simplices.data() + simplices.size() * t / threads,
+        simplices.data() + simplices.size() * (t + 1) / threads);
+    }
   }
 
   void RemoveEagerly()
