@@ -356,7 +356,11 @@ RuleOutcome Rules3D::R3(const Element& t)
     if (shapely)
     {
       clearance = std::max(clearance, CutClearance * delta);
-      this->MoveToBorderEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance);
+      this->MoveToBorderEdge(z, Distance(z, mesh.Position(simplex.V[(i + 1) % 4])), clearance, z);
+    }
+    else
+    {
+      this->MoveOntoBorder(z, CutClearance * delta);
     }
     if (this->AnyFeatureWithin(z, clearance))
     {
@@ -440,12 +444,35 @@ bool Rules3D::FacetIsFlat(
 
 //------------------------------------------------------------------------------------------------
 // If a facet is not flat, the reason is usually an edge nearby that has too few vertices.
-void Rules3D::MoveToBorderEdge(Point<3>& z, double reach, double clearance) const
+void Rules3D::MoveToBorderEdge(
+  const Point<3>& onFace, double reach, double clearance, Point<3>& z) const
 {
   Point<3> edge;
-  if (this->Context.Border->FindEdge(z, reach, edge) && !this->AnyFeatureWithin(edge, clearance))
+  if (this->Context.Border->FindEdge(onFace, reach, edge) &&
+    !this->AnyFeatureWithin(edge, clearance))
   {
     z = edge;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// A vertex of another interface just below a face would take a facet's place there. The edge where
+// the two meet is near.
+void Rules3D::MoveOntoBorder(Point<3>& z, double clearance) const
+{
+  const ImageBorder<3>* border = this->Context.Border;
+  if (border == nullptr || border->FacesAt(z) != 0)
+  {
+    return;
+  }
+  for (unsigned face = 0; face < 6; ++face)
+  {
+    const Point<3> above = border->MoveOnto(z, 1u << face);
+    if (Distance2(above, z) < clearance * clearance)
+    {
+      this->MoveToBorderEdge(above, 4.0 * clearance, clearance, z);
+      return;
+    }
   }
 }
 

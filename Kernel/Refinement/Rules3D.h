@@ -17,7 +17,8 @@
  * - R3: the dual edge of a facet f meets dOmega at z, and an angle of f is below the bound or a
  *   vertex of f is not a feature vertex: insert z. Or z lies on a face where the image cuts the
  *   object, and a vertex of f does not: insert z or a point nearby on an edge of that face, unless
- *   a feature vertex is nearer than CutClearance Delta(z).
+ *   a feature vertex is nearer than CutClearance Delta(z). A z of the first kind that is nearer to
+ *   such a face than this is moved to an edge of the face nearby.
  * - R4: c(t) is inside the object, and r(t) / shortest edge >= rho-bar: insert c(t).
  * - R5: c(t) is inside the object, and r(t) >= sf(c(t)): insert c(t).
  * - R6: a feature vertex z was inserted (by R1, R3 or R7): remove the free vertices of its star
@@ -83,7 +84,7 @@ private:
   static constexpr double SliverSpacing = 0.25;
   /**
    * Points that R3 inserts to make facets flat keep this distance from feature vertices, times
-   * Delta.
+   * Delta. Its other points keep it from faces where the image cuts the object, if they can.
    */
   static constexpr double CutClearance = 0.25;
 
@@ -104,7 +105,8 @@ private:
   bool MayCrossBorder(const Element& t, SimplexId neighbour, LabelId other) const;
   bool FacetIsFlat(
     const std::array<VertexId, 4>& v, unsigned facet, const Point<3>& crossing) const;
-  void MoveToBorderEdge(Point<3>& z, double reach, double clearance) const;
+  void MoveToBorderEdge(const Point<3>& onFace, double reach, double clearance, Point<3>& z) const;
+  void MoveOntoBorder(Point<3>& z, double clearance) const;
 
   const double CosineOfFacetAngle;
   const double SineOfSliverAngle; ///< 0: slivers are left alone
