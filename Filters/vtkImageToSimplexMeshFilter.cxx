@@ -442,8 +442,8 @@ int vtkImageToSimplexMeshFilter::RequestData(
     {
       vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
     }
-    for (const std::string& warning :
-      voxplex::WarningsOf(this->Private->Statistics->Edit(), this->GetContentionManagerAsString()))
+    for (const std::string& warning : voxplex::WarningsOf(this->Private->Statistics->Edit(),
+           this->GetContentionManagerAsString(), this->ExactComponents))
     {
       vtkWarningMacro(<< warning);
     }

@@ -120,8 +120,8 @@ void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& me
   }
 }
 
-std::vector<std::string> WarningsOf(
-  const vtkMeshingStatistics::Figures& figures, const std::string& contentionManager)
+std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures,
+  const std::string& contentionManager, bool exactComponents)
 {
   std::vector<std::string> warnings;
   const MeshingStatistics& run = figures.Run;
@@ -147,7 +147,8 @@ std::vector<std::string> WarningsOf(
                        "thin for a Delta of " +
       NumberText(run.Delta) + ": " +
       ListSome(std::span<const ShrunkLabel>(figures.ShrunkLabels), describe) +
-      ". ExactComponents or a smaller Delta keeps them.");
+      (exactComponents ? ". A smaller Delta keeps them."
+                       : ". ExactComponents or a smaller Delta keeps them."));
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {

@@ -38,9 +38,10 @@ std::vector<std::int64_t> FindLostLabels(
 /**
  * How the mesh differs from what was asked for, a sentence or two each.
  * @param contentionManager the one that was asked for
+ * @param exactComponents whether ExactComponents was asked for: no warning suggests it then
  */
-std::vector<std::string> WarningsOf(
-  const vtkMeshingStatistics::Figures& figures, const std::string& contentionManager);
+std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures,
+  const std::string& contentionManager, bool exactComponents);
 
 } // namespace voxplex
 

@@ -14,9 +14,10 @@ using namespace testing;
 namespace
 {
 
-void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& part)
+void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& part,
+  bool exactComponents = false)
 {
-  const std::vector<std::string> warnings = voxplex::WarningsOf(figures, "Local");
+  const std::vector<std::string> warnings = voxplex::WarningsOf(figures, "Local", exactComponents);
   CHECK(warnings.size() == 1, "one warning");
   CHECK(warnings.front().find(part) != std::string::npos, warnings.front());
 }
@@ -25,7 +26,7 @@ void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& 
 
 int TestMeshingMessages(int, char*[])
 {
-  CHECK(voxplex::WarningsOf({}, "Local").empty(), "nothing to warn of");
+  CHECK(voxplex::WarningsOf({}, "Local", false).empty(), "nothing to warn of");
 
   vtkMeshingStatistics::Figures closed;
   closed.Run.Planes.Refused = 1;
@@ -34,5 +35,10 @@ int TestMeshingMessages(int, char*[])
   vtkMeshingStatistics::Figures switched;
   switched.Run.SwitchedToLocal = true;
   ExpectOne(switched, "contention manager 'Local'");
+
+  vtkMeshingStatistics::Figures shrunk;
+  shrunk.ShrunkLabels = { { .Label = 7, .Fraction = 0.25 } };
+  ExpectOne(shrunk, "7 (25 %). ExactComponents or a smaller Delta keeps them.");
+  ExpectOne(shrunk, "7 (25 %). A smaller Delta keeps them.", true);
   return EXIT_SUCCESS;
 }
