@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the border of a 3D image cuts an object: flat faces, straight edges, in the field, the domain and the mesh.
+// Where the border of a 3D image cuts an object: flat faces and straight edges of the mesh. For the domain see
+// Domain/TestImageBorder.cxx.
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
 #include "Image/IsosurfaceImage.h"
-#include "Junctions/JunctionCurves.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Mesher/ImageMesher.h"
@@ -17,10 +17,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
-#include <set>
 
 using namespace voxplex;
 using checks::Refined;
@@ -28,30 +26,9 @@ using checks::Refined;
 namespace
 {
 
-GridGeometry<3> ObliqueGrid(std::int64_t n)
-{
-  return phantoms::Sheared({ n, n - 3, n - 6 }, 1.0);
-}
-
-/** A ball in two halves, cut by two borders that meet in it. */
-LabelImage<3> CutHalves(
-  const GridGeometry<3>& grid, const Point<3>& middle = { 6.3, 15.1, 5.7 }, double radius = 11.0)
-{
-  const Point<3> centre = grid.ToFrame(middle);
-  return phantoms::Make(grid,
-    [=](const Point<3>& p) -> std::int16_t
-    {
-      if (!(Distance(p, centre) < radius))
-      {
-        return 0;
-      }
-      return p[0] - centre[0] + 0.6 * (p[1] - centre[1]) - 0.3 * (p[2] - centre[2]) > 2.0 ? 1 : 2;
-    });
-}
-
 LabelImage<3> LargeCutHalves()
 {
-  return CutHalves(
+  return phantoms::CutHalves(
     GridGeometry<3>::Orthogonal({ 64, 60, 56 }, { 1.0, 1.0, 1.0 }), { 20.3, 30.1, 18.7 }, 28.0);
 }
 
@@ -222,216 +199,11 @@ std::size_t CountOnBorder(const SimplexMesh<3>& mesh, const Domain<3>& domain)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(BorderFaces, AreWhereForegroundTouchesTheBorder)
-{
-  const LabelImage<3> image = phantoms::CutBall(12);
-  const std::set<std::pair<std::size_t, unsigned>> expected{ { 2, 0 } };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    for (unsigned end = 0; end < 2; ++end)
-    {
-      EXPECT_EQ(image.ReachesBorder(axis, end), expected.contains({ axis, end }))
-        << axis << " " << end;
-    }
-  }
-  const ImageDomain<3> domain(image, 1.0);
-  ASSERT_NE(domain.Border(), nullptr);
-  EXPECT_EQ(domain.Border()->FacesAt({ 1.0, 2.0, -0.5 }), 1u << 4);
-  EXPECT_EQ(domain.Border()->FacesAt({ 1.0, 2.0, -0.499 }), 0u);
-  EXPECT_EQ(domain.Border()->FacesAt({ -0.5, 2.0, 3.0 }), 0u);
-  const LabelImage<3> whole = phantoms::Ball(6.0);
-  EXPECT_EQ(ImageDomain<3>(whole, 1.0).Border(), nullptr);
-}
-
-// Up to the face labels are those of the outermost voxel centres, but where an interface is oblique to it; at it
-// background begins.
-TEST(BorderFaces, LabelsGoOnToTheFace)
-{
-  const LabelImage<3> image = CutHalves(ObliqueGrid(30));
-  const LabelField<3> field(image, 1.0);
-  std::mt19937 random(5);
-  int labels[3] = {};
-  int changed = 0;
-  for (int i = 0; i < 4000; ++i)
-  {
-    Point<3> x;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      x[a] = std::uniform_real_distribution<>(
-        1.0, static_cast<double>(field.LatticeDimensions()[a] - 2))(random);
-    }
-    const std::size_t axis = i % 2 == 0 ? 0 : 2;
-    x[axis] = 1.0;
-    const LabelId label = field.LabelAt(x);
-    ++labels[label];
-    x[axis] = 0.5001;
-    changed += field.LabelAt(x) != label ? 1 : 0;
-    ASSERT_GT(field.MarginAt(x, field.LabelAt(x)), 0.0);
-    for (const double outside : { 0.5, 0.4999, 0.2, -3.0 })
-    {
-      x[axis] = outside;
-      ASSERT_EQ(field.LabelAt(x), 0);
-      ASSERT_GT(field.MarginAt(x, 0), 0.0);
-      ASSERT_LE(field.MarginAt(x, label == 0 ? 1 : label), 0.0);
-    }
-  }
-  for (const int count : labels)
-  {
-    EXPECT_GT(count, 200);
-  }
-  EXPECT_LT(changed, 80);
-}
-
-//------------------------------------------------------------------------------------------------
-// Not about, but on the face: facets of such points are flat.
-TEST(BorderFaces, PointsFoundLieOnThem)
-{
-  for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
-  {
-    const LabelImage<3> image = CutHalves(grid);
-    const ImageDomain<3> domain(image, 1.0);
-    std::mt19937 random(6);
-    int crossings = 0;
-    int closest = 0;
-    int others = 0;
-    for (int i = 0; i < 3000; ++i)
-    {
-      Point<3> index;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        index[a] = std::uniform_real_distribution<>(
-          1.5, static_cast<double>(grid.Dimensions[a] - 2))(random);
-      }
-      const std::size_t axis = i % 2 == 0 ? 0 : 2;
-      index[axis] = std::uniform_real_distribution<>(-0.45, 0.0)(random); // labels go on from here
-      const Point<3> p = grid.ToFrame(index);
-      const LabelId label = domain.Label(p);
-      index[axis] = -3.0;
-      Point<3> z;
-      if (label == 0 || !domain.FirstCrossing(p, label, grid.ToFrame(index), z))
-      {
-        continue;
-      }
-      const Point<3> found = grid.ToIndex(z);
-      if (found[axis] > -0.49)
-      {
-        ++others; // an interface that is oblique to the face
-        continue;
-      }
-      EXPECT_NEAR(found[axis], -0.5, 1e-9);
-      EXPECT_EQ((domain.Border()->FacesAt(z) >> (2 * axis)) & 1, 1u);
-      ++crossings;
-      Point<3> back;
-      if (domain.FirstCrossing(grid.ToFrame(index), 0, p, back))
-      {
-        EXPECT_NE(domain.Border()->FacesAt(back), 0u);
-      }
-      ASSERT_TRUE(domain.ClosestSurfacePoint(p, label, z));
-      closest += domain.Border()->FacesAt(z) != 0 ? 1 : 0;
-    }
-    EXPECT_GT(crossings, 500);
-    EXPECT_LT(others, crossings / 50);
-    EXPECT_GT(closest, crossings / 2); // the others are near the sides or the other half
-  }
-}
-
-TEST(BorderFaces, NearEdges)
-{
-  const LabelImage<3> image = phantoms::CutBall(12);
-  const ImageDomain<3> domain(image, 1.0);
-  const double c = 0.5 * static_cast<double>(image.Grid().Dimensions[0] - 1);
-  Point<3> z;
-  for (int k = 0; k < 16; ++k)
-  {
-    const double angle = 0.4 * k;
-    const Point<3> p{ c + 8.0 * std::cos(angle), c + 8.0 * std::sin(angle), -0.5 };
-    ASSERT_TRUE(domain.Border()->FindEdge(p, 3.0, z));
-    EXPECT_EQ(z[2], -0.5);
-    EXPECT_NEAR(std::hypot(z[0] - c, z[1] - c), 9.5, 0.6);
-    EXPECT_LT(Distance(p, z), 3.0);
-    EXPECT_FALSE(domain.Border()->FindEdge(p, 0.5, z));
-  }
-  EXPECT_FALSE(domain.Border()->FindEdge({ c, c, -0.5 }, 3.0, z));
-  EXPECT_FALSE(domain.Border()->FindEdge({ c + 8.0, c, 3.0 }, 9.0, z)) << "not on a face";
-
-  const LabelImage<3> block = phantoms::Block(ObliqueGrid(12));
-  const ImageDomain<3> oblique(block, 1.0);
-  ASSERT_TRUE(oblique.Border()->FindEdge(block.Grid().ToFrame({ -0.5, 0.7, 3.0 }), 2.0, z));
-  EXPECT_NEAR(Distance(z, block.Grid().ToFrame({ -0.5, -0.5, 3.0 })), 0.0, 1e-9);
-}
-
-//------------------------------------------------------------------------------------------------
-TEST(BorderFaces, EdgesOfABlockAreTwelveCurves)
-{
-  for (const auto& grid : { phantoms::Cube(9), ObliqueGrid(12) })
-  {
-    const LabelImage<3> image = phantoms::Block(grid);
-    const ImageDomain<3> domain(image, 1.0);
-    const JunctionCurves edges(image, domain.GetLabelField(), domain.GetSites());
-    EXPECT_EQ(edges.NumberOfCorners(), 8u);
-    ASSERT_EQ(edges.Curves().size(), 12u);
-    double length = 0.0;
-    for (const JunctionCurves::Curve& curve : edges.Curves())
-    {
-      EXPECT_FALSE(curve.IsClosed);
-      EXPECT_EQ(curve.Labels, (std::array<LabelId, 3>{ 0, 0, 1 }));
-      const double chord = Distance(curve.Points.front(), curve.Points.back());
-      double arc = 0.0;
-      for (std::size_t i = 1; i < curve.Points.size(); ++i)
-      {
-        arc += Distance(curve.Points[i - 1], curve.Points[i]);
-      }
-      EXPECT_NEAR(arc, chord, 1e-9) << "straight";
-      length += chord;
-    }
-    double expected = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      expected += 4.0 * static_cast<double>(grid.Dimensions[a]) * grid.Spacing(static_cast<int>(a));
-    }
-    EXPECT_NEAR(length, expected, 1e-9);
-  }
-}
-
-TEST(BorderFaces, EdgesOfNoiseEndInCorners)
-{
-  std::mt19937 random(7);
-  const LabelImage<3> image = phantoms::Make(
-    phantoms::Cube(9), [&](const Point<3>&) { return static_cast<std::int16_t>(random() % 4); });
-  const ImageDomain<3> domain(image, 1.0);
-  const JunctionCurves edges(image, domain.GetLabelField(), domain.GetSites());
-  std::map<Point<3>, int> ends;
-  std::size_t flat = 0;
-  for (const JunctionCurves::Curve& curve : edges.Curves())
-  {
-    if (!curve.IsClosed)
-    {
-      ++ends[curve.Points.front()];
-      ++ends[curve.Points.back()];
-    }
-    if (curve.Labels[1] == 0) // background and a face of the image, or two of these
-    {
-      for (const Point<3>& p : curve.Points)
-      {
-        EXPECT_NE(domain.Border()->FacesAt(p), 0u);
-      }
-    }
-    flat += domain.Border()->FacesAt(curve.Points[curve.Points.size() / 2]) != 0 ? 1 : 0;
-  }
-  EXPECT_GT(flat, 50u);
-  EXPECT_EQ(ends.size(), edges.NumberOfCorners());
-  for (const auto& [corner, count] : ends)
-  {
-    EXPECT_TRUE(count == 4 || (count == 3 && domain.Border()->FacesAt(corner) != 0)) << count;
-  }
-}
-
-//------------------------------------------------------------------------------------------------
 // A block comes out as it is with every delta: its volume, six flat faces. So do some with sheared axes.
 TEST(BorderFaces, MeshesOfBlocksAreExact)
 {
   for (const auto& grid :
-    { GridGeometry<3>::Orthogonal({ 20, 17, 14 }, { 1.0, 0.8, 1.5 }), ObliqueGrid(20) })
+    { GridGeometry<3>::Orthogonal({ 20, 17, 14 }, { 1.0, 0.8, 1.5 }), phantoms::ObliqueGrid(20) })
   {
     const LabelImage<3> image = phantoms::Block(grid);
     const ImageDomain<3> domain(image, 1.0);
@@ -470,9 +242,9 @@ TEST(BorderFaces, MeshesOfBlocksAreExact)
 // Flat up to chords along the edges, and nothing of the mesh beyond.
 TEST(BorderFaces, OfTwoLabelsAreFlatInTheMesh)
 {
-  for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
+  for (const auto& grid : { phantoms::Cube(30), phantoms::ObliqueGrid(30) })
   {
-    const LabelImage<3> image = CutHalves(grid);
+    const LabelImage<3> image = phantoms::CutHalves(grid);
     const ImageDomain<3> domain(image, 1.0);
     const std::array<double, 6> expected = VoxelAreas(image);
     for (const double delta : { 0.9, 1.2, 1.5 })
@@ -519,7 +291,7 @@ TEST(BorderFaces, HaveNoNotches)
 // Wherever the interface of two labels meets these faces, at any angle.
 TEST(BorderFaces, HaveNoNotchesAtAnyInterface)
 {
-  for (const auto& grid : { phantoms::Cube(30), ObliqueGrid(30) })
+  for (const auto& grid : { phantoms::Cube(30), phantoms::ObliqueGrid(30) })
   {
     for (unsigned seed = 81; seed <= (Sanitized ? 84 : 100); ++seed)
     {
@@ -528,19 +300,14 @@ TEST(BorderFaces, HaveNoNotchesAtAnyInterface)
       { return std::uniform_real_distribution<>(a, b)(random); };
       const double x = between(5.0, 9.0);
       const double y = between(13.0, 16.0);
-      const Point<3> centre = grid.ToFrame({ x, y, between(5.0, 9.0) });
+      const Point<3> middle = { x, y, between(5.0, 9.0) };
       const double radius = between(9.0, 12.0);
       Point<3> normal;
       for (double& component : normal)
       {
         component = between(-1.0, 1.0);
       }
-      const LabelImage<3> image = phantoms::Make(grid,
-        [=](const Point<3>& p) -> std::int16_t
-        {
-          const Point<3> r = Subtract(p, centre);
-          return Dot(r, r) >= radius * radius ? 0 : Dot(r, normal) > 0.3 ? 1 : 2;
-        });
+      const LabelImage<3> image = phantoms::CutHalves(grid, middle, radius, normal, 0.3);
       MeshingOptions<3> options = WithDelta(1.6);
       options.Interfaces.Rounds = 0;
       options.Interfaces.Manifold = false;
@@ -625,14 +392,14 @@ TEST(BorderFaces, StayFlatInOptimisation)
 {
   for (const bool upright : { false, true })
   {
-    const GridGeometry<3> grid = upright ? phantoms::Cube(15) : ObliqueGrid(20);
+    const GridGeometry<3> grid = upright ? phantoms::Cube(15) : phantoms::ObliqueGrid(20);
     for (const bool block : { false, true })
     {
       if (Sanitized && block != upright)
       {
         continue;
       }
-      const LabelImage<3> image = block ? phantoms::Block(grid) : CutHalves(grid);
+      const LabelImage<3> image = block ? phantoms::Block(grid) : phantoms::CutHalves(grid);
       const ImageDomain<3> domain(image, 1.0);
       MeshingOptions<3> options = WithDelta(1.2);
       options.Optimisation.Run = false;

@@ -159,6 +159,33 @@ inline LabelImage<3> CutBall(std::int64_t radius)
     });
 }
 
+/** Sheared axes; n, n - 3 and n - 6 voxels. */
+inline GridGeometry<3> ObliqueGrid(std::int64_t n)
+{
+  return Sheared({ n, n - 3, n - 6 }, 1.0);
+}
+
+/**
+ * A ball in two halves, 1 and 2, cut by two borders that meet in it.
+ * @param middle in voxels
+ * @param normal of the plane between the halves; 1 is where r . normal > offset, with r from the middle
+ */
+inline LabelImage<3> CutHalves(const GridGeometry<3>& grid,
+  const Point<3>& middle = { 6.3, 15.1, 5.7 }, double radius = 11.0,
+  const Point<3>& normal = { 1.0, 0.6, -0.3 }, double offset = 2.0)
+{
+  const Point<3> centre = grid.ToFrame(middle);
+  return Make(grid,
+    [=](const Point<3>& p) -> std::int16_t
+    {
+      if (!(Distance(p, centre) < radius))
+      {
+        return 0;
+      }
+      return Dot(Subtract(p, centre), normal) > offset ? 1 : 2;
+    });
+}
+
 } // namespace voxplex::phantoms
 
 #endif
