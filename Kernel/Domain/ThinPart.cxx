@@ -37,7 +37,7 @@ ThinPart<D>::ThinPart(const LabelImage<D>& image, const Domain<D>& surfaces, con
   {
     const double spacing = image.Grid().Spacing(static_cast<int>(a));
     width[a] = 0.0;
-    for (const std::size_t side : { 0, 1 })
+    for (std::size_t side = 0; side < 2; ++side)
     {
       Index last = voxel;
       Index next = voxel;
@@ -64,7 +64,7 @@ ThinPart<D>::ThinPart(const LabelImage<D>& image, const Domain<D>& surfaces, con
   }
   for (std::size_t a = 0; a < D; ++a)
   {
-    for (const std::size_t side : { 0, 1 })
+    for (std::size_t side = 0; side < 2; ++side)
     {
       if (ends[a][side] && width[a] <= WidthFactor * this->Least)
       {

@@ -139,7 +139,6 @@ private:
 template <int D>
 std::uint64_t HilbertIndex(const Point<D>& p, const Box<D>& box)
 {
-  // GCC makes the table when it compiles; clang, whose constant expressions have fewer steps, at the first call.
   static const HilbertAutomaton<D> automaton;
   constexpr unsigned Axes = static_cast<unsigned>(D);
   constexpr unsigned Bits = 63 / Axes;

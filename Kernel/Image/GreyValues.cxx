@@ -32,7 +32,7 @@ void AddPairs(const LabelId* a, const LabelId* b, std::size_t length, NeighbourP
     {
       const bool isPair = (a[i] != 0) & (b[i] != 0);
       all = static_cast<std::uint16_t>(all + (isPair ? 1 : 0));
-      different = static_cast<std::uint16_t>(different + (isPair & (a[i] != b[i]) ? 1 : 0));
+      different = static_cast<std::uint16_t>(different + ((isPair & (a[i] != b[i])) ? 1 : 0));
     }
     pairs.All += all;
     pairs.Different += different;

@@ -65,9 +65,9 @@ public:
 private:
   static constexpr std::size_t Events = 3;
 
-  int EventSet = -1; ///< handle of PAPI; -1 while the object does not count
+  [[maybe_unused]] int EventSet = -1; ///< handle of PAPI; -1 while the object does not count
   /** Position of each event in the event set; -1 if the set does not have it. */
-  std::array<int, Events> Position = { { -1, -1, -1 } };
+  [[maybe_unused]] std::array<int, Events> Position = { { -1, -1, -1 } };
 };
 
 } // namespace voxplex

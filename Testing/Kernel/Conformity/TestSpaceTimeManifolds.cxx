@@ -4,6 +4,7 @@
 #include "CallableSize.h"
 #include "Conformity/EdgeSpindles.h"
 #include "Conformity/ManifoldLabels.h"
+#include "Geometry/HilbertOrder.h"
 #include "MeshChecks.h"
 #include "Refinement/Rules4D.h"
 #include "RefinementChecks.h"
