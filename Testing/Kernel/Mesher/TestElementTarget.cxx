@@ -163,6 +163,7 @@ TEST(ElementTarget, RunsDoNotTouchEachOther)
 // Many small balls: the count goes up and down with delta, so the last run need not be the one that is nearest.
 TEST(ElementTarget, KeepsTheNearestRunNotTheLast)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<3> image = phantoms::Make(phantoms::Cube(44),
     [](const Point<3>& p) -> std::int16_t
     {

@@ -3,6 +3,7 @@
 // Graded space-time meshes have every guarantee of uniform ones, and fewer pentatopes.
 #include "Conformity/UniformInterfaceCheck.h"
 #include "MeshChecks.h"
+#include "Sanitizers.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 #include "SlabChecks.h"
 #include "SpaceTimeCases.h"
@@ -121,6 +122,7 @@ TEST(GradedSpaceTime, IsFineWhereTheShapeIs)
 // No face between voxels of two labels is farther from the mesh's interfaces than 1.4 Delta there.
 TEST(GradedSpaceTime, InterfacesAreNearThoseOfTheImage)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = SmallAndLarge();
   const MeshingOptions<4> options = Graded(SpaceTimeOptions(2.0), 2.0);
   const std::vector<Point<4>> vertices = VerticesOfInterfaces(Mesh(image, options));
@@ -154,6 +156,7 @@ TEST(GradedSpaceTime, InterfacesAreNearThoseOfTheImage)
 // Volumes are as near to the image's as without grading, to two parts in a hundred.
 TEST(GradedSpaceTime, DefaultOptionsKeepVolumes)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = SmallAndLarge();
   MeshingOptions<4> options;
   options.Sampling.Delta = 2.0;

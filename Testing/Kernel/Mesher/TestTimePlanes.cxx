@@ -151,6 +151,7 @@ TEST(TimePlanes, SlabsMatchOnPlanes)
 // A frame of the object is cut by each plane; facets there are inside of the object, and no interfaces.
 TEST(TimePlanes, VolumesAndShapesAreThoseOfAMeshWithoutPlanes)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = ImageOf(phantoms::MergingBalls());
   const Result with = MeshOf(image, WithPlanes(2.0, { 4.0, 8.0, 12.0 }));
   const Result without = MeshOf(image, WithPlanes(2.0, {}));
@@ -574,6 +575,7 @@ TEST(TimePlanes, RefusesWhatCannotBe)
 
 TEST(TimePlanes, TheUnionOfSlabsCountsInTheMemoryThatIsEstimated)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
   const auto isRefused = [&](const MeshingOptions<4>& from, std::uint64_t limit)
   {

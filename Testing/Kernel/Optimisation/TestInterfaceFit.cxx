@@ -150,6 +150,7 @@ TEST(InterfaceFit, LeavesPlanesAlone)
 // The size falls along the first axis, so an element may become too large although it does not grow.
 TEST(InterfaceFit, KeepsElementSizes)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = ImageOf(PulsatingBalls(5, 2.0, 1.0));
   const auto sizeAt = [](const Point<4>& p) { return 2.0 + 0.5 * std::abs(p[0] - 11.5); };
   MeshingOptions<4> options = SpaceTimeOptions(3.0);

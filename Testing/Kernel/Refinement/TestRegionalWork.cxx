@@ -6,6 +6,7 @@
 #include "Refinement/RegionalWork.h"
 #include "Refinement/Rules3D.h"
 #include "Refinement/Rules4D.h"
+#include "Sanitizers.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>
@@ -113,6 +114,10 @@ TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
   options.Limits.Force = true;
   for (const unsigned threads : { 1u, 4u })
   {
+    if (Sanitized && threads == 1)
+    {
+      continue;
+    }
     options.Team.Threads = threads;
     ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
@@ -167,6 +172,10 @@ TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
   options.Limits.Force = true;
   for (const unsigned threads : { 1u, 3u })
   {
+    if (Sanitized && threads == 1)
+    {
+      continue;
+    }
     options.Team.Threads = threads;
     ImageMesher<4> mesher(options);
     SimplexMesh<4> mesh;

@@ -6,6 +6,7 @@
 #include "MeshChecks.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
+#include "Sanitizers.h"
 #include "Sizing/GradedSize.h"
 
 #include <gtest/gtest.h>
@@ -255,6 +256,7 @@ TEST(Gradation, DoesNotDependOnThreadsAndStops)
 // A small size on one side of a plane: elements on the other grow with their distance from it.
 TEST(Gradation, ElementsOfNeighboursObeyTheBound)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<3> image = phantoms::TouchingLabels(30); // the plane is x = 18.5
   MeshingOptions<3> options;
   options.Sampling.Delta = 4.0;

@@ -21,4 +21,12 @@ inline constexpr bool Sanitized = false;
 
 } // namespace voxplex
 
+/** For a test of what meshes are like whose code other tests run with the sanitizers, too. */
+#define VOXPLEX_NOT_WITH_SANITIZERS()                                                              \
+  if (voxplex::Sanitized)                                                                          \
+  {                                                                                                \
+    GTEST_SKIP() << "other tests run the same code with the sanitizers";                           \
+  }                                                                                                \
+  static_assert(true)
+
 #endif
