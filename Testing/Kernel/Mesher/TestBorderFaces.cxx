@@ -406,6 +406,10 @@ TEST(BorderFaces, StayFlatInOptimisation)
       const SimplexMesh<3> before = Mesh(image, options);
       for (const bool wild : { false, true })
       {
+        if (Sanitized && !wild)
+        {
+          continue;
+        }
         SimplexMesh<3> after = before;
         const OptimisationOptions optimisation = wild ? Wild() : OptimisationOptions();
         const OptimisationStatistics statistics = OptimiseMesh(after, domain, optimisation, 1);

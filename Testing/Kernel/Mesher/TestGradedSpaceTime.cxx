@@ -90,6 +90,7 @@ std::size_t CountNear(const std::vector<Point<4>>& points, const Point<4>& p, do
 
 TEST(GradedSpaceTime, IsFineWhereTheShapeIs)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = SmallAndLarge();
   const MeshingOptions<4> options = SpaceTimeOptions(2.0);
   const SimplexMesh<4> plain = Mesh(image, options);

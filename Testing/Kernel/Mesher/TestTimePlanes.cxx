@@ -367,6 +367,7 @@ TEST(TimePlanes, FeaturePointsOnPlanesAreExactlyThere)
 
 TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   // Begins and ends with motion, so both ends are equal only if the smoothing wraps.
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0, 2.5));
   for (const unsigned threads : { 1u, 2u })

@@ -81,6 +81,7 @@ double SmallestShape(const SimplexMesh<4>& mesh)
 // Seen: -3.3, -3.8, and -2.2 and -1.6 % without; below 0.5 % with it.
 TEST(InterfaceFit, MakesVolumesRight)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const std::map<std::string, phantoms::SpaceTimePhantom> phantoms = {
     { "four-ball", phantoms::FourBall(12.0) },
     { "merging balls", phantoms::WithTimeScale(phantoms::MergingBalls(), 2.0) },

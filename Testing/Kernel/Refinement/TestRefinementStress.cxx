@@ -23,7 +23,11 @@ using voxplex::testing::Watchdog;
 namespace
 {
 
-constexpr int ImagesPerPolicy = Sanitized ? 4 : 150;
+/** The aggressive manager takes many times as long where there are more threads than cores. */
+int NumberOfImages(ContentionPolicy contention)
+{
+  return Sanitized ? 4 : contention == ContentionPolicy::Aggressive ? 40 : 150;
+}
 
 using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
 
@@ -72,7 +76,7 @@ class RefinementStress : public ::testing::TestWithParam<Policies>
 TEST_P(RefinementStress, TinyRandomImages)
 {
   const auto [contention, balance] = GetParam();
-  for (int seed = 0; seed < ImagesPerPolicy; ++seed)
+  for (int seed = 0; seed < NumberOfImages(contention); ++seed)
   {
     const std::string name = Name(GetParam()) + ", seed " + std::to_string(seed);
     SCOPED_TRACE(name);

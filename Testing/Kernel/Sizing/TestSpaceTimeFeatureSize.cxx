@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Domain/ImageDomain.h"
 #include "FeatureSizeTesting.h"
+#include "Sanitizers.h"
 #include "Sizing/Grading/InterfaceSamples.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 #include "Sizing/Grading/MedialAxis.h"
@@ -162,6 +163,7 @@ TEST(SpaceTimeFeatureSize, OfAMovingSheetIsHalfItsThicknessInSpaceTime)
 
 TEST(SpaceTimeFeatureSize, IsTheDistanceToTheNearestPole)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const phantoms::SpaceTimePhantom phantom = phantoms::OpeningTube();
   const LabelImage<4> image =
     LabelImage<4>::FromScalars<std::uint8_t>(phantom.Scalars(), phantom.Grid);
@@ -189,6 +191,7 @@ TEST(SpaceTimeFeatureSize, IsTheDistanceToTheNearestPole)
 // Delta of a ball of radius R is sqrt(1.2 R Tolerance), and grows by 0.3 at most from place to place.
 TEST(SpaceTimeFeatureSize, DeltaIsBoundedByTheBend)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   GradingParameters parameters = Parameters(2.0, 100.0);
   parameters.Ratio = 2.0;
   EXPECT_GT(Measure(RestingBall(), parameters).Largest(), 15.0);
