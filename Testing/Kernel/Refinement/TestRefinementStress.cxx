@@ -26,7 +26,8 @@ namespace
 /** The aggressive manager takes many times as long where there are more threads than cores. */
 int NumberOfImages(ContentionPolicy contention)
 {
-  return Sanitized ? 4 : contention == ContentionPolicy::Aggressive ? 40 : 150;
+  const bool isSlow = contention == ContentionPolicy::Aggressive;
+  return Sanitized ? (isSlow ? 2 : 4) : (isSlow ? 40 : 150);
 }
 
 using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
