@@ -227,7 +227,6 @@ TEST(ElementTarget, GoesWithGradingByLocalFeatureSize)
 
 TEST(ElementTarget, EndsWhereGradingAllowsNoMore)
 {
-  VOXPLEX_NOT_WITH_SANITIZERS();
   // The local feature size of a ball is its radius: small deltas change nothing.
   MeshingOptions<3> options;
   options.Sampling.Elements = 100000;

@@ -576,7 +576,6 @@ TEST(TimePlanes, RefusesWhatCannotBe)
 
 TEST(TimePlanes, TheUnionOfSlabsCountsInTheMemoryThatIsEstimated)
 {
-  VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
   const auto isRefused = [&](const MeshingOptions<4>& from, std::uint64_t limit)
   {

@@ -26,8 +26,8 @@ namespace
 /** The aggressive manager takes many times as long where there are more threads than cores. */
 int NumberOfImages(ContentionPolicy contention)
 {
-  const bool isSlow = contention == ContentionPolicy::Aggressive;
-  return Sanitized ? (isSlow ? 2 : 4) : (isSlow ? 40 : 150);
+  const int withSanitizers = contention == ContentionPolicy::Aggressive ? 2 : 4;
+  return Sanitized ? withSanitizers : 150;
 }
 
 using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
