@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <ctime>
 #include <functional>
 #include <map>
@@ -25,6 +24,8 @@
 #include <vector>
 
 using namespace voxplex;
+using voxplex::testing::OthersStandStill;
+using voxplex::testing::Soon;
 using voxplex::testing::Watchdog;
 
 namespace
@@ -348,8 +349,8 @@ TEST(ParallelMeshing, WhatTheProgressCallbackThrowsLeavesRun)
   }
 }
 
-// A thread falls asleep in the midst of an operation: the others lose against it again and again, until
-// the local manager takes over.
+// A thread falls asleep in the midst of an operation. If others lose against it, they do so again and
+// again, until the local manager takes over and they wait. Then the thread wakes up.
 TEST(ParallelMeshing, TheSwitchToTheLocalManagerIsReported)
 {
   const LabelImage<3> image = phantoms::NestedBalls(4.0);
@@ -368,8 +369,7 @@ TEST(ParallelMeshing, TheSwitchToTheLocalManagerIsReported)
         {
           if (++queries == sleeping)
           {
-            std::this_thread::sleep_for(
-              std::chrono::milliseconds(contention == ContentionPolicy::Random ? 1500 : 200));
+            Soon(OthersStandStill);
           }
           return 1.0;
         });

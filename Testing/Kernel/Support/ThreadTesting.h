@@ -20,6 +20,8 @@
 #include <string>
 #include <thread>
 
+#include <sys/resource.h>
+
 namespace voxplex::testing
 {
 
@@ -89,6 +91,25 @@ inline bool Stays(const std::function<bool()>& condition,
   std::chrono::milliseconds duration = std::chrono::milliseconds(20))
 {
   return !Soon([&condition]() { return !condition(); }, duration);
+}
+
+/**
+ * True if for a tenth of a second the other threads of the process hardly run: they neither compute
+ * nor fall asleep and wake up again and again.
+ */
+inline bool OthersStandStill()
+{
+  const auto milliseconds = [](const timeval& time)
+  { return static_cast<long>(time.tv_sec) * 1000 + static_cast<long>(time.tv_usec) / 1000; };
+  rusage before{};
+  rusage after{};
+  getrusage(RUSAGE_SELF, &before);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  getrusage(RUSAGE_SELF, &after);
+  const long computed = milliseconds(after.ru_utime) + milliseconds(after.ru_stime) -
+    milliseconds(before.ru_utime) - milliseconds(before.ru_stime);
+  const long sleeps = after.ru_nvcsw - before.ru_nvcsw;
+  return computed < 5 && sleeps < 6; // this thread sleeps once, the thread sanitizer's once or twice
 }
 
 /** A call that may wait, made in a thread of its own. */
