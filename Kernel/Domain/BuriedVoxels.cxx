@@ -65,12 +65,9 @@ std::vector<Index> BuriedAround(
 
 } // namespace
 
-std::vector<Index> FindBuriedVoxels(const LabelImage<3>& image, std::vector<WeakVoxel> weak,
+std::vector<Index> FindBuriedVoxels(const LabelImage<3>& image, std::span<const WeakVoxel> weak,
   unsigned threads, const std::stop_token& stop)
 {
-  std::sort(weak.begin(), weak.end());
-  weak.erase(std::unique(weak.begin(), weak.end()), weak.end());
-
   Index dimensions = image.CropDimensions();
   for (std::int64_t& n : dimensions)
   {

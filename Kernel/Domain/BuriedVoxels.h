@@ -10,6 +10,7 @@
 #include "Image/LabelImage.h"
 
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -19,13 +20,12 @@ namespace voxplex
 /**
  * @brief A voxel whose own label hardly wins after smoothing.
  *
- * Ordered by voxel. An object may have several equal ones, since tiles share samples.
+ * There may be several of one voxel, since tiles share samples.
  */
 struct WeakVoxel
 {
   std::uint64_t Sample; ///< number of its sample in the lattice (TiledLattice), first axis fastest
   bool IsLost;          ///< another label would win
-  auto operator<=>(const WeakVoxel&) const = default; // NOLINT(modernize-use-nullptr): not a null
 };
 
 /**
@@ -33,16 +33,17 @@ struct WeakVoxel
  * irregular, so that smoothing takes more than a voxel away. A lost voxel is *buried* if all voxels
  * around it that have its label are weak, too.
  *
- * @param weak all weak voxels of the lattice, in any order; consumed
+ * @param weak all weak voxels of the lattice, in any order
  * @param threads 0 means all cores; the result does not depend on it
  * @return the buried voxels, and the voxels of their labels around them: indices of the lattice,
  *   ascending. The lattice is the crop and one layer around it.
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  *
- * Complexity: n log n in the number n of weak voxels, and one bit of memory a voxel of the lattice.
+ * Complexity: linear in the number of weak voxels, m log m in the number m of buried ones, and one
+ * bit of memory a voxel of the lattice.
  */
 std::vector<GridGeometry<3>::Index> FindBuriedVoxels(const LabelImage<3>& image,
-  std::vector<WeakVoxel> weak, unsigned threads, const std::stop_token& stop);
+  std::span<const WeakVoxel> weak, unsigned threads, const std::stop_token& stop);
 
 } // namespace voxplex
 

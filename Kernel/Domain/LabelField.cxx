@@ -486,7 +486,7 @@ LabelField<D>::LabelField(
   }
   else
   {
-    for (const Index& sample : FindBuriedVoxels(image, std::move(weak), threads, stop))
+    for (const Index& sample : FindBuriedVoxels(image, weak, threads, stop))
     {
       this->Raise(sample, image.At({ sample[0] - 1, sample[1] - 1, sample[2] - 1 }));
     }

@@ -8,6 +8,7 @@
 #include "Optimisation/PatchWorker.h"
 #include "Optimisation/Rooms.h"
 #include "Optimisation/TetrahedralComplex.h"
+#include "Optimisation/VertexBoxes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,10 +35,10 @@ constexpr std::size_t SurveyGrain = 16384;
 /** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
 constexpr std::size_t VerticesOfBlock = 4000;
 constexpr std::size_t MostBlocks = 256;
-/** Slabs are thin. With fewer of them, fewer tetrahedra lie between slabs. */
-constexpr std::size_t MostSlabs = 48;
 /** Room for new vertices is one for so many; if it is too little, arrays are copied. */
 constexpr std::size_t VerticesPerSpare = 16;
+/** The most vertices that are inserted for one poor tetrahedron. */
+constexpr std::size_t SparePerPoor = 8;
 /**
  * Passes over one block. A pass also works on tetrahedra that become poor in it, so more passes are
  * seldom needed.
@@ -134,64 +136,41 @@ public:
       std::clamp<std::size_t>(this->Mesh.Points.size() / VerticesOfBlock, 1, MostBlocks);
     if (blocks > 1)
     {
-      this->WorkInBlocks(blocks, this->BlocksByOrder(blocks));
-      const std::size_t slabs = std::min(blocks, MostSlabs);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->WorkInBlocks(slabs, this->BlocksByCoordinate(slabs, axis));
-      }
+      this->WorkInOrder(blocks);
+      const auto side = std::max<std::size_t>(
+        2, static_cast<std::size_t>(std::lround(std::cbrt(static_cast<double>(blocks)))));
+      this->WorkInBoxes(side, false, Effort::Plain);
+      this->WorkInBoxes(side, true, Effort::Plain);
+      this->WorkInBoxes(side, false, Effort::Insertions);
     }
     this->WorkOnAll();
   }
 
 private:
-  using Blocks = std::vector<std::uint32_t>;
+  using Blocks = std::vector<std::uint32_t>; ///< of each vertex
 
+  //----------------------------------------------------------------------------------------------
   /** Blocks of consecutive vertices. They are compact if points are sorted along a curve. */
-  Blocks BlocksByOrder(std::size_t number) const
+  void WorkInOrder(std::size_t number)
   {
     Blocks blocks(this->Mesh.Points.size());
     for (std::size_t v = 0; v < blocks.size(); ++v)
     {
       blocks[v] = static_cast<std::uint32_t>(v * number / blocks.size());
     }
-    return blocks;
+    this->WorkInBlocks(number, blocks, Effort::Plain);
   }
 
-  /** Slabs with about as many vertices each. */
-  Blocks BlocksByCoordinate(std::size_t number, std::size_t axis) const
+  /** @param perAxis, shift see DivideIntoBoxes() */
+  void WorkInBoxes(std::size_t perAxis, bool shift, Effort effort)
   {
-    constexpr std::size_t bins = 4096;
-    const auto& points = this->Mesh.Points;
-    double low = points[0][axis];
-    double high = low;
-    for (const Point<3>& p : points)
-    {
-      low = std::min(low, p[axis]);
-      high = std::max(high, p[axis]);
-    }
-    const double scale = high > low ? static_cast<double>(bins - 1) / (high - low) : 0.0;
-    const auto binOf = [&](std::size_t v)
-    { return static_cast<std::size_t>((points[v][axis] - low) * scale); };
-    std::vector<std::size_t> below(bins + 1, 0);
-    for (std::size_t v = 0; v < points.size(); ++v)
-    {
-      ++below[binOf(v) + 1];
-    }
-    for (std::size_t bin = 0; bin < bins; ++bin)
-    {
-      below[bin + 1] += below[bin];
-    }
-    Blocks blocks(points.size());
-    for (std::size_t v = 0; v < blocks.size(); ++v)
-    {
-      blocks[v] = static_cast<std::uint32_t>(below[binOf(v)] * number / blocks.size());
-    }
-    return blocks;
+    VertexBoxes boxes =
+      DivideIntoBoxes(this->Mesh.Points, perAxis, shift, this->Threads, this->Limits.Stop);
+    this->WorkInBlocks(boxes.Number, boxes.OfVertex, effort);
   }
 
-  //----------------------------------------------------------------------------------------------
-  void WorkInBlocks(std::size_t number, const Blocks& blocks)
+  /** @param blocks receives the blocks of the vertices that insertions may use */
+  void WorkInBlocks(std::size_t number, Blocks& blocks, Effort effort)
   {
     std::vector<std::vector<std::uint32_t>> poor(number);
     std::vector<std::uint32_t> between;
@@ -207,18 +186,37 @@ private:
     {
       slots[k * number / this->Slots.size()].push_back(this->Slots[k]);
     }
+    std::vector<std::uint32_t> spareVertices; // the first of each block, and the end
+    if (effort != Effort::Plain)
+    {
+      spareVertices = this->AddSpareVertices(poor, blocks);
+    }
     std::vector<std::uint32_t> clocks(number, this->LastClock);
+    // The block with most work is not the last to begin.
+    std::vector<std::uint32_t> order(number);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return poor[a].size() > poor[b].size(); });
     std::mutex mutex; // guards the statistics
     ParallelFor(
       0, number, 1, this->Threads,
-      [&](std::size_t b, std::size_t)
+      [&](std::size_t k, std::size_t)
       {
-        PatchWorker worker(this->Mesh, blocks, static_cast<std::uint32_t>(b), this->Image,
-          this->Rules, this->Options.InterfaceTolerance, this->Limits);
+        const std::uint32_t b = order[k];
+        if (poor[b].empty())
+        {
+          return;
+        }
+        PatchWorker worker(this->Mesh, blocks, b, this->Image, this->Rules,
+          this->Options.InterfaceTolerance, this->Limits);
         worker.GetPatch().Clock = this->LastClock;
         worker.GetPatch().SetSlots(std::move(slots[b]));
+        if (!spareVertices.empty())
+        {
+          worker.GetPatch().SetSpareVertices(spareVertices[b], spareVertices[b + 1]);
+        }
         worker.WorkOn(poor[b]);
-        for (unsigned pass = 0; pass < PassesOfBlock && worker.Pass(Effort::Plain) != 0; ++pass)
+        for (unsigned pass = 0; pass < PassesOfBlock && worker.Pass(effort) != 0; ++pass)
         {
         }
         poor[b] = worker.Left();
@@ -244,6 +242,20 @@ private:
       [this](std::uint32_t t) { return !this->Mesh.IsAlive(t) || this->Mesh.Scores[t] >= 1.0f; });
   }
 
+  /** Gives each block vertices for its poor tetrahedra. Returns the first of each, and the end. */
+  std::vector<std::uint32_t> AddSpareVertices(
+    const std::vector<std::vector<std::uint32_t>>& poor, Blocks& blocks)
+  {
+    std::vector<std::uint32_t> first{ static_cast<std::uint32_t>(blocks.size()) };
+    for (std::uint32_t b = 0; b < poor.size(); ++b)
+    {
+      blocks.resize(blocks.size() + SparePerPoor * poor[b].size(), b);
+      first.push_back(static_cast<std::uint32_t>(blocks.size()));
+    }
+    this->Mesh.AddVertices(blocks.size() - this->Mesh.Points.size());
+    return first;
+  }
+
   void Count(const PatchWorker& worker)
   {
     this->Statistics.Flips += worker.GetFlipStatistics();
@@ -259,7 +271,7 @@ private:
   {
     this->WorkWithoutInsertions();
     const std::size_t points = this->Mesh.Points.size();
-    const std::size_t spare = 8 * this->Poor.size();
+    const std::size_t spare = SparePerPoor * this->Poor.size();
     this->Mesh.AddVertices(spare);
     const Blocks blocks(points + spare, 0);
     PatchWorker worker(this->Mesh, blocks, 0, this->Image, this->Rules,
@@ -331,7 +343,7 @@ private:
   void MakeRoom(PatchWorker& worker, double tighter)
   {
     Patch& patch = worker.GetPatch();
-    const Rooms rooms = RoomsAround(this->Mesh, worker.Left(), EdgesOfRoom);
+    Rooms rooms = RoomsAround(this->Mesh, worker.Left(), EdgesOfRoom);
     const ShapeScore usual = this->Mesh.Shape;
     this->Mesh.Shape = ShapeScore(
       std::min(tighter * this->Options.SmallestDihedralAngle, LargestLowerBound),
@@ -340,7 +352,7 @@ private:
     this->Poor = this->Rescore(rooms);
     this->LastClock = patch.Clock;
     this->Slots = patch.TakeSlots();
-    this->WorkInBlocks(rooms.Number, rooms.OfVertex);
+    this->WorkInBlocks(rooms.Number, rooms.OfVertex, Effort::Plain);
     patch.Clock = this->LastClock;
     patch.SetSlots(std::move(this->Slots));
     this->Mesh.Shape = usual;

@@ -513,6 +513,7 @@ TEST(MeshOptimiser, ResultDoesNotDependOnThreads)
   EXPECT_GT(statistics.Flips.Dropped, 0u);
   EXPECT_GT(statistics.Smoothing.FreeMoves, 0u);
   EXPECT_GT(statistics.Smoothing.SurfaceMoves, 0u);
+  EXPECT_GT(statistics.Smoothing.Insertions, 0u);
   EXPECT_GE(statistics.After.SmallestDihedralAngle, 12.0);
   EXPECT_LE(statistics.After.LargestDihedralAngle, 160.0);
   const std::vector<std::string> complaints = checks::Complaints(four);
