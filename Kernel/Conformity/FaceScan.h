@@ -11,7 +11,7 @@
 #include "Image/BitMask.h"
 #include "Image/FacesNear.h"
 #include "Image/LabelImage.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
 #include <bit>
@@ -42,10 +42,9 @@ std::vector<VoxelFace<D>> ScanFaces(const LabelImage<D>& image, const BitMask<D>
   constexpr std::int64_t VoxelsOfHint = 4;
   const std::size_t rows = voxels.NumberOfRows();
   const auto& n = voxels.Dimensions();
-  std::vector<std::vector<VoxelFace<D>>> parts((rows - 1) / RowsAtOnce + 1);
-  ParallelFor(
-    0, rows, RowsAtOnce, threads,
-    [&](std::size_t first, std::size_t last)
+  return ParallelCollect<VoxelFace<D>>(
+    rows, RowsAtOnce, threads,
+    [&](std::size_t first, std::size_t last, std::vector<VoxelFace<D>>& faces)
     {
       std::vector<Hint> hints(static_cast<std::size_t>(n[0] / VoxelsOfHint + 1));
       for (std::size_t row = first; row < last; ++row)
@@ -67,7 +66,7 @@ std::vector<VoxelFace<D>> ScanFaces(const LabelImage<D>& image, const BitMask<D>
               if (IsOfInterface(face, image) &&
                 is(face, hints[static_cast<std::size_t>(x / VoxelsOfHint)]))
               {
-                parts[first / RowsAtOnce].push_back(face);
+                faces.push_back(face);
               }
             }
           }
@@ -75,12 +74,6 @@ std::vector<VoxelFace<D>> ScanFaces(const LabelImage<D>& image, const BitMask<D>
       }
     },
     stop);
-  std::vector<VoxelFace<D>> faces;
-  for (const auto& part : parts)
-  {
-    faces.insert(faces.end(), part.begin(), part.end());
-  }
-  return faces;
 }
 
 /** The faces for which is(face, hint) is true. */

@@ -200,11 +200,15 @@ private:
     }
   }
 
-  /** Calls function(number of the simplex, id) for all simplices inside, ascending in each chunk. */
+  /**
+   * Calls function(number of the simplex, id) for all simplices inside, ascending in each chunk.
+   * Neighbours may write to the counts of the same points.
+   */
   template <typename Function>
   void ForSimplices(Function&& function)
   {
-    this->ForChunks(this->Ids,
+    ParallelFor(
+      0, this->Ids, DistantGrain(this->Ids, this->Threads, ChunkCounts::Grain), this->Threads,
       [&](std::size_t first, std::size_t last)
       {
         std::size_t k = this->Inside.OfChunk(first);
@@ -215,7 +219,8 @@ private:
             function(k++, s);
           }
         }
-      });
+      },
+      this->Stop);
   }
 
   std::uint32_t SmallestPoint(SimplexId s) const

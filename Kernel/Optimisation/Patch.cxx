@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimisation/Patch.h"
 
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
 
@@ -257,10 +257,9 @@ void Patch::FindStars(
   {
     wanted[v] = 1;
   }
-  std::vector<std::vector<std::uint32_t>> parts(this->Complex.Cells.size() / Grain + 1);
-  ParallelFor(
-    0, this->Complex.Cells.size(), Grain, threads,
-    [&](std::size_t first, std::size_t last)
+  const std::vector<std::uint32_t> cells = ParallelCollect<std::uint32_t>(
+    this->Complex.Cells.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& found)
     {
       for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
       {
@@ -268,21 +267,18 @@ void Patch::FindStars(
         if (this->Complex.IsAlive(t) &&
           (wanted[v[0]] | wanted[v[1]] | wanted[v[2]] | wanted[v[3]]) != 0)
         {
-          parts[first / Grain].push_back(t);
+          found.push_back(t);
         }
       }
     },
     stop);
-  for (const std::vector<std::uint32_t>& part : parts)
+  for (const std::uint32_t t : cells)
   {
-    for (const std::uint32_t t : part)
+    for (const std::uint32_t v : this->Complex.Cells[t].V)
     {
-      for (const std::uint32_t v : this->Complex.Cells[t].V)
+      if (wanted[v] != 0)
       {
-        if (wanted[v] != 0)
-        {
-          this->FoundStars[v].push_back(t);
-        }
+        this->FoundStars[v].push_back(t);
       }
     }
   }

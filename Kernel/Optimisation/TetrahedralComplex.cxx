@@ -131,7 +131,7 @@ void TetrahedralComplex::CopyCells(
 {
   const bool isAlone = NumberOfThreads(threads) == 1;
   ParallelFor(
-    0, this->Cells.size(), Grain, threads,
+    0, this->Cells.size(), DistantGrain(this->Cells.size(), threads, Grain), threads,
     [&](std::size_t first, std::size_t end)
     {
       std::int64_t last = 0;
@@ -215,7 +215,7 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
   const auto forEachFacet = [&](auto&& visit)
   {
     ParallelFor(
-      0, this->Cells.size(), Grain, threads,
+      0, this->Cells.size(), DistantGrain(this->Cells.size(), threads, Grain), threads,
       [&](std::size_t first, std::size_t end)
       {
         for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
@@ -418,15 +418,20 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
+      // Not in the counts themselves: those of several chunks share a cache line.
+      std::size_t alive = 0;
+      std::size_t interfaces = 0;
       forAlive(first, end,
         [&](std::uint32_t t)
         {
-          ++cells.OfChunk(first);
+          ++alive;
           for (unsigned i = 0; i < 4; ++i)
           {
-            facets.OfChunk(first) += isInterface(t, i) ? 1 : 0;
+            interfaces += isInterface(t, i) ? 1 : 0;
           }
         });
+      cells.OfChunk(first) = alive;
+      facets.OfChunk(first) = interfaces;
     });
   const std::size_t tetrahedra = cells.TurnIntoPlaces();
   mesh.Labels.resize(tetrahedra);

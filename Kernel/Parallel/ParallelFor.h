@@ -39,6 +39,21 @@ inline void ThrowIfStopped(const std::stop_token& stop)
 }
 
 /**
+ * A grain for loops in which neighbouring iterations write to the same memory (by atomic
+ * operations), such as the counts of their common vertices. Chunks are so large that threads seldom
+ * work on neighbouring iterations. So cache lines seldom go from one thread to another.
+ *
+ * @param threads 0 means all cores
+ * @param unit the result is a multiple of it
+ */
+inline std::size_t DistantGrain(std::size_t iterations, unsigned threads, std::size_t unit)
+{
+  constexpr std::size_t ChunksPerThread = 16; // so that uneven work balances
+  const std::size_t chunks = ChunksPerThread * NumberOfThreads(threads);
+  return std::max<std::size_t>(1, iterations / (chunks * unit)) * unit;
+}
+
+/**
  * Calls function(first, last) on disjoint chunks that together cover [begin, end).
  *
  * A chunk has `grain` iterations (the last chunk may have fewer). Threads take chunks dynamically,

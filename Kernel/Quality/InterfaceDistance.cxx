@@ -54,11 +54,13 @@ DistanceFigures Measure(const std::vector<Point<3>>& points, unsigned threads,
     [&](std::size_t first, std::size_t last)
     {
       std::uint32_t hint = 0;
+      double part = 0.0;
       for (std::size_t i = first; i < last; ++i)
       {
         distances[i] = distanceAt(points[i], hint);
-        sums[first / Grain] += distances[i];
+        part += distances[i];
       }
+      sums[first / Grain] = part;
     },
     stop);
   double sum = 0.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/InterfaceEdges.h"
 
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
 
@@ -34,8 +34,9 @@ InterfaceRidgeLists<D>::InterfaceRidgeLists(
 {
   const auto forEachEntry = [&](auto&& function)
   {
+    // Neighbouring facets share points, and so the counts of points.
     ParallelFor(
-      0, facets.size(), Grain, threads,
+      0, facets.size(), DistantGrain(facets.size(), threads, Grain), threads,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t f = first; f < last; ++f)
@@ -96,10 +97,9 @@ std::vector<InterfaceRidge<D>> FindNonManifold(
   const std::stop_token& stop)
 {
   const InterfaceRidgeLists<D> lists(facets, points, threads, stop);
-  std::vector<std::vector<InterfaceRidge<D>>> parts(points / Grain + 1);
-  ParallelFor(
-    0, points, Grain, threads,
-    [&](std::size_t first, std::size_t last)
+  return ParallelCollect<InterfaceRidge<D>>(
+    points, Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& ridges)
     {
       LabelsAtRidge<Label> around(labels);
       lists.ForRidgesOf(first, last,
@@ -113,17 +113,11 @@ std::vector<InterfaceRidge<D>> FindNonManifold(
           if (!std::all_of(here.begin(), here.end(),
                 [](const LabelAtRidge& label) { return label.Label == 0 || IsManifold(label); }))
           {
-            parts[first / Grain].push_back({ vertices, IsJunction(here) });
+            ridges.push_back({ vertices, IsJunction(here) });
           }
         });
     },
     stop);
-  std::vector<InterfaceRidge<D>> ridges;
-  for (const std::vector<InterfaceRidge<D>>& part : parts)
-  {
-    ridges.insert(ridges.end(), part.begin(), part.end());
-  }
-  return ridges;
 }
 
 } // namespace

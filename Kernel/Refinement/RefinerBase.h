@@ -7,7 +7,7 @@
 #ifndef voxplex_RefinerBase_h
 #define voxplex_RefinerBase_h
 
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 #include "Refinement/RefinementContext.h"
 #include "Sizing/LoweredCells.h"
 
@@ -109,18 +109,17 @@ protected:
   /** The simplices whose circumball reaches a lowered bound, ascending. */
   std::vector<SimplexId> FindReaching() const
   {
-    std::vector<SimplexId> reaching;
     const LocalDelta<D>* const local = this->Context.Sizing.Sources().Local;
     if (!local || !local->HasLowered())
     {
-      return reaching;
+      return {};
     }
     const Triangulation<D>& mesh = this->Context.Mesh;
     const LoweredCells<D> lowered(*local);
     constexpr std::size_t grain = 8192;
-    std::vector<std::vector<SimplexId>> parts(mesh.SimplexIdEnd() / grain + 1);
-    ParallelFor(0, mesh.SimplexIdEnd(), grain, static_cast<unsigned>(this->Workers.size()),
-      [&](std::size_t first, std::size_t last)
+    return ParallelCollect<SimplexId>(mesh.SimplexIdEnd(), grain,
+      static_cast<unsigned>(this->Workers.size()),
+      [&](std::size_t first, std::size_t last, std::vector<SimplexId>& reaching)
       {
         for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
@@ -129,16 +128,11 @@ protected:
             const Circumball<D> ball = mesh.GetCircumball(s);
             if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
             {
-              parts[first / grain].push_back(s);
+              reaching.push_back(s);
             }
           }
         }
       });
-    for (const std::vector<SimplexId>& part : parts)
-    {
-      reaching.insert(reaching.end(), part.begin(), part.end());
-    }
-    return reaching;
   }
 
   /** Pushes the simplices that may be poor to a worker's list. */

@@ -9,7 +9,7 @@
 
 #include "Base/GridIndex.h"
 #include "Geometry/HilbertOrder.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 #include "Parallel/ParallelSort.h"
 #include "Refinement/RefinementContext.h"
 
@@ -66,21 +66,14 @@ std::vector<FeatureSeed<D>> SampleInterfaces(
           : delta });
     }
   };
-  std::vector<std::vector<FeatureSeed<D>>> parts(CountCells(nodes) / grain + 1);
-  ParallelFor(0, CountCells(nodes), grain, threads,
-    [&](std::size_t first, std::size_t last)
+  return ParallelCollect<FeatureSeed<D>>(CountCells(nodes), grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<FeatureSeed<D>>& sample)
     {
       for (std::size_t k = first; k < last; ++k)
       {
-        sampleFrom(k, parts[first / grain]);
+        sampleFrom(k, sample);
       }
     });
-  std::vector<FeatureSeed<D>> sample;
-  for (const std::vector<FeatureSeed<D>>& part : parts)
-  {
-    sample.insert(sample.end(), part.begin(), part.end());
-  }
-  return sample;
 }
 
 /**
@@ -311,9 +304,8 @@ std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh, unsigned t
   };
   constexpr std::size_t grain = 4096;
   constexpr unsigned dropped = 63 / D * D - 30; // bits: 30 are enough for places
-  std::vector<std::vector<Place>> parts(mesh.SimplexIdEnd() / grain + 1);
-  ParallelFor(0, mesh.SimplexIdEnd(), grain, threads,
-    [&](std::size_t first, std::size_t last)
+  std::vector<Place> places = ParallelCollect<Place>(mesh.SimplexIdEnd(), grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<Place>& found)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
@@ -331,14 +323,9 @@ std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh, unsigned t
         }
         const std::uint64_t index =
           HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()) >> dropped;
-        parts[first / grain].push_back({ static_cast<std::uint32_t>(index), s });
+        found.push_back({ static_cast<std::uint32_t>(index), s });
       }
     });
-  std::vector<Place> places;
-  for (const std::vector<Place>& part : parts)
-  {
-    places.insert(places.end(), part.begin(), part.end());
-  }
   std::vector<Place> scratch(places.size());
   const std::span<const Place> along = ParallelRadixSort(
     std::span<Place>(places), std::span<Place>(scratch), 30,

@@ -10,7 +10,7 @@
 #include "Base/GridIndex.h"
 #include "Base/MixBits.h"
 #include "Geometry/HilbertOrder.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 #include "Refinement/RefinementContext.h"
 
 #include <algorithm>
@@ -64,9 +64,8 @@ std::vector<LatticeNode<D>> MakeCoarseLattice(
     step[a] = length / static_cast<double>(last[a]);
   }
   const std::size_t count = CountCells(nodes);
-  std::vector<std::vector<LatticeNode<D>>> parts(count / Grain + 1);
-  ParallelFor(0, count, Grain, threads,
-    [&](std::size_t first, std::size_t end)
+  return ParallelCollect<LatticeNode<D>>(count, Grain, threads,
+    [&](std::size_t first, std::size_t end, std::vector<LatticeNode<D>>& lattice)
     {
       for (std::size_t k = first; k < end; ++k)
       {
@@ -100,16 +99,10 @@ std::vector<LatticeNode<D>> MakeCoarseLattice(
         const double distance = context.Image.DistanceBound(node.Position);
         if (distance <= Reach * levelSpacing && distance >= clearance)
         {
-          parts[first / Grain].push_back(node);
+          lattice.push_back(node);
         }
       }
     });
-  std::vector<LatticeNode<D>> lattice;
-  for (const std::vector<LatticeNode<D>>& part : parts)
-  {
-    lattice.insert(lattice.end(), part.begin(), part.end());
-  }
-  return lattice;
 }
 
 /** Inserts the nodes along a Hilbert curve. Nothing is screened. No other worker may operate. */
