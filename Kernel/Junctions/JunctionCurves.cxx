@@ -5,6 +5,7 @@
 #include "Base/UninitialisedVector.h"
 #include "Junctions/JunctionGraph.h"
 #include "Junctions/JunctionLattice.h"
+#include "Parallel/ParallelCollect.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
 
@@ -499,30 +500,18 @@ JunctionCurves::JunctionCurves(const LabelImage<3>& image, const Field& field,
   const BitMask<3>& sites, unsigned threads, const std::stop_token& stop)
 {
   const auto layers = static_cast<std::size_t>(field.LatticeDimensions()[2] - 1);
-  std::vector<std::vector<Segment>> byLayer(layers);
   const LabelledSpace<Field> space(image, field);
   const Tracer<Field> tracer(space, sites);
-  ParallelFor(
-    0, layers, 1, threads,
-    [&](std::size_t first, std::size_t last)
+  std::vector<Segment> segments = ParallelCollect<Segment>(
+    layers, 1, threads,
+    [&](std::size_t first, std::size_t last, std::vector<Segment>& found)
     {
       for (std::size_t k = first; k < last; ++k)
       {
-        tracer.TraceLayer(static_cast<std::int64_t>(k), byLayer[k]);
+        tracer.TraceLayer(static_cast<std::int64_t>(k), found);
       }
     },
     stop);
-  std::size_t count = 0;
-  for (const std::vector<Segment>& layer : byLayer)
-  {
-    count += layer.size();
-  }
-  std::vector<Segment> segments;
-  segments.reserve(count);
-  for (const std::vector<Segment>& layer : byLayer)
-  {
-    segments.insert(segments.end(), layer.begin(), layer.end());
-  }
   tracer.FollowOpenEnds(segments, threads, stop);
   const Graph<Field> graph(segments, space, threads, stop);
   this->Corners = graph.NumberOfCorners();
