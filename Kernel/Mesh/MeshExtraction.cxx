@@ -208,7 +208,7 @@ private:
   void ForSimplices(Function&& function)
   {
     ParallelFor(
-      0, this->Ids, DistantGrain(this->Ids, this->Threads, ChunkCounts::Grain), this->Threads,
+      0, this->Ids, ChunkCounts::Grain, this->Threads,
       [&](std::size_t first, std::size_t last)
       {
         std::size_t k = this->Inside.OfChunk(first);

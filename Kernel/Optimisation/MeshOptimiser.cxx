@@ -198,9 +198,9 @@ private:
     std::stable_sort(order.begin(), order.end(),
       [&](std::uint32_t a, std::uint32_t b) { return poor[a].size() > poor[b].size(); });
     std::mutex mutex; // guards the statistics
-    ParallelFor(
-      0, number, 1, this->Threads,
-      [&](std::size_t k, std::size_t)
+    ParallelTasks(
+      number, this->Threads,
+      [&](std::size_t k)
       {
         const std::uint32_t b = order[k];
         if (poor[b].empty())

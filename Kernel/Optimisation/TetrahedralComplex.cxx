@@ -131,7 +131,7 @@ void TetrahedralComplex::CopyCells(
 {
   const bool isAlone = NumberOfThreads(threads) == 1;
   ParallelFor(
-    0, this->Cells.size(), DistantGrain(this->Cells.size(), threads, Grain), threads,
+    0, this->Cells.size(), Grain, threads,
     [&](std::size_t first, std::size_t end)
     {
       std::int64_t last = 0;
@@ -215,7 +215,7 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
   const auto forEachFacet = [&](auto&& visit)
   {
     ParallelFor(
-      0, this->Cells.size(), DistantGrain(this->Cells.size(), threads, Grain), threads,
+      0, this->Cells.size(), Grain, threads,
       [&](std::size_t first, std::size_t end)
       {
         for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)

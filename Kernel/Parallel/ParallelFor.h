@@ -8,13 +8,14 @@
 #define voxplex_ParallelFor_h
 
 #include "Base/Error.h"
+#include "Parallel/ChunkShares.h"
 #include "Parallel/ThreadTeam.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <system_error>
 #include <thread>
@@ -38,27 +39,80 @@ inline void ThrowIfStopped(const std::stop_token& stop)
   }
 }
 
-/**
- * A grain for loops in which neighbouring iterations write to the same memory (by atomic
- * operations), such as the counts of their common vertices. Chunks are so large that threads seldom
- * work on neighbouring iterations. So cache lines seldom go from one thread to another.
- *
- * @param threads 0 means all cores
- * @param unit the result is a multiple of it
- */
-inline std::size_t DistantGrain(std::size_t iterations, unsigned threads, std::size_t unit)
+namespace detail
 {
-  constexpr std::size_t ChunksPerThread = 16; // so that uneven work balances
-  const std::size_t chunks = ChunksPerThread * NumberOfThreads(threads);
-  return std::max<std::size_t>(1, iterations / (chunks * unit)) * unit;
+
+/**
+ * Calls function(chunk) for the chunks of a loop, in several threads. See ParallelFor().
+ * @param workers the number of threads; thread w has share w, or the only one
+ */
+template <typename Function>
+void RunChunks(
+  ChunkShares& shares, std::size_t workers, const Function& function, const std::stop_token& stop)
+{
+  std::exception_ptr error;
+  std::mutex errorMutex;
+  auto work = [&](std::size_t worker)
+  {
+    while (const std::optional<std::size_t> chunk = shares.Take(worker))
+    {
+      try
+      {
+        ThrowIfStopped(stop);
+        function(*chunk);
+      }
+      catch (...)
+      {
+        const std::scoped_lock lock(errorMutex);
+        if (!error)
+        {
+          error = std::current_exception();
+        }
+        shares.Clear();
+      }
+    }
+  };
+
+  if (workers == 1)
+  {
+    work(0);
+  }
+  else if (ThreadTeam* const team = ThreadTeam::Idle())
+  {
+    team->Run(workers - 1, work);
+  }
+  else
+  {
+    std::vector<std::jthread> others;
+    others.reserve(workers - 1);
+    try
+    {
+      for (std::size_t w = 1; w < workers; ++w)
+      {
+        others.emplace_back(work, w);
+      }
+    }
+    catch (const std::system_error&)
+    {
+      // The system cannot start more threads: go on with the threads that run.
+    }
+    work(0);
+  } // joins
+  if (error)
+  {
+    std::rethrow_exception(error);
+  }
 }
+
+} // namespace detail
 
 /**
  * Calls function(first, last) on disjoint chunks that together cover [begin, end).
  *
- * A chunk has `grain` iterations (the last chunk may have fewer). Threads take chunks dynamically,
- * so that uneven work balances. If there is one thread or one chunk, everything runs in the calling
- * thread, in order. The calling thread always takes part. Returns when all chunks are done.
+ * A chunk has `grain` iterations (the last chunk may have fewer). Each thread begins with a part of
+ * the range of its own, and then takes chunks of others', so that uneven work balances
+ * (ChunkShares). If there is one thread or one chunk, everything runs in the calling thread, in
+ * order. The calling thread always takes part. Returns when all chunks are done.
  *
  * If the calling thread leads a ThreadTeam, the other threads are helpers of this team. Otherwise
  * they are started for this loop.
@@ -85,62 +139,32 @@ void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = (end - begin - 1) / grain + 1;
   const std::size_t workers = std::min<std::size_t>(NumberOfThreads(threads), chunks);
-
-  std::atomic<std::size_t> nextChunk{ 0 };
-  std::exception_ptr error;
-  std::mutex errorMutex;
-  auto work = [&]()
-  {
-    // Relaxed: the counter only hands out numbers. The joins below order the results of the chunks.
-    for (std::size_t chunk = nextChunk.fetch_add(1, std::memory_order_relaxed); chunk < chunks;
-         chunk = nextChunk.fetch_add(1, std::memory_order_relaxed))
+  ChunkShares shares(chunks, workers);
+  detail::RunChunks(
+    shares, workers,
+    [&](std::size_t chunk)
     {
       const std::size_t first = begin + chunk * grain;
-      try
-      {
-        ThrowIfStopped(stop);
-        function(first, std::min(end, first + std::min(grain, end - first)));
-      }
-      catch (...)
-      {
-        const std::scoped_lock lock(errorMutex);
-        if (!error)
-        {
-          error = std::current_exception();
-        }
-        nextChunk.store(chunks, std::memory_order_relaxed);
-      }
-    }
-  };
+      function(first, std::min(end, first + std::min(grain, end - first)));
+    },
+    stop);
+}
 
-  if (workers == 1)
+/**
+ * Calls function(task) for the tasks 0 ... count - 1. A thread that is free begins the first one
+ * that has not begun. If the largest tasks come first, no thread has a large one to do at the end.
+ *
+ * For the other parameters and exceptions, see ParallelFor().
+ */
+template <typename Function>
+void ParallelTasks(
+  std::size_t count, unsigned threads, Function&& function, const std::stop_token& stop = {})
+{
+  if (count != 0)
   {
-    work();
-  }
-  else if (ThreadTeam* const team = ThreadTeam::Idle())
-  {
-    team->Run(workers - 1, work);
-  }
-  else
-  {
-    std::vector<std::jthread> others;
-    others.reserve(workers - 1);
-    try
-    {
-      for (std::size_t i = 1; i < workers; ++i)
-      {
-        others.emplace_back(work);
-      }
-    }
-    catch (const std::system_error&)
-    {
-      // The system cannot start more threads: go on with the threads that run.
-    }
-    work();
-  } // joins
-  if (error)
-  {
-    std::rethrow_exception(error);
+    ChunkShares shares(count, 1);
+    detail::RunChunks(
+      shares, std::min<std::size_t>(NumberOfThreads(threads), count), function, stop);
   }
 }
 

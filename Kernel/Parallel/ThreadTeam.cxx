@@ -30,7 +30,9 @@ ThreadTeam::ThreadTeam(unsigned threads)
     {
       auto helper = std::make_unique<Helper>();
       helper->Spot.Prepare();
-      helper->Thread = std::thread([this, &waiting = *helper] { this->Help(waiting); });
+      const std::size_t thread = this->Helpers.size() + 1;
+      helper->Thread =
+        std::thread([this, &waiting = *helper, thread] { this->Help(waiting, thread); });
       this->Helpers.push_back(std::move(helper));
     }
   }
@@ -72,7 +74,7 @@ void ThreadTeam::Run(std::size_t helpers, Function function, void* data)
   {
     this->Helpers[h]->Spot.Wake();
   }
-  function(data);
+  function(data, 0);
   if (helpers != 0)
   {
     this->LeadersSpot.Wait();
@@ -81,11 +83,11 @@ void ThreadTeam::Run(std::size_t helpers, Function function, void* data)
 }
 
 //------------------------------------------------------------------------------------------------
-void ThreadTeam::Help(Helper& helper)
+void ThreadTeam::Help(Helper& helper, std::size_t thread)
 {
   for (helper.Spot.Wait(); this->Call; helper.Spot.Wait())
   {
-    this->Call(this->Data);
+    this->Call(this->Data, thread);
     helper.Spot.Prepare(); // before the leader can wake it again
     if (this->Left.fetch_sub(1, std::memory_order_acq_rel) == 1)
     {

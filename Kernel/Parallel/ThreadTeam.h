@@ -49,21 +49,22 @@ public:
   std::size_t NumberOfHelpers() const { return this->Helpers.size(); }
 
   /**
-   * The leader calls work() in several threads at once: itself, and as many helpers as are asked
-   * for, or all. Returns when all have returned. Everything that the leader wrote before is visible
+   * Calls work(thread) in several threads at once: the leader, which has number 0, and the helpers 1,
+   * 2, ..., as many as are asked for, or all. Returns when all have returned. Everything that the leader wrote before is visible
    * to the helpers, and what they wrote is visible to the leader afterwards.
    * @param work must not throw
    */
   template <typename Work>
   void Run(std::size_t helpers, Work& work)
   {
-    static_assert(std::is_invocable_v<Work&>);
+    static_assert(std::is_invocable_v<Work&, std::size_t>);
     this->Run(
-      helpers, [](void* data) { (*static_cast<Work*>(data))(); }, std::addressof(work));
+      helpers, [](void* data, std::size_t thread) { (*static_cast<Work*>(data))(thread); },
+      std::addressof(work));
   }
 
 private:
-  using Function = void (*)(void* data);
+  using Function = void (*)(void* data, std::size_t thread);
 
   struct alignas(CacheLineSize) Helper
   {
@@ -72,7 +73,7 @@ private:
   };
 
   void Run(std::size_t helpers, Function function, void* data);
-  void Help(Helper& helper);
+  void Help(Helper& helper, std::size_t thread);
 
   // Written by the leader while the helpers wait. Wake() publishes them.
   Function Call = nullptr; ///< null: the team ends

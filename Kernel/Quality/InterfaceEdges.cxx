@@ -36,7 +36,7 @@ InterfaceRidgeLists<D>::InterfaceRidgeLists(
   {
     // Neighbouring facets share points, and so the counts of points.
     ParallelFor(
-      0, facets.size(), DistantGrain(facets.size(), threads, Grain), threads,
+      0, facets.size(), Grain, threads,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t f = first; f < last; ++f)

@@ -74,13 +74,4 @@ TEST(ParallelCollect, CanBeStopped)
   EXPECT_THROW(ParallelCollect<int>(100, 10, 3, nothing, stop.get_token()), Cancelled);
 }
 
-//------------------------------------------------------------------------------------------------
-TEST(DistantGrain, GivesEachThreadSomeLargeChunks)
-{
-  EXPECT_EQ(DistantGrain(320000, 2, 100), 10000u);
-  EXPECT_EQ(DistantGrain(81000, 2, 1000), 2000u) << "a multiple of the unit";
-  EXPECT_EQ(DistantGrain(100, 2, 1000), 1000u) << "at least the unit";
-  EXPECT_EQ(DistantGrain(0, 1, 16), 16u);
-}
-
 } // namespace

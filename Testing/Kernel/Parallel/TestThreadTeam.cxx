@@ -62,8 +62,10 @@ TEST(ThreadTeam, ItsThreadsWorkAtTheSameTime)
   for (const int number : { 4, 2, 3, 4, 1 })
   {
     std::atomic<int> arrived = 0;
-    auto work = [&]
+    std::vector<std::atomic<int>> calls(4);
+    auto work = [&](std::size_t thread)
     {
+      ++calls[thread];
       ++arrived;
       while (arrived < number)
       {
@@ -72,6 +74,10 @@ TEST(ThreadTeam, ItsThreadsWorkAtTheSameTime)
     };
     team.Run(static_cast<std::size_t>(number - 1), work);
     EXPECT_EQ(arrived, number);
+    for (int thread = 0; thread < 4; ++thread)
+    {
+      EXPECT_EQ(calls[static_cast<std::size_t>(thread)], thread < number ? 1 : 0);
+    }
   }
 }
 
