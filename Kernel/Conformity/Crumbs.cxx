@@ -5,12 +5,12 @@
 #include "Conformity/ChangeRules.h"
 #include "Delaunay/VertexStar.h"
 #include "Geometry/SimplexQuality.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -36,18 +36,16 @@ public:
   {
   }
 
+  /** Whether s may begin a search, and its fragment is as small as a crumb. */
+  bool IsSmall(SimplexId s) const
+  {
+    return this->MayBegin(s) && this->SomeOf(s).size() <= MostOfACrumb;
+  }
+
   /** The crumb that s is of, ascending, if s is its first tetrahedron that may begin a search. */
   std::optional<Fragment> CrumbOf(SimplexId s) const
   {
-    if (!this->MayBegin(s))
-    {
-      return std::nullopt;
-    }
     Fragment fragment = this->SomeOf(s);
-    if (fragment.size() > MostOfACrumb)
-    {
-      return std::nullopt;
-    }
     std::sort(fragment.begin(), fragment.end());
     const auto first = std::find_if(
       fragment.begin(), fragment.end(), [this](SimplexId t) { return this->MayBegin(t); });
@@ -63,24 +61,6 @@ public:
     return this->SomeOf(crumb.front()).size() == crumb.size() &&
       this->HangsOnLarger(crumb,
         [&near](VertexId v, SimplexId) -> const std::vector<SimplexId>& { return near.StarOf(v); });
-  }
-
-private:
-  LabelId LabelOf(SimplexId s) const { return s == None ? LabelId{ 0 } : this->Labels[s]; }
-
-  /**
-   * Whether s has at most one neighbour of its label. Fragments without such a tetrahedron, such as
-   * rings around an edge, are 2 % of the small ones, and looking for them takes twice the time.
-   */
-  bool MayBegin(SimplexId s) const
-  {
-    if (this->Labels[s] == 0)
-    {
-      return false;
-    }
-    const auto& n = this->Mesh.GetSimplex(s).N;
-    return std::count_if(n.begin(), n.end(),
-             [&](SimplexId t) { return this->LabelOf(t) == this->Labels[s]; }) <= 1;
   }
 
   /** The fragment of s, if it has at most MostOfACrumb tetrahedra; otherwise more than these. */
@@ -99,6 +79,24 @@ private:
       }
     }
     return found;
+  }
+
+private:
+  LabelId LabelOf(SimplexId s) const { return s == None ? LabelId{ 0 } : this->Labels[s]; }
+
+  /**
+   * Whether s has at most one neighbour of its label. Fragments without such a tetrahedron, such as
+   * rings around an edge, are 2 % of the small ones, and looking for them takes twice the time.
+   */
+  bool MayBegin(SimplexId s) const
+  {
+    if (this->Labels[s] == 0)
+    {
+      return false;
+    }
+    const auto& n = this->Mesh.GetSimplex(s).N;
+    return std::count_if(n.begin(), n.end(),
+             [&](SimplexId t) { return this->LabelOf(t) == this->Labels[s]; }) <= 1;
   }
 
   /**
@@ -138,22 +136,6 @@ double AreaOf(const Triangulation<3>& mesh, const repair::Facet<3>& facet)
   return 0.5 * std::sqrt(Dot(normal, normal));
 }
 
-/** Finds the vertices of these simplices that simplices with other labels have, too. */
-void FindVerticesOnInterfaces(const std::vector<SimplexId>& simplices,
-  const repair::Neighbourhood<3>& near, const SimplexLabels& labels,
-  std::vector<std::uint8_t>& onInterface)
-{
-  for (const SimplexId s : simplices)
-  {
-    for (const VertexId v : near.VerticesOf(s))
-    {
-      const std::vector<SimplexId>& star = near.StarOf(v);
-      onInterface[v] =
-        std::any_of(star.begin(), star.end(), [&](SimplexId t) { return labels[t] != labels[s]; });
-    }
-  }
-}
-
 /**
  * The changes that give a crumb a label beside it, the one with the largest common area first.
  * @param crumbs all simplices of crumbs, ascending
@@ -186,22 +168,19 @@ std::vector<repair::Change> ChangesOf(const Fragment& crumb, const Triangulation
 }
 
 /** The crumbs, in the order of their first simplices. */
-std::vector<Fragment> FindCrumbs(
-  const CrumbFinder& finder, std::size_t simplices, unsigned threads, const std::stop_token& stop)
+std::vector<Fragment> FindCrumbs(const CrumbFinder& finder, const std::vector<SimplexId>& small,
+  unsigned threads, const std::stop_token& stop)
 {
-  std::vector<Fragment> crumbs;
-  std::mutex mutex;
-  constexpr std::size_t SimplicesAtOnce = 8192;
-  ParallelFor(
-    0, simplices, SimplicesAtOnce, threads,
-    [&](std::size_t begin, std::size_t end)
+  constexpr std::size_t Grain = 64;
+  std::vector<Fragment> crumbs = ParallelCollect<Fragment>(
+    small.size(), Grain, threads,
+    [&](std::size_t first, std::size_t end, std::vector<Fragment>& found)
     {
-      for (std::size_t s = begin; s < end; ++s)
+      for (std::size_t k = first; k < end; ++k)
       {
-        if (std::optional<Fragment> crumb = finder.CrumbOf(static_cast<SimplexId>(s)))
+        if (std::optional<Fragment> crumb = finder.CrumbOf(small[k]))
         {
-          const std::scoped_lock lock(mutex);
-          crumbs.push_back(std::move(*crumb));
+          found.push_back(std::move(*crumb));
         }
       }
     },
@@ -213,20 +192,81 @@ std::vector<Fragment> FindCrumbs(
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
-  const ManifoldRepairOptions<3>& options, unsigned threads, const std::stop_token& stop)
+std::vector<SimplexId> FindSmallFragments(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, unsigned threads, const std::stop_token& stop)
 {
   const CrumbFinder finder(triangulation, labels);
-  const std::vector<Fragment> crumbs = FindCrumbs(finder, labels.size(), threads, stop);
+  constexpr std::size_t Grain = 8192;
+  return ParallelCollect<SimplexId>(
+    labels.size(), Grain, threads,
+    [&](std::size_t first, std::size_t end, std::vector<SimplexId>& found)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < end; ++s)
+      {
+        if (finder.IsSmall(s))
+        {
+          found.push_back(s);
+        }
+      }
+    },
+    stop);
+}
+
+std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, const std::vector<SimplexId>& before,
+  const std::vector<SimplexId>& added, unsigned threads, const std::stop_token& stop)
+{
+  const CrumbFinder finder(triangulation, labels);
+  // Fragments that have changed have a new simplex, or one beside it.
+  constexpr std::size_t Grain = 256;
+  std::vector<SimplexId> small = ParallelCollect<SimplexId>(
+    added.size(), Grain, threads,
+    [&](std::size_t first, std::size_t end, std::vector<SimplexId>& found)
+    {
+      const auto look = [&](SimplexId s)
+      {
+        if (labels[s] != 0)
+        {
+          const Fragment some = finder.SomeOf(s);
+          std::copy_if(some.begin(), some.end(), std::back_inserter(found),
+            [&](SimplexId t) { return finder.IsSmall(t); });
+        }
+      };
+      for (std::size_t k = first; k < end; ++k)
+      {
+        look(added[k]);
+        for (const SimplexId n : triangulation.GetSimplex(added[k]).N)
+        {
+          if (n != None)
+          {
+            look(n);
+          }
+        }
+      }
+    },
+    stop);
+  std::copy_if(before.begin(), before.end(), std::back_inserter(small),
+    [&](SimplexId s) { return finder.IsSmall(s); });
+  std::sort(small.begin(), small.end());
+  small.erase(std::unique(small.begin(), small.end()), small.end());
+  return small;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
+  const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
+  const std::stop_token& stop)
+{
+  const CrumbFinder finder(triangulation, labels);
+  const std::vector<Fragment> crumbs = FindCrumbs(finder, small, threads, stop);
   std::vector<SimplexId> all;
   for (const Fragment& crumb : crumbs)
   {
     all.insert(all.end(), crumb.begin(), crumb.end());
   }
   std::sort(all.begin(), all.end());
-  std::vector<std::uint8_t> onInterface(crumbs.empty() ? 0 : triangulation.VertexIdEnd());
-  const repair::Neighbourhood<3> near(triangulation, labels, onInterface);
-  FindVerticesOnInterfaces(all, near, labels, onInterface);
+  const SimplexLabels before = crumbs.empty() ? SimplexLabels() : labels;
+  const repair::Neighbourhood<3> near(triangulation, labels, before);
   const repair::ChangeRules<3> rules(near, labels, options);
 
   std::vector<SimplexId> changed;

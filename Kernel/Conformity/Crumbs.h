@@ -17,11 +17,33 @@ namespace voxplex
 {
 
 /**
+ * Finds the tetrahedra of small fragments, where a search for crumbs may begin. A fragment is a
+ * maximal set of tetrahedra of one label that are connected through faces. It is small if it has at
+ * most five. A search begins at tetrahedra with at most one neighbour of their label.
+ *
+ * For threads and exceptions, see RelabelCrumbs(). Takes time linear in the number of simplices.
+ * @return ascending
+ */
+std::vector<SimplexId> FindSmallFragments(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, unsigned threads, const std::stop_token& stop);
+
+/**
+ * Finds them after the triangulation was refined. All simplices that were there before have the
+ * labels that they had.
+ *
+ * Takes time linear in the sizes of the lists.
+ * @param before the result for the triangulation before
+ * @param added the simplices that were not there before
+ */
+std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, const std::vector<SimplexId>& before,
+  const std::vector<SimplexId>& added, unsigned threads, const std::stop_token& stop);
+
+/**
  * @brief Gives crumbs the label beside them, so that the elements of a label hang together.
  *
- * A fragment is a maximal set of tetrahedra of one label that are connected through faces. A crumb is
- * a fragment of at most five tetrahedra that shares a vertex or an edge, but no face, with a larger
- * fragment of its label. Where a part of a label is thin compared with delta, circumcentres of some
+ * A crumb is a small fragment that shares a vertex or an edge, but no face, with a larger fragment of
+ * its label. Where a part of a label is thin compared with delta, circumcentres of some
  * tetrahedra of its rim lie in it, and those of the tetrahedra that would connect them do not. In a
  * finite-element model such crumbs move freely.
  *
@@ -34,16 +56,19 @@ namespace voxplex
  * The thesis keeps all crumbs.
  *
  * No thread may change the triangulation during the call. The result does not depend on the number of
- * threads. Takes time linear in the number of simplices.
+ * threads. Takes time linear in the number of small fragments, and in that of simplices if there is
+ * a crumb, but little for each of these.
  *
  * @param labels of each simplex id; those of crumbs are changed
+ * @param small the result of FindSmallFragments() for these labels
  * @param options of the repair that comes next
  * @param threads 0 means all cores
  * @return the simplices whose label was changed, ascending
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
-  const ManifoldRepairOptions<3>& options, unsigned threads, const std::stop_token& stop);
+  const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
+  const std::stop_token& stop);
 
 } // namespace voxplex
 

@@ -9,6 +9,20 @@
 namespace voxplex
 {
 
+namespace
+{
+
+ManifoldRepairOptions<3> RepairOptionsFor(const InterfaceCheck::Subject& subject)
+{
+  ManifoldRepairOptions<3> options;
+  options.Shape = subject.Shape;
+  options.Surfaces = &subject.Surfaces;
+  options.Sizing = &subject.Sizing;
+  return options;
+}
+
+} // namespace
+
 InterfaceCheck::InterfaceCheck(const Subject& subject, const InterfaceOptions& options,
   LocalDelta<3>& local, InterfaceStatistics& statistics, double& seconds,
   const std::stop_token& stop)
@@ -18,6 +32,7 @@ InterfaceCheck::InterfaceCheck(const Subject& subject, const InterfaceOptions& o
   , Statistics(statistics)
   , Stop(stop)
   , Vertices(subject.Mesh, subject.Surfaces, subject.Threads, stop)
+  , Labeller(subject.Mesh, RepairOptionsFor(subject), subject.Threads, stop)
 {
   if (subject.Sizing.Base().Graded)
   {
@@ -63,6 +78,7 @@ Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
 void InterfaceCheck::Finish()
 {
   this->Vertices.Forget();
+  this->Labeller.Forget();
   this->Uniform.reset();
 }
 
@@ -80,13 +96,14 @@ void InterfaceCheck::MakeLabels()
   this->Made = {}; // the labels of the round before need no memory beside the new ones
   this->Spindles = {};
   ReturnFreeMemory();
-  const Triangulation<3>& mesh = this->Of.Mesh;
-  ManifoldRepairOptions<3> options;
-  options.Shape = this->Of.Shape;
-  options.Surfaces = &this->Of.Surfaces;
-  options.Sizing = &this->Of.Sizing;
-  this->Made = MakeManifoldLabels(
-    mesh, this->Options.Manifold, options, this->Statistics, this->Of.Threads, this->Stop);
+  if (this->Options.Manifold)
+  {
+    this->Made = this->Labeller.Make(this->Statistics);
+  }
+  else
+  {
+    this->Made.Labels = this->Labeller.MakePlain();
+  }
 }
 
 /** Opens the edges that are not manifold with these labels. */

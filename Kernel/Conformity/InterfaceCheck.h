@@ -100,6 +100,7 @@ private:
   InterfaceStatistics& Statistics;
   const std::stop_token Stop;
   InterfaceVertices<3> Vertices;
+  ManifoldLabeller<3> Labeller;
   std::optional<UniformInterfaceCheck<3>> Uniform;
   std::optional<GradedInterfaceCheck> Graded;
   ManifoldLabels<3> Made;

@@ -121,13 +121,14 @@ InterfaceVertices<D>::InterfaceVertices(const Triangulation<D>& triangulation,
   , Image(image)
   , Threads(threads)
   , Stop(stop)
+  , Seen(triangulation)
 {
 }
 
 template <int D>
 void InterfaceVertices<D>::Forget()
 {
-  this->Seen = UninitialisedVector<std::uint16_t>();
+  this->Seen.Forget();
   this->Known = UninitialisedVector<VertexId>();
   this->Positions = UninitialisedVector<Point<D>>();
   this->LastAdded = std::vector<Point<D>>();
@@ -136,18 +137,10 @@ void InterfaceVertices<D>::Forget()
 template <int D>
 auto InterfaceVertices<D>::Update() -> Changes
 {
-  return this->Seen.empty() ? this->FindAll() : this->FindChanges();
+  return this->Seen.IsEmpty() ? this->FindAll() : this->FindChanges();
 }
 
 //------------------------------------------------------------------------------------------------
-template <int D>
-std::uint16_t InterfaceVertices<D>::GenerationOf(SimplexId s) const
-{
-  return this->Source.IsAlive(s) ? static_cast<std::uint16_t>(std::min<std::uint32_t>(
-                                     this->Source.State(s).Generation, NotKnown))
-                                 : NotKnown;
-}
-
 template <int D>
 LabelId InterfaceVertices<D>::LabelOf(SimplexId s) const
 {
@@ -159,7 +152,7 @@ template <int D>
 auto InterfaceVertices<D>::FindAll() -> Changes
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
-  this->Seen.resize(ids);
+  this->Seen.MakeRoom();
   SimplexLabels labels(ids); // smaller than states: neighbours are anywhere in memory
   ParallelFor(
     0, ids, Grain, this->Threads,
@@ -167,8 +160,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        this->Seen[s] = this->GenerationOf(s);
-        labels[s] = this->Source.IsAlive(s) ? this->LabelOf(s) : LabelId{ 0 };
+        labels[s] = this->Seen.See(s) ? this->LabelOf(s) : LabelId{ 0 };
       }
     },
     this->Stop);
@@ -303,8 +295,7 @@ template <int D>
 UninitialisedVector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
-  MakeRoom(this->Seen, ids);
-  this->Seen.resize(ids, NotKnown);
+  this->Seen.MakeRoom();
   MarkedVertices found(this->Source.VertexIdEnd());
   ParallelFor(
     0, ids, Grain, this->Threads,
@@ -312,16 +303,13 @@ UninitialisedVector<VertexId> InterfaceVertices<D>::VerticesOfNewSimplices()
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        const std::uint16_t generation = this->GenerationOf(s);
-        const bool isNew = generation != this->Seen[s] || generation == NotKnown;
-        if (isNew && this->Source.IsAlive(s))
+        if (this->Seen.See(s))
         {
           for (const VertexId v : this->Source.GetSimplex(s).V)
           {
             found.Mark(v);
           }
         }
-        this->Seen[s] = generation;
       }
     },
     this->Stop);

@@ -8,6 +8,7 @@
 #define voxplex_InterfaceVertices_h
 
 #include "Base/UninitialisedVector.h"
+#include "Conformity/SeenSimplices.h"
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 
@@ -60,13 +61,9 @@ public:
   void Forget();
 
 private:
-  static constexpr std::uint16_t NotKnown = 0xffff;
-
   Changes FindAll();
   Changes FindChanges();
   UninitialisedVector<VertexId> VerticesOfNewSimplices();
-  /** The current generation of a simplex, or NotKnown if it is larger or the simplex is not alive. */
-  std::uint16_t GenerationOf(SimplexId s) const;
   LabelId LabelOf(SimplexId s) const;
   /** Which of the known vertices are no longer alive: 1 or 0. */
   UninitialisedVector<std::uint8_t> AreRemoved() const;
@@ -81,8 +78,7 @@ private:
   const Domain<D>& Image;
   const unsigned Threads;
   const std::stop_token Stop;
-  /** GenerationOf() every simplex at the last call. Few reach NotKnown; they count as new each time. */
-  UninitialisedVector<std::uint16_t> Seen;
+  SeenSimplices<D> Seen;
   UninitialisedVector<VertexId> Known;     ///< interface vertices at the last call, ascending
   UninitialisedVector<Point<D>> Positions; ///< of these
   std::vector<Point<D>> LastAdded;         ///< by a call that was not the first

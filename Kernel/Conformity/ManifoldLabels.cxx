@@ -5,10 +5,15 @@
 #include "Base/UninitialisedVector.h"
 #include "Conformity/Crumbs.h"
 #include "Delaunay/VertexStar.h"
-#include "Parallel/ParallelFor.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -82,37 +87,130 @@ Point<D> CentroidOf(const Triangulation<D>& triangulation,
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-ManifoldLabels<D> MakeManifoldLabels(const Triangulation<D>& triangulation, bool repair,
-  const ManifoldRepairOptions<D>& options, InterfaceStatistics& statistics, unsigned threads,
-  const std::stop_token& stop)
+ManifoldLabeller<D>::ManifoldLabeller(const Triangulation<D>& triangulation,
+  const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop)
+  : Source(triangulation)
+  , Options(options)
+  , Threads(threads)
+  , Stop(stop)
+  , Seen(triangulation)
+{
+}
+
+template <int D>
+SimplexLabels ManifoldLabeller<D>::MakePlain() const
+{
+  return LabelSimplices(this->Source, *this->Options.Surfaces, this->Threads, this->Stop);
+}
+
+template <int D>
+void ManifoldLabeller<D>::Forget()
+{
+  this->Seen.Forget();
+  this->Small = std::vector<SimplexId>();
+  this->Crumbs = std::vector<SimplexId>();
+  this->Ridges = std::vector<InterfaceRidge<D>>();
+}
+
+template <int D>
+ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
 {
   ManifoldLabels<D> made;
-  made.Labels = LabelSimplices(triangulation, *options.Surfaces, threads, stop);
-  if (repair)
+  made.Labels = this->MakePlain();
+  const bool isFirst = this->Seen.IsEmpty();
+  const Few added = isFirst ? std::nullopt : this->FindNew();
+  std::vector<SimplexId> relabelled;
+  if constexpr (D == 3)
   {
-    std::vector<SimplexId> changed;
-    if constexpr (D == 3)
-    {
-      changed = RelabelCrumbs(triangulation, made.Labels, options, threads, stop);
-    }
-    ManifoldRepairResult<D> result =
-      RepairManifold<D>(triangulation, made.Labels, options, threads, stop);
-    statistics.NonManifoldRepaired = result.Before - result.Left.size();
-    statistics.NonManifoldLeft = result.Left.size();
-    made.NonManifold = std::move(result.Left);
-    for (const InterfaceRidge<D>& ridge : made.NonManifold)
-    {
-      made.Places.push_back({ CentroidOf(triangulation, ridge.Vertices), ridge.IsJunction });
-    }
-    changed.insert(changed.end(), result.Relabelled.begin(), result.Relabelled.end());
-    made.Gone = VerticesWithin(triangulation, made.Labels, changed, threads, stop);
+    this->Small = added ? UpdateSmallFragments(this->Source, made.Labels, this->Small, *added,
+                            this->Threads, this->Stop)
+                        : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
+    relabelled = RelabelCrumbs(
+      this->Source, made.Labels, this->Small, this->Options, this->Threads, this->Stop);
   }
+  this->FindRidges(made.Labels, added, relabelled);
+  if (isFirst) // not before the lists of facets, which need most memory, are gone
+  {
+    this->FindNew();
+  }
+  ManifoldRepairResult<D> result = RepairManifold<D>(
+    this->Source, made.Labels, this->Ridges, this->Options, this->Threads, this->Stop);
+  statistics.NonManifoldRepaired = this->Ridges.size() - result.Left.size();
+  statistics.NonManifoldLeft = result.Left.size();
+  made.NonManifold = std::move(result.Left);
+  for (const InterfaceRidge<D>& ridge : made.NonManifold)
+  {
+    made.Places.push_back({ CentroidOf(this->Source, ridge.Vertices), ridge.IsJunction });
+  }
+  relabelled.insert(relabelled.end(), result.Relabelled.begin(), result.Relabelled.end());
+  made.Gone = VerticesWithin(this->Source, made.Labels, relabelled, this->Threads, this->Stop);
   return made;
 }
 
-template ManifoldLabels<3> MakeManifoldLabels<3>(const Triangulation<3>&, bool,
-  const ManifoldRepairOptions<3>&, InterfaceStatistics&, unsigned, const std::stop_token&);
-template ManifoldLabels<4> MakeManifoldLabels<4>(const Triangulation<4>&, bool,
-  const ManifoldRepairOptions<4>&, InterfaceStatistics&, unsigned, const std::stop_token&);
+/** The simplices that are new since the last call. */
+template <int D>
+auto ManifoldLabeller<D>::FindNew() -> Few
+{
+  this->Seen.MakeRoom();
+  return this->FindFew([this](SimplexId s) { return this->Seen.See(s); });
+}
+
+/** The simplices for which condition(s) holds. It is called once for each id, by several threads. */
+template <int D>
+template <typename Condition>
+auto ManifoldLabeller<D>::FindFew(const Condition& condition) const -> Few
+{
+  constexpr std::size_t Grain = 8192;
+  constexpr std::size_t Share = 32;
+  const std::size_t most = this->Source.SimplexIdEnd() / Share;
+  std::atomic<std::size_t> number{ 0 };
+  std::vector<SimplexId> all = ParallelCollect<SimplexId>(
+    this->Source.SimplexIdEnd(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last, std::vector<SimplexId>& found)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        if (condition(s))
+        {
+          found.push_back(s);
+        }
+      }
+      if (number.fetch_add(found.size(), std::memory_order_relaxed) + found.size() > most)
+      {
+        found = {};
+      }
+    },
+    this->Stop);
+  return number.load() > most ? std::nullopt : Few(std::move(all));
+}
+
+/**
+ * Finds the ridges that are not manifold with these labels.
+ * @param added the new simplices
+ * @param crumbs the simplices that have another label than that at their circumcentre
+ */
+template <int D>
+void ManifoldLabeller<D>::FindRidges(
+  const SimplexLabels& labels, const Few& added, const std::vector<SimplexId>& crumbs)
+{
+  const std::span<const LabelId> now(labels);
+  if (added)
+  {
+    std::vector<SimplexId> changed = *added;
+    changed.insert(changed.end(), crumbs.begin(), crumbs.end());
+    std::copy_if(this->Crumbs.begin(), this->Crumbs.end(), std::back_inserter(changed),
+      [this](SimplexId s) { return this->Source.IsAlive(s); });
+    this->Ridges = UpdateNonManifoldRidges<D>(
+      this->Source, now, this->Ridges, changed, this->Threads, this->Stop);
+  }
+  else
+  {
+    this->Ridges = FindNonManifoldRidges<D>(this->Source, now, this->Threads, this->Stop);
+  }
+  this->Crumbs = crumbs;
+}
+
+template class ManifoldLabeller<3>;
+template class ManifoldLabeller<4>;
 
 } // namespace voxplex

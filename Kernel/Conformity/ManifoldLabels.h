@@ -11,15 +11,17 @@
 #include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/ManifoldRepair.h"
+#include "Conformity/SeenSimplices.h"
 #include "Mesh/SimplexLabels.h"
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 namespace voxplex
 {
 
-/** The result of MakeManifoldLabels(). */
+/** The result of ManifoldLabeller::Make(). */
 template <int D>
 struct ManifoldLabels
 {
@@ -30,27 +32,65 @@ struct ManifoldLabels
 };
 
 /**
+ * @brief Labels the simplices of a triangulation so that boundaries of labels are manifold.
+ *
  * Each simplex gets the label at its circumcentre. Then RelabelCrumbs() (3D) and RepairManifold() give
- * some of them another label, if that is requested.
+ * some of them another label.
  *
- * No thread may change the triangulation during the call. The result does not depend on the number
- * of threads. Takes time linear in the number of simplices, if few are repaired.
+ * After further refinement, the labels can be made again. The result is that of a new object, but
+ * defects are looked for only where simplices are new. For this, two bytes for each simplex id are
+ * kept.
  *
- * @param repair whether labels are repaired; if not, no crumb and no ridge is looked for
- * @param options of the repair. Surfaces must not be null.
- * @param statistics receives the numbers of ridges that were repaired and are left
- * @param threads 0 means all cores
- * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+ * Not thread safe; uses threads of its own.
  */
 template <int D>
-ManifoldLabels<D> MakeManifoldLabels(const Triangulation<D>& triangulation, bool repair,
-  const ManifoldRepairOptions<D>& options, InterfaceStatistics& statistics, unsigned threads,
-  const std::stop_token& stop);
+class ManifoldLabeller
+{
+public:
+  /**
+   * @param triangulation must outlive this object
+   * @param options of the repair. Surfaces must not be null.
+   * @param threads 0 means all cores; results do not depend on it
+   */
+  ManifoldLabeller(const Triangulation<D>& triangulation, const ManifoldRepairOptions<D>& options,
+    unsigned threads, const std::stop_token& stop);
 
-extern template ManifoldLabels<3> MakeManifoldLabels<3>(const Triangulation<3>&, bool,
-  const ManifoldRepairOptions<3>&, InterfaceStatistics&, unsigned, const std::stop_token&);
-extern template ManifoldLabels<4> MakeManifoldLabels<4>(const Triangulation<4>&, bool,
-  const ManifoldRepairOptions<4>&, InterfaceStatistics&, unsigned, const std::stop_token&);
+  /**
+   * No thread may change the triangulation during the call. Takes time linear in the number of
+   * simplices, if few are repaired.
+   * @param statistics receives the numbers of ridges that were repaired and are left
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  ManifoldLabels<D> Make(InterfaceStatistics& statistics);
+
+  /** The labels at the circumcentres: no crumb and no ridge is looked for. */
+  SimplexLabels MakePlain() const;
+
+  /** Frees all memory. */
+  void Forget();
+
+private:
+  /** Some simplices, or none: so many that it takes less time to look at all. */
+  using Few = std::optional<std::vector<SimplexId>>;
+
+  Few FindNew();
+  template <typename Condition>
+  Few FindFew(const Condition& condition) const;
+  void FindRidges(
+    const SimplexLabels& labels, const Few& added, const std::vector<SimplexId>& crumbs);
+
+  const Triangulation<D>& Source;
+  const ManifoldRepairOptions<D> Options;
+  const unsigned Threads;
+  const std::stop_token Stop;
+  SeenSimplices<D> Seen;                 ///< at the last call
+  std::vector<SimplexId> Small;          ///< FindSmallFragments() then (3D)
+  std::vector<SimplexId> Crumbs;         ///< those that RelabelCrumbs() gave another label then
+  std::vector<InterfaceRidge<D>> Ridges; ///< FindNonManifoldRidges() then
+};
+
+extern template class ManifoldLabeller<3>;
+extern template class ManifoldLabeller<4>;
 
 } // namespace voxplex
 

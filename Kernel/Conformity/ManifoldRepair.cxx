@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ManifoldRepair.h"
 
-#include "Base/UninitialisedVector.h"
 #include "Conformity/RidgeRepair.h"
-#include "Parallel/ChunkCounts.h"
+#include "Mesh/SimplexLabels.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -25,72 +24,6 @@ namespace
 {
 
 using namespace repair;
-
-/** The facets of the interfaces of a triangulation. */
-template <int D>
-struct InterfaceFacets
-{
-  UninitialisedVector<Facet<D>> Facets;
-  UninitialisedVector<std::array<LabelId, 2>> Labels; ///< on both sides of each
-  UninitialisedVector<std::uint8_t> OnHull;           ///< of the triangulation
-};
-
-/** The facets are in the order of the simplices on the side of the larger label. */
-template <int D>
-InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
-  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
-{
-  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
-  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
-  {
-    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-    {
-      if (labels[s] == 0)
-      {
-        continue;
-      }
-      const auto& simplex = triangulation.GetSimplex(s);
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
-        if (beside < labels[s])
-        {
-          visit(s, i, beside);
-        }
-      }
-    }
-  };
-  const auto forChunks = [&](auto&& function)
-  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
-  ChunkCounts places(labels.size());
-  forChunks(
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t number = 0;
-      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
-      places.OfChunk(first) = number;
-    });
-  const std::size_t number = places.TurnIntoPlaces();
-  InterfaceFacets<D> all;
-  all.Facets.resize(number);
-  all.Labels.resize(number);
-  all.OnHull.resize(number);
-  forChunks(
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t place = places.OfChunk(first);
-      forEachOf(first, last,
-        [&](SimplexId s, unsigned i, LabelId beside)
-        {
-          const auto& simplex = triangulation.GetSimplex(s);
-          all.Facets[place] = FacetOf<D>(simplex.V, i);
-          all.Labels[place] = { labels[s], beside };
-          all.OnHull[place] = simplex.N[i] == None ? 1 : 0;
-          ++place;
-        });
-    });
-  return all;
-}
 
 //------------------------------------------------------------------------------------------------
 /** When something around each vertex has changed last. */
@@ -136,16 +69,16 @@ class RepairTeam
 {
 public:
   RepairTeam(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-    std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options,
+    std::span<const LabelId> before, const ManifoldRepairOptions<D>& options,
     const std::vector<InterfaceRidge<D>>& ridges, unsigned threads, const std::stop_token& stop)
     : Source(triangulation)
     , Labels(labels)
-    , OnInterface(onInterface)
+    , LabelsBefore(before)
     , Options(options)
     , Ridges(ridges)
     , Threads(NumberOfThreads(threads))
     , Stop(stop)
-    , Finder(triangulation, labels, onInterface, options)
+    , Finder(triangulation, labels, before, options)
     , Changes(triangulation.VertexIdEnd())
     , Entries(ridges.size())
   {
@@ -157,7 +90,7 @@ public:
     {
       this->Parts.resize(parts);
       this->ForParts([&](std::size_t p)
-        { this->Parts[p] = std::make_unique<Part>(triangulation, labels, onInterface, options); });
+        { this->Parts[p] = std::make_unique<Part>(triangulation, labels, before, options); });
       this->FindParts();
     }
   }
@@ -207,9 +140,9 @@ private:
   struct Part
   {
     Part(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-      std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
+      std::span<const LabelId> before, const ManifoldRepairOptions<D>& options)
       : Labels(labels.begin(), labels.end())
-      , Finder(triangulation, this->Labels, onInterface, options)
+      , Finder(triangulation, this->Labels, before, options)
       , Tried(triangulation.VertexIdEnd())
       , Surprises(triangulation.VertexIdEnd())
     {
@@ -286,7 +219,7 @@ private:
       0, this->Entries.size(), RidgesAtOnce, this->Threads,
       [&](std::size_t first, std::size_t last)
       {
-        const RidgeRepair<D> finder(this->Source, this->Labels, this->OnInterface, this->Options);
+        const RidgeRepair<D> finder(this->Source, this->Labels, this->LabelsBefore, this->Options);
         for (std::size_t r = first; r < last; ++r)
         {
           Entry& entry = this->Entries[r];
@@ -387,7 +320,7 @@ private:
 
   const Triangulation<D>& Source;
   const std::span<LabelId> Labels; ///< by simplex id
-  const std::span<const std::uint8_t> OnInterface;
+  const std::span<const LabelId> LabelsBefore;
   const ManifoldRepairOptions<D>& Options;
   const std::vector<InterfaceRidge<D>>& Ridges;
   const unsigned Threads;
@@ -406,37 +339,25 @@ private:
 //------------------------------------------------------------------------------------------------
 template <int D>
 ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
-  std::span<LabelId> labels, const ManifoldRepairOptions<D>& options, unsigned threads,
-  const std::stop_token& stop)
+  std::span<LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
+  const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop)
 {
-  const InterfaceFacets<D> interfaces =
-    FindInterfaceFacets<D>(triangulation, labels, threads, stop);
-  const std::vector<InterfaceRidge<D>> ridges =
-    FindNonManifoldRidges<D>(std::span<const Facet<D>>(interfaces.Facets),
-      std::span<const std::array<LabelId, 2>>(interfaces.Labels), triangulation.VertexIdEnd(),
-      threads, stop);
   if (ridges.empty())
   {
     return {};
   }
-  std::vector<std::uint8_t> onInterface(triangulation.VertexIdEnd());
-  for (std::size_t f = 0; f < interfaces.Facets.size(); ++f)
-  {
-    for (const VertexId v : interfaces.Facets[f])
-    {
-      // Vertices inside of a flat end are on no interface of the image.
-      onInterface[v] = onInterface[v] != 0 || interfaces.OnHull[f] == 0 ? 1 : 0;
-    }
-  }
-  RepairTeam<D> team(triangulation, labels, onInterface, options, ridges, threads, stop);
+  const SimplexLabels before(labels.begin(), labels.end());
+  RepairTeam<D> team(triangulation, labels, before, options, ridges, threads, stop);
   team.Mend();
   const std::set<SimplexId> changed = team.GetChanged();
-  return { ridges.size(), team.FindLeft(), { changed.begin(), changed.end() } };
+  return { team.FindLeft(), { changed.begin(), changed.end() } };
 }
 
 template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&, std::span<LabelId>,
-  const ManifoldRepairOptions<3>&, unsigned, const std::stop_token&);
+  const std::vector<InterfaceRidge<3>>&, const ManifoldRepairOptions<3>&, unsigned,
+  const std::stop_token&);
 template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&, std::span<LabelId>,
-  const ManifoldRepairOptions<4>&, unsigned, const std::stop_token&);
+  const std::vector<InterfaceRidge<4>>&, const ManifoldRepairOptions<4>&, unsigned,
+  const std::stop_token&);
 
 } // namespace voxplex

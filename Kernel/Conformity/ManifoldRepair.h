@@ -7,13 +7,12 @@
 #ifndef voxplex_ManifoldRepair_h
 #define voxplex_ManifoldRepair_h
 
+#include "Conformity/NonManifoldRidges.h"
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 #include "Geometry/ShapeBounds.h"
-#include "Quality/InterfaceEdges.h"
 #include "Sizing/SizingField.h"
 
-#include <cstddef>
 #include <functional>
 #include <span>
 #include <stop_token>
@@ -39,13 +38,12 @@ struct ManifoldRepairOptions
 template <int D>
 struct ManifoldRepairResult
 {
-  std::size_t Before = 0;              ///< non-manifold ridges before the repair
   std::vector<InterfaceRidge<D>> Left; ///< non-manifold ridges after it, with vertex ids
   std::vector<SimplexId> Relabelled;   ///< ascending
 };
 
 /**
- * For each non-manifold ridge (an edge, in 4D a triangle), simplices around it are given to the
+ * For each ridge (an edge, in 4D a triangle) at which the boundary of a label is not manifold, simplices around it are given to the
  * label of a neighbour, or to background, which drops them. A change is made only if it leaves fewer
  * non-manifold ridges; ridges off junctions have a larger weight. Simplices are changed only if
  * - all their vertices are on interfaces already, so that no vertex off the interfaces gets onto
@@ -59,22 +57,26 @@ struct ManifoldRepairResult
  * and the dent is at the rim of the face.
  *
  * The triangulation is not changed, and no thread may change it during the call. The result does
- * not depend on the number of threads. Takes time linear in the number of simplices; the repair
- * itself takes little time if few ridges are bad.
+ * not depend on the number of threads. Takes time linear in the number of ridges; if there is any,
+ * also in the number of simplices, but little for each of these.
  *
  * @param labels by simplex id; some are changed
+ * @param ridges the result of FindNonManifoldRidges() for these labels
  * @param threads used; 0 means all cores. With several, labels are copied for each of up to 8 threads
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
-  std::span<LabelId> labels, const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
+  std::span<LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
+  const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
   const std::stop_token& stop = {});
 
 extern template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&,
-  std::span<LabelId>, const ManifoldRepairOptions<3>&, unsigned, const std::stop_token&);
+  std::span<LabelId>, const std::vector<InterfaceRidge<3>>&, const ManifoldRepairOptions<3>&,
+  unsigned, const std::stop_token&);
 extern template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&,
-  std::span<LabelId>, const ManifoldRepairOptions<4>&, unsigned, const std::stop_token&);
+  std::span<LabelId>, const std::vector<InterfaceRidge<4>>&, const ManifoldRepairOptions<4>&,
+  unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

@@ -47,12 +47,12 @@ template <int D>
 class Neighbourhood
 {
 public:
-  /** @param onInterface for each vertex, whether it is on an interface before any change */
+  /** @param labels, before by simplex id: those now, which the owner may change, and those before any change */
   Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::span<const std::uint8_t> onInterface)
+    std::span<const LabelId> before)
     : Source(triangulation)
     , Labels(labels)
-    , OnInterface(onInterface)
+    , Before(before)
   {
   }
 
@@ -61,19 +61,14 @@ public:
     return this->Source.GetSimplex(t).V;
   }
   const Point<D>& Position(VertexId v) const { return this->Source.Position(v); }
-  bool IsOnInterface(VertexId v) const { return this->OnInterface[v] != 0; }
+  /** Whether a vertex had simplices of different labels before any change. */
+  bool IsOnInterface(VertexId v) const { return this->Find(v).OnInterface; }
   voxplex::Circumball<D> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
 
   /** The star of a vertex. Ascending, so that results do not depend on where a search begins. */
   const std::vector<SimplexId>& StarOf(VertexId v) const
   {
-    const auto [entry, isNew] = this->Stars.try_emplace(v);
-    Star& star = entry->second;
-    if (isNew)
-    {
-      star.Cells = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
-      std::sort(star.Cells.begin(), star.Cells.end());
-    }
+    Star& star = this->Find(v);
     if (star.SeenIn != this->Search)
     {
       star.SeenIn = this->Search;
@@ -287,11 +282,26 @@ private:
   {
     std::vector<SimplexId> Cells;
     std::size_t SeenIn = 0;
+    bool OnInterface = false;
   };
 
+  Star& Find(VertexId v) const
+  {
+    const auto [entry, isNew] = this->Stars.try_emplace(v);
+    Star& star = entry->second;
+    if (isNew)
+    {
+      star.Cells = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
+      std::sort(star.Cells.begin(), star.Cells.end());
+      star.OnInterface = std::any_of(star.Cells.begin(), star.Cells.end(),
+        [&](SimplexId t) { return this->Before[t] != this->Before[star.Cells.front()]; });
+    }
+    return star;
+  }
+
   const Triangulation<D>& Source;
-  const std::span<const LabelId> Labels;            ///< by simplex id; the owner may change them
-  const std::span<const std::uint8_t> OnInterface;  ///< by vertex
+  const std::span<const LabelId> Labels;
+  const std::span<const LabelId> Before;
   mutable std::unordered_map<VertexId, Star> Stars; ///< cache of the requested ones
   mutable std::vector<VertexId> SeenVertices;
   mutable std::size_t Search = 1;

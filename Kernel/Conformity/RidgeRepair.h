@@ -47,12 +47,12 @@ class RidgeRepair
 public:
   /**
    * @param labels by simplex id; they may change between calls
-   * @param onInterface for each vertex, whether it is on an interface before any change
+   * @param before the labels before any change
    */
   RidgeRepair(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::span<const std::uint8_t> onInterface, const ManifoldRepairOptions<D>& options)
+    std::span<const LabelId> before, const ManifoldRepairOptions<D>& options)
     : Labels(labels)
-    , Near(triangulation, labels, onInterface)
+    , Near(triangulation, labels, before)
     , Rules(this->Near, labels, options)
   {
   }

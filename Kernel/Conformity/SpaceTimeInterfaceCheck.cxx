@@ -7,24 +7,34 @@
 namespace voxplex
 {
 
+namespace
+{
+
+ManifoldRepairOptions<4> RepairOptionsFor(
+  const Domain<4>& surfaces, const SizingField<4>& sizing, std::function<bool(SimplexId)> keeps)
+{
+  ManifoldRepairOptions<4> options;
+  options.Surfaces = &surfaces;
+  options.Sizing = &sizing;
+  options.Keeps = std::move(keeps);
+  return options;
+}
+
+} // namespace
+
 SpaceTimeInterfaceCheck::SpaceTimeInterfaceCheck(const Triangulation<4>& mesh,
   const LabelImage<4>& image, const BitMask<4>& sites, const Domain<4>& surfaces,
   const SizingField<4>& sizing, const InterfaceOptions& options, bool mayRefine,
   std::function<bool(SimplexId)> keeps, LocalDelta<4>& local, InterfaceStatistics& statistics,
   double& seconds, unsigned threads, const std::stop_token& stop)
   : ConformityCheck(seconds)
-  , Mesh(mesh)
   , Repairs(options.Manifold)
   , MostRounds(mayRefine ? options.Rounds : 0)
-  , Threads(threads)
-  , Stop(stop)
   , Statistics(statistics)
   , Vertices(mesh, surfaces, threads, stop)
+  , Labeller(mesh, RepairOptionsFor(surfaces, sizing, std::move(keeps)), threads, stop)
   , Distances(image, sites, surfaces, sizing, local, threads, stop)
 {
-  this->RepairOptions.Surfaces = &surfaces;
-  this->RepairOptions.Sizing = &sizing;
-  this->RepairOptions.Keeps = std::move(keeps);
 }
 
 Remedy<4> SpaceTimeInterfaceCheck::InspectTriangulation()
@@ -37,8 +47,14 @@ Remedy<4> SpaceTimeInterfaceCheck::InspectTriangulation()
   }
   if (!remedy.IsNeeded)
   {
-    this->Made = MakeManifoldLabels(
-      this->Mesh, this->Repairs, this->RepairOptions, this->Statistics, this->Threads, this->Stop);
+    if (this->Repairs)
+    {
+      this->Made = this->Labeller.Make(this->Statistics);
+    }
+    else
+    {
+      this->Made.Labels = this->Labeller.MakePlain();
+    }
     if (looks)
     {
       // Triangles are not sampled: on noise the mesh would become many times as large.

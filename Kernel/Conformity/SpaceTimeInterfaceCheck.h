@@ -59,15 +59,12 @@ public:
 private:
   Remedy<4> Counted(std::vector<FeatureSeed<4>> points);
 
-  const Triangulation<4>& Mesh;
   const bool Repairs; ///< whether boundaries are made manifold
   const unsigned MostRounds;
-  const unsigned Threads;
-  const std::stop_token Stop;
-  ManifoldRepairOptions<4> RepairOptions;
   ManifoldLabels<4> Made;
   InterfaceStatistics& Statistics;
   InterfaceVertices<4> Vertices;
+  ManifoldLabeller<4> Labeller;
   UniformInterfaceCheck<4> Distances;
 };
 

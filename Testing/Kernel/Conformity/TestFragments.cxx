@@ -44,7 +44,8 @@ struct LabelledBlobs
   {
     ManifoldRepairOptions<3> options;
     options.Surfaces = &this->Surfaces;
-    return RelabelCrumbs(this->Mesh(), this->Labels, options, threads, stop);
+    return RelabelCrumbs(this->Mesh(), this->Labels,
+      FindSmallFragments(this->Mesh(), this->Labels, threads, stop), options, threads, stop);
   }
 
   /** The simplices of each fragment, by one of them. */

@@ -7,6 +7,7 @@
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +80,9 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         return mesh;
       };
       const bool wasFar = HasFarFaces(image, extract(), delta);
-      RelabelCrumbs(context.Mesh, labels, {}, 1, {});
-      const ManifoldRepairResult<3> repair = RepairManifold<3>(context.Mesh, labels);
+      RelabelCrumbs(
+        context.Mesh, labels, FindSmallFragments(context.Mesh, labels, 1, {}), {}, 1, {});
+      const Repaired<3> repair = RepairAll<3>(context.Mesh, labels);
       const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(), delta);

@@ -6,6 +6,7 @@
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +30,10 @@ struct RefinedBlobs
     , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
   {
   }
-  ManifoldRepairResult<3> Repair(
+  Repaired<3> Repair(
     const ManifoldRepairOptions<3>& options, unsigned threads = 1, const std::stop_token& stop = {})
   {
-    return RepairManifold<3>(this->Context->Mesh, this->Labels, options, threads, stop);
+    return RepairAll<3>(this->Context->Mesh, this->Labels, options, threads, stop);
   }
   SimplexMesh<3> Extract() const
   {
@@ -107,7 +108,7 @@ TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
   Triangulated ring(Ring({ 1, 2, 1, 2 }));
   const SimplexLabels before = ring.Labels;
   ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
+  const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 1u);
   EXPECT_TRUE(result.Left.empty());
   ASSERT_EQ(result.Relabelled.size(), 1u);
@@ -125,7 +126,7 @@ TEST(ManifoldRepair, GivesATetrahedronToItsNeighbour)
 TEST(ManifoldRepair, DropsWhatHangsOnAnEdge)
 {
   Triangulated ring(Ring({ 1, 1, 0, 1, 0 }));
-  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
+  const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 1u);
   EXPECT_TRUE(result.Left.empty());
   const SimplexMesh<3> mesh = ring.Extract();
@@ -144,13 +145,13 @@ TEST(ManifoldRepair, MakesNoSharpFacets)
   ManifoldRepairOptions<3> options;
   options.Shape.FacetAngle = 26.0;
   options.Shape.JunctionFacetAngle = 26.0;
-  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
+  const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels, options);
   EXPECT_EQ(result.Left.size(), 1u);
   EXPECT_TRUE(result.Relabelled.empty());
   EXPECT_EQ(ring.Labels, before);
   options.Shape.FacetAngle = 20.0;
   options.Shape.JunctionFacetAngle = 20.0;
-  const ManifoldRepairResult<3> other = RepairManifold<3>(*ring.Source, ring.Labels, options);
+  const Repaired<3> other = RepairAll<3>(*ring.Source, ring.Labels, options);
   EXPECT_TRUE(other.Left.empty());
   ASSERT_EQ(other.Relabelled.size(), 1u);
   EXPECT_EQ(before[other.Relabelled[0]], 1); // a wide one stays
@@ -217,7 +218,7 @@ TEST(ManifoldRepair, LosesNoLabel)
   ManifoldRepairOptions<3> options; // no angle stands in the way
   options.Shape.FacetAngle = 0.0;
   options.Shape.JunctionFacetAngle = 0.0;
-  EXPECT_TRUE(RepairManifold<3>(*ring.Source, ring.Labels, options).Left.empty());
+  EXPECT_TRUE(RepairAll<3>(*ring.Source, ring.Labels, options).Left.empty());
   const SimplexMesh<3> mesh = ring.Extract();
   EXPECT_TRUE(checks::Complaints(mesh).empty());
   const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
@@ -238,7 +239,7 @@ TEST(ManifoldRepair, BringsNoInterfaceToInnerVertices)
     shape.Inner = enclosed ? 1 : 0;
     Triangulated ring(Ring({ 1, 1, 2, 1, 2 }, shape));
     ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-    const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
+    const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels, options);
     EXPECT_TRUE(result.Left.empty());
     EXPECT_TRUE(checks::Complaints(ring.Extract()).empty());
     EXPECT_EQ(result.Relabelled.size(), enclosed ? 1u : 2u);
@@ -257,7 +258,7 @@ TEST(ManifoldRepair, LeavesAGoodMeshAlone)
 {
   Triangulated ring(Ring({ 1, 1, 2, 3 }));
   const SimplexLabels before = ring.Labels;
-  const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels);
+  const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels);
   EXPECT_EQ(result.Before, 0u);
   EXPECT_TRUE(result.Relabelled.empty());
   EXPECT_EQ(ring.Labels, before);
@@ -286,7 +287,7 @@ TEST(ManifoldRepair, LeavesNoDentsWhereTheImageCuts)
       const std::size_t tetrahedra = mesh.Simplices.size();
       Triangulated ring(mesh);
       ASSERT_TRUE(checks::Complaints(ring.Extract()).empty());
-      const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
+      const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels, options);
       EXPECT_EQ(result.Before, 1u);
       EXPECT_TRUE(result.Left.empty());
       mesh = ring.Extract();
@@ -327,7 +328,7 @@ TEST(ManifoldRepair, MakesNoElementLargerThanItsNewLabelAllows)
     ManifoldRepairOptions<3> options;
     options.Surfaces = &domain;
     options.Sizing = &sizing;
-    const ManifoldRepairResult<3> result = RepairManifold<3>(*ring.Source, ring.Labels, options);
+    const Repaired<3> result = RepairAll<3>(*ring.Source, ring.Labels, options);
     EXPECT_TRUE(result.Left.empty());
     ASSERT_EQ(result.Relabelled.size(), 1u);
     EXPECT_EQ(ring.Labels[result.Relabelled[0]], size < 1.0 ? 1 : 2);
@@ -343,7 +344,7 @@ TEST(ManifoldRepair, TakesNoJunctionFromASharpFacet)
   {
     RefinedBlobs blobs(seed);
     const auto before = SharpFacetsOffJunctions(blobs.Extract(), bound);
-    const ManifoldRepairResult<3> result =
+    const Repaired<3> result =
       blobs.Repair({ .Shape = { .FacetAngle = bound, .JunctionFacetAngle = 10.0 } });
     repaired += result.Relabelled.size();
     for (const auto& facet : SharpFacetsOffJunctions(blobs.Extract(), bound))
@@ -363,7 +364,7 @@ TEST(ManifoldRepair, MendsRealMeshes)
     const std::map<std::int64_t, double> volumes = checks::Volumes(first);
     const std::size_t before = BadEdges(first).size();
     double smallest = 180.0;
-    const ManifoldRepairResult<3> result = blobs.Repair({});
+    const Repaired<3> result = blobs.Repair({});
     const SimplexMesh<3> mesh = blobs.Extract();
     EXPECT_EQ(result.Before, before);
     EXPECT_EQ(result.Left.size(), BadEdges(mesh).size());
@@ -389,7 +390,7 @@ TEST(ManifoldRepair, TellsWhatIsLeft)
     {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", angle " << angle);
       RefinedBlobs blobs(seed);
-      const ManifoldRepairResult<3> result =
+      const Repaired<3> result =
         blobs.Repair({ .Shape = { .FacetAngle = angle, .JunctionFacetAngle = angle } });
       std::map<Ends, bool> found;
       for (const InterfaceEdge& edge : result.Left)

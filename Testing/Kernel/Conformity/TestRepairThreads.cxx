@@ -4,6 +4,7 @@
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <gtest/gtest.h>
 
@@ -44,11 +45,11 @@ std::array<std::size_t, 2> CheckThatThreadsDoNotMatter(std::size_t size)
   const auto context = Refined(domain, 3.0);
   const SimplexLabels before = LabelSimplices<3>(context->Mesh, domain);
   SimplexLabels labels = before;
-  const ManifoldRepairResult<3> result = RepairManifold<3>(context->Mesh, labels);
+  const Repaired<3> result = RepairAll<3>(context->Mesh, labels);
   for (const unsigned threads : { 2u, 3u, 8u })
   {
     SimplexLabels repaired = before;
-    const ManifoldRepairResult<3> same = RepairManifold<3>(context->Mesh, repaired, {}, threads);
+    const Repaired<3> same = RepairAll<3>(context->Mesh, repaired, {}, threads);
     EXPECT_EQ(repaired, labels) << threads;
     EXPECT_EQ(same.Relabelled, result.Relabelled) << threads;
     EXPECT_EQ(same.Left.size(), result.Left.size()) << threads;

@@ -288,14 +288,12 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
     const RefinedObject refined(domain, 1.7);
     ManifoldRepairOptions<4> options;
     options.Surfaces = &domain;
-    InterfaceStatistics none;
     InterfaceStatistics figures;
-    const auto plain = MakeManifoldLabels<4>(refined.Mesh(), false, options, none, 1, {});
-    const auto repaired = MakeManifoldLabels<4>(refined.Mesh(), true, options, figures, 1, {});
-    EXPECT_EQ(plain.Labels, refined.Object);
-    EXPECT_TRUE(plain.NonManifold.empty());
-    EXPECT_EQ(none.NonManifoldRepaired + none.NonManifoldLeft, 0u);
-    EXPECT_NE(repaired.Labels, plain.Labels);
+    ManifoldLabeller<4> labeller(refined.Mesh(), options, 1, {});
+    const SimplexLabels plain = labeller.MakePlain();
+    const auto repaired = labeller.Make(figures);
+    EXPECT_EQ(plain, refined.Object);
+    EXPECT_NE(repaired.Labels, plain);
 
     const auto countBad = [&](const SimplexLabels& labels)
     {
@@ -306,7 +304,7 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
     };
     EXPECT_EQ(countBad(repaired.Labels), repaired.NonManifold.size());
     EXPECT_EQ(figures.NonManifoldLeft, repaired.NonManifold.size());
-    EXPECT_EQ(figures.NonManifoldRepaired + figures.NonManifoldLeft, countBad(plain.Labels));
+    EXPECT_EQ(figures.NonManifoldRepaired + figures.NonManifoldLeft, countBad(plain));
     EXPECT_GT(figures.NonManifoldRepaired, figures.NonManifoldLeft);
 
     // No vertex comes onto an interface. Those inside of a flat end are on none.
@@ -329,21 +327,21 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
       }
       return vertices;
     };
-    const std::set<VertexId> before = onInterfaces(plain.Labels);
+    const std::set<VertexId> before = onInterfaces(plain);
     const std::set<VertexId> after = onInterfaces(repaired.Labels);
     EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
 
     // No pentatope of an end in time is dropped.
-    for (SimplexId s = 0; s < plain.Labels.size(); ++s)
+    for (SimplexId s = 0; s < plain.size(); ++s)
     {
       const auto& beside = refined.Mesh().GetSimplex(s).N;
-      const bool isAtEnd = plain.Labels[s] != 0 &&
+      const bool isAtEnd = plain[s] != 0 &&
         std::any_of(beside.begin(), beside.end(), [](SimplexId n) { return n == None; });
       EXPECT_TRUE(!isAtEnd || repaired.Labels[s] != 0);
     }
     InterfaceStatistics again;
     EXPECT_EQ(
-      MakeManifoldLabels<4>(refined.Mesh(), true, options, again, 4, {}).Labels, repaired.Labels);
+      ManifoldLabeller<4>(refined.Mesh(), options, 4, {}).Make(again).Labels, repaired.Labels);
   }
 }
 

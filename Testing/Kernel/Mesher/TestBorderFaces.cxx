@@ -11,6 +11,7 @@
 #include "Optimisation/MeshOptimiser.h"
 #include "Phantoms.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 #include "Sanitizers.h"
 
 #include <gtest/gtest.h>
@@ -358,7 +359,7 @@ TEST(BorderFaces, GetNoDentsInRepair)
       SimplexLabels repaired = labels;
       ManifoldRepairOptions<3> repair;
       repair.Surfaces = cut ? &domain : nullptr;
-      const ManifoldRepairResult<3> result = RepairManifold<3>(context->Mesh, repaired, repair);
+      const checks::Repaired<3> result = checks::RepairAll<3>(context->Mesh, repaired, repair);
       EXPECT_GT(result.Before, 0u);
       EXPECT_TRUE(result.Left.empty());
       EXPECT_EQ(lostArea(raw, extract(repaired)) < 1e-9, cut) << delta;

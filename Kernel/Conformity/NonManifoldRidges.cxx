@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/NonManifoldRidges.h"
+
+#include "Base/UninitialisedVector.h"
+#include "Conformity/ChangeRules.h"
+#include "Conformity/RepairNeighbourhood.h"
+#include "Parallel/ChunkCounts.h"
+#include "Parallel/ParallelCollect.h"
+
+#include <algorithm>
+#include <array>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** The facets of the interfaces of a triangulation. */
+template <int D>
+struct InterfaceFacets
+{
+  UninitialisedVector<repair::Facet<D>> Facets;
+  UninitialisedVector<std::array<LabelId, 2>> Labels; ///< on both sides of each
+};
+
+/** The facets are in the order of the simplices on the side of the larger label. */
+template <int D>
+InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
+{
+  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
+  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
+  {
+    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+    {
+      if (labels[s] == 0)
+      {
+        continue;
+      }
+      const auto& simplex = triangulation.GetSimplex(s);
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
+        if (beside < labels[s])
+        {
+          visit(s, i, beside);
+        }
+      }
+    }
+  };
+  const auto forChunks = [&](auto&& function)
+  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
+  ChunkCounts places(labels.size());
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t number = 0;
+      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
+      places.OfChunk(first) = number;
+    });
+  const std::size_t number = places.TurnIntoPlaces();
+  InterfaceFacets<D> all;
+  all.Facets.resize(number);
+  all.Labels.resize(number);
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t place = places.OfChunk(first);
+      forEachOf(first, last,
+        [&](SimplexId s, unsigned i, LabelId beside)
+        {
+          const auto& simplex = triangulation.GetSimplex(s);
+          all.Facets[place] = repair::FacetOf<D>(simplex.V, i);
+          all.Labels[place] = { labels[s], beside };
+          ++place;
+        });
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Finds bad ridges one by one. */
+template <int D>
+class RidgeFinder
+{
+public:
+  /** Both must outlive this object. */
+  RidgeFinder(const Triangulation<D>& triangulation, std::span<const LabelId> labels)
+    : Source(triangulation)
+    , Near(triangulation, labels, labels)
+  {
+  }
+
+  /** Appends the bad ridges of a simplex. */
+  void Find(SimplexId s, std::vector<InterfaceRidge<D>>& found) const
+  {
+    const auto& v = this->Source.GetSimplex(s).V;
+    for (unsigned i = 0; i <= D; ++i)
+    {
+      for (unsigned j = 0; j < i; ++j)
+      {
+        repair::Ridge<D> ridge;
+        std::size_t n = 0;
+        for (unsigned k = 0; k <= D; ++k)
+        {
+          if (k != i && k != j)
+          {
+            ridge[n++] = v[k];
+          }
+        }
+        std::sort(ridge.begin(), ridge.end());
+        this->Add(ridge, s, found);
+      }
+    }
+  }
+
+  /** Appends a ridge if it is there and bad. */
+  void FindAgain(const repair::Ridge<D>& ridge, std::vector<InterfaceRidge<D>>& found) const
+  {
+    if (this->Source.GetVertex(ridge[0]).Alive)
+    {
+      const std::vector<SimplexId> star = this->Near.StarOf(ridge);
+      if (!star.empty())
+      {
+        this->Add(ridge, star.front(), found);
+      }
+    }
+  }
+
+private:
+  void Add(const repair::Ridge<D>& ridge, SimplexId s, std::vector<InterfaceRidge<D>>& found) const
+  {
+    const auto state = this->Near.RingOf(ridge, s).Now;
+    if (state.Bad > 0)
+    {
+      found.push_back({ ridge, state.IsJunction });
+    }
+  }
+
+  const Triangulation<D>& Source;
+  const repair::Neighbourhood<D> Near;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<InterfaceRidge<D>> FindNonManifoldRidges(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
+{
+  const InterfaceFacets<D> interfaces =
+    FindInterfaceFacets<D>(triangulation, labels, threads, stop);
+  return FindNonManifoldRidges<D>(std::span<const repair::Facet<D>>(interfaces.Facets),
+    std::span<const std::array<LabelId, 2>>(interfaces.Labels), triangulation.VertexIdEnd(),
+    threads, stop);
+}
+
+template <int D>
+std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& before,
+  const std::vector<SimplexId>& changed, unsigned threads, const std::stop_token& stop)
+{
+  // A ridge that has become bad, or was bad and has another ring, has a changed simplex.
+  constexpr std::size_t Grain = 256;
+  std::vector<InterfaceRidge<D>> ridges = ParallelCollect<InterfaceRidge<D>>(
+    changed.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& found)
+    {
+      const RidgeFinder<D> finder(triangulation, labels);
+      for (std::size_t k = first; k < last; ++k)
+      {
+        finder.Find(changed[k], found);
+      }
+    },
+    stop);
+  const std::vector<InterfaceRidge<D>> again = ParallelCollect<InterfaceRidge<D>>(
+    before.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& found)
+    {
+      const RidgeFinder<D> finder(triangulation, labels);
+      for (std::size_t k = first; k < last; ++k)
+      {
+        finder.FindAgain(before[k].Vertices, found);
+      }
+    },
+    stop);
+  ridges.insert(ridges.end(), again.begin(), again.end());
+  std::sort(ridges.begin(), ridges.end(),
+    [](const auto& a, const auto& b) { return a.Vertices < b.Vertices; });
+  ridges.erase(std::unique(ridges.begin(), ridges.end(),
+                 [](const auto& a, const auto& b) { return a.Vertices == b.Vertices; }),
+    ridges.end());
+  return ridges;
+}
+
+template std::vector<InterfaceRidge<3>> FindNonManifoldRidges<3>(
+  const Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<4>> FindNonManifoldRidges<4>(
+  const Triangulation<4>&, std::span<const LabelId>, unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<3>> UpdateNonManifoldRidges<3>(const Triangulation<3>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::vector<SimplexId>&,
+  unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<4>> UpdateNonManifoldRidges<4>(const Triangulation<4>&,
+  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::vector<SimplexId>&,
+  unsigned, const std::stop_token&);
+
+} // namespace voxplex

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Labels that are made again after further refinement are those of a new object.
+#include "Conformity/Crumbs.h"
+#include "Conformity/ManifoldLabels.h"
+#include "Domain/ImageDomain.h"
+#include "InterfaceChecks.h"
+#include "Refinement/Rules4D.h"
+#include "RefinementChecks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+using namespace voxplex;
+using namespace voxplex::checks;
+
+namespace
+{
+
+template <int D>
+ManifoldRepairOptions<D> OptionsFor(const Domain<D>& domain)
+{
+  ManifoldRepairOptions<D> options;
+  options.Surfaces = &domain;
+  return options;
+}
+
+template <int D>
+void ExpectSame(const ManifoldLabels<D>& again, const ManifoldLabels<D>& expected)
+{
+  EXPECT_EQ(again.Labels, expected.Labels);
+  EXPECT_EQ(again.Gone, expected.Gone);
+  ASSERT_EQ(again.NonManifold.size(), expected.NonManifold.size());
+  EXPECT_EQ(again.Places.size(), expected.Places.size());
+  for (std::size_t k = 0; k < again.NonManifold.size(); ++k)
+  {
+    EXPECT_EQ(again.NonManifold[k].Vertices, expected.NonManifold[k].Vertices);
+    EXPECT_EQ(again.NonManifold[k].IsJunction, expected.NonManifold[k].IsJunction);
+  }
+}
+
+/**
+ * Inserts points at random, and removes some vertices.
+ * @param places most points come near one of these, if there are any; the others anywhere in the box
+ */
+template <int D>
+void ChangeAtRandom(Triangulation<D>& mesh, const Box<D>& box, const std::vector<Point<D>>& places,
+  std::size_t insertions, std::mt19937& random)
+{
+  typename Triangulation<D>::Worker worker(mesh);
+  for (std::size_t k = 0; k < insertions; ++k)
+  {
+    Box<D> part = box;
+    if (!places.empty() && k % 4 != 0)
+    {
+      part = { places[random() % places.size()], {} };
+      part.Max = part.Min;
+      for (std::size_t a = 0; a < part.Min.size(); ++a)
+      {
+        part.Min[a] -= 1.0;
+        part.Max[a] += 1.0;
+      }
+    }
+    Point<D> p;
+    for (std::size_t a = 0; a < p.size(); ++a)
+    {
+      p[a] = std::uniform_real_distribution<double>(part.Min[a], part.Max[a])(random);
+    }
+    const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
+    ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
+    if (k % 3 == 0)
+    {
+      const auto v = static_cast<VertexId>(random() % mesh.VertexIdEnd());
+      if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
+      {
+        mesh.Remove(worker, v);
+      }
+    }
+  }
+}
+
+/** Makes the labels again and again. @return the repaired ridges of all rounds */
+template <int D>
+std::size_t CheckRounds(
+  Triangulation<D>& mesh, const Domain<D>& domain, const std::vector<std::size_t>& insertions)
+{
+  std::mt19937 random(1);
+  ManifoldLabeller<D> one(mesh, OptionsFor(domain), 1, {});
+  ManifoldLabeller<D> three(mesh, OptionsFor(domain), 3, {});
+  std::vector<Point<D>> places; // of simplices with another label
+  std::size_t repaired = 0;
+  for (const std::size_t number : insertions)
+  {
+    SCOPED_TRACE(number);
+    ChangeAtRandom(mesh, domain.Bounds(), places, number, random);
+    std::array<InterfaceStatistics, 3> figures;
+    const ManifoldLabels<D> expected =
+      ManifoldLabeller<D>(mesh, OptionsFor(domain), 1, {}).Make(figures[0]);
+    ExpectSame(one.Make(figures[1]), expected);
+    ExpectSame(three.Make(figures[2]), expected);
+    for (const InterfaceStatistics& same : figures)
+    {
+      EXPECT_EQ(same.NonManifoldRepaired, figures[0].NonManifoldRepaired);
+      EXPECT_EQ(same.NonManifoldLeft, figures[0].NonManifoldLeft);
+    }
+    repaired += figures[0].NonManifoldRepaired;
+    const SimplexLabels plain = one.MakePlain();
+    places.clear();
+    for (SimplexId s = 0; s < plain.size(); ++s)
+    {
+      if (plain[s] != expected.Labels[s])
+      {
+        places.push_back(mesh.Position(mesh.GetSimplex(s).V[0]));
+      }
+    }
+  }
+  return repaired;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+// Few simplices are new in most rounds, many in one, and none in another.
+TEST(ManifoldLabels, AreMadeAgain)
+{
+  for (const unsigned seed : { 1u, 2u, 3u })
+  {
+    SCOPED_TRACE(seed);
+    const LabelImage<3> image = Blobs(seed);
+    const ImageDomain<3> domain(image, 1.0);
+    const auto context = Refined(domain, 2.0);
+    EXPECT_GT(
+      CheckRounds<3>(context->Mesh, domain, { 0, 5, 0, 8, 1, 500, 10, 10, 10, 10, 10, 3 }), 20u);
+  }
+}
+
+TEST(ManifoldLabels, AreMadeAgainInSpaceTime)
+{
+  std::mt19937 random(1);
+  std::vector<std::uint16_t> voxels(3 * 3 * 3 * 2);
+  for (std::uint16_t& voxel : voxels)
+  {
+    voxel = static_cast<std::uint16_t>(random() % 3);
+  }
+  const LabelImage<4> image = LabelImage<4>::FromScalars<std::uint16_t>(
+    voxels, GridGeometry<4>::Orthogonal({ 3, 3, 3, 2 }, { 3.0, 3.0, 3.0, 3.0 }));
+  const ImageDomain<4> domain(image, 1.0);
+  RefinementSettings<4> settings;
+  settings.Sizing.Base = { 1.4 };
+  settings.SpaceTime.Slivers.Fight = false;
+  Box<4> box = Around<4>(domain, 1.4);
+  box.Min[3] = domain.Bounds().Min[3]; // flat ends
+  box.Max[3] = domain.Bounds().Max[3];
+  RefinementContext<4> context(domain, settings, box, 1000);
+  ASSERT_TRUE(Refiner<Rules4D>(context).Run(nullptr));
+  EXPECT_GT(CheckRounds<4>(context.Mesh, domain, { 0, 1, 30, 1 }), 20u);
+}
+
+//------------------------------------------------------------------------------------------------
+TEST(NonManifoldRidges, AreUpdatedWhenLabelsChange)
+{
+  const LabelImage<3> image = Blobs(1);
+  const ImageDomain<3> domain(image, 1.0);
+  const auto context = Refined(domain, 3.0);
+  const Triangulation<3>& mesh = context->Mesh;
+  SimplexLabels labels = LabelSimplices<3>(mesh, domain);
+  std::mt19937 random(1);
+  std::vector<InterfaceRidge<3>> ridges = FindNonManifoldRidges<3>(mesh, labels);
+  for (int round = 0; round < 20; ++round)
+  {
+    std::vector<SimplexId> changed;
+    while (changed.size() < 20)
+    {
+      const auto s = static_cast<SimplexId>(random() % labels.size());
+      if (mesh.IsAlive(s))
+      {
+        labels[s] = static_cast<LabelId>(random() % 3);
+        changed.push_back(s);
+      }
+    }
+    ridges = UpdateNonManifoldRidges<3>(mesh, labels, ridges, changed, 1 + round % 3);
+    const std::vector<InterfaceRidge<3>> expected = FindNonManifoldRidges<3>(mesh, labels);
+    ASSERT_EQ(ridges.size(), expected.size());
+    for (std::size_t k = 0; k < ridges.size(); ++k)
+    {
+      EXPECT_EQ(ridges[k].Vertices, expected[k].Vertices);
+      EXPECT_EQ(ridges[k].IsJunction, expected[k].IsJunction);
+    }
+  }
+  EXPECT_GT(ridges.size(), 100u);
+}
+
+TEST(SmallFragments, AreUpdatedAfterRefinement)
+{
+  const LabelImage<3> image = Blobs(2);
+  const ImageDomain<3> domain(image, 1.0);
+  const auto context = Refined(domain, 4.0);
+  const auto find = [&](const SimplexLabels& labels)
+  { return FindSmallFragments(context->Mesh, labels, 1, {}); };
+  std::mt19937 random(1);
+  std::vector<SimplexId> small = find(LabelSimplices<3>(context->Mesh, domain));
+  SeenSimplices<3> seen(context->Mesh);
+  std::size_t most = 0;
+  for (int round = 0; round < 20; ++round)
+  {
+    std::vector<SimplexId> added;
+    seen.MakeRoom();
+    for (SimplexId s = 0; s < context->Mesh.SimplexIdEnd(); ++s)
+    {
+      seen.See(s);
+    }
+    ChangeAtRandom(context->Mesh, domain.Bounds(), {}, 10, random);
+    seen.MakeRoom();
+    for (SimplexId s = 0; s < context->Mesh.SimplexIdEnd(); ++s)
+    {
+      if (seen.See(s))
+      {
+        added.push_back(s);
+      }
+    }
+    const SimplexLabels labels = LabelSimplices<3>(context->Mesh, domain);
+    small = UpdateSmallFragments(context->Mesh, labels, small, added, 1 + round % 3, {});
+    ASSERT_EQ(small, find(labels));
+    most = std::max(most, small.size());
+  }
+  EXPECT_GT(most, 10u);
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Repairs of all bad ridges of a triangulation.
+#ifndef voxplex_RepairTesting_h
+#define voxplex_RepairTesting_h
+
+#include "Conformity/ManifoldRepair.h"
+
+#include <cstddef>
+#include <span>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+namespace voxplex::checks
+{
+
+/** The result of a repair, and the number of bad ridges before it. */
+template <int D>
+struct Repaired : ManifoldRepairResult<D>
+{
+  std::size_t Before = 0;
+};
+
+template <int D>
+Repaired<D> RepairAll(const Triangulation<D>& triangulation, std::span<LabelId> labels,
+  const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
+  const std::stop_token& stop = {})
+{
+  const std::vector<InterfaceRidge<D>> ridges =
+    FindNonManifoldRidges<D>(triangulation, labels, threads, stop);
+  Repaired<D> result{ RepairManifold<D>(triangulation, labels, ridges, options, threads, stop) };
+  result.Before = ridges.size();
+  return result;
+}
+
+} // namespace voxplex::checks
+
+#endif
