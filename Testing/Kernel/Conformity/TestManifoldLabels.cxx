@@ -141,6 +141,31 @@ TEST(ManifoldLabels, AreMadeAgain)
   }
 }
 
+// Crumbs become crumbs, or no crumbs any more, because of new tetrahedra at a vertex.
+TEST(ManifoldLabels, AreMadeAgainAmongManyLabels)
+{
+  constexpr std::int64_t Side = 24;
+  std::mt19937 random(1);
+  std::vector<std::uint8_t> cubes(Side * Side * Side / 8);
+  std::generate(
+    cubes.begin(), cubes.end(), [&] { return static_cast<std::uint8_t>(random() % 7); });
+  std::vector<std::uint8_t> voxels;
+  for (std::int64_t v = 0; v < Side * Side * Side; ++v)
+  {
+    const std::int64_t i = v % Side / 2;
+    const std::int64_t j = v / Side % Side / 2;
+    const std::int64_t k = v / (Side * Side) / 2;
+    voxels.push_back(cubes[static_cast<std::size_t>(i + Side / 2 * (j + Side / 2 * k))]);
+  }
+  const LabelImage<3> image = LabelImage<3>::FromScalars<std::uint8_t>(
+    voxels, GridGeometry<3>::Orthogonal({ Side, Side, Side }, { 1.0, 1.0, 1.0 }));
+  const ImageDomain<3> domain(image, 1.0);
+  const auto context = Refined(domain, 2.0);
+  std::vector<std::size_t> insertions{ 0 };
+  insertions.insert(insertions.end(), 30, 12);
+  EXPECT_GT(CheckRounds<3>(context->Mesh, domain, insertions), 100u);
+}
+
 TEST(ManifoldLabels, AreMadeAgainInSpaceTime)
 {
   std::mt19937 random(1);
