@@ -43,9 +43,10 @@ struct ManifoldRepairResult
 };
 
 /**
- * For each ridge (an edge, in 4D a triangle) at which the boundary of a label is not manifold, simplices around it are given to the
- * label of a neighbour, or to background, which drops them. A change is made only if it leaves fewer
- * non-manifold ridges; ridges off junctions have a larger weight. Simplices are changed only if
+ * A ridge (an edge, in 4D a triangle) is bad if the boundary of a label is not manifold there. For
+ * each bad ridge, simplices around it are given to the label of a neighbour, or to background, which
+ * drops them. A change is made only if it leaves fewer bad ridges; ridges off junctions have a
+ * larger weight. Simplices are changed only if
  * - all their vertices are on interfaces already, so that no vertex off the interfaces gets onto
  *   them;
  * - a simplex of the old label remains at one of the vertices;

@@ -47,7 +47,10 @@ template <int D>
 class Neighbourhood
 {
 public:
-  /** @param labels, before by simplex id: those now, which the owner may change, and those before any change */
+  /**
+   * @param labels by simplex id; the owner may change them
+   * @param before the labels before any change
+   */
   Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
     std::span<const LabelId> before)
     : Source(triangulation)

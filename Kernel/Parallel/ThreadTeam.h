@@ -50,8 +50,9 @@ public:
 
   /**
    * Calls work(thread) in several threads at once: the leader, which has number 0, and the helpers 1,
-   * 2, ..., as many as are asked for, or all. Returns when all have returned. Everything that the leader wrote before is visible
-   * to the helpers, and what they wrote is visible to the leader afterwards.
+   * 2, ..., as many as are asked for, or all. Returns when all have returned. Everything that the
+   * leader wrote before is visible to the helpers, and what they wrote is visible to the leader
+   * afterwards.
    * @param work must not throw
    */
   template <typename Work>
