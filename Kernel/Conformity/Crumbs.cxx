@@ -3,14 +3,21 @@
 #include "Conformity/Crumbs.h"
 
 #include "Conformity/ChangeRules.h"
+#include "Conformity/ChangeStamps.h"
+#include "Conformity/Recollection.h"
 #include "Delaunay/VertexStar.h"
 #include "Geometry/SimplexQuality.h"
 #include "Parallel/ParallelCollect.h"
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -23,8 +30,11 @@ namespace
 /** The largest number of tetrahedra of a crumb. */
 constexpr std::size_t MostOfACrumb = 5;
 
-/** A crumb, or some tetrahedra of a larger fragment. */
+/** A crumb. */
 using Fragment = std::vector<SimplexId>;
+
+/** A crumb, or some tetrahedra of a larger fragment. */
+using Some = boost::container::small_vector<SimplexId, MostOfACrumb + 4>;
 
 class CrumbFinder
 {
@@ -45,28 +55,49 @@ public:
   /** The crumb that s is of, ascending, if s is its first tetrahedron that may begin a search. */
   std::optional<Fragment> CrumbOf(SimplexId s) const
   {
-    Fragment fragment = this->SomeOf(s);
+    const Some some = this->SomeOf(s);
+    Fragment fragment(some.begin(), some.end());
     std::sort(fragment.begin(), fragment.end());
     const auto first = std::find_if(
       fragment.begin(), fragment.end(), [this](SimplexId t) { return this->MayBegin(t); });
     const bool isCrumb = *first == s &&
       this->HangsOnLarger(
-        fragment, [this](VertexId v, SimplexId t) { return StarOf(this->Mesh, v, t); });
+        fragment,
+        [this](VertexId v, SimplexId t, const auto& condition)
+        { return AnyInStar(this->Mesh, v, t, condition); },
+        [](const Some&) {});
     return isCrumb ? std::optional(std::move(fragment)) : std::nullopt;
   }
 
-  /** Whether something that was a crumb still is one. */
-  bool IsCrumb(const Fragment& crumb, const repair::Neighbourhood<3>& near) const
+  /**
+   * Whether something that was a crumb still is one.
+   * @param seen receives the vertices of simplices that were looked at, except those of stars
+   */
+  bool IsCrumb(
+    const Fragment& crumb, const repair::Neighbourhood<3>& near, std::vector<VertexId>& seen) const
   {
     return this->SomeOf(crumb.front()).size() == crumb.size() &&
-      this->HangsOnLarger(crumb,
-        [&near](VertexId v, SimplexId) -> const std::vector<SimplexId>& { return near.StarOf(v); });
+      this->HangsOnLarger(
+        crumb,
+        [&near](VertexId v, SimplexId, const auto& condition)
+        {
+          const std::vector<SimplexId>& star = near.StarOf(v);
+          return std::any_of(star.begin(), star.end(), condition);
+        },
+        [&](const Some& some)
+        {
+          for (const SimplexId t : some)
+          {
+            const auto& v = this->Mesh.GetSimplex(t).V;
+            seen.insert(seen.end(), v.begin(), v.end());
+          }
+        });
   }
 
   /** The fragment of s, if it has at most MostOfACrumb tetrahedra; otherwise more than these. */
-  Fragment SomeOf(SimplexId s) const
+  Some SomeOf(SimplexId s) const
   {
-    Fragment found{ s };
+    Some found{ s };
     for (std::size_t k = 0; k < found.size() && found.size() <= MostOfACrumb; ++k)
     {
       for (const SimplexId n : this->Mesh.GetSimplex(found[k]).N)
@@ -101,27 +132,32 @@ private:
 
   /**
    * Whether a larger fragment of the label has one of the vertices.
-   * @param starOf gives the star of a vertex of a simplex
+   * @param anyInStar anyInStar(v, s, condition): whether a condition holds for a simplex of the
+   * star of v, which has s
+   * @param lookedAt lookedAt(some) is called with fragments at the vertices
    */
-  template <typename Stars>
-  bool HangsOnLarger(const Fragment& fragment, const Stars& starOf) const
+  template <typename Stars, typename LookedAt>
+  bool HangsOnLarger(
+    const Fragment& fragment, const Stars& anyInStar, const LookedAt& lookedAt) const
   {
-    for (const SimplexId s : fragment)
+    const LabelId label = this->Labels[fragment.front()];
+    const auto isOfLarger = [&](SimplexId t)
     {
-      for (const VertexId v : this->Mesh.GetSimplex(s).V)
+      if (this->Labels[t] != label || std::binary_search(fragment.begin(), fragment.end(), t))
       {
-        for (const SimplexId t : starOf(v, s))
-        {
-          if (this->Labels[t] == this->Labels[s] &&
-            !std::binary_search(fragment.begin(), fragment.end(), t) &&
-            this->SomeOf(t).size() > fragment.size())
-          {
-            return true;
-          }
-        }
+        return false;
       }
-    }
-    return false;
+      const Some some = this->SomeOf(t);
+      lookedAt(some);
+      return some.size() > fragment.size();
+    };
+    return std::any_of(fragment.begin(), fragment.end(),
+      [&](SimplexId s)
+      {
+        const auto& v = this->Mesh.GetSimplex(s).V;
+        return std::any_of(
+          v.begin(), v.end(), [&](VertexId x) { return anyInStar(x, s, isOfLarger); });
+      });
   }
 
   const Triangulation<3>& Mesh;
@@ -189,6 +225,200 @@ std::vector<Fragment> FindCrumbs(const CrumbFinder& finder, const std::vector<Si
   return crumbs;
 }
 
+//------------------------------------------------------------------------------------------------
+/** Finds changes for crumbs. Each thread needs its own. */
+class CrumbRepair
+{
+public:
+  /**
+   * All must outlive this object.
+   * @param labels by simplex id; they may change between calls
+   * @param before the labels before any change
+   * @param simplices of all crumbs, ascending
+   */
+  CrumbRepair(const Triangulation<3>& triangulation, const SimplexLabels& labels,
+    const SimplexLabels& before, const ManifoldRepairOptions<3>& options,
+    const std::vector<SimplexId>& simplices)
+    : Mesh(triangulation)
+    , Labels(labels)
+    , OfCrumbs(simplices)
+    , Finder(triangulation, labels)
+    , Near(triangulation, labels, before)
+    , Rules(this->Near, labels, options)
+  {
+  }
+
+  CrumbRepair(const CrumbRepair&) = delete; // Rules refer to Near
+  CrumbRepair& operator=(const CrumbRepair&) = delete;
+
+  /** The best change of a crumb. None if its neighbours' new labels have made it another fragment. */
+  repair::Proposal Propose(const Fragment& crumb) const
+  {
+    this->Near.ForgetSeen();
+    repair::Proposal proposal;
+    if (this->Finder.IsCrumb(crumb, this->Near, proposal.Seen))
+    {
+      std::vector<repair::Change> changes =
+        ChangesOf(crumb, this->Mesh, this->Labels, this->OfCrumbs);
+      const auto best = std::find_if(changes.begin(), changes.end(),
+        [this](const repair::Change& change)
+        { return !this->Rules.Dents(change) && this->Rules.IsAllowed(change); });
+      if (best != changes.end())
+      {
+        proposal.Best = std::move(*best);
+      }
+    }
+    const std::vector<VertexId>& seen = this->Near.Seen();
+    proposal.Seen.insert(proposal.Seen.end(), seen.begin(), seen.end());
+    for (const SimplexId s : crumb)
+    {
+      const auto& v = this->Mesh.GetSimplex(s).V;
+      proposal.Seen.insert(proposal.Seen.end(), v.begin(), v.end());
+    }
+    return proposal;
+  }
+
+private:
+  const Triangulation<3>& Mesh;
+  const SimplexLabels& Labels;
+  const std::vector<SimplexId>& OfCrumbs;
+  const CrumbFinder Finder;
+  const repair::Neighbourhood<3> Near;
+  const repair::ChangeRules<3> Rules;
+};
+
+//------------------------------------------------------------------------------------------------
+/**
+ * Gives one crumb after the other another label. Before, threads look at each as if there were no
+ * other. A change is looked for again if something around the crumb is not as the thread had it. So
+ * the result is that of one thread.
+ */
+class CrumbTeam
+{
+public:
+  /** All must outlive this object. @param crumbs in their order */
+  CrumbTeam(const Triangulation<3>& triangulation, SimplexLabels& labels,
+    const ManifoldRepairOptions<3>& options, const std::vector<Fragment>& crumbs, unsigned threads,
+    const std::stop_token& stop)
+    : Mesh(triangulation)
+    , Labels(labels)
+    , Before(labels)
+    , Options(options)
+    , Crumbs(crumbs)
+    , Threads(NumberOfThreads(threads))
+    , Stop(stop)
+  {
+    for (const Fragment& crumb : crumbs)
+    {
+      this->Simplices.insert(this->Simplices.end(), crumb.begin(), crumb.end());
+    }
+    std::sort(this->Simplices.begin(), this->Simplices.end());
+  }
+
+  /**
+   * @param memory of an earlier call, or null
+   * @param found receives what is found, except what has changed
+   * @return the simplices that have another label, ascending
+   */
+  std::vector<SimplexId> Relabel(const CrumbMemory* memory, CrumbMemory& found)
+  {
+    if (memory)
+    {
+      this->Recall(*memory);
+    }
+    std::vector<Shared> proposals = this->ProposeForEach();
+    const CrumbRepair finder(
+      this->Mesh, this->Labels, this->Before, this->Options, this->Simplices);
+    repair::ChangeStamps changes(this->Mesh.VertexIdEnd());
+    std::vector<SimplexId> changed;
+    found.Records.resize(this->Crumbs.size());
+    for (std::size_t k = 0; k < this->Crumbs.size(); ++k)
+    {
+      ThrowIfStopped(this->Stop);
+      Shared proposal = this->Find(k);
+      if (!proposal)
+      {
+        proposal = proposals[k] && !changes.AnyAfter(proposals[k]->Seen, 0)
+          ? proposals[k]
+          : std::make_shared<const repair::Proposal>(finder.Propose(this->Crumbs[k]));
+        if (this->Recalled)
+        {
+          this->Recalled->Compare(k, OnlyPass, *proposal);
+        }
+      }
+      for (const SimplexId s : proposal->Best ? proposal->Best->Cells : Fragment())
+      {
+        this->Labels[s] = proposal->Best->Label;
+        changes.Set(this->Mesh.GetSimplex(s).V, 1);
+        changed.push_back(s);
+      }
+      found.Records[k].Of = this->Crumbs[k];
+      found.Records[k].Found.Add(OnlyPass, proposal);
+    }
+    found.Simplices = std::move(this->Simplices);
+    std::sort(changed.begin(), changed.end());
+    return changed;
+  }
+
+private:
+  using Shared = repair::ProposalHistory::Shared;
+  static constexpr std::uint32_t OnlyPass = 1;
+
+  void Recall(const CrumbMemory& memory)
+  {
+    this->Recalled.emplace(this->Mesh, memory.Changed, memory.Records, this->Crumbs,
+      [](const Fragment& crumb) -> const Fragment& { return crumb; });
+    // Areas beside simplices of crumbs do not count.
+    std::vector<SimplexId> other;
+    std::set_symmetric_difference(memory.Simplices.begin(), memory.Simplices.end(),
+      this->Simplices.begin(), this->Simplices.end(), std::back_inserter(other));
+    this->Recalled->Mark(other);
+  }
+
+  /** What an earlier call has found for a crumb, if it is right; otherwise null. */
+  Shared Find(std::size_t k) const
+  {
+    return this->Recalled ? this->Recalled->Find(k, OnlyPass) : nullptr;
+  }
+
+  /** Finds a change for each crumb of which none is known. Nothing with one thread. */
+  std::vector<Shared> ProposeForEach() const
+  {
+    constexpr std::size_t Grain = 32; // near each other, so that stars are found once
+    std::vector<Shared> proposals(this->Crumbs.size());
+    if (this->Threads > 1)
+    {
+      ParallelFor(
+        0, this->Crumbs.size(), Grain, this->Threads,
+        [&](std::size_t first, std::size_t last)
+        {
+          const CrumbRepair finder(
+            this->Mesh, this->Labels, this->Before, this->Options, this->Simplices);
+          for (std::size_t k = first; k < last; ++k)
+          {
+            if (!this->Find(k))
+            {
+              proposals[k] =
+                std::make_shared<const repair::Proposal>(finder.Propose(this->Crumbs[k]));
+            }
+          }
+        },
+        this->Stop);
+    }
+    return proposals;
+  }
+
+  const Triangulation<3>& Mesh;
+  SimplexLabels& Labels;
+  const SimplexLabels Before; ///< before any change
+  const ManifoldRepairOptions<3>& Options;
+  const std::vector<Fragment>& Crumbs;
+  const unsigned Threads;
+  const std::stop_token& Stop;
+  std::vector<SimplexId> Simplices;                ///< of all crumbs, ascending
+  std::optional<repair::Recollection<3>> Recalled; ///< none: nothing is known
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -227,7 +457,7 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
       {
         if (labels[s] != 0)
         {
-          const Fragment some = finder.SomeOf(s);
+          const Some some = finder.SomeOf(s);
           std::copy_if(some.begin(), some.end(), std::back_inserter(found),
             [&](SimplexId t) { return finder.IsSmall(t); });
         }
@@ -255,41 +485,21 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
 //------------------------------------------------------------------------------------------------
 std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
   const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
-  const std::stop_token& stop)
+  const std::stop_token& stop, CrumbMemory* memory)
 {
-  const CrumbFinder finder(triangulation, labels);
-  const std::vector<Fragment> crumbs = FindCrumbs(finder, small, threads, stop);
-  std::vector<SimplexId> all;
-  for (const Fragment& crumb : crumbs)
-  {
-    all.insert(all.end(), crumb.begin(), crumb.end());
-  }
-  std::sort(all.begin(), all.end());
-  const SimplexLabels before = crumbs.empty() ? SimplexLabels() : labels;
-  const repair::Neighbourhood<3> near(triangulation, labels, before);
-  const repair::ChangeRules<3> rules(near, labels, options);
-
+  const std::vector<Fragment> crumbs =
+    FindCrumbs(CrumbFinder(triangulation, labels), small, threads, stop);
+  CrumbMemory found;
   std::vector<SimplexId> changed;
-  for (const Fragment& crumb : crumbs)
+  if (!crumbs.empty())
   {
-    if (!finder.IsCrumb(crumb, near)) // not any more, because of its neighbours' new labels
-    {
-      continue;
-    }
-    const std::vector<repair::Change> changes = ChangesOf(crumb, triangulation, labels, all);
-    const auto best = std::find_if(changes.begin(), changes.end(),
-      [&](const repair::Change& change)
-      { return !rules.Dents(change) && rules.IsAllowed(change); });
-    if (best != changes.end())
-    {
-      for (const SimplexId s : crumb)
-      {
-        labels[s] = best->Label;
-      }
-      changed.insert(changed.end(), crumb.begin(), crumb.end());
-    }
+    CrumbTeam team(triangulation, labels, options, crumbs, threads, stop);
+    changed = team.Relabel(memory && !memory->Records.empty() ? memory : nullptr, found);
   }
-  std::sort(changed.begin(), changed.end());
+  if (memory)
+  {
+    *memory = std::move(found);
+  }
   return changed;
 }
 

@@ -16,6 +16,8 @@
 namespace voxplex
 {
 
+struct CrumbMemory;
+
 /**
  * Finds the tetrahedra of small fragments, where a search for crumbs may begin. A fragment is a
  * maximal set of tetrahedra of one label that are connected through faces. It is small if it has at
@@ -63,12 +65,14 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
  * @param small the result of FindSmallFragments() for these labels
  * @param options of the repair that comes next
  * @param threads 0 means all cores
+ * @param memory of an earlier call; receives what this one finds. The result does not depend on it.
+ * Null: nothing is kept
  * @return the simplices whose label was changed, ascending
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
   const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
-  const std::stop_token& stop);
+  const std::stop_token& stop, CrumbMemory* memory = nullptr);
 
 } // namespace voxplex
 

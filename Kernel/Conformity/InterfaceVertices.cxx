@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceVertices.h"
 
+#include "Delaunay/VertexStar.h"
 #include "Mesh/SimplexLabels.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
@@ -326,10 +327,9 @@ UninitialisedVector<std::uint8_t> InterfaceVertices<D>::AreOnInterfaces(
     0, vertices.size(), StarGrain, this->Threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<SimplexId> star;
       for (std::size_t k = first; k < last; ++k)
       {
-        answers[k] = this->IsOnInterface(vertices[k], star) ? 1 : 0;
+        answers[k] = this->IsOnInterface(vertices[k]) ? 1 : 0;
       }
     },
     this->Stop);
@@ -337,31 +337,11 @@ UninitialisedVector<std::uint8_t> InterfaceVertices<D>::AreOnInterfaces(
 }
 
 template <int D>
-bool InterfaceVertices<D>::IsOnInterface(VertexId v, std::vector<SimplexId>& star) const
+bool InterfaceVertices<D>::IsOnInterface(VertexId v) const
 {
-  star.assign(1, this->Source.GetVertex(v).Incident);
-  for (std::size_t k = 0; k < star.size(); ++k)
-  {
-    const auto& simplex = this->Source.GetSimplex(star[k]);
-    const LabelId label = this->LabelOf(star[k]);
-    for (unsigned i = 0; i <= D; ++i)
-    {
-      const SimplexId n = simplex.N[i];
-      if (n == None || simplex.V[i] == v)
-      {
-        continue;
-      }
-      if (this->LabelOf(n) != label)
-      {
-        return true;
-      }
-      if (std::find(star.begin(), star.end(), n) == star.end())
-      {
-        star.push_back(n);
-      }
-    }
-  }
-  return false;
+  const SimplexId incident = this->Source.GetVertex(v).Incident;
+  return AnyInStar(this->Source, v, incident,
+    [this, label = this->LabelOf(incident)](SimplexId s) { return this->LabelOf(s) != label; });
 }
 
 template class InterfaceVertices<3>;

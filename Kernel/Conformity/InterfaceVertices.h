@@ -71,8 +71,7 @@ private:
   std::vector<Point<D>> Drop(std::span<const std::uint8_t> isGone);
   /** Which of these vertices are on interfaces: 1 or 0. */
   UninitialisedVector<std::uint8_t> AreOnInterfaces(std::span<const VertexId> vertices) const;
-  /** @param star scratch */
-  bool IsOnInterface(VertexId v, std::vector<SimplexId>& star) const;
+  bool IsOnInterface(VertexId v) const;
 
   const Triangulation<D>& Source;
   const Domain<D>& Image;

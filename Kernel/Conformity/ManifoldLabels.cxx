@@ -28,20 +28,12 @@ std::vector<Point<D>> VerticesWithin(const Triangulation<D>& triangulation,
   const SimplexLabels& labels, const std::vector<SimplexId>& simplices, unsigned threads,
   const std::stop_token& stop)
 {
-  std::vector<VertexId> vertices;
-  for (const SimplexId s : simplices)
-  {
-    const auto& v = triangulation.GetSimplex(s).V;
-    vertices.insert(vertices.end(), v.begin(), v.end());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const std::vector<VertexId> vertices = VerticesOf(triangulation, simplices);
   const auto isWithin = [&](VertexId v)
   {
-    const std::vector<SimplexId> star =
-      StarOf(triangulation, v, triangulation.GetVertex(v).Incident);
-    return std::all_of(
-      star.begin(), star.end(), [&](SimplexId s) { return labels[s] == labels[star.front()]; });
+    const SimplexId incident = triangulation.GetVertex(v).Incident;
+    return !AnyInStar(triangulation, v, incident,
+      [&, label = labels[incident]](SimplexId s) { return labels[s] != label; });
   };
   constexpr std::size_t Grain = 256;
   UninitialisedVector<std::uint8_t> areWithin(vertices.size());
@@ -108,8 +100,10 @@ void ManifoldLabeller<D>::Forget()
 {
   this->Seen.Forget();
   this->Small = std::vector<SimplexId>();
-  this->Crumbs = std::vector<SimplexId>();
+  this->Crumbs = {};
   this->Ridges = std::vector<InterfaceRidge<D>>();
+  this->Relabelled = {};
+  this->Repaired = {};
 }
 
 template <int D>
@@ -118,23 +112,33 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
   ManifoldLabels<D> made;
   made.Labels = this->MakePlain();
   const bool isFirst = this->Seen.IsEmpty();
-  const Few added = isFirst ? std::nullopt : this->FindNew();
+  const Some added = isFirst ? std::nullopt : this->FindNew();
   std::vector<SimplexId> relabelled;
   if constexpr (D == 3)
   {
-    this->Small = added ? UpdateSmallFragments(this->Source, made.Labels, this->Small, *added,
-                            this->Threads, this->Stop)
-                        : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
-    relabelled = RelabelCrumbs(
-      this->Source, made.Labels, this->Small, this->Options, this->Threads, this->Stop);
+    this->Small = added && this->AreFew(*added)
+      ? UpdateSmallFragments(
+          this->Source, made.Labels, this->Small, *added, this->Threads, this->Stop)
+      : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
+    if (added)
+    {
+      this->Relabelled.Changed = VerticesOf(this->Source, *added);
+    }
+    else
+    {
+      this->Relabelled = {};
+    }
+    relabelled = RelabelCrumbs(this->Source, made.Labels, this->Small, this->Options, this->Threads,
+      this->Stop, &this->Relabelled);
   }
-  this->FindRidges(made.Labels, added, relabelled);
+  const Some changed = this->FindChanged(made.Labels, added, relabelled);
+  this->FindRidges(made.Labels, changed);
   if (isFirst) // not before the lists of facets, which need most memory, are gone
   {
     this->FindNew();
   }
-  ManifoldRepairResult<D> result = RepairManifold<D>(
-    this->Source, made.Labels, this->Ridges, this->Options, this->Threads, this->Stop);
+  ManifoldRepairResult<D> result = RepairManifold<D>(this->Source, made.Labels, this->Ridges,
+    this->Options, this->Threads, this->Stop, &this->Repaired);
   statistics.NonManifoldRepaired = this->Ridges.size() - result.Left.size();
   statistics.NonManifoldLeft = result.Left.size();
   made.NonManifold = std::move(result.Left);
@@ -149,19 +153,19 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
 
 /** The simplices that are new since the last call. */
 template <int D>
-auto ManifoldLabeller<D>::FindNew() -> Few
+auto ManifoldLabeller<D>::FindNew() -> Some
 {
   this->Seen.MakeRoom();
-  return this->FindFew([this](SimplexId s) { return this->Seen.See(s); });
+  return this->FindSome([this](SimplexId s) { return this->Seen.See(s); });
 }
 
 /** The simplices for which condition(s) holds. It is called once for each id, by several threads. */
 template <int D>
 template <typename Condition>
-auto ManifoldLabeller<D>::FindFew(const Condition& condition) const -> Few
+auto ManifoldLabeller<D>::FindSome(const Condition& condition) const -> Some
 {
   constexpr std::size_t Grain = 8192;
-  constexpr std::size_t Share = 32;
+  constexpr std::size_t Share = 4;
   const std::size_t most = this->Source.SimplexIdEnd() / Share;
   std::atomic<std::size_t> number{ 0 };
   std::vector<SimplexId> all = ParallelCollect<SimplexId>(
@@ -181,33 +185,66 @@ auto ManifoldLabeller<D>::FindFew(const Condition& condition) const -> Few
       }
     },
     this->Stop);
-  return number.load() > most ? std::nullopt : Few(std::move(all));
+  return number.load() > most ? std::nullopt : Some(std::move(all));
 }
 
 /**
- * Finds the ridges that are not manifold with these labels.
+ * The simplices that are new, or have another label than in the last call.
  * @param added the new simplices
- * @param crumbs the simplices that have another label than that at their circumcentre
+ * @param crumbs those that have another label than that at their circumcentre, ascending
  */
 template <int D>
-void ManifoldLabeller<D>::FindRidges(
-  const SimplexLabels& labels, const Few& added, const std::vector<SimplexId>& crumbs)
+auto ManifoldLabeller<D>::FindChanged(
+  const SimplexLabels& labels, Some added, const std::vector<SimplexId>& crumbs) -> Some
 {
-  const std::span<const LabelId> now(labels);
+  std::vector<std::pair<SimplexId, LabelId>> now;
+  now.reserve(crumbs.size());
+  for (const SimplexId s : crumbs)
+  {
+    now.push_back({ s, labels[s] });
+  }
   if (added)
   {
-    std::vector<SimplexId> changed = *added;
-    changed.insert(changed.end(), crumbs.begin(), crumbs.end());
-    std::copy_if(this->Crumbs.begin(), this->Crumbs.end(), std::back_inserter(changed),
-      [this](SimplexId s) { return this->Source.IsAlive(s); });
-    this->Ridges = UpdateNonManifoldRidges<D>(
-      this->Source, now, this->Ridges, changed, this->Threads, this->Stop);
+    std::vector<std::pair<SimplexId, LabelId>> other;
+    std::set_symmetric_difference(
+      this->Crumbs.begin(), this->Crumbs.end(), now.begin(), now.end(), std::back_inserter(other));
+    for (const auto& [s, label] : other)
+    {
+      if (this->Source.IsAlive(s))
+      {
+        added->push_back(s);
+      }
+    }
+  }
+  this->Crumbs = std::move(now);
+  return added;
+}
+
+/** Finds the ridges that are not manifold with these labels. */
+template <int D>
+void ManifoldLabeller<D>::FindRidges(const SimplexLabels& labels, const Some& changed)
+{
+  const std::span<const LabelId> now(labels);
+  this->Ridges = changed && this->AreFew(*changed)
+    ? UpdateNonManifoldRidges<D>(
+        this->Source, now, this->Ridges, *changed, this->Threads, this->Stop)
+    : FindNonManifoldRidges<D>(this->Source, now, this->Threads, this->Stop);
+  if (changed)
+  {
+    this->Repaired.Changed = VerticesOf(this->Source, *changed);
   }
   else
   {
-    this->Ridges = FindNonManifoldRidges<D>(this->Source, now, this->Threads, this->Stop);
+    this->Repaired = {};
   }
-  this->Crumbs = crumbs;
+}
+
+/** Whether it takes less time to look around these than to look at all simplices. */
+template <int D>
+bool ManifoldLabeller<D>::AreFew(const std::vector<SimplexId>& simplices) const
+{
+  constexpr std::size_t Share = 32;
+  return simplices.size() <= this->Source.SimplexIdEnd() / Share;
 }
 
 template class ManifoldLabeller<3>;

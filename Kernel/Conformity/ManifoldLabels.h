@@ -11,11 +11,13 @@
 #include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/ManifoldRepair.h"
+#include "Conformity/RepairMemory.h"
 #include "Conformity/SeenSimplices.h"
 #include "Mesh/SimplexLabels.h"
 
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -38,8 +40,8 @@ struct ManifoldLabels
  * some of them another label.
  *
  * After further refinement, the labels can be made again. The result is that of a new object, but
- * defects are looked for only where simplices are new. For this, two bytes for each simplex id are
- * kept.
+ * defects are looked for and repaired only where simplices are new. For this, two bytes for each
+ * simplex id are kept, and some hundred for each defect.
  *
  * Not thread safe; uses threads of its own.
  */
@@ -70,23 +72,27 @@ public:
   void Forget();
 
 private:
-  /** Some simplices, or none: so many that it takes less time to look at all. */
-  using Few = std::optional<std::vector<SimplexId>>;
+  /** Some simplices, or none: so many that what is known of others is of no use. */
+  using Some = std::optional<std::vector<SimplexId>>;
 
-  Few FindNew();
+  Some FindNew();
   template <typename Condition>
-  Few FindFew(const Condition& condition) const;
-  void FindRidges(
-    const SimplexLabels& labels, const Few& added, const std::vector<SimplexId>& crumbs);
+  Some FindSome(const Condition& condition) const;
+  Some FindChanged(const SimplexLabels& labels, Some added, const std::vector<SimplexId>& crumbs);
+  void FindRidges(const SimplexLabels& labels, const Some& changed);
+  bool AreFew(const std::vector<SimplexId>& simplices) const;
 
   const Triangulation<D>& Source;
   const ManifoldRepairOptions<D> Options;
   const unsigned Threads;
   const std::stop_token Stop;
-  SeenSimplices<D> Seen;                 ///< at the last call
-  std::vector<SimplexId> Small;          ///< FindSmallFragments() then (3D)
-  std::vector<SimplexId> Crumbs;         ///< those that RelabelCrumbs() gave another label then
+  SeenSimplices<D> Seen;        ///< at the last call
+  std::vector<SimplexId> Small; ///< FindSmallFragments() then (3D)
+  /** Simplices that RelabelCrumbs() gave another label then, and this label; ascending. */
+  std::vector<std::pair<SimplexId, LabelId>> Crumbs;
   std::vector<InterfaceRidge<D>> Ridges; ///< FindNonManifoldRidges() then
+  CrumbMemory Relabelled;                ///< then (3D)
+  RepairMemory<D> Repaired;              ///< then
 };
 
 extern template class ManifoldLabeller<3>;

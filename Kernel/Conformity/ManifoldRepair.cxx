@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/ManifoldRepair.h"
 
+#include "Conformity/ChangeStamps.h"
+#include "Conformity/Recollection.h"
 #include "Conformity/RidgeRepair.h"
 #include "Mesh/SimplexLabels.h"
 #include "Parallel/ParallelFor.h"
@@ -12,7 +14,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,36 +27,6 @@ namespace
 using namespace repair;
 
 //------------------------------------------------------------------------------------------------
-/** When something around each vertex has changed last. */
-class ChangeStamps
-{
-public:
-  explicit ChangeStamps(std::size_t vertices)
-    : Last(vertices, 0)
-  {
-  }
-
-  /** @param time not before any other */
-  template <typename Vertices>
-  void Set(const Vertices& vertices, std::uint32_t time)
-  {
-    for (const VertexId v : vertices)
-    {
-      this->Last[v] = time;
-    }
-  }
-
-  /** Whether something around one of these vertices has changed after a time. */
-  bool AnyAfter(const std::vector<VertexId>& vertices, std::uint32_t time) const
-  {
-    return std::any_of(
-      vertices.begin(), vertices.end(), [&](VertexId v) { return this->Last[v] > time; });
-  }
-
-private:
-  std::vector<std::uint32_t> Last;
-};
-
 /**
  * Mends bad ridges one after the other, in passes, until nothing helps any more.
  *
@@ -63,6 +34,8 @@ private:
  * space, each part with labels of its own; otherwise they look at each ridge alone. Then the
  * changes are made in the order of the list. If something around a ridge is not as the thread had
  * it, a change is looked for again. So the result is that of one thread.
+ *
+ * After an earlier call, threads look at the ridges alone for which what was found then is not right.
  */
 template <int D>
 class RepairTeam
@@ -70,7 +43,8 @@ class RepairTeam
 public:
   RepairTeam(const Triangulation<D>& triangulation, std::span<LabelId> labels,
     std::span<const LabelId> before, const ManifoldRepairOptions<D>& options,
-    const std::vector<InterfaceRidge<D>>& ridges, unsigned threads, const std::stop_token& stop)
+    const std::vector<InterfaceRidge<D>>& ridges, unsigned threads, const std::stop_token& stop,
+    const RepairMemory<D>* memory)
     : Source(triangulation)
     , Labels(labels)
     , LabelsBefore(before)
@@ -82,6 +56,12 @@ public:
     , Changes(triangulation.VertexIdEnd())
     , Entries(ridges.size())
   {
+    if (memory && !memory->Records.empty())
+    {
+      this->Recalled.emplace(triangulation, memory->Changed, memory->Records, ridges,
+        [](const InterfaceRidge<D>& ridge) -> const Ridge<D>& { return ridge.Vertices; });
+      return;
+    }
     // Labels are copied for each part, so it must have many ridges.
     const std::size_t fewest = std::max(FewestOfPart, labels.size() / SimplicesPerRidge);
     const std::size_t parts =
@@ -119,15 +99,29 @@ public:
     } while (this->Relabelled.size() > before);
   }
 
-  /** The simplices that have another label. */
-  std::set<SimplexId> GetChanged() const
+  /** The simplices that have another label, ascending. */
+  std::vector<SimplexId> GetChanged() const
   {
-    return { this->Relabelled.begin(), this->Relabelled.end() };
+    std::vector<SimplexId> changed = this->Relabelled;
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
   }
 
-  std::vector<InterfaceRidge<D>> FindLeft() const
+  std::vector<InterfaceRidge<D>> FindLeft(const std::vector<SimplexId>& changed) const
   {
-    return this->Finder.FindLeft(this->Ridges, this->GetChanged());
+    return this->Finder.FindLeft(this->Ridges, changed);
+  }
+
+  /** What was found for each ridge. */
+  std::vector<ProposalRecord<Ridge<D>>> TakeRecords()
+  {
+    std::vector<ProposalRecord<Ridge<D>>> records(this->Ridges.size());
+    for (std::size_t r = 0; r < records.size(); ++r)
+    {
+      records[r] = { this->Ridges[r].Vertices, std::move(this->Entries[r].History) };
+    }
+    return records;
   }
 
 private:
@@ -156,14 +150,16 @@ private:
     ChangeStamps Surprises; ///< where it does not know the labels that there are; time is the pass
   };
 
-  /** The last proposal for a ridge. */
+  using Shared = ProposalHistory::Shared;
+
+  /** The proposals for a ridge. */
   struct Entry
   {
-    Proposal Proposed;
+    Shared Proposed; ///< the last one; null: none
     Part* TriedBy = nullptr;
     std::uint32_t TriedIn = 0; ///< the pass
     std::uint32_t Time = 0;    ///< the number of changes when it was right
-    bool IsMade = false;
+    ProposalHistory History;   ///< those that were right
   };
 
   template <typename Function>
@@ -208,7 +204,19 @@ private:
   /** Whether nothing around a ridge has changed since it had its proposal. */
   bool IsRight(const Entry& entry) const
   {
-    return entry.IsMade && !this->Changes.AnyAfter(entry.Proposed.Seen, entry.Time);
+    return entry.Proposed && !this->Changes.AnyAfter(entry.Proposed->Seen, entry.Time);
+  }
+
+  Shared Propose(const RidgeRepair<D>& finder, std::size_t r) const
+  {
+    return std::make_shared<const Proposal>(finder.Propose(this->Ridges[r].Vertices));
+  }
+
+  /** What an earlier call has found for a ridge in this pass, if it is right; otherwise null. */
+  Shared Recall(std::size_t r) const
+  {
+    return this->Recalled ? this->Recalled->Find(static_cast<std::uint32_t>(r), this->Pass)
+                          : nullptr;
   }
 
   /** Finds a change for each ridge as if there were no other. */
@@ -223,10 +231,9 @@ private:
         for (std::size_t r = first; r < last; ++r)
         {
           Entry& entry = this->Entries[r];
-          if (!this->IsRight(entry))
+          if (!this->IsRight(entry) && !this->Recall(r))
           {
-            entry.Proposed = finder.Propose(this->Ridges[r].Vertices);
-            entry.IsMade = true;
+            entry.Proposed = this->Propose(finder, r);
             entry.Time = this->Time;
           }
         }
@@ -241,63 +248,85 @@ private:
     {
       ThrowIfStopped(this->Stop);
       Entry& entry = this->Entries[r];
-      if (this->IsRight(entry) && !part.Tried.AnyAfter(entry.Proposed.Seen, this->Pass - 1))
+      if (this->IsRight(entry) && !part.Tried.AnyAfter(entry.Proposed->Seen, this->Pass - 1))
       {
         continue;
       }
-      entry.Proposed = part.Finder.Propose(this->Ridges[r].Vertices);
-      entry.IsMade = true;
+      entry.Proposed = this->Propose(part.Finder, r);
       entry.TriedBy = &part;
       entry.TriedIn = this->Pass;
-      if (entry.Proposed.Best)
+      if (const std::optional<Change>& best = entry.Proposed->Best)
       {
-        for (const SimplexId t : entry.Proposed.Best->Cells)
+        for (const SimplexId t : best->Cells)
         {
-          part.Labels[t] = entry.Proposed.Best->Label;
+          part.Labels[t] = best->Label;
           part.Relabelled.push_back(t);
         }
-        this->Stamp(part.Tried, entry.Proposed.Best, this->Pass);
+        this->Stamp(part.Tried, best, this->Pass);
       }
     }
   }
 
-  /** Makes the change that a thread has tried, or another one if that did not see the labels that there are. */
+  /** Makes the best change around a ridge, if there is one. */
   void Mend(std::uint32_t r)
   {
     Entry& entry = this->Entries[r];
-    const bool isTried = entry.TriedIn == this->Pass;
-    bool isKnown = isTried; // by the part
-    if (isTried ? entry.TriedBy->Surprises.AnyAfter(entry.Proposed.Seen, this->Pass - 1)
-                : !this->IsRight(entry))
+    bool isKnown = false; // by the part
+    if (const Shared recalled = this->Recall(r))
     {
-      const std::optional<Change> tried = std::exchange(entry.Proposed.Best, std::nullopt);
-      entry.Proposed = this->Finder.Propose(this->Ridges[r].Vertices);
-      entry.IsMade = true;
-      isKnown = isTried && tried == entry.Proposed.Best;
-      if (isTried && !isKnown)
-      {
-        this->Stamp(entry.TriedBy->Surprises, tried, this->Pass);
-      }
+      entry.Proposed = recalled;
     }
+    else
+    {
+      isKnown = this->Correct(r);
+    }
+    entry.History.Add(this->Pass, entry.Proposed);
     entry.Time = this->Time;
-    if (!entry.Proposed.Best)
+    const std::optional<Change>& best = entry.Proposed->Best;
+    if (!best)
     {
       return;
     }
     ++this->Time;
-    for (const SimplexId t : entry.Proposed.Best->Cells)
+    for (const SimplexId t : best->Cells)
     {
-      this->Labels[t] = entry.Proposed.Best->Label;
+      this->Labels[t] = best->Label;
       this->Relabelled.push_back(t);
     }
-    this->Stamp(this->Changes, entry.Proposed.Best, this->Time);
+    this->Stamp(this->Changes, best, this->Time);
     for (const std::unique_ptr<Part>& part : this->Parts)
     {
       if (!isKnown || part.get() != entry.TriedBy)
       {
-        this->Stamp(part->Surprises, entry.Proposed.Best, this->Pass);
+        this->Stamp(part->Surprises, best, this->Pass);
       }
     }
+  }
+
+  /**
+   * Looks for a change again if a thread that has tried one did not see the labels that there are.
+   * @return whether a part has tried the change that is right
+   */
+  bool Correct(std::uint32_t r)
+  {
+    Entry& entry = this->Entries[r];
+    const bool isTried = entry.TriedIn == this->Pass;
+    bool isKnown = isTried;
+    if (isTried ? entry.TriedBy->Surprises.AnyAfter(entry.Proposed->Seen, this->Pass - 1)
+                : !this->IsRight(entry))
+    {
+      const Shared tried = std::exchange(entry.Proposed, this->Propose(this->Finder, r));
+      isKnown = isTried && tried->Best == entry.Proposed->Best;
+      if (isTried && !isKnown)
+      {
+        this->Stamp(entry.TriedBy->Surprises, tried->Best, this->Pass);
+      }
+    }
+    if (this->Recalled)
+    {
+      this->Recalled->Compare(r, this->Pass, *entry.Proposed);
+    }
+    return isKnown;
   }
 
   void Stamp(ChangeStamps& stamps, const std::optional<Change>& change, std::uint32_t time) const
@@ -328,6 +357,7 @@ private:
   const RidgeRepair<D> Finder;
   ChangeStamps Changes;                     ///< time is the number of changes
   std::vector<Entry> Entries;               ///< of each ridge
+  std::optional<Recollection<D>> Recalled;  ///< none: nothing is known
   std::vector<std::unique_ptr<Part>> Parts; ///< none: one thread
   std::vector<SimplexId> Relabelled;        ///< may be repeated
   std::uint32_t Time = 0;
@@ -340,24 +370,34 @@ private:
 template <int D>
 ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
   std::span<LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
-  const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop)
+  const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop,
+  RepairMemory<D>* memory)
 {
   if (ridges.empty())
   {
+    if (memory)
+    {
+      memory->Records.clear();
+    }
     return {};
   }
   const SimplexLabels before(labels.begin(), labels.end());
-  RepairTeam<D> team(triangulation, labels, before, options, ridges, threads, stop);
+  RepairTeam<D> team(triangulation, labels, before, options, ridges, threads, stop, memory);
   team.Mend();
-  const std::set<SimplexId> changed = team.GetChanged();
-  return { team.FindLeft(), { changed.begin(), changed.end() } };
+  std::vector<SimplexId> changed = team.GetChanged();
+  std::vector<InterfaceRidge<D>> left = team.FindLeft(changed);
+  if (memory)
+  {
+    memory->Records = team.TakeRecords();
+  }
+  return { std::move(left), std::move(changed) };
 }
 
 template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&, std::span<LabelId>,
   const std::vector<InterfaceRidge<3>>&, const ManifoldRepairOptions<3>&, unsigned,
-  const std::stop_token&);
+  const std::stop_token&, RepairMemory<3>*);
 template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&, std::span<LabelId>,
   const std::vector<InterfaceRidge<4>>&, const ManifoldRepairOptions<4>&, unsigned,
-  const std::stop_token&);
+  const std::stop_token&, RepairMemory<4>*);
 
 } // namespace voxplex

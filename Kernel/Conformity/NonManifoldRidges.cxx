@@ -5,6 +5,7 @@
 #include "Base/UninitialisedVector.h"
 #include "Conformity/ChangeRules.h"
 #include "Conformity/RepairNeighbourhood.h"
+#include "Delaunay/VertexStar.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelCollect.h"
 
@@ -175,6 +176,16 @@ std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& t
       }
     },
     stop);
+  const std::vector<VertexId> vertices = VerticesOf(triangulation, changed);
+  const auto mayHaveChanged = [&](const repair::Ridge<D>& ridge)
+  {
+    return std::all_of(ridge.begin(), ridge.end(),
+      [&](VertexId v)
+      {
+        return !triangulation.GetVertex(v).Alive ||
+          std::binary_search(vertices.begin(), vertices.end(), v);
+      });
+  };
   const std::vector<InterfaceRidge<D>> again = ParallelCollect<InterfaceRidge<D>>(
     before.size(), Grain, threads,
     [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& found)
@@ -182,6 +193,11 @@ std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& t
       const RidgeFinder<D> finder(triangulation, labels);
       for (std::size_t k = first; k < last; ++k)
       {
+        if (!mayHaveChanged(before[k].Vertices))
+        {
+          found.push_back(before[k]);
+          continue;
+        }
         finder.FindAgain(before[k].Vertices, found);
       }
     },

@@ -8,6 +8,7 @@
 #define voxplex_RidgeRepair_h
 
 #include "Conformity/ChangeRules.h"
+#include "Conformity/RepairMemory.h"
 #include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
@@ -24,13 +25,6 @@
 
 namespace voxplex::repair
 {
-
-/** What is best for a ridge, as long as no simplex around the vertices that were seen changes. */
-struct Proposal
-{
-  std::optional<Change> Best; ///< none: the ridge is not bad, or nothing helps
-  std::vector<VertexId> Seen; ///< may be repeated
-};
 
 /** A ridge, and a simplex that has it. */
 template <int D>
@@ -86,7 +80,7 @@ public:
    * @param relabelled the changed simplices
    */
   std::vector<InterfaceRidge<D>> FindLeft(
-    const std::vector<InterfaceRidge<D>>& before, const std::set<SimplexId>& relabelled) const
+    const std::vector<InterfaceRidge<D>>& before, const std::vector<SimplexId>& relabelled) const
   {
     std::vector<InterfaceRidge<D>> left;
     const std::vector<CellRidge<D>> changed = this->RidgesOf(relabelled);

@@ -3,6 +3,8 @@
 // Labels that are made again after further refinement are those of a new object.
 #include "Conformity/Crumbs.h"
 #include "Conformity/ManifoldLabels.h"
+#include "Conformity/RepairMemory.h"
+#include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "Refinement/Rules4D.h"
@@ -33,21 +35,28 @@ ManifoldRepairOptions<D> OptionsFor(const Domain<D>& domain)
 }
 
 template <int D>
+void ExpectSameRidges(
+  const std::vector<InterfaceRidge<D>>& ridges, const std::vector<InterfaceRidge<D>>& expected)
+{
+  ASSERT_EQ(ridges.size(), expected.size());
+  for (std::size_t k = 0; k < ridges.size(); ++k)
+  {
+    EXPECT_EQ(ridges[k].Vertices, expected[k].Vertices);
+    EXPECT_EQ(ridges[k].IsJunction, expected[k].IsJunction);
+  }
+}
+
+template <int D>
 void ExpectSame(const ManifoldLabels<D>& again, const ManifoldLabels<D>& expected)
 {
   EXPECT_EQ(again.Labels, expected.Labels);
   EXPECT_EQ(again.Gone, expected.Gone);
-  ASSERT_EQ(again.NonManifold.size(), expected.NonManifold.size());
   EXPECT_EQ(again.Places.size(), expected.Places.size());
-  for (std::size_t k = 0; k < again.NonManifold.size(); ++k)
-  {
-    EXPECT_EQ(again.NonManifold[k].Vertices, expected.NonManifold[k].Vertices);
-    EXPECT_EQ(again.NonManifold[k].IsJunction, expected.NonManifold[k].IsJunction);
-  }
+  ExpectSameRidges(again.NonManifold, expected.NonManifold);
 }
 
 /**
- * Inserts points at random, and removes some vertices.
+ * Inserts points at random, and removes some vertices, half of them near such points.
  * @param places most points come near one of these, if there are any; the others anywhere in the box
  */
 template <int D>
@@ -74,11 +83,11 @@ void ChangeAtRandom(Triangulation<D>& mesh, const Box<D>& box, const std::vector
       p[a] = std::uniform_real_distribution<double>(part.Min[a], part.Max[a])(random);
     }
     const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
+    const VertexId corner = mesh.GetSimplex(conflict).V[0];
     ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
-    if (k % 3 == 0)
+    for (const VertexId v : { corner, static_cast<VertexId>(random() % mesh.VertexIdEnd()) })
     {
-      const auto v = static_cast<VertexId>(random() % mesh.VertexIdEnd());
-      if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
+      if (k % 3 == 0 && mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
       {
         mesh.Remove(worker, v);
       }
@@ -162,7 +171,7 @@ TEST(ManifoldLabels, AreMadeAgainAmongManyLabels)
   const ImageDomain<3> domain(image, 1.0);
   const auto context = Refined(domain, 2.0);
   std::vector<std::size_t> insertions{ 0 };
-  insertions.insert(insertions.end(), 30, 12);
+  insertions.insert(insertions.end(), 36, 10);
   EXPECT_GT(CheckRounds<3>(context->Mesh, domain, insertions), 100u);
 }
 
@@ -211,13 +220,52 @@ TEST(NonManifoldRidges, AreUpdatedWhenLabelsChange)
       }
     }
     ridges = UpdateNonManifoldRidges<3>(mesh, labels, ridges, changed, 1 + round % 3);
-    const std::vector<InterfaceRidge<3>> expected = FindNonManifoldRidges<3>(mesh, labels);
-    ASSERT_EQ(ridges.size(), expected.size());
-    for (std::size_t k = 0; k < ridges.size(); ++k)
+    ExpectSameRidges(ridges, FindNonManifoldRidges<3>(mesh, labels));
+  }
+  EXPECT_GT(ridges.size(), 100u);
+}
+
+TEST(NonManifoldRidges, AreUpdatedWhenVerticesAreRemoved)
+{
+  const LabelImage<3> image = Blobs(1);
+  const ImageDomain<3> domain(image, 1.0);
+  const auto context = Refined(domain, 3.0);
+  Triangulation<3>& mesh = context->Mesh;
+  std::mt19937 random(1);
+  SimplexLabels labels;
+  SeenSimplices<3> seen(mesh);
+  // Gives new simplices labels at random, and background to those that are gone.
+  const auto labelNew = [&]
+  {
+    std::vector<SimplexId> added;
+    labels.resize(mesh.SimplexIdEnd());
+    seen.MakeRoom();
+    for (SimplexId s = 0; s < labels.size(); ++s)
     {
-      EXPECT_EQ(ridges[k].Vertices, expected[k].Vertices);
-      EXPECT_EQ(ridges[k].IsJunction, expected[k].IsJunction);
+      if (seen.See(s))
+      {
+        labels[s] = static_cast<LabelId>(random() % 3);
+        added.push_back(s);
+      }
+      labels[s] = mesh.IsAlive(s) ? labels[s] : LabelId{ 0 };
     }
+    return added;
+  };
+  labelNew();
+  std::vector<InterfaceRidge<3>> ridges = FindNonManifoldRidges<3>(mesh, labels);
+  Triangulation<3>::Worker worker(mesh);
+  for (int round = 0; round < 20; ++round)
+  {
+    for (int k = 0; k < 5; ++k)
+    {
+      const auto v = static_cast<VertexId>(random() % mesh.VertexIdEnd());
+      if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
+      {
+        mesh.Remove(worker, v);
+      }
+    }
+    ridges = UpdateNonManifoldRidges<3>(mesh, labels, ridges, labelNew(), 1 + round % 3);
+    ExpectSameRidges(ridges, FindNonManifoldRidges<3>(mesh, labels));
   }
   EXPECT_GT(ridges.size(), 100u);
 }
@@ -256,4 +304,79 @@ TEST(SmallFragments, AreUpdatedAfterRefinement)
     most = std::max(most, small.size());
   }
   EXPECT_GT(most, 10u);
+}
+
+//------------------------------------------------------------------------------------------------
+// Crumbs and bad ridges lie side by side, so that what is found for one depends on others.
+TEST(RepairMemory, ChangesNoResult)
+{
+  const LabelImage<3> image = Blobs(1);
+  const ImageDomain<3> domain(image, 1.0);
+  const auto context = Refined(domain, 2.0);
+  const Triangulation<3>& mesh = context->Mesh;
+  SimplexLabels plain = LabelSimplices<3>(mesh, domain);
+  std::mt19937 random(1);
+  const auto changeOne = [&](SimplexLabels& labels)
+  {
+    const auto s = static_cast<SimplexId>(random() % labels.size());
+    if (mesh.IsAlive(s))
+    {
+      labels[s] = static_cast<LabelId>(random() % 3);
+    }
+  };
+  const auto verticesOfOther = [&mesh](const SimplexLabels& a, const SimplexLabels& b)
+  {
+    std::vector<SimplexId> other;
+    for (SimplexId s = 0; s < a.size(); ++s)
+    {
+      if (mesh.IsAlive(s) && a[s] != b[s])
+      {
+        other.push_back(s);
+      }
+    }
+    return VerticesOf(mesh, other);
+  };
+  for (std::size_t k = 0; k < plain.size() / 8; ++k)
+  {
+    changeOne(plain);
+  }
+  CrumbMemory crumbs;
+  RepairMemory<3> ridges;
+  SimplexLabels plainBefore = plain;
+  SimplexLabels before = plain; // and without crumbs
+  std::size_t relabelled = 0;
+  std::size_t repaired = 0;
+  for (unsigned round = 0; round < 100; ++round)
+  {
+    SCOPED_TRACE(round);
+    const unsigned threads = 1 + round % 3;
+    const std::vector<SimplexId> small = FindSmallFragments(mesh, plain, threads, {});
+    SimplexLabels labels = plain;
+    SimplexLabels expected = plain;
+    crumbs.Changed = verticesOfOther(plain, plainBefore);
+    const std::vector<SimplexId> changed =
+      RelabelCrumbs(mesh, labels, small, {}, threads, {}, &crumbs);
+    EXPECT_EQ(changed, RelabelCrumbs(mesh, expected, small, {}, 1, {}));
+    ASSERT_EQ(labels, expected);
+    relabelled += changed.size();
+
+    ridges.Changed = verticesOfOther(labels, before);
+    before = labels;
+    const std::vector<InterfaceRidge<3>> bad = FindNonManifoldRidges<3>(mesh, labels);
+    const ManifoldRepairResult<3> result =
+      RepairManifold<3>(mesh, labels, bad, {}, threads, {}, &ridges);
+    const ManifoldRepairResult<3> fresh = RepairManifold<3>(mesh, expected, bad);
+    EXPECT_EQ(result.Relabelled, fresh.Relabelled);
+    EXPECT_EQ(result.Left.size(), fresh.Left.size());
+    ASSERT_EQ(labels, expected);
+    repaired += result.Relabelled.size();
+
+    plainBefore = plain;
+    for (int k = 0; k < 25; ++k)
+    {
+      changeOne(plain);
+    }
+  }
+  EXPECT_GT(relabelled, 1000u);
+  EXPECT_GT(repaired, 1000u);
 }
