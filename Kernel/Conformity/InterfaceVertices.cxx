@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceVertices.h"
 
+#include "Conformity/PositionDifference.h"
 #include "Delaunay/VertexStar.h"
 #include "Mesh/SimplexLabels.h"
 #include "Parallel/ChunkCounts.h"
@@ -138,7 +139,18 @@ void InterfaceVertices<D>::Forget()
 template <int D>
 auto InterfaceVertices<D>::Update() -> Changes
 {
-  return this->Seen.IsEmpty() ? this->FindAll() : this->FindChanges();
+  if (this->Seen.IsEmpty())
+  {
+    this->FindAll(true);
+    return { this->Positions, {} };
+  }
+  // With more, it takes less time to label all simplices than to go around these vertices. All are new
+  // after the triangulation was renumbered.
+  constexpr std::size_t LargestShare = 4;
+  const UninitialisedVector<VertexId> candidates = this->VerticesOfNewSimplices();
+  return candidates.size() > this->Source.VertexIdEnd() / LargestShare
+    ? this->FindAllAgain()
+    : this->FindChanges(candidates);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -149,8 +161,9 @@ LabelId InterfaceVertices<D>::LabelOf(SimplexId s) const
 }
 
 //------------------------------------------------------------------------------------------------
+/** @param isRefined whether SimplexState::NearSurface tells where interfaces may be */
 template <int D>
-auto InterfaceVertices<D>::FindAll() -> Changes
+void InterfaceVertices<D>::FindAll(bool isRefined)
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   this->Seen.MakeRoom();
@@ -161,7 +174,8 @@ auto InterfaceVertices<D>::FindAll() -> Changes
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        labels[s] = this->Seen.See(s) ? this->LabelOf(s) : LabelId{ 0 };
+        this->Seen.See(s);
+        labels[s] = this->Source.IsAlive(s) ? this->LabelOf(s) : LabelId{ 0 };
       }
     },
     this->Stop);
@@ -189,7 +203,7 @@ auto InterfaceVertices<D>::FindAll() -> Changes
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (this->Source.State(s).NearSurface && this->Source.IsAlive(s))
+        if ((!isRefined || this->Source.State(s).NearSurface) && this->Source.IsAlive(s))
         {
           look(s);
         }
@@ -208,14 +222,25 @@ auto InterfaceVertices<D>::FindAll() -> Changes
       }
     },
     this->Stop);
-  return { this->Positions, {} };
+}
+
+template <int D>
+auto InterfaceVertices<D>::FindAllAgain() -> Changes
+{
+  const UninitialisedVector<Point<D>> before = std::move(this->Positions);
+  this->Positions = {};
+  this->FindAll(false);
+  PositionDifference<D> difference =
+    DifferenceOf<D>(before, this->Positions, this->Threads, this->Stop);
+  this->LastAdded = std::move(difference.OfSecond);
+  return { this->LastAdded, std::move(difference.OfFirst) };
 }
 
 //------------------------------------------------------------------------------------------------
+/** @param candidates the vertices of simplices created since the last call, ascending */
 template <int D>
-auto InterfaceVertices<D>::FindChanges() -> Changes
+auto InterfaceVertices<D>::FindChanges(const UninitialisedVector<VertexId>& candidates) -> Changes
 {
-  const UninitialisedVector<VertexId> candidates = this->VerticesOfNewSimplices();
   const UninitialisedVector<std::uint8_t> areOnInterfaces = this->AreOnInterfaces(candidates);
   UninitialisedVector<std::uint8_t> isGone = this->AreRemoved();
   std::vector<VertexId> fresh; // not yet in Known; their positions are in LastAdded

@@ -47,12 +47,13 @@ public:
 
   /**
    * Returns the changes since the last call. At the first call, all vertices are added. The
-   * triangulation must be refined: if SimplexState::NearSurface of a simplex is not set, its
+   * triangulation must be refined then: if SimplexState::NearSurface of a simplex is not set, its
    * circumball meets no interface.
    *
    * The first call takes time linear in the numbers of simplices and vertices. A later call takes
    * little time for each of these, and time linear in the sizes of the stars of the vertices with
-   * new simplices.
+   * new simplices. If most simplices are new, it takes as long as the first, and some time to
+   * compare positions.
    * @throws Cancelled if a stop was requested before the end
    */
   Changes Update();
@@ -61,8 +62,9 @@ public:
   void Forget();
 
 private:
-  Changes FindAll();
-  Changes FindChanges();
+  void FindAll(bool isRefined);
+  Changes FindAllAgain();
+  Changes FindChanges(const UninitialisedVector<VertexId>& candidates);
   UninitialisedVector<VertexId> VerticesOfNewSimplices();
   LabelId LabelOf(SimplexId s) const;
   /** Which of the known vertices are no longer alive: 1 or 0. */

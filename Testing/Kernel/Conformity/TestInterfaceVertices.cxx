@@ -3,6 +3,7 @@
 // The vertices on the interfaces of a triangulation, and how they are followed.
 #include "Base/Error.h"
 #include "Conformity/InterfaceVertices.h"
+#include "Conformity/PositionDifference.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "Mesh/MeshExtraction.h"
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <random>
 #include <set>
@@ -131,4 +133,65 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
     EXPECT_GT(added, 40u);
     EXPECT_GT(gone, 20u);
   }
+}
+
+// All ids are others then. Positions tell which vertices are new.
+TEST(InterfaceVertices, FollowARenumberedTriangulation)
+{
+  const LabelImage<3> image = Blobs(1);
+  const ImageDomain<3> domain(image, 1.0);
+  for (const unsigned threads : { 1u, 3u })
+  {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(4.0, 27.0);
+    const auto refined = Refined(domain, 4.0);
+    Triangulation<3>& mesh = refined->Mesh;
+    InterfaceVertices<3> vertices(mesh, domain, threads);
+    std::set<Point<3>> before = AsSet(vertices.Update().Added);
+    std::size_t added = 0;
+    std::size_t gone = 0;
+    for (const int insertions : { 0, 6, 6, 6, 300, 6 })
+    {
+      {
+        Triangulation<3>::Worker worker(mesh);
+        for (int k = 0; k < insertions; ++k)
+        {
+          const Point<3> p{ uniform(random), uniform(random), uniform(random) };
+          const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
+          ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
+          const auto v = static_cast<VertexId>(random() % mesh.VertexIdEnd());
+          if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
+          {
+            mesh.Remove(worker, v);
+          }
+        }
+      }
+      mesh.Renumber(threads);
+      const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
+      const InterfaceVertices<3>::Changes changes = vertices.Update();
+      EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << insertions;
+      EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << insertions;
+      added += changes.Added.size();
+      gone += changes.Gone.size();
+      before = now;
+    }
+    EXPECT_GT(added, 100u);
+    EXPECT_GT(gone, 100u);
+  }
+}
+
+// Points that differ in the last place only, and the two zeros.
+TEST(PositionDifference, TellsEqualPositionsOnly)
+{
+  const double next = std::nextafter(1.0, 2.0);
+  const std::vector<Point<3>> first{ { 1.0, 2.0, 3.0 }, { 0.0, 5.0, 5.0 }, { 7.0, 7.0, 7.0 } };
+  const std::vector<Point<3>> second{ { next, 2.0, 3.0 }, { 7.0, 7.0, 7.0 }, { -0.0, 5.0, 5.0 } };
+  for (const unsigned threads : { 1u, 3u })
+  {
+    const PositionDifference<3> difference = DifferenceOf<3>(first, second, threads, {});
+    EXPECT_EQ(difference.OfFirst, (std::vector<Point<3>>{ { 1.0, 2.0, 3.0 } }));
+    EXPECT_EQ(difference.OfSecond, (std::vector<Point<3>>{ { next, 2.0, 3.0 } }));
+  }
+  const PositionDifference<3> none = DifferenceOf<3>({}, {}, 1, {});
+  EXPECT_TRUE(none.OfFirst.empty() && none.OfSecond.empty());
 }
