@@ -264,7 +264,8 @@ TEST(NonManifoldRidges, AreUpdatedWhenVerticesAreRemoved)
         mesh.Remove(worker, v);
       }
     }
-    ridges = UpdateNonManifoldRidges<3>(mesh, labels, ridges, labelNew(), 1 + round % 3);
+    const std::vector<SimplexId> added = labelNew();
+    ridges = UpdateNonManifoldRidges<3>(mesh, labels, ridges, added, 1 + round % 3);
     ExpectSameRidges(ridges, FindNonManifoldRidges<3>(mesh, labels));
   }
   EXPECT_GT(ridges.size(), 100u);
