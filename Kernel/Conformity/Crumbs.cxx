@@ -251,7 +251,9 @@ public:
   CrumbRepair(const CrumbRepair&) = delete; // Rules refer to Near
   CrumbRepair& operator=(const CrumbRepair&) = delete;
 
-  /** The best change of a crumb. None if its neighbours' new labels have made it another fragment. */
+  /**
+   * The best change of a crumb. None if its neighbours' new labels have made it another fragment.
+   */
   repair::Proposal Propose(const Fragment& crumb) const
   {
     this->Near.ForgetSeen();

@@ -144,8 +144,8 @@ auto InterfaceVertices<D>::Update() -> Changes
     this->FindAll(true);
     return { this->Positions, {} };
   }
-  // With more, it takes less time to label all simplices than to go around these vertices. All are new
-  // after the triangulation was renumbered.
+  // With more, it takes less time to label all simplices than to go around these vertices. All are
+  // new after the triangulation was renumbered.
   constexpr std::size_t LargestShare = 4;
   const UninitialisedVector<VertexId> candidates = this->VerticesOfNewSimplices();
   return candidates.size() > this->Source.VertexIdEnd() / LargestShare

@@ -35,7 +35,8 @@ using namespace repair;
  * changes are made in the order of the list. If something around a ridge is not as the thread had
  * it, a change is looked for again. So the result is that of one thread.
  *
- * After an earlier call, threads look at the ridges alone for which what was found then is not right.
+ * After an earlier call, threads look at each ridge alone for which what was found then is not
+ * right.
  */
 template <int D>
 class RepairTeam

@@ -30,8 +30,8 @@ struct PositionDifference
 };
 
 /**
- * Compares two lists of positions, each of them without repetitions, by sorting hash values. Both results
- * are in the order of their lists.
+ * Compares two lists of positions, each of them without repetitions, by sorting hash values. Both
+ * results are in the order of their lists.
  *
  * Takes linear time.
  * @param threads 0 means all cores; the result does not depend on it

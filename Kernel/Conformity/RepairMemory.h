@@ -25,7 +25,10 @@ namespace voxplex
 namespace repair
 {
 
-/** What is best for a ridge or a crumb, as long as no simplex around the vertices that were seen changes. */
+/**
+ * What is best for a ridge or a crumb, as long as no simplex around the vertices that were seen
+ * changes.
+ */
 struct Proposal
 {
   std::optional<Change> Best; ///< none: it is no defect any more, or nothing helps
