@@ -156,14 +156,6 @@ template <int D>
 auto ManifoldLabeller<D>::FindNew() -> Some
 {
   this->Seen.MakeRoom();
-  return this->FindSome([this](SimplexId s) { return this->Seen.See(s); });
-}
-
-/** The simplices for which condition(s) holds. It is called once for each id, by several threads. */
-template <int D>
-template <typename Condition>
-auto ManifoldLabeller<D>::FindSome(const Condition& condition) const -> Some
-{
   constexpr std::size_t Grain = 8192;
   constexpr std::size_t Share = 4;
   const std::size_t most = this->Source.SimplexIdEnd() / Share;
@@ -174,7 +166,7 @@ auto ManifoldLabeller<D>::FindSome(const Condition& condition) const -> Some
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (condition(s))
+        if (this->Seen.See(s))
         {
           found.push_back(s);
         }

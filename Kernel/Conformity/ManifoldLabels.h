@@ -76,8 +76,6 @@ private:
   using Some = std::optional<std::vector<SimplexId>>;
 
   Some FindNew();
-  template <typename Condition>
-  Some FindSome(const Condition& condition) const;
   Some FindChanged(const SimplexLabels& labels, Some added, const std::vector<SimplexId>& crumbs);
   void FindRidges(const SimplexLabels& labels, const Some& changed);
   bool AreFew(const std::vector<SimplexId>& simplices) const;

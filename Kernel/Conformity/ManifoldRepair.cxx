@@ -216,8 +216,7 @@ private:
   /** What an earlier call has found for a ridge in this pass, if it is right; otherwise null. */
   Shared Recall(std::size_t r) const
   {
-    return this->Recalled ? this->Recalled->Find(static_cast<std::uint32_t>(r), this->Pass)
-                          : nullptr;
+    return this->Recalled ? this->Recalled->Find(r, this->Pass) : nullptr;
   }
 
   /** Finds a change for each ridge as if there were no other. */

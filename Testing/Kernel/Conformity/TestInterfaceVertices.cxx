@@ -56,6 +56,46 @@ std::set<Point<3>> Difference(const std::set<Point<3>>& from, const std::set<Poi
   return left;
 }
 
+VertexId InsertFree(Triangulation<3>& mesh, Triangulation<3>::Worker& worker, const Point<3>& p)
+{
+  const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
+  EXPECT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
+  return worker.NewVertex;
+}
+
+/** Compares each update with the facets of the mesh. */
+class CheckedVertices
+{
+public:
+  CheckedVertices(const RefinementContext<3>& refined, const Domain<3>& domain, unsigned threads)
+    : Refined(refined)
+    , Image(domain)
+    , Vertices(refined.Mesh, domain, threads)
+    , Before(AsSet(this->Vertices.Update().Added))
+  {
+  }
+
+  void Update()
+  {
+    const std::set<Point<3>> now = VerticesOfFacets(this->Refined, this->Image);
+    const InterfaceVertices<3>::Changes changes = this->Vertices.Update();
+    EXPECT_EQ(AsSet(changes.Added), Difference(now, this->Before));
+    EXPECT_EQ(AsSet(changes.Gone), Difference(this->Before, now));
+    this->Added += changes.Added.size();
+    this->Gone += changes.Gone.size();
+    this->Before = now;
+  }
+
+  std::size_t Added = 0; ///< in all updates
+  std::size_t Gone = 0;
+
+private:
+  const RefinementContext<3>& Refined;
+  const Domain<3>& Image;
+  InterfaceVertices<3> Vertices;
+  std::set<Point<3>> Before;
+};
+
 void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
 {
   SCOPED_TRACE(delta);
@@ -102,11 +142,8 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
     const auto refined = Refined(domain, 4.0);
     Triangulation<3>& mesh = refined->Mesh;
     Triangulation<3>::Worker worker(mesh);
-    InterfaceVertices<3> vertices(mesh, domain, threads);
-    std::set<Point<3>> before = AsSet(vertices.Update().Added);
+    CheckedVertices vertices(*refined, domain, threads);
     std::vector<VertexId> inserted;
-    std::size_t added = 0;
-    std::size_t gone = 0;
     for (int round = 0; round < 40; ++round)
     {
       for (std::size_t k = random() % 8; k > 0 && !inserted.empty(); --k)
@@ -118,20 +155,13 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
       for (std::size_t k = random() % 9; k > 0; --k)
       {
         const Point<3> p{ uniform(random), uniform(random), uniform(random) };
-        const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
-        ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
-        inserted.push_back(worker.NewVertex);
+        inserted.push_back(InsertFree(mesh, worker, p));
       }
-      const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
-      const InterfaceVertices<3>::Changes changes = vertices.Update();
-      EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << round;
-      EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << round;
-      added += changes.Added.size();
-      gone += changes.Gone.size();
-      before = now;
+      SCOPED_TRACE(round);
+      vertices.Update();
     }
-    EXPECT_GT(added, 40u);
-    EXPECT_GT(gone, 20u);
+    EXPECT_GT(vertices.Added, 40u);
+    EXPECT_GT(vertices.Gone, 20u);
   }
 }
 
@@ -146,10 +176,7 @@ TEST(InterfaceVertices, FollowARenumberedTriangulation)
     std::uniform_real_distribution<double> uniform(4.0, 27.0);
     const auto refined = Refined(domain, 4.0);
     Triangulation<3>& mesh = refined->Mesh;
-    InterfaceVertices<3> vertices(mesh, domain, threads);
-    std::set<Point<3>> before = AsSet(vertices.Update().Added);
-    std::size_t added = 0;
-    std::size_t gone = 0;
+    CheckedVertices vertices(*refined, domain, threads);
     for (const int insertions : { 0, 6, 6, 6, 300, 6 })
     {
       {
@@ -157,8 +184,7 @@ TEST(InterfaceVertices, FollowARenumberedTriangulation)
         for (int k = 0; k < insertions; ++k)
         {
           const Point<3> p{ uniform(random), uniform(random), uniform(random) };
-          const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
-          ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, conflict), InsertionOutcome::Inserted);
+          InsertFree(mesh, worker, p);
           const auto v = static_cast<VertexId>(random() % mesh.VertexIdEnd());
           if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind != VertexKind::Box)
           {
@@ -167,16 +193,11 @@ TEST(InterfaceVertices, FollowARenumberedTriangulation)
         }
       }
       mesh.Renumber(threads);
-      const std::set<Point<3>> now = VerticesOfFacets(*refined, domain);
-      const InterfaceVertices<3>::Changes changes = vertices.Update();
-      EXPECT_EQ(AsSet(changes.Added), Difference(now, before)) << insertions;
-      EXPECT_EQ(AsSet(changes.Gone), Difference(before, now)) << insertions;
-      added += changes.Added.size();
-      gone += changes.Gone.size();
-      before = now;
+      SCOPED_TRACE(insertions);
+      vertices.Update();
     }
-    EXPECT_GT(added, 100u);
-    EXPECT_GT(gone, 100u);
+    EXPECT_GT(vertices.Added, 100u);
+    EXPECT_GT(vertices.Gone, 100u);
   }
 }
 
