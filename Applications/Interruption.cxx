@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interruption.h"
 
-#include "Errors.h"
-
 #include <atomic>
 #include <csignal>
 
-#include <fcntl.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -29,8 +26,6 @@ struct TemporaryFile
 
 std::atomic<TemporaryFile*> Temporaries = nullptr;
 std::atomic<int> SignalNumber = 0;
-/** A duplicate of standard error: the original may be redirected while a library reads. */
-std::atomic<int> MessageDescriptor = STDERR_FILENO;
 std::atomic<bool> Cancellable = false;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
   std::atomic<void*>::is_always_lock_free);
@@ -47,7 +42,7 @@ void RemoveTemporaries()
 template <std::size_t N>
 void Print(const char (&message)[N])
 {
-  [[maybe_unused]] const auto written = write(MessageDescriptor, message, N - 1);
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, N - 1);
 }
 
 [[noreturn]] void RemoveTemporariesAndExit()
@@ -55,14 +50,6 @@ void Print(const char (&message)[N])
   RemoveTemporaries();
   Print("\nvoxplex: interrupted, no file was written\n");
   _exit(128 + SignalNumber);
-}
-
-/** libpng, for one, calls abort() when a file is damaged. */
-void OnAbort(int)
-{
-  RemoveTemporaries();
-  Print("voxplex: a library gave up; most likely the input file is damaged\n");
-  _exit(ExitFailure);
 }
 
 void OnSignal(int number)
@@ -95,11 +82,6 @@ sigset_t EndingSignals()
 
 void Interruption::Install()
 {
-  const int duplicate = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  if (duplicate >= 0)
-  {
-    MessageDescriptor = duplicate;
-  }
   struct sigaction action
   {
   };
@@ -119,8 +101,6 @@ void Interruption::Install()
   }
   action.sa_handler = OnAlarm;
   sigaction(SIGALRM, &action, nullptr);
-  action.sa_handler = OnAbort;
-  sigaction(SIGABRT, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
 }

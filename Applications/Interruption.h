@@ -22,7 +22,7 @@ namespace voxplex::cli
 class Interruption
 {
 public:
-  /** Install the handlers, one for abort() too. Ignores SIGXFSZ and SIGPIPE, so that writing
+  /** Install the handlers. Ignores SIGXFSZ and SIGPIPE, so that writing
    * reports an error instead. */
   static void Install();
 

@@ -1,16 +1,26 @@
 # Sets VOXPLEX_HAVE_IO: whether the module VTK::VoxplexIO, which reads and writes files, can be built,
-# and if not, says why. Leaves the targets of ITK and of VTK's writers in the calling folder.
+# and if not, says why. Sets VOXPLEX_GDCM_LIBRARIES and VOXPLEX_GDCM_INCLUDE_DIRECTORIES; leaves the targets of VTK's readers
+# and writers in the calling folder.
 
 set(VOXPLEX_HAVE_IO OFF)
 
 # The component names of VTK's modules that IO/vtk.module lists.
 set(_voxplex_io_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML hdf5)
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML expat hdf5 tiff)
 
-find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKGDCM ITKIOGDCM ITKImageIO)
-if (NOT ITK_FOUND)
-  voxplex_skip("reading and writing of files" "ITK was not found (apt-get install libinsighttoolkit5-dev libgdcm-tools)")
-  return ()
+# As a library of its own, or as ITK brings it (3D Slicer).
+find_package(GDCM 3.0 QUIET)
+if (GDCM_FOUND)
+  set(VOXPLEX_GDCM_LIBRARIES gdcmMSFF)
+  set(VOXPLEX_GDCM_INCLUDE_DIRECTORIES ${GDCM_INCLUDE_DIRS})
+else ()
+  find_package(ITK 5.2 QUIET COMPONENTS ITKGDCM)
+  if (NOT ITK_FOUND)
+    voxplex_skip("reading and writing of files" "GDCM was not found (apt-get install libgdcm-dev libgdcm-tools)")
+    return ()
+  endif ()
+  set(VOXPLEX_GDCM_LIBRARIES ${ITK_LIBRARIES})
+  set(VOXPLEX_GDCM_INCLUDE_DIRECTORIES ${ITK_INCLUDE_DIRS})
 endif ()
 find_package(ZLIB QUIET)
 if (NOT ZLIB_FOUND)

@@ -7,6 +7,8 @@
 #ifndef voxplex_io_Space_h
 #define voxplex_io_Space_h
 
+#include <array>
+
 namespace voxplex::io
 {
 
@@ -20,6 +22,12 @@ enum class Space
 inline const char* ToString(Space space)
 {
   return space == Space::LPS ? "LPS" : "RAS";
+}
+
+/** The factors between coordinates in LPS and those in another space, both ways. */
+inline std::array<double, 3> SignsFromLPS(Space space)
+{
+  return space == Space::LPS ? std::array<double, 3>{ 1.0, 1.0, 1.0 } : std::array<double, 3>{ -1.0, -1.0, 1.0 };
 }
 
 } // namespace voxplex::io

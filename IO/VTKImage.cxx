@@ -76,15 +76,13 @@ vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, 
   result->SetSpacing(image.Spacing.data());
   std::array<double, 3> origin = image.Origin;
   std::array<double, 9> direction = image.Direction;
-  if (space == Space::RAS)
+  const std::array<double, 3> signs = SignsFromLPS(space);
+  for (std::size_t row = 0; row < 3; ++row)
   {
-    for (std::size_t row = 0; row < 2; ++row)
+    origin[row] *= signs[row];
+    for (std::size_t column = 0; column < 3; ++column)
     {
-      origin[row] = -origin[row];
-      for (std::size_t column = 0; column < 3; ++column)
-      {
-        direction[3 * row + column] = -direction[3 * row + column];
-      }
+      direction[3 * row + column] *= signs[row];
     }
   }
   result->SetOrigin(origin.data());

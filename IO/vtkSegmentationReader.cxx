@@ -4,8 +4,8 @@
 
 #include "FileError.h"
 #include "ImageLabels.h"
+#include "ImageReading/Placement.h"
 #include "ImageReading/ReadImage.h"
-#include "ImageReading/Segments.h"
 #include "LabelTable.h"
 #include "LabelTableFile.h"
 #include "VTKImage.h"
@@ -14,6 +14,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -83,6 +84,10 @@ vtkSegmentationReader::vtkSegmentationReader()
   , SeriesUID(nullptr)
   , LabelTableFileName(nullptr)
   , Space(SPACE_LPS)
+  , Spacing{ 0, 0, 0 }
+  , Origin{ vtkMath::Nan(), vtkMath::Nan(), vtkMath::Nan() }
+  , Direction{ 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  , DataFilesAnywhere(false)
   , Private(new Internals)
 {
   this->SetNumberOfInputPorts(0);
@@ -104,6 +109,9 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
      << "LabelTableFileName: " << (this->LabelTableFileName ? this->LabelTableFileName : "(none)")
      << "\n"
      << indent << "Space: " << (this->Space == SPACE_LPS ? "LPS" : "RAS") << "\n"
+     << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " " << this->Spacing[2] << "\n"
+     << indent << "Origin: " << this->Origin[0] << " " << this->Origin[1] << " " << this->Origin[2] << "\n"
+     << indent << "DataFilesAnywhere: " << (this->DataFilesAnywhere ? "on" : "off") << "\n"
      << indent << "Frames: " << this->GetNumberOfFrames() << "\n"
      << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }
@@ -167,12 +175,16 @@ bool vtkSegmentationReader::Read()
     {
       throw voxplex::io::FileError("no file name is set");
     }
-    data.Image =
-      voxplex::io::ReadImage(this->FileName, this->SeriesUID ? this->SeriesUID : "", data.Warnings);
+    voxplex::io::ImageAnswer answer = voxplex::io::ReadImage(
+      { this->FileName, this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere });
+    data.Image = std::move(answer.Image);
+    data.Labels = std::move(answer.Labels);
+    data.Warnings = std::move(answer.Warnings);
     if (!this->FrameTimes.empty())
     {
       SetTimes(data.Image, this->FrameTimes, this->FileName);
     }
+    this->PlaceImage();
     this->ReadLabels();
   }
   catch (const std::exception& error)
@@ -190,6 +202,39 @@ bool vtkSegmentationReader::Read()
   return true;
 }
 
+/** What the user says of spacing, origin and direction replaces what the file says. */
+void vtkSegmentationReader::PlaceImage()
+{
+  ScalarImage& image = this->Private->Image;
+  const std::array<double, 3> signs = voxplex::io::SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
+  const bool hasDirection =
+    std::any_of(std::begin(this->Direction), std::end(this->Direction), [](double number) { return number != 0; });
+  std::array<voxplex::io::Vector3, 3> steps{};
+  voxplex::io::Vector3 origin{};
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    origin[row] = std::isnan(this->Origin[row]) ? image.Origin[row] : signs[row] * this->Origin[row];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double spacing = this->Spacing[axis] > 0 ? this->Spacing[axis] : image.Spacing[axis];
+      const double direction =
+        hasDirection ? signs[row] * this->Direction[3 * row + axis] : image.Direction[3 * row + axis];
+      steps[axis][row] = spacing * direction;
+    }
+  }
+  const bool hasSpacing = this->Spacing[0] > 0 && this->Spacing[1] > 0 && this->Spacing[2] > 0;
+  if (hasSpacing) // what the warning asks for
+  {
+    auto& warnings = this->Private->Warnings;
+    std::erase_if(warnings,
+      [](const std::string& warning) { return warning.find("SetSpacing()") != std::string::npos; });
+  }
+  if (hasDirection || hasSpacing || origin != image.Origin)
+  {
+    voxplex::io::Place(image, steps, origin);
+  }
+}
+
 /** From the table that is set, the header, or a table beside the image, in this order. */
 void vtkSegmentationReader::ReadLabels()
 {
@@ -199,8 +244,7 @@ void vtkSegmentationReader::ReadLabels()
     data.LabelSource = this->LabelTableFileName;
     data.Labels = voxplex::io::ReadLabelTableFile(data.LabelSource);
   }
-  else if (data.Labels = voxplex::io::ReadSegments(this->FileName, data.Warnings);
-           !data.Labels.Entries.empty())
+  else if (!data.Labels.Entries.empty()) // the image's own
   {
     data.LabelSource = this->FileName;
   }

@@ -2,33 +2,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ReadImage.h
- * @brief Reads a 3D or 4D image with ITK, without copying it.
+ * @brief Reads a 3D or 4D image, in this process or in one of its own.
  */
 #ifndef voxplex_io_ReadImage_h
 #define voxplex_io_ReadImage_h
 
+#include "LabelTable.h"
 #include "ScalarImage.h"
 
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace voxplex::io
 {
 
+struct ImageRequest
+{
+  std::string Path;               ///< a file, or a folder with a DICOM series
+  std::string Series;             ///< UID of the series to read from a folder, or its beginning; may be empty if there is one
+  bool DataFilesAnywhere = false; ///< whether a header may name files that are not in its folder or below
+};
+
+struct ImageAnswer
+{
+  ScalarImage Image;
+  LabelTable Labels;                 ///< names and colours that the file has itself
+  std::vector<std::string> Warnings; ///< what was odd but could be read, one line each, with the name of the image
+};
+
+using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
+
 /**
- * Reads one file of any format that ITK knows, or a folder with a DICOM series, in the scalar type
- * that the file has. A fourth dimension is time; last dimensions of length 1 do not count, so that an
- * image with one frame is a 3D image. Never prints.
+ * Reads an image here and now, in the scalar type that the file has. The first bytes of a file tell its format, not its name:
+ * NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, GIPL, MRC. A fourth dimension is time; last dimensions of length 1 do not
+ * count, so that an image with one frame is a 3D image. Never prints.
  *
- * @param path file or folder
- * @param series UID of the series to read from a folder; may be empty if there is only one
- * @param warnings receives what the reading libraries found odd but could read, one line each
- * @throws FileError: no such file, not readable, unknown format, truncated, more than four
- *   dimensions, several components that are not time frames, spacing that is not positive and
- *   finite, a direction matrix that mixes time with space, several series
+ * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three or
+ *   four dimensions, a place that is none
  */
-ScalarImage ReadImage(
-  const std::string& path, const std::string& series, std::vector<std::string>& warnings);
+ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate);
+
+/**
+ * Reads an image in a process of its own, which may open no other files and has limits of memory and time: whatever the file
+ * does to the libraries that read it, this process lives. Where no process can be started, reads here.
+ *
+ * Any thread may call it at any time.
+ *
+ * @throws FileError as above, and if the reading process crashed or reached a limit
+ */
+ImageAnswer ReadImage(const ImageRequest& request);
 
 } // namespace voxplex::io
 

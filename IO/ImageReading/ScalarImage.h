@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalarImage.h
- * @brief A 3D or 4D image as read from a file: what passes between ITK's side of the program and
- * VTK's.
+ * @brief A 3D or 4D image as read from a file.
  */
 #ifndef voxplex_io_ScalarImage_h
 #define voxplex_io_ScalarImage_h
@@ -46,6 +45,25 @@ constexpr std::optional<ScalarType> IntegerType(std::size_t bytes, bool isSigned
       return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
     default:
       return std::nullopt;
+  }
+}
+
+constexpr std::size_t SizeOf(ScalarType type)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+    case ScalarType::UInt8:
+      return 1;
+    case ScalarType::Int16:
+    case ScalarType::UInt16:
+      return 2;
+    case ScalarType::Int32:
+    case ScalarType::UInt32:
+    case ScalarType::Float32:
+      return 4;
+    default:
+      return 8;
   }
 }
 

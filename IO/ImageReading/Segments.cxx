@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <set>
+#include <string_view>
 
 namespace voxplex::io
 {
@@ -43,8 +46,6 @@ public:
     , Number(number)
   {
   }
-
-  bool Exists() const { return this->Find("id") != nullptr; }
 
   std::string Name() const
   {
@@ -89,10 +90,27 @@ private:
   int Number;
 };
 
+/** In the order of their numbers, which may have gaps. */
 std::vector<Segment> ListSegments(const TextHeader& header)
 {
+  constexpr std::string_view before = "segment";
+  constexpr std::string_view after = "_id";
+  std::set<int> numbers;
+  for (const auto& [key, value] : header.All())
+  {
+    if (key.starts_with(before) && key.ends_with(after) && key.size() > before.size() + after.size())
+    {
+      const char* const end = key.data() + key.size() - after.size();
+      int number = 0;
+      const auto [at, error] = std::from_chars(key.data() + before.size(), end, number);
+      if (error == std::errc() && at == end && number >= 0)
+      {
+        numbers.insert(number);
+      }
+    }
+  }
   std::vector<Segment> segments;
-  for (int number = 0; Segment(header, number).Exists(); ++number)
+  for (const int number : numbers)
   {
     segments.emplace_back(header, number);
   }
@@ -101,20 +119,19 @@ std::vector<Segment> ListSegments(const TextHeader& header)
 
 } // namespace
 
-LabelTable ReadSegments(const std::string& path, std::vector<std::string>& warnings)
+LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warnings)
 {
-  const TextHeader header(path);
   LabelTable table;
   for (const Segment& segment : ListSegments(header))
   {
     if (segment.Label() <= 0)
     {
-      warnings.push_back(path + ": the segment '" + Excerpt(segment.Name()) +
+      warnings.push_back("the segment '" + Excerpt(segment.Name()) +
         "' has a value that is not a label, and its name is not used");
     }
     else if (!IsUTF8(segment.Name()))
     {
-      warnings.push_back(path + ": the name of label " + std::to_string(segment.Label()) +
+      warnings.push_back("the name of label " + std::to_string(segment.Label()) +
         " is not in UTF-8, and is not used");
     }
     else
@@ -125,9 +142,8 @@ LabelTable ReadSegments(const std::string& path, std::vector<std::string>& warni
   return table;
 }
 
-std::string DescribeLayers(const std::string& path)
+std::string DescribeLayers(const TextHeader& header)
 {
-  const TextHeader header(path);
   std::map<std::int64_t, std::string> layers;
   for (const Segment& segment : ListSegments(header))
   {

@@ -4,8 +4,8 @@
  * @file Segments.h
  * @brief The segments that the header of 3D Slicer's .seg.nrrd files lists.
  *
- * Keys are Segment0_ID, Segment0_Name, Segment0_Color, Segment0_LabelValue, Segment0_Layer and so on, up to
- * the first number without an ID. What may be missing is what Slicer's own reader
+ * Keys are Segment0_ID, Segment0_Name, Segment0_Color, Segment0_LabelValue, Segment0_Layer and so on;
+ * numbers may have gaps. What may be missing is what Slicer's own reader
  * (vtkMRMLSegmentationStorageNode) does without: the name is then the ID, the value 1, and the layer
  * the number of the segment.
  */
@@ -20,6 +20,8 @@
 namespace voxplex::io
 {
 
+class TextHeader;
+
 /**
  * Names and colours by label value; empty if the file lists no segments. Of two segments with one value
  * the first counts.
@@ -27,10 +29,10 @@ namespace voxplex::io
  * @param warnings receives what is not used, one line each: values that are no labels, names that are not
  *   UTF-8
  */
-LabelTable ReadSegments(const std::string& path, std::vector<std::string>& warnings);
+LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warnings);
 
 /** "1 (Tibia, Femur), 2 (Cartilage)": the layers, counted from 1, and their segments' names. */
-std::string DescribeLayers(const std::string& path);
+std::string DescribeLayers(const TextHeader& header);
 
 } // namespace voxplex::io
 

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextHeader.h"
 
+#include "Excerpt.h"
+#include "FileError.h"
+#include "InputFile.h"
+#include "StoredVoxels.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace voxplex::io
@@ -16,7 +18,32 @@ namespace voxplex::io
 namespace
 {
 
-constexpr std::size_t MaximumLength = 1 << 20;
+constexpr std::size_t MaximumLength = 1 << 20; // of a header
+
+std::string Trim(std::string text)
+{
+  text.erase(text.find_last_not_of(" \t\r") + 1);
+  text.erase(0, text.find_first_not_of(" \t\r"));
+  return text;
+}
+
+/** Numbers need no locale here: a decimal comma of the host's does not change them. */
+std::optional<double> ParseNumber(const std::string& word)
+{
+  const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(begin, word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
+}
+
+std::string WithoutBrackets(std::string text)
+{
+  std::replace_if(
+    text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  return text;
+}
+
+} // namespace
 
 std::string LowerCase(std::string text)
 {
@@ -36,51 +63,41 @@ std::vector<std::string> Words(const std::string& text)
   return words;
 }
 
-/** "none (1,0,0) (0, 1, 0)": the vectors, empty where there is none. */
-std::vector<std::vector<double>> ParseVectors(const std::string& text)
+std::vector<double> ParseNumbers(std::string text)
 {
-  std::vector<std::vector<double>> vectors;
-  for (std::size_t at = 0; (at = text.find_first_not_of(" \t", at)) != std::string::npos;)
+  std::vector<double> numbers;
+  for (const std::string& word : Words(WithoutBrackets(std::move(text))))
   {
-    const bool isVector = text[at] == '(';
-    const std::size_t end = std::min(text.find_first_of(isVector ? ")" : " \t", at), text.size());
-    vectors.push_back(isVector ? ParseNumbers(text.substr(at, end - at)) : std::vector<double>());
-    at = std::min(end + 1, text.size());
+    if (const std::optional<double> number = ParseNumber(word))
+    {
+      numbers.push_back(*number);
+    }
   }
-  return vectors;
+  return numbers;
 }
 
-std::string ReadBeginning(const std::string& path)
+TextHeader::TextHeader(const InputFile& file)
+  : Path(file.Path())
 {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  std::string text(std::min<std::uintmax_t>(size, MaximumLength), '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
-
-} // namespace
-
-TextHeader::TextHeader(const std::string& path)
-{
-  const std::string text = ReadBeginning(path);
+  const std::string text = file.Beginning(MaximumLength);
   this->IsNRRD = text.starts_with("NRRD");
   bool hasEnded = false;
-  for (std::size_t at = 0; at < text.size() && !hasEnded;)
+  std::size_t at = this->IsNRRD ? std::min(text.find('\n'), text.size() - 1) + 1 : 0;
+  while (at < text.size() && !hasEnded)
   {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    hasEnded = this->TakeLine(text.substr(at, end - at));
+    hasEnded = this->TakeLine(Trim(text.substr(at, end - at)));
     at = end + 1;
   }
-  this->Endless = !hasEnded && text.size() == MaximumLength;
+  this->Length = at;
+  if (!hasEnded && text.size() == MaximumLength)
+  {
+    throw FileError("it is damaged: its header does not end within 1 MiB");
+  }
 }
 
 bool TextHeader::TakeLine(std::string line)
 {
-  line.erase(line.find_last_not_of(" \t\r") + 1);
-  line.erase(0, line.find_first_not_of(" \t"));
   if (line.empty())
   {
     return this->IsNRRD; // whose header it ends
@@ -90,19 +107,28 @@ bool TextHeader::TakeLine(std::string line)
     this->List.push_back(std::move(line));
     return false;
   }
-  const std::size_t separator = line.find_first_of("=:");
-  if (separator == std::string::npos)
+  if (line.front() == '#')
   {
-    return false;
+    return false; // a comment
   }
-  std::string key = LowerCase(line.substr(0, separator));
-  key.erase(key.find_last_not_of(" \t") + 1);
-  std::string value = line.substr(separator + 1);
-  value.erase(0, value.find_first_not_of(" \t=")); // NRRD has "key:=value", too
-  const bool isDataOfMetaImage = key == "elementdatafile";
-  this->IsInList =
-    (isDataOfMetaImage || key == "data file" || key == "datafile") && value.rfind("LIST", 0) == 0;
-  this->Fields.emplace(key, std::move(value));
+  const std::size_t separator = line.find_first_of(this->IsNRRD ? ":" : "=:");
+  const std::string name = Trim(line.substr(0, separator));
+  if (separator == std::string::npos || name.empty())
+  {
+    throw FileError("it is damaged: the line '" + Excerpt(line) + "' of its header is no field");
+  }
+  const std::string key = LowerCase(name);
+  const bool isKeyValue = line.compare(separator, 2, ":=") == 0; // of NRRD
+  std::string value = Trim(line.substr(separator + (isKeyValue ? 2 : 1)));
+  const bool isDataOfMetaImage = !this->IsNRRD && key == "elementdatafile";
+  const bool isDataFile = isDataOfMetaImage || key == "data file" || key == "datafile";
+  this->IsInList = isDataFile && !Words(value).empty() && Words(value).front() == "LIST";
+  this->Spellings.emplace(key, name);
+  const bool isNew = this->Fields.emplace(key, std::move(value)).second;
+  if (!isNew && !isKeyValue && key != "comment")
+  {
+    throw FileError("it is damaged: its header gives '" + Excerpt(name) + "' more than once");
+  }
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
 
@@ -112,66 +138,84 @@ const std::string* TextHeader::Find(const std::string& key) const
   return field == this->Fields.end() ? nullptr : &field->second;
 }
 
-std::vector<double> ParseNumbers(std::string text)
+const std::string* TextHeader::FindAny(std::initializer_list<const char*> keys) const
 {
-  std::replace_if(
-    text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  std::vector<double> numbers;
-  for (const std::string& word : Words(text))
+  for (const char* key : keys)
   {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error == std::errc() && end == word.data() + word.size())
+    if (const std::string* value = this->Find(key))
     {
-      numbers.push_back(number);
+      return value;
     }
+  }
+  return nullptr;
+}
+
+const std::string& TextHeader::SpellingOf(std::initializer_list<const char*> keys) const
+{
+  return this->Spellings.at(*std::find_if(keys.begin(), keys.end(), [this](const char* key) { return this->Find(key); }));
+}
+
+std::string TextHeader::Word(std::initializer_list<const char*> keys, const std::string& missing) const
+{
+  const std::string* value = this->FindAny(keys);
+  return value ? LowerCase(*value) : missing;
+}
+
+std::vector<double> TextHeader::Numbers(std::initializer_list<const char*> keys, std::size_t count) const
+{
+  const std::string* value = this->FindAny(keys);
+  if (!value)
+  {
+    return {};
+  }
+  std::vector<double> numbers;
+  const std::vector<std::string> words = Words(WithoutBrackets(*value));
+  for (const std::string& word : words)
+  {
+    if (const std::optional<double> number = ParseNumber(word))
+    {
+      numbers.push_back(*number);
+    }
+  }
+  if (numbers.size() != count || words.size() != count)
+  {
+    throw FileError("its header gives '" + Excerpt(*value) + "' for '" + Excerpt(this->SpellingOf(keys)) + "', where " +
+      std::to_string(count) + (count == 1 ? " number" : " numbers") + " must be: correct the header");
   }
   return numbers;
 }
 
-bool NRRDAxis::IsList() const
+std::int64_t TextHeader::Whole(std::initializer_list<const char*> keys, std::int64_t missing) const
 {
-  return !this->Kind.empty() && this->Kind != "domain" && this->Kind != "space" &&
-    this->Kind != "time" && this->Kind != "???";
+  const std::vector<double> numbers = this->Numbers(keys, 1);
+  constexpr double limit = 9e15;
+  if (numbers.empty())
+  {
+    return missing;
+  }
+  if (!(std::abs(numbers[0]) <= limit) || std::trunc(numbers[0]) != numbers[0])
+  {
+    throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" + Excerpt(this->SpellingOf(keys)) +
+      "', which must be a whole number: correct the header");
+  }
+  return static_cast<std::int64_t>(numbers[0]);
 }
 
-std::vector<NRRDAxis> ParseNRRDAxes(const TextHeader& header)
+void TextHeader::SetFiles(const std::string* value, bool anywhere, StoredVoxels& stored) const
 {
-  const std::string* sizes = header.Find("sizes");
-  if (!sizes)
+  if (!value || LowerCase(*value) == "local")
   {
-    return {};
+    stored.Files = { this->Path };
+    stored.Offset = static_cast<std::int64_t>(this->Length);
+    return;
   }
-  std::vector<NRRDAxis> axes(Words(*sizes).size());
-  if (const std::string* kinds = header.Find("kinds"))
+  const std::vector<std::string> names = this->IsInList ? this->List
+    : value->find('%') != std::string::npos             ? ExpandPattern(*value)
+                                                        : std::vector{ *value };
+  for (const std::string& name : names)
   {
-    const std::vector<std::string> words = Words(LowerCase(*kinds));
-    for (std::size_t a = 0; a < std::min(axes.size(), words.size()); ++a)
-    {
-      axes[a].Kind = words[a];
-    }
+    stored.Files.push_back(FindDataFile(this->Path, name, anywhere));
   }
-  if (const std::string* directions = header.Find("space directions"))
-  {
-    const auto vectors = ParseVectors(*directions);
-    for (std::size_t a = 0; a < std::min(axes.size(), vectors.size()); ++a)
-    {
-      // A vector of NaN says 'none', too.
-      const bool isNone = std::all_of(
-        vectors[a].begin(), vectors[a].end(), [](double number) { return std::isnan(number); });
-      axes[a].Direction = isNone ? std::vector<double>() : vectors[a];
-    }
-  }
-  if (const std::string* spacings = header.Find("spacings"))
-  {
-    const std::vector<double> numbers = ParseNumbers(*spacings);
-    for (std::size_t a = 0; a < std::min(axes.size(), numbers.size()); ++a)
-    {
-      axes[a].HasSpacing = true;
-      axes[a].Spacing = numbers[a];
-    }
-  }
-  return axes;
 }
 
 } // namespace voxplex::io

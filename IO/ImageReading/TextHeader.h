@@ -3,64 +3,83 @@
 /**
  * @file TextHeader.h
  * @brief The fields in the text header of an NRRD or MetaImage file, as they are written there.
- *
- * ITK gives what it makes of a header. This is for what it leaves out: spacings that it replaces,
- * and the axis of an NRRD file that it turns into components.
  */
 #ifndef voxplex_io_TextHeader_h
 #define voxplex_io_TextHeader_h
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace voxplex::io
 {
 
-/** Keys are in lower case; "key: value", "key = value" and NRRD's "key:=value" are all fields. */
+class InputFile;
+struct StoredVoxels;
+
+/** Keys are in lower case. "key: value", "key = value" and NRRD's "key:=value" are all fields. */
 class TextHeader
 {
 public:
-  /** Reads up to the end of the header, at most 1 MiB. A file without one has no fields. */
-  explicit TextHeader(const std::string& path);
-
-  /** Whether the file goes on after 1 MiB of header. */
-  bool IsEndless() const { return this->Endless; }
+  /**
+   * Reads up to the end of the header: an empty line in NRRD, the field ElementDataFile in MetaImage.
+   *
+   * @throws FileError: no end within 1 MiB, a line that is no field, a field that is given twice
+   */
+  explicit TextHeader(const InputFile& file);
 
   /** The value without surrounding blanks, or null. */
   const std::string* Find(const std::string& key) const;
 
-  /** The lines that follow a field of data files whose value begins with LIST. */
-  const std::vector<std::string>& ListedFiles() const { return this->List; }
+  /** The first of these keys that is there, or null. */
+  const std::string* FindAny(std::initializer_list<const char*> keys) const;
+
+  /** The value in lower case; `missing` if there is no such field. */
+  std::string Word(std::initializer_list<const char*> keys, const std::string& missing) const;
+
+  /**
+   * A list of numbers; empty if there is no such field. @throws FileError for words that are no numbers, and for another
+   * number of them than `count`
+   */
+  std::vector<double> Numbers(std::initializer_list<const char*> keys, std::size_t count) const;
+
+  /** A whole number. @throws FileError for other values */
+  std::int64_t Whole(std::initializer_list<const char*> keys, std::int64_t missing) const;
+
+  const std::map<std::string, std::string>& All() const { return this->Fields; }
+
+  /**
+   * Says in which files the voxels are: those that `value` names by one name, a pattern or LIST, or behind the header.
+   *
+   * @param value null, or MetaImage's LOCAL, for voxels behind the header
+   */
+  void SetFiles(const std::string* value, bool anywhere, StoredVoxels& stored) const;
 
 private:
   /** Returns whether the header ends with this line. */
   bool TakeLine(std::string line);
 
+  /** The name of a field as the file writes it. */
+  const std::string& SpellingOf(std::initializer_list<const char*> keys) const;
+
+  std::string Path;
   std::map<std::string, std::string> Fields;
+  std::map<std::string, std::string> Spellings; ///< by key
   std::vector<std::string> List;
+  std::size_t Length = 0; ///< of the header, in bytes
   bool IsNRRD = false;
   bool IsInList = false;
-  bool Endless = false;
 };
+
+std::string LowerCase(std::string text);
+
+/** What blanks separate. */
+std::vector<std::string> Words(const std::string& text);
 
 /** The numbers of a list; brackets and commas separate, words that are no numbers are left out. */
 std::vector<double> ParseNumbers(std::string text);
-
-/** One axis of an NRRD file; see the definition of the format on teem.sourceforge.net. */
-struct NRRDAxis
-{
-  std::string Kind;              ///< lower case; empty if not given
-  std::vector<double> Direction; ///< its space direction; empty if "none" or not given
-  bool HasSpacing = false;       ///< whether the field "spacings" names one, which may be NaN
-  double Spacing = 0.0;
-
-  /** Frames, components, channels: not along space or time. */
-  bool IsList() const;
-};
-
-/** The axes in the order of the file, the fastest first; empty if it is no NRRD file. */
-std::vector<NRRDAxis> ParseNRRDAxes(const TextHeader& header);
 
 } // namespace voxplex::io
 

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Real segmentations. Each is used where it is found and skipped, with a message, where not."""
 import json
+import re
 import unittest
 from pathlib import Path
 
@@ -25,6 +26,12 @@ SHRUNK = "less than half of the volume of"
 
 
 class Atlases(ProgramTestCase):
+    def call(self, *arguments, **options):
+        """Some atlases have a qform and an sform that differ, and the program says so: that is tested elsewhere."""
+        done = super().call(*arguments, **options)
+        done.stderr = re.sub("voxplex: warning: [^\n]* gives two places, and the sform is used;[^\n]*\n", "", done.stderr)
+        return done
+
     @unittest.skipUnless(AAL.exists(), "package mricron-data is not installed")
     def test_every_region_of_the_brain(self):
         report = self.statistics("--input", AAL, "--delta", 2.5, "--output", "aal.vtu", "--plc", "aal.vtp")

@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-/** @file FuzzImage.cxx @brief vtkSegmentationReader on files with the extension VOXPLEX_FUZZ_EXTENSION. */
+/** @file FuzzImage.cxx @brief The readers of images, in this process, on files with the extension VOXPLEX_FUZZ_EXTENSION. */
+#include "FileError.h"
 #include "Fuzzing.h"
-
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkObject.h>
-#include <vtkSegmentationReader.h>
+#include "ImageReading/ReadImage.h"
 
 #include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
 
 namespace fuzz = voxplex::fuzz;
 
 namespace
 {
+
+constexpr std::byte Poison{ 0xA5 };
 
 /** Beside the image, for headers that name it: 4 x 4 x 4 voxels of two bytes. */
 void WriteData()
@@ -23,29 +25,56 @@ void WriteData()
   fuzz::Write(fuzz::PathOf("i.img"), zeros.data(), zeros.size());
 }
 
+std::shared_ptr<void> Allocate(std::size_t bytes, std::byte content)
+{
+  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
+  std::memset(memory.get(), static_cast<int>(content), bytes);
+  return { memory, memory.get() };
+}
+
+/** Nothing if the file is refused. */
+std::shared_ptr<void> Read(const std::string& path, std::byte content, std::size_t& bytes)
+{
+  try
+  {
+    const voxplex::io::ImageAnswer answer = voxplex::io::ReadImageHere(
+      { path, "", false }, [content](std::size_t size) { return Allocate(size, content); });
+    bytes = answer.Image.NumberOfVoxels() * static_cast<std::size_t>(answer.Image.Frames) *
+      voxplex::io::SizeOf(answer.Image.Type);
+    if (bytes == 0)
+    {
+      fuzz::Fail("an image without voxels was read");
+    }
+    return answer.Image.Scalars;
+  }
+  catch (const voxplex::io::FileError& error)
+  {
+    fuzz::CheckRefusal(error.what(), path);
+    return nullptr;
+  }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerInitialize(int*, char***)
 {
-  vtkObject::GlobalWarningDisplayOff();
   WriteData();
   return 0;
 }
 
+/** Twice, over memory with other contents: all voxels are written, and by the file. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   const std::string path = fuzz::PathOf("i" VOXPLEX_FUZZ_EXTENSION);
   fuzz::Write(path, data, size);
-  vtkNew<vtkSegmentationReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!reader->GetErrorMessage().empty())
+  std::size_t bytes = 0;
+  std::size_t bytesAgain = 0;
+  const std::shared_ptr<void> voxels = Read(path, std::byte{ 0 }, bytes);
+  const std::shared_ptr<void> again = Read(path, Poison, bytesAgain);
+  if (!voxels != !again || bytes != bytesAgain ||
+    (voxels && std::memcmp(voxels.get(), again.get(), bytes) != 0))
   {
-    fuzz::CheckRefusal(reader->GetErrorMessage(), path);
-  }
-  else if (reader->GetOutput()->GetNumberOfPoints() == 0)
-  {
-    fuzz::Fail("an image without voxels was read");
+    fuzz::Fail("the second reading gives something else");
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """MakeSeeds.py FOLDER: writes a folder of small files for each fuzzer, from which it starts."""
 import gzip
+import json
 import struct
 import sys
 import tempfile
@@ -62,6 +63,28 @@ def gipl():
     return bytes(head) + LABELS.tobytes()
 
 
+def mrc():
+    head = bytearray(1024)
+    struct.pack_into("<4i", head, 0, 4, 4, 4, 0)
+    struct.pack_into("<3i6f3i", head, 28, 4, 4, 4, 4, 4, 4, 90, 90, 90, 1, 2, 3)
+    head[208:216] = b"MAP \x44\x44\0\0"
+    return bytes(head) + LABELS.tobytes()
+
+
+def vti():
+    return ('<?xml version="1.0"?>\n<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian">\n'
+            '<ImageData WholeExtent="0 3 0 3 0 3" Origin="0 0 0" Spacing="1 1 1">\n<Piece Extent="0 3 0 3 0 3">\n'
+            '<PointData Scalars="l"><DataArray type="UInt8" Name="l" format="ascii">%s</DataArray></PointData>\n'
+            "</Piece>\n</ImageData>\n</VTKFile>\n" % " ".join(map(str, LABELS.ravel()))).encode()
+
+
+def answer(**fields):
+    """What the reading process tells."""
+    return json.dumps({"type": 1, "sizes": [4, 4, 4, 1], "origin": [0, 0, 0], "spacing": [1, 1, 1],
+                       "direction": [1, 0, 0, 0, 1, 0, 0, 0, 1], "time": [0, 1], "times": [], "offset": 0,
+                       "labels": [[3, "Tibia", [1, 0, 0]], [4, "Femur"]], "warnings": ["odd"], **fields}).encode()
+
+
 def tiff():
     entries = ((256, 4, 4), (257, 4, 4), (258, 3, 8), (259, 3, 1), (262, 3, 1), (273, 4, 8), (277, 3, 1), (278, 4, 4),
                (279, 4, 16))
@@ -96,6 +119,8 @@ def image_seeds(folder):
         "vtk": [vtk(True), vtk(False)],
         "dcm": [path.read_bytes() for path in images.write_dicom_series(folder, LABELS)[:1]],
         "gipl": [gipl()],
+        "mrc": [mrc()],
+        "vti": [vti()],
         "tif": [tiff()],
     }
 
@@ -106,6 +131,7 @@ def main():
         seeds = image_seeds(Path(folder))
     seeds["label-table"] = [table.encode() for table in TABLES]
     seeds["command-line"] = [call.encode() for call in CALLS]
+    seeds["answer"] = [answer(), answer(sizes=[4, 4, 4, 3], times=[0, 1, 3]), b'{"error": "it is damaged"}']
     rng = np.random.default_rng(1)
     seeds["mesh"] = [rng.bytes(200) for _ in range(20)]
     for name, files in seeds.items():

@@ -222,7 +222,8 @@ class Segments(FolderTestCase):
         self.assertEqual(warnings_of(reader), [])
         self.assertEqual(reader.GetLabelTableSource(), path)
         self.assertEqual(table_of(reader.GetOutput()), {
-            3: ("N\u00e4se \\  2", (0, 0, 153)), 4: ("Segment_3", None), 7: ("Left lung: upper = 1", (51, 102, 255))})
+            3: ("N\u00e4se \\  2", (0, 0, 153)), 4: ("Segment_3", None), 5: ("after a gap", None),
+            7: ("Left lung: upper = 1", (51, 102, 255))})
 
     def test_segment_without_voxels(self):
         path = images.write_nrrd(self.folder / "s.seg.nrrd", slices([3]), key_values=self.KEYS)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Several readers at once: each gets its own image or error, and standard error is back in its place.
+// Several readers at once: each gets its own image or error, and standard error stays in its place.
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -34,7 +34,7 @@ void WriteMetaImage(const fs::path& path, char label, bool truncated = false)
 {
   std::ofstream file(path, std::ios::binary);
   file << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
-       << "DimSize = " << Size << ' ' << Size << ' ' << Size
+       << "ElementSpacing = 1 1 1\nDimSize = " << Size << ' ' << Size << ' ' << Size
        << "\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
        << std::string(truncated ? 40 : Size * Size * Size, label);
 }

@@ -127,7 +127,7 @@ class Errors(FolderTestCase):
         (self.folder / "text.nrrd").write_text("hello")
         self.refused("^cannot read '.*none': there is no such file or folder$", self.folder / "none")
         self.refused("the file is empty", self.folder / "empty.nrrd")
-        self.refused("not an image in a format that ITK reads", self.folder / "text.nrrd")
+        self.refused("not an image in a format that voxplex reads", self.folder / "text.nrrd")
         self.refused("the folder holds no DICOM images", self.folder)
         self.refused("^no file name is set$", None)
         self.refused("^no file name is set$", "")
@@ -160,7 +160,7 @@ class Errors(FolderTestCase):
                 self.assertEqual(empty, reader.GetErrorMessage() != "", damaged)
 
     def test_pictures(self):
-        """Refused before libpng, which ends the process when a file is damaged, has seen it."""
+        """No library for pictures sees them."""
         magic = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
         (self.folder / "i.png").write_bytes(magic + np.random.default_rng(5).bytes(1000))
         self.refused("it is a picture of one slice", self.folder / "i.png")
@@ -190,7 +190,7 @@ class Errors(FolderTestCase):
         self.assertEqual((reader.GetWarning(1), reader.GetWarning(-1)), ("", ""))
 
     def test_nothing_is_printed(self):
-        """What the libraries below say is collected; what the process says afterwards is not."""
+        """Not even by a library in the reading process; standard error of this one is never touched."""
         text = self.folder / "stderr"
         kept = os.dup(2)
         descriptor = os.open(text, os.O_WRONLY | os.O_CREAT)
@@ -198,7 +198,7 @@ class Errors(FolderTestCase):
         try:
             path = Path(images.write_metaimage(self.folder / "i.mha", images.ball(8, 3.0)))
             path.write_bytes(path.read_bytes()[:-100])
-            self.refused("not read completely", path)
+            self.refused("it is truncated: 'i.mha' holds 412 of 512 bytes", path)
             os.write(2, b"after\n")
         finally:
             os.dup2(kept, 2)

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Placement.h"
+
+#include "FileError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr double Largest = 1e12;
+/** Of the determinant of three unit vectors. Header fields have few digits. */
+constexpr double SmallestDeterminant = 1e-5;
+/** How far a frame may lie from its place, in steps from frame to frame. */
+constexpr double TimeTolerance = 1e-3;
+
+bool IsUsable(const Vector3& numbers)
+{
+  return std::all_of(numbers.begin(), numbers.end(),
+    [](double number) { return std::abs(number) <= Largest; }); // not NaN
+}
+
+double Determinant(const std::array<double, 9>& m)
+{
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+    m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+} // namespace
+
+void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector3& origin)
+{
+  if (!IsUsable(origin) || !std::all_of(steps.begin(), steps.end(), IsUsable))
+  {
+    throw FileError("its position or orientation in space is not finite, or far too large: correct the header");
+  }
+  image.Origin = origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Vector3& step = steps[axis];
+    const double length = std::hypot(step[0], step[1], step[2]);
+    if (!(length > 0))
+    {
+      throw FileError("the voxel spacing along axis " + std::to_string(axis) +
+        " is 0 in its header; it must be a positive length: correct the header");
+    }
+    image.Spacing[axis] = length;
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      image.Direction[3 * row + axis] = step[row] / length;
+    }
+  }
+  if (std::abs(Determinant(image.Direction)) < SmallestDeterminant)
+  {
+    throw FileError("its axes are not independent, the direction matrix is singular: correct the header");
+  }
+}
+
+void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& origin)
+{
+  std::array<Vector3, 3> steps{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!(spacing[axis] > 0) || !std::isfinite(spacing[axis]))
+    {
+      std::ostringstream reason;
+      reason << "the voxel spacing along axis " << axis << " is " << spacing[axis]
+             << " in its header; it must be a positive length: correct the header";
+      throw FileError(reason.str());
+    }
+    steps[axis][axis] = spacing[axis];
+  }
+  Place(image, steps, origin);
+}
+
+void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes)
+{
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  std::ostringstream text;
+  double voxels = 1.0;
+  bool areUsable = sizes.size() <= 4;
+  for (std::size_t axis = 0; axis < sizes.size(); ++axis)
+  {
+    text << (axis ? " x " : "") << sizes[axis];
+    areUsable = areUsable && sizes[axis] >= 1 && sizes[axis] <= most;
+    voxels *= static_cast<double>(sizes[axis]);
+  }
+  constexpr double mostVoxels = 1e15;
+  if (!areUsable || voxels > mostVoxels)
+  {
+    throw FileError("it is damaged: its header claims " + text.str() + " voxels");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    image.Dimensions[axis] = axis < sizes.size() ? static_cast<int>(sizes[axis]) : 1;
+  }
+  image.Frames = sizes.size() == 4 ? static_cast<int>(sizes[3]) : 1;
+}
+
+void SetFrameTimes(ScalarImage& image, const std::vector<double>& times)
+{
+  image.Times.clear();
+  image.TimeOrigin = times.front();
+  image.TimeSpacing = times.size() > 1
+    ? (times.back() - times.front()) / static_cast<double>(times.size() - 1)
+    : 1.0;
+  for (std::size_t n = 0; n < times.size(); ++n)
+  {
+    if (!std::isfinite(times[n]) || (n > 0 && !(times[n] > times[n - 1])))
+    {
+      std::ostringstream reason;
+      reason << "the times of its frames do not increase: " << times[n] << " follows "
+             << (n > 0 ? times[n - 1] : 0.0) << "; sort the frames, or correct the header";
+      throw FileError(reason.str());
+    }
+    const double expected = image.TimeOrigin + static_cast<double>(n) * image.TimeSpacing;
+    if (std::abs(times[n] - expected) > TimeTolerance * image.TimeSpacing)
+    {
+      image.Times = times;
+    }
+  }
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Placement.h
+ * @brief Where the voxels of an image lie.
+ */
+#ifndef voxplex_io_Placement_h
+#define voxplex_io_Placement_h
+
+#include "ScalarImage.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxplex::io
+{
+
+using Vector3 = std::array<double, 3>;
+
+/**
+ * Sets spacing, direction and origin from the steps between neighbouring voxels along each axis and the place of voxel
+ * (0, 0, 0), both in LPS. Axes may be oblique or sheared.
+ *
+ * @throws FileError: a number that is not finite or too large (1e12), a step of length 0, axes that are not independent
+ */
+void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector3& origin);
+
+/** The same, for axes along those of space. @throws FileError also for a spacing that is not positive */
+void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& origin);
+
+/**
+ * Sets the sizes, which must be positive and fit into int, and whose product into memory.
+ *
+ * @param sizes of three axes, or of four with time as the last; missing ones are 1
+ * @throws FileError that shows the sizes
+ */
+void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes);
+
+/**
+ * Sets the time of each frame. @throws FileError if they do not increase.
+ * @param times one for each frame
+ */
+void SetFrameTimes(ScalarImage& image, const std::vector<double>& times);
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadImage.h"
+
+#include "FileError.h"
+#include "InputFile.h"
+#include "ReadDICOM.h"
+#include "ReadMetaImage.h"
+#include "ReadNIfTI.h"
+#include "ReadNRRD.h"
+#include "ReadOtherVolumes.h"
+#include "ReadTIFF.h"
+#include "ReadVTK.h"
+#include "Reading.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <new>
+#include <string_view>
+
+namespace fs = std::filesystem;
+
+namespace voxplex::io
+{
+namespace
+{
+
+struct Format
+{
+  bool (*Is)(const InputFile& file);
+  ScalarImage (*Read)(const std::string& path, Reading& reading);
+};
+
+/** By what is surest in the first bytes of a file. */
+constexpr std::array<Format, 8> Formats{ {
+  { IsNRRD, ReadNRRD },
+  { IsDICOM, ReadDICOMFile },
+  { IsTIFF, ReadTIFF },
+  { IsVTK, ReadVTK },
+  { IsMRC, ReadMRC },
+  { IsGIPL, ReadGIPL },
+  { IsNIfTI, ReadNIfTI },
+  { IsMetaImage, ReadMetaImage },
+} };
+
+/** Files that people try, and what they are. */
+struct Stranger
+{
+  std::string_view Begin;
+  const char* What;
+};
+
+constexpr const char* Picture = "it is a picture of one slice, and a label image has several";
+
+constexpr std::array<Stranger, 19> Strangers{ {
+  { "\x89PNG", Picture },
+  { "\xff\xd8\xff", Picture },
+  { "BM", Picture },
+  { "GIF8", Picture },
+  { std::string_view("\0\0\0\x0cjP  ", 8), Picture },
+  { "\xff\x4f\xff\x51", Picture },
+  { "P5", Picture },
+  { "P6", Picture },
+  { "\x89HDF\r\n", "it is an HDF5 file, of which there are many kinds (MINC, Imaris, ilastik ...)" },
+  { "CDF", "it is a netCDF file" },
+  { "PK\x03\x04", "it is a ZIP archive: unpack it first" },
+  { "# === DATA DESCRIPTION FILE", "it is a Philips PAR file: convert it with dcm2niix" },
+  { "##TITLE", "it is a Bruker parameter file" },
+  { "BZh", "it is compressed by bzip2: unpack it first" },
+  { "\xfd" "7zXZ", "it is compressed by xz: unpack it first" },
+  { "%PDF", "it is a PDF document" },
+  { "ply", "it is a surface, and not an image" },
+  { "solid", "it is a surface, and not an image" },
+  { "(* Content", "it is a notebook, and not an image" },
+} };
+
+[[noreturn]] void RefuseStranger(const InputFile& file)
+{
+  constexpr std::size_t longest = 64;
+  constexpr const char* readable = "those that are read are NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL and MRC";
+  const std::string begin = file.Beginning(longest);
+  const auto stranger = std::find_if(Strangers.begin(), Strangers.end(),
+    [&begin](const Stranger& one) { return begin.starts_with(one.Begin); });
+  throw FileError(stranger != Strangers.end()
+      ? std::string(stranger->What) + "; " + readable
+      : std::string("it is not an image in a format that voxplex reads, or its header is damaged; ") + readable);
+}
+
+ScalarImage ReadFile(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  if (file.Size() == 0)
+  {
+    throw FileError("the file is empty");
+  }
+  const auto format =
+    std::find_if(Formats.begin(), Formats.end(), [&file](const Format& one) { return one.Is(file); });
+  if (format == Formats.end())
+  {
+    RefuseStranger(file);
+  }
+  return format->Read(path, reading);
+}
+
+ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
+{
+  std::error_code ignored;
+  const fs::file_status status = fs::status(request.Path, ignored);
+  if (!fs::exists(status))
+  {
+    throw FileError("there is no such file or folder");
+  }
+  if (fs::is_directory(status))
+  {
+    return ReadDICOMFolder(request.Path, request.Series, reading);
+  }
+  if (!fs::is_regular_file(status))
+  {
+    throw FileError("it is neither a regular file nor a folder");
+  }
+  if (!request.Series.empty())
+  {
+    throw FileError("SetSeriesUID() needs a folder with DICOM files, and this is a file");
+  }
+  return ReadFile(request.Path, reading);
+}
+
+} // namespace
+
+ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
+{
+  const std::string start = "cannot read '" + request.Path + "': ";
+  Reading reading{ allocate, request.DataFilesAnywhere, {}, {} };
+  ImageAnswer answer;
+  try
+  {
+    answer.Image = ReadFileOrFolder(request, reading);
+  }
+  catch (const FileError& error)
+  {
+    throw FileError(start + error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw FileError(start + "it does not fit into memory");
+  }
+  catch (const std::exception& error)
+  {
+    throw FileError(start + "it is damaged (" + error.what() + ")");
+  }
+  answer.Labels = std::move(reading.Labels);
+  for (const std::string& warning : reading.Warnings)
+  {
+    answer.Warnings.push_back(request.Path + ": " + warning);
+  }
+  return answer;
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,530 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadNIfTI.h"
+
+#include "Fields.h"
+#include "FileError.h"
+#include "InputFile.h"
+#include "Placement.h"
+#include "Reading.h"
+#include "StoredVoxels.h"
+#include "TextHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr std::size_t Size1 = 348;
+constexpr std::size_t Size2 = 540;
+
+/** The fields that matter here, of either version. */
+struct Header
+{
+  bool IsBigEndian = false;
+  bool IsAnalyze = false; ///< without a magic word
+  bool HoldsVoxels = false;
+  std::size_t Length = Size1 + 4; ///< with the four bytes that say whether extensions follow
+  std::array<std::int64_t, 8> Sizes{}; ///< [0] is the number of the others that count
+  std::int64_t Type = 0;
+  std::int64_t BitsPerVoxel = 0;
+  std::array<double, 8> Steps{}; ///< [0] is the handedness of the qform
+  double Offset = 0.0;
+  double Slope = 0.0;
+  double Intercept = 0.0;
+  double FirstTime = 0.0;
+  std::int64_t Units = 0;
+  std::int64_t QFormCode = 0;
+  std::int64_t SFormCode = 0;
+  std::array<double, 6> QForm{}; ///< b, c, d of a quaternion, and the position of the first voxel
+  std::array<double, 12> SForm{};
+};
+
+Header Parse1(const Fields& fields)
+{
+  Header header;
+  const std::string magic = fields.Text(344, 3);
+  header.IsAnalyze = magic != "n+1" && magic != "ni1";
+  header.HoldsVoxels = magic == "n+1";
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    header.Sizes[i] = fields.Get<std::int16_t>(40 + 2 * i);
+    header.Steps[i] = fields.Get<float>(76 + 4 * i);
+  }
+  header.Type = fields.Get<std::int16_t>(70);
+  header.BitsPerVoxel = fields.Get<std::int16_t>(72);
+  header.Offset = fields.Get<float>(108);
+  if (header.IsAnalyze)
+  {
+    return header; // whose other fields mean something else
+  }
+  header.Slope = fields.Get<float>(112);
+  header.Intercept = fields.Get<float>(116);
+  header.Units = fields.Get<std::uint8_t>(123);
+  header.FirstTime = fields.Get<float>(136);
+  header.QFormCode = fields.Get<std::int16_t>(252);
+  header.SFormCode = fields.Get<std::int16_t>(254);
+  for (std::size_t i = 0; i < header.QForm.size(); ++i)
+  {
+    header.QForm[i] = fields.Get<float>(256 + 4 * i);
+  }
+  for (std::size_t i = 0; i < header.SForm.size(); ++i)
+  {
+    header.SForm[i] = fields.Get<float>(280 + 4 * i);
+  }
+  return header;
+}
+
+Header Parse2(const Fields& fields)
+{
+  Header header;
+  header.Length = Size2 + 4;
+  header.HoldsVoxels = fields.Text(4, 3) == "n+2";
+  header.Type = fields.Get<std::int16_t>(12);
+  header.BitsPerVoxel = fields.Get<std::int16_t>(14);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    header.Sizes[i] = fields.Get<std::int64_t>(16 + 8 * i);
+    header.Steps[i] = fields.Get<double>(104 + 8 * i);
+  }
+  header.Offset = static_cast<double>(fields.Get<std::int64_t>(168));
+  header.Slope = fields.Get<double>(176);
+  header.Intercept = fields.Get<double>(184);
+  header.FirstTime = fields.Get<double>(216);
+  header.QFormCode = fields.Get<std::int32_t>(344);
+  header.SFormCode = fields.Get<std::int32_t>(348);
+  for (std::size_t i = 0; i < header.QForm.size(); ++i)
+  {
+    header.QForm[i] = fields.Get<double>(352 + 8 * i);
+  }
+  for (std::size_t i = 0; i < header.SForm.size(); ++i)
+  {
+    header.SForm[i] = fields.Get<double>(400 + 8 * i);
+  }
+  header.Units = fields.Get<std::int32_t>(500);
+  return header;
+}
+
+/** The header that a file begins with, packed or not; nothing if there is none. */
+std::optional<Header> FindHeader(const InputFile& file)
+{
+  const std::string bytes = UnpackBeginning(file, Size2);
+  for (const bool isBigEndian : { false, true })
+  {
+    if (bytes.size() < Size1)
+    {
+      return std::nullopt;
+    }
+    const Fields fields(bytes, isBigEndian);
+    const std::int32_t size = fields.Get<std::int32_t>(0);
+    std::optional<Header> header;
+    if (size == Size1)
+    {
+      header = Parse1(fields);
+      const std::string name = LowerCase(fs::path(file.Path()).filename().string());
+      if (header->IsAnalyze && !name.ends_with(".hdr") && !name.ends_with(".hdr.gz"))
+      {
+        header.reset();
+      }
+    }
+    else if (size == Size2 && bytes.size() >= Size2 && (fields.Text(4, 3) == "n+2" || fields.Text(4, 3) == "ni2"))
+    {
+      header = Parse2(fields);
+    }
+    if (header)
+    {
+      header->IsBigEndian = isBigEndian;
+      return header;
+    }
+  }
+  return std::nullopt;
+}
+
+/** The other of two files: x.img for x.hdr, packed or not. Nothing if it is not there. */
+std::optional<std::string> FindCompanion(const std::string& path, std::string_view from, std::string_view to)
+{
+  std::string stem = path;
+  if (LowerCase(stem).ends_with(".gz"))
+  {
+    stem.erase(stem.size() - 3);
+  }
+  const std::string extension = fs::path(stem).extension().string();
+  if (LowerCase(extension) != from)
+  {
+    return std::nullopt;
+  }
+  std::string other(to);
+  if (extension != LowerCase(extension))
+  {
+    std::transform(other.begin(), other.end(), other.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  }
+  for (const char* packed : { "", ".gz" })
+  {
+    const std::string companion = fs::path(stem).replace_extension(other).string() + packed;
+    std::error_code ignored;
+    if (fs::exists(companion, ignored))
+    {
+      return companion;
+    }
+  }
+  return std::nullopt;
+}
+
+/** The file with the header of an image in two files. */
+std::string HeaderPathOf(const std::string& path)
+{
+  return FindCompanion(path, ".img", ".hdr").value_or(path);
+}
+
+struct Type
+{
+  std::int64_t Code;
+  std::int64_t Bits;
+  ScalarType Scalars;
+};
+
+ScalarType TypeOf(const Header& header)
+{
+  constexpr std::array<Type, 10> types{ { { 2, 8, ScalarType::UInt8 }, { 4, 16, ScalarType::Int16 },
+    { 8, 32, ScalarType::Int32 }, { 16, 32, ScalarType::Float32 }, { 64, 64, ScalarType::Float64 },
+    { 256, 8, ScalarType::Int8 }, { 512, 16, ScalarType::UInt16 }, { 768, 32, ScalarType::UInt32 },
+    { 1024, 64, ScalarType::Int64 }, { 1280, 64, ScalarType::UInt64 } } };
+  const auto type =
+    std::find_if(types.begin(), types.end(), [&header](const Type& one) { return one.Code == header.Type; });
+  const std::string code = std::to_string(header.Type);
+  if (type == types.end())
+  {
+    const bool isColour = header.Type == 128 || header.Type == 2304;
+    throw FileError(isColour ? "its voxels are colours (datatype " + code + "); a label image has one label a voxel"
+                             : "its header gives the datatype " + code + ", which is not a type of single numbers");
+  }
+  if (type->Bits != header.BitsPerVoxel)
+  {
+    throw FileError("it is damaged: its header gives " + std::to_string(header.BitsPerVoxel) +
+      " bits a voxel (bitpix), and its datatype " + code + " has " + std::to_string(type->Bits));
+  }
+  return type->Scalars;
+}
+
+std::vector<std::int64_t> SizesOf(const Header& header)
+{
+  constexpr std::int64_t most = 7;
+  const std::int64_t count = header.Sizes[0];
+  if (count < 1 || count > most)
+  {
+    throw FileError(
+      "it is damaged: its header gives " + std::to_string(count) + " dimensions, and the format has 1 to 7");
+  }
+  std::vector<std::int64_t> sizes(header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count);
+  while (sizes.size() > 3 && sizes.back() == 1)
+  {
+    sizes.pop_back();
+  }
+  if (sizes.size() > 4)
+  {
+    std::ostringstream text;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis)
+    {
+      text << (axis ? " x " : "") << sizes[axis];
+    }
+    throw FileError("it has " + std::to_string(sizes.size()) + " dimensions (" + text.str() +
+      "); voxplex meshes images of three, and of four with time as the last: extract one of those first");
+  }
+  return sizes;
+}
+
+/** From a voxel's indices to RAS, in the header's unit of length. */
+struct Affine
+{
+  std::array<Vector3, 3> Steps{};
+  Vector3 Origin{};
+};
+
+Affine AffineOfSForm(const Header& header)
+{
+  Affine affine;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      affine.Steps[axis][row] = header.SForm[4 * row + axis];
+    }
+    affine.Origin[row] = header.SForm[4 * row + 3];
+  }
+  return affine;
+}
+
+void CheckSteps(const Header& header)
+{
+  for (std::size_t axis = 1; axis <= 3; ++axis)
+  {
+    const bool counts = static_cast<std::int64_t>(axis) <= header.Sizes[0] && header.Sizes[axis] > 1;
+    if (counts && (!(header.Steps[axis] > 0) || !std::isfinite(header.Steps[axis])))
+    {
+      std::ostringstream reason;
+      reason << "the voxel spacing in its header is '" << header.Steps[1] << ' ' << header.Steps[2] << ' '
+             << header.Steps[3] << "'; it must be a positive length along each axis: correct the header";
+      throw FileError(reason.str());
+    }
+  }
+}
+
+/** A spacing; that of an axis with one voxel may be missing. */
+double StepOf(const Header& header, std::size_t axis)
+{
+  const double step = header.Steps[axis + 1];
+  return step > 0 && std::isfinite(step) ? step : 1.0;
+}
+
+/** The quaternion's rotation, as the standard has it. */
+Affine AffineOfQForm(const Header& header)
+{
+  const auto [b, c, d, x, y, z] = header.QForm;
+  const double rest = 1.0 - (b * b + c * c + d * d);
+  const double a = std::sqrt(std::max(0.0, rest));
+  const double norm = rest < 0 ? std::sqrt(b * b + c * c + d * d) : 1.0; // a rounded half turn
+  const double p = b / norm;
+  const double q = c / norm;
+  const double r = d / norm;
+  Affine affine;
+  affine.Steps = { { { a * a + p * p - q * q - r * r, 2 * (p * q + a * r), 2 * (p * r - a * q) },
+    { 2 * (p * q - a * r), a * a + q * q - p * p - r * r, 2 * (q * r + a * p) },
+    { 2 * (p * r + a * q), 2 * (q * r - a * p), a * a + r * r - p * p - q * q } } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double handedness = axis == 2 && header.Steps[0] < 0 ? -1.0 : 1.0;
+    for (double& component : affine.Steps[axis])
+    {
+      component *= handedness * StepOf(header, axis);
+    }
+  }
+  affine.Origin = { x, y, z };
+  return affine;
+}
+
+Affine AffineAlongAxes(const Header& header)
+{
+  Affine affine;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    affine.Steps[axis][axis] = StepOf(header, axis);
+  }
+  return affine;
+}
+
+/** How far apart two affines put a corner of the image at most. */
+double DistanceBetween(const Affine& a, const Affine& b, const ScalarImage& image)
+{
+  double largest = 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner)
+  {
+    Vector3 apart{};
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      apart[row] = a.Origin[row] - b.Origin[row];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double index = corner >> axis & 1 ? image.Dimensions[axis] - 1 : 0;
+        apart[row] += index * (a.Steps[axis][row] - b.Steps[axis][row]);
+      }
+    }
+    largest = std::max(largest, std::hypot(apart[0], apart[1], apart[2]));
+  }
+  return largest;
+}
+
+void WarnIfFormsDiffer(const Affine& sform, const Affine& qform, double unit, const ScalarImage& image, Reading& reading)
+{
+  const double distance = DistanceBetween(sform, qform, image) * unit;
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const Vector3& step : sform.Steps)
+  {
+    spacing = std::min(spacing, std::hypot(step[0], step[1], step[2]) * unit);
+  }
+  constexpr double tolerated = 0.1; // of a voxel; forms are single-precision numbers
+  if (!(distance <= tolerated * spacing))
+  {
+    std::ostringstream warning;
+    warning.precision(3);
+    warning << "its header gives two places, and the sform is used; the qform puts a corner " << distance
+            << " mm from there: if that is right, set the sform's code to 0";
+    reading.Warnings.push_back(warning.str());
+  }
+}
+
+Affine FindAffine(const Header& header, double unit, const ScalarImage& image, Reading& reading)
+{
+  if (header.SFormCode > 0)
+  {
+    const Affine sform = AffineOfSForm(header);
+    if (header.QFormCode > 0)
+    {
+      WarnIfFormsDiffer(sform, AffineOfQForm(header), unit, image, reading);
+    }
+    return sform;
+  }
+  CheckSteps(header);
+  if (header.QFormCode > 0)
+  {
+    return AffineOfQForm(header);
+  }
+  reading.Warnings.push_back(header.IsAnalyze
+      ? "the format ANALYZE does not say how an image lies: its axes are taken for those of LPS"
+      : "its header does not say where the image lies (qform and sform have the code 0): its axes are taken for those of "
+        "RAS, from 0 on");
+  return AffineAlongAxes(header);
+}
+
+/** Into millimetres. */
+double UnitOfLength(const Header& header)
+{
+  switch (header.Units & 7)
+  {
+    case 1:
+      return 1e3; // metre
+    case 3:
+      return 1e-3; // micrometre
+    default:
+      return 1.0;
+  }
+}
+
+/** Into seconds; numbers of other things are kept. */
+double UnitOfTime(const Header& header)
+{
+  switch (header.Units & 0x38)
+  {
+    case 16:
+      return 1e-3;
+    case 24:
+      return 1e-6;
+    default:
+      return 1.0;
+  }
+}
+
+void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
+{
+  const double unit = UnitOfLength(header);
+  Affine affine = FindAffine(header, unit, image, reading);
+  // From RAS to LPS, but what ANALYZE does not say.
+  const Vector3 signs = header.IsAnalyze ? Vector3{ 1.0, 1.0, 1.0 } : Vector3{ -1.0, -1.0, 1.0 };
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    affine.Origin[row] *= signs[row] * unit;
+    for (Vector3& step : affine.Steps)
+    {
+      step[row] *= signs[row] * unit;
+    }
+  }
+  Place(image, affine.Steps, affine.Origin);
+}
+
+void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
+{
+  const double unit = UnitOfTime(header);
+  const double step = header.Steps[4];
+  if (!std::isfinite(header.FirstTime))
+  {
+    throw FileError("the time of the first frame in its header (toffset) is not a finite number: correct the header");
+  }
+  if (!(step >= 0) || !std::isfinite(step))
+  {
+    std::ostringstream reason;
+    reason << "the time from frame to frame in its header is '" << step
+           << "'; it must be a positive number: correct the header";
+    throw FileError(reason.str());
+  }
+  if (step == 0)
+  {
+    reading.Warnings.push_back("its header has 0 for the time from frame to frame, which is taken to be 1; use "
+      "SetTimeScale() to weigh time against space");
+  }
+  image.TimeOrigin = header.FirstTime * unit;
+  image.TimeSpacing = step == 0 ? 1.0 : step * unit;
+}
+
+StoredVoxels FindVoxels(const Header& header, const std::string& path, const Reading& reading)
+{
+  StoredVoxels stored;
+  stored.IsBigEndian = header.IsBigEndian;
+  std::string voxels = path;
+  if (!header.HoldsVoxels)
+  {
+    voxels = FindCompanion(path, ".hdr", ".img").value_or("");
+    if (voxels.empty())
+    {
+      throw FileError("its voxels are in another file (.img), which is not there: put it beside '" +
+        fs::path(path).filename().string() + "'");
+    }
+    voxels = FindDataFile(path, fs::path(voxels).filename().string(), reading.DataFilesAnywhere);
+  }
+  constexpr double largest = 1e15;
+  const double least = header.HoldsVoxels ? static_cast<double>(header.Length) : 0.0;
+  if (!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) || !(header.Offset <= largest))
+  {
+    std::ostringstream reason;
+    reason << "it is damaged: its header says that voxels begin at byte " << header.Offset
+           << " (vox_offset), which is within the header or nowhere";
+    throw FileError(reason.str());
+  }
+  stored.Files = { voxels };
+  stored.Coding = InputFile(voxels).Beginning(2) == "\x1f\x8b" ? Encoding::Deflate : Encoding::Raw;
+  stored.BytesToSkip = static_cast<std::int64_t>(header.Offset);
+  return stored;
+}
+
+} // namespace
+
+bool IsNIfTI(const InputFile& file)
+{
+  const std::string headerPath = HeaderPathOf(file.Path());
+  std::error_code ignored;
+  return FindHeader(file) ||
+    (headerPath != file.Path() && fs::is_regular_file(headerPath, ignored) && FindHeader(InputFile(headerPath)));
+}
+
+ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
+{
+  std::string headerPath = path;
+  std::optional<Header> header = FindHeader(InputFile(path));
+  if (!header)
+  {
+    headerPath = HeaderPathOf(path);
+    header = FindHeader(InputFile(headerPath));
+  }
+  if (!header)
+  {
+    throw FileError("it has no header of NIfTI");
+  }
+  ScalarImage image;
+  image.Type = TypeOf(*header);
+  SetSizes(image, SizesOf(*header));
+  PlaceImage(*header, image, reading);
+  if (image.Frames > 1)
+  {
+    AdoptTimes(*header, image, reading);
+  }
+  ReadVoxels(FindVoxels(*header, headerPath, reading), image, reading);
+  const bool isScaled = header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
+  if (isScaled)
+  {
+    Rescale(image, header->Slope, header->Intercept, reading);
+  }
+  return image;
+}
+
+} // namespace voxplex::io

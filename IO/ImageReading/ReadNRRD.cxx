@@ -1,0 +1,557 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadNRRD.h"
+
+#include "Excerpt.h"
+#include "FileError.h"
+#include "InputFile.h"
+#include "Placement.h"
+#include "Reading.h"
+#include "Segments.h"
+#include "StoredVoxels.h"
+#include "TextHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+/** Header fields have few digits; a direction is taken for what it is meant to be up to this. */
+constexpr double DirectionTolerance = 1e-5;
+
+/** How coordinates of a space become LPS. */
+struct Space
+{
+  Vector3 Signs{ 1.0, 1.0, 1.0 };
+  std::size_t Dimension = 0; ///< 0: there is no space
+  bool SaysWhereLeftIs = true;
+};
+
+struct Axis
+{
+  std::int64_t Size = 0;
+  std::string Kind;              ///< lower case; empty if not given
+  std::vector<double> Direction; ///< its space direction; empty if there is none
+  double Spacing = NaN;
+  double First = NaN; ///< position of its first sample
+};
+
+ScalarType TypeNamed(const std::string& name)
+{
+  static const std::map<std::string, ScalarType> types{
+    { "signed char", ScalarType::Int8 },
+    { "int8", ScalarType::Int8 },
+    { "int8_t", ScalarType::Int8 },
+    { "uchar", ScalarType::UInt8 },
+    { "unsigned char", ScalarType::UInt8 },
+    { "uint8", ScalarType::UInt8 },
+    { "uint8_t", ScalarType::UInt8 },
+    { "short", ScalarType::Int16 },
+    { "short int", ScalarType::Int16 },
+    { "signed short", ScalarType::Int16 },
+    { "signed short int", ScalarType::Int16 },
+    { "int16", ScalarType::Int16 },
+    { "int16_t", ScalarType::Int16 },
+    { "ushort", ScalarType::UInt16 },
+    { "unsigned short", ScalarType::UInt16 },
+    { "unsigned short int", ScalarType::UInt16 },
+    { "uint16", ScalarType::UInt16 },
+    { "uint16_t", ScalarType::UInt16 },
+    { "int", ScalarType::Int32 },
+    { "signed int", ScalarType::Int32 },
+    { "int32", ScalarType::Int32 },
+    { "int32_t", ScalarType::Int32 },
+    { "uint", ScalarType::UInt32 },
+    { "unsigned int", ScalarType::UInt32 },
+    { "uint32", ScalarType::UInt32 },
+    { "uint32_t", ScalarType::UInt32 },
+    { "longlong", ScalarType::Int64 },
+    { "long long", ScalarType::Int64 },
+    { "long long int", ScalarType::Int64 },
+    { "signed long long", ScalarType::Int64 },
+    { "signed long long int", ScalarType::Int64 },
+    { "int64", ScalarType::Int64 },
+    { "int64_t", ScalarType::Int64 },
+    { "ulonglong", ScalarType::UInt64 },
+    { "unsigned long long", ScalarType::UInt64 },
+    { "unsigned long long int", ScalarType::UInt64 },
+    { "uint64", ScalarType::UInt64 },
+    { "uint64_t", ScalarType::UInt64 },
+    { "float", ScalarType::Float32 },
+    { "double", ScalarType::Float64 },
+  };
+  const auto type = types.find(name);
+  if (type == types.end())
+  {
+    throw FileError("its header gives the type '" + Excerpt(name) + "', which is not a type of single numbers");
+  }
+  return type->second;
+}
+
+Space SpaceNamed(std::string name)
+{
+  static const std::map<std::string, Space> spaces{
+    { "right-anterior-superior", { { -1, -1, 1 }, 3 } },
+    { "ras", { { -1, -1, 1 }, 3 } },
+    { "left-anterior-superior", { { 1, -1, 1 }, 3 } },
+    { "las", { { 1, -1, 1 }, 3 } },
+    { "left-posterior-superior", { { 1, 1, 1 }, 3 } },
+    { "lps", { { 1, 1, 1 }, 3 } },
+    { "scanner-xyz", { { 1, 1, 1 }, 3, false } },
+    { "3d-right-handed", { { 1, 1, 1 }, 3, false } },
+    { "3d-left-handed", { { 1, 1, 1 }, 3, false } },
+  };
+  for (const char* time : { "-time", "t" })
+  {
+    const std::size_t length = std::string_view(time).size();
+    const auto space = name.ends_with(time) ? spaces.find(name.substr(0, name.size() - length)) : spaces.end();
+    if (space != spaces.end())
+    {
+      Space result = space->second;
+      result.Dimension = 4;
+      return result;
+    }
+  }
+  const auto space = spaces.find(name);
+  if (space == spaces.end())
+  {
+    throw FileError("its header gives the space '" + Excerpt(name) + "', which NRRD does not have: correct the header");
+  }
+  return space->second;
+}
+
+Space FindSpace(const TextHeader& header)
+{
+  if (const std::string* name = header.Find("space"))
+  {
+    return SpaceNamed(LowerCase(*name));
+  }
+  const std::int64_t dimension = header.Whole({ "space dimension" }, 0);
+  if (dimension != 0 && dimension != 3 && dimension != 4)
+  {
+    throw FileError("its space has " + std::to_string(dimension) + " dimensions; voxplex meshes images in three, and in "
+      "four with time as the last");
+  }
+  return { { 1, 1, 1 }, static_cast<std::size_t>(dimension), false };
+}
+
+// --- Axes --------------------------------------------------------------------------------------------
+
+/** "none (1,0,0) (0, 1, 0)": the vectors, empty for "none" and for one of NaN. */
+std::vector<std::vector<double>> ParseVectors(const std::string& text, std::size_t dimension)
+{
+  std::vector<std::vector<double>> vectors;
+  for (std::size_t at = 0; (at = text.find_first_not_of(" \t", at)) != std::string::npos;)
+  {
+    const bool isVector = text[at] == '(';
+    const std::size_t end = std::min(text.find_first_of(isVector ? ")" : " \t", at), text.size());
+    std::vector<double> vector = isVector ? ParseNumbers(text.substr(at, end - at)) : std::vector<double>();
+    if (std::all_of(vector.begin(), vector.end(), [](double number) { return std::isnan(number); }))
+    {
+      vector.clear();
+    }
+    if (!vector.empty() && vector.size() != dimension)
+    {
+      throw FileError("its header gives a space direction of " + std::to_string(vector.size()) +
+        " numbers in a space of " + std::to_string(dimension) + " dimensions: correct the header");
+    }
+    vectors.push_back(std::move(vector));
+    at = std::min(end + 1, text.size());
+  }
+  return vectors;
+}
+
+/** One number, or word, for each axis, if the field is there. */
+template <typename T>
+void CheckNumberOf(const std::vector<T>& values, const std::vector<Axis>& axes, const char* field)
+{
+  if (values.size() != axes.size())
+  {
+    throw FileError("its header has " + std::to_string(axes.size()) + " axes, and " + std::to_string(values.size()) +
+      " of '" + field + "': correct the header");
+  }
+}
+
+std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
+{
+  const std::int64_t dimension = header.Whole({ "dimension" }, 0);
+  constexpr std::int64_t most = 16; // which NRRD has
+  if (dimension < 1 || dimension > most)
+  {
+    throw FileError("it is damaged: its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
+  }
+  std::vector<Axis> axes(static_cast<std::size_t>(dimension));
+  const std::vector<double> sizes = header.Numbers({ "sizes" }, axes.size());
+  if (sizes.empty())
+  {
+    throw FileError("it is damaged: its header does not give 'sizes'");
+  }
+  std::vector<std::string> kinds;
+  if (const std::string* text = header.FindAny({ "kinds" }))
+  {
+    kinds = Words(LowerCase(*text));
+    CheckNumberOf(kinds, axes, "kinds");
+  }
+  std::vector<std::vector<double>> directions;
+  if (const std::string* text = header.Find("space directions"))
+  {
+    directions = ParseVectors(*text, space.Dimension);
+    CheckNumberOf(directions, axes, "space directions");
+  }
+  const std::vector<double> spacings = header.Numbers({ "spacings" }, axes.size());
+  const std::vector<double> mins = header.Numbers({ "axis mins", "axismins" }, axes.size());
+  const std::vector<double> maxs = header.Numbers({ "axis maxs", "axismaxs" }, axes.size());
+  std::vector<std::string> centers;
+  if (const std::string* text = header.FindAny({ "centers", "centerings" }))
+  {
+    centers = Words(LowerCase(*text));
+    CheckNumberOf(centers, axes, "centers");
+  }
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    Axis& axis = axes[a];
+    constexpr double largest = 9e15;
+    axis.Size = std::abs(sizes[a]) <= largest ? static_cast<std::int64_t>(sizes[a]) : std::numeric_limits<std::int64_t>::max();
+    axis.Kind = kinds.empty() || kinds[a] == "???" || kinds[a] == "none" ? "" : kinds[a];
+    axis.Direction = directions.empty() ? std::vector<double>() : directions[a];
+    const bool isNode = !centers.empty() && centers[a] == "node"; // NRRD's default is cell
+    const double steps = static_cast<double>(axis.Size) - (isNode ? 1.0 : 0.0);
+    const double range = mins.empty() || maxs.empty() ? NaN : (maxs[a] - mins[a]) / steps;
+    axis.Spacing = spacings.empty() ? range : spacings[a];
+    const double step = std::isnan(axis.Spacing) ? 1.0 : axis.Spacing;
+    axis.First = mins.empty() ? NaN : mins[a] + (isNode ? 0.0 : step / 2.0);
+  }
+  return axes;
+}
+
+/** Which axes are those of space, in the order of the file, and which one is that of frames. */
+struct Roles
+{
+  std::vector<std::size_t> Space;
+  std::optional<std::size_t> Frames;
+};
+
+bool IsAlongTime(const std::vector<double>& direction)
+{
+  return direction.size() == 4 && direction[3] != 0 &&
+    std::all_of(direction.begin(), direction.begin() + 3, [](double number) { return std::abs(number) < DirectionTolerance; });
+}
+
+/** NRRD's kinds of axes along which samples have places. */
+bool IsDomain(const Axis& axis)
+{
+  return axis.Kind.empty() || axis.Kind == "domain" || axis.Kind == "space" || axis.Kind == "time";
+}
+
+[[noreturn]] void RefuseComponents(const TextHeader& header, const std::vector<Axis>& axes, std::size_t axis)
+{
+  const std::string components = std::to_string(axes[axis].Size);
+  if (const std::string layers = DescribeLayers(header); !layers.empty())
+  {
+    throw FileError("its segments overlap, so that they are stored in " + components + " layers: " + layers +
+      "; a label image has one label a voxel: in 3D Slicer, export the segmentation to a label map, which decides for one "
+      "segment where several overlap, and save that");
+  }
+  throw FileError("it has " + components + " components a voxel (colours or vectors); a label image has one: export it as "
+    "a label map first, or, if they are time frames, give their axis (" + std::to_string(axis) + ") the kind 'list'");
+}
+
+Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const Space& space)
+{
+  Roles roles;
+  const bool hasDirections = header.Find("space directions") != nullptr;
+  std::vector<std::size_t> others;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    const Axis& axis = axes[a];
+    const bool isTime = axis.Kind == "time" || IsAlongTime(axis.Direction);
+    const bool isOfSpace = hasDirections ? !axis.Direction.empty() : IsDomain(axis);
+    (isOfSpace && !isTime ? roles.Space : others).push_back(a);
+  }
+  // Without any hint, the last of four axes is that of time.
+  if (!hasDirections && others.empty() && roles.Space.size() == 4)
+  {
+    others.push_back(roles.Space.back());
+    roles.Space.pop_back();
+  }
+  for (const std::size_t a : others)
+  {
+    const bool isTime = axes[a].Kind == "time" || axes[a].Kind == "list" || IsAlongTime(axes[a].Direction) ||
+      (!hasDirections && IsDomain(axes[a]));
+    if (axes[a].Size == 1)
+    {
+      continue; // one frame, or one component
+    }
+    if (!isTime && axes[a].Kind.empty() && space.Dimension > 0)
+    {
+      throw FileError("its header gives no space direction to axis " + std::to_string(a) + ", which has " +
+        std::to_string(axes[a].Size) + " samples: if they are time frames, give that axis the kind 'list', or use a space of "
+        "four dimensions such as left-posterior-superior-time");
+    }
+    if (!isTime || (axes[a].Kind == "list" && !DescribeLayers(header).empty()))
+    {
+      RefuseComponents(header, axes, a);
+    }
+    if (roles.Frames)
+    {
+      throw FileError("it has " + std::to_string(axes.size()) + " dimensions; voxplex meshes images of three, and of four "
+        "with time as one: extract one of those first");
+    }
+    roles.Frames = a;
+  }
+  while (roles.Space.size() > 3 && axes[roles.Space.back()].Size == 1)
+  {
+    roles.Space.pop_back();
+  }
+  if (roles.Space.size() != 3)
+  {
+    throw FileError("it has " + std::to_string(roles.Space.size()) + " axes of space; a volume has three: give a volume");
+  }
+  return roles;
+}
+
+// --- Placement ---------------------------------------------------------------------------------------
+
+std::string SpacingFault(const TextHeader& header, const char* field)
+{
+  return "the voxel spacing in its header is '" + Excerpt(*header.FindAny({ field, "axis maxs", "axismaxs" })) +
+    "'; it must be a positive length along each axis: correct the header";
+}
+
+void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles, const Space& space,
+  ScalarImage& image, Reading& reading)
+{
+  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
+  Vector3 origin{};
+  std::array<Vector3, 3> steps{};
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    origin[row] = given.empty() ? 0.0 : space.Signs[row] * given[row];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      steps[i][row] = space.Signs[row] * axes[roles.Space[i]].Direction[row];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::vector<double>& direction = axes[roles.Space[i]].Direction;
+    if (!std::all_of(direction.begin(), direction.end(), [](double number) { return std::isfinite(number); }))
+    {
+      throw FileError(SpacingFault(header, "space directions"));
+    }
+    if (direction.size() == 4 && std::abs(direction[3]) >= DirectionTolerance)
+    {
+      throw FileError("its directions mix time with space; only images whose frames each show one time can be meshed: "
+        "correct the header, or resample the image");
+    }
+  }
+  Place(image, steps, origin);
+  if (!space.SaysWhereLeftIs)
+  {
+    reading.Warnings.push_back("its header does not say where left, posterior and superior are (space '" +
+      Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
+  }
+}
+
+/** Axes are those of space, which may be that of a header without directions. */
+void PlaceBySpacings(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
+  const Space& space, ScalarImage& image, Reading& reading)
+{
+  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
+  const bool hasSpacings = header.FindAny({ "spacings", "axis maxs", "axismaxs" }) != nullptr;
+  Vector3 origin{};
+  std::array<Vector3, 3> steps{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Axis& axis = axes[roles.Space[i]];
+    if (hasSpacings && (!(axis.Spacing > 0) || !std::isfinite(axis.Spacing)))
+    {
+      throw FileError(SpacingFault(header, "spacings"));
+    }
+    steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
+    const double first = given.empty() ? axis.First : given[i];
+    origin[i] = std::isnan(first) ? 0.0 : space.Signs[i] * first;
+  }
+  Place(image, steps, origin);
+  if (!hasSpacings)
+  {
+    reading.Warnings.push_back(
+      "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
+  }
+}
+
+// --- Frames ------------------------------------------------------------------------------------------
+
+/** What 3D Slicer's sequences have: "axis 0 index values:=0 0.04 0.08". */
+bool AdoptIndexValues(const TextHeader& header, std::size_t axis, ScalarImage& image, Reading& reading)
+{
+  const std::string key = "axis " + std::to_string(axis) + " index ";
+  const std::string* values = header.Find(key + "values");
+  if (!values)
+  {
+    return false;
+  }
+  const std::string* type = header.Find(key + "type");
+  const std::vector<double> times = ParseNumbers(*values);
+  const bool isFinite = std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
+  if (times.size() != static_cast<std::size_t>(image.Frames) || !isFinite || (type && *type == "text"))
+  {
+    reading.Warnings.push_back("its '" + key + "values' are not one number for each frame, and are not used");
+    return false;
+  }
+  SetFrameTimes(image, times);
+  return true;
+}
+
+void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, ScalarImage& image, Reading& reading)
+{
+  if (AdoptIndexValues(header, number, image, reading))
+  {
+    return;
+  }
+  const bool isInSpace = axis.Direction.size() == 4;
+  const double step = isInSpace ? axis.Direction[3] : axis.Spacing;
+  if (isInSpace && step < 0)
+  {
+    throw FileError("its time runs backwards: reverse the frames, or correct the header");
+  }
+  if (!std::isnan(step) && (!(step > 0) || !std::isfinite(step)))
+  {
+    throw FileError("the time from frame to frame in its header is '" +
+      Excerpt(*header.FindAny({ isInSpace ? "space directions" : "spacings", "axis maxs", "axismaxs" })) +
+      "'; it must be a positive number: correct the header");
+  }
+  const std::vector<double> origin =
+    isInSpace ? header.Numbers({ "space origin" }, 4) : std::vector<double>();
+  image.TimeSpacing = std::isnan(step) ? 1.0 : step;
+  image.TimeOrigin = !origin.empty() && !std::isnan(origin[3]) ? origin[3]
+    : std::isnan(axis.First)                                     ? 0.0
+                                                                 : axis.First;
+}
+
+StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
+{
+  StoredVoxels stored;
+  const std::string encoding = header.Word({ "encoding" }, "");
+  if (encoding == "raw")
+  {
+    stored.Coding = Encoding::Raw;
+  }
+  else if (encoding == "gz" || encoding == "gzip")
+  {
+    stored.Coding = Encoding::Deflate;
+  }
+  else if (encoding == "txt" || encoding == "text" || encoding == "ascii")
+  {
+    stored.Coding = Encoding::Text;
+  }
+  else if (encoding == "hex")
+  {
+    stored.Coding = Encoding::Hex;
+  }
+  else
+  {
+    throw FileError((encoding.empty() ? std::string("its header gives no encoding")
+                                      : "its voxels are in the encoding '" + Excerpt(encoding) + "'") +
+      "; those that are read are raw, gzip, text and hex: save it with one of these");
+  }
+  const std::string endian = header.Word({ "endian" }, "little");
+  if (endian != "little" && endian != "big")
+  {
+    throw FileError("its header gives the byte order '" + Excerpt(endian) + "', which is neither little nor big");
+  }
+  stored.IsBigEndian = endian == "big";
+  stored.LinesToSkip = header.Whole({ "line skip", "lineskip" }, 0);
+  stored.BytesToSkip = header.Whole({ "byte skip", "byteskip" }, 0);
+  const bool isRaw = stored.Coding == Encoding::Raw;
+  if (stored.LinesToSkip < 0 || stored.BytesToSkip < (isRaw ? StoredVoxels::FromTheEnd : 0))
+  {
+    throw FileError("its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
+  }
+  header.SetFiles(header.FindAny({ "data file", "datafile" }), reading.DataFilesAnywhere, stored);
+  return stored;
+}
+
+/** Numbers as they are in the file, so that the user must know. */
+void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
+{
+  const bool isOfSpace = header.Find("space units") != nullptr;
+  const std::string* units = header.FindAny({ "space units", "units" });
+  if (!units)
+  {
+    return;
+  }
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; (at = units->find('"', at)) != std::string::npos;)
+  {
+    const std::size_t end = std::min(units->find('"', at + 1), units->size());
+    texts.push_back(units->substr(at + 1, end - at - 1));
+    at = std::min(end + 1, units->size());
+  }
+  const std::size_t first = isOfSpace ? 0 : roles.Space.front();
+  if (first < texts.size())
+  {
+    WarnOfLengths(texts[first], reading);
+  }
+}
+
+} // namespace
+
+bool IsNRRD(const InputFile& file)
+{
+  return file.Beginning(7) == "NRRD000";
+}
+
+ScalarImage ReadNRRD(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  const TextHeader header(file);
+  const Space space = FindSpace(header);
+  const std::vector<Axis> axes = ReadAxes(header, space);
+  const Roles roles = AssignRoles(header, axes, space);
+
+  ScalarImage image;
+  image.Type = TypeNamed(header.Word({ "type" }, ""));
+  std::vector<std::int64_t> sizes;
+  for (const std::size_t a : roles.Space)
+  {
+    sizes.push_back(axes[a].Size);
+  }
+  if (roles.Frames)
+  {
+    sizes.push_back(axes[*roles.Frames].Size);
+  }
+  SetSizes(image, sizes);
+  if (header.Find("space directions"))
+  {
+    PlaceInSpace(header, axes, roles, space, image, reading);
+  }
+  else
+  {
+    PlaceBySpacings(header, axes, roles, space, image, reading);
+  }
+  WarnOfUnit(header, roles, reading);
+  if (roles.Frames)
+  {
+    AdoptTimes(header, axes[*roles.Frames], *roles.Frames, image, reading);
+  }
+  ReadVoxels(FindVoxels(header, reading), image, reading);
+  if (roles.Frames)
+  {
+    const auto before = static_cast<std::size_t>(std::count_if(roles.Space.begin(), roles.Space.end(),
+      [&roles](std::size_t a) { return a < *roles.Frames; }));
+    MoveFramesToTheEnd(image, before, reading);
+  }
+  reading.Labels = ReadSegments(header, reading.Warnings);
+  return image;
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadOtherVolumes.h"
+
+#include "Fields.h"
+#include "FileError.h"
+#include "InputFile.h"
+#include "Placement.h"
+#include "Reading.h"
+#include "StoredVoxels.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr std::size_t SizeOfGIPL = 256;
+constexpr std::size_t SizeOfMRC = 1024;
+
+std::string DescribeType(const char* what, std::int64_t code)
+{
+  return std::string("its header gives the ") + what + ' ' + std::to_string(code) +
+    ", which is not a type of single numbers that is read";
+}
+
+ScalarType TypeOfGIPL(std::int64_t code)
+{
+  switch (code)
+  {
+    case 7:
+      return ScalarType::Int8;
+    case 8:
+      return ScalarType::UInt8;
+    case 15:
+      return ScalarType::Int16;
+    case 16:
+      return ScalarType::UInt16;
+    case 31:
+      return ScalarType::UInt32;
+    case 32:
+      return ScalarType::Int32;
+    case 64:
+      return ScalarType::Float32;
+    case 65:
+      return ScalarType::Float64;
+    default:
+      throw FileError(DescribeType("image type", code));
+  }
+}
+
+bool IsBigEndianMRC(const std::string& bytes)
+{
+  constexpr char bigEndian = 0x11;
+  return Fields(bytes, false).Get<char>(212) == bigEndian;
+}
+
+/** Bytes of mode 0 are signed, but those that IMOD wrote before it said so. */
+ScalarType TypeOfMRC(const Fields& fields)
+{
+  constexpr std::int32_t stampOfIMOD = 1146047817;
+  switch (const std::int32_t mode = fields.Get<std::int32_t>(12))
+  {
+    case 0:
+      return fields.Get<std::int32_t>(152) == stampOfIMOD && (fields.Get<std::int32_t>(156) & 1) == 0
+        ? ScalarType::UInt8
+        : ScalarType::Int8;
+    case 1:
+      return ScalarType::Int16;
+    case 2:
+      return ScalarType::Float32;
+    case 6:
+      return ScalarType::UInt16;
+    default:
+      throw FileError(DescribeType("mode", mode));
+  }
+}
+
+void PlaceMRC(const Fields& fields, ScalarImage& image)
+{
+  Vector3 origin{};
+  Vector3 spacing{};
+  std::array<std::size_t, 3> axes{};
+  bool hasOrigin = false;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::int32_t axis = fields.Get<std::int32_t>(64 + 4 * i); // of columns, rows, sections: 1 to 3
+    axes[i] = axis == 0 ? i : static_cast<std::size_t>(axis - 1);
+    origin[i] = fields.Get<float>(196 + 4 * i);
+    hasOrigin = hasOrigin || origin[i] != 0;
+    const std::int32_t intervals = fields.Get<std::int32_t>(28 + 4 * i);
+    spacing[i] = fields.Get<float>(40 + 4 * i) / (intervals > 0 ? intervals : 1);
+    const float angle = fields.Get<float>(52 + 4 * i);
+    if (angle != 90.0F && angle != 0.0F)
+    {
+      throw FileError("its cell is not rectangular: resample it");
+    }
+  }
+  if (axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 || axes[0] == axes[1])
+  {
+    throw FileError("it is damaged: its header does not say which axes columns, rows and sections run along");
+  }
+  std::array<Vector3, 3> steps{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (!(spacing[axes[i]] > 0))
+    {
+      throw FileError("the size of its cell is not positive in its header: correct the header");
+    }
+    steps[i][axes[i]] = spacing[axes[i]];
+    if (!hasOrigin)
+    {
+      origin[axes[i]] = fields.Get<std::int32_t>(16 + 4 * i) * spacing[axes[i]];
+    }
+  }
+  Place(image, steps, origin);
+}
+
+} // namespace
+
+bool IsGIPL(const InputFile& file)
+{
+  const std::string bytes = UnpackBeginning(file, SizeOfGIPL);
+  const std::uint32_t magic = bytes.size() < SizeOfGIPL ? 0 : Fields(bytes, true).Get<std::uint32_t>(252);
+  return magic == 0xEFFFE9B0U || magic == 0x2AE389B8U;
+}
+
+ScalarImage ReadGIPL(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  const std::string bytes = UnpackBeginning(file, SizeOfGIPL);
+  const Fields fields(bytes, true);
+  ScalarImage image;
+  image.Type = TypeOfGIPL(fields.Get<std::uint16_t>(8));
+  std::vector<std::int64_t> sizes;
+  Vector3 spacing{};
+  Vector3 origin{};
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    sizes.push_back(fields.Get<std::uint16_t>(2 * i));
+    if (i < 3)
+    {
+      spacing[i] = fields.Get<float>(10 + 4 * i);
+      origin[i] = fields.Get<double>(204 + 8 * i);
+    }
+  }
+  if (sizes[3] <= 1)
+  {
+    sizes.pop_back();
+  }
+  SetSizes(image, sizes);
+  PlaceAlongAxes(image, spacing, origin);
+
+  StoredVoxels stored;
+  stored.IsBigEndian = true;
+  stored.Files = { path };
+  stored.Coding = file.Beginning(2) == "\x1f\x8b" ? Encoding::Deflate : Encoding::Raw;
+  stored.BytesToSkip = SizeOfGIPL;
+  ReadVoxels(stored, image, reading);
+  return image;
+}
+
+bool IsMRC(const InputFile& file)
+{
+  const std::string bytes = file.Beginning(SizeOfMRC);
+  return bytes.size() == SizeOfMRC && bytes.compare(208, 3, "MAP") == 0;
+}
+
+ScalarImage ReadMRC(const std::string& path, Reading& reading)
+{
+  const std::string bytes = InputFile(path).Beginning(SizeOfMRC);
+  StoredVoxels stored;
+  stored.IsBigEndian = IsBigEndianMRC(bytes);
+  const Fields fields(bytes, stored.IsBigEndian);
+  ScalarImage image;
+  image.Type = TypeOfMRC(fields);
+  SetSizes(image, { fields.Get<std::int32_t>(0), fields.Get<std::int32_t>(4), fields.Get<std::int32_t>(8) });
+  PlaceMRC(fields, image);
+  const std::int32_t extension = fields.Get<std::int32_t>(92);
+  if (extension < 0)
+  {
+    throw FileError("it is damaged: its header claims an extension of " + std::to_string(extension) + " bytes");
+  }
+  constexpr std::int32_t firstOfStacks = 401;
+  if (fields.Get<std::int32_t>(88) >= firstOfStacks)
+  {
+    throw FileError("it is a stack of volumes: extract one of them first");
+  }
+  WarnOfLengths("angstrom", reading);
+  stored.Files = { path };
+  stored.BytesToSkip = static_cast<std::int64_t>(SizeOfMRC) + extension;
+  ReadVoxels(stored, image, reading);
+  return image;
+}
+
+} // namespace voxplex::io

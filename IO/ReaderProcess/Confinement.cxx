@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Confinement.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#if defined(__linux__)
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#endif
+#if defined(__linux__) && __has_include(<linux/landlock.h>)
+#include <linux/landlock.h>
+#endif
+
+namespace fs = std::filesystem;
+
+namespace voxplex::io
+{
+namespace
+{
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool HasSanitizer = true;
+#elif defined(__has_feature)
+constexpr bool HasSanitizer = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool HasSanitizer = false;
+#endif
+
+/** The folder in which an image's files are. */
+fs::path FolderOf(const fs::path& image)
+{
+  std::error_code ignored;
+  return fs::is_directory(image, ignored) ? image : image.has_parent_path() ? image.parent_path() : fs::path(".");
+}
+
+/** What the limits depend on: the image's own size, or that of all in its folder, since headers name other files. */
+std::uint64_t SizeOfFiles(const fs::path& image)
+{
+  constexpr std::uint64_t smallHeader = 1 << 20;
+  std::error_code ignored;
+  const std::uintmax_t own = fs::file_size(image, ignored);
+  if (!ignored && own > smallHeader)
+  {
+    return own;
+  }
+  std::uint64_t sum = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(FolderOf(image), ignored))
+  {
+    std::error_code failed;
+    const std::uintmax_t size = entry.is_regular_file(failed) ? entry.file_size(failed) : 0;
+    sum += failed ? 0 : size;
+  }
+  return sum;
+}
+
+void Limit(int resource, std::uint64_t most)
+{
+  rlimit limit{};
+  if (getrlimit(resource, &limit) == 0)
+  {
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, most);
+    setrlimit(resource, &limit);
+  }
+}
+
+#if defined(LANDLOCK_ACCESS_FS_EXECUTE) && defined(SYS_landlock_create_ruleset)
+
+void Allow(int ruleset, const fs::path& path, std::uint64_t access)
+{
+  const int descriptor = open(path.c_str(), O_PATH | O_CLOEXEC);
+  if (descriptor >= 0)
+  {
+    landlock_path_beneath_attr rule{};
+    rule.allowed_access = access;
+    rule.parent_fd = descriptor;
+    syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    close(descriptor);
+  }
+}
+
+void ForbidOtherFiles(const ImageRequest& request)
+{
+  landlock_ruleset_attr attributes{};
+  // The thirteen rights of the first version, which all later ones have.
+  attributes.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
+  const auto ruleset =
+    static_cast<int>(syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes.handled_access_fs, 0));
+  if (ruleset < 0)
+  {
+    return;
+  }
+  if (request.DataFilesAnywhere)
+  {
+    Allow(ruleset, "/", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
+  }
+  Allow(ruleset, FolderOf(request.Path), LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
+  std::error_code ignored;
+  if (fs::is_regular_file(request.Path, ignored)) // which may be a link to another folder
+  {
+    Allow(ruleset, request.Path, LANDLOCK_ACCESS_FS_READ_FILE);
+  }
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  syscall(SYS_landlock_restrict_self, ruleset, 0);
+  close(ruleset);
+}
+
+#else
+
+void ForbidOtherFiles(const ImageRequest&) {}
+
+#endif
+
+} // namespace
+
+void Confine(const ImageRequest& request)
+{
+  const std::uint64_t size = SizeOfFiles(request.Path);
+  constexpr std::uint64_t memory = 512ULL << 20;
+  constexpr std::uint64_t seconds = 60;
+  constexpr std::uint64_t bytesInASecond = 2'000'000;
+  if (!HasSanitizer)
+  {
+    Limit(RLIMIT_DATA, memory + 16 * size);
+  }
+  Limit(RLIMIT_CPU, seconds + size / bytesInASecond);
+  Limit(RLIMIT_CORE, 0);
+  ForbidOtherFiles(request);
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Confinement.h
+ * @brief Takes from a process what it does not need to read an image.
+ */
+#ifndef voxplex_io_Confinement_h
+#define voxplex_io_Confinement_h
+
+#include "ImageReading/ReadImage.h"
+
+namespace voxplex::io
+{
+
+/**
+ * For the rest of its life this process
+ * - may read what is in the folder of the image and below, and no other file, and write none (Linux 5.13 and newer with
+ *   Landlock; elsewhere it may do what its user may);
+ * - may take 512 MiB of memory and 16 times the size of the files, beside that of the voxels that it gives away;
+ * - may compute for a minute and a second for each two megabytes of the files.
+ *
+ * Of a folder, all files in it count. Builds with sanitizers have no limit of memory.
+ */
+void Confine(const ImageRequest& request);
+
+} // namespace voxplex::io
+
+#endif

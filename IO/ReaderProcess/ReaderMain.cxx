@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file ReaderMain.cxx
+ * @brief The program that reads one image for another process, which lives whatever the image does here.
+ *
+ *     voxplexImageReader PATH SERIES ANYWHERE
+ *
+ * Standard output receives the greeting and the answer (AnswerMessage.h). Descriptor 3 is the memory for voxels.
+ */
+#include "AnswerMessage.h"
+#include "Confinement.h"
+#include "FileError.h"
+#include "SharedMemory.h"
+
+#include <csignal>
+#include <cstring>
+
+#include <unistd.h>
+
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
+
+namespace
+{
+
+using namespace voxplex::io;
+
+constexpr int MemoryDescriptor = 3;
+
+bool Write(std::string_view text)
+{
+  while (!text.empty())
+  {
+    const ssize_t written = write(STDOUT_FILENO, text.data(), text.size());
+    if (written <= 0)
+    {
+      return false;
+    }
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+AnswerMessage Read(const ImageRequest& request)
+{
+  SharedMemoryWriter memory(MemoryDescriptor);
+  AnswerMessage message;
+  try
+  {
+    message.Answer = ReadImageHere(request, [&memory](std::size_t bytes) { return memory.Allocate(bytes); });
+    message.Offset = memory.OffsetOf(message.Answer.Image.Scalars.get());
+  }
+  catch (const FileError& error)
+  {
+    message.Error = error.what();
+  }
+  return message;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc != 4)
+  {
+    return 2;
+  }
+#if defined(__linux__)
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0 };
+  if (!Write(Greeting))
+  {
+    return 1;
+  }
+  Confine(request);
+  const AnswerMessage message = Read(request);
+  const bool isWritten = Write(ToText(message));
+  _exit(isWritten ? 0 : 1); // no library's destructors
+}

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What a confined process can still do: read the files of the image, and nothing else.
+
+#include "ReaderProcess/Confinement.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+bool CanOpen(const fs::path& path, int flags)
+{
+  const int descriptor = open(path.c_str(), flags, 0600);
+  if (descriptor >= 0)
+  {
+    close(descriptor);
+  }
+  return descriptor >= 0;
+}
+
+bool HasLandlock()
+{
+#if defined(SYS_landlock_create_ruleset)
+  return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1) > 0; // its version
+#else
+  return false;
+#endif
+}
+
+/** In a process of its own, since there is no way back. Returns what is wrong, as an exit status. */
+template <typename TFunction>
+int InAnotherProcess(const TFunction& function)
+{
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    _exit(function());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 100;
+}
+
+} // namespace
+
+int TestConfinement(int, char*[])
+{
+  std::string pattern = (fs::temp_directory_path() / "voxplex-confined-XXXXXX").string();
+  const fs::path root = mkdtemp(pattern.data());
+  const fs::path folder = root / "images";
+  fs::create_directories(folder / "slices");
+  for (const fs::path& path : { folder / "i.nhdr", folder / "slices" / "1.raw", root / "secret", root / "real.nrrd" })
+  {
+    std::ofstream(path) << "content";
+  }
+  fs::create_symlink(root / "real.nrrd", folder / "link.nrrd");
+
+  const auto confined = [&](const char* image, bool anywhere)
+  {
+    return InAnotherProcess(
+      [&]
+      {
+        voxplex::io::Confine({ (folder / image).string(), "", anywhere });
+        rlimit memory{};
+        rlimit time{};
+        getrlimit(RLIMIT_DATA, &memory);
+        getrlimit(RLIMIT_CPU, &time);
+        const bool isLimited = memory.rlim_cur < (600UL << 20) && time.rlim_cur == 60;
+        return !CanOpen(folder / image, O_RDONLY) ? 1
+          : !CanOpen(folder / "slices" / "1.raw", O_RDONLY) ? 2
+          : HasLandlock() && CanOpen(root / "secret", O_RDONLY) != anywhere ? 3
+          : HasLandlock() && CanOpen(folder / "new", O_WRONLY | O_CREAT) ? 4
+          : HasLandlock() && CanOpen(folder / "i.nhdr", O_WRONLY) ? 5
+          : !isLimited ? 6
+                       : 0;
+      });
+  };
+  const int own = confined("i.nhdr", false);
+  const int link = confined("link.nrrd", false);
+  const int anywhere = confined("i.nhdr", true);
+  fs::remove_all(root);
+  if (own != 0 || link != 0 || anywhere != 0)
+  {
+    std::cerr << "wrong: " << own << " with a file, " << link << " with a link, " << anywhere << " with data files anywhere\n";
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

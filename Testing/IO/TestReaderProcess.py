@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Images are read by a process of their own, and by this one where none can be started."""
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import images
+import voxplex
+from iotesting import FolderTestCase
+
+READER = Path(voxplex.__file__).parents[4] / "lib" / "voxplex" / "voxplexImageReader"
+ARRAY = images.two_labels(12, 4.0)
+GEOMETRY = images.Geometry((1.5, -2.25, 3.125), (1.5, 0.75, 0.125))
+
+
+def voxels(image):
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(ARRAY.shape)
+
+
+class ReadingProcess(FolderTestCase):
+    def setUp(self):
+        super().setUp()
+        self.path = images.write_nrrd(self.folder / "i.nrrd", ARRAY, GEOMETRY)
+
+    def python(self, code, **options):
+        """Runs code in an interpreter of its own."""
+        return subprocess.run([sys.executable, "-c", code], cwd=self.folder, text=True, capture_output=True, timeout=120,
+                              stdin=subprocess.DEVNULL, **options)
+
+    @unittest.skipUnless(READER.exists(), "the tests do not run in a build tree")
+    def test_greeting_and_answer(self):
+        memory = os.memfd_create("voxels")
+        if memory != 3:
+            os.dup2(memory, 3)
+        done = subprocess.run([READER, self.path, "", "0"], capture_output=True, pass_fds=(3,), timeout=60)
+        greeting, answer = done.stdout.decode().split("\n", 1)
+        self.assertEqual(greeting, "voxplex image reader 1")
+        self.assertIn('"spacing":[1.5,0.75,0.125]', answer)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+
+    def test_processes_end(self):
+        """None is left, whatever came of it; the host's own are not touched."""
+        own = subprocess.Popen(["sleep", "60"])
+        (self.folder / "damaged.nrrd").write_bytes(Path(self.path).read_bytes()[:-10])
+        for path in (self.path, self.folder / "damaged.nrrd", self.folder / "none.nrrd"):
+            self.reader(path)
+        self.assertIsNone(own.poll())
+        own.kill()
+        own.wait()
+        with self.assertRaises(ChildProcessError):
+            os.waitpid(-1, os.WNOHANG)
+
+    def test_host_that_ignores_its_children(self):
+        before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        try:
+            np.testing.assert_array_equal(voxels(self.read(self.path)), ARRAY)
+        finally:
+            signal.signal(signal.SIGCHLD, before)
+
+    def test_no_process(self):
+        """With too few file descriptors for a process the image is the same, read by this one. Nothing is printed."""
+        used = {int(name) for name in os.listdir("/proc/self/fd")}
+        free = [number for number in range(max(used) + 8) if number not in used]
+        limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+        for count in (2, 3, 4, 5):
+            with self.subTest(count):
+                resource.setrlimit(resource.RLIMIT_NOFILE, (free[count], limits[1]))
+                try:
+                    image = self.read(self.path)
+                finally:
+                    resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+                np.testing.assert_array_equal(voxels(image), ARRAY)
+                self.assertEqual(image.GetSpacing(), GEOMETRY.spacing)
+
+    def test_voxels_can_be_written(self):
+        """They are the host's own memory."""
+        image = self.read(self.path)
+        voxels(image)[:] = 5
+        np.testing.assert_array_equal(voxels(self.read(self.path)), ARRAY)
+
+    def test_descriptors_and_memory_are_given_back(self):
+        def descriptors():
+            return len(os.listdir("/proc/self/fd"))
+
+        def mapped():
+            return Path("/proc/self/maps").read_text().count("voxplex-voxels")
+
+        self.read(self.path)
+        before = descriptors(), mapped()
+        for _ in range(10):
+            self.read(self.path)
+        self.assertEqual((descriptors(), mapped()), before)
+
+    def test_decimal_comma(self):
+        """As QApplication sets it for a German user."""
+        if not shutil.which("localedef") or not Path("/usr/share/i18n/locales/de_DE").exists():
+            self.skipTest("localedef and its sources are not installed (apt-get install locales)")
+        subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", self.folder / "de_DE.UTF-8"], check=False, capture_output=True)
+        code = ("import locale, resource, voxplex; locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')\n"
+                "assert locale.localeconv()['decimal_point'] == ','\n"
+                "if %r: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))  # no process\n"
+                "image = voxplex.read_segmentation(%r); print(image.GetSpacing(), image.GetOrigin())\n")
+        text = images.write_nrrd(self.folder / "text.nrrd", ARRAY.astype(np.float32) + 0.5, GEOMETRY,
+                                 header_lines={"encoding": "ascii", "type": "float"})
+        data = Path(text).read_bytes().split(b"\n\n")[0]
+        Path(text).write_bytes(data + b"\n\n" + " ".join(map(str, ARRAY.ravel() + 0.5)).encode())
+        meta = images.write_metaimage(self.folder / "i.mha", ARRAY, GEOMETRY)
+        for path in (self.path, text, meta, images.write_nifti(self.folder / "i.nii", ARRAY, GEOMETRY)):
+            for here in (False, True):
+                with self.subTest(path=path, here=here):
+                    done = self.python(code % (here, path), env={**os.environ, "LOCPATH": str(self.folder)})
+                    self.assertEqual(done.stderr, "")
+                    self.assertEqual(done.stdout, "%r %r\n" % (GEOMETRY.spacing, GEOMETRY.origin))
+
+    def test_forks_of_the_host(self):
+        """A child of the host's, as multiprocessing makes them, reads as well."""
+        self.read(self.path)
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if (voxels(self.reader(self.path).GetOutput()) == ARRAY).all() else 1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
