@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -28,33 +30,66 @@ fs::path Canonical(const fs::path& path)
   return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
 }
 
-void CheckTarget(const std::string& path)
+/** Where a path leads: the file itself, or that behind its symbolic links, which need not exist. */
+fs::path TargetOf(const std::string& path)
+{
+  // The system is asked first: it knows circles, and links of other users that it does not follow.
+  std::error_code error;
+  if (fs::status(path, error).type() == fs::file_type::none)
+  {
+    throw OutputError(path,
+      error == std::errc::too_many_symbolic_link_levels
+        ? "its symbolic links lead in a circle; remove them"
+        : error.message());
+  }
+  fs::path target = path;
+  while (fs::is_symlink(fs::symlink_status(target, error)))
+  {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  return target;
+}
+
+/** @param path as it was given, for messages */
+void CheckTarget(const std::string& path, const fs::path& target)
 {
   std::error_code ignored;
-  const fs::path folder = FolderOf(path);
+  const fs::path folder = FolderOf(target);
   if (!fs::is_directory(folder, ignored))
   {
     throw OutputError(path, "there is no folder '" + folder.string() + "'; create it first");
   }
-  const fs::file_status status = fs::status(path, ignored);
+  const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status))
   {
     throw OutputError(path, "it is a folder; give a file name");
   }
-  if (fs::exists(status) && !fs::is_regular_file(status))
+  if (!fs::exists(status))
+  {
+    return;
+  }
+  if (!fs::is_regular_file(status))
   {
     throw OutputError(path, "it exists and is not a regular file");
+  }
+  if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+  {
+    throw OutputError(path,
+      "the file that is there is write-protected (" + std::generic_category().message(errno) +
+        "); make it writable, or take another name");
   }
 }
 
 /**
- * A hidden name beside the file that no other file has. Creates this file and removes it: no other test
+ * A hidden name in a folder that no other file has. Creates this file and removes it: no other test
  * of a folder's permissions holds on every file system.
+ *
+ * @param path as it was given, for its extension and for messages
  */
-std::string HiddenName(const std::string& path)
+std::string HiddenName(const std::string& path, const fs::path& folder)
 {
   const std::string extension = fs::path(path).extension().string();
-  std::string name = (FolderOf(path) / (".voxplex-XXXXXX" + extension)).string();
+  std::string name = (folder / (".voxplex-XXXXXX" + extension)).string();
   const int descriptor = mkstemps(name.data(), static_cast<int>(extension.size()));
   if (descriptor < 0)
   {
@@ -64,6 +99,21 @@ std::string HiddenName(const std::string& path)
   close(descriptor);
   unlink(name.c_str());
   return name;
+}
+
+/** Gives a new file the permissions of the one that it replaces, and its owner and group if the user may. */
+void CopyPermissions(const std::string& from, const std::string& to)
+{
+  struct stat old = {};
+  if (stat(from.c_str(), &old) != 0)
+  {
+    return; // a new name: the file has what the process gives to new files
+  }
+  // Users who are not root may give the group only. Permissions come last: chown() takes some of them away.
+  constexpr auto sameOwner = static_cast<uid_t>(-1);
+  [[maybe_unused]] const bool given =
+    chown(to.c_str(), old.st_uid, old.st_gid) == 0 || chown(to.c_str(), sameOwner, old.st_gid) == 0;
+  chmod(to.c_str(), old.st_mode & 0777);
 }
 
 } // namespace
@@ -79,12 +129,13 @@ WholeFiles::~WholeFiles()
 
 void WholeFiles::Add(const std::string& path, const std::string& companion)
 {
-  CheckTarget(path);
-  if (!this->Targets.insert(Canonical(path).string()).second)
+  const fs::path target = TargetOf(path);
+  CheckTarget(path, target);
+  if (!this->Targets.insert(Canonical(target).string()).second)
   {
     throw OutputError(path, "two outputs have this name");
   }
-  this->Files[path] = { HiddenName(path), !companion.empty() };
+  this->Files[path] = { target.string(), HiddenName(path, FolderOf(target)), !companion.empty() };
   if (!companion.empty())
   {
     this->Add(companion);
@@ -125,6 +176,10 @@ void WholeFiles::WriteText(
 
 void WholeFiles::Commit()
 {
+  for (const auto& [path, file] : this->Files)
+  {
+    CopyPermissions(file.Target, file.Temporary);
+  }
   // Killed at any point, this leaves no file beside a companion of another run: an older file goes
   // before its companion changes, and the new one comes after it.
   for (const auto& [path, file] : this->Files)
@@ -132,7 +187,7 @@ void WholeFiles::Commit()
     if (file.HasCompanion)
     {
       std::error_code ignored;
-      fs::remove(path, ignored);
+      fs::remove(file.Target, ignored);
     }
   }
   for (const bool hasCompanion : { false, true })
@@ -151,7 +206,7 @@ void WholeFiles::Commit()
 void WholeFiles::Move(const std::string& path, const File& file)
 {
   std::error_code error;
-  fs::rename(file.Temporary, path, error);
+  fs::rename(file.Temporary, file.Target, error);
   if (error)
   {
     throw OutputError(path, error.message());

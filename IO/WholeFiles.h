@@ -31,6 +31,10 @@ public:
 /**
  * Each file is written beside its place under a hidden name, which Commit() changes when all files are
  * complete. Without Commit() the destructor removes them, and older files stay as they were.
+ *
+ * A path may be a symbolic link, also one to nothing yet: the file appears where it leads, and the link stays. Of a
+ * file with several names (hard links) only this one gets the new contents. A file that replaces another has its
+ * permissions, and its owner and group if the user may give them; access control lists are not kept.
  */
 class WholeFiles
 {
@@ -46,7 +50,7 @@ public:
    * @param companion a second file, announced with the first, which refers to it; may be empty. The two
    *   are never of two runs, even if Commit() is killed.
    * @throws OutputError: the folder does not exist or takes no files, or the name is that of a folder,
-   *   of a device or of a file announced before
+   *   of a device, of a write-protected file, of a file announced before, or of a link that leads to itself
    */
   void Add(const std::string& path, const std::string& companion = {});
 
@@ -65,6 +69,7 @@ public:
 private:
   struct File
   {
+    std::string Target; ///< the path, or where its symbolic links lead
     std::string Temporary;
     bool HasCompanion = false;
   };

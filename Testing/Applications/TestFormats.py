@@ -1,7 +1,13 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every output format, read again, holds the same mesh."""
+"""Every output format, read again, holds the same mesh. Files behind links, and files that are replaced."""
+import os
+import stat
+import tempfile
+import unittest
+from pathlib import Path
+
 import numpy as np
 
 import images
@@ -135,6 +141,127 @@ class Formats(ProgramTestCase):
         (self.folder / "mesh.vtu").write_text("old")
         self.write("mesh.vtu")
         self.assertGreater(len(meshfiles.read_tetrahedra(self.folder / "mesh.vtu").cells), 0)
+
+
+
+class Places(ProgramTestCase):
+    """What a name leads to, and what was there before."""
+
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels(14, 5.0))
+        self.elsewhere = self.folder / "elsewhere"
+        self.elsewhere.mkdir()
+
+    def write(self, *arguments, **options):
+        self.mesh("--input", self.input, "--delta", 3, "--threads", 1, *arguments, **options)
+
+    def link(self, name, target):
+        (self.folder / name).symlink_to(target)
+
+    def test_links(self):
+        """All files of a run are written through links, which stay; some lead to old files, others to none yet."""
+        names = ("m.vtu", "i.vtp", "s.json", "m.xdmf", "m.h5")
+        for name in names:
+            self.link(name, "elsewhere/" + name)
+        for name in names[::2]:
+            (self.elsewhere / name).write_text("old")
+        self.write("--output", "m.vtu", "--plc", "i.vtp", "--stats", "s.json")
+        self.write("--output", "m.xdmf")
+        self.assertEqual({path.name for path in self.elsewhere.iterdir()}, set(names))
+        for name in names:
+            self.assertTrue((self.folder / name).is_symlink(), name)
+            self.assertGreater((self.elsewhere / name).stat().st_size, 200, name)
+
+    def test_links_of_a_time_series(self):
+        image = images.write_nrrd(self.folder / "t.nrrd", np.stack([images.two_labels(14, 5.0)] * 5))
+        self.link("s_1.vtu", self.elsewhere / "one.vtu")
+        self.link("slab_0.vtu", self.elsewhere / "slab.vtu")
+        self.link("s.pvd", self.elsewhere / "s.pvd")
+        self.mesh("--input", image, "--delta", 2, "--time-planes", 2, "--output", "m.vtu", "--slices", "s_", "--slabs", "slab_")
+        self.assertEqual({path.name for path in self.elsewhere.iterdir()}, {"one.vtu", "slab.vtu", "s.pvd"})
+        self.assertTrue((self.folder / "s_1.vtu").is_symlink())
+
+    def test_link_to_link(self):
+        """Each is relative to its own folder."""
+        self.link("m.vtu", "elsewhere/link.vtu")
+        (self.elsewhere / "link.vtu").symlink_to("../real.vtu")
+        self.write("--output", "m.vtu")
+        self.assertTrue((self.elsewhere / "link.vtu").is_symlink())
+        self.assertFalse((self.folder / "real.vtu").is_symlink())
+        self.assertEqual(meshfiles.read_tetrahedra(self.folder / "real.vtu").space, "LPS")
+
+    @unittest.skipUnless(os.path.isdir("/dev/shm"), "no other file system")
+    def test_link_to_another_file_system(self):
+        with tempfile.TemporaryDirectory(dir="/dev/shm", prefix="voxplex-test-") as folder:
+            self.link("m.vtu", Path(folder) / "m.vtu")
+            for _ in range(2):  # to nothing, and to an old file
+                self.write("--output", "m.vtu")
+                self.assertEqual(os.listdir(folder), ["m.vtu"])
+                self.assertTrue((self.folder / "m.vtu").is_symlink())
+
+    def test_links_that_lead_nowhere(self):
+        self.link("a.vtu", "b.vtu")
+        self.link("b.vtu", "a.vtu")
+        self.link("none.vtu", "no folder/m.vtu")
+        self.link("folder.vtu", "elsewhere")
+        self.link("input.vtu", "two.nrrd")
+        self.link("null.vtu", "/dev/null")
+        for name, pattern in (("a.vtu", "its symbolic links lead in a circle; remove them"),
+                              ("none.vtu", "there is no folder 'no folder'; create it first"),
+                              ("folder.vtu", "it is a folder"), ("input.vtu", "it is the input"),
+                              ("null.vtu", "it exists and is not a regular file")):
+            with self.subTest(name):
+                self.assert_refused(1, "cannot write '%s': %s" % (name, pattern), "--input", self.input, "--output", name)
+
+    def test_one_file_by_two_links(self):
+        """Before it is there."""
+        self.link("m.vtk", "elsewhere/one.vtk")
+        self.assert_refused(1, "two outputs have this name", "--input", self.input, "--output", "m.vtk",
+                            "--plc", "elsewhere/one.vtk")
+
+    def test_permissions(self):
+        """Those of a file that is replaced stay; a new one has what the user's mask leaves."""
+        names = ("m.vtu", "i.vtp", "s.json", "m.xdmf", "m.h5")
+        for name, mode in zip(names, (0o600, 0o664, 0o640, 0o755, 0o606)):
+            (self.folder / name).write_text("old")
+            (self.folder / name).chmod(mode)
+        self.link("link.vtu", "elsewhere/m.vtu")
+        (self.elsewhere / "m.vtu").touch(0o600)
+        for arguments in (("--output", "m.vtu", "--plc", "i.vtp", "--stats", "s.json"), ("--output", "m.xdmf"),
+                          ("--output", "link.vtu"), ("--output", "new.vtu")):
+            self.write(*arguments, umask=0o027)
+        modes = [stat.S_IMODE((self.folder / name).stat().st_mode) for name in (*names, "link.vtu", "new.vtu")]
+        self.assertEqual([oct(mode) for mode in modes],
+                         [oct(mode) for mode in (0o600, 0o664, 0o640, 0o755, 0o606, 0o600, 0o640)])
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root may give files to others")
+    def test_owner(self):
+        (self.folder / "m.vtu").touch(0o640)
+        os.chown(self.folder / "m.vtu", 12345, 23456)
+        self.write("--output", "m.vtu")
+        found = (self.folder / "m.vtu").stat()
+        self.assertEqual((found.st_uid, found.st_gid, stat.S_IMODE(found.st_mode)), (12345, 23456, 0o640))
+
+    def test_write_protected(self):
+        """Refused, as other programs do; root may write all the same."""
+        self.folder.chmod(0o777)
+        (self.folder / "m.vtu").write_text("precious")
+        (self.folder / "m.vtu").chmod(0o444)
+        other = {"user": 12345, "group": 12345} if os.geteuid() == 0 else {}
+        self.assert_refused(1, r"cannot write 'm.vtu': the file that is there is write-protected \(Permission denied\)",
+                            "--input", self.input, "--output", "m.vtu", **other)
+        if os.geteuid() == 0:
+            self.write("--output", "m.vtu")
+            self.assertEqual(stat.S_IMODE((self.folder / "m.vtu").stat().st_mode), 0o444)
+
+    def test_hard_links(self):
+        """The name gets the new file; other names keep the old one."""
+        (self.folder / "m.vtu").write_text("old")
+        os.link(self.folder / "m.vtu", self.folder / "other.vtu")
+        self.write("--output", "m.vtu")
+        self.assertEqual((self.folder / "other.vtu").read_text(), "old")
+        self.assertGreater((self.folder / "m.vtu").stat().st_size, 200)
 
 
 if __name__ == "__main__":
