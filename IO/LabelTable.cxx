@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
@@ -83,13 +84,37 @@ const std::string& LabelTable::NameOf(std::int64_t label) const
   return row == this->Entries.end() ? none : row->second.Name;
 }
 
+std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name)
+{
+  std::vector<std::string> texts;
+  vtkAbstractArray* array = fields->GetAbstractArray(name);
+  if (auto* strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      texts.push_back(strings->GetValue(i));
+    }
+  }
+  else if (auto* bytes = vtkUnsignedCharArray::SafeDownCast(array))
+  {
+    const unsigned char* begin = bytes->GetPointer(0);
+    const unsigned char* const end = begin + bytes->GetNumberOfValues();
+    for (const auto* zero = std::find(begin, end, 0); zero != end; zero = std::find(begin, end, 0))
+    {
+      texts.emplace_back(begin, zero);
+      begin = zero + 1;
+    }
+  }
+  return texts;
+}
+
 LabelTable GetLabelTable(vtkFieldData* fields)
 {
   vtkDataArray* values = fields->GetArray(ValuesName);
-  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray(NamesName));
+  const std::vector<std::string> names = TextsOf(fields, NamesName);
   vtkDataArray* colors = fields->GetArray(ColorsName);
   LabelTable table;
-  if (!values || !names || names->GetNumberOfValues() != values->GetNumberOfValues())
+  if (!values || static_cast<vtkIdType>(names.size()) != values->GetNumberOfValues())
   {
     return table;
   }
@@ -99,12 +124,13 @@ LabelTable GetLabelTable(vtkFieldData* fields)
   {
     // vtkVariant keeps all 64 bits of a label.
     const auto label = static_cast<std::int64_t>(values->GetVariantValue(i).ToTypeInt64());
-    if (label <= 0 || names->GetValue(i).empty())
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    if (label <= 0 || name.empty())
     {
       continue;
     }
     LabelTable::Entry& entry = table.Entries[label];
-    entry.Name = names->GetValue(i);
+    entry.Name = name;
     if (hasColors)
     {
       std::array<double, 3> color;

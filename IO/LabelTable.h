@@ -7,7 +7,7 @@
  * Three arrays with one value, or tuple, a label:
  * - `LabelValues`: vtkIntArray, or vtkLongLongArray if a value does not fit an int; increasing, each once,
  *   without the background 0;
- * - `LabelNames`: vtkStringArray, UTF-8, none empty: a label without a name is not listed;
+ * - `LabelNames`: vtkStringArray, UTF-8, none empty: a label without a name is not listed; see TextsOf();
  * - `LabelColors`: vtkDoubleArray, red, green and blue in [0, 1]; NaN where a label has no colour.
  *   Missing if none has.
  */
@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 class vtkFieldData;
 
@@ -42,6 +43,12 @@ struct LabelTable
 
 /** Whether a text is well-formed UTF-8, without overlong forms and surrogates. */
 bool IsUTF8(std::string_view text);
+
+/**
+ * The texts of an array in field data: those of a vtkStringArray, or of the bytes that our .vtu and .vtk files have in its
+ * place, a vtkUnsignedCharArray that has a 0 at the end of each text. Empty if there is no such array.
+ */
+std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name);
 
 /**
  * The table in a data object's field data; empty if there is none, or if its arrays do not agree. Labels

@@ -3,6 +3,7 @@
 #include "MeshInput.h"
 
 #include "FileError.h"
+#include "LabelTable.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -16,7 +17,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -38,9 +38,8 @@ bool TakesAnything(const std::string& name)
 
 std::string SpaceOf(vtkDataObject* data)
 {
-  auto* space =
-    data ? vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE")) : nullptr;
-  return space && space->GetNumberOfValues() == 1 ? std::string(space->GetValue(0)) : "";
+  const auto texts = data ? TextsOf(data->GetFieldData(), "SPACE") : std::vector<std::string>();
+  return texts.size() == 1 ? texts.front() : "";
 }
 
 /** Arrays without values, as the filters name them. */

@@ -18,12 +18,14 @@
  * One file; for .xdmf, which keeps its numbers in HDF5, two, see CompanionOf(). The extension of the name,
  * in small or capital letters, chooses the format; see ListExtensions(), and
  * Documentation/FileFormats.md for what each holds. Coordinates are written so that reading them gives the
- * same numbers, except for .stl and .ply, which hold single precision.
+ * same numbers, except for .stl and .ply, which hold single precision. Names of labels and the coordinate system are
+ * bytes in .vtu and .vtk files of meshes, and strings in the others of VTK's.
  *
  * The file appears whole or not at all: it is written beside its place under a temporary hidden name,
  * which is then changed. If something goes wrong before, an older file of the same name stays as it was. Of two
  * files the second, the numbers, is moved to its place first, when an older first one is gone: both are never of
- * two meshes.
+ * two meshes. A symbolic link is followed and stays. A file that is replaced keeps its permissions; a write-protected
+ * one is not replaced.
  *
  * @par Errors
  * Write() returns 0, reports with vtkErrorMacro and sets the error code; GetErrorMessage() keeps the

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .vtk files: binary, version 4.2 of the format, which more programs read than 5.1.
 
+#include "FieldTexts.h"
 #include "VTKWriting.h"
 #include "Writers.h"
 
@@ -31,14 +32,15 @@ void Write(vtkDataSet* data, const char* header, const std::string& path)
 
 void WriteLegacyVTKMesh(const MeshData& mesh, const std::string& path)
 {
-  Write<vtkUnstructuredGridWriter>(
-    mesh.Tetrahedra, ("Voxplex tetrahedra, SPACE=" + mesh.Space).c_str(), path);
+  // 3D Slicer takes the coordinate system from the header.
+  const auto file = WithTextForms(mesh.Tetrahedra, TextForm::Bytes, TextForm::Bytes);
+  Write<vtkUnstructuredGridWriter>(file, ("Voxplex tetrahedra, SPACE=" + mesh.Space).c_str(), path);
 }
 
 void WriteLegacyVTKInterfaces(const MeshData& mesh, const std::string& path)
 {
-  Write<vtkPolyDataWriter>(
-    mesh.Interfaces, ("Voxplex interfaces, SPACE=" + mesh.Space).c_str(), path);
+  const auto file = WithTextForms(mesh.Interfaces, TextForm::Strings, TextForm::Strings);
+  Write<vtkPolyDataWriter>(file, ("Voxplex interfaces, SPACE=" + mesh.Space).c_str(), path);
 }
 
 } // namespace voxplex::io

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .vtu and .vtp files: appended raw data, compressed with zlib, 64-bit block headers.
 
+#include "FieldTexts.h"
+#include "LabelTable.h"
 #include "SpaceTimeSurfaces.h"
 #include "TimeSlabs.h"
 #include "VTKWriting.h"
@@ -34,7 +36,11 @@ void Write(vtkDataSet* data, const std::string& path)
 
 void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path)
 {
-  Write<vtkXMLUnstructuredGridWriter>(grid, path);
+  // 3D Slicer takes RAS from a string only, and LPS where there is none.
+  const bool isLPS = TextsOf(grid->GetFieldData(), "SPACE") == std::vector<std::string>{ "LPS" };
+  const auto file =
+    WithTextForms(grid, TextForm::Bytes, isLPS ? TextForm::Bytes : TextForm::Strings);
+  Write<vtkXMLUnstructuredGridWriter>(file, path);
 }
 
 void WriteVTU(const MeshData& mesh, const std::string& path)
@@ -44,7 +50,8 @@ void WriteVTU(const MeshData& mesh, const std::string& path)
 
 void WriteVTP(const MeshData& mesh, const std::string& path)
 {
-  Write<vtkXMLPolyDataWriter>(mesh.Interfaces, path);
+  Write<vtkXMLPolyDataWriter>(
+    WithTextForms(mesh.Interfaces, TextForm::Strings, TextForm::Strings), path);
 }
 
 void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)

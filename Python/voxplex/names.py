@@ -3,19 +3,27 @@
 """Names and colours of labels, which travel with images and meshes as field data.
 
 The arrays are `LabelValues`, `LabelNames` and `LabelColors`: one tuple a label, in increasing order
-of the value, background not listed. The meshing filters pass them from the image to the mesh.
+of the value, background not listed. The meshing filters pass them from the image to the mesh. In `.vtu` and `.vtk` files
+of meshes `LabelNames` has bytes in place of strings, because meshio reads no strings.
 """
 
 from __future__ import annotations
 
-from typing import Dict, Mapping, Union
+from typing import Dict, List, Mapping, Union
 
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkLongLongArray, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkIntArray, vtkLongLongArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 _VALUES = "LabelValues"
 _NAMES = "LabelNames"
 _COLORS = "LabelColors"
+
+
+def _texts(array: vtkAbstractArray) -> List[str]:
+    """Those of an array of strings, or of bytes with a 0 at the end of each text."""
+    if array.IsA("vtkUnsignedCharArray"):
+        return bytes(array).decode(errors="replace").split("\0")[:-1]
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array.IsA("vtkStringArray") else []
 
 
 def label_names(data: vtkDataObject) -> Dict[int, str]:
@@ -28,8 +36,8 @@ def label_names(data: vtkDataObject) -> Dict[int, str]:
     names = fields.GetAbstractArray(_NAMES)
     if values is None or names is None:
         return {}
-    count = min(values.GetNumberOfValues(), names.GetNumberOfValues())
-    return {int(values.GetComponent(i, 0)): names.GetValue(i) for i in range(count) if names.GetValue(i)}
+    return {int(values.GetComponent(i, 0)): name
+            for i, name in zip(range(values.GetNumberOfValues()), _texts(names)) if name}
 
 
 def set_label_names(data: vtkDataObject, names: Mapping[int, str]) -> None:

@@ -21,9 +21,9 @@ def names_of(path):
     reader = vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     reader.Update()
-    fields = reader.GetOutput().GetFieldData()
-    values, names = fields.GetArray("LabelValues"), fields.GetAbstractArray("LabelNames")
-    return {values.GetValue(i): names.GetValue(i) for i in range(values.GetNumberOfValues())} if values else {}
+    values = reader.GetOutput().GetFieldData().GetArray("LabelValues")
+    names = meshfiles.texts_of(reader.GetOutput(), "LabelNames")
+    return {values.GetValue(i): names[i] for i in range(values.GetNumberOfValues())} if values else {}
 
 
 class NamesTestCase(ProgramTestCase):

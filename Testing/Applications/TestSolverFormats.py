@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The formats of solvers as meshio, h5py and an XML parser read them, against .vtu and .vtp."""
+"""The formats of solvers as meshio, h5py and an XML parser read them, against .vtu and .vtp; and these by meshio."""
 import json
 import resource
 from xml.etree import ElementTree
@@ -10,8 +10,72 @@ import h5py
 import meshio
 import numpy as np
 
+import images
+import meshfiles
 from labelledmesh import LabelledMeshTestCase
 from program import main
+
+
+class VTKFilesReadByMeshio(LabelledMeshTestCase):
+    """The same numbers as VTK's reader has."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "names.csv").write_text('3,"Left lung",255,0,51\n7,N\u00e4se\n', encoding="utf-8")
+
+    def assert_same(self, name, expected):
+        found = meshio.read(self.folder / name)
+        np.testing.assert_array_equal(found.points, expected.points[:, :3])
+        blocks = [(block.type, len(block.data)) for block in found.cells]
+        self.assertGreater(len(blocks), 0)
+        first = 0
+        for block, labels in zip(found.cells, found.cell_data["Labels" if expected.labels.ndim == 2 else "Label"]):
+            # Wedges begin with the triangle that VTK has last: meshio has Gmsh's order.
+            order = [0, 2, 1, 3, 5, 4] if block.type == "wedge" else slice(None)
+            np.testing.assert_array_equal(block.data[:, order], list(expected.cells[first:first + len(block.data)]))
+            np.testing.assert_array_equal(labels.reshape(len(block.data), -1),
+                                          expected.labels[first:first + len(block.data)].reshape(len(block.data), -1))
+            first += len(block.data)
+        self.assertEqual(first, len(expected.cells))
+        return found
+
+    def test_tetrahedra(self):
+        """With names and without; enough of them that an array has several blocks."""
+        for delta, names in ((2.5, True), (2.5, False), (1.0, True)):
+            for name, *space in (("m.vtu",), ("m.vtk",), ("ras.vtk", "--space", "ras")):
+                with self.subTest(delta=delta, names=names, name=name):
+                    self.delta = delta
+                    self.write(name, *space, *(("--label-table", "names.csv") if names else ()))
+                    self.assert_same(name, meshfiles.read_tetrahedra(self.folder / name))
+
+    def test_names(self):
+        self.write("m.vtu", "--label-table", "names.csv")
+        fields = meshio.read(self.folder / "m.vtu").field_data
+        self.assertEqual(bytes(fields["LabelNames"]).decode().split("\0"), ["Left lung", "N\u00e4se", ""])
+        self.assertEqual((fields["LabelValues"].tolist(), bytes(fields["SPACE"])), ([3, 7], b"LPS\0"))
+
+    def test_labels_of_64_bits(self):
+        wide = np.where(images.two_labels() == 7, 5_000_000_000, images.two_labels()).astype(np.uint64)
+        self.input = images.write_nrrd(self.folder / "wide.nrrd", wide)
+        self.write("m.vtu")
+        mesh = meshfiles.read_tetrahedra(self.folder / "m.vtu")
+        self.assertEqual(set(mesh.labels), {3, 5_000_000_000})
+        self.assert_same("m.vtu", mesh)
+
+    def test_space_time(self):
+        """Boundaries, slices and points; meshio has no pentatopes, and says so."""
+        self.input = images.write_nrrd(self.folder / "t.nrrd", np.stack([images.two_labels(14, 5.0)] * 5))
+        self.delta = 2
+        self.write("p.vtu", "--label-table", "names.csv", "--time-planes", 2, "--periodic", "--slabs", "slab_",
+                   "--plc", "b.vtu", "--slices", "s_", "--slice-count", 3)
+        boundary = self.assert_same("b.vtu", meshfiles.read_boundary(self.folder / "b.vtu"))
+        self.assertIn("Left lung__background__initial", bytes(boundary.field_data["SurfaceNames"]).decode().split("\0"))
+        for i in range(3):
+            self.assert_same("s_%d.vtu" % i, meshfiles.read_slice(self.folder / ("s_%d.vtu" % i)))
+        for name in ("p.vtu", "slab_0.vtu"):
+            found, expected = meshio.read(self.folder / name), meshfiles.read_pentatopes(self.folder / name)
+            self.assertEqual(found.cells, [])
+            np.testing.assert_array_equal(np.column_stack([found.points, found.point_data["Time"]]), expected.points)
 
 
 class ReadByMeshio(LabelledMeshTestCase):

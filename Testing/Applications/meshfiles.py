@@ -117,9 +117,18 @@ class Slice:
         return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
 
 
+def texts_of(data, name):
+    """Those of an array in the field data: strings, or bytes with a 0 at the end of each text."""
+    array = data.GetFieldData().GetAbstractArray(name)
+    values = [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
+    if array and array.GetClassName() == "vtkUnsignedCharArray":
+        *values, rest = bytes(values).decode().split("\0")
+        assert rest == "", rest
+    return values
+
+
 def _space(data):
-    array = data.GetFieldData().GetAbstractArray("SPACE")
-    return array.GetValue(0) if array else ""
+    return "".join(texts_of(data, "SPACE"))
 
 
 def _points(data):
@@ -189,14 +198,15 @@ def read_boundary(path):
                     vtk_to_numpy(grid.GetCellData().GetArray("Side")),
                     vtk_to_numpy(grid.GetCellData().GetArray("NormalVelocity")),
                     vtk_to_numpy(grid.GetPointData().GetArray("BoundaryVelocity")),
-                    vtk_to_numpy(grid.GetCellData().GetArray("Surface")), _surface_names(grid.GetFieldData()))
+                    vtk_to_numpy(grid.GetCellData().GetArray("Surface")), _surface_names(grid))
 
 
-def _surface_names(fields):
-    numbers, names = vtk_to_numpy(fields.GetArray("SurfaceNumbers")), fields.GetAbstractArray("SurfaceNames")
-    if len(numbers) != names.GetNumberOfValues() or (np.diff(numbers) <= 0).any():
+def _surface_names(grid):
+    numbers = vtk_to_numpy(grid.GetFieldData().GetArray("SurfaceNumbers"))
+    names = texts_of(grid, "SurfaceNames")
+    if len(numbers) != len(names) or (np.diff(numbers) <= 0).any():
         raise AssertionError("numbers and names of surfaces")
-    return {int(number): names.GetValue(i) for i, number in enumerate(numbers)}
+    return dict(zip(numbers.tolist(), names))
 
 
 def read_slice(path):

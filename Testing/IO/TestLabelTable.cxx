@@ -9,6 +9,7 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@
 using voxplex::io::GetLabelTable;
 using voxplex::io::LabelTable;
 using voxplex::io::SetLabelTable;
+using voxplex::io::TextsOf;
 
 namespace
 {
@@ -97,11 +99,34 @@ void TestForeignArrays()
   Check(GetLabelTable(fields).Entries.empty(), "no names");
 }
 
+/** As in our files: a 0 ends each text, and what has none is none. */
+void TestBytes()
+{
+  vtkNew<vtkFieldData> fields;
+  SetLabelTable(fields, MakeTable());
+  vtkNew<vtkUnsignedCharArray> bytes;
+  bytes->SetName("LabelNames");
+  for (const char byte : { 'a', 'b', '\0', '\xC3', '\xA9', '\0' })
+  {
+    bytes->InsertNextValue(static_cast<unsigned char>(byte));
+  }
+  fields->AddArray(bytes);
+  LabelTable table = GetLabelTable(fields);
+  Check(table.NameOf(3) == "ab" && table.NameOf(7) == "\xC3\xA9", "names as bytes");
+  Check(table.Entries[7].Color.has_value(), "colours beside bytes");
+  bytes->InsertNextValue('c');
+  Check(TextsOf(fields, "LabelNames").size() == 2, "bytes without an end");
+  bytes->InsertNextValue(0);
+  Check(GetLabelTable(fields).Entries.empty(), "more bytes than labels");
+  Check(TextsOf(fields, "LabelValues").empty() && TextsOf(fields, "none").empty(), "no texts");
+}
+
 } // namespace
 
 int TestLabelTable(int, char*[])
 {
   TestRoundTrip();
   TestForeignArrays();
+  TestBytes();
   return Failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

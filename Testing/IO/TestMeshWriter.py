@@ -16,6 +16,7 @@ from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkUnstructuredGridReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 import images
+import meshfiles
 import voxplex
 from iotesting import FolderTestCase, table_of
 
@@ -91,9 +92,56 @@ class Names(WriterTestCase):
                 data = self.load(reader, name)
                 self.assertGreater(data.GetNumberOfCells(), 10)
                 self.assertEqual(table_of(data), EXPECTED)
-                self.assertEqual(data.GetFieldData().GetAbstractArray("SPACE").GetValue(0), "LPS")
+                self.assertEqual(meshfiles.texts_of(data, "SPACE"), ["LPS"])
         for port in (0, 1):
             self.assertEqual(table_of(mesher.GetOutputDataObject(port)), EXPECTED)
+
+    def classes_of_texts(self, data):
+        fields = data.GetFieldData()
+        return [fields.GetAbstractArray(name).GetClassName() for name in ("LabelNames", "SPACE")]
+
+    def test_texts_in_files(self):
+        """meshio reads no strings; 3D Slicer takes RAS in .vtu and .vtp from nothing else."""
+        strings, octets = "vtkStringArray", "vtkUnsignedCharArray"
+        for space, in_vtu in (("LPS", octets), ("RAS", strings)):
+            mesher = self.mesher()
+            self.source.SetSpace(getattr(self.source, "SPACE_" + space))
+            for name, content, reader, expected in (
+                    ("m.vtu", MESH, vtkXMLUnstructuredGridReader(), [octets, in_vtu]),
+                    ("m.vtk", MESH, vtkUnstructuredGridReader(), [octets, octets]),
+                    ("i.vtp", INTERFACES, vtkXMLPolyDataReader(), [strings, strings]),
+                    ("i.vtk", INTERFACES, vtkPolyDataReader(), [strings, strings])):
+                with self.subTest(name=name, space=space):
+                    self.write(mesher, name, content)
+                    data = self.load(reader, name)
+                    self.assertEqual(self.classes_of_texts(data), expected)
+                    self.assertEqual(meshfiles.texts_of(data, "SPACE"), [space])
+                    self.assertEqual(table_of(data), EXPECTED)
+                    if name.endswith(".vtk"):
+                        self.assertIn(b"SPACE=" + space.encode(), self.files()[name].split(b"\n")[1])
+            self.assertEqual(self.classes_of_texts(mesher.GetOutput()), [strings, strings])
+
+    def test_files_that_are_read_again(self):
+        """Bytes count as the texts that they are, in all formats."""
+        mesher = self.mesher()
+        self.source.SetSpace(self.source.SPACE_RAS)
+        self.write(mesher, "first.vtk")
+        mesh = self.load(vtkUnstructuredGridReader(), "first.vtk")
+        self.assertEqual(self.with_data("again.vtu", mesh).Write(), 1)
+        again = self.load(vtkXMLUnstructuredGridReader(), "again.vtu")
+        self.assertEqual(self.classes_of_texts(again), ["vtkUnsignedCharArray", "vtkStringArray"])
+        self.assertEqual((meshfiles.texts_of(again, "SPACE"), table_of(again)), (["RAS"], EXPECTED))
+        self.assertEqual(self.with_data("again.feb", again).Write(), 1)
+        self.assertIn(b"SPACE=RAS", self.files()["again.feb"])
+        self.assertIn(b'name="Left lung"', self.files()["again.feb"])
+        surface = vtkPolyData()
+        surface.SetPoints(mesh.GetPoints())
+        surface.SetFieldData(mesh.GetFieldData())
+        writer = self.with_data("surface.vtp", mesh, surface)
+        writer.SetContent(INTERFACES)
+        self.assertEqual(writer.Write(), 1)
+        surface = self.load(vtkXMLPolyDataReader(), "surface.vtp")
+        self.assertEqual(self.classes_of_texts(surface), ["vtkStringArray", "vtkStringArray"])
 
     def test_labels_that_are_not_meshed_keep_their_names(self):
         mesher = self.mesher()

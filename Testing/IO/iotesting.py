@@ -8,6 +8,7 @@ from pathlib import Path
 
 from vtkmodules.vtkCommonCore import vtkObject
 
+import meshfiles
 import voxplex
 
 
@@ -54,14 +55,14 @@ def table_of(data):
     """{label: (name, colour or None)} of the field data. All its arrays are checked."""
     fields = data.GetFieldData()
     values = fields.GetArray("LabelValues")
-    names = fields.GetAbstractArray("LabelNames")
+    names = meshfiles.texts_of(data, "LabelNames")
     colors = fields.GetArray("LabelColors")
     if values is None:
-        assert names is None and colors is None
+        assert names == [] and colors is None
         return {}
     count = values.GetNumberOfValues()
     assert values.GetClassName() in ("vtkIntArray", "vtkLongLongArray"), values.GetClassName()
-    assert names.GetClassName() == "vtkStringArray" and names.GetNumberOfValues() == count
+    assert len(names) == count
     labels = [values.GetValue(i) for i in range(count)]
     assert labels == sorted(set(labels)) and labels[0] > 0, labels
     if colors:
@@ -73,5 +74,5 @@ def table_of(data):
         if color and math.isnan(color[0]):
             assert all(math.isnan(part) for part in color)
             color = None
-        table[label] = (names.GetValue(i), color and tuple(round(255 * part, 6) for part in color))
+        table[label] = (names[i], color and tuple(round(255 * part, 6) for part in color))
     return table

@@ -12,11 +12,42 @@
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 vtkStandardNewMacro(vtkPVLabelInformation);
+
+namespace
+{
+
+/** Of an array of strings, or of bytes with a 0 at the end of each, as in `.vtu` and `.vtk` files of Voxplex. */
+std::vector<std::string> TextsOf(vtkAbstractArray* array)
+{
+  std::vector<std::string> texts;
+  if (auto* const strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      texts.push_back(strings->GetValue(i));
+    }
+  }
+  else if (auto* const bytes = vtkUnsignedCharArray::SafeDownCast(array))
+  {
+    const unsigned char* begin = bytes->GetPointer(0);
+    const unsigned char* const end = begin + bytes->GetNumberOfValues();
+    for (const auto* zero = std::find(begin, end, 0); zero != end; zero = std::find(begin, end, 0))
+    {
+      texts.emplace_back(begin, zero);
+      begin = zero + 1;
+    }
+  }
+  return texts;
+}
+
+} // namespace
 
 void vtkPVLabelInformation::CopyFromObject(vtkObject* object)
 {
@@ -63,15 +94,14 @@ void vtkPVLabelInformation::ReadCells(vtkDataObject* data)
 void vtkPVLabelInformation::ReadTable(vtkFieldData* fields)
 {
   vtkDataArray* const values = fields ? fields->GetArray("LabelValues") : nullptr;
-  auto* const names =
-    fields ? vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames")) : nullptr;
   if (values == nullptr || values->GetNumberOfComponents() != 1)
   {
     return;
   }
   const vtkIdType count = values->GetNumberOfTuples();
+  const std::vector<std::string> names = TextsOf(fields->GetAbstractArray("LabelNames"));
   vtkDataArray* const colors = fields->GetArray("LabelColors");
-  const bool hasNames = names && names->GetNumberOfValues() == count;
+  const bool hasNames = static_cast<vtkIdType>(names.size()) == count;
   const bool hasColors =
     colors && colors->GetNumberOfComponents() == 3 && colors->GetNumberOfTuples() == count;
   for (vtkIdType i = 0; i < count; ++i)
@@ -79,7 +109,7 @@ void vtkPVLabelInformation::ReadTable(vtkFieldData* fields)
     LabelEntry& label = this->Labels[static_cast<vtkTypeInt64>(values->GetTuple1(i))];
     if (hasNames)
     {
-      label.Name = names->GetValue(i);
+      label.Name = names[static_cast<std::size_t>(i)];
     }
     if (hasColors)
     {

@@ -4,7 +4,7 @@
  * @class   vtkPVLabelInformation
  * @brief   names and colours of the labels of a data set, gathered from the server
  *
- * The data set says them in its field data: `LabelValues` (integers), `LabelNames` (strings),
+ * The data set says them in its field data: `LabelValues` (integers), `LabelNames` (strings, or their bytes),
  * `LabelColors` (3 components from 0 to 1, optional; a NaN row means none), all of the same length. What
  * is wrongly formed is ignored. Besides, the values that occur in the cell array `Label` are gathered, so that labels without a
  * name can be listed, too.

@@ -52,6 +52,12 @@ def main():
     voxplex_paraview.apply_label_colors(XMLUnstructuredGridReader(FileName=[path]))
     check_maps("of a file")
 
+    # Names as bytes, as our writer has them.
+    reset_maps()
+    reader = XMLImageDataReader(FileName=[write_named_image(as_bytes=True)])
+    voxplex_paraview.apply_label_colors(MeshSegmentationTetrahedralize(Input=reader))
+    check_maps("of bytes")
+
     # The atlas with its table of names, through the reader.
     reader = SegmentationReaderVoxplex(FileName=ATLAS, LabelTableFile=ATLAS.replace(".gz", ".txt"))
     check_equal(reader.SMProxy.GetProperty("LabelTableFileName").GetElement(0), ATLAS.replace(".gz", ".txt"))

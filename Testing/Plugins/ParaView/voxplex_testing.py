@@ -101,22 +101,26 @@ def two_balls(i, j, k):
     return 0 if not inside else 3 if i < 8 else 7
 
 
-def write_named_image():
-    """An image of labels 3, which has a name and a colour, and 7, which has neither."""
-    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
+def write_named_image(as_bytes=False):
+    """An image of labels 3, which has a name and a colour, and 7, which has neither.
+
+    as_bytes: the name is as in mesh files of Voxplex."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray, vtkUnsignedCharArray
 
     image = make_image(two_balls)
-    values, names, colors = vtkIntArray(), vtkStringArray(), vtkDoubleArray()
+    values, colors = vtkIntArray(), vtkDoubleArray()
+    names = vtkUnsignedCharArray() if as_bytes else vtkStringArray()
     values.SetName("LabelValues")
     values.InsertNextValue(3)
     names.SetName("LabelNames")
-    names.InsertNextValue(NAME)
+    for name in (*NAME.encode(), 0) if as_bytes else (NAME,):
+        names.InsertNextValue(name)
     colors.SetName("LabelColors")
     colors.SetNumberOfComponents(3)
     colors.InsertNextTuple(COLOR)
     for array in (values, names, colors):
         image.GetFieldData().AddArray(array)
-    return write_image(image, "named.vti")
+    return write_image(image, "named-bytes.vti" if as_bytes else "named.vti")
 
 
 def pairs(annotations):

@@ -101,9 +101,10 @@ class Runs(ModuleTestCase):
         self.assertEqual(set(self.mesh("--labels", "3, 7").labels), {3, 7})
 
     def names_and_colours(self, path):
-        data = meshfiles._read(vtkXMLUnstructuredGridReader(), str(path)).GetFieldData()
-        values, names, colours = (data.GetAbstractArray("Label" + what) for what in ("Values", "Names", "Colors"))
-        return {values.GetValue(i): (names.GetValue(i), tuple(np.round(colours.GetTuple3(i), 3)))
+        data = meshfiles._read(vtkXMLUnstructuredGridReader(), str(path))
+        values, colours = (data.GetFieldData().GetArray("Label" + what) for what in ("Values", "Colors"))
+        names = meshfiles.texts_of(data, "LabelNames")
+        return {values.GetValue(i): (names[i], tuple(np.round(colours.GetTuple3(i), 3)))
                 for i in range(values.GetNumberOfValues())}
 
     def test_names_of_a_segmentation(self):
