@@ -30,6 +30,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/FrameGathering.h
     Filters/Private/FrameSeries.h
     Filters/Private/ImageFrame.h
+    Filters/Private/HiddenVoxels.h
     Filters/Private/ImageLabels.h
     Filters/Private/LabelledMesh.h
     Filters/Private/MeshOutput.h
@@ -51,6 +52,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/ElementSizes.cxx
     Filters/Private/FrameSeries.cxx
     Filters/Private/ImageFrame.cxx
+    Filters/Private/HiddenVoxels.cxx
     Filters/Private/ImageLabels.cxx
     Filters/Private/LabelledMesh.cxx
     Filters/Private/MeshOutput.cxx

@@ -50,11 +50,11 @@ std::vector<double> TimeStepsOf(vtkInformation* info)
                : std::vector<double>();
 }
 
-voxplex::FrameContent ContentOf(int inputMode)
+voxplex::ImageContent ContentOf(int inputMode)
 {
   return inputMode == vtkImageToPentatopeMeshFilter::INPUT_LABELS
-    ? voxplex::FrameContent::Labels
-    : voxplex::FrameContent::GreyValues;
+    ? voxplex::ImageContent::Labels
+    : voxplex::ImageContent::GreyValues;
 }
 
 } // namespace
@@ -248,9 +248,10 @@ bool vtkImageToPentatopeMeshFilter::Gather(
   int association = 0;
   vtkAbstractArray* const scalars =
     this->GetInputAbstractArrayToProcess(0, inputVector, association);
-  series.Add(voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]), scalars, association,
-               "image of " + series.NameOf(series.NumberOfFramesAdded()),
-               " The frames are the time steps of the input."),
+  series.Add(
+    voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]), scalars, association,
+      ContentOf(this->InputMode), "image of " + series.NameOf(series.NumberOfFramesAdded()),
+      " The frames are the time steps of the input."),
     0, this->GetThreads());
   this->Gathered->Seconds += copying.Seconds();
   this->UpdateProgress(GatheringProgress *
@@ -265,8 +266,8 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
   int association = 0;
   vtkAbstractArray* const scalars =
     this->GetInputAbstractArrayToProcess(0, inputVector, association);
-  const voxplex::ChosenArray input =
-    voxplex::Choose(vtkImageData::GetData(inputVector[0]), scalars, association, "image");
+  const voxplex::ChosenArray input = voxplex::Choose(vtkImageData::GetData(inputVector[0]), scalars,
+    association, ContentOf(this->InputMode), "image");
   const int frames = input.Array->GetNumberOfComponents();
   if (frames < 2)
   {

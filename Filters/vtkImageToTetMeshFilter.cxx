@@ -105,8 +105,12 @@ void vtkImageToTetMeshFilter::Mesh(
 {
   int association = 0;
   vtkAbstractArray* scalars = this->GetInputAbstractArrayToProcess(0, inputVector, association);
-  const voxplex::ChosenArray input = voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]),
-    scalars, association, "image", " For time series, use vtkImageToPentatopeMeshFilter.");
+  const voxplex::ChosenArray input =
+    voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]), scalars, association,
+      this->InputMode == INPUT_LABELS ? voxplex::ImageContent::Labels
+                                      : voxplex::ImageContent::GreyValues,
+      "image",
+      " Of colours or vectors, extract one; for time series, use vtkImageToPentatopeMeshFilter.");
 
   Run<3> run(this, inputVector, input.Frame);
   run.Options.Shape.FacetAngle = this->FacetAngle;

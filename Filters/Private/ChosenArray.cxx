@@ -3,6 +3,7 @@
 #include "Private/ChosenArray.h"
 
 #include "Base/Error.h"
+#include "Private/HiddenVoxels.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -37,12 +38,13 @@ vtkDataArray* RequireNumbers(vtkAbstractArray* chosen, const std::string& what)
 
 } // namespace
 
-ChosenArray Choose(
-  vtkImageData* image, vtkAbstractArray* chosen, int association, const std::string& what)
+ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
+  ImageContent content, const std::string& what)
 {
+  const bool cells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
   ChosenArray result;
   result.Array = RequireNumbers(chosen, what);
-  result.Frame = MakeImageFrame(image, association == vtkDataObject::FIELD_ASSOCIATION_CELLS, what);
+  result.Frame = MakeImageFrame(image, cells, what);
   const auto& n = result.Frame.Grid.Dimensions;
   if (result.Array->GetNumberOfTuples() != n[0] * n[1] * n[2])
   {
@@ -50,11 +52,16 @@ ChosenArray Choose(
       std::to_string(result.Array->GetNumberOfTuples()) + " values; the dimensions ask for " +
       std::to_string(n[0] * n[1] * n[2]) + ".");
   }
+  const std::vector<char> hidden = FindHiddenVoxels(image, cells, what);
+  if (!hidden.empty())
+  {
+    result.Array = WithoutHidden(result.Array, hidden, content);
+  }
   return result;
 }
 
 ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int association,
-  const std::string& what, const std::string& advice)
+  ImageContent content, const std::string& what, const std::string& advice)
 {
   const int components = RequireNumbers(chosen, what)->GetNumberOfComponents();
   if (components != 1)
@@ -62,7 +69,7 @@ ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int ass
     throw InputError("The array '" + NameOf(chosen) + "' of the " + what + " has " +
       std::to_string(components) + " components; one is needed." + advice);
   }
-  return Choose(image, chosen, association, what);
+  return Choose(image, chosen, association, content, what);
 }
 
 vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)

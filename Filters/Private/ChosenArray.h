@@ -20,6 +20,13 @@ class vtkImageData;
 namespace voxplex
 {
 
+/** The kind of values that an image has. */
+enum class ImageContent
+{
+  Labels,
+  GreyValues ///< or other real numbers, such as sizes
+};
+
 /** An array of numbers on an image, one tuple for each voxel. */
 struct ChosenArray
 {
@@ -28,14 +35,17 @@ struct ChosenArray
 };
 
 /**
+ * If the image hides voxels (HiddenVoxels.h), the result has a copy of the array, in which they are
+ * background: the label 0, or NaN.
+ *
  * @param chosen the array, null if there is none
  * @param association vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS
  * @param what what the image is called in messages
  * @throws InputError if there is no array, if it does not hold numbers, if it has not as many tuples
- * as the image has voxels, and what MakeImageFrame() throws
+ * as the image has voxels, and what MakeImageFrame() and FindHiddenVoxels() throw
  */
-ChosenArray Choose(
-  vtkImageData* image, vtkAbstractArray* chosen, int association, const std::string& what);
+ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
+  ImageContent content, const std::string& what);
 
 /**
  * As Choose(), for an array of one component.
@@ -43,7 +53,7 @@ ChosenArray Choose(
  * @throws InputError, for several components, too
  */
 ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int association,
-  const std::string& what, const std::string& advice);
+  ImageContent content, const std::string& what, const std::string& advice);
 
 /** The array itself if its values lie contiguously in memory in a type with a name, else a copy. */
 vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array);

@@ -141,7 +141,7 @@ Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-void FrameSeries::Start(std::vector<double> times, FrameContent content)
+void FrameSeries::Start(std::vector<double> times, ImageContent content)
 {
   this->Clear();
   ScheduleFrames(times); // before the first frame is read
@@ -303,12 +303,12 @@ void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
   {
     vtkTemplateMacro(
       const auto* const values = static_cast<const VTK_TT*>(array->GetVoidPointer(0)) + component;
-      this->Content == FrameContent::Labels ? this->CopyLabels(values, stride, threads)
+      this->Content == ImageContent::Labels ? this->CopyLabels(values, stride, threads)
                                             : this->CopyGreyValues(values, stride, threads));
     default:
       throw InputError("Scalars of type " + std::string(array->GetDataTypeAsString()) +
         " cannot be read as " +
-        (this->Content == FrameContent::Labels ? "labels." : "grey values."));
+        (this->Content == ImageContent::Labels ? "labels." : "grey values."));
   }
   ++this->Added;
 }

@@ -29,13 +29,6 @@
 namespace voxplex
 {
 
-/** The kind of values that frames have. */
-enum class FrameContent
-{
-  Labels,
-  GreyValues
-};
-
 class FrameSeries
 {
 public:
@@ -43,7 +36,7 @@ public:
    * Starts anew.
    * @throws InputError if there are no equally spaced frames for the times (ScheduleFrames())
    */
-  void Start(std::vector<double> times, FrameContent content);
+  void Start(std::vector<double> times, ImageContent content);
   /** Forgets everything and releases the memory. */
   void Clear();
 
@@ -108,7 +101,7 @@ private:
   std::size_t Added = 0;
   ImageFrame FirstFrame;
   std::string ArrayName;
-  FrameContent Content = FrameContent::Labels;
+  ImageContent Content = ImageContent::Labels;
   /** Of all frames; those not yet added are uninitialised. Alternatives in order of width. */
   std::variant<UninitialisedVector<std::uint8_t>, UninitialisedVector<std::uint16_t>,
     UninitialisedVector<std::int64_t>, UninitialisedVector<float>, UninitialisedVector<double>>

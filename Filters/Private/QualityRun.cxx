@@ -109,7 +109,8 @@ bool vtkSimplexMeshQuality::Execution::MeasureTetrahedra()
     int association = 0;
     vtkAbstractArray* const scalars =
       this->Filter->GetInputAbstractArrayToProcess(1, this->Input, association);
-    voxels = voxplex::ChooseScalars(image, scalars, association, "image", "");
+    voxels = voxplex::ChooseScalars(
+      image, scalars, association, voxplex::ImageContent::Labels, "image", "");
   }
   const voxplex::ImageFrame frame = voxels ? voxels->Frame : WorldFrame();
   voxplex::SimplexMesh<3> mesh = voxplex::ReadTetrahedra(
@@ -211,7 +212,7 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
       " frames; give one time for each frame.");
   }
   voxplex::FrameSeries series;
-  series.Start(times, voxplex::FrameContent::Labels);
+  series.Start(times, voxplex::ImageContent::Labels);
   for (std::size_t k = 0; k < times.size(); ++k)
   {
     const voxplex::ChosenArray frame = this->FrameOfImage(given, k);
@@ -284,12 +285,12 @@ voxplex::ChosenArray vtkSimplexMeshQuality::Execution::FrameOfImage(
     vtkAbstractArray* const scalars =
       this->Filter->GetInputAbstractArrayToProcess(1, this->Input, association);
     return voxplex::ChooseScalars(vtkImageData::GetData(this->Input[1]), scalars, association,
-      "image of frame " + std::to_string(k), "");
+      voxplex::ImageContent::Labels, "image of frame " + std::to_string(k), "");
   }
   vtkAbstractArray* const scalars =
     this->Filter->GetInputAbstractArrayToProcess(1, this->Input, association);
-  voxplex::ChosenArray frame =
-    voxplex::Choose(vtkImageData::GetData(this->Input[1]), scalars, association, "image");
+  voxplex::ChosenArray frame = voxplex::Choose(vtkImageData::GetData(this->Input[1]), scalars,
+    association, voxplex::ImageContent::Labels, "image");
   const auto component = vtkSmartPointer<vtkDataArray>::Take(frame.Array->NewInstance());
   component->SetName(frame.Array->GetName());
   component->SetNumberOfTuples(frame.Array->GetNumberOfTuples());

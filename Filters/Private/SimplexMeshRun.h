@@ -73,8 +73,8 @@ public:
       int association = 0;
       vtkAbstractArray* values =
         filter->GetInputAbstractArrayToProcess(1, inputVector, association);
-      const voxplex::ChosenArray chosen =
-        voxplex::ChooseScalars(image, values, association, "image of element sizes", "");
+      const voxplex::ChosenArray chosen = voxplex::ChooseScalars(image, values, association,
+        voxplex::ImageContent::GreyValues, "image of element sizes", "");
       this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
     }
     const bool isDeltaIdle = filter->DeltaIsSuggestion && filter->NumberOfElements > 0;

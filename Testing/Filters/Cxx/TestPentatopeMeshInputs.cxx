@@ -6,6 +6,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMeshingStatistics.h"
@@ -14,6 +15,7 @@
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTrivialProducer.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -298,6 +300,46 @@ void TestSizeFunctionArguments()
   CHECK(wrong == 0, wrong, calls);
 }
 
+/** Points that are hidden in one image or in each frame are background, whatever their values are. */
+void TestHidden()
+{
+  const auto isHidden = [](const Vector& x) { return x[0] < 4.0; };
+  const auto hide = [&](vtkImageData* image)
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      Vector x;
+      image->GetPoint(i, x.data());
+      ghosts->InsertNextValue(isHidden(x) ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    }
+    image->GetPointData()->AddArray(ghosts);
+  };
+  const auto label = TwoLabelBall(Centre, 4.2);
+  const auto expected = MakePentatopeFilter(MakeSeries(SmallPlacement(), EqualTimes(12),
+    [&](const Vector& x, double t) { return isHidden(x) ? 0.0 : label(x, t); }));
+  expected->Update();
+  const auto strange = [&](const Vector& x, double t) { return isHidden(x) ? -1.5 : label(x, t); };
+  const auto source = MakeSeries(SmallPlacement(), EqualTimes(12), strange, VTK_FLOAT);
+  const auto makeFrame = source->MakeFrame;
+  source->MakeFrame = [&](int frame)
+  {
+    const auto image = makeFrame(frame);
+    hide(image);
+    return image;
+  };
+  const auto series = MakePentatopeFilter(source);
+  series->Update();
+  CHECK(SamePentatopeMesh(expected, series), series->GetErrorMessage());
+
+  const auto image = MakeComponents(SmallPlacement(), EqualTimes(12), strange, VTK_SHORT);
+  hide(image);
+  const auto components = FromImage(image);
+  components->Update();
+  CHECK(SamePentatopeMesh(expected, components), components->GetErrorMessage());
+}
+
 } // namespace
 
 int TestPentatopeMeshInputs(int, char*[])
@@ -310,5 +352,6 @@ int TestPentatopeMeshInputs(int, char*[])
   TestSelectedLabels();
   TestSizes();
   TestSizeFunctionArguments();
+  TestHidden();
   return Result();
 }

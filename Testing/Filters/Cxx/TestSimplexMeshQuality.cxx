@@ -5,6 +5,7 @@
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
@@ -14,6 +15,7 @@
 #include "vtkPoints.h"
 #include "vtkSimplexMeshQuality.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -221,6 +223,29 @@ void TestLabels()
   CHECK(c.Filter->ToJSON().find("hausdorff") == std::string::npos);
 }
 
+/** Voxels that the image hides are background for measuring, too. */
+void TestHidden()
+{
+  Case shown{ Placement() };
+  Case hidden{ Placement() };
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType i = 0; i < hidden.Image->GetNumberOfPoints(); ++i)
+  {
+    const bool isLeft = i % 8 < 4;
+    ghosts->InsertNextValue(isLeft ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    if (isLeft)
+    {
+      shown.Image->GetPointData()->GetScalars()->SetComponent(i, 0, 0.0);
+    }
+  }
+  hidden.Image->GetPointData()->AddArray(ghosts);
+  shown.Filter->Update();
+  hidden.Filter->Update();
+  CHECK(shown.Filter->GetHausdorffDistance() > 1.5, shown.Filter->GetHausdorffDistance());
+  CHECK(shown.Filter->ToJSON() == hidden.Filter->ToJSON(), hidden.Filter->ToJSON());
+}
+
 /** What the mesher counts with its own interfaces. */
 void TestAgreesWithTheMesher()
 {
@@ -369,6 +394,7 @@ int TestSimplexMeshQuality(int, char*[])
 {
   TestPlacements();
   TestLabels();
+  TestHidden();
   TestAgreesWithTheMesher();
   TestSmoothInterfaceOfABall();
   TestErrors();

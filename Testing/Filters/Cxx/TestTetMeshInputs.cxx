@@ -6,10 +6,12 @@
 #include "vtkBitArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkSOADataArrayTemplate.h"
+#include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -132,6 +134,101 @@ void TestUntouched()
   CHECK(same);
 }
 
+vtkUnsignedCharArray* AddGhosts(vtkDataSetAttributes* data, vtkIdType count)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(count);
+  ghosts->Fill(0);
+  data->AddArray(ghosts);
+  return ghosts; // the attributes keep it
+}
+
+/** The left half of the ball; of cells, the half whose centres are left of 15.5. */
+bool IsLeft(const Vector& x)
+{
+  return x[0] < 15.5;
+}
+
+/**
+ * Voxels that the image hides are background, on points and cells, by points and cells; duplicates are not
+ * hidden. The image stays as it is.
+ */
+void TestHidden()
+{
+  using Attributes = vtkDataSetAttributes;
+  const auto half = [](const Vector& x) { return IsLeft(x) ? 0.0 : Label(x); };
+  const auto expected = MeshOf(MakeImage({}, half));
+  // Hidden voxels may have any value.
+  const auto strange = [](const Vector& x) { return IsLeft(x) ? -1.5 : Label(x); };
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_FLOAT })
+  {
+    const auto image = MakeImage({}, type == VTK_FLOAT ? strange : Label, type);
+    auto* const ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      Vector x;
+      image->GetPoint(i, x.data());
+      ghosts->SetValue(i, IsLeft(x) ? Attributes::HIDDENPOINT : Attributes::DUPLICATEPOINT);
+    }
+    const double before =
+      image->GetPointData()->GetScalars()->GetComponent(15 + 32 * (15 + 32 * 15), 0);
+    CHECK(SameMesh(MeshOf(image), expected), "points", type);
+    CHECK(image->GetPointData()->GetScalars()->GetComponent(15 + 32 * (15 + 32 * 15), 0) == before);
+  }
+
+  // Points are hidden where all cells around them are: the cells from point 14 to 15 are the last hidden ones.
+  vtkNew<vtkUniformGrid> grid;
+  grid->ShallowCopy(MakeImage({}, Label));
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+  {
+    double bounds[6];
+    grid->GetCellBounds(i, bounds);
+    if (bounds[0] < 15.5)
+    {
+      grid->BlankCell(i);
+    }
+  }
+  CHECK(SameMesh(MeshOf(grid), expected), "points by cells");
+
+  Placement cells;
+  cells.Cells = true;
+  cells.Extent = { 0, 32, 0, 32, 0, 32 };
+  cells.Origin = { -0.5, -0.5, -0.5 };
+  const auto expectedCells = MeshOf(MakeImage(cells, half));
+  for (const auto kind : { Attributes::HIDDENCELL, Attributes::REFINEDCELL })
+  {
+    const auto image = MakeImage(cells, Label);
+    auto* const ghosts = AddGhosts(image->GetCellData(), image->GetNumberOfCells());
+    for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+    {
+      ghosts->SetValue(i, i % 32 < 16 ? kind : Attributes::DUPLICATECELL);
+    }
+    CHECK(SameMesh(MeshOf(image), expectedCells), "cells", kind);
+  }
+  // A cell with a hidden corner is hidden.
+  const auto image = MakeImage(cells, Label);
+  auto* const ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    ghosts->SetValue(i, i % 33 <= 15 ? Attributes::HIDDENPOINT : 0);
+  }
+  CHECK(SameMesh(MeshOf(image), expectedCells), "cells by points");
+}
+
+/** Hidden voxels of an image of sizes set no bound. */
+void TestHiddenSizes(vtkUnstructuredGrid* expected)
+{
+  const auto sizes = MakeImage(
+    {}, [](const Vector&) { return 0.5; }, VTK_FLOAT);
+  AddGhosts(sizes->GetPointData(), sizes->GetNumberOfPoints())
+    ->Fill(vtkDataSetAttributes::HIDDENPOINT);
+  const auto filter = MakeFilter(MakeImage({}, Label));
+  filter->SetElementSizeData(sizes);
+  filter->Update();
+  CHECK(SameMesh(filter->GetOutput(), expected));
+}
+
 } // namespace
 
 int TestTetMeshInputs(int, char*[])
@@ -142,5 +239,7 @@ int TestTetMeshInputs(int, char*[])
   TestLayouts(expected);
   TestChoice(expected);
   TestUntouched();
+  TestHidden();
+  TestHiddenSizes(expected);
   return Result();
 }

@@ -3,11 +3,14 @@
 // InputMode isosurface: grey-value images of all types and placements, what is refused.
 #include "FilterTesting.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
@@ -96,6 +99,41 @@ void TestTypes()
     filter->Update();
     CHECK(filter->GetErrorMessage().empty(), filter->GetErrorMessage());
     CHECK(LargestDistance(filter) < 0.3, type, LargestDistance(filter));
+  }
+}
+
+/** Hidden voxels are outside of isosurfaces, as NaN is, whatever their values; in all types. */
+void TestHidden()
+{
+  const auto isHidden = [](const Vector& x) { return x[0] < Middle; };
+  const auto value = [](const Vector& x) { return std::round(4.0 * Depth(x)); };
+  for (const bool below : { false, true })
+  {
+    const auto make = [&](vtkImageData* image)
+    {
+      const auto filter = MakeIsosurfaceFilter(image, 0.5);
+      filter->SetInside(
+        below ? vtkImageToTetMeshFilter::INSIDE_BELOW : vtkImageToTetMeshFilter::INSIDE_ABOVE);
+      filter->Update();
+      return filter;
+    };
+    const auto expected = make(MakeImage(
+      {}, [&](const Vector& x) { return isHidden(x) ? vtkMath::Nan() : value(x); }, VTK_DOUBLE));
+    CHECK(!Empty(expected));
+    for (const int type : { VTK_CHAR, VTK_SHORT, VTK_INT, VTK_FLOAT, VTK_DOUBLE })
+    {
+      const auto image = MakeImage({}, value, type);
+      vtkNew<vtkUnsignedCharArray> ghosts;
+      ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+      for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+      {
+        Vector x;
+        image->GetPoint(i, x.data());
+        ghosts->InsertNextValue(isHidden(x) ? vtkDataSetAttributes::HIDDENPOINT : 0);
+      }
+      image->GetPointData()->AddArray(ghosts);
+      CHECK(SameMesh(make(image)->GetOutput(), expected->GetOutput()), type, below);
+    }
   }
 }
 
@@ -226,6 +264,7 @@ int TestTetMeshIsosurface(int, char*[])
 {
   TestDistance();
   TestTypes();
+  TestHidden();
   TestPlacement();
   TestSides();
   TestSmoothing();
