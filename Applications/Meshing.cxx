@@ -74,7 +74,7 @@ int MeshingInput::Dimension() const
 
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> terms{ {
     { "SetLabelSize()", "--label-size" },
     { "SetInterfaceSize()", "--interface-size" },
     { "AddLabel()", "--labels" },
@@ -83,6 +83,7 @@ std::string InTermsOfFlags(std::string message)
     { "AddFrameTime()", "--frame-times" },
     { "or force it", "or go on with --force" },
     { "mesh an isosurface of it", "mesh an isosurface of it with --isovalue" },
+    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
     { "Correct the labels to keep", "Correct --labels" },
     { ", or choose the array that holds the segmentation", "" },
     { " Choose the array that holds the segmentation.", "" },

@@ -243,7 +243,7 @@ bool vtkImageToPentatopeMeshFilter::Gather(
   }
   if (series.NumberOfFramesAdded() == 0)
   {
-    series.Start(this->ChooseTimes(times), ContentOf(this->InputMode));
+    series.Start(this->ChooseTimes(times), ContentOf(this->InputMode), this->Private->Selection());
   }
   int association = 0;
   vtkAbstractArray* const scalars =
@@ -280,7 +280,8 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
   {
     times[static_cast<std::size_t>(k)] = this->TimeOrigin + k * this->TimeSpacing;
   }
-  this->Gathered->Series.Start(this->ChooseTimes(times), ContentOf(this->InputMode));
+  this->Gathered->Series.Start(
+    this->ChooseTimes(times), ContentOf(this->InputMode), this->Private->Selection());
   for (int k = 0; k < frames && !this->StopRequested(); ++k)
   {
     this->Gathered->Series.Add(input, k, this->GetThreads());
@@ -407,8 +408,7 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   bool done = false;
   if (this->InputMode == INPUT_LABELS)
   {
-    const voxplex::LabelImage<4> labels =
-      series.MakeLabelImage(frame.Grid, run.SelectedLabels(), threads);
+    const voxplex::LabelImage<4> labels = series.MakeLabelImage(frame.Grid, threads);
     series.Clear();
     done = run.Mesh(labels, labels, mesh);
   }

@@ -22,8 +22,10 @@
  * An error is reported with vtkErrorMacro and leaves both outputs empty. GetErrorMessage() keeps
  * the reason. The executive adds a message of its own, and its Update() returns 0. Errors are:
  * - no or unsuitable scalars, fractional, negative or non-finite labels, no foreground, fewer than
- *   two voxels along an axis, thousands of labels (a grey-value image), spacing that is not
- *   positive and finite, a singular direction matrix;
+ *   two voxels along an axis, labels that look like grey values (unless Force is on), more than
+ *   65000 labels, spacing that is not positive and finite, a singular direction matrix. If there are
+ *   labels of AddLabel(), only they count: all other whole numbers are background, negative ones
+ *   included;
  * - parameters out of range, both Delta and NumberOfElements, a NumberOfElements that no Delta
  *   gives, a label in SetLabelSize(), SetInterfaceSize(), AddLabel() or ExcludeLabel() that the
  *   image does not have;

@@ -17,10 +17,13 @@
  * - Port 0, vtkImageData: one label per voxel, 0 is background. The array is the one chosen by
  *   `SetInputArrayToProcess(0, 0, 0, association, name)`; by default the active point scalars, else
  *   the active cell scalars. Point scalars lie at the points, cell scalars at the cell centres. The
- *   array has one component of any scalar type. Labels are whole values, none of them negative;
- *   grey values are any numbers (see InputMode). Scalars that are contiguous in memory are read in
- *   place. Origin, spacing, direction matrix (skewed and left-handed ones included) and extent are
- *   honoured: the mesh lies in physical space, `origin + direction * diag(spacing) * (i, j, k)`.
+ *   array has one component of any scalar type. Labels are whole values (to within 1e-5, for larger
+ *   labels 1e-5 of them and at most 0.01), none of them negative; grey values are any numbers (see
+ *   InputMode). Voxels that the image hides (`vtkGhostType`: HIDDENPOINT, HIDDENCELL, REFINEDCELL)
+ *   are background, and outside of isosurfaces; duplicates are voxels like others. Scalars that are
+ *   contiguous in memory are read in place, unless some are hidden. Origin, spacing, direction matrix
+ *   (skewed and left-handed ones included) and extent are honoured: the mesh lies in physical space,
+ *   `origin + direction * diag(spacing) * (i, j, k)`.
  * - Port 1, vtkImageData, optional: an upper bound of the element size at every point, in physical
  *   units; see "Element sizes". The array is chosen by `SetInputArrayToProcess(1, 1, 0, ...)`.
  *

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "Image/FrameInterpolation.h"
+#include "Image/LabelValue.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -45,27 +46,16 @@ enum class Width : unsigned
   NoLabel
 };
 
+/** @param narrow whether only labels that were asked for count: other whole numbers are background */
 template <typename T>
-Width WidthOf(T value)
+Width WidthOf(T value, bool narrow)
 {
-  if constexpr (std::is_floating_point_v<T>)
+  const T nearest = NearestLabel(value);
+  if (!IsLabel(nearest))
   {
-    // 2^63 is exact in both types; NaN fails the first comparison.
-    if (!(value >= T(0) && value < static_cast<T>(9223372036854775808.0)) ||
-      std::floor(value) != value)
-    {
-      return Width::NoLabel;
-    }
+    return narrow && IsWhole(nearest) ? Width::Bits8 : Width::NoLabel;
   }
-  else
-  {
-    if (std::cmp_less(+value, 0) ||
-      std::cmp_greater(+value, std::numeric_limits<std::int64_t>::max()))
-    {
-      return Width::NoLabel;
-    }
-  }
-  const auto label = static_cast<std::int64_t>(value);
+  const auto label = static_cast<std::int64_t>(nearest);
   return label <= std::numeric_limits<std::uint8_t>::max() ? Width::Bits8
     : label <= std::numeric_limits<std::uint16_t>::max()   ? Width::Bits16
                                                            : Width::Bits64;
@@ -73,7 +63,8 @@ Width WidthOf(T value)
 
 /** The largest width of the values at 0, stride, 2 stride, ... */
 template <typename T>
-Width LargestWidth(const T* values, std::size_t count, std::size_t stride, unsigned threads)
+Width LargestWidth(
+  const T* values, std::size_t count, std::size_t stride, bool narrow, unsigned threads)
 {
   std::atomic<unsigned> largest{ 0 };
   ParallelFor(0, count, Grain, threads,
@@ -82,7 +73,7 @@ Width LargestWidth(const T* values, std::size_t count, std::size_t stride, unsig
       unsigned mine = 0;
       for (std::size_t i = first; i < last; ++i)
       {
-        mine = std::max(mine, static_cast<unsigned>(WidthOf(values[i * stride])));
+        mine = std::max(mine, static_cast<unsigned>(WidthOf(values[i * stride], narrow)));
       }
       // Relaxed: the loop's end comes before it is read.
       unsigned seen = largest.load(std::memory_order_relaxed);
@@ -93,10 +84,25 @@ Width LargestWidth(const T* values, std::size_t count, std::size_t stride, unsig
   return static_cast<Width>(largest.load());
 }
 
+/** A value as FrameSeries keeps it; what is no label is background. */
+template <typename Value, typename T>
+Value Convert(T value)
+{
+  if constexpr (std::is_integral_v<Value>)
+  {
+    const T label = NearestLabel(value);
+    return IsLabel(label) ? static_cast<Value>(label) : Value(0);
+  }
+  else
+  {
+    return static_cast<Value>(value);
+  }
+}
+
 /** The kernel's message about a frame with a value that is no label. */
 template <typename T>
-[[noreturn]] void ThrowBadValue(
-  const T* values, std::size_t stride, const GridGeometry<3>& grid, const std::string& name)
+[[noreturn]] void ThrowBadValue(const T* values, std::size_t stride, const GridGeometry<3>& grid,
+  const LabelSelection& selection, const std::string& name)
 {
   const auto& n = grid.Dimensions;
   std::vector<T> frame(static_cast<std::size_t>(n[0] * n[1] * n[2]));
@@ -106,7 +112,7 @@ template <typename T>
   }
   try
   {
-    LabelImage<3>::FromScalars<T>(frame, grid);
+    LabelImage<3>::FromScalars<T>(frame, grid, selection);
   }
   catch (const InputError& error)
   {
@@ -141,12 +147,14 @@ Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-void FrameSeries::Start(std::vector<double> times, ImageContent content)
+void FrameSeries::Start(
+  std::vector<double> times, ImageContent content, const LabelSelection& selection)
 {
   this->Clear();
   ScheduleFrames(times); // before the first frame is read
   this->Times = std::move(times);
   this->Content = content;
+  this->Selection = selection;
 }
 
 void FrameSeries::Clear()
@@ -241,7 +249,7 @@ void FrameSeries::Copy(const T* values, std::size_t stride, unsigned threads)
         {
           for (std::size_t i = first; i < last; ++i)
           {
-            out[i] = static_cast<Value>(values[i * stride]);
+            out[i] = Convert<Value>(values[i * stride]);
           }
         });
     },
@@ -251,10 +259,12 @@ void FrameSeries::Copy(const T* values, std::size_t stride, unsigned threads)
 template <typename T>
 void FrameSeries::CopyLabels(const T* values, std::size_t stride, unsigned threads)
 {
-  const Width width = LargestWidth(values, this->VoxelsOfFrame(), stride, threads);
+  const Width width =
+    LargestWidth(values, this->VoxelsOfFrame(), stride, !this->Selection.Only.empty(), threads);
   if (width == Width::NoLabel)
   {
-    ThrowBadValue(values, stride, this->FirstFrame.Grid, this->NameOf(this->Added));
+    ThrowBadValue(
+      values, stride, this->FirstFrame.Grid, this->Selection, this->NameOf(this->Added));
   }
   if (this->Added == 0 || static_cast<std::size_t>(width) > this->Values.index())
   {
@@ -328,8 +338,7 @@ SpaceTimeFrame FrameSeries::MakeFrame(double timeScale) const
     this->Times.front(), this->Times.back(), timeScale);
 }
 
-LabelImage<4> FrameSeries::MakeLabelImage(
-  const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const
+LabelImage<4> FrameSeries::MakeLabelImage(const GridGeometry<4>& grid, unsigned threads) const
 {
   GridGeometry<4> given = grid;
   given.Dimensions[3] = static_cast<std::int64_t>(this->Times.size());
@@ -337,7 +346,7 @@ LabelImage<4> FrameSeries::MakeLabelImage(
     [&](const auto& labels)
     {
       using Label = typename std::remove_cvref_t<decltype(labels)>::value_type;
-      return LabelImage<4>::FromScalars<Label>(labels, given, selection, threads);
+      return LabelImage<4>::FromScalars<Label>(labels, given, this->Selection, threads);
     },
     this->Values);
   const FrameSchedule schedule = this->MakeSchedule();

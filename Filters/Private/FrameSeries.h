@@ -34,9 +34,10 @@ class FrameSeries
 public:
   /**
    * Starts anew.
+   * @param selection the labels to mesh, if the content is labels
    * @throws InputError if there are no equally spaced frames for the times (ScheduleFrames())
    */
-  void Start(std::vector<double> times, ImageContent content);
+  void Start(std::vector<double> times, ImageContent content, const LabelSelection& selection = {});
   /** Forgets everything and releases the memory. */
   void Clear();
 
@@ -69,8 +70,7 @@ public:
    * @param grid of MakeFrame()
    * @throws what LabelImage::FromScalars() throws
    */
-  LabelImage<4> MakeLabelImage(
-    const GridGeometry<4>& grid, const LabelSelection& selection, unsigned threads) const;
+  LabelImage<4> MakeLabelImage(const GridGeometry<4>& grid, unsigned threads) const;
 
   /**
    * The isosurface of the complete series, whose values are grey. They are interpolated linearly in
@@ -102,6 +102,7 @@ private:
   ImageFrame FirstFrame;
   std::string ArrayName;
   ImageContent Content = ImageContent::Labels;
+  LabelSelection Selection;
   /** Of all frames; those not yet added are uninitialised. Alternatives in order of width. */
   std::variant<UninitialisedVector<std::uint8_t>, UninitialisedVector<std::uint16_t>,
     UninitialisedVector<std::int64_t>, UninitialisedVector<float>, UninitialisedVector<double>>

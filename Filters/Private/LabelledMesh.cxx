@@ -3,6 +3,7 @@
 #include "Private/LabelledMesh.h"
 
 #include "Base/Error.h"
+#include "Image/LabelValue.h"
 
 #include "vtkCellType.h"
 #include "vtkCellTypes.h"
@@ -106,7 +107,7 @@ void ReadCells(vtkUnstructuredGrid* grid, vtkAbstractArray* chosen, int type, Si
     {
       simplex[i] = static_cast<std::uint32_t>(ids[i]);
     }
-    mesh.Labels[static_cast<std::size_t>(c)] = LabelOf(labels->GetComponent(c, 0), c);
+    mesh.Labels[static_cast<std::size_t>(c)] = LabelOf(NearestLabel(labels->GetComponent(c, 0)), c);
   }
 }
 

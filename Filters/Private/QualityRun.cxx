@@ -212,7 +212,7 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
       " frames; give one time for each frame.");
   }
   voxplex::FrameSeries series;
-  series.Start(times, voxplex::ImageContent::Labels);
+  series.Start(times, voxplex::ImageContent::Labels, selection);
   for (std::size_t k = 0; k < times.size(); ++k)
   {
     const voxplex::ChosenArray frame = this->FrameOfImage(given, k);
@@ -231,7 +231,7 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
     }
   }
   return this->Run(
-    [&](const std::stop_token& stop) { quality.MeasureImage(series, selection, stop); }, 0.9, 0.95);
+    [&](const std::stop_token& stop) { quality.MeasureImage(series, stop); }, 0.9, 0.95);
 }
 
 // Of components without times the numbers of the frames, which AddFrameTime() replaces.

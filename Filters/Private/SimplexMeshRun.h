@@ -45,6 +45,12 @@ struct vtkImageToSimplexMeshFilter::Internals
   std::set<std::int64_t> ExcludedLabels;
   SizeFunctionType SizeFunction;
   vtkNew<vtkMeshingStatistics> Statistics;
+
+  voxplex::LabelSelection Selection() const
+  {
+    return { { this->Labels.begin(), this->Labels.end() },
+      { this->ExcludedLabels.begin(), this->ExcludedLabels.end() } };
+  }
 };
 
 /**
@@ -109,12 +115,7 @@ public:
   /** Progress when the kernel starts. */
   double ProgressBefore = 0.0;
 
-  voxplex::LabelSelection SelectedLabels() const
-  {
-    const Internals& filter = *this->Filter->Private;
-    return { { filter.Labels.begin(), filter.Labels.end() },
-      { filter.ExcludedLabels.begin(), filter.ExcludedLabels.end() } };
-  }
+  voxplex::LabelSelection SelectedLabels() const { return this->Filter->Private->Selection(); }
 
   /**
    * The isosurface that the filter meshes.

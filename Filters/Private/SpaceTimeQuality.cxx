@@ -3,6 +3,7 @@
 #include "Private/SpaceTimeQuality.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Image/LabelValue.h"
 #include "Mesh/FindInterfaces.h"
 #include "Mesh/SliceTetrahedra.h"
 #include "Parallel/ParallelFor.h"
@@ -30,7 +31,7 @@ bool HasForeground(vtkDataArray* array, const LabelSelection& selection)
   const std::set<double> only(selection.Only.begin(), selection.Only.end());
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    const double label = array->GetComponent(i, 0);
+    const double label = NearestLabel(array->GetComponent(i, 0));
     if (label != 0.0 && (only.empty() || only.count(label) > 0))
     {
       return true;
@@ -193,11 +194,10 @@ void SpaceTimeQuality::MeasureCut(double time, const ChosenArray& frame,
 }
 
 //----------------------------------------------------------------------------------------------------
-void SpaceTimeQuality::MeasureImage(
-  const FrameSeries& series, const LabelSelection& selection, const std::stop_token& stop)
+void SpaceTimeQuality::MeasureImage(const FrameSeries& series, const std::stop_token& stop)
 {
   const SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
-  const LabelImage<4> image = series.MakeLabelImage(frame.Grid, selection, this->Options.Threads);
+  const LabelImage<4> image = series.MakeLabelImage(frame.Grid, this->Options.Threads);
   SimplexMesh<4> mesh = this->Pentatopes;
   for (Point<4>& p : mesh.Points)
   {

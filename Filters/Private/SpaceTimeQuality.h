@@ -102,8 +102,7 @@ public:
    * Compares with the whole series, after the cuts.
    * @throws InputError, see FrameSeries::MakeLabelImage(); Cancelled; std::bad_alloc
    */
-  void MeasureImage(
-    const FrameSeries& series, const LabelSelection& selection, const std::stop_token& stop);
+  void MeasureImage(const FrameSeries& series, const std::stop_token& stop);
 
   const SpaceTimeFigures& Figures() const { return this->All; }
   const SimplexMesh<4>& Mesh() const { return this->Pentatopes; }

@@ -91,13 +91,14 @@ void CheckSegmented(const LabelImage<D>& image, unsigned threads, const std::sto
     return;
   }
   const NeighbourPairs pairs = CountNeighbourPairs(image, threads, stop);
-  if (pairs.All >= FewestGreyPairs && pairs.ShareOfDifferent() > LeastGreyShare)
+  const bool isLarge = pairs.All >= FewestGreyPairs || labels > ManyGreyValues;
+  if (isLarge && pairs.ShareOfDifferent() > LeastGreyShare)
   {
     throw InputError("The image's " + std::to_string(labels) + " labels look like grey values: " +
       std::to_string(std::lround(100.0 * pairs.ShareOfDifferent())) +
-      " % of neighbouring voxels have different ones. Segment it first"
-      ", or mesh an isosurface of it, or choose the array that holds the segmentation, or force "
-      "it.");
+      " % of neighbouring voxels have different ones, so it is most likely a grey-value image. "
+      "Segment it first, or choose the array that holds the segmentation, or choose the labels to "
+      "mesh, or mesh an isosurface of it, or force it.");
   }
 }
 

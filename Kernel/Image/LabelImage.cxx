@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
+#include "Image/LabelValue.h"
 #include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"
 
@@ -28,29 +29,13 @@ namespace
 template <typename T>
 inline constexpr bool IsSmall = std::is_integral_v<T> && sizeof(T) <= 2;
 
-/** Whether a scalar is a valid label. */
-template <typename T>
-bool IsLabelValue(T value)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    // 2^63 is exact in float and double. NaN fails the first comparison.
-    return value >= T(0) && value < static_cast<T>(9223372036854775808.0) &&
-      std::floor(value) == value;
-  }
-  else if constexpr (std::is_signed_v<T>)
-  {
-    return value >= 0;
-  }
-  else if constexpr (sizeof(T) == 8)
-  {
-    return value <= static_cast<T>(std::numeric_limits<std::int64_t>::max());
-  }
-  else
-  {
-    return true;
-  }
-}
+/** Background, as many labels as there may be, and one more. */
+constexpr std::size_t MostSlots = std::size_t{ MaximumNumberOfLabels } + 2;
+static_assert(
+  MostSlots + 5 < std::numeric_limits<LabelId>::max()); // JunctionLattice has five more ids
+
+/** Of labels that were not asked for so many are noted for messages, at least. */
+constexpr std::size_t NotedOthers = 1000;
 
 /** Slots of values of small types: a table with an entry for every value. */
 template <typename T>
@@ -72,8 +57,7 @@ private:
 };
 
 /**
- * Slots of values of large types: a hash table with open addressing. At most
- * MaximumNumberOfLabels + 2 values are inserted.
+ * Slots of labels of large types: a hash table with open addressing. At most MostSlots labels are inserted.
  */
 template <typename T>
 requires(!IsSmall<T>) class SlotTable<T>
@@ -95,13 +79,14 @@ public:
   }
 
 private:
-  static constexpr std::size_t Capacity = 8192;
-  static_assert(Capacity > 2 * (MaximumNumberOfLabels + 2));
+  static constexpr unsigned Bits = 17;
+  static constexpr std::size_t Capacity = std::size_t{ 1 } << Bits;
+  static_assert(Capacity >= 2 * MostSlots);
 
   std::size_t Position(T value) const
   {
     const auto key = static_cast<std::uint64_t>(value);
-    std::size_t at = (key * 0x9e3779b97f4a7c15u) >> 51;
+    std::size_t at = (key * 0x9e3779b97f4a7c15u) >> (64 - Bits);
     while (this->Slots[at] != None && this->Keys[at] != value)
     {
       at = (at + 1) % Capacity;
@@ -147,48 +132,46 @@ std::string Format(const Array& values, const char* separator = ", ")
   return s.str();
 }
 
-template <typename T, int D>
-[[noreturn]] void ThrowBadValue(T value, std::size_t voxel, const GridGeometry<D>& grid)
+/** What is wrong with a value, and what to do about it if the image is a segmentation. */
+template <typename T>
+std::pair<const char*, const char*> Diagnose(T value)
 {
-  std::ostringstream s;
-  s.precision(std::numeric_limits<T>::max_digits10);
-  s << "The value " << +value << " at index (" << Format(IndexAt(voxel, grid.Dimensions)) << ") ";
   if constexpr (std::is_floating_point_v<T>)
   {
     if (!std::isfinite(value))
     {
-      s << "is not finite";
+      return { "is not finite", "set such voxels to 0" };
     }
-    else if (std::floor(value) != value)
+    if (std::floor(value) != value)
     {
-      s << "is not whole";
-    }
-    else if (value < T(0))
-    {
-      s << "is negative";
-    }
-    else
-    {
-      s << "exceeds the largest label, 9223372036854775807";
+      return { "is not whole", "resample it without interpolation (nearest neighbour)" };
     }
   }
-  else
-  {
-    s << (std::is_signed_v<T> ? "is negative" : "exceeds the largest label, 9223372036854775807");
-  }
-  s << "; labels are whole numbers from 0 (background). Segment or relabel the image first"
-    << (D == 3 && std::is_floating_point_v<T> ? ", or mesh an isosurface of it." : ".");
+  const bool isNegative = std::is_signed_v<T> && !(value > T(0));
+  return { isNegative ? "is negative" : "exceeds the largest label, 9223372036854775807",
+    "choose the labels to mesh, or set such voxels to 0" };
+}
+
+template <typename T, int D>
+[[noreturn]] void ThrowBadValue(T value, std::size_t voxel, const GridGeometry<D>& grid)
+{
+  const auto [wrong, remedy] = Diagnose(NearestLabel(value));
+  std::ostringstream s;
+  s.precision(std::numeric_limits<T>::max_digits10);
+  s << "The value " << +value << " at index (" << Format(IndexAt(voxel, grid.Dimensions)) << ") "
+    << wrong
+    << "; labels are whole numbers from 0 (background). If these are grey values, as those of a "
+       "CT, segment the image first, or mesh an isosurface of it. If it is a segmentation, "
+    << remedy << ".";
   throw InputError(s.str());
 }
 
-template <int D>
-[[noreturn]] void ThrowTooManyLabels(std::size_t atLeast)
+[[noreturn]] void ThrowTooManyLabels()
 {
   throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
-    " distinct labels (" + std::to_string(atLeast) +
-    " were seen before giving up); it is most likely a grey-value image. Segment it first" +
-    (D == 3 ? ", or mesh an isosurface of it" : "") +
-    ", or choose the array that holds the segmentation.");
+    " distinct labels, which is more than a mesh can have; it is most likely a grey-value image. "
+    "Segment it first, or mesh an isosurface of it, or choose the array that holds the "
+    "segmentation, or choose the labels to mesh.");
 }
 
 /** A LabelSelection that can be asked quickly. */
@@ -208,6 +191,18 @@ public:
     return label != 0 &&
       (this->Only.empty() || std::binary_search(this->Only.begin(), this->Only.end(), label)) &&
       !std::binary_search(this->But.begin(), this->But.end(), label);
+  }
+
+  /** Whether only labels that were asked for count. */
+  bool IsNarrow() const { return !this->Only.empty(); }
+
+  /** Whether a label must be noted: it is kept or excluded, or all labels count. */
+  template <typename T>
+  bool Counts(T value) const
+  {
+    const auto label = static_cast<std::int64_t>(value);
+    return this->Only.empty() || std::binary_search(this->Only.begin(), this->Only.end(), label) ||
+      std::binary_search(this->But.begin(), this->But.end(), label);
   }
 
   const std::vector<std::int64_t> Only;
@@ -285,8 +280,8 @@ public:
           census = idle.back();
           idle.pop_back();
         }
-        for (std::size_t row = begin;
-             row < end && this->TooMany.load(std::memory_order_relaxed) == 0; ++row)
+        for (std::size_t row = begin; row < end && !this->TooMany.load(std::memory_order_relaxed);
+             ++row)
         {
           this->ReadRow(*census, row);
         }
@@ -298,9 +293,9 @@ public:
     {
       ThrowBadValue<T, D>(this->Scalars[this->FirstBad], this->FirstBad, this->Grid);
     }
-    if (this->TooMany != 0)
+    if (this->TooMany)
     {
-      ThrowTooManyLabels<D>(this->TooMany);
+      ThrowTooManyLabels();
     }
     return all;
   }
@@ -313,13 +308,13 @@ private:
     auto index = IndexAt(row * n, this->Grid.Dimensions);
     for (std::size_t i = 0; i < n;)
     {
-      const T value = values[i];
       std::size_t end = i + 1;
-      while (end < n && values[end] == value)
+      while (end < n && values[end] == values[i])
       {
         ++end;
       }
-      if (!IsLabelValue(value))
+      const T value = NearestLabel(values[i]);
+      if (!IsLabel(value) && !(this->Labels.IsNarrow() && IsWhole(value)))
       {
         std::size_t bad = this->FirstBad.load(std::memory_order_relaxed);
         while (row * n + i < bad && !this->FirstBad.compare_exchange_weak(bad, row * n + i))
@@ -327,22 +322,12 @@ private:
         }
         return;
       }
-      std::uint16_t slot = census.Slots.Find(value);
-      if (slot == SlotTable<T>::None)
+      const std::uint16_t slot = this->SlotOf(census, value);
+      if (slot != SlotTable<T>::None)
       {
-        if (census.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels) + 1)
-        {
-          this->TooMany.store(census.Values.size() - 1, std::memory_order_relaxed);
-          return;
-        }
-        slot = static_cast<std::uint16_t>(census.Values.size());
-        census.Slots.Insert(value, slot);
-        census.Values.push_back(value);
-        census.Counts.push_back(0);
-        census.Kept.push_back(this->Labels.Keeps(value) ? 1 : 0);
+        census.Counts[slot] += static_cast<std::int64_t>(end - i);
       }
-      census.Counts[slot] += static_cast<std::int64_t>(end - i);
-      if (census.Kept[slot])
+      if (slot != SlotTable<T>::None && census.Kept[slot])
       {
         index[0] = static_cast<std::int64_t>(i);
         for (std::size_t a = 0; a < D; ++a)
@@ -356,12 +341,41 @@ private:
     }
   }
 
+  /** None if the value is none of the labels that were asked for, or if there are too many. */
+  std::uint16_t SlotOf(Census<T, D>& census, T value)
+  {
+    if (!IsLabel(value))
+    {
+      return SlotTable<T>::None;
+    }
+    std::uint16_t slot = census.Slots.Find(value);
+    if (slot != SlotTable<T>::None)
+    {
+      return slot;
+    }
+    if (census.Values.size() >= NotedOthers && !this->Labels.Counts(value))
+    {
+      return slot;
+    }
+    if (census.Values.size() == MostSlots)
+    {
+      this->TooMany.store(true, std::memory_order_relaxed);
+      return slot;
+    }
+    slot = static_cast<std::uint16_t>(census.Values.size());
+    census.Slots.Insert(value, slot);
+    census.Values.push_back(value);
+    census.Counts.push_back(0);
+    census.Kept.push_back(this->Labels.Keeps(value) ? 1 : 0);
+    return slot;
+  }
+
   const std::span<const T> Scalars;
   const GridGeometry<D>& Grid;
   const std::size_t RowLength;
   const Choice& Labels;
   std::atomic<std::size_t> FirstBad; ///< the first voxel without a label, or the number of voxels
-  std::atomic<std::size_t> TooMany{ 0 };
+  std::atomic<bool> TooMany{ false };
 };
 
 } // namespace
@@ -464,14 +478,14 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
     {
       occurring.push_back(static_cast<std::int64_t>(value));
     }
-    if (occurring.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
-    {
-      ThrowTooManyLabels<D>(occurring.size());
-    }
     const bool kept = choice.Keeps(value);
-    ids.Insert(value, kept ? static_cast<std::uint16_t>(image.LabelValues.size()) : LabelId{ 0 });
+    if (kept && image.LabelValues.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
+    {
+      ThrowTooManyLabels();
+    }
     if (kept)
     {
+      ids.Insert(value, static_cast<std::uint16_t>(image.LabelValues.size()));
       image.LabelValues.push_back(static_cast<std::int64_t>(value));
       image.LabelCounts.push_back(count);
     }
@@ -519,7 +533,9 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
         for (std::size_t i = 0; i < e0;)
         {
           const T value = in[i];
-          const LabelId id = ids.Find(value);
+          const T label = NearestLabel(value);
+          const std::uint16_t slot = IsLabel(label) ? ids.Find(label) : SlotTable<T>::None;
+          const LabelId id = slot != SlotTable<T>::None ? slot : LabelId{ 0 };
           do
           {
             out[i++] = id;

@@ -22,10 +22,13 @@ namespace voxplex
 /** Dense label id: 0 is background, 1 ... n are the image's labels in increasing order of value. */
 using LabelId = std::uint16_t;
 
-/** An image with more distinct labels is treated as a grey-value image. */
-inline constexpr int MaximumNumberOfLabels = 2000;
+/** No image has more labels than this: what ids of 16 bits can tell apart, in round figures. */
+inline constexpr int MaximumNumberOfLabels = 65000;
 
-/** The labels to mesh; all by default. The other labels become background. */
+/**
+ * The labels to mesh; all by default. The other labels become background. If there are some to keep, so do whole
+ * numbers that are no labels (negative ones, for example), and only what is kept counts against MaximumNumberOfLabels.
+ */
 struct LabelSelection
 {
   std::vector<std::int64_t> Only; ///< only these labels, in any order; empty means all
@@ -55,15 +58,15 @@ public:
   /**
    * Reads the scalars of an image. The first axis varies fastest.
    *
-   * @param scalars one value per voxel, of any arithmetic type. Values must be integers, finite and
-   *   not negative. 0 is background.
+   * @param scalars one value per voxel, of any arithmetic type. Values must be labels (LabelValue.h
+   *   says which are). 0 is background.
    * @param selection the labels to mesh
    * @param threads number of threads; 0 means all cores
    * @throws Cancelled if a stop was requested before the end
    * @throws InputError if CheckGrid() fails; if a value is fractional, negative or not finite (the
    *   message has the value and its index); if there is no foreground; if there are more than
-   *   MaximumNumberOfLabels labels (probably a grey-value image); if a selected or excluded label
-   *   does not occur; if no label is left
+   *   MaximumNumberOfLabels labels; if a selected or excluded label does not occur; if no label is
+   *   left
    */
   template <typename T>
   static LabelImage FromScalars(std::span<const T> scalars, const GridGeometry<D>& grid,

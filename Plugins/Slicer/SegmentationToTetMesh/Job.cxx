@@ -117,12 +117,13 @@ void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
 /** The filter's errors speak of its methods; the user has flags. */
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> terms{ {
     { "SetLabelSize()", "--labelsizes" },
     { "SetInterfaceSize()", "--interfacesizes" },
     { "AddLabel()", "--labels" },
     { "or force it", "or go on with --force" },
     { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },
+    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
     { "Correct the labels to keep", "Correct --labels" },
     { "RadiusEdgeRatio is", "--radiusedge is" },
     { "Force goes down", "--force goes down" },

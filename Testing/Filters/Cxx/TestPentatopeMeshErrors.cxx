@@ -220,6 +220,24 @@ void TestComponents()
   expect("spacing", good, { "spacing", "positive" });
 }
 
+/** Chosen labels count first: negative voxels are background then, as other labels are. */
+void TestNegativeBesideChosen()
+{
+  const auto label = [](const Vector& x, double t)
+  { return x[0] < 1.0 ? -1024.0 : TwoLabelBall(Centre, 4.2)(x, t); };
+  const auto expected = MakePentatopeFilter();
+  expected->AddLabel(3);
+  expected->Update();
+  for (const int type : { VTK_SHORT, VTK_FLOAT })
+  {
+    const auto filter =
+      MakePentatopeFilter(MakeSeries(SmallPlacement(), EqualTimes(12), label, type));
+    filter->AddLabel(3);
+    filter->Update();
+    CHECK(SamePentatopeMesh(expected, filter), filter->GetErrorMessage());
+  }
+}
+
 void TestParameters()
 {
   using Filter = vtkImageToPentatopeMeshFilter;
@@ -331,6 +349,7 @@ int TestPentatopeMeshErrors(int, char*[])
   TestFrames();
   TestValues();
   TestComponents();
+  TestNegativeBesideChosen();
   TestParameters();
   TestThrowingFunction();
   TestFailingInput();

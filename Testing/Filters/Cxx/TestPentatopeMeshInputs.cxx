@@ -340,6 +340,23 @@ void TestHidden()
   CHECK(SamePentatopeMesh(expected, components), components->GetErrorMessage());
 }
 
+/** Labels that were scaled and scaled back. */
+void TestRounded()
+{
+  const auto label = TwoLabelBall(Centre, 4.2);
+  const auto rounded = [&](const Vector& x, double t)
+  { return label(x, t) * (1.0 - 1e-7) - (label(x, t) == 0.0 ? 1e-7 : 0.0); };
+  const auto expected = MakePentatopeFilter();
+  expected->Update();
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    const auto filter =
+      MakePentatopeFilter(MakeSeries(SmallPlacement(), EqualTimes(12), rounded, type));
+    filter->Update();
+    CHECK(SamePentatopeMesh(expected, filter), filter->GetErrorMessage());
+  }
+}
+
 } // namespace
 
 int TestPentatopeMeshInputs(int, char*[])
@@ -353,5 +370,6 @@ int TestPentatopeMeshInputs(int, char*[])
   TestSizes();
   TestSizeFunctionArguments();
   TestHidden();
+  TestRounded();
   return Result();
 }

@@ -67,8 +67,9 @@ void TestScalars()
     "components", several, { "Frames", "3 components", "vtkImageToPentatopeMeshFilter" });
 
   ExpectImageError("fraction", WithScalar(1.5), { "1.5", "whole", "(16, 16, 16)" });
-  ExpectImageError("negative", WithScalar(-3), { "-3", "negative" });
-  ExpectImageError("NaN", WithScalar(vtkMath::Nan()), { "finite" });
+  ExpectImageError(
+    "negative", WithScalar(-3), { "-3", "negative", "isosurface", "choose the labels" });
+  ExpectImageError("NaN", WithScalar(vtkMath::Nan()), { "finite", "set such voxels to 0" });
   ExpectImageError("infinite", WithScalar(vtkMath::Inf()), { "finite" });
 
   const auto grey = MakeBall();
@@ -77,6 +78,19 @@ void TestScalars()
     grey->GetPointData()->GetScalars()->SetTuple1(i, static_cast<double>(i % 5000));
   }
   ExpectImageError("grey values", grey, { "grey-value", "labels" });
+  const auto chosen = MakeFilter(grey); // and only the chosen label counts
+  chosen->AddLabel(4000);
+  chosen->SetSmallestComponent(1);
+  chosen->Update();
+  CHECK(!Empty(chosen), chosen->GetErrorMessage());
+
+  const auto ghostly = MakeBall();
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName("vtkGhostType");
+  ghosts->SetNumberOfTuples(ghostly->GetNumberOfPoints() - 1);
+  ghosts->Fill(0);
+  ghostly->GetPointData()->AddArray(ghosts);
+  ExpectImageError("ghosts", ghostly, { "vtkGhostType", "32767", "32768" });
 
   ExpectImageError("no foreground", MakeBall(-1.0), { "foreground" });
 

@@ -229,6 +229,15 @@ void TestHiddenSizes(vtkUnstructuredGrid* expected)
   CHECK(SameMesh(filter->GetOutput(), expected));
 }
 
+/** Labels that were scaled and scaled back, in single precision. */
+void TestRounded(vtkUnstructuredGrid* expected)
+{
+  const auto rounded = [](const Vector& x)
+  { return Label(x) + 1e-7 * std::sin(x[0] + 3.0 * x[1] + 7.0 * x[2]); };
+  CHECK(SameMesh(MeshOf(MakeImage({}, rounded, VTK_FLOAT)), expected));
+  CHECK(SameMesh(MeshOf(MakeImage({}, rounded, VTK_DOUBLE)), expected));
+}
+
 } // namespace
 
 int TestTetMeshInputs(int, char*[])
@@ -241,5 +250,6 @@ int TestTetMeshInputs(int, char*[])
   TestUntouched();
   TestHidden();
   TestHiddenSizes(expected);
+  TestRounded(expected);
   return Result();
 }

@@ -54,6 +54,43 @@ LabelImage<3> Blocks(std::int64_t side, std::int64_t along)
     });
 }
 
+/** Voronoi cells of points, one at random in each of along^3 boxes. */
+LabelImage<3> Grains(std::int64_t along, std::int64_t side)
+{
+  std::mt19937 random(11);
+  const double box = static_cast<double>(side) / static_cast<double>(along);
+  std::vector<Point<3>> seeds;
+  for (std::int64_t k = 0; k < along * along * along; ++k)
+  {
+    const auto coordinate = [&](std::int64_t at) {
+      return box * (static_cast<double>(at % along) + 0.01 * static_cast<double>(random() % 100));
+    };
+    seeds.push_back({ coordinate(k), coordinate(k / along), coordinate(k / along / along) });
+  }
+  return phantoms::Make(phantoms::Cube(side),
+    [&](const Point<3>& p) -> std::int16_t
+    {
+      std::int64_t nearest = 0;
+      const auto first = [&](double x)
+      { return std::max<std::int64_t>(static_cast<std::int64_t>(x / box) - 1, 0); };
+      const auto end = [&](double x) { return std::min(first(x) + 3, along); };
+      for (std::int64_t z = first(p[2]); z < end(p[2]); ++z)
+      {
+        for (std::int64_t y = first(p[1]); y < end(p[1]); ++y)
+        {
+          for (std::int64_t x = first(p[0]); x < end(p[0]); ++x)
+          {
+            const std::int64_t seed = (z * along + y) * along + x;
+            const auto distance = [&](std::int64_t k)
+            { return Distance(seeds[static_cast<std::size_t>(k)], p); };
+            nearest = distance(seed) < distance(nearest) ? seed : nearest;
+          }
+        }
+      }
+      return static_cast<std::int16_t>(1 + nearest);
+    });
+}
+
 /** A smooth wave of grey values, as many as `amplitude`. */
 LabelImage<3> Wave(double amplitude)
 {
@@ -118,6 +155,22 @@ TEST(GreyValues, AreRefused)
   }
   EXPECT_THROW(CheckSegmented(Noise<4>({ 12, 13, 11, 14 }, 100)), InputError);
   EXPECT_THROW(CheckSegmented(Wave(255.0)), InputError);
+}
+
+TEST(GreyValues, AreRefusedInSmallImagesOfVeryManyLabels)
+{
+  EXPECT_THROW(CheckSegmented(Blocks(1, 16)), InputError); // 4096 labels in as many voxels
+  EXPECT_NO_THROW(CheckSegmented(Blocks(1, 12)));          // 1728
+}
+
+/** A polycrystal: the number of labels alone says nothing. */
+TEST(GreyValues, ThousandsOfGrainsAreNot)
+{
+  const LabelImage<3> image = Grains(15, 48);
+  EXPECT_GT(image.NumberOfLabels(), 3000);
+  EXPECT_NO_THROW(CheckSegmented(image));
+  EXPECT_LT(CountNeighbourPairs(image).ShareOfDifferent(), 0.45);
+  EXPECT_NO_THROW(CheckSegmented(Blocks(2, 16)));
 }
 
 TEST(GreyValues, SegmentationsAreNot)

@@ -89,7 +89,7 @@ TYPED_TEST(LabelImageOf, RejectsNegativeOrTooLargeValues)
   if constexpr (std::is_signed_v<TypeParam>)
   {
     ExpectInputError([] { Read<TypeParam>(Small<TypeParam>(TypeParam(-2)), Grid(4, 3, 2)); },
-      { "-2 ", "(2, 1, 1)", "negative" });
+      { "-2 ", "(2, 1, 1)", "negative", "isosurface", "choose the labels" });
   }
   else if constexpr (sizeof(TypeParam) == 8)
   {
@@ -100,7 +100,9 @@ TYPED_TEST(LabelImageOf, RejectsNegativeOrTooLargeValues)
   if constexpr (std::is_floating_point_v<TypeParam>)
   {
     ExpectInputError([] { Read<TypeParam>(Small<TypeParam>(TypeParam(1.5)), Grid(4, 3, 2)); },
-      { "1.5", "(2, 1, 1)", "not whole" });
+      { "1.5", "(2, 1, 1)", "not whole", "without interpolation" });
+    ExpectInputError([] { Read<TypeParam>(Small<TypeParam>(TypeParam(-2.000001)), Grid(4, 3, 2)); },
+      { "-2.000", "(2, 1, 1)", "negative" });
     ExpectInputError([] { Read<TypeParam>(Small<TypeParam>(TypeParam(1e19)), Grid(4, 3, 2)); },
       { "e+1", "(2, 1, 1)", "exceeds" });
     ExpectInputError(
@@ -108,13 +110,73 @@ TYPED_TEST(LabelImageOf, RejectsNegativeOrTooLargeValues)
         Read<TypeParam>(
           Small<TypeParam>(std::numeric_limits<TypeParam>::quiet_NaN()), Grid(4, 3, 2));
       },
-      { "nan", "(2, 1, 1)", "not finite" });
+      { "nan", "(2, 1, 1)", "not finite", "set such voxels to 0" });
     ExpectInputError(
       [] {
         Read<TypeParam>(
           Small<TypeParam>(std::numeric_limits<TypeParam>::infinity()), Grid(4, 3, 2));
       },
       { "inf", "(2, 1, 1)", "not finite" });
+  }
+}
+
+/** What rounding has taken from whole numbers does not count; what is farther off does. */
+TYPED_TEST(LabelImageOf, ForgivesRounding)
+{
+  if constexpr (std::is_floating_point_v<TypeParam>)
+  {
+    for (const double value : { 2.999999, 3.000009, 2.9999998 })
+    {
+      std::vector<TypeParam> scalars = Small<TypeParam>(TypeParam(value));
+      scalars[0] = TypeParam(-1e-7); // background
+      scalars[23] = TypeParam(3);
+      const LabelImage<3> image = Read<TypeParam>(scalars, Grid(4, 3, 2));
+      EXPECT_EQ(std::vector<std::int64_t>(image.Values().begin(), image.Values().end()),
+        (std::vector<std::int64_t>{ 0, 3, 7 }));
+      EXPECT_EQ(image.Counts()[1], 2);
+      EXPECT_EQ(image.CropOrigin(), (LabelImage<3>::Index{ 1, 1, 0 }));
+    }
+    // 1e-5 of a label, and at most 0.01.
+    EXPECT_EQ(
+      Read<TypeParam>(Small<TypeParam>(TypeParam(500.004)), Grid(4, 3, 2)).Values()[2], 500);
+    EXPECT_EQ(
+      Read<TypeParam>(Small<TypeParam>(TypeParam(70000.0078125)), Grid(4, 3, 2)).Values()[2],
+      70000);
+    for (const double value : { 1.00002, 2.9999, -0.00002, 500.006, 70000.015625 })
+    {
+      ExpectInputError([&] { Read<TypeParam>(Small<TypeParam>(TypeParam(value)), Grid(4, 3, 2)); },
+        { "(2, 1, 1)", "not whole" });
+    }
+  }
+}
+
+/** If there are labels to keep, whole numbers that are no labels are background as other labels are. */
+TYPED_TEST(LabelImageOf, KeptLabelsCountFirst)
+{
+  const auto expectSeven = [](TypeParam other)
+  {
+    const LabelImage<3> image =
+      Read<TypeParam>(Small<TypeParam>(other), Grid(4, 3, 2), { { 7 }, {} });
+    EXPECT_EQ(image.NumberOfLabels(), 1);
+    EXPECT_EQ(image.Values()[1], 7);
+    EXPECT_EQ(image.Ids().size(), 1u);
+  };
+  if constexpr (std::is_signed_v<TypeParam>)
+  {
+    expectSeven(TypeParam(-2));
+  }
+  else if constexpr (sizeof(TypeParam) == 8)
+  {
+    expectSeven(std::numeric_limits<TypeParam>::max());
+  }
+  if constexpr (std::is_floating_point_v<TypeParam>)
+  {
+    expectSeven(TypeParam(1e30));
+    for (const TypeParam bad : { TypeParam(1.5), std::numeric_limits<TypeParam>::quiet_NaN() })
+    {
+      EXPECT_THROW(
+        Read<TypeParam>(Small<TypeParam>(bad), Grid(4, 3, 2), { { 7 }, {} }), InputError);
+    }
   }
 }
 
@@ -240,9 +302,10 @@ TEST(LabelImage, RejectsImagesWithoutForeground)
     { "no foreground", "24 voxels" });
 }
 
-TEST(LabelImage, TakesManyLabelsForAGreyValueImage)
+TEST(LabelImage, HasAsManyLabelsAsIdsTellApart)
 {
-  std::vector<unsigned short> scalars(20 * 20 * 20);
+  constexpr std::int64_t n = 41; // more voxels than labels
+  std::vector<unsigned short> scalars(n * n * n);
   const auto fill = [&](int labels)
   {
     for (std::size_t i = 0; i < scalars.size(); ++i)
@@ -251,15 +314,42 @@ TEST(LabelImage, TakesManyLabelsForAGreyValueImage)
     }
   };
   fill(MaximumNumberOfLabels);
-  EXPECT_EQ(
-    Read<unsigned short>(scalars, Grid(20, 20, 20)).NumberOfLabels(), MaximumNumberOfLabels);
+  const LabelImage<3> all = Read<unsigned short>(scalars, Grid(n, n, n));
+  EXPECT_EQ(all.NumberOfLabels(), MaximumNumberOfLabels);
+  EXPECT_TRUE(std::ranges::equal(all.Ids(), scalars));
   const std::vector<double> doubles(scalars.begin(), scalars.end());
-  EXPECT_EQ(Read<double>(doubles, Grid(20, 20, 20)).NumberOfLabels(), MaximumNumberOfLabels);
+  EXPECT_EQ(Read<double>(doubles, Grid(n, n, n)).NumberOfLabels(), MaximumNumberOfLabels);
   fill(MaximumNumberOfLabels + 1);
-  ExpectInputError([&] { Read<unsigned short>(scalars, Grid(20, 20, 20)); },
-    { "2000", "grey-value image", "Segment it" });
+  ExpectInputError([&] { Read<unsigned short>(scalars, Grid(n, n, n)); },
+    { "65000", "grey-value image", "Segment it", "choose the labels" });
   const std::vector<int> ints(scalars.begin(), scalars.end());
-  ExpectInputError([&] { Read<int>(ints, Grid(20, 20, 20), {}, 4); }, { "grey-value image" });
+  ExpectInputError([&] { Read<int>(ints, Grid(n, n, n), {}, 4); }, { "grey-value image" });
+
+  // Only what was asked for counts.
+  std::vector<int> many(ints.size());
+  for (std::size_t i = 0; i < many.size(); ++i)
+  {
+    many[i] = 3 + static_cast<int>(i);
+  }
+  many[5] = 1;
+  many.back() = 2;
+  for (const unsigned threads : { 1u, 3u })
+  {
+    const LabelImage<3> two = Read<int>(many, Grid(n, n, n), { { 2, 1 }, {} }, threads);
+    EXPECT_EQ(two.NumberOfLabels(), 2);
+    EXPECT_EQ(two.Counts()[1], 1);
+    EXPECT_EQ(two.Counts()[2], 1);
+    EXPECT_EQ(two.At({ 0, 0, 0 }), 1);
+    const LabelImage<3> one =
+      Read<int>(many, Grid(n, n, n), { { 60000, 60001 }, { 60000 } }, threads);
+    EXPECT_EQ(one.Values()[1], 60001);
+    EXPECT_EQ(one.Ids().size(), 1u);
+  }
+  ExpectInputError(
+    [&] {
+      Read<int>(many, Grid(n, n, n), { { 1, 8 }, {} });
+    },
+    { "Label 8 ", "does not occur", "1, 3, 4" });
 }
 
 TEST(LabelImage, ThreadsAndTypesAgree)
