@@ -50,6 +50,15 @@ std::vector<double> TimeStepsOf(vtkInformation* info)
                : std::vector<double>();
 }
 
+/** Whether the components may be red, green and blue. VTK's images of colours are of these types. */
+bool LooksLikeColours(vtkDataArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  const int type = array->GetDataType();
+  return (components == 3 || components == 4) &&
+    (type == VTK_UNSIGNED_CHAR || type == VTK_UNSIGNED_SHORT);
+}
+
 voxplex::ImageContent ContentOf(int inputMode)
 {
   return inputMode == vtkImageToPentatopeMeshFilter::INPUT_LABELS
@@ -269,6 +278,16 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
   const voxplex::ChosenArray input = voxplex::Choose(vtkImageData::GetData(inputVector[0]), scalars,
     association, ContentOf(this->InputMode), "image");
   const int frames = input.Array->GetNumberOfComponents();
+  const bool hasTimes =
+    !this->FrameTimes.empty() || this->TimeOrigin != 0.0 || this->TimeSpacing != 1.0;
+  if (!hasTimes && LooksLikeColours(input.Array))
+  {
+    throw InputError("The array has " + std::to_string(frames) + " components of type " +
+      input.Array->GetDataTypeAsString() +
+      ", as colours (RGB, RGBA) have. If they are time frames, give "
+      "their times with AddFrameTime(); if they are colours, extract one component, or make labels "
+      "of them.");
+  }
   if (frames < 2)
   {
     throw InputError(std::string("A space-time mesh needs two frames or more, but the input has ") +

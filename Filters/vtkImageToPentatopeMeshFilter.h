@@ -17,16 +17,20 @@
  *     filter requests every time step once, in order. All frames must have the same dimensions,
  *     spacing, origin, direction and array name; the array has one component. Times must increase.
  *   - One image without, or with one, time step, whose array has several components: each component
- *     is a frame. Component k has the time TimeOrigin + k TimeSpacing.
+ *     is a frame. Component k has the time TimeOrigin + k TimeSpacing. Three or four components of
+ *     type unsigned char or unsigned short may be colours: they are frames if AddFrameTime() gives
+ *     their times, or TimeOrigin or TimeSpacing are not the default ones, and an error otherwise.
  *
  *   AddFrameTime() gives the frames other times.
  *
  *   The array is the one chosen by `SetInputArrayToProcess(0, 0, 0, association, name)`; by default
  *   the active point scalars, else the active cell scalars. Point scalars lie at the points, cell
- *   scalars at the cell centres. They have any scalar type; labels are whole, none of them
- *   negative. Frames are copied into as few bits per voxel as their labels need; grey values as
- *   float, or as double if their type needs it. Origin, spacing, direction matrix (skewed and
- *   left-handed ones included) and extent are honoured.
+ *   scalars at the cell centres. They have any scalar type; labels are whole (to within
+ *   1e-5, for larger labels 1e-5 of them and at most 0.01), none of them negative. Voxels that a
+ *   frame hides (`vtkGhostType`) are background, as for vtkImageToTetMeshFilter. Frames are copied
+ *   into as few bits per voxel as their labels need; grey values as float, or as double if their
+ *   type needs it. Origin, spacing, direction matrix (skewed and left-handed ones included) and
+ *   extent are honoured.
  * - Port 1, vtkImageData, optional: a 3D image of element sizes, which applies at all times. The
  *   array is chosen by `SetInputArrayToProcess(1, 1, 0, ...)`.
  *

@@ -220,6 +220,38 @@ void TestComponents()
   expect("spacing", good, { "spacing", "positive" });
 }
 
+/** Bytes of three or four components are colours, unless there are times. */
+void TestColours()
+{
+  const auto label = TwoLabelBall({ 5.5, 5.5, 5.5, 1.0 }, 4.2);
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_UNSIGNED_SHORT })
+  {
+    for (const int frames : { 3, 4 })
+    {
+      vtkNew<vtkTrivialProducer> producer;
+      producer->SetOutput(MakeComponents(SmallPlacement(), EqualTimes(frames), label, type));
+      const auto filter = MakePentatopeFilter(producer);
+      ExpectError("colours", filter, { "RGB", "AddFrameTime()", "extract one component" },
+        [&]
+        {
+          for (const double time : EqualTimes(frames))
+          {
+            filter->AddFrameTime(time);
+          }
+        });
+      filter->ClearFrameTimes();
+      filter->SetTimeSpacing(0.5);
+      filter->Update();
+      CHECK(!Empty(filter), filter->GetErrorMessage());
+    }
+  }
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(MakeComponents(SmallPlacement(), EqualTimes(3), label, VTK_SHORT));
+  const auto filter = MakePentatopeFilter(producer);
+  filter->Update();
+  CHECK(!Empty(filter), filter->GetErrorMessage());
+}
+
 /** Chosen labels count first: negative voxels are background then, as other labels are. */
 void TestNegativeBesideChosen()
 {
@@ -349,6 +381,7 @@ int TestPentatopeMeshErrors(int, char*[])
   TestFrames();
   TestValues();
   TestComponents();
+  TestColours();
   TestNegativeBesideChosen();
   TestParameters();
   TestThrowingFunction();
