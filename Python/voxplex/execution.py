@@ -26,7 +26,7 @@ from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_STRING
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 Progress = Callable[[float], object]
-"""Called with the fraction done, 0 to 1; returning False cancels."""
+"""Called with the fraction done, 0 to 1. False, or another value that is false except None, cancels."""
 
 # Between two progress events, in seconds.
 _PAUSE = 0.02
@@ -39,7 +39,7 @@ class Execution:
     """One execution of an algorithm.
 
     errors, warnings: what the algorithms that were watched reported, without VTK's preamble.
-    cancelled: whether the progress callback returned False.
+    cancelled: whether the progress callback asked for it.
     """
 
     def __init__(self, algorithm: vtkAlgorithm, progress: Optional[Progress] = None) -> None:
@@ -99,7 +99,8 @@ class Execution:
         """Must not raise: VTK would print a traceback and go on."""
         if self._progress is not None and self._failure is None and not self.cancelled:
             try:
-                self.cancelled = self._progress(fraction) is False
+                answer = self._progress(fraction)
+                self.cancelled = answer is not None and not answer
             except BaseException as failure:  # pylint: disable=broad-except
                 self._failure = failure
         if self.cancelled or self._failure is not None:

@@ -10,13 +10,13 @@ GetSpacing(), GetOrigin() and GetDirection().
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData
 
 
 def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 1.0),
@@ -25,15 +25,17 @@ def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 
     """An image with the voxels of an array of three dimensions.
 
     array: indexed [k, j, i], one label a voxel, 0 is background, or one grey value. Any integer or real
-        type, or bool.
+        type, or bool. Masked voxels (numpy.ma) are background: 0, or NaN in arrays of real numbers, and
+        hidden from VTK (`vtkGhostType`), so that they are outside of isosurfaces, too.
     spacing: the distances of voxels along i, j and k.
     origin: where voxel (0, 0, 0) lies.
     direction: a 3 x 3 matrix (or its 9 numbers, row by row), whose columns are the directions of
         i, j and k; by default the axes.
     space: "LPS" or "RAS", the coordinates that these are in, if it is known.
 
-    The image refers to the array's memory, and keeps it alive, if the array is contiguous and in the
-    machine's byte order; otherwise it has a copy. Raises ValueError for shapes that do not fit.
+    The image refers to the array's memory, and keeps it alive, if the array is contiguous, in the
+    machine's byte order and without masked voxels; otherwise it has a copy. Raises ValueError for
+    shapes that do not fit.
 
     >>> import numpy
     >>> labels = numpy.zeros((20, 32, 32), dtype=numpy.uint8)
@@ -41,7 +43,7 @@ def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 
     >>> image.GetDimensions()
     (32, 32, 20)
     """
-    voxels = numpy.asarray(array)
+    voxels, mask = _unmasked(array)
     if voxels.ndim != 3:
         raise ValueError(f"the array has {voxels.ndim} dimensions, not 3 ([k, j, i])")
     if voxels.dtype == numpy.bool_:
@@ -59,6 +61,10 @@ def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 
         scalars = _share(voxels.reshape(-1))
         scalars.SetName("Labels")
         image.GetPointData().SetScalars(scalars)
+    if mask is not None:
+        hidden = _share(numpy.where(mask.reshape(-1), numpy.uint8(vtkDataSetAttributes.HIDDENPOINT), numpy.uint8(0)))
+        hidden.SetName(vtkDataSetAttributes.GhostArrayName())
+        image.GetPointData().AddArray(hidden)
     if space is not None:
         _set_space(image, space)
     return image
@@ -70,10 +76,16 @@ def images_from_array(array: ArrayLike, *, times: Optional[Sequence[float]] = No
 
     times: the time of each frame, by default 0, 1, 2 ... Further arguments are those of
     :func:`image_from_array`, for every frame. The result is what :func:`mesh` makes pentatopes from.
+
+    Raises ValueError for shapes that do not fit. A uint8 array whose last axis has the length 3 or 4 is taken for a
+    stack of coloured pictures, and refused, unless there are times.
     """
-    voxels = numpy.asarray(array)
+    voxels = numpy.ma.asanyarray(array)  # of a list of masked arrays, too
     if voxels.ndim != 4:
         raise ValueError(f"the array has {voxels.ndim} dimensions, not 4 ([t, k, j, i])")
+    if times is None and voxels.dtype == numpy.uint8 and voxels.shape[3] in (3, 4):
+        raise ValueError(f"the array has the shape {voxels.shape}, as pictures with colours have: make labels of them; "
+                         "if it is indexed [t, k, j, i], pass times=")
     frames = [image_from_array(frame, **geometry) for frame in voxels]
     if times is not None:
         set_times(frames, times)
@@ -100,6 +112,14 @@ def set_times(frames: Sequence[vtkImageData], times: Sequence[float]) -> None:
         raise ValueError(f"there are {len(frames)} frames, and {len(times)} times")
     for frame, time in zip(frames, times):
         frame.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), float(time))
+
+
+def _unmasked(array: ArrayLike) -> Tuple[NDArray[Any], Optional[NDArray[numpy.bool_]]]:
+    """The array with masked voxels set to background, and its mask; without masked voxels the array itself and None."""
+    voxels = numpy.ma.asanyarray(array)
+    if not numpy.ma.is_masked(voxels):
+        return voxels.data, None
+    return voxels.filled(numpy.nan if voxels.dtype.kind == "f" else 0), numpy.ma.getmaskarray(voxels)
 
 
 def _share(values: NDArray[Any]) -> vtkDataArray:

@@ -103,7 +103,7 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     elif geometry or labels is not None:
         raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
     elif is_series:
-        for time in times or ():
+        for time in () if times is None else times:
             measurer.AddFrameTime(float(time))
     if not is_series and (times is not None or time_scale is not None):
         raise ValueError("times, time_scale: only for meshes of pentatopes")

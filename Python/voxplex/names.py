@@ -67,9 +67,11 @@ def set_label_names(data: vtkDataObject, names: Mapping[int, str]) -> None:
 def label_value(label: Union[int, str], names: Mapping[int, str]) -> int:
     """The value of a label that is given by its value or its name.
 
-    Raises ValueError for a name that none or several labels have.
+    Raises ValueError for a name that none or several labels have, and for a number that is not whole.
     """
     if not isinstance(label, str):
+        if not float(label).is_integer():
+            raise ValueError(f"labels are whole numbers, not {label!r}")
         return int(label)
     found = [value for value, name in names.items() if name == label]
     if len(found) == 1:

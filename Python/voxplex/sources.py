@@ -36,7 +36,7 @@ class Source:
         self.is_series = False
         self._geometry: Dict[str, Any] = dict(geometry)
         self._times = times
-        self._own_times: Sequence[float] = ()
+        self._own_times: List[float] = []  # of components, or in place of those of an algorithm
         if isinstance(image, numpy.ndarray):
             self._take_array(image)
             return
@@ -60,15 +60,8 @@ class Source:
             target.SetInputConnection(port, self.algorithm.GetOutputPort())
         else:
             target.SetInputDataObject(port, self.data)
-        for time in self._frame_times():
-            target.AddFrameTime(float(time))
-
-    def _frame_times(self) -> Sequence[float]:
-        """Of components, or those that replace the times of an algorithm."""
-        if self.algorithm is None and self.is_series and not self._own_times:
-            assert self.data is not None
-            return range(_components(self.data))
-        return self._own_times
+        for time in self._own_times:
+            target.AddFrameTime(time)
 
     def names(self) -> Dict[int, str]:
         """The names of labels that the image carries."""
@@ -96,16 +89,13 @@ class Source:
 
     def _take_array(self, array: NDArray[Any]) -> None:
         if array.ndim == 4:
-            self._take_frames(images_from_array(array, **self._geometry))
+            self._take_frames(images_from_array(array, times=self._times, **self._geometry))
         else:
             self._take_data(image_from_array(array, **self._geometry))
 
     def _take_data(self, image: vtkImageData) -> None:
         self.data = image
-        components = _components(image)
-        self.is_series = components > 1
-        if self.is_series and self._times is not None:
-            self._own_times = _one_for_each_frame(self._times, components)
+        self._take_components(image)
 
     def _take_frames(self, frames: Sequence[vtkImageData]) -> None:
         times = frame_times(frames) if self._times is None else [float(time) for time in self._times]
@@ -124,14 +114,27 @@ class Source:
         steps: List[float] = []
         if information.Has(Pipeline.TIME_STEPS()):
             steps = list(information.Get(Pipeline.TIME_STEPS()))
-        count = len(steps)
-        if count < 2:
+        if len(steps) < 2:
             algorithm.Update()
             image = algorithm.GetOutputDataObject(0)
-            count = _components(image) if isinstance(image, vtkImageData) else 0
-        self.is_series = count > 1
-        if self.is_series and self._times is not None:
-            self._own_times = _one_for_each_frame(self._times, count)
+            if isinstance(image, vtkImageData):
+                self._take_components(image)
+            return
+        self.is_series = True
+        if self._times is not None:
+            self._own_times = _one_for_each_frame(self._times, len(steps))
+
+    def _take_components(self, image: vtkImageData) -> None:
+        """Several components are frames if there are times for them: they may as well be colours."""
+        components = _components(image)
+        if components < 2:
+            return
+        if self._times is None:
+            raise ValueError(f"the image has {components} components in each voxel: if they are time frames, pass "
+                             "their times (times=[0, 1, ...]); of colours or vectors, extract one component "
+                             "(vtkImageExtractComponents), or make labels of them")
+        self.is_series = True
+        self._own_times = _one_for_each_frame(self._times, components)
 
 
 def _components(image: vtkImageData) -> int:
@@ -140,7 +143,7 @@ def _components(image: vtkImageData) -> int:
     return int(array.GetNumberOfComponents()) if array is not None else 0
 
 
-def _one_for_each_frame(times: Sequence[float], count: int) -> Sequence[float]:
+def _one_for_each_frame(times: Sequence[float], count: int) -> List[float]:
     if len(times) != count:
         raise ValueError(f"there are {count} frames, and {len(times)} times")
-    return times
+    return [float(time) for time in times]

@@ -11,6 +11,8 @@ import textwrap
 import threading
 import unittest
 
+import numpy
+
 import voxplex
 from phantoms import ball
 
@@ -48,9 +50,13 @@ class Progress(unittest.TestCase):
             voxplex.mesh(**LARGE, progress=progress)
         self.assertEqual(len(calls), 1)
 
-    def test_only_false_cancels(self):
-        for value in (None, True, 0, ""):
+    def test_what_is_false_cancels(self):
+        """But None, which functions without a return statement return."""
+        for value in (None, True, numpy.True_, 1, "more"):
             self.assertGreater(voxplex.mesh(ball(), 2.0, progress=lambda _: value).GetNumberOfCells(), 0)
+        for value in (False, numpy.False_, 0, ""):
+            with self.subTest(value), self.assertRaises(voxplex.MeshingCancelled):
+                voxplex.mesh(ball(), 2.0, progress=lambda _: value)
 
     def test_exception(self):
         def progress(_fraction):

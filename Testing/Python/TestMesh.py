@@ -363,7 +363,8 @@ class SpaceTime(unittest.TestCase):
         image = voxplex.image_from_array(frames[0])
         array = numpy.moveaxis(frames, 0, -1).reshape(-1, len(frames)).copy()
         image.GetPointData().SetScalars(numpy_to_vtk(array))
-        self.check(voxplex.mesh(image, 2.0), 0.0, 3.0)
+        self.check(voxplex.mesh(image, 2.0, times=range(4)), 0.0, 3.0)
+        self.check(voxplex.mesh(image, 2.0, times=numpy.arange(4)), 0.0, 3.0)
         self.check(voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 11.0), time_scale=0.5), 5.0, 11.0)
         self.check(voxplex.mesh(image, 2.0, times=(5.0, 7.0, 9.0, 10.0)), 5.0, 10.0)
         with self.assertRaisesRegex(voxplex.MeshingError, "must increase"):
@@ -372,8 +373,141 @@ class SpaceTime(unittest.TestCase):
             voxplex.mesh(image, 2.0, times=(5.0, 7.0))
         self.assertEqual(voxplex.array_from_image(image).shape, (12, 12, 12, 4))
 
+    def test_components_without_times(self):
+        """They may be colours or vectors as well as frames."""
+        frames = beating()
+        image = voxplex.image_from_array(frames[0])
+        producer = vtkTrivialProducer()
+        producer.SetOutput(image)
+        for components in (2, 3, 4):
+            for kind in (numpy.uint8, numpy.int32, float):
+                array = numpy.moveaxis(frames[:components], 0, -1).reshape(-1, components).astype(kind)
+                image.GetPointData().SetScalars(numpy_to_vtk(array, deep=True))
+                for source in (image, producer):
+                    words = f"{components} components .* pass their times .* extract one"
+                    with self.subTest(components=components, kind=kind), self.assertRaisesRegex(ValueError, words):
+                        voxplex.mesh(source, 2.0)
+        with self.assertRaisesRegex(ValueError, "4 components"):
+            voxplex.quality(voxplex.mesh(frames, 2.0), image)
+
+    def test_pictures_with_colours(self):
+        pictures = numpy.zeros((6, 10, 12, 3), dtype=numpy.uint8)
+        pictures[:, 2:8, 3:9] = 1
+        for take in (voxplex.mesh, voxplex.images_from_array):
+            with self.assertRaisesRegex(ValueError, "colours.*pass times="):
+                take(pictures)
+        self.assertEqual(len(voxplex.images_from_array(pictures, times=range(6))), 6)
+        self.assertEqual(len(voxplex.images_from_array(pictures.astype(numpy.int16))), 6)
+        self.check(voxplex.mesh(pictures, 2.0, times=range(6)), 0.0, 5.0)
+
+
+class Masked(unittest.TestCase):
+    """Masked voxels are background, in every way in."""
+
+    def setUp(self):
+        self.labels = ball(radii=(8, 5))
+        self.mask = numpy.zeros(self.labels.shape, dtype=bool)
+        self.mask[:, :, :12] = True
+        self.expected = voxplex.mesh(numpy.where(self.mask, 0, self.labels), 2.0, threads=1)
+
+    def test_labels(self):
+        for kind in (numpy.uint8, numpy.int64, numpy.float32, float, ">i2"):
+            values = self.labels.astype(kind)
+            if values.dtype.kind == "f":
+                values[self.mask] = numpy.nan
+            array = numpy.ma.masked_array(values, self.mask)
+            for source in (array, voxplex.image_from_array(array)):
+                with self.subTest(kind=kind):
+                    self.assertTrue(same(self.expected, voxplex.mesh(source, 2.0, threads=1)))
+            self.assertEqual(voxplex.quality(self.expected, array), voxplex.quality(self.expected, array.filled(0)))
+        array = numpy.ma.masked_array(self.labels > 0, self.mask)
+        self.assertTrue(same(voxplex.mesh(array.filled(False), 2.0, threads=1), voxplex.mesh(array, 2.0, threads=1)))
+        nothing = numpy.ma.masked_array(self.labels)
+        self.assertTrue(same(voxplex.mesh(self.labels, 2.0, threads=1), voxplex.mesh(nothing, 2.0, threads=1)))
+
+    def test_grey_values(self):
+        """0 is inside of this isosurface, and masked voxels are not."""
+        values = self.labels.astype(numpy.int16) * 10 - 5
+        expected = voxplex.mesh(numpy.where(self.mask, numpy.nan, values), 2.0, isovalue=-2.5, threads=1)
+        for kind in (numpy.int16, numpy.int32, numpy.float32):
+            array = numpy.ma.masked_array(values.astype(kind), self.mask)
+            self.assertTrue(same(expected, voxplex.mesh(array, 2.0, isovalue=-2.5, threads=1)))
+
+    def test_series(self):
+        frames = numpy.ma.masked_array(beating(), False)
+        frames[:, :, :, :5] = numpy.ma.masked
+        expected = voxplex.mesh(frames.filled(0), 2.0, threads=1)
+        for source in (frames, voxplex.images_from_array(frames), voxplex.images_from_array(list(frames)),
+                       [voxplex.image_from_array(frame) for frame in frames]):
+            mesh = voxplex.mesh(source, 2.0, threads=1)
+            numpy.testing.assert_array_equal(voxplex.points(expected), voxplex.points(mesh))
+            numpy.testing.assert_array_equal(voxplex.pentatopes(expected), voxplex.pentatopes(mesh))
+        self.assertEqual(voxplex.quality(expected, frames), voxplex.quality(expected, frames.filled(0)))
+
+    def test_sizes(self):
+        """Masked sizes set no bound."""
+        sizes = numpy.ma.masked_array(numpy.full(self.labels.shape, 0.5), True)
+        self.assertTrue(same(voxplex.mesh(self.labels, 2.0, threads=1),
+                             voxplex.mesh(self.labels, 2.0, threads=1, size_image=sizes)))
+
+
+class Numbers(unittest.TestCase):
+    """Numbers of NumPy are as good as Python's."""
+
+    def test_options(self):
+        options = dict(delta=1.5, optimise=False, threads=1, labels=[5], radius_edge=2.0, smallest_component=3,
+                       label_sizes={5: 1.25}, interface_sizes={(5, 0): 1.5}, manifold=False, force=True)
+        theirs = dict(delta=numpy.float32(1.5), optimise=numpy.bool_(False), threads=numpy.int64(1),
+                      labels=numpy.array([5], dtype=numpy.uint8), radius_edge=numpy.float64(2.0),
+                      smallest_component=numpy.int16(3), label_sizes={numpy.uint8(5): numpy.float32(1.25)},
+                      interface_sizes={(numpy.int64(5), numpy.int64(0)): numpy.float64(1.5)},
+                      manifold=numpy.False_, force=numpy.True_)
+        mesh = voxplex.mesh(brick(), full_output=numpy.False_, **theirs)
+        self.assertTrue(same(voxplex.mesh(brick(), **options), mesh))
+        result = voxplex.mesh(brick(), elements=numpy.int64(800), full_output=numpy.True_)
+        self.assertEqual(len(result), 3)
+        voxplex.mesh(brick(), 2.0, isovalue=numpy.int16(4), inside_label=numpy.uint8(3))
+
+    def test_series(self):
+        times = numpy.linspace(0.0, 6.0, 4)
+        mesh = voxplex.mesh(beating(), 1.0, times=times, time_planes=numpy.array([3.0]), seed=numpy.int64(3))
+        self.assertEqual(len(voxplex.quality(mesh, times=times)["frames"]), 4)
+
+    def test_labels_are_whole(self):
+        self.assertTrue(same(voxplex.mesh(brick(), 2.0, labels=[5], threads=1),
+                             voxplex.mesh(brick(), 2.0, labels=[5.0], threads=1)))
+        for bad in (5.5, numpy.float32(5.5), float("nan")):
+            for options in (dict(labels=[bad]), dict(label_sizes={bad: 1.0}), dict(interface_sizes={(bad, 0): 1.0})):
+                with self.assertRaisesRegex(ValueError, "labels are whole numbers"):
+                    voxplex.mesh(brick(), 2.0, **options)
+
 
 class Refusals(unittest.TestCase):
+    def test_negative(self):
+        """As of a CT. Where labels are chosen, such voxels are background."""
+        ct = brick() * 100 - 1024
+        words = r"-1024 .* is negative.*isosurface of it \(isovalue\).*the labels to mesh \(labels\)"
+        with self.assertRaisesRegex(voxplex.MeshingError, words):
+            voxplex.mesh(ct, 2.0)
+        labels = brick()
+        labels[0] = -1
+        self.assertEqual(set(voxplex.labels(voxplex.mesh(labels, 2.0, labels=[5, 9]))), {5, 9})
+
+    def test_grains(self):
+        """Thousands of labels are no grey values if they are regions; otherwise only force helps, or labels."""
+        grains = numpy.arange(1, 14 ** 3 + 1, dtype=numpy.int32).reshape(14, 14, 14)
+        grey = numpy.random.default_rng(1).permutation(grains.reshape(-1)).reshape(14, 14, 14)
+        grains = grains.repeat(3, 0).repeat(3, 1).repeat(3, 2)
+        fast = dict(delta=6.0, optimise=False, manifold=False, smallest_component=0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the mesh lacks many of them
+            self.assertGreater(voxplex.mesh(grains, **fast).GetNumberOfCells(), 100)
+            self.assertGreater(voxplex.mesh(grey, force=True, **fast).GetNumberOfCells(), 10)
+        with self.assertRaisesRegex(voxplex.MeshingError, "2744 labels look like grey values.*pass force=True"):
+            voxplex.mesh(grey, **fast)
+        chosen = voxplex.mesh(grey, 0.5, labels=[1, 2, 3], smallest_component=1)
+        self.assertEqual(set(voxplex.labels(chosen)), {1, 2, 3})
+
     def test_messages_of_the_filter(self):
         for words, options in {
                 "Delta is -1": dict(delta=-1), "label_sizes gives a size to label 3": dict(label_sizes={3: 1.0}),
