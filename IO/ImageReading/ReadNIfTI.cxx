@@ -402,20 +402,6 @@ double UnitOfLength(const Header& header)
   }
 }
 
-/** Into seconds; numbers of other things are kept. */
-double UnitOfTime(const Header& header)
-{
-  switch (header.Units & 0x38)
-  {
-    case 16:
-      return 1e-3;
-    case 24:
-      return 1e-6;
-    default:
-      return 1.0;
-  }
-}
-
 void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 {
   const double unit = UnitOfLength(header);
@@ -435,7 +421,6 @@ void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 
 void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
 {
-  const double unit = UnitOfTime(header);
   const double step = header.Steps[4];
   if (!std::isfinite(header.FirstTime))
   {
@@ -453,8 +438,8 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
     reading.Warnings.push_back("its header has 0 for the time from frame to frame, which is taken to be 1; use "
       "SetTimeScale() to weigh time against space");
   }
-  image.TimeOrigin = header.FirstTime * unit;
-  image.TimeSpacing = step == 0 ? 1.0 : step * unit;
+  image.TimeOrigin = header.FirstTime;
+  image.TimeSpacing = step == 0 ? 1.0 : step;
 }
 
 StoredVoxels FindVoxels(const Header& header, const std::string& path, const Reading& reading)

@@ -98,8 +98,9 @@ equal("no matrix", TransformMatrix=None)
 equal("no offset", Image(I2, affine(origin=(0, 0, 0)), warns=ANY), Offset=None)
 equal("AnatomicalOrientation", AnatomicalOrientation="LPI", CenterOfRotation="9 9 9", Comment="x = y", ID=7, Name="a",
       ObjectSubType="Image", Modality="MET_MOD_CT", ElementMin=-9, ElementMax=9)
-for unit, factor in (("mm", 1.0), ("um", 1e-3), ("cm", 10.0)):
-    equal("DistanceUnits %s" % unit, Image(I2, affine() * factor), DistanceUnits=unit)
+for unit in ("mm", "um", "cm"):
+    equal("DistanceUnits %s" % unit, Image(I2, affine(), warns="" if unit == "mm" else "its lengths are in '%s'" % unit),
+          DistanceUnits=unit)
 equal("a field that is not known", MyField="x")
 equal("carriage returns", wrap=lambda f: f.with_data(f.data()[:f.header].replace(b"\n", b"\r\n") + f.data()[f.header:]))
 equal("no blanks around =", wrap=lambda f: f.with_data(f.data()[:f.header].replace(b" = ", b"=") + f.data()[f.header:]),
