@@ -1,2 +1,441 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ReadDICOM.h"
-namespace voxplex::io { bool IsDICOM(const InputFile&){return false;} ScalarImage ReadDICOMFile(const std::string&, Reading&){return {};} ScalarImage ReadDICOMFolder(const std::string&, const std::string&, Reading&){return {};}}
+
+#include "DICOMDataSet.h"
+#include "DICOMPixels.h"
+#include "DICOMSlices.h"
+#include "Excerpt.h"
+#include "FileError.h"
+#include "Placement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <type_traits>
+
+namespace fs = std::filesystem;
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr DICOMTag MediaStorage{ 0x00020002, "Media Storage SOP Class UID" };
+constexpr DICOMTag SeriesUID{ 0x0020000E, "Series Instance UID" };
+constexpr DICOMTag PixelData{ 0x7FE00010, "Pixel Data" };
+
+/** The class of a DICOMDIR. */
+constexpr std::string_view Directory = "1.2.840.10008.1.3.10";
+
+using FileNames = std::vector<std::string>;
+
+/** The slices of one volume, and what their pixels are like. */
+struct Volume
+{
+  FileNames Files;
+  std::vector<DICOMSlice> Slices;
+  DICOMPixelFormat Format;
+  bool IsLossy = false;
+};
+
+std::string NameInFolder(const std::string& path)
+{
+  return "'" + Excerpt(fs::path(path).filename().string()) + "'";
+}
+
+/** What read() returns. @throws FileError that names the file of a folder */
+template <typename TRead>
+auto Naming(const std::string& path, TRead&& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const FileError& error)
+  {
+    throw FileError(NameInFolder(path) + ": " + error.what());
+  }
+}
+
+void CheckFormat(const DICOMSlice& first, const DICOMPixelFormat& a, const DICOMSlice& second,
+  const DICOMPixelFormat& b)
+{
+  struct Part
+  {
+    const char* Name;
+    unsigned First;
+    unsigned Second;
+  };
+  const std::array<Part, 6> parts{ { { "Columns (0028,0011)", a.Columns, b.Columns },
+    { "Rows (0028,0010)", a.Rows, b.Rows },
+    { "Bits Allocated (0028,0100)", a.BitsAllocated, b.BitsAllocated },
+    { "Bits Stored (0028,0101)", a.BitsStored, b.BitsStored },
+    { "High Bit (0028,0102)", a.HighBit, b.HighBit },
+    { "Pixel Representation (0028,0103)", a.IsSigned, b.IsSigned } } };
+  for (const Part& part : parts)
+  {
+    if (part.First != part.Second)
+    {
+      throw FileError(first.Name + " and " + second.Name + " differ in " + part.Name +
+        ", which is " + std::to_string(part.First) + " and " + std::to_string(part.Second) +
+        ": slices of one volume are alike; take the others out of the folder first");
+    }
+  }
+}
+
+/** Adds the slices of a file. */
+DICOMPixelFormat AddFile(Volume& volume, const std::string& path)
+{
+  const DICOMDataSet data(path);
+  CheckObject(data);
+  const DICOMPixels pixels(data);
+  for (DICOMSlice& slice : ReadSlices(data, pixels.Frames()))
+  {
+    slice.File = volume.Files.size();
+    volume.Slices.push_back(slice);
+  }
+  volume.IsLossy = volume.IsLossy || pixels.IsLossy();
+  volume.Files.push_back(path);
+  return pixels.Format();
+}
+
+/** Adds a slice of a series. */
+void AddSlice(Volume& volume, const std::string& path)
+{
+  const std::size_t before = volume.Slices.size();
+  const DICOMPixelFormat format = Naming(path, [&] { return AddFile(volume, path); });
+  if (const std::size_t frames = volume.Slices.size() - before; frames > 1)
+  {
+    throw FileError(NameInFolder(path) + " has " + std::to_string(frames) +
+      " frames, and there are other files in its series: each may be an image of its own: give one "
+      "of the files");
+  }
+  volume.Slices.back().Name = NameInFolder(path);
+  volume.Format = before == 0 ? format : volume.Format;
+  CheckFormat(volume.Slices.front(), volume.Format, volume.Slices.back(), format);
+}
+
+/** A range of whole numbers: the values of a type or of an image. */
+struct Range
+{
+  double Least = 0.0;
+  double Most = 0.0;
+};
+
+template <typename T>
+bool Holds(const Range& range)
+{
+  // 2^63 is the double above the most that 64 bits hold.
+  return range.Least >= static_cast<double>(std::numeric_limits<T>::min()) &&
+    range.Most < -static_cast<double>(std::numeric_limits<T>::min());
+}
+
+/** Of voxels when they are rescaled: whole numbers stay whole. */
+ScalarType ChooseType(const Volume& volume)
+{
+  const DICOMPixelFormat& format = volume.Format;
+  const double half = std::ldexp(1.0, static_cast<int>(format.BitsStored) - 1);
+  const Range stored =
+    format.IsSigned ? Range{ -half, half - 1.0 } : Range{ 0.0, 2.0 * half - 1.0 };
+  Range range;
+  bool isIdentity = true;
+  for (const DICOMSlice& slice : volume.Slices)
+  {
+    if (slice.Slope != std::trunc(slice.Slope) || slice.Intercept != std::trunc(slice.Intercept))
+    {
+      return ScalarType::Float64;
+    }
+    const double a = stored.Least * slice.Slope + slice.Intercept;
+    const double b = stored.Most * slice.Slope + slice.Intercept;
+    // The products count, too, from which the sums are made.
+    range = { std::min({ range.Least, a, b, a - slice.Intercept, b - slice.Intercept }),
+      std::max({ range.Most, a, b, a - slice.Intercept, b - slice.Intercept }) };
+    isIdentity = isIdentity && slice.Slope == 1.0 && slice.Intercept == 0.0;
+  }
+  if (isIdentity)
+  {
+    return IntegerType(format.BitsAllocated / 8, format.IsSigned).value();
+  }
+  return Holds<std::int16_t>(range) ? ScalarType::Int16
+    : Holds<std::int32_t>(range)    ? ScalarType::Int32
+    : Holds<std::int64_t>(range)    ? ScalarType::Int64
+                                    : ScalarType::Float64;
+}
+
+/** Takes the bits that belong to a sample, gives them their sign and rescales. */
+template <typename TStored, typename TVoxel>
+void Convert(
+  const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice, TVoxel* to)
+{
+  using Number = std::conditional_t<std::is_floating_point_v<TVoxel>, double, std::int64_t>;
+  const unsigned shift = format.HighBit + 1 - format.BitsStored;
+  const std::uint32_t mask =
+    static_cast<std::uint32_t>((std::uint64_t(1) << format.BitsStored) - 1);
+  const std::uint32_t sign = format.IsSigned ? std::uint32_t(1) << (format.BitsStored - 1) : 0;
+  const auto slope = static_cast<Number>(slice.Slope);
+  const auto intercept = static_cast<Number>(slice.Intercept);
+  const auto count = static_cast<std::size_t>(format.Pixels());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::uint32_t bits = 0;
+    for (std::size_t byte = sizeof(TStored); byte-- > 0;)
+    {
+      bits = bits << 8 | std::to_integer<std::uint32_t>(frame.Samples[sizeof(TStored) * i + byte]);
+    }
+    bits = bits >> shift & mask;
+    const std::int64_t value = std::int64_t(bits) - (bits & sign ? std::int64_t(sign) * 2 : 0);
+    to[i] = static_cast<TVoxel>(static_cast<Number>(value) * slope + intercept);
+  }
+}
+
+template <typename TVoxel>
+void ConvertTo(
+  const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice, void* voxels)
+{
+  TVoxel* to = static_cast<TVoxel*>(voxels);
+  switch (frame.BytesOfSample)
+  {
+    case 1:
+      return Convert<std::uint8_t>(frame, format, slice, to);
+    case 2:
+      return Convert<std::uint16_t>(frame, format, slice, to);
+    default:
+      return Convert<std::uint32_t>(frame, format, slice, to);
+  }
+}
+
+void ConvertToType(const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice,
+  ScalarType type, void* to)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return ConvertTo<std::int8_t>(frame, format, slice, to);
+    case ScalarType::UInt8:
+      return ConvertTo<std::uint8_t>(frame, format, slice, to);
+    case ScalarType::Int16:
+      return ConvertTo<std::int16_t>(frame, format, slice, to);
+    case ScalarType::UInt16:
+      return ConvertTo<std::uint16_t>(frame, format, slice, to);
+    case ScalarType::Int32:
+      return ConvertTo<std::int32_t>(frame, format, slice, to);
+    case ScalarType::UInt32:
+      return ConvertTo<std::uint32_t>(frame, format, slice, to);
+    case ScalarType::Int64:
+      return ConvertTo<std::int64_t>(frame, format, slice, to);
+    default:
+      return ConvertTo<double>(frame, format, slice, to);
+  }
+}
+
+/** Where the voxels lie. */
+void PlaceVolume(ScalarImage& image, Volume& volume, Reading& reading)
+{
+  Vector3 step = ArrangeSlices(volume.Slices);
+  const DICOMSlice& first = volume.Slices.front();
+  if (step == Vector3{})
+  {
+    const Vector3& a = first.Row;
+    const Vector3& b = first.Column;
+    const double spacing = std::hypot(a[0], a[1], a[2]);
+    const double scale = 1.0 / std::hypot(b[0], b[1], b[2]);
+    step = { scale * (a[1] * b[2] - a[2] * b[1]), scale * (a[2] * b[0] - a[0] * b[2]),
+      scale * (a[0] * b[1] - a[1] * b[0]) };
+    std::ostringstream warning;
+    warning << "it is one slice, of which the thickness is not known: " << spacing
+            << " mm was taken, as between columns";
+    reading.Warnings.push_back(warning.str());
+  }
+  Place(image, { first.Row, first.Column, step }, first.Position);
+}
+
+ScalarImage ReadVolume(Volume& volume, Reading& reading)
+{
+  ScalarImage image;
+  SetSizes(image,
+    { std::int64_t(volume.Format.Columns), std::int64_t(volume.Format.Rows),
+      static_cast<std::int64_t>(volume.Slices.size()) });
+  PlaceVolume(image, volume, reading);
+  image.Type = ChooseType(volume);
+  const std::size_t bytesOfSlice =
+    static_cast<std::size_t>(volume.Format.Pixels()) * SizeOf(image.Type);
+  image.Scalars = reading.Allocate(bytesOfSlice * volume.Slices.size());
+  auto* voxels = static_cast<std::byte*>(image.Scalars.get());
+
+  const bool isFolder = volume.Files.size() > 1;
+  std::unique_ptr<DICOMDataSet> data;
+  std::unique_ptr<DICOMPixels> pixels;
+  std::size_t open = volume.Files.size();
+  for (std::size_t k = 0; k < volume.Slices.size(); ++k)
+  {
+    const DICOMSlice& slice = volume.Slices[k];
+    const auto read = [&]
+    {
+      if (slice.File != open)
+      {
+        pixels.reset();
+        data = std::make_unique<DICOMDataSet>(volume.Files[slice.File]);
+        pixels = std::make_unique<DICOMPixels>(*data);
+        open = slice.File;
+        if (pixels->Format() != volume.Format || slice.Frame >= pixels->Frames())
+        {
+          throw FileError("it has changed while it was read");
+        }
+      }
+      ConvertToType(
+        pixels->Read(slice.Frame), volume.Format, slice, image.Type, voxels + k * bytesOfSlice);
+    };
+    isFolder ? Naming(volume.Files[slice.File], read) : read();
+  }
+  if (volume.IsLossy)
+  {
+    reading.Warnings.push_back(
+      "its voxels were compressed with loss, which makes wrong labels at their borders: take the "
+      "images from before, if there are any");
+  }
+  return image;
+}
+
+/** Files of a folder with one Series Instance UID. */
+struct Series
+{
+  FileNames Files;
+  bool HasImages = false;
+};
+
+using SeriesByUID = std::map<std::string, Series>;
+
+void AddToSeries(SeriesByUID& series, const std::string& path)
+{
+  if (!IsDICOM(InputFile(path)))
+  {
+    if (fs::path(path).extension() == ".dcm")
+    {
+      throw FileError("it is no DICOM file, or its beginning is damaged");
+    }
+    return;
+  }
+  const DICOMDataSet data(path);
+  const std::string uid = data.Text(SeriesUID);
+  const bool hasPixels = data.Find(PixelData);
+  if (uid.empty() && !hasPixels)
+  {
+    if (data.Text(MediaStorage) != Directory)
+    {
+      CheckObject(data);
+    }
+    return;
+  }
+  series[uid].Files.push_back(path);
+  series[uid].HasImages = series[uid].HasImages || hasPixels;
+}
+
+/** Those of a folder that have images. */
+SeriesByUID FindSeries(const std::string& path)
+{
+  FileNames files;
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    std::error_code ignored;
+    if (!fs::is_directory(entry->status(ignored)))
+    {
+      files.push_back(entry->path().string());
+    }
+  }
+  if (error)
+  {
+    throw FileError(error.message());
+  }
+  std::sort(files.begin(), files.end());
+  SeriesByUID series;
+  for (const std::string& name : files)
+  {
+    Naming(name, [&] { AddToSeries(series, name); });
+  }
+  const bool hasImages =
+    std::any_of(series.begin(), series.end(), [](const auto& one) { return one.second.HasImages; });
+  if (!series.empty() && !hasImages)
+  {
+    const std::string& other = series.begin()->second.Files.front();
+    Naming(other, [&] { CheckObject(DICOMDataSet(other)); });
+  }
+  std::erase_if(series, [](const auto& one) { return !one.second.HasImages; });
+  return series;
+}
+
+std::string ListSeries(const SeriesByUID& series)
+{
+  std::ostringstream list;
+  for (const auto& [uid, one] : series)
+  {
+    list << "\n  SetSeriesUID(\"" << Excerpt(uid) << "\")  (" << one.Files.size() << " files)";
+  }
+  return list.str();
+}
+
+/** The one series of a folder, or the one that the user asks for. */
+FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
+{
+  if (available.empty())
+  {
+    throw FileError("the folder holds no DICOM images");
+  }
+  if (const auto exact = available.find(wanted); exact != available.end() && !wanted.empty())
+  {
+    return exact->second.Files;
+  }
+  SeriesByUID matching;
+  std::copy_if(available.begin(), available.end(), std::inserter(matching, matching.end()),
+    [&wanted](const auto& one) { return one.first.starts_with(wanted); });
+  if (matching.empty())
+  {
+    throw FileError("there is no DICOM series '" + wanted + "'; there are" + ListSeries(available));
+  }
+  if (matching.size() > 1)
+  {
+    throw FileError("the folder holds " + std::to_string(matching.size()) +
+      " DICOM series; choose one with" + ListSeries(matching));
+  }
+  return matching.begin()->second.Files;
+}
+
+} // namespace
+
+bool IsDICOM(const InputFile& file)
+{
+  return DICOMDataSet::Recognize(file);
+}
+
+ScalarImage ReadDICOMFile(const std::string& path, Reading& reading)
+{
+  Volume volume;
+  volume.Format = AddFile(volume, path);
+  return ReadVolume(volume, reading);
+}
+
+ScalarImage ReadDICOMFolder(const std::string& path, const std::string& series, Reading& reading)
+{
+  const FileNames files = ChooseSeries(FindSeries(path), series);
+  Volume volume;
+  if (files.size() == 1)
+  {
+    volume.Format = Naming(files[0], [&] { return AddFile(volume, files[0]); });
+    return ReadVolume(volume, reading);
+  }
+  for (const std::string& name : files)
+  {
+    AddSlice(volume, name);
+  }
+  return ReadVolume(volume, reading);
+}
+
+} // namespace voxplex::io

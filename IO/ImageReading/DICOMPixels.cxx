@@ -1,0 +1,417 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DICOMPixels.h"
+
+#include "DICOMCodestream.h"
+#include "Excerpt.h"
+#include "FileError.h"
+
+#include <gdcmUIDs.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace voxplex::io
+{
+namespace
+{
+
+constexpr DICOMTag SOPClass{ 0x00080016, "SOP Class UID" };
+constexpr DICOMTag SamplesPerPixel{ 0x00280002, "Samples per Pixel" };
+constexpr DICOMTag Photometric{ 0x00280004, "Photometric Interpretation" };
+constexpr DICOMTag NumberOfFramesTag{ 0x00280008, "Number of Frames" };
+constexpr DICOMTag Rows{ 0x00280010, "Rows" };
+constexpr DICOMTag Columns{ 0x00280011, "Columns" };
+constexpr DICOMTag BitsAllocated{ 0x00280100, "Bits Allocated" };
+constexpr DICOMTag BitsStored{ 0x00280101, "Bits Stored" };
+constexpr DICOMTag HighBit{ 0x00280102, "High Bit" };
+constexpr DICOMTag PixelRepresentation{ 0x00280103, "Pixel Representation" };
+constexpr DICOMTag LossyCompression{ 0x00282110, "Lossy Image Compression" };
+constexpr DICOMTag PixelData{ 0x7FE00010, "Pixel Data" };
+
+/** The values of which are labels, also where a palette gives them colours. */
+constexpr std::string_view LabelMapSegmentation = "1.2.840.10008.5.1.4.1.1.66.7";
+
+unsigned Required(const DICOMDataSet& data, const DICOMTag& tag)
+{
+  const std::optional<unsigned> number = data.Short(tag);
+  if (!number)
+  {
+    throw FileError("it has no " + Describe(tag));
+  }
+  return *number;
+}
+
+[[noreturn]] void RefuseValue(const DICOMTag& tag, const std::string& value, const std::string& why)
+{
+  throw FileError("its " + Describe(tag) + " is " + Excerpt(value) + ": " + why);
+}
+
+void CheckColours(const DICOMDataSet& data)
+{
+  const std::string colours =
+    "its voxels are colours, and a label image has one value a voxel: export the labels, "
+    "or convert it to grey values first";
+  if (const unsigned samples = data.Short(SamplesPerPixel).value_or(1); samples != 1)
+  {
+    RefuseValue(SamplesPerPixel, std::to_string(samples), colours);
+  }
+  const std::string meaning = data.Text(Photometric);
+  const bool isLabelMap = data.Text(SOPClass) == LabelMapSegmentation && meaning == "PALETTE COLOR";
+  if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1" && !isLabelMap)
+  {
+    RefuseValue(Photometric, "'" + meaning + "'", colours);
+  }
+}
+
+DICOMPixelFormat ReadFormat(const DICOMDataSet& data)
+{
+  DICOMPixelFormat format;
+  format.Rows = Required(data, Rows);
+  format.Columns = Required(data, Columns);
+  format.BitsAllocated = Required(data, BitsAllocated);
+  format.BitsStored = Required(data, BitsStored);
+  format.HighBit = data.Short(HighBit).value_or(format.BitsStored - 1);
+  const unsigned representation = Required(data, PixelRepresentation);
+  format.IsSigned = representation == 1;
+  if (format.Rows == 0 || format.Columns == 0)
+  {
+    throw FileError("it has " + std::to_string(format.Rows) + " rows and " +
+      std::to_string(format.Columns) + " columns");
+  }
+  if (format.BitsAllocated != 8 && format.BitsAllocated != 16 && format.BitsAllocated != 32)
+  {
+    RefuseValue(BitsAllocated, std::to_string(format.BitsAllocated),
+      "voxels of 8, 16 and 32 bits are read: convert it first");
+  }
+  const std::string bits = std::to_string(format.BitsStored) + " bits stored up to bit " +
+    std::to_string(format.HighBit) + " of " + std::to_string(format.BitsAllocated);
+  if (format.BitsStored == 0 || format.HighBit >= format.BitsAllocated ||
+    format.HighBit + 1 < format.BitsStored)
+  {
+    throw FileError("its voxels have " + bits + ", which cannot be: correct its header");
+  }
+  if (representation > 1)
+  {
+    RefuseValue(PixelRepresentation, std::to_string(representation), "it must be 0 or 1");
+  }
+  return format;
+}
+
+int ReadNumberOfFrames(const DICOMDataSet& data)
+{
+  const std::vector<double> number = data.Numbers(NumberOfFramesTag, 1);
+  if (number.empty())
+  {
+    return 1;
+  }
+  if (number[0] < 1 || number[0] > std::numeric_limits<int>::max() ||
+    number[0] != static_cast<int>(number[0]))
+  {
+    RefuseValue(NumberOfFramesTag, "'" + data.Text(NumberOfFramesTag) + "'",
+      "it must be a positive whole number");
+  }
+  return static_cast<int>(number[0]);
+}
+
+std::string NameOfSyntax(const std::string& uid)
+{
+  gdcm::UIDs names;
+  const bool isKnown = names.SetFromUID(uid.c_str());
+  return "'" + (isKnown ? std::string(names.GetName()) : Excerpt(uid)) + "'";
+}
+
+std::string Truncation(std::uint64_t found, std::uint64_t needed)
+{
+  return "its pixels are truncated: " + std::to_string(found) + " of " + std::to_string(needed) +
+    " bytes";
+}
+
+/** One byte of each pixel: literals, and bytes that are repeated (PS3.5, G.3). */
+void DecodeSegment(
+  std::span<const std::byte> packed, std::byte* to, std::size_t count, std::size_t stride)
+{
+  std::size_t at = 0;
+  std::size_t done = 0;
+  while (done < count && at < packed.size())
+  {
+    const int head = static_cast<signed char>(packed[at++]);
+    const bool isRun = head < 0;
+    const auto length = static_cast<std::size_t>(head == -128 ? 0 : isRun ? 1 - head : 1 + head);
+    const std::size_t taken = std::min<std::size_t>(length, isRun ? 1 : length);
+    if (packed.size() - at < taken || count - done < length)
+    {
+      break;
+    }
+    for (std::size_t i = 0; i < length; ++i)
+    {
+      to[(done + i) * stride] = packed[at + (isRun ? 0 : i)];
+    }
+    at += taken;
+    done += length;
+  }
+  const std::span<const std::byte> padding = packed.subspan(at);
+  const bool isPadded = std::all_of(
+    padding.begin(), padding.end(), [](std::byte byte) { return byte == std::byte(0); });
+  if (done < count || !isPadded)
+  {
+    throw FileError("its pixels are truncated or damaged: a run-length segment has " +
+      (done < count ? std::to_string(done) + " of " : std::string("more than ")) +
+      std::to_string(count) + " bytes");
+  }
+}
+
+/** Segments hold a byte of each pixel, the most significant first. */
+DICOMFrame DecodeRLE(const std::vector<std::byte>& packed, const DICOMPixelFormat& format)
+{
+  constexpr std::size_t headerSize = 64;
+  const std::size_t expected = format.BitsAllocated / 8;
+  const auto number = [&packed](std::size_t index)
+  { return ReadNumber(std::span(packed).subspan(4 * index, 4), false); };
+  if (packed.size() < headerSize || number(0) != expected)
+  {
+    throw FileError("its pixels are damaged: a frame has " +
+      (packed.size() < headerSize ? "no" : std::to_string(number(0))) +
+      " run-length segments, and " + std::to_string(expected) + " are needed");
+  }
+  DICOMFrame frame{ std::vector<std::byte>(static_cast<std::size_t>(format.BytesOfFrame())),
+    expected };
+  for (std::size_t segment = 0; segment < expected; ++segment)
+  {
+    const std::size_t begin = number(1 + segment);
+    const std::size_t end = segment + 1 < expected ? number(2 + segment) : packed.size();
+    if (begin < headerSize || begin > end || end > packed.size())
+    {
+      throw FileError("its pixels are damaged: a run-length segment begins at byte " +
+        std::to_string(begin) + " and ends at byte " + std::to_string(end) + " of " +
+        std::to_string(packed.size()));
+    }
+    DecodeSegment(std::span(packed).subspan(begin, end - begin),
+      frame.Samples.data() + expected - 1 - segment, static_cast<std::size_t>(format.Pixels()),
+      expected);
+  }
+  return frame;
+}
+
+} // namespace
+
+DICOMPixels::DICOMPixels(const DICOMDataSet& data)
+  : Data(data)
+{
+  CheckColours(data);
+  this->Layout = ReadFormat(data);
+  this->NumberOfFrames = ReadNumberOfFrames(data);
+  this->ChooseCompression(data.Syntax().UID, data.Text(LossyCompression));
+  const DICOMElement* pixels = data.Find(PixelData);
+  if (!pixels)
+  {
+    throw FileError("it has no " + Describe(PixelData));
+  }
+  if (this->Method == Compression::None)
+  {
+    this->CheckRawLength(*pixels);
+    this->Begin = pixels->Position;
+    this->AreBytesSwapped =
+      data.Syntax().IsBigEndian && (this->Layout.BitsAllocated > 8 || pixels->VR() == "OW");
+    return;
+  }
+  if (pixels->Length != DICOMElement::Undefined)
+  {
+    throw FileError("its pixels are damaged: they are not compressed, as its transfer syntax " +
+      NameOfSyntax(data.Syntax().UID) + " says");
+  }
+  this->FindFrames(*pixels);
+  this->CheckRatio();
+}
+
+void DICOMPixels::ChooseCompression(const std::string& syntax, const std::string& lossy)
+{
+  struct Known
+  {
+    std::string_view UID; ///< after the root
+    Compression Method;
+    bool IsLossy = false;
+  };
+  constexpr std::string_view root = "1.2.840.10008.1.2";
+  constexpr std::array<Known, 15> known{ { { "", Compression::None }, { ".1", Compression::None },
+    { ".2", Compression::None }, { ".1.99", Compression::None }, { ".5", Compression::RLE },
+    { ".4.50", Compression::JPEG, true }, { ".4.51", Compression::JPEG, true },
+    { ".4.53", Compression::JPEG, true }, { ".4.55", Compression::JPEG, true },
+    { ".4.57", Compression::JPEG }, { ".4.70", Compression::JPEG },
+    { ".4.80", Compression::JPEGLS }, { ".4.81", Compression::JPEGLS, true },
+    { ".4.90", Compression::JPEG2000 }, { ".4.91", Compression::JPEG2000 } } };
+  const auto found = std::find_if(known.begin(), known.end(),
+    [&](const Known& one)
+    { return syntax.empty() ? one.UID.empty() : syntax == std::string(root).append(one.UID); });
+  if (found == known.end())
+  {
+    throw FileError("its transfer syntax " + NameOfSyntax(syntax) +
+      " is not supported: decompress it first (gdcmconv --raw, dcmdjpeg)");
+  }
+  this->Method = found->Method;
+  // JPEG-LS and JPEG 2000 may be without loss, also in the transfer syntaxes that allow it.
+  this->WasLossy =
+    lossy == "01" || (found->IsLossy && (lossy != "00" || found->Method == Compression::JPEG));
+}
+
+void DICOMPixels::CheckRawLength(const DICOMElement& pixels) const
+{
+  const std::uint64_t frame = this->Layout.BytesOfFrame();
+  const auto frames = static_cast<std::uint64_t>(this->NumberOfFrames);
+  const bool isEndless = frame > std::numeric_limits<std::uint64_t>::max() / frames;
+  const std::uint64_t needed = frame * frames;
+  if (pixels.Length == DICOMElement::Undefined)
+  {
+    throw FileError("its pixels are damaged: they have no length, and are not compressed");
+  }
+  if (isEndless || pixels.Length < needed)
+  {
+    throw FileError(isEndless ? "its header claims more pixels than memory has"
+                              : Truncation(pixels.Length, needed));
+  }
+  if (const std::uint64_t padded = needed + needed % 2; pixels.Length > padded)
+  {
+    throw FileError("its pixels have " + std::to_string(pixels.Length) + " bytes, and " +
+      std::to_string(this->NumberOfFrames) + " frames of " + std::to_string(this->Layout.Columns) +
+      " x " + std::to_string(this->Layout.Rows) + " have " + std::to_string(needed) +
+      ": correct its header");
+  }
+  if (const std::uint64_t found = this->Data.Available(pixels.Position, needed); found < needed)
+  {
+    throw FileError(Truncation(found, needed));
+  }
+}
+
+/** A frame has one fragment, or those that the table of offsets gives it. */
+void DICOMPixels::FindFrames(const DICOMElement& pixels)
+{
+  std::vector<DICOMElement> fragments = this->Data.Fragments(pixels);
+  if (fragments.empty())
+  {
+    throw FileError("its pixels are truncated: there are none");
+  }
+  std::vector<std::byte> table(fragments.front().Length);
+  this->Data.ReadBytes(fragments.front().Position, table);
+  fragments.erase(fragments.begin());
+
+  const auto frames = static_cast<std::size_t>(this->NumberOfFrames);
+  if (frames == 1 && !fragments.empty())
+  {
+    this->FragmentsOfFrames = { fragments };
+    return;
+  }
+  if (frames == fragments.size())
+  {
+    for (const DICOMElement& fragment : fragments)
+    {
+      this->FragmentsOfFrames.push_back({ fragment });
+    }
+    return;
+  }
+  std::size_t frame = 0;
+  for (const DICOMElement& fragment : fragments)
+  {
+    const std::uint64_t offset = fragment.Position - fragments.front().Position;
+    if (4 * frame + 4 <= table.size() &&
+      offset == ReadNumber(std::span(table).subspan(4 * frame, 4), false))
+    {
+      this->FragmentsOfFrames.emplace_back();
+      ++frame;
+    }
+    if (frame == 0)
+    {
+      break;
+    }
+    this->FragmentsOfFrames.back().push_back(fragment);
+  }
+  if (frame != frames || table.size() != 4 * frames)
+  {
+    throw FileError("its pixels are truncated or damaged: it has " +
+      std::to_string(fragments.size()) + " compressed fragments for " + std::to_string(frames) +
+      " frames");
+  }
+}
+
+/** Memory is not taken for what a file cannot hold. */
+void DICOMPixels::CheckRatio() const
+{
+  const std::uint64_t most = this->Method == Compression::RLE ? 64 : 65536;
+  for (const std::vector<DICOMElement>& fragments : this->FragmentsOfFrames)
+  {
+    std::uint64_t packed = 0;
+    for (const DICOMElement& fragment : fragments)
+    {
+      packed += fragment.Length;
+    }
+    if (packed * most < this->Layout.BytesOfFrame())
+    {
+      throw FileError("its pixels are truncated or damaged: frames of " +
+        std::to_string(this->Layout.BytesOfFrame()) + " bytes are not compressed to " +
+        std::to_string(packed));
+    }
+  }
+}
+
+DICOMFrame DICOMPixels::Read(int frame) const
+{
+  switch (this->Method)
+  {
+    case Compression::None:
+      return this->ReadRaw(frame);
+    case Compression::RLE:
+      return DecodeRLE(this->ReadFragments(frame), this->Layout);
+    case Compression::JPEG:
+      return DecodeJPEG(this->ReadFragments(frame), this->Layout);
+    case Compression::JPEGLS:
+      return DecodeJPEGLS(this->ReadFragments(frame), this->Layout);
+    case Compression::JPEG2000:
+      return DecodeJPEG2000(this->ReadFragments(frame), this->Layout);
+  }
+  return {};
+}
+
+DICOMFrame DICOMPixels::ReadRaw(int frame) const
+{
+  const std::size_t size = static_cast<std::size_t>(this->Layout.BytesOfFrame());
+  const std::size_t bytesOfSample = this->Layout.BitsAllocated / 8;
+  const std::uint64_t offset = static_cast<std::uint64_t>(frame) * size;
+  DICOMFrame result{ std::vector<std::byte>(size), bytesOfSample };
+  if (!this->AreBytesSwapped || bytesOfSample > 1)
+  {
+    this->Data.ReadBytes(this->Begin + offset, result.Samples);
+    for (std::size_t i = 0; this->AreBytesSwapped && i < size; i += bytesOfSample)
+    {
+      std::reverse(result.Samples.begin() + static_cast<std::ptrdiff_t>(i),
+        result.Samples.begin() + static_cast<std::ptrdiff_t>(i + bytesOfSample));
+    }
+    return result;
+  }
+  // Two pixels of a byte are in a word, which may belong to two frames.
+  std::vector<std::byte> words(size + 2);
+  const std::uint64_t start = offset - offset % 2;
+  const std::uint64_t end = offset + size + (offset + size) % 2;
+  this->Data.ReadBytes(
+    this->Begin + start, std::span(words).first(static_cast<std::size_t>(end - start)));
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    result.Samples[i] = words[((offset + i) ^ 1) - start];
+  }
+  return result;
+}
+
+std::vector<std::byte> DICOMPixels::ReadFragments(int frame) const
+{
+  std::vector<std::byte> packed;
+  for (const DICOMElement& fragment : this->FragmentsOfFrames[static_cast<std::size_t>(frame)])
+  {
+    const std::size_t before = packed.size();
+    packed.resize(before + fragment.Length);
+    this->Data.ReadBytes(fragment.Position, std::span(packed).subspan(before));
+  }
+  return packed;
+}
+
+} // namespace voxplex::io

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file DICOMPixels.h
+ * @brief The pixels of a DICOM file, of one value each, frame by frame. GDCM decompresses JPEG, JPEG-LS and JPEG 2000.
+ */
+#ifndef voxplex_io_DICOMPixels_h
+#define voxplex_io_DICOMPixels_h
+
+#include "DICOMDataSet.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace voxplex::io
+{
+
+/** What the Image Pixel module says. */
+struct DICOMPixelFormat
+{
+  unsigned Rows = 0;
+  unsigned Columns = 0;
+  unsigned BitsAllocated = 0; ///< 8, 16 or 32
+  unsigned BitsStored = 0;
+  unsigned HighBit = 0;
+  bool IsSigned = false;
+
+  bool operator==(const DICOMPixelFormat&) const = default;
+  std::uint64_t Pixels() const { return std::uint64_t(this->Rows) * this->Columns; }
+  std::uint64_t BytesOfFrame() const { return this->Pixels() * (this->BitsAllocated / 8); }
+};
+
+/** One frame. Each sample has bits that do not belong to it above its high bit, and maybe below. */
+struct DICOMFrame
+{
+  std::vector<std::byte> Samples; ///< little endian
+  std::size_t BytesOfSample = 1;
+};
+
+class DICOMPixels
+{
+public:
+  /**
+   * Checks that the file can hold what its header claims, before memory is taken for it.
+   * @throws FileError: pixels that have no values, that are missing, or of a compression that is not supported
+   */
+  explicit DICOMPixels(const DICOMDataSet& data);
+
+  const DICOMPixelFormat& Format() const { return this->Layout; }
+  int Frames() const { return this->NumberOfFrames; }
+  bool IsLossy() const { return this->WasLossy; }
+
+  /** @throws FileError for damage */
+  DICOMFrame Read(int frame) const;
+
+private:
+  enum class Compression
+  {
+    None,
+    RLE,
+    JPEG,
+    JPEGLS,
+    JPEG2000
+  };
+  void ChooseCompression(const std::string& syntax, const std::string& lossy);
+  void CheckRawLength(const DICOMElement& pixels) const;
+  void FindFrames(const DICOMElement& pixels);
+  void CheckRatio() const;
+  DICOMFrame ReadRaw(int frame) const;
+  std::vector<std::byte> ReadFragments(int frame) const;
+
+  const DICOMDataSet& Data;
+  DICOMPixelFormat Layout;
+  int NumberOfFrames = 1;
+  bool WasLossy = false;
+  Compression Method = Compression::None;
+  std::uint64_t Begin = 0;      ///< of pixels that are not compressed
+  bool AreBytesSwapped = false; ///< in words of 16 bits
+  std::vector<std::vector<DICOMElement>> FragmentsOfFrames;
+};
+
+} // namespace voxplex::io
+
+#endif

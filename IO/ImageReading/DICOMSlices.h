@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file DICOMSlices.h
+ * @brief What the header of a DICOM file says of its slices, and how slices make a volume.
+ */
+#ifndef voxplex_io_DICOMSlices_h
+#define voxplex_io_DICOMSlices_h
+
+#include "DICOMDataSet.h"
+#include "DICOMPixels.h"
+#include "Placement.h"
+
+#include <string>
+#include <vector>
+
+namespace voxplex::io
+{
+
+/** A slice of a file, or a frame. */
+struct DICOMSlice
+{
+  std::string Name; ///< for messages: "'a.dcm'", "frame 3"
+  std::size_t File = 0;
+  int Frame = 0;
+
+  Vector3 Position{}; ///< of the first voxel, LPS
+  Vector3 Row{};      ///< from voxel to voxel
+  Vector3 Column{};
+  double Thickness = 0.0; ///< or distance of slices; 0: unknown
+  double Slope = 1.0;
+  double Intercept = 0.0;
+};
+
+/** @throws FileError: an object that is no volume of one value a voxel, and what to do with it */
+void CheckObject(const DICOMDataSet& data);
+
+/** The slices of a file, in its order. @throws FileError: they have no place, or values that are not numbers */
+std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
+
+/**
+ * Sorts slices along their normal.
+ * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is unknown
+ * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place
+ */
+Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices);
+
+} // namespace voxplex::io
+
+#endif
