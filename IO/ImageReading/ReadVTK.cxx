@@ -1,2 +1,517 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVTK.h"
-namespace voxplex::io { bool IsVTK(const InputFile&){return false;} ScalarImage ReadVTK(const std::string&, Reading&){return {};} }
+
+#include "Excerpt.h"
+#include "FileError.h"
+#include "Placement.h"
+#include "VTKFileStructure.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStructuredPoints.h>
+#include <vtkStructuredPointsReader.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLImageDataReader.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <sstream>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace voxplex::io
+{
+namespace
+{
+
+// --- What VTK says
+
+class CollectingWindow : public vtkOutputWindow
+{
+public:
+  static CollectingWindow* New();
+  vtkTypeMacro(CollectingWindow, vtkOutputWindow);
+
+  void DisplayText(const char* text) override { this->PassOn(&vtkOutputWindow::DisplayText, text); }
+  void DisplayDebugText(const char* text) override
+  {
+    this->PassOn(&vtkOutputWindow::DisplayDebugText, text);
+  }
+  void DisplayWarningText(const char* text) override
+  {
+    this->Collect(this->Warnings, &vtkOutputWindow::DisplayWarningText, text);
+  }
+  void DisplayErrorText(const char* text) override
+  {
+    this->Collect(this->Errors, &vtkOutputWindow::DisplayErrorText, text);
+  }
+  /** VTK's functions without an object, which read arrays, have no errors but these. */
+  void DisplayGenericWarningText(const char* text) override
+  {
+    this->Collect(this->Errors, &vtkOutputWindow::DisplayGenericWarningText, text);
+  }
+
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+  vtkSmartPointer<vtkOutputWindow> Others; ///< is told what other threads say
+
+private:
+  using Display = void (vtkOutputWindow::*)(const char*);
+
+  void PassOn(Display display, const char* text)
+  {
+    if (std::this_thread::get_id() != this->Reader)
+    {
+      (this->Others->*display)(text);
+    }
+  }
+
+  void Collect(std::vector<std::string>& list, Display display, const char* text)
+  {
+    constexpr std::size_t enough = 100;
+    if (std::this_thread::get_id() == this->Reader && list.size() < enough)
+    {
+      list.push_back(Shorten(text));
+    }
+    this->PassOn(display, text);
+  }
+
+  /** Without the source file, its line, the class and the address of the object. */
+  static std::string Shorten(std::string_view text)
+  {
+    const std::size_t line = text.find('\n');
+    text = line == text.npos ? text : text.substr(line + 1);
+    const std::size_t object = text.find("): ");
+    text = object == text.npos ? text : text.substr(object + 3);
+    return Excerpt(text.substr(0, text.find('\n')), 200);
+  }
+
+  std::thread::id Reader = std::this_thread::get_id();
+};
+
+vtkStandardNewMacro(CollectingWindow);
+
+/** For as long as it lives. One thread reads at a time. */
+class Messages
+{
+public:
+  Messages()
+    : Turn(OneAtATime())
+    , AreShown(vtkObject::GetGlobalWarningDisplay())
+  {
+    this->Window->Others = vtkOutputWindow::GetInstance();
+    vtkOutputWindow::SetInstance(this->Window);
+    vtkObject::SetGlobalWarningDisplay(1); // else VTK says nothing
+  }
+
+  ~Messages()
+  {
+    vtkObject::SetGlobalWarningDisplay(this->AreShown);
+    vtkOutputWindow::SetInstance(this->Window->Others);
+  }
+
+  Messages(const Messages&) = delete;
+  Messages& operator=(const Messages&) = delete;
+
+  void CheckErrors() const
+  {
+    if (!this->Window->Errors.empty())
+    {
+      throw FileError("the file is truncated or damaged (" + this->Window->Errors.front() + ")");
+    }
+  }
+
+  const std::vector<std::string>& Warnings() const { return this->Window->Warnings; }
+
+private:
+  static std::mutex& OneAtATime()
+  {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  std::unique_lock<std::mutex> Turn;
+  int AreShown;
+  vtkNew<CollectingWindow> Window;
+};
+
+// --- Which reader
+
+constexpr std::size_t LongestBeginning = 4096;
+
+bool IsLegacy(const std::string& beginning)
+{
+  return beginning.rfind("# vtk DataFile", 0) == 0;
+}
+
+/** An attribute of the first element, or an empty string. */
+std::string XMLType(const std::string& beginning)
+{
+  constexpr std::string_view key = "type=";
+  const std::size_t element = beginning.find("<VTKFile");
+  const std::size_t at = beginning.find(key, element);
+  const std::size_t end = beginning.find('>', element);
+  if (at == beginning.npos || at > end || at + key.size() + 1 >= beginning.size())
+  {
+    return {};
+  }
+  const std::size_t first = at + key.size() + 1; // after the quote
+  return beginning.substr(first, beginning.find(beginning[first - 1], first) - first);
+}
+
+/** What the fourth line says. */
+std::string LegacyType(const std::string& beginning)
+{
+  std::istringstream stream(beginning);
+  std::string line;
+  for (int i = 0; i < 3; ++i) // version, title, encoding
+  {
+    std::getline(stream, line);
+  }
+  std::string keyword;
+  std::string type;
+  stream >> keyword >> type;
+  std::transform(keyword.begin(), keyword.end(), keyword.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  std::transform(type.begin(), type.end(), type.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  return keyword == "DATASET" ? type : keyword;
+}
+
+void CheckKind(const std::string& kind, std::string_view wanted)
+{
+  if (kind.empty())
+  {
+    throw FileError("the file is truncated or damaged (it does not say what it holds)");
+  }
+  if (kind != wanted)
+  {
+    throw FileError("it holds " + Excerpt(kind) + "; a label image of VTK is " +
+      std::string(wanted) + ": sample it on a regular grid (vtkImageData) first");
+  }
+}
+
+/** Before memory is taken. A bit of the file is a voxel at least, and a byte is one that is compressed. */
+void CheckClaim(vtkAlgorithm* reader, std::uint64_t size, double mostOfAByte)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  reader->GetOutputInformation(0)->Get(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
+  double voxels = 1.0;
+  std::string sizes;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t length = std::int64_t{ extent[2 * axis + 1] } - extent[2 * axis] + 1;
+    voxels *= static_cast<double>(std::max<std::int64_t>(0, length));
+    sizes += (sizes.empty() ? "" : " x ") + std::to_string(length);
+  }
+  if (voxels == 0)
+  {
+    throw FileError("the file is truncated or damaged (it has " + sizes + " points)");
+  }
+  if (voxels > mostOfAByte * static_cast<double>(size))
+  {
+    throw FileError("it is truncated or damaged: its header claims " + sizes +
+      " points, and the file has " + std::to_string(size) + " bytes");
+  }
+}
+
+vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const Messages& messages)
+{
+  vtkNew<vtkStructuredPointsReader> reader;
+  reader->SetFileName(file.Path().c_str());
+  reader->UpdateInformation();
+  messages.CheckErrors();
+  constexpr double bits = 8.0;
+  CheckClaim(reader, file.Size(), bits);
+  reader->Update();
+  messages.CheckErrors();
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const Messages& messages)
+{
+  CheckStructureOfVTI(file);
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(file.Path().c_str());
+  reader->UpdateInformation();
+  messages.CheckErrors();
+  if (reader->GetNumberOfTimeSteps() > 1)
+  {
+    throw FileError("it holds " + std::to_string(reader->GetNumberOfTimeSteps()) +
+      " time steps: save each in a file of its own, or all of them as NRRD or NIfTI");
+  }
+  constexpr double compressed = 65536.0;
+  CheckClaim(reader, file.Size(), compressed);
+  reader->Update();
+  messages.CheckErrors();
+  return reader->GetOutput();
+}
+
+// --- Which array
+
+struct Labels
+{
+  vtkDataArray* Array = nullptr;
+  bool AreCells = false;
+};
+
+bool IsCandidate(vtkDataSetAttributes* data, int index)
+{
+  vtkDataArray* const array = data->GetArray(index); // null for texts
+  const bool isOtherAttribute = data->IsArrayAnAttribute(index) >= 0 && array != data->GetScalars();
+  return array && array->GetNumberOfComponents() == 1 && !isOtherAttribute &&
+    (!array->GetName() || std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()));
+}
+
+std::string NameOf(const Labels& labels)
+{
+  const char* name = labels.Array->GetName();
+  return "'" + Excerpt(name ? name : "") + "' of the " + (labels.AreCells ? "cells" : "points");
+}
+
+void CheckComponents(vtkDataSetAttributes* data)
+{
+  vtkDataArray* const scalars = data->GetScalars();
+  if (scalars && scalars->GetNumberOfComponents() != 1)
+  {
+    throw FileError("it has " + std::to_string(scalars->GetNumberOfComponents()) +
+      " components a voxel (colours or vectors); a label image has one: export it as a label map "
+      "first");
+  }
+}
+
+Labels ChooseLabels(vtkImageData* image)
+{
+  std::vector<Labels> active;
+  std::vector<Labels> candidates;
+  for (const bool areCells : { false, true })
+  {
+    vtkDataSetAttributes* const data = areCells
+      ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
+      : static_cast<vtkDataSetAttributes*>(image->GetPointData());
+    CheckComponents(data);
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (IsCandidate(data, i))
+      {
+        candidates.push_back({ data->GetArray(i), areCells });
+      }
+    }
+    if (data->GetScalars())
+    {
+      active.push_back({ data->GetScalars(), areCells });
+    }
+  }
+  const std::vector<Labels>& choice = active.empty() ? candidates : active;
+  if (choice.empty())
+  {
+    throw FileError("it has no array of numbers with one component for its points or cells");
+  }
+  if (choice.size() > 1)
+  {
+    std::string names;
+    for (const Labels& labels : choice)
+    {
+      names += (names.empty() ? "" : ", ") + NameOf(labels);
+    }
+    throw FileError("it has several arrays that could be labels (" + names +
+      "): make one of them the active scalars, or save it alone");
+  }
+  return choice.front();
+}
+
+// --- The image
+
+/** A bit becomes a byte. */
+ScalarType ScalarTypeOf(vtkDataArray* array)
+{
+  switch (array->GetDataType())
+  {
+    case VTK_BIT:
+      return ScalarType::UInt8;
+    case VTK_FLOAT:
+      return ScalarType::Float32;
+    case VTK_DOUBLE:
+      return ScalarType::Float64;
+    default:
+      break;
+  }
+  const bool isSigned = array->GetDataTypeMin() < 0;
+  const auto type = IntegerType(static_cast<std::size_t>(array->GetDataTypeSize()), isSigned);
+  if (!type)
+  {
+    throw FileError("its numbers are of the type " + Excerpt(array->GetDataTypeAsString()) +
+      ", which voxplex does not read");
+  }
+  return *type;
+}
+
+/** Points or cells lie from the first on; a cell is half a step from its first point. */
+void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
+{
+  std::array<int, 3> points{};
+  image->GetDimensions(points.data());
+  const int* const extent = image->GetExtent();
+  std::array<double, 3> first{};
+  std::vector<std::int64_t> sizes;
+  std::array<Vector3, 3> steps{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    const bool isBetween = areCells && points[a] > 1;
+    sizes.push_back(isBetween ? points[a] - 1 : points[a]);
+    first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      steps[a][static_cast<std::size_t>(row)] =
+        image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
+    }
+  }
+  Vector3 origin{};
+  image->TransformContinuousIndexToPhysicalPoint(first.data(), origin.data());
+  SetSizes(result, sizes);
+  Place(result, steps, origin);
+}
+
+/** The flags of vtkGhostType hide points or cells. A point is hidden, too, if all cells around it are. */
+class Visibility
+{
+public:
+  Visibility(vtkImageData* image, bool areCells)
+    : Image(image)
+    , AreCells(areCells)
+    , CellFlags(image->GetCellGhostArray())
+  {
+    image->GetDimensions(this->Points.data());
+  }
+
+  bool HidesNothing() const { return !this->Image->HasAnyBlankCells(); } // nor points, then
+
+  bool IsShown(vtkIdType voxel) const
+  {
+    return this->AreCells
+      ? this->Image->IsCellVisible(voxel) != 0
+      : this->Image->IsPointVisible(voxel) && (!this->CellFlags || this->HasShownCell(voxel));
+  }
+
+private:
+  bool HasShownCell(vtkIdType point) const
+  {
+    std::array<vtkIdType, 3> begin{};
+    std::array<vtkIdType, 3> end{};
+    std::array<vtkIdType, 3> cells{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const vtkIdType at = point % this->Points[axis];
+      point /= this->Points[axis];
+      cells[axis] = std::max(1, this->Points[axis] - 1);
+      begin[axis] = std::max<vtkIdType>(0, at - 1);
+      end[axis] = std::min(cells[axis], at + 1);
+    }
+    for (vtkIdType k = begin[2]; k < end[2]; ++k)
+    {
+      for (vtkIdType j = begin[1]; j < end[1]; ++j)
+      {
+        for (vtkIdType i = begin[0]; i < end[0]; ++i)
+        {
+          const vtkIdType cell = (k * cells[1] + j) * cells[0] + i;
+          if (!(this->CellFlags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL))
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  vtkImageData* Image;
+  bool AreCells;
+  vtkUnsignedCharArray* CellFlags; ///< null if there are none
+  std::array<int, 3> Points{};
+};
+
+void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
+{
+  const vtkIdType count = array->GetNumberOfTuples();
+  if (array->GetDataType() == VTK_BIT)
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      to[i] = array->GetComponent(i, 0) != 0 ? std::byte{ 1 } : std::byte{ 0 };
+    }
+    return;
+  }
+  std::memcpy(to, array->GetVoidPointer(0), static_cast<std::size_t>(count) * size);
+}
+
+} // namespace
+
+bool IsVTK(const InputFile& file)
+{
+  const std::string beginning = file.Beginning(LongestBeginning);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return IsLegacy(beginning) ||
+    (first != beginning.npos && beginning[first] == '<' &&
+      beginning.find("<VTKFile") != beginning.npos);
+}
+
+ScalarImage ReadVTK(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  const std::string beginning = file.Beginning(LongestBeginning);
+  const bool isLegacy = IsLegacy(beginning);
+  CheckKind(isLegacy ? LegacyType(beginning) : XMLType(beginning),
+    isLegacy ? "STRUCTURED_POINTS" : "ImageData");
+  const Messages messages;
+  const vtkSmartPointer<vtkImageData> image =
+    isLegacy ? ReadLegacy(file, messages) : ReadXML(file, messages);
+  for (const std::string& warning : messages.Warnings())
+  {
+    reading.Warnings.push_back(warning);
+  }
+
+  const Labels labels = ChooseLabels(image);
+  ScalarImage result;
+  result.Type = ScalarTypeOf(labels.Array);
+  SetGeometry(result, image, labels.AreCells);
+  const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
+  if (labels.Array->GetNumberOfTuples() != count)
+  {
+    throw FileError("the file is truncated or damaged: its array " + NameOf(labels) + " has " +
+      std::to_string(labels.Array->GetNumberOfTuples()) + " numbers of " + std::to_string(count));
+  }
+  const bool areBits = labels.Array->GetDataType() == VTK_BIT;
+  const std::size_t size = areBits ? 1 : static_cast<std::size_t>(labels.Array->GetDataTypeSize());
+  result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
+  auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
+  CopyNumbers(labels.Array, numbers, size);
+  const Visibility visibility(image, labels.AreCells);
+  for (vtkIdType voxel = 0; !visibility.HidesNothing() && voxel < count; ++voxel)
+  {
+    if (!visibility.IsShown(voxel))
+    {
+      std::memset(numbers + static_cast<std::size_t>(voxel) * size, 0, size);
+    }
+  }
+  return result;
+}
+
+} // namespace voxplex::io

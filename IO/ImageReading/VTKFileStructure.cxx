@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VTKFileStructure.h"
+
+#include "Excerpt.h"
+#include "FileError.h"
+
+#include <vtk_expat.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace voxplex::io
+{
+namespace
+{
+
+[[noreturn]] void RefuseDamage(const std::string& reason)
+{
+  throw FileError("the file is truncated or damaged (" + reason + ")");
+}
+
+/** What comes before the appended data. */
+struct Structure
+{
+  XML_Parser Parser = nullptr;
+  bool HasDocumentType = false;
+  bool IsCompressed = false;
+  bool IsBigEndian = false;
+  std::size_t BytesOfCount = 4; ///< before the bytes of an array
+  std::string WholeExtent;
+  std::vector<std::string> Extents;   ///< of each piece
+  std::vector<std::uint64_t> Offsets; ///< of arrays in the appended data
+  bool IsAppended = false;
+  bool IsBase64 = false;
+  std::uint64_t AppendedTag = 0; ///< where its element begins
+  bool IsInline = false;         ///< inside an array in base64
+  std::string InlineBeginning;
+  std::uint64_t InlineLength = 0;                   ///< of the array in base64
+  std::vector<std::array<std::uint64_t, 2>> Inline; ///< of each: the bytes that it claims, and has
+};
+
+std::uint64_t DecodeBase64(char letter)
+{
+  constexpr std::string_view letters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t value = letters.find(letter);
+  return value == letters.npos ? 0 : value;
+}
+
+/** The bytes of the first four letters, of the next four, ... */
+std::string DecodeWords(const std::string& letters)
+{
+  std::string decoded;
+  for (std::size_t i = 0; i + 4 <= letters.size(); i += 4)
+  {
+    std::uint64_t bits = 0;
+    for (std::size_t j = 0; j < 4; ++j)
+    {
+      bits = bits << 6 | DecodeBase64(letters[i + j]);
+    }
+    decoded +=
+      { static_cast<char>(bits >> 16), static_cast<char>(bits >> 8), static_cast<char>(bits) };
+  }
+  return decoded;
+}
+
+constexpr std::size_t LettersOfCount = 12; // are enough for either size
+
+/** The number of bytes that an array claims, of which these are the first. */
+std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structure& structure)
+{
+  std::string bytes = isBase64 ? DecodeWords(text) : text;
+  bytes.resize(structure.BytesOfCount);
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    const char byte = bytes[structure.IsBigEndian ? i : bytes.size() - 1 - i];
+    count = count << 8 | static_cast<unsigned char>(byte);
+  }
+  return count;
+}
+
+/** VTK notices itself if compressed data are short. */
+void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
+{
+  if (!structure.IsCompressed && (count > bytes || count + structure.BytesOfCount > bytes))
+  {
+    RefuseDamage(
+      "an array claims " + std::to_string(count) + " bytes, and has " + std::to_string(bytes));
+  }
+}
+
+Structure& At(void* data)
+{
+  return *static_cast<Structure*>(data);
+}
+
+std::string Attribute(const char** attributes, std::string_view name)
+{
+  for (; *attributes; attributes += 2)
+  {
+    if (name == attributes[0])
+    {
+      return attributes[1];
+    }
+  }
+  return {};
+}
+
+/** The same numbers with one blank between them. */
+std::string Normalize(const std::string& numbers)
+{
+  std::istringstream stream(numbers);
+  std::string all;
+  for (std::string number; stream >> number;)
+  {
+    all += (all.empty() ? "" : " ") + number;
+  }
+  return all;
+}
+
+void StartElement(void* data, const char* elementName, const char** attributes)
+{
+  Structure& structure = At(data);
+  const std::string_view name(elementName);
+  if (name == "VTKFile")
+  {
+    structure.IsCompressed = !Attribute(attributes, "compressor").empty();
+    structure.IsBigEndian = Attribute(attributes, "byte_order") == "BigEndian";
+    structure.BytesOfCount = Attribute(attributes, "header_type") == "UInt64" ? 8 : 4;
+  }
+  else if (name == "ImageData")
+  {
+    structure.WholeExtent = Normalize(Attribute(attributes, "WholeExtent"));
+  }
+  else if (name == "Piece")
+  {
+    structure.Extents.push_back(Normalize(Attribute(attributes, "Extent")));
+  }
+  else if (name == "DataArray" && Attribute(attributes, "format") == "appended")
+  {
+    const std::string offset = Attribute(attributes, "offset");
+    std::uint64_t value = 0;
+    std::from_chars(offset.data(), offset.data() + offset.size(), value);
+    structure.Offsets.push_back(value);
+  }
+  else if (name == "DataArray" && Attribute(attributes, "format") == "binary")
+  {
+    structure.IsInline = true;
+    structure.InlineBeginning.clear();
+    structure.InlineLength = 0;
+  }
+  else if (name == "AppendedData")
+  {
+    structure.IsAppended = true;
+    structure.IsBase64 = Attribute(attributes, "encoding") == "base64";
+    structure.AppendedTag = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(structure.Parser));
+    XML_StopParser(structure.Parser, XML_FALSE); // what follows may be no XML
+  }
+}
+
+void AddText(void* data, const char* text, int length)
+{
+  Structure& structure = At(data);
+  const std::string_view letters(text, structure.IsInline ? static_cast<std::size_t>(length) : 0);
+  for (const char letter : letters)
+  {
+    const bool isBlank = letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
+    structure.InlineLength += isBlank ? 0 : 1;
+    if (!isBlank && structure.InlineBeginning.size() < LettersOfCount)
+    {
+      structure.InlineBeginning += letter;
+    }
+  }
+}
+
+void EndElement(void* data, const char* /*name*/)
+{
+  Structure& structure = At(data);
+  if (structure.IsInline)
+  {
+    structure.Inline.push_back(
+      { DecodeCount(structure.InlineBeginning, true, structure), structure.InlineLength / 4 * 3 });
+  }
+  structure.IsInline = false;
+}
+
+/** VTK's files have none. */
+void RefuseDocumentType(void* data, const char* /*name*/, const char* /*system*/,
+  const char* /*identifier*/, int /*hasInternalSubset*/)
+{
+  At(data).HasDocumentType = true;
+  XML_StopParser(At(data).Parser, XML_FALSE);
+}
+
+Structure Parse(const InputFile& file)
+{
+  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
+    XML_ParserCreate(nullptr), XML_ParserFree);
+  Structure structure;
+  structure.Parser = parser.get();
+  XML_SetUserData(parser.get(), &structure);
+  XML_SetElementHandler(parser.get(), StartElement, EndElement);
+  XML_SetCharacterDataHandler(parser.get(), AddText);
+  XML_SetStartDoctypeDeclHandler(parser.get(), RefuseDocumentType);
+  std::vector<std::byte> buffer(1 << 20);
+  std::uint64_t position = 0;
+  bool isLast = false;
+  while (!isLast && !structure.IsAppended)
+  {
+    const std::size_t got = file.ReadAt(position, buffer);
+    position += got;
+    isLast = got < buffer.size();
+    if (XML_Parse(parser.get(), reinterpret_cast<const char*>(buffer.data()), static_cast<int>(got),
+          isLast) != XML_STATUS_OK &&
+      !structure.IsAppended)
+    {
+      RefuseDamage(structure.HasDocumentType
+          ? "it has a document type, which VTK's files have not"
+          : std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
+            std::to_string(XML_GetCurrentLineNumber(parser.get())));
+    }
+  }
+  return structure;
+}
+
+std::string ReadText(const InputFile& file, std::uint64_t position, std::size_t length)
+{
+  std::string text(length, '\0');
+  text.resize(file.ReadAt(position, std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
+/** Where the appended data begin and end. */
+struct Range
+{
+  std::uint64_t Begin;
+  std::uint64_t End;
+};
+
+Range FindAppendedData(const InputFile& file, const Structure& structure)
+{
+  constexpr std::size_t enough = 1000;
+  const std::string start = ReadText(file, structure.AppendedTag, enough);
+  const std::size_t mark = start.find('_', start.find('>'));
+  const std::uint64_t tail = file.Size() - std::min<std::uint64_t>(file.Size(), enough);
+  const std::string end = ReadText(file, tail, enough);
+  const std::size_t last = end.rfind("</AppendedData>");
+  if (mark == start.npos || last == end.npos || end.find("</VTKFile>", last) == end.npos)
+  {
+    RefuseDamage("its appended data do not end");
+  }
+  return { structure.AppendedTag + mark + 1, tail + last };
+}
+
+void CheckAppendedData(const InputFile& file, const Structure& structure)
+{
+  const Range data = FindAppendedData(file, structure);
+  const std::uint64_t length = data.End > data.Begin ? data.End - data.Begin : 0;
+  for (const std::uint64_t offset : structure.Offsets)
+  {
+    if (offset >= length)
+    {
+      RefuseDamage("an array begins beyond the end");
+    }
+    const std::string first = ReadText(
+      file, data.Begin + offset, structure.IsBase64 ? LettersOfCount : structure.BytesOfCount);
+    CheckCount(DecodeCount(first, structure.IsBase64, structure),
+      structure.IsBase64 ? (length - offset) / 4 * 3 : length - offset, structure);
+  }
+}
+
+} // namespace
+
+void CheckStructureOfVTI(const InputFile& file)
+{
+  const Structure structure = Parse(file);
+  if (structure.Extents.size() != 1)
+  {
+    throw FileError(
+      "it is stored in " + std::to_string(structure.Extents.size()) + " pieces: save it in one");
+  }
+  if (structure.Extents.front() != structure.WholeExtent)
+  {
+    RefuseDamage("it has the extent " + Excerpt(structure.WholeExtent) + ", and its piece " +
+      Excerpt(structure.Extents.front()));
+  }
+  for (const auto& [count, bytes] : structure.Inline)
+  {
+    CheckCount(count, bytes, structure);
+  }
+  if (structure.IsAppended)
+  {
+    CheckAppendedData(file, structure);
+  }
+}
+
+} // namespace voxplex::io
