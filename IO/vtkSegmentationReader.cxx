@@ -111,6 +111,12 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Space: " << (this->Space == SPACE_LPS ? "LPS" : "RAS") << "\n"
      << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " " << this->Spacing[2] << "\n"
      << indent << "Origin: " << this->Origin[0] << " " << this->Origin[1] << " " << this->Origin[2] << "\n"
+     << indent << "Direction: ";
+  for (const double number : this->Direction)
+  {
+    os << number << " ";
+  }
+  os << "\n"
      << indent << "DataFilesAnywhere: " << (this->DataFilesAnywhere ? "on" : "off") << "\n"
      << indent << "Frames: " << this->GetNumberOfFrames() << "\n"
      << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
@@ -124,6 +130,18 @@ int vtkSegmentationReader::GetNumberOfFrames() const
 double vtkSegmentationReader::GetTimeOfFrame(int frame) const
 {
   return this->Private->Image.TimeOf(frame);
+}
+
+void vtkSegmentationReader::ClearOrigin()
+{
+  for (double& coordinate : this->Origin)
+  {
+    if (!std::isnan(coordinate))
+    {
+      coordinate = vtkMath::Nan();
+      this->Modified();
+    }
+  }
 }
 
 void vtkSegmentationReader::AddFrameTime(double time)
@@ -209,29 +227,39 @@ void vtkSegmentationReader::PlaceImage()
   const std::array<double, 3> signs = voxplex::io::SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
   const bool hasDirection =
     std::any_of(std::begin(this->Direction), std::end(this->Direction), [](double number) { return number != 0; });
+  const auto given = std::count_if(
+    std::begin(this->Spacing), std::end(this->Spacing), [](double number) { return number > 0; });
   std::array<voxplex::io::Vector3, 3> steps{};
   voxplex::io::Vector3 origin{};
-  for (std::size_t row = 0; row < 3; ++row)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    origin[row] = std::isnan(this->Origin[row]) ? image.Origin[row] : signs[row] * this->Origin[row];
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    const double spacing = this->Spacing[axis] > 0 ? this->Spacing[axis] : image.Spacing[axis];
+    const double length = std::hypot(this->Direction[axis], this->Direction[3 + axis], this->Direction[6 + axis]);
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      const double spacing = this->Spacing[axis] > 0 ? this->Spacing[axis] : image.Spacing[axis];
-      const double direction =
-        hasDirection ? signs[row] * this->Direction[3 * row + axis] : image.Direction[3 * row + axis];
-      steps[axis][row] = spacing * direction;
+      const std::size_t at = 3 * row + axis;
+      steps[axis][row] =
+        spacing * (hasDirection ? signs[row] * this->Direction[at] / length : image.Direction[at]);
     }
+    origin[axis] = std::isnan(this->Origin[axis]) ? image.Origin[axis] : signs[axis] * this->Origin[axis];
   }
-  const bool hasSpacing = this->Spacing[0] > 0 && this->Spacing[1] > 0 && this->Spacing[2] > 0;
-  if (hasSpacing) // what the warning asks for
+  if (given == 3) // what the warning asks for
   {
-    auto& warnings = this->Private->Warnings;
-    std::erase_if(warnings,
+    std::erase_if(this->Private->Warnings,
       [](const std::string& warning) { return warning.find("SetSpacing()") != std::string::npos; });
   }
-  if (hasDirection || hasSpacing || origin != image.Origin)
+  if (!hasDirection && given == 0 && origin == image.Origin)
+  {
+    return;
+  }
+  try
   {
     voxplex::io::Place(image, steps, origin);
+  }
+  catch (const voxplex::io::FileError&)
+  {
+    throw voxplex::io::FileError("SetSpacing(), SetOrigin() and SetDirection() give '" + std::string(this->FileName) +
+      "' no place in space: numbers must be finite, and the columns of the direction matrix independent");
   }
 }
 

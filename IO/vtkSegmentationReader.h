@@ -106,14 +106,16 @@ public:
   ///@{
   /**
    * The distances of voxels along each axis, the place of the first voxel, and the directions of the axes (nine numbers, row
-   * by row, whose columns are the directions), in place of those of the file: for formats that do not know them (TIFF), and
-   * for files that are wrong. Place and directions are in the coordinates of Space. What is not positive (spacing), NaN
-   * (origin) or all 0 (direction) is taken from the file: so is everything by default.
+   * by row, whose columns are the directions, of any length), in place of those of the file: for formats that do not know
+   * them (TIFF), and for files that are wrong. Place and directions are in the coordinates of Space. What is not positive
+   * (spacing), NaN (origin; ClearOrigin() makes it so) or all 0 (direction) is taken from the file: so is everything by
+   * default.
    */
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   vtkSetVector3Macro(Origin, double);
   vtkGetVector3Macro(Origin, double);
+  void ClearOrigin();
   vtkSetVectorMacro(Direction, double, 9);
   vtkGetVectorMacro(Direction, double, 9);
   ///@}

@@ -89,6 +89,95 @@ class Reading(FolderTestCase):
         self.refused("no DICOM series '7'", folder, SeriesUID="7")
 
 
+class Placing(FolderTestCase):
+    """What the user says of spacing, origin and direction counts before the file."""
+
+    SPACING, ORIGIN = (0.5, 0.25, 4.0), (-1.0, 2.0, -3.0)
+    DIRECTION = np.array([[0.0, 0.6, 0.8], [-1.0, 0.0, 0.0], [0.0, -0.8, 0.6]])
+
+    def setUp(self):
+        super().setUp()
+        self.array = images.two_labels(10, 4.0)
+        self.path = images.write_nrrd(self.folder / "i.nrrd", self.array, OBLIQUE)
+
+    def check(self, image, geometry):
+        np.testing.assert_array_equal(voxels(image), self.array)
+        for index in ((0, 0, 0), (9, 1, 4)):
+            np.testing.assert_allclose(position(image, index), geometry.physical(index), atol=1e-9)
+
+    def test_each_alone(self):
+        self.check(self.read(self.path, Spacing=self.SPACING), images.Geometry(OBLIQUE.origin, self.SPACING, OBLIQUE.direction))
+        self.check(self.read(self.path, Origin=self.ORIGIN), images.Geometry(self.ORIGIN, OBLIQUE.spacing, OBLIQUE.direction))
+        self.check(self.read(self.path, Direction=self.DIRECTION.ravel()),
+                   images.Geometry(OBLIQUE.origin, OBLIQUE.spacing, self.DIRECTION))
+
+    def test_parts(self):
+        """What is not given is the file's."""
+        self.check(self.read(self.path, Spacing=(0, -1, 4.0)), images.Geometry(OBLIQUE.origin, (0.5, 1.25, 4.0), OBLIQUE.direction))
+        self.check(self.read(self.path, Origin=(7.0, np.nan, np.nan)),
+                   images.Geometry((7.0, -20.0, 30.0), OBLIQUE.spacing, OBLIQUE.direction))
+
+    def test_in_both_spaces(self):
+        """Numbers are coordinates of the output, whatever the file has."""
+        for choice in (0, 1):
+            for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_nifti, "i.nii")):
+                with self.subTest(choice=choice, name=name):
+                    path = write(self.folder / name, self.array, OBLIQUE)
+                    self.check(self.read(path, Space=choice, Spacing=self.SPACING, Origin=self.ORIGIN,
+                                         Direction=self.DIRECTION.ravel()),
+                               images.Geometry(self.ORIGIN, self.SPACING, self.DIRECTION))
+
+    def test_lengths_of_directions_do_not_count(self):
+        image = self.read(self.path, Spacing=self.SPACING, Direction=(self.DIRECTION * [2.0, 0.1, 30.0]).ravel())
+        self.check(image, images.Geometry(OBLIQUE.origin, self.SPACING, self.DIRECTION))
+
+    def test_information(self):
+        reader = self.reader(self.path, Spacing=self.SPACING)
+        information = reader.GetOutputInformation(0)
+        np.testing.assert_allclose(information.Get(reader.GetOutputDataObject(0).SPACING()), self.SPACING)
+
+    def test_no_place(self):
+        words = r"^SetSpacing\(\), SetOrigin\(\) and SetDirection\(\) give '.*i.nrrd' no place in space: .*independent$"
+        self.refused(words, self.path, Direction=(1, 0, 0, 0, 1, 0, 0, 0, 0))
+        self.refused(words, self.path, Direction=(1, 1, 0, 1, 1, 0, 0, 0, 1))
+        self.refused(words, self.path, Origin=(np.inf, 0, 0))
+        self.refused(words, self.path, Spacing=(1, 1, np.inf))
+
+    def test_origin_of_the_file_again(self):
+        reader = self.reader(self.path, Origin=self.ORIGIN)
+        reader.ClearOrigin()
+        reader.Update()
+        self.check(reader.GetOutput(), OBLIQUE)
+        time = reader.GetMTime()
+        reader.ClearOrigin()
+        self.assertEqual(reader.GetMTime(), time)
+
+    def test_spacing_that_the_file_lacks(self):
+        """The warning asks for a spacing, and goes when there is one, for each axis."""
+        path = images.write_nrrd(self.folder / "i.nrrd", self.array, header_lines={
+            "space": None, "space directions": None, "space origin": None})
+        reader = self.reader(path)
+        self.assertEqual(len(warnings_of(reader)), 1)
+        self.assertRegex(reader.GetWarning(0), r"no spacing of the voxels, which is taken to be 1; set it with SetSpacing\(\)")
+        self.check(reader.GetOutput(), images.Geometry())
+        self.assertEqual(len(warnings_of(self.reader(path, Spacing=(0, 0, 2)))), 1)
+        self.check(self.read(path, Spacing=self.SPACING), images.Geometry(spacing=self.SPACING))
+
+
+class DataFiles(FolderTestCase):
+    def test_anywhere(self):
+        """A header may name files that are not beside it only if the user allows it."""
+        array = images.ball(8, 3.0)
+        (self.folder / "headers").mkdir()
+        (self.folder / "i.raw").write_bytes(array.tobytes())
+        for name in ("../i.raw", str(self.folder / "i.raw")):
+            path = images.write_nrrd(self.folder / "headers" / "i.nhdr", array,
+                                     header_lines={"encoding": "raw", "data file": name})
+            with self.subTest(name):
+                self.refused(r"not in the folder of the header or below; .*SetDataFilesAnywhere\(\)", path)
+                np.testing.assert_array_equal(voxels(self.read(path, DataFilesAnywhere=True)), array)
+
+
 class Frames(FolderTestCase):
     def setUp(self):
         super().setUp()
@@ -220,7 +309,8 @@ class Execution(FolderTestCase):
 
     def test_print(self):
         text = str(self.reader(images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0))))
-        for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "Space: LPS", "Frames: 1"):
+        for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "Space: LPS", "Spacing: 0 0 0",
+                     "Direction: 0 0 0 0 0 0 0 0 0", "DataFilesAnywhere: off", "Frames: 1"):
             self.assertRegex(text, line)
 
 
