@@ -84,10 +84,22 @@ po::options_description DescribeFiles()
   po::options_description options("Files");
   options.add_options() //
     ("input", Text("FILE"),
-      "the label image, of three or four dimensions: any file that ITK reads (NRRD, NIfTI, "
-      "MetaImage, ...) or a folder that holds a DICOM series; 0 is background; or a grey-value "
-      "image (--isovalue)")                                                          //
+      "the label image, of three or four dimensions: NRRD, NIfTI, MetaImage, "
+      "DICOM, TIFF, VTK, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; or a "
+      "grey-value image (--isovalue)")                                               //
     ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
+    ("spacing", Text("X,Y,Z"),
+      "the distances of voxels along the axes of the image, in place of what its file says: for "
+      "formats that do not know them (TIFF)") //
+    ("origin", Text("X,Y,Z"),
+      "the place of the first voxel, in place of what the file says, in the coordinates of --space") //
+    ("direction", Text("NUMBERS"),
+      "the directions of the axes of the image, in place of what the file says, in the coordinates "
+      "of --space: nine numbers, row by row, of a matrix whose columns they are, such as "
+      "1,0,0,0,1,0,0,0,1") //
+    ("data-files-anywhere",
+      "lets the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its folder "
+      "or below; only for headers that you trust") //
     ("output", Text("FILE"),
       ("the tetrahedra; the extension chooses the format: " +
         ListExtensions(OutputOption::Output, 3) +
@@ -118,7 +130,7 @@ void AddOwn(po::options_description& options, ParameterGroup group)
         "text file with the names of the labels, and perhaps colours: that of FreeSurfer, ITK-SNAP "
         "or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20' (default: the names that "
         "the image has, or those in FILE.nii.txt beside FILE.nii.gz)") //
-      ("space", Text("lps|ras"), "coordinates of the mesh (default lps, ITK's physical space)");
+      ("space", Text("lps|ras"), "coordinates of the mesh (default lps, those of DICOM and ITK)");
   }
   if (group == ParameterGroup::SpaceTime)
   {
@@ -337,6 +349,23 @@ void TakeValues(const po::variables_map& given, ParameterValues& values)
   }
 }
 
+/** What is said of the place of the image. */
+void TakePlace(const po::variables_map& values, ReadingOptions& reading)
+{
+  if (const std::string* text = Given(values, "spacing"))
+  {
+    reading.Spacing = ParseSpacing("spacing", *text);
+  }
+  if (const std::string* text = Given(values, "origin"))
+  {
+    reading.Origin = ParseOrigin("origin", *text);
+  }
+  if (const std::string* text = Given(values, "direction"))
+  {
+    reading.Direction = ParseDirection("direction", *text);
+  }
+}
+
 Parameters ToParameters(const po::variables_map& values)
 {
   Parameters p;
@@ -353,12 +382,14 @@ Parameters ToParameters(const po::variables_map& values)
   };
 
   file("input", p.Input);
-  file("series", p.Series);
+  file("series", p.Reading.Series);
   file("output", p.Output);
   file("plc", p.Interfaces);
   file("stats", p.Statistics);
   file("size-image", p.SizeImage);
-  file("label-table", p.LabelTable);
+  file("label-table", p.Reading.LabelTable);
+  TakePlace(values, p.Reading);
+  p.Reading.DataFilesAnywhere = values.count("data-files-anywhere") > 0;
   TakeValues(values, p.Values);
   for (const std::string& text : AllGiven(values, "interface-size"))
   {
@@ -370,7 +401,7 @@ Parameters ToParameters(const po::variables_map& values)
   }
   if (const std::string* text = Given(values, "frame-times"))
   {
-    p.FrameTimes = ParseFrameTimes("frame-times", *text);
+    p.Reading.FrameTimes = ParseFrameTimes("frame-times", *text);
   }
   p.LabelTexts = AllGiven(values, "labels");
   for (const std::string& text : p.LabelTexts)
@@ -382,7 +413,7 @@ Parameters ToParameters(const po::variables_map& values)
   }
   if (const auto* text = Given(values, "space"))
   {
-    p.OutputSpace = ParseSpace("space", *text);
+    p.Reading.Space = ParseSpace("space", *text);
   }
   if (const auto* text = Given(values, "slices"))
   {
@@ -392,7 +423,8 @@ Parameters ToParameters(const po::variables_map& values)
   if (const auto* text = Given(values, "time-planes"))
   {
     p.TimePlanesAtFrames = *text == "frames";
-    p.TimePlanes = p.TimePlanesAtFrames ? std::vector<double>() : ParseTimes("time-planes", *text);
+    p.TimePlanes =
+      p.TimePlanesAtFrames ? std::vector<double>() : ParseNumbers("time-planes", *text);
   }
   if (const auto* text = Given(values, "slabs"))
   {

@@ -74,11 +74,15 @@ int MeshingInput::Dimension() const
 
 std::string InTermsOfFlags(std::string message)
 {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> terms{ {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> terms{ {
     { "SetLabelSize()", "--label-size" },
     { "SetInterfaceSize()", "--interface-size" },
     { "AddLabel()", "--labels" },
     { "SetSeriesUID()", "--series" },
+    { "SetSpacing()", "--spacing" },
+    { "SetOrigin()", "--origin" },
+    { "SetDirection()", "--direction" },
+    { "SetDataFilesAnywhere()", "--data-files-anywhere" },
     { "SetTimeScale()", "--time-scale" },
     { "AddFrameTime()", "--frame-times" },
     { "or force it", "or go on with --force" },

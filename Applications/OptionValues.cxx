@@ -4,7 +4,10 @@
 
 #include "Errors.h"
 
+#include <vtkMath.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -45,6 +48,18 @@ double ParseFinite(const std::string& option, std::string_view text)
     throw UsageError("--" + option + ": must be a finite number, not " + std::string(text));
   }
   return *value;
+}
+
+std::vector<double> ParseSoMany(
+  const std::string& option, std::string_view text, std::size_t count, const std::string& example)
+{
+  std::vector<double> numbers = ParseNumbers(option, text);
+  if (numbers.size() != count)
+  {
+    throw UsageError("--" + option + ": give " + std::to_string(count) +
+      " numbers with commas between them, such as " + example + ", not " + Quoted(text));
+  }
+  return numbers;
 }
 
 } // namespace
@@ -97,14 +112,14 @@ std::vector<std::string> SplitAtCommas(std::string_view text)
   return parts;
 }
 
-std::vector<double> ParseTimes(const std::string& option, std::string_view text)
+std::vector<double> ParseNumbers(const std::string& option, std::string_view text)
 {
-  std::vector<double> times;
+  std::vector<double> numbers;
   for (const std::string& one : SplitAtCommas(text))
   {
-    times.push_back(ParseFinite(option, one));
+    numbers.push_back(ParseFinite(option, one));
   }
-  return times;
+  return numbers;
 }
 
 LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
@@ -135,7 +150,7 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
 
 std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text)
 {
-  const std::vector<double> times = ParseTimes(option, text);
+  const std::vector<double> times = ParseNumbers(option, text);
   for (std::size_t k = 1; k < times.size(); ++k)
   {
     if (!(times[k] > times[k - 1]))
@@ -149,6 +164,42 @@ std::vector<double> ParseFrameTimes(const std::string& option, std::string_view 
     throw UsageError("--" + option + ": give the time of each frame, such as 0,40,80");
   }
   return times;
+}
+
+std::vector<double> ParseSpacing(const std::string& option, std::string_view text)
+{
+  const std::vector<double> spacing = ParseSoMany(option, text, 3, "0.5,0.5,2");
+  for (const std::string& one : SplitAtCommas(text))
+  {
+    ParseReal(option, one, Lengths);
+  }
+  return spacing;
+}
+
+std::vector<double> ParseOrigin(const std::string& option, std::string_view text)
+{
+  return ParseSoMany(option, text, 3, "-10,0,25.5");
+}
+
+std::vector<double> ParseDirection(const std::string& option, std::string_view text)
+{
+  constexpr double smallestDeterminant = 1e-5; // of unit vectors, as for images
+  const std::vector<double> matrix = ParseSoMany(option, text, 9, "1,0,0,0,1,0,0,0,1");
+  std::array<std::array<double, 3>, 3> axes{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    axes[axis] = { matrix[axis], matrix[3 + axis], matrix[6 + axis] };
+    vtkMath::Normalize(axes[axis].data());
+  }
+  const double determinant =
+    vtkMath::Determinant3x3(axes[0].data(), axes[1].data(), axes[2].data());
+  if (!(std::abs(determinant) >= smallestDeterminant))
+  {
+    throw UsageError("--" + option +
+      ": the columns of the matrix are the directions of the axes, and those of " + Quoted(text) +
+      " are not independent");
+  }
+  return matrix;
 }
 
 std::uint64_t ParseBytes(const std::string& option, const std::string& text)

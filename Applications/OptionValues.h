@@ -38,7 +38,7 @@ std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::str
 std::vector<std::string> SplitAtCommas(std::string_view text);
 
 /** "0.5,1": finite numbers with commas between them. */
-std::vector<double> ParseTimes(const std::string& option, std::string_view text);
+std::vector<double> ParseNumbers(const std::string& option, std::string_view text);
 
 /** "3=1.5" or "Tibia=1.5"; the last = counts. */
 LabelSizeText ParseLabelSize(const std::string& option, std::string_view text);
@@ -48,6 +48,15 @@ InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view
 
 /** "0,40,80": two or more finite numbers that increase. */
 std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text);
+
+/** "0.5,0.5,2": three lengths. */
+std::vector<double> ParseSpacing(const std::string& option, std::string_view text);
+
+/** "-10,0,25.5": three coordinates. */
+std::vector<double> ParseOrigin(const std::string& option, std::string_view text);
+
+/** "0,1,0,-1,0,0,0,0,1": a matrix, row by row, whose columns are independent. */
+std::vector<double> ParseDirection(const std::string& option, std::string_view text);
 
 /** "8G": bytes, with K, M, G and T for powers of 1024. */
 std::uint64_t ParseBytes(const std::string& option, const std::string& text);

@@ -59,7 +59,7 @@ void CheckIsosurface(const Parameters& p)
   {
     constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
     RefuseIf(!p.LabelTexts.empty(), "--labels", Why);
-    RefuseIf(!p.LabelTable.empty(), "--label-table", Why);
+    RefuseIf(!p.Reading.LabelTable.empty(), "--label-table", Why);
     RefuseIf(p.Hausdorff, "--hausdorff",
       ": distances are measured from the labels of an image, and a grey-value image has none; "
       "give --quality in its place, or leave --isovalue out");

@@ -33,16 +33,29 @@ struct InterfaceSizeText
   double Size;
 };
 
+/** How the file of an image is read. What is empty is as the file says. */
+struct ReadingOptions
+{
+  std::string Series;
+  std::string LabelTable;
+  std::vector<double> FrameTimes;
+  std::vector<double> Spacing; ///< of three axes
+  std::vector<double> Origin;  ///< three coordinates, in Space
+  std::vector<double>
+    Direction; ///< nine numbers, row by row; columns are directions of axes, in Space
+  bool DataFilesAnywhere = false;
+  io::Space Space = io::Space::LPS; ///< of the output
+};
+
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
   std::string Input;
-  std::string Series;
+  ReadingOptions Reading; ///< of the input
   std::string Output;
   std::string Interfaces;
   std::string Statistics;
   std::string SizeImage;
-  std::string LabelTable;
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
   std::vector<double> TimePlanes; ///< in the image's unit of time
@@ -53,9 +66,7 @@ struct Parameters
   ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };
   std::vector<LabelSizeText> LabelSizeTexts;
   std::vector<InterfaceSizeText> InterfaceSizeTexts;
-  std::vector<double> FrameTimes;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
-  io::Space OutputSpace = io::Space::LPS;
 
   bool Progress = false;
   bool Quality = false;

@@ -40,6 +40,11 @@ ordered_json OrNull(const std::string& text)
   return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
 
+ordered_json OrNull(const std::vector<double>& numbers)
+{
+  return numbers.empty() ? ordered_json(nullptr) : ordered_json(numbers);
+}
+
 ordered_json DescribeValue(const Parameters& p, const MeshingParameter& parameter)
 {
   const std::optional<double> value = p.Value(parameter.Name);
@@ -72,7 +77,7 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
       (labels.second == LabelSelection::AnyLabel ? "" : "," + std::to_string(labels.second))] =
       size;
   }
-  ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Series) },
+  ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Reading.Series) },
     { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) } };
   for (const MeshingParameter& parameter : MeshingParameters())
   {
@@ -85,10 +90,12 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
   }
   parameters.update({ { "interface_size", interfaceSizes }, { "label_size", labelSizes },
     { "size_image", OrNull(p.SizeImage) }, { "labels", selection.Labels },
-    { "label_table", OrNull(p.LabelTable) },
-    { "frame_times", p.FrameTimes.empty() ? ordered_json() : ordered_json(p.FrameTimes) },
-    { "space", ToString(p.OutputSpace) }, { "quality", p.Quality }, { "hausdorff", p.Hausdorff },
-    { "slices", OrNull(p.Slices) }, { "slice_count", OrNull(p.SliceCount) } });
+    { "label_table", OrNull(p.Reading.LabelTable) },
+    { "frame_times", OrNull(p.Reading.FrameTimes) }, { "spacing", OrNull(p.Reading.Spacing) },
+    { "origin", OrNull(p.Reading.Origin) }, { "direction", OrNull(p.Reading.Direction) },
+    { "data_files_anywhere", p.Reading.DataFilesAnywhere }, { "space", ToString(p.Reading.Space) },
+    { "quality", p.Quality }, { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
+    { "slice_count", OrNull(p.SliceCount) } });
   return parameters;
 }
 
@@ -255,7 +262,7 @@ ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& para
     { "parameters", DescribeParameters(parameters, labels.Selection) } };
   report.update(ordered_json::parse(statistics->ToJSON()));
   NameLabels(report, labels);
-  report["space"] = ToString(parameters.OutputSpace);
+  report["space"] = ToString(parameters.Reading.Space);
   report["time"] = DescribeTimes(*statistics, times);
   const double seconds = statistics->GetTotalTime();
   report["elements_per_second"] = seconds > 0

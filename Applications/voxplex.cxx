@@ -89,7 +89,7 @@ private:
 void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
 {
   files.ForbidOverwriting(p.Input);
-  for (const std::string& path : { p.SizeImage, p.LabelTable })
+  for (const std::string& path : { p.SizeImage, p.Reading.LabelTable })
   {
     if (!path.empty())
     {
@@ -168,19 +168,38 @@ void Warn(const std::vector<std::string>& warnings)
   }
 }
 
-vtkSmartPointer<vtkSegmentationReader> ReadImage(const std::string& path, const std::string& series,
-  const std::string& labelTable, io::Space space, const std::vector<double>& frameTimes = {})
+/** What the user says of the place of the image. */
+void SetPlace(vtkSegmentationReader* reader, const ReadingOptions& options)
+{
+  if (!options.Spacing.empty())
+  {
+    reader->SetSpacing(options.Spacing.data());
+  }
+  if (!options.Origin.empty())
+  {
+    reader->SetOrigin(options.Origin.data());
+  }
+  if (!options.Direction.empty())
+  {
+    reader->SetDirection(options.Direction.data());
+  }
+}
+
+vtkSmartPointer<vtkSegmentationReader> ReadImage(
+  const std::string& path, const ReadingOptions& options)
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
   reader->SetFileName(path.c_str());
-  reader->SetSeriesUID(series.c_str());
-  reader->SetLabelTableFileName(labelTable.c_str());
-  for (const double time : frameTimes)
+  reader->SetSeriesUID(options.Series.c_str());
+  reader->SetLabelTableFileName(options.LabelTable.c_str());
+  for (const double time : options.FrameTimes)
   {
     reader->AddFrameTime(time);
   }
-  reader->SetSpace(
-    space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS : vtkSegmentationReader::SPACE_RAS);
+  SetPlace(reader, options);
+  reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
+  reader->SetSpace(options.Space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS
+                                                   : vtkSegmentationReader::SPACE_RAS);
   reader->Update();
   if (!reader->GetErrorMessage().empty())
   {
@@ -198,10 +217,13 @@ vtkSmartPointer<vtkSegmentationReader> ReadImage(const std::string& path, const 
 MeshingInput Read(const Parameters& p)
 {
   MeshingInput input;
-  input.Labels = ReadImage(p.Input, p.Series, p.LabelTable, p.OutputSpace, p.FrameTimes);
+  input.Labels = ReadImage(p.Input, p.Reading);
   if (!p.SizeImage.empty())
   {
-    input.Sizes = ReadImage(p.SizeImage, "", "", p.OutputSpace);
+    ReadingOptions options; // where the sizes lie their own file says
+    options.Space = p.Reading.Space;
+    options.DataFilesAnywhere = p.Reading.DataFilesAnywhere;
+    input.Sizes = ReadImage(p.SizeImage, options);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
       throw RunError("--size-image: '" + p.SizeImage +

@@ -99,6 +99,18 @@ class CommandLine(ProgramTestCase):
             (("--contention", "hws"), "--contention: must be aggressive.*, not 'hws'"),
             (("--balance", "local"), "--balance: must be rws or hws, not 'local'"),
             (("--balance", "0"), "--balance: must be rws or hws, not '0'"),
+            (("--spacing", "1,1"), "--spacing: give 3 numbers with commas between them, such as 0.5,0.5,2, not '1,1'"),
+            (("--spacing", "2"), "--spacing: give 3 numbers"),
+            (("--spacing", "1,0,1"), "--spacing: must be greater than 0, not 0"),
+            (("--spacing", "1,1,-2"), "--spacing: must be greater than 0, not -2"),
+            (("--spacing", "1,1,nan"), "--spacing: must be a finite number"),
+            (("--spacing", "1 1 1"), "--spacing: '1 1 1' is not a number"),
+            (("--origin", "1,1,1,1"), "--origin: give 3 numbers with commas between them, such as -10,0,25.5, not '1,1,1,1'"),
+            (("--origin", "0,inf,0"), "--origin: must be a finite number"),
+            (("--direction", "1,0,0"), "--direction: give 9 numbers"),
+            (("--direction", "1,0,0,0,1,0,0,0,0"), "--direction: .*'1,0,0,0,1,0,0,0,0' are not independent"),
+            (("--direction", "1,2,0,1,2,0,0,0,1"), "--direction: the columns of the matrix .* are not independent"),
+            (("--direction", "0,0,0,0,0,0,0,0,0"), "--direction: .* are not independent"),
         ):
             with self.subTest(arguments):
                 self.refuse(pattern, "--input", "a.nrrd", *arguments)

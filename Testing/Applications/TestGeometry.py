@@ -14,9 +14,9 @@ def rotation(degrees):
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
-class Geometry(ProgramTestCase):
-    def mesh_of(self, path, *arguments, name="mesh.vtu"):
-        self.mesh("--input", path, "--delta", 1, "--smoothing", 0, "--threads", 1, "--output", name, *arguments)
+class BallTestCase(ProgramTestCase):
+    def mesh_of(self, path, *arguments, name="mesh.vtu", delta=1):
+        self.mesh("--input", path, "--delta", delta, "--smoothing", 0, "--threads", 1, "--output", name, *arguments)
         mesh = meshfiles.read_tetrahedra(self.folder / name)
         self.assertGreater(mesh.volumes().min(), 0.0, "inverted elements")
         return mesh
@@ -30,6 +30,8 @@ class Geometry(ProgramTestCase):
         centroid = (volumes[:, None] * mesh.points[mesh.cells].mean(axis=1)).sum(axis=0) / volumes.sum()
         np.testing.assert_allclose(centroid, geometry.physical(index).mean(axis=0), atol=0.1)
 
+
+class Geometry(BallTestCase):
     def test_same_image_in_every_format(self):
         """NRRD, MetaImage (both LPS), NIfTI (RAS) and DICOM give one mesh."""
         array = images.ball(20, 6.5, center=(8, 9, 10), dtype=np.uint16)
@@ -96,6 +98,59 @@ class Geometry(ProgramTestCase):
         array = np.ones((8, 9, 10), dtype=np.uint8)
         mesh = self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array))
         self.check_ball(mesh, array, images.Geometry())
+
+
+class GivenPlace(BallTestCase):
+    """--spacing, --origin and --direction count before the file."""
+
+    PLACE = images.Geometry((-10, 5, 2.5), (1.0, 0.75, 1.5), rotation(30) @ np.diag([1.0, -1.0, 1.0]))
+
+    def setUp(self):
+        super().setUp()
+        self.array = images.ball(18, 6.0, center=(7, 8, 9))
+        self.path = images.write_nrrd(self.folder / "i.nrrd", self.array, images.Geometry((1, 2, 3), (3.0, 3.0, 3.0)))
+        self.options = {"--spacing": self.PLACE.spacing, "--origin": self.PLACE.origin,
+                        "--direction": self.PLACE.direction.ravel()}
+
+    def given(self, *names):
+        return [text for name in names for text in (name, ",".join(repr(float(x)) for x in self.options[name]))]
+
+    def test_all(self):
+        for space in ("lps", "ras"):
+            mesh = self.mesh_of(self.path, "--space", space, *self.given(*self.options))
+            self.assertEqual(mesh.space, space.upper())
+            self.check_ball(mesh, self.array, self.PLACE)
+
+    def test_one(self):
+        for name, delta, place in (("--spacing", 1, images.Geometry((1, 2, 3), self.PLACE.spacing)),
+                                   ("--origin", 3, images.Geometry(self.PLACE.origin, (3.0, 3.0, 3.0))),
+                                   ("--direction", 3, images.Geometry((1, 2, 3), (3.0, 3.0, 3.0), self.PLACE.direction))):
+            with self.subTest(name):
+                self.check_ball(self.mesh_of(self.path, *self.given(name), delta=delta), self.array, place)
+
+    def test_statistics(self):
+        arguments = ("--input", self.path, "--delta", 2)
+        given = self.statistics(*arguments, *self.given(*self.options), "--data-files-anywhere")["parameters"]
+        self.assertEqual(given["spacing"], [1.0, 0.75, 1.5])
+        self.assertEqual(given["origin"], [-10, 5, 2.5])
+        np.testing.assert_array_equal(given["direction"], self.PLACE.direction.ravel())
+        self.assertIs(given["data_files_anywhere"], True)
+        default = self.statistics(*arguments)["parameters"]
+        self.assertEqual([default[name] for name in ("spacing", "origin", "direction", "data_files_anywhere")],
+                         [None, None, None, False])
+
+    def test_spacing_that_the_file_lacks(self):
+        lines = {"space": None, "space directions": None, "space origin": None}
+        path = images.write_nrrd(self.folder / "j.nrrd", self.array, header_lines=lines)
+        self.mesh("--input", path, "--delta", 2, warning="j.nrrd: .*no spacing of the voxels.* set it with --spacing")
+        self.check_ball(self.mesh_of(path, *self.given("--spacing")), self.array, images.Geometry(spacing=self.PLACE.spacing))
+
+    def test_size_image_has_its_own_place(self):
+        sizes = np.full((2, 2, 2), 1.5, dtype=np.float32)
+        images.write_nrrd(self.folder / "sizes.nrrd", sizes, images.Geometry((-100, -100, -100), (200.0, 200.0, 200.0)))
+        free = len(self.mesh_of(self.path, *self.given("--spacing"), delta=3).cells)
+        bound = len(self.mesh_of(self.path, *self.given("--spacing"), "--size-image", "sizes.nrrd", delta=3).cells)
+        self.assertGreater(bound, 1.5 * free)
 
 
 class Series(ProgramTestCase):

@@ -244,6 +244,22 @@ class Options(ProgramTestCase):
         self.assertTrue(run("--optimise-seconds", 1e-9)[1]["out_of_time"])
 
 
+class DataFiles(ProgramTestCase):
+    def test_outside_of_the_folder(self):
+        """Refused, unless the user trusts the header: that of the image and that of the image of sizes."""
+        ball = images.ball(12, 4.0)
+        (self.folder / "headers").mkdir()
+        (self.folder / "ball.raw").write_bytes(ball.tobytes())
+        header = images.write_nrrd(self.folder / "headers" / "ball.nhdr", ball,
+                                   header_lines={"encoding": "raw", "data file": "../ball.raw"})
+        words = r"the data file '\.\./ball\.raw', which is not in the folder of the header or below; .* --data-files-anywhere if"
+        self.assert_refused(1, words, "--input", header, "--output", "mesh.vtu")
+        self.mesh("--input", header, "--data-files-anywhere", "--delta", 2, "--output", "mesh.vtu")
+        arguments = ("--input", images.write_nrrd(self.folder / "ball.nrrd", ball), "--delta", 2, "--size-image", header)
+        self.assert_refused(1, words, *arguments)
+        self.mesh(*arguments, "--data-files-anywhere")
+
+
 class Quality(ProgramTestCase):
     def setUp(self):
         super().setUp()
