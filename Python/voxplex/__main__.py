@@ -13,7 +13,7 @@ def main() -> None:
     program = os.path.normpath(PROGRAM)
     if not os.access(program, os.X_OK):
         sys.exit(f"voxplex: the command line program is not installed: there is no {program}. It is built where "
-                 "ITK and Boost are found.")
+                 "GDCM and Boost are found.")
     os.execv(program, ["voxplex", *sys.argv[1:]])
 
 

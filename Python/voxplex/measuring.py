@@ -56,7 +56,7 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
         Connected components of the image with at least this number of voxels, and the largest of each label,
         are looked for. Default 8.
     spacing, origin, direction
-        Of an image that is an array; see :func:`image_from_array`.
+        Of an image that is an array or a file, as for :func:`mesh`.
     times
         Of the frames of a series, as for :func:`mesh`. Without an image, the times at which pentatopes are cut.
     time_scale

@@ -40,12 +40,12 @@ class Source:
         if isinstance(image, numpy.ndarray):
             self._take_array(image)
             return
-        if geometry:
-            raise ValueError(f"{', '.join(geometry)}: only for arrays; the image has its own")
+        if geometry and not isinstance(image, (str, os.PathLike)):
+            raise ValueError(f"{', '.join(geometry)}: only for arrays and files; the image has its own")
         if isinstance(image, vtkImageData):
             self._take_data(image)
         elif isinstance(image, (str, os.PathLike)):
-            self._take_algorithm(segmentation_reader(image))
+            self._take_algorithm(segmentation_reader(image, **geometry))
         elif isinstance(image, vtkAlgorithm):
             self._take_algorithm(image)
         elif isinstance(image, Sequence) and image and all(isinstance(frame, vtkImageData) for frame in image):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wrapped classes of reading and writing, for type checkers. Built where ITK is found."""
+"""The wrapped classes of reading and writing, for type checkers. Built where GDCM is found."""
 
 from typing import Any
 

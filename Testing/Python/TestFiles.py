@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+import warnings
 from pathlib import Path
 
 import numpy
@@ -64,6 +65,65 @@ class Files(unittest.TestCase):
         other = voxplex.read_segmentation(str(self.image), space="RAS")
         numpy.testing.assert_allclose(other.GetOrigin(), ORIGIN * (-1, -1, 1))
         self.assertEqual(other.GetFieldData().GetAbstractArray("SPACE").GetValue(0), "RAS")
+
+    def test_place(self):
+        """What the caller says counts before the file, for images, series and meshes."""
+        place = dict(spacing=(1.0, 2.0, 4.0), origin=(1, 2, 3), direction=numpy.diag([-1.0, -1.0, 1.0]))
+        for image in (voxplex.read_segmentation(self.image, **place), *voxplex.read_frames(self.series, **place),
+                      voxplex.read_segmentation(self.image, space="RAS", **place)):
+            numpy.testing.assert_allclose(image.GetSpacing(), place["spacing"])
+            numpy.testing.assert_allclose(image.GetOrigin(), place["origin"])
+            matrix = image.GetDirectionMatrix()
+            numpy.testing.assert_allclose([matrix.GetElement(n, n) for n in range(3)], (-1, -1, 1))
+        numpy.testing.assert_allclose(voxplex.read_segmentation(self.image, origin=(1, 2, 3)).GetSpacing(), SPACING)
+        from_path = voxplex.mesh(self.image, 2.0, threads=1, **place)
+        from_array = voxplex.mesh(self.labels, 2.0, threads=1, **place)
+        numpy.testing.assert_allclose(voxplex.points(from_path), voxplex.points(from_array))
+        self.assertEqual(voxplex.quality(from_path, self.image, **place)["image"],
+                         voxplex.quality(from_array, self.labels, **place)["image"])
+
+    def test_no_place(self):
+        """Never taken for 'as in the file'."""
+        for words, place in (("spacing is .0.0, 1.0, 1.0.; lengths must be positive", dict(spacing=(0, 1, 1))),
+                             ("spacing is .*inf", dict(spacing=(1, 1, numpy.inf))),
+                             ("spacing has 2 numbers, not 3", dict(spacing=(1, 1))),
+                             ("origin is .*nan.*; coordinates must be finite", dict(origin=(numpy.nan, 0, 0))),
+                             ("direction has 3 numbers, not 9", dict(direction=(1, 0, 0))),
+                             ("direction is .*; its columns must be independent", dict(direction=numpy.zeros((3, 3)))),
+                             ("direction is .*; its columns must be independent", dict(direction=numpy.ones(9)))):
+            with self.subTest(words=words, place=place):
+                for call in (voxplex.read_segmentation, voxplex.mesh):
+                    with self.assertRaisesRegex(ValueError, words):
+                        call(self.image, **place)
+
+    def test_messages_speak_of_arguments(self):
+        path = self.folder / "plain.nrrd"
+        path.write_bytes(b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n" + bytes(64))
+        with self.assertWarnsRegex(voxplex.MeshingWarning, "plain.nrrd: .* taken to be 1; set it with spacing=$"):
+            voxplex.read_segmentation(path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            voxplex.read_segmentation(path, spacing=(1, 1, 1))
+        with self.assertRaisesRegex(voxplex.FileError, "series_uid needs a folder"):
+            voxplex.read_segmentation(path, series_uid="1.2")
+        words = 'there are 2 series; choose one with\n  SetSeriesUID("1.2.3")'
+        self.assertEqual(voxplex.files._in_terms_of_arguments(words),
+                         'there are 2 series; choose one with\n  series_uid="1.2.3"')
+
+    def test_data_files_anywhere(self):
+        (self.folder / "headers").mkdir()
+        path = self.folder / "headers" / "labels.nhdr"
+        write_nrrd(path, self.labels, ["data file: ../labels.raw"])
+        header, voxels = path.read_bytes().split(b"\n\n", 1)
+        path.write_bytes(header + b"\n")
+        (self.folder / "labels.raw").write_bytes(voxels)
+        words = r"or use read_segmentation\(..., data_files_anywhere=True\) if you trust the header"
+        for call in (voxplex.read_segmentation, voxplex.read_frames, voxplex.mesh):
+            with self.assertRaisesRegex(voxplex.FileError, words):
+                call(path)
+        image = voxplex.read_segmentation(path, data_files_anywhere=True)
+        numpy.testing.assert_array_equal(voxplex.array_from_image(image), self.labels)
+        self.assertEqual(len(voxplex.read_frames(path, data_files_anywhere=True)), 1)
 
     def test_read_series(self):
         with self.assertRaisesRegex(ValueError, "4 time frames: pass frame="):

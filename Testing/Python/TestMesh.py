@@ -546,7 +546,7 @@ class Refusals(unittest.TestCase):
             (TypeError, "", lambda: voxplex.mesh(image, "fine")),
             (ValueError, "2 dimensions", lambda: voxplex.mesh(brick()[0])),
             (ValueError, "complex", lambda: voxplex.mesh(brick().astype(complex))),
-            (ValueError, "spacing, origin: only for arrays", lambda: voxplex.mesh(image, spacing=(1, 1, 1), origin=(0, 0, 0))),
+            (ValueError, "spacing, origin: only for arrays and files", lambda: voxplex.mesh(image, spacing=(1, 1, 1), origin=(0, 0, 0))),
             (ValueError, "spacing has 2 numbers", lambda: voxplex.mesh(brick(), spacing=(1, 1))),
             (ValueError, "direction has 4 numbers", lambda: voxplex.mesh(brick(), direction=numpy.eye(2))),
             (ValueError, "time_scale, seed: only for images with", lambda: voxplex.mesh(image, time_scale=2.0, seed=0)),

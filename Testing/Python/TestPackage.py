@@ -107,7 +107,7 @@ class WithoutIO(unittest.TestCase):
     def test_says_so(self):
         for call in (lambda: voxplex.read_segmentation("a.nrrd"), lambda: voxplex.mesh("a.nrrd"),
                      lambda: voxplex.write(None, "a.vtu")):
-            with self.assertRaisesRegex(RuntimeError, "without ITK"):
+            with self.assertRaisesRegex(RuntimeError, "without GDCM"):
                 call()
 
 
