@@ -63,6 +63,24 @@ def test_atlas():
     check(0.5 < ours.GetProperty('HausdorffDistance')[0] < 6.0, "Hausdorff distance", ours.GetProperty('HausdorffDistance')[0])
 
 
+def test_place_of_a_file():
+    """What the panel says counts before the file; zeros and no origin leave the file's."""
+    reader = SegmentationReaderVoxplex(FileName=ATLAS)
+    reader.UpdatePipeline()
+    own = reader.GetDataInformation().GetBounds()
+    reader.Spacing = [2.0, 1.0, 1.5]
+    reader.Origin = [10.0, 20.0, 30.0]
+    reader.Direction = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+    reader.DataFilesAnywhere = 1
+    reader.UpdatePipeline()
+    check_equal(reader.GetDataInformation().GetBounds(), (10.0, 370.0, 20.0, 236.0, 30.0, 300.0))
+    reader.Spacing = [0.0] * 3
+    reader.Origin = []
+    reader.Direction = [0.0] * 9
+    reader.UpdatePipeline()
+    check_equal(reader.GetDataInformation().GetBounds(), own)
+
+
 def test_options():
     reader = XMLImageDataReader(FileName=[write_image(make_image(two_balls), "balls.vti")])
     mesher = MeshSegmentationTetrahedralize(Input=reader, Threads=1)
@@ -187,6 +205,7 @@ def main():
     test_default_delta()
     test_arrays()
     test_atlas()
+    test_place_of_a_file()
 
 
 run(main)
