@@ -55,6 +55,36 @@ void Silence(vtkAlgorithm* algorithm)
   Silence(algorithm->GetExecutive());
 }
 
+/** The messages of the reader and of the filter speak of their methods; the user has flags, or 3D Slicer. */
+std::string InTermsOfFlags(std::string message)
+{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> terms{ {
+    { "SetSpacing()", "3D Slicer's module Volumes" },
+    { ", or use SetDataFilesAnywhere() if you trust the header",
+      ", or save the image as one file" },
+    { "SetLabelSize()", "--labelsizes" },
+    { "SetInterfaceSize()", "--interfacesizes" },
+    { "AddLabel()", "--labels" },
+    { "or force it", "or go on with --force" },
+    { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },
+    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
+    { "Correct the labels to keep", "Correct --labels" },
+    { "RadiusEdgeRatio is", "--radiusedge is" },
+    { "Force goes down", "--force goes down" },
+    { "SliverAngle is", "--sliverangle is" },
+    { "Force goes on", "--force goes on" },
+  } };
+  for (const auto& [theirs, ours] : terms)
+  {
+    const std::size_t at = message.find(theirs);
+    if (at != std::string::npos)
+    {
+      message.replace(at, theirs.size(), ours);
+    }
+  }
+  return message;
+}
+
 vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
 {
   const std::string& path = arguments.Text("inputLabels");
@@ -70,11 +100,11 @@ vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
   reader->Update();
   if (!reader->GetErrorMessage().empty())
   {
-    throw cli::RunError(reader->GetErrorMessage());
+    throw cli::RunError(InTermsOfFlags(reader->GetErrorMessage()));
   }
   for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
   {
-    Warn(reader->GetWarning(i));
+    Warn(InTermsOfFlags(reader->GetWarning(i)));
   }
   if (reader->GetNumberOfFrames() != 1)
   {
@@ -112,33 +142,6 @@ void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
   {
     filter->SetAbortExecute(1);
   }
-}
-
-/** The filter's errors speak of its methods; the user has flags. */
-std::string InTermsOfFlags(std::string message)
-{
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> terms{ {
-    { "SetLabelSize()", "--labelsizes" },
-    { "SetInterfaceSize()", "--interfacesizes" },
-    { "AddLabel()", "--labels" },
-    { "or force it", "or go on with --force" },
-    { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },
-    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
-    { "Correct the labels to keep", "Correct --labels" },
-    { "RadiusEdgeRatio is", "--radiusedge is" },
-    { "Force goes down", "--force goes down" },
-    { "SliverAngle is", "--sliverangle is" },
-    { "Force goes on", "--force goes on" },
-  } };
-  for (const auto& [theirs, ours] : terms)
-  {
-    const std::size_t at = message.find(theirs);
-    if (at != std::string::npos)
-    {
-      message.replace(at, theirs.size(), ours);
-    }
-  }
-  return message;
 }
 
 /** Executes with progress, as long as the application does not want it to stop. */

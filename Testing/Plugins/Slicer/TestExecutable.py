@@ -258,6 +258,15 @@ class Runs(ModuleTestCase):
         self.assertEqual(parse_parameter_file(self.folder / "results.params")["missingLabels"], "9")
         self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: the mesh lacks labels .*: 9\n$")
 
+    def test_spacing_that_the_file_lacks(self):
+        """The module has no flag for it: Slicer's own modules set it."""
+        path = images.write_nrrd(self.folder / "plain.nrrd", self.array, header_lines={
+            "space": None, "space directions": None, "space origin": None})
+        done = self.call("--delta", 3, path, "mesh.vtu")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, "^SegmentationToTetMesh: warning: .*plain.nrrd: .*no spacing of the voxels.* 1; set it "
+                         "with 3D Slicer's module Volumes\n$")
+
     def test_labels_that_are_thin(self):
         z, y, x = np.meshgrid(*3 * [np.arange(32)], indexing="ij")
         array = np.where(np.hypot(np.hypot(x - 18, y - 18), z - 22) < 8, 4, 0)
@@ -352,6 +361,11 @@ class Refusals(ModuleTestCase):
                 "--force": ("--delta", "0.001", "ball.nrrd", "b.vtu")}.items():
             with self.subTest(arguments):
                 self.assert_refused(1, pattern, *arguments)
+
+    def test_data_files(self):
+        images.write_nrrd(self.folder / "ball.nhdr", images.ball(), header_lines={"data file": "../ball.raw"})
+        self.assert_refused(1, "not in the folder of the header or below; move it there, or save the image as one file\n",
+                            "ball.nhdr", "b.vtu")
 
     def test_time_series(self):
         images.write_nrrd(self.folder / "series.nrrd", images.moving_balls())
