@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VTKImage.h
- * @brief From the image that ITK read to vtkImageData, without copying voxels.
+ * @brief From the image that was read to vtkImageData, without copying voxels.
  */
 #ifndef voxplex_io_VTKImage_h
 #define voxplex_io_VTKImage_h

@@ -51,16 +51,14 @@ def read_nrrd(path):
 
 
 def read_nifti(path):
-    """The same. VTK's reader turns no axes; its matrices are of RAS space. If they differ, the choice is ITK's."""
+    """The same. VTK's reader turns no axes; its matrices are of RAS space. The sform counts if there is one."""
     reader = vtkNIFTIImageReader()
     reader.SetFileName(str(path))
     reader.Update()
     image = reader.GetOutput()
     voxels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[::-1])
     header = reader.GetNIFTIHeader()
-    scanner = 1  # code of scanner coordinates
-    uses_rows = header.GetSFormCode() == scanner or header.GetQFormCode() == 0
-    form = reader.GetSFormMatrix() if uses_rows else reader.GetQFormMatrix()
+    form = reader.GetSFormMatrix() if header.GetSFormCode() > 0 else reader.GetQFormMatrix()
     matrix = np.array([[form.GetElement(r, c) for c in range(4)] for r in range(4)])
     matrix[:, :3] = matrix[:, :3] @ np.diag(image.GetSpacing())
     matrix[:2] *= -1
