@@ -92,13 +92,17 @@ void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes)
     voxels *= static_cast<double>(sizes[axis]);
   }
   constexpr double mostVoxels = 1e15;
+  if (sizes.size() < 3)
+  {
+    throw FileError("it has " + std::to_string(sizes.size()) + " dimensions, and a volume has three: give a volume");
+  }
   if (!areUsable || voxels > mostVoxels)
   {
-    throw FileError("it is damaged: its header claims " + text.str() + " voxels");
+    throw FileError("its header claims " + text.str() + " voxels, which no image has: correct the header");
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    image.Dimensions[axis] = axis < sizes.size() ? static_cast<int>(sizes[axis]) : 1;
+    image.Dimensions[axis] = static_cast<int>(sizes[axis]);
   }
   image.Frames = sizes.size() == 4 ? static_cast<int>(sizes[3]) : 1;
 }

@@ -32,7 +32,7 @@ void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& o
 /**
  * Sets the sizes, which must be positive and fit into int, and whose product into memory.
  *
- * @param sizes of three axes, or of four with time as the last; missing ones are 1
+ * @param sizes of three axes, or of four with time as the last
  * @throws FileError that shows the sizes
  */
 void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes);

@@ -84,7 +84,7 @@ constexpr std::array<Stranger, 19> Strangers{ {
     [&begin](const Stranger& one) { return begin.starts_with(one.Begin); });
   throw FileError(stranger != Strangers.end()
       ? std::string(stranger->What) + "; " + readable
-      : std::string("it is not an image in a format that voxplex reads, or its header is damaged; ") + readable);
+      : std::string("it is not an image in a format that voxplex reads; ") + readable);
 }
 
 ScalarImage ReadFile(const std::string& path, Reading& reading)

@@ -43,7 +43,7 @@ ScalarType TypeNamed(const std::string& name)
   const auto type = types.find(name);
   if (type == types.end())
   {
-    throw FileError("its header gives the type '" + Excerpt(name) + "', which is not a type of single numbers");
+    throw FileError("its header gives the ElementType '" + Excerpt(name) + "', which is not a type of single numbers");
   }
   return type->second;
 }
@@ -58,15 +58,10 @@ bool IsTrue(const TextHeader& header, std::initializer_list<const char*> keys, b
 /** How many axes count: those behind the third that are longer than 1. */
 std::vector<std::int64_t> ReadSizes(const TextHeader& header, std::size_t axes)
 {
-  std::vector<std::int64_t> sizes;
-  constexpr double largest = 9e15;
-  for (const double size : header.Numbers({ "dimsize" }, axes))
-  {
-    sizes.push_back(std::abs(size) <= largest ? static_cast<std::int64_t>(size) : -1);
-  }
+  std::vector<std::int64_t> sizes = header.Wholes({ "dimsize" }, axes);
   if (sizes.empty())
   {
-    throw FileError("it is damaged: its header does not give DimSize");
+    throw FileError("its header does not give DimSize");
   }
   while (sizes.size() > 3 && sizes.back() == 1)
   {
@@ -177,9 +172,13 @@ StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
   const std::string* file = header.Find("elementdatafile");
   if (!file)
   {
-    throw FileError("it is damaged: its header does not give ElementDataFile");
+    throw FileError("its header does not give ElementDataFile");
   }
   header.SetFiles(file, reading.DataFilesAnywhere, stored);
+  if (header.Whole({ "compresseddatasize" }, 0) < 0)
+  {
+    throw FileError("its header gives a CompressedDataSize below 0: correct the header");
+  }
   const std::int64_t headerSize = header.Whole({ "headersize" }, 0);
   if (headerSize < StoredVoxels::FromTheEnd ||
     (headerSize == StoredVoxels::FromTheEnd && stored.Coding != Encoding::Raw))
@@ -220,12 +219,16 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
   const TextHeader header(file);
+  if (const std::string object = header.Word({ "objecttype" }, "image"); object != "image")
+  {
+    throw FileError("it is a MetaIO file of the ObjectType '" + Excerpt(object) + "', and no image");
+  }
   const std::int64_t axes = header.Whole({ "ndims" }, 0);
   constexpr std::int64_t most = 10; // which MetaImage has
   if (axes < 1 || axes > most)
   {
     throw FileError(
-      "it is damaged: its header gives " + std::to_string(axes) + " dimensions, and the format has 1 to 10");
+      "its header gives " + std::to_string(axes) + " dimensions, and the format has 1 to 10");
   }
   const std::int64_t channels = header.Whole({ "elementnumberofchannels" }, 1);
   if (channels != 1)

@@ -213,7 +213,7 @@ ScalarType TypeOf(const Header& header)
   }
   if (type->Bits != header.BitsPerVoxel)
   {
-    throw FileError("it is damaged: its header gives " + std::to_string(header.BitsPerVoxel) +
+    throw FileError("its header gives " + std::to_string(header.BitsPerVoxel) +
       " bits a voxel (bitpix), and its datatype " + code + " has " + std::to_string(type->Bits));
   }
   return type->Scalars;
@@ -226,7 +226,7 @@ std::vector<std::int64_t> SizesOf(const Header& header)
   if (count < 1 || count > most)
   {
     throw FileError(
-      "it is damaged: its header gives " + std::to_string(count) + " dimensions, and the format has 1 to 7");
+      "its header gives " + std::to_string(count) + " dimensions, and the format has 1 to 7");
   }
   std::vector<std::int64_t> sizes(header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count);
   while (sizes.size() > 3 && sizes.back() == 1)
@@ -294,6 +294,11 @@ Affine AffineOfQForm(const Header& header)
 {
   const auto [b, c, d, x, y, z] = header.QForm;
   const double rest = 1.0 - (b * b + c * c + d * d);
+  constexpr double rounding = 1e-5; // of single-precision numbers
+  if (rest < -rounding)
+  {
+    throw FileError("the quaternion of its qform is longer than 1: correct the header");
+  }
   const double a = std::sqrt(std::max(0.0, rest));
   const double norm = rest < 0 ? std::sqrt(b * b + c * c + d * d) : 1.0; // a rounded half turn
   const double p = b / norm;
@@ -452,8 +457,8 @@ StoredVoxels FindVoxels(const Header& header, const std::string& path, const Rea
     voxels = FindCompanion(path, ".hdr", ".img").value_or("");
     if (voxels.empty())
     {
-      throw FileError("its voxels are in another file (.img), which is not there: put it beside '" +
-        fs::path(path).filename().string() + "'");
+      throw FileError("its voxels are in another file, '" + fs::path(path).stem().replace_extension(".img").string() +
+        "', which is not beside it");
     }
     voxels = FindDataFile(path, fs::path(voxels).filename().string(), reading.DataFilesAnywhere);
   }
@@ -462,7 +467,7 @@ StoredVoxels FindVoxels(const Header& header, const std::string& path, const Rea
   if (!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) || !(header.Offset <= largest))
   {
     std::ostringstream reason;
-    reason << "it is damaged: its header says that voxels begin at byte " << header.Offset
+    reason << "its header says that voxels begin at byte " << header.Offset
            << " (vox_offset), which is within the header or nowhere";
     throw FileError(reason.str());
   }

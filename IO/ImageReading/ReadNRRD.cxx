@@ -17,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace voxplex::io
 {
@@ -143,6 +144,23 @@ Space FindSpace(const TextHeader& header)
   return { { 1, 1, 1 }, static_cast<std::size_t>(dimension), false };
 }
 
+/** A field with another name may be a misspelt one that matters. */
+void CheckFields(const TextHeader& header)
+{
+  static const std::set<std::string> known{ "axis maxs", "axis mins", "axismaxs", "axismins", "block size", "blocksize",
+    "byte skip", "byteskip", "centerings", "centers", "content", "data file", "datafile", "dimension", "encoding", "endian",
+    "kinds", "labels", "line skip", "lineskip", "max", "measurement frame", "min", "number", "old max", "old min", "oldmax",
+    "oldmin", "sample units", "sampleunits", "sizes", "space", "space dimension", "space directions", "space origin",
+    "space units", "spacings", "thicknesses", "type", "units" };
+  for (const auto& [key, spelling] : header.Own())
+  {
+    if (!known.contains(key))
+    {
+      throw FileError("its header gives '" + Excerpt(spelling) + "', which is no field of NRRD: correct the header");
+    }
+  }
+}
+
 // --- Axes --------------------------------------------------------------------------------------------
 
 /** "none (1,0,0) (0, 1, 0)": the vectors, empty for "none" and for one of NaN. */
@@ -186,13 +204,13 @@ std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
   constexpr std::int64_t most = 16; // which NRRD has
   if (dimension < 1 || dimension > most)
   {
-    throw FileError("it is damaged: its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
+    throw FileError("its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
   }
   std::vector<Axis> axes(static_cast<std::size_t>(dimension));
-  const std::vector<double> sizes = header.Numbers({ "sizes" }, axes.size());
+  const std::vector<std::int64_t> sizes = header.Wholes({ "sizes" }, axes.size());
   if (sizes.empty())
   {
-    throw FileError("it is damaged: its header does not give 'sizes'");
+    throw FileError("its header does not give 'sizes'");
   }
   std::vector<std::string> kinds;
   if (const std::string* text = header.FindAny({ "kinds" }))
@@ -218,8 +236,7 @@ std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
   for (std::size_t a = 0; a < axes.size(); ++a)
   {
     Axis& axis = axes[a];
-    constexpr double largest = 9e15;
-    axis.Size = std::abs(sizes[a]) <= largest ? static_cast<std::int64_t>(sizes[a]) : std::numeric_limits<std::int64_t>::max();
+    axis.Size = sizes[a];
     axis.Kind = kinds.empty() || kinds[a] == "???" || kinds[a] == "none" ? "" : kinds[a];
     axis.Direction = directions.empty() ? std::vector<double>() : directions[a];
     const bool isNode = !centers.empty() && centers[a] == "node"; // NRRD's default is cell
@@ -306,6 +323,11 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
         "with time as one: extract one of those first");
     }
     roles.Frames = a;
+  }
+  if (space.Dimension == 4 && roles.Space.size() == 4)
+  {
+    throw FileError("its directions mix time with space; only images whose frames each show one time can be meshed: correct "
+      "the header, or resample the image");
   }
   while (roles.Space.size() > 3 && axes[roles.Space.back()].Size == 1)
   {
@@ -437,7 +459,8 @@ void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, 
                                                                  : axis.First;
 }
 
-StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
+/** @param size of a voxel in bytes */
+StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Reading& reading)
 {
   StoredVoxels stored;
   const std::string encoding = header.Word({ "encoding" }, "");
@@ -463,10 +486,10 @@ StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
                                       : "its voxels are in the encoding '" + Excerpt(encoding) + "'") +
       "; those that are read are raw, gzip, text and hex: save it with one of these");
   }
-  const std::string endian = header.Word({ "endian" }, "little");
+  const std::string endian = header.Word({ "endian" }, stored.Coding == Encoding::Text || size == 1 ? "little" : "not given");
   if (endian != "little" && endian != "big")
   {
-    throw FileError("its header gives the byte order '" + Excerpt(endian) + "', which is neither little nor big");
+    throw FileError("its header gives the byte order '" + Excerpt(endian) + "', which is neither little nor big ('endian'): correct the header");
   }
   stored.IsBigEndian = endian == "big";
   stored.LinesToSkip = header.Whole({ "line skip", "lineskip" }, 0);
@@ -496,24 +519,32 @@ void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
     texts.push_back(units->substr(at + 1, end - at - 1));
     at = std::min(end + 1, units->size());
   }
-  const std::size_t first = isOfSpace ? 0 : roles.Space.front();
-  if (first < texts.size())
+  std::string unit;
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    WarnOfLengths(texts[first], reading);
+    const std::size_t at = isOfSpace ? i : roles.Space[i];
+    const std::string own = at < texts.size() ? texts[at] : "";
+    if (i > 0 && own != unit)
+    {
+      throw FileError("its axes have the units '" + Excerpt(unit) + "' and '" + Excerpt(own) + "': write it with one unit");
+    }
+    unit = own;
   }
+  WarnOfLengths(unit, reading);
 }
 
 } // namespace
 
 bool IsNRRD(const InputFile& file)
 {
-  return file.Beginning(7) == "NRRD000";
+  return file.Beginning(4) == "NRRD";
 }
 
 ScalarImage ReadNRRD(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
   const TextHeader header(file);
+  CheckFields(header);
   const Space space = FindSpace(header);
   const std::vector<Axis> axes = ReadAxes(header, space);
   const Roles roles = AssignRoles(header, axes, space);
@@ -543,7 +574,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
   {
     AdoptTimes(header, axes[*roles.Frames], *roles.Frames, image, reading);
   }
-  ReadVoxels(FindVoxels(header, reading), image, reading);
+  ReadVoxels(FindVoxels(header, SizeOf(image.Type), reading), image, reading);
   if (roles.Frames)
   {
     const auto before = static_cast<std::size_t>(std::count_if(roles.Space.begin(), roles.Space.end(),

@@ -10,6 +10,8 @@
 #include "StoredVoxels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -55,7 +57,11 @@ ScalarType TypeOfGIPL(std::int64_t code)
 bool IsBigEndianMRC(const std::string& bytes)
 {
   constexpr char bigEndian = 0x11;
-  return Fields(bytes, false).Get<char>(212) == bigEndian;
+  constexpr char littleEndian = 0x44;
+  const char stamp = bytes[212];
+  constexpr std::int32_t most = 127; // of the modes
+  const std::int32_t mode = Fields(bytes, false).Get<std::int32_t>(12);
+  return stamp == bigEndian || (stamp != littleEndian && (mode < 0 || mode > most));
 }
 
 /** Bytes of mode 0 are signed, but those that IMOD wrote before it said so. */
@@ -92,16 +98,20 @@ void PlaceMRC(const Fields& fields, ScalarImage& image)
     origin[i] = fields.Get<float>(196 + 4 * i);
     hasOrigin = hasOrigin || origin[i] != 0;
     const std::int32_t intervals = fields.Get<std::int32_t>(28 + 4 * i);
-    spacing[i] = fields.Get<float>(40 + 4 * i) / (intervals > 0 ? intervals : 1);
+    if (intervals <= 0)
+    {
+      throw FileError("its header gives " + std::to_string(intervals) + " for the sampling of its cell: correct the header");
+    }
+    spacing[i] = fields.Get<float>(40 + 4 * i) / static_cast<double>(intervals);
     const float angle = fields.Get<float>(52 + 4 * i);
     if (angle != 90.0F && angle != 0.0F)
     {
-      throw FileError("its cell is not rectangular: resample it");
+      throw FileError("its cell is not rectangular (angles of " + std::to_string(angle) + "): resample it");
     }
   }
   if (axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 || axes[0] == axes[1])
   {
-    throw FileError("it is damaged: its header does not say which axes columns, rows and sections run along");
+    throw FileError("its header does not say which axes columns, rows and sections run along");
   }
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -153,6 +163,13 @@ ScalarImage ReadGIPL(const std::string& path, Reading& reading)
   }
   SetSizes(image, sizes);
   PlaceAlongAxes(image, spacing, origin);
+  if (image.Frames > 1)
+  {
+    const double step = fields.Get<float>(22);
+    image.TimeSpacing = step > 0 && std::isfinite(step) ? step : 1.0;
+    const double first = fields.Get<double>(228);
+    image.TimeOrigin = std::isfinite(first) ? first : 0.0;
+  }
 
   StoredVoxels stored;
   stored.IsBigEndian = true;
@@ -182,7 +199,7 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   const std::int32_t extension = fields.Get<std::int32_t>(92);
   if (extension < 0)
   {
-    throw FileError("it is damaged: its header claims an extension of " + std::to_string(extension) + " bytes");
+    throw FileError("its header claims an extension of " + std::to_string(extension) + " bytes");
   }
   constexpr std::int32_t firstOfStacks = 401;
   if (fields.Get<std::int32_t>(88) >= firstOfStacks)

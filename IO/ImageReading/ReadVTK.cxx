@@ -133,7 +133,7 @@ public:
   {
     if (!this->Window->Errors.empty())
     {
-      throw FileError("the file is truncated or damaged (" + this->Window->Errors.front() + ")");
+      throw FileError("VTK does not read it: " + this->Window->Errors.front());
     }
   }
 
@@ -198,7 +198,7 @@ void CheckKind(const std::string& kind, std::string_view wanted)
 {
   if (kind.empty())
   {
-    throw FileError("the file is truncated or damaged (it does not say what it holds)");
+    throw FileError("it is truncated or damaged: it does not say what it holds");
   }
   if (kind != wanted)
   {
@@ -223,7 +223,7 @@ void CheckClaim(vtkAlgorithm* reader, std::uint64_t size, double mostOfAByte)
   }
   if (voxels == 0)
   {
-    throw FileError("the file is truncated or damaged (it has " + sizes + " points)");
+    throw FileError("its header claims " + sizes + " points (DIMENSIONS or extent), which no image has: correct the header");
   }
   if (voxels > mostOfAByte * static_cast<double>(size))
   {
@@ -377,6 +377,10 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
     const auto a = static_cast<std::size_t>(axis);
     const bool isBetween = areCells && points[a] > 1;
     sizes.push_back(isBetween ? points[a] - 1 : points[a]);
+    if (!(image->GetSpacing()[axis] > 0))
+    {
+      throw FileError("the voxel spacing along axis " + std::to_string(axis) + " is not positive in its header: correct the header");
+    }
     first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
     for (int row = 0; row < 3; ++row)
     {
@@ -495,7 +499,7 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
   if (labels.Array->GetNumberOfTuples() != count)
   {
-    throw FileError("the file is truncated or damaged: its array " + NameOf(labels) + " has " +
+    throw FileError("it is truncated or damaged: its array " + NameOf(labels) + " has " +
       std::to_string(labels.Array->GetNumberOfTuples()) + " numbers of " + std::to_string(count));
   }
   const bool areBits = labels.Array->GetDataType() == VTK_BIT;

@@ -9,6 +9,7 @@
 #include "Reading.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -94,28 +95,29 @@ double Capacity(Encoding encoding, double bytes, ScalarType type)
   return (bytes + 1.0) / 2.0 * static_cast<double>(SizeOf(type)); // a digit and a blank for each number
 }
 
-/** Before memory is taken. */
+/** Before memory is taken. Files hold whole slices, volumes or frames. */
 void CheckClaim(const StoredVoxels& stored, const ScalarImage& image)
 {
-  double bytes = 0.0;
-  double capacity = 0.0;
-  for (const std::string& path : stored.Files)
+  const auto count = static_cast<double>(stored.Files.size());
+  const std::array<double, 4> parts{ 1.0, double{ static_cast<double>(image.Frames) },
+    static_cast<double>(image.Frames) * image.Dimensions[2],
+    static_cast<double>(image.Frames) * image.Dimensions[2] * image.Dimensions[1] };
+  if (std::find(parts.begin(), parts.end(), count) == parts.end() && count != image.Dimensions[2])
   {
-    const auto size = static_cast<double>(InputFile(path).Size());
-    bytes += size;
-    capacity += Capacity(stored.Coding, size, image.Type);
+    throw FileError("its header names " + std::to_string(stored.Files.size()) + " data files, which cannot hold " +
+      DescribeClaim(image) + " in equal parts");
   }
   const double claimed = static_cast<double>(image.NumberOfVoxels()) * image.Frames *
     static_cast<double>(SizeOf(image.Type));
-  if (claimed > capacity)
+  for (const std::string& path : stored.Files)
   {
-    std::ostringstream reason;
-    reason << "it is truncated or damaged: its header claims " << DescribeClaim(image) << ", and "
-           << (stored.Files.size() == 1
-                  ? "'" + Excerpt(fs::path(stored.Files.front()).filename().string()) + "' has "
-                  : "its " + std::to_string(stored.Files.size()) + " files have ")
-           << std::fixed << std::setprecision(0) << bytes << " bytes";
-    throw FileError(reason.str());
+    const std::uint64_t size = InputFile(path).Size();
+    if (claimed / count > Capacity(stored.Coding, static_cast<double>(size), image.Type))
+    {
+      throw FileError("it is truncated or damaged: its header claims " + DescribeClaim(image) +
+        (count > 1 ? " in " + std::to_string(stored.Files.size()) + " files" : "") + ", and '" +
+        Excerpt(fs::path(path).filename().string()) + "' has " + std::to_string(size) + " bytes");
+    }
   }
 }
 
@@ -293,35 +295,66 @@ void SwapBytes(std::byte* voxels, std::size_t count)
 
 // --- Conversions -------------------------------------------------------------------------------------
 
-/** The type of integers that holds the numbers from low to high. */
-std::optional<ScalarType> IntegerTypeFor(double low, double high)
+using Wide = __int128; // of products of 64-bit integers
+
+/** The type of integers that holds the numbers from low to high; nothing if there is none. */
+std::optional<ScalarType> IntegerTypeFor(Wide low, Wide high)
 {
-  struct Range
+  std::optional<ScalarType> found;
+  for (const ScalarType type : { ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Int32,
+         ScalarType::UInt32, ScalarType::Int64, ScalarType::UInt64 })
   {
-    ScalarType Type;
-    double Low;
-    double High;
-  };
-  constexpr double exact = 9007199254740992.0; // 2^53: so that no rounding hides a number
-  for (const Range& range : { Range{ ScalarType::UInt8, 0, 255 }, Range{ ScalarType::Int16, -32768, 32767 },
-         Range{ ScalarType::UInt16, 0, 65535 }, Range{ ScalarType::Int32, -2147483648.0, 2147483647.0 },
-         Range{ ScalarType::Int64, -exact, exact } })
+    Dispatch(type,
+      [&](auto zero)
+      {
+        using T = decltype(zero);
+        if constexpr (std::is_integral_v<T>)
+        {
+          const bool holds = low >= Wide{ std::numeric_limits<T>::min() } && high <= Wide{ std::numeric_limits<T>::max() };
+          found = holds && !found ? std::optional(type) : found;
+        }
+      });
+  }
+  return found;
+}
+
+/** Whether a number is whole, and small enough to be so exactly. */
+bool IsWhole(double number)
+{
+  constexpr double exact = 9007199254740992.0; // 2^53
+  return std::trunc(number) == number && std::abs(number) <= exact;
+}
+
+/** The type of the results, if all of them are integers. */
+template <typename T>
+std::optional<ScalarType> FindTypeOfResults(std::span<const T> values, double slope, double intercept)
+{
+  if constexpr (std::is_integral_v<T>)
   {
-    if (low >= range.Low && high <= range.High)
+    if (IsWhole(slope) && IsWhole(intercept))
     {
-      return range.Type;
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      const Wide a = Wide{ static_cast<std::int64_t>(slope) } * *low + static_cast<std::int64_t>(intercept);
+      const Wide b = Wide{ static_cast<std::int64_t>(slope) } * *high + static_cast<std::int64_t>(intercept);
+      return IntegerTypeFor(std::min(a, b), std::max(a, b));
     }
   }
   return std::nullopt;
 }
 
 template <typename TFrom, typename TTo>
-void Convert(const void* from, void* to, std::size_t count, double slope, double intercept)
+void Convert(std::span<const TFrom> from, TTo* to, double slope, double intercept)
 {
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < from.size(); ++i)
   {
-    static_cast<TTo*>(to)[i] =
-      static_cast<TTo>(slope * static_cast<double>(static_cast<const TFrom*>(from)[i]) + intercept);
+    if constexpr (std::is_integral_v<TFrom> && std::is_integral_v<TTo>)
+    {
+      to[i] = static_cast<TTo>(Wide{ static_cast<std::int64_t>(slope) } * from[i] + static_cast<std::int64_t>(intercept));
+    }
+    else
+    {
+      to[i] = static_cast<TTo>(slope * static_cast<double>(from[i]) + intercept);
+    }
   }
 }
 
@@ -352,11 +385,6 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
   CheckClaim(stored, image);
   const std::size_t voxels = image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames);
   const std::size_t bytes = voxels * SizeOf(image.Type);
-  if (voxels % stored.Files.size() != 0)
-  {
-    throw FileError("its header names " + std::to_string(stored.Files.size()) +
-      " data files, which cannot hold equal parts of " + DescribeClaim(image));
-  }
   const std::size_t part = bytes / stored.Files.size();
   image.Scalars = reading.Allocate(bytes);
   auto* to = static_cast<std::byte*>(image.Scalars.get());
@@ -404,32 +432,16 @@ void Rescale(ScalarImage& image, double slope, double intercept, Reading& readin
   }
   const std::size_t count = image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames);
   const std::shared_ptr<void> stored = image.Scalars;
-  std::optional<ScalarType> type;
-  const bool isWhole = std::trunc(slope) == slope && std::trunc(intercept) == intercept;
   Dispatch(image.Type,
     [&](auto zero)
     {
       using T = decltype(zero);
-      if (std::is_integral_v<T> && isWhole)
-      {
-        const T* values = static_cast<const T*>(stored.get());
-        const auto [low, high] = std::minmax_element(values, values + count);
-        const double a = slope * static_cast<double>(*low) + intercept;
-        const double b = slope * static_cast<double>(*high) + intercept;
-        type = IntegerTypeFor(std::min(a, b), std::max(a, b));
-      }
-    });
-  const ScalarType from = image.Type;
-  image.Type = type.value_or(ScalarType::Float64);
-  image.Scalars = reading.Allocate(count * SizeOf(image.Type));
-  Dispatch(from,
-    [&](auto zero)
-    {
+      const std::span<const T> values(static_cast<const T*>(stored.get()), count);
+      image.Type = FindTypeOfResults(values, slope, intercept).value_or(ScalarType::Float64);
+      image.Scalars = reading.Allocate(count * SizeOf(image.Type));
       Dispatch(image.Type,
         [&](auto result)
-        {
-          Convert<decltype(zero), decltype(result)>(stored.get(), image.Scalars.get(), count, slope, intercept);
-        });
+        { Convert(values, static_cast<decltype(result)*>(image.Scalars.get()), slope, intercept); });
     });
 }
 

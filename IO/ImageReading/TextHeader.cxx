@@ -92,7 +92,7 @@ TextHeader::TextHeader(const InputFile& file)
   this->Length = at;
   if (!hasEnded && text.size() == MaximumLength)
   {
-    throw FileError("it is damaged: its header does not end within 1 MiB");
+    throw FileError("its header does not end within 1 MiB");
   }
 }
 
@@ -111,23 +111,28 @@ bool TextHeader::TakeLine(std::string line)
   {
     return false; // a comment
   }
-  const std::size_t separator = line.find_first_of(this->IsNRRD ? ":" : "=:");
+  // In NRRD a key may have a colon, which no blank or equals sign follows.
+  const std::size_t ofNRRD = std::min(line.find(": "), line.find(":="));
+  const std::size_t separator = this->IsNRRD && ofNRRD != std::string::npos ? ofNRRD : line.find_first_of(this->IsNRRD ? ":" : "=:");
   const std::string name = Trim(line.substr(0, separator));
-  if (separator == std::string::npos || name.empty())
+  const bool isKeyValue = separator != std::string::npos && line.compare(separator, 2, ":=") == 0; // of NRRD
+  if (separator == std::string::npos || (name.empty() && !isKeyValue))
   {
-    throw FileError("it is damaged: the line '" + Excerpt(line) + "' of its header is no field");
+    throw FileError("the line '" + Excerpt(line) + "' of its header is no field");
   }
   const std::string key = LowerCase(name);
-  const bool isKeyValue = line.compare(separator, 2, ":=") == 0; // of NRRD
   std::string value = Trim(line.substr(separator + (isKeyValue ? 2 : 1)));
   const bool isDataOfMetaImage = !this->IsNRRD && key == "elementdatafile";
   const bool isDataFile = isDataOfMetaImage || key == "data file" || key == "datafile";
   this->IsInList = isDataFile && !Words(value).empty() && Words(value).front() == "LIST";
-  this->Spellings.emplace(key, name);
+  if (!isKeyValue)
+  {
+    this->Spellings.emplace(key, name);
+  }
   const bool isNew = this->Fields.emplace(key, std::move(value)).second;
   if (!isNew && !isKeyValue && key != "comment")
   {
-    throw FileError("it is damaged: its header gives '" + Excerpt(name) + "' more than once");
+    throw FileError("its header gives '" + Excerpt(name) + "' more than once");
   }
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
@@ -185,20 +190,26 @@ std::vector<double> TextHeader::Numbers(std::initializer_list<const char*> keys,
   return numbers;
 }
 
+std::vector<std::int64_t> TextHeader::Wholes(std::initializer_list<const char*> keys, std::size_t count) const
+{
+  std::vector<std::int64_t> wholes;
+  for (const double number : this->Numbers(keys, count))
+  {
+    constexpr double limit = 9e15;
+    if (!(std::abs(number) <= limit) || std::trunc(number) != number)
+    {
+      throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" + Excerpt(this->SpellingOf(keys)) +
+        "', where whole numbers must be: correct the header");
+    }
+    wholes.push_back(static_cast<std::int64_t>(number));
+  }
+  return wholes;
+}
+
 std::int64_t TextHeader::Whole(std::initializer_list<const char*> keys, std::int64_t missing) const
 {
-  const std::vector<double> numbers = this->Numbers(keys, 1);
-  constexpr double limit = 9e15;
-  if (numbers.empty())
-  {
-    return missing;
-  }
-  if (!(std::abs(numbers[0]) <= limit) || std::trunc(numbers[0]) != numbers[0])
-  {
-    throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" + Excerpt(this->SpellingOf(keys)) +
-      "', which must be a whole number: correct the header");
-  }
-  return static_cast<std::int64_t>(numbers[0]);
+  const std::vector<std::int64_t> wholes = this->Wholes(keys, 1);
+  return wholes.empty() ? missing : wholes.front();
 }
 
 void TextHeader::SetFiles(const std::string* value, bool anywhere, StoredVoxels& stored) const

@@ -45,10 +45,16 @@ public:
    */
   std::vector<double> Numbers(std::initializer_list<const char*> keys, std::size_t count) const;
 
+  /** A list of whole numbers, as above. */
+  std::vector<std::int64_t> Wholes(std::initializer_list<const char*> keys, std::size_t count) const;
+
   /** A whole number. @throws FileError for other values */
   std::int64_t Whole(std::initializer_list<const char*> keys, std::int64_t missing) const;
 
   const std::map<std::string, std::string>& All() const { return this->Fields; }
+
+  /** Without the key/value pairs of NRRD: keys, and how the file writes them. */
+  const std::map<std::string, std::string>& Own() const { return this->Spellings; }
 
   /**
    * Says in which files the voxels are: those that `value` names by one name, a pattern or LIST, or behind the header.

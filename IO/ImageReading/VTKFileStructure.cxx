@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,7 +28,7 @@ namespace
 
 [[noreturn]] void RefuseDamage(const std::string& reason)
 {
-  throw FileError("the file is truncated or damaged (" + reason + ")");
+  throw FileError("it is truncated or damaged: " + reason);
 }
 
 /** What comes before the appended data. */
@@ -35,6 +36,7 @@ struct Structure
 {
   XML_Parser Parser = nullptr;
   bool HasDocumentType = false;
+  std::string Wrong; ///< an attribute that is none, and that VTK would leave out
   bool IsCompressed = false;
   bool IsBigEndian = false;
   std::size_t BytesOfCount = 4; ///< before the bytes of an array
@@ -130,6 +132,25 @@ std::string Normalize(const std::string& numbers)
   return all;
 }
 
+/** An attribute of so many finite numbers, if it is there. */
+void CheckNumbers(Structure& structure, const char** attributes, const char* name, std::size_t count)
+{
+  const std::string text = Attribute(attributes, name);
+  std::istringstream words(text);
+  std::size_t found = 0;
+  for (std::string word; words >> word; ++found)
+  {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool isNumber = error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+    found += isNumber ? 0 : count;
+  }
+  if (found != count && !text.empty())
+  {
+    structure.Wrong = std::string(name) + "=\"" + Excerpt(text) + "\"";
+  }
+}
+
 void StartElement(void* data, const char* elementName, const char** attributes)
 {
   Structure& structure = At(data);
@@ -143,6 +164,9 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   else if (name == "ImageData")
   {
     structure.WholeExtent = Normalize(Attribute(attributes, "WholeExtent"));
+    CheckNumbers(structure, attributes, "Spacing", 3);
+    CheckNumbers(structure, attributes, "Origin", 3);
+    CheckNumbers(structure, attributes, "Direction", 9);
   }
   else if (name == "Piece")
   {
@@ -150,9 +174,13 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   }
   else if (name == "DataArray" && Attribute(attributes, "format") == "appended")
   {
+    CheckNumbers(structure, attributes, "offset", 1);
     const std::string offset = Attribute(attributes, "offset");
     std::uint64_t value = 0;
-    std::from_chars(offset.data(), offset.data() + offset.size(), value);
+    if (std::from_chars(offset.data(), offset.data() + offset.size(), value).ec != std::errc())
+    {
+      structure.Wrong = "offset=\"" + Excerpt(offset) + "\"";
+    }
     structure.Offsets.push_back(value);
   }
   else if (name == "DataArray" && Attribute(attributes, "format") == "binary")
@@ -286,6 +314,10 @@ void CheckAppendedData(const InputFile& file, const Structure& structure)
 void CheckStructureOfVTI(const InputFile& file)
 {
   const Structure structure = Parse(file);
+  if (!structure.Wrong.empty())
+  {
+    throw FileError("its header gives " + structure.Wrong + ", where finite numbers must be: correct the header");
+  }
   if (structure.Extents.size() != 1)
   {
     throw FileError(

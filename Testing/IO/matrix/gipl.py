@@ -53,7 +53,7 @@ equal("image type 1, binary", Image(voxels("u1"), affine()), [refused("type|bina
 equal("dim[3] = 0", wrap=lambda f: gipl(I2, dim=(5, 4, 3, 0)))
 equal("a matrix, which is not used", Image(I2, affine(), warns=ANY), matrix=tuple(range(20)))
 equal("origin 0", Image(I2, affine(origin=(0, 0, 0)), warns=ANY), origin=(0, 0, 0, 0))
-for sizes in ((5, 0, 3, 1), (0, 0, 0, 0), (5, 4, 1, 1)):
+for sizes in ((5, 0, 3, 1), (0, 0, 0, 0)):
     refuse("sizes %s" % (sizes,), "dim|size|voxels|slice", dim=sizes)
 for sizes in ((65535, 65535, 65535, 1), (5, 4, 4, 1), (65535,) * 4, (5, 4, 3, 65535)):
     refuse("claims %s" % (sizes,), ".", dim=sizes, is_broken=True)

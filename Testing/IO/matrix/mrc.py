@@ -34,7 +34,8 @@ def mrc(array, file="i.mrc", order="<", extended=b"", **fields):
 ROWS = []
 I2 = voxels("i2")
 WHERE = affine() * ANGSTROM
-IMAGE = Image(I2, WHERE)
+WARNS = "angstrom"  # numbers are those of the file
+IMAGE = Image(I2, WHERE, warns=WARNS)
 
 
 def equal(name, image=IMAGE, also=(), wrap=lambda files: files, **options):
@@ -57,14 +58,14 @@ PERMUTATIONS = (1, 2, 3), (1, 3, 2), (2, 1, 3), (2, 3, 1), (3, 1, 2), (3, 2, 1)
 for case in combinations(type=MODES, order=ORDERS, map=PERMUTATIONS, extended=(0, 80, 1024), file=("i.mrc", "i.map")):
     array = voxels(case["type"])
     m = [array.shape[::-1][case["map"].index(direction)] for direction in (1, 2, 3)]
-    equal(title(case), Image(array, turned(case["map"])), order=case["order"], map=case["map"], m=m, cell=SPACING * m,
+    equal(title(case), Image(array, turned(case["map"]), warns=WARNS), order=case["order"], map=case["map"], m=m, cell=SPACING * m,
           extended=bytes(case["extended"]), file=case["file"])
 
 # Bytes are signed since 2014; IMOD has written both, and says which.
-equal("bytes of 0 to 127, old header", Image(np.arange(60, dtype="i1").reshape(3, 4, 5), WHERE),
-      [Image(np.arange(60, dtype="u1").reshape(3, 4, 5), WHERE)], nversion=0)
-equal("unsigned bytes of IMOD", Image(voxels("u1"), WHERE), mode=0, imod_stamp=1146047817, imod_flags=0, nversion=0)
-equal("signed bytes of IMOD", Image(voxels("i1"), WHERE), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
+equal("bytes of 0 to 127, old header", Image(np.arange(60, dtype="i1").reshape(3, 4, 5), WHERE, warns=WARNS),
+      [Image(np.arange(60, dtype="u1").reshape(3, 4, 5), WHERE, warns=WARNS)], nversion=0)
+equal("unsigned bytes of IMOD", Image(voxels("u1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=0, nversion=0)
+equal("signed bytes of IMOD", Image(voxels("i1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
 equal("half floats", Image(np.arange(60, dtype="f2").reshape(3, 4, 5).astype("f4"), WHERE), [refused("mode|12|half")],
       wrap=lambda f: mrc(np.arange(60, dtype="f2").reshape(3, 4, 5), mode=12))
 for mode, name in ((3, "complex short"), (4, "complex float"), (5, "none"), (16, "RGB"), (101, "4 bits"), (-1, "none"),
@@ -90,7 +91,7 @@ equal("map of zeros", map=(0, 0, 0), also=[refused("axes|map"), Image(I2, WHERE,
 for axes in ((1, 1, 3), (1, 2, 4), (3, 2, 2), (-1, 2, 3)):
     refuse("map of %s" % (axes,), "axes|map", map=axes)
 for value in (0, -1, np.nan, np.inf):
-    refuse("cell of %s" % value, "cell|spacing", cell=(1, value, 1))
+    refuse("cell of %s" % value, "cell|spacing|position", cell=(1, value, 1))
 for value in (np.nan, np.inf):
     refuse("origin of %s" % value, "origin|position|finite|number", origin=(0, value, 0))
 for value in (0, -4):
@@ -120,5 +121,5 @@ for beside in ("i.img", "i.hdr", "visu_pars"):
           beside=beside: f.beside({beside: Fifo()}))
 
 _MORE = voxels("i2", shape=LARGER)
-SOUND = [Sound("MRC", "raw", mrc(_MORE), Image(_MORE, WHERE)),
-         Sound("MRC", "raw", mrc(_MORE, "i.map", extended=bytes(160)), Image(_MORE, WHERE))]
+SOUND = [Sound("MRC", "raw", mrc(_MORE), Image(_MORE, WHERE, warns=WARNS)),
+         Sound("MRC", "raw", mrc(_MORE, "i.map", extended=bytes(160)), Image(_MORE, WHERE, warns=WARNS))]

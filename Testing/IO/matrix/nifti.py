@@ -3,6 +3,7 @@
 """NIfTI-1, NIfTI-2 and ANALYZE 7.5, from nifti1.h, nifti2.h and dbh.h."""
 import gzip
 import struct
+from dataclasses import replace
 
 import numpy as np
 
@@ -266,16 +267,16 @@ refuse("negative pixdim", "pixdim|spacing", sform_code=0, pixdim=(1, 1, -1, 1))
 for value in (np.nan, np.inf):
     refuse("qoffset of %s" % value, "qform|qoffset|origin|position|finite",
            **{**qform(AXES["identity"]), "sform_code": 0, "qoffset": (0, value, 0)})
-    refuse("quaternion of %s" % value, "qform|quatern", **{**qform(AXES["identity"]), "sform_code": 0,
+    refuse("quaternion of %s" % value, "qform|quatern|position or orientation", **{**qform(AXES["identity"]), "sform_code": 0,
                                                            "quatern": (0, value, 0)})
     refuse("sform of %s" % value, "sform|srow|finite|number", srow=(value, *range(11)))
     refuse("step of time of %s" % value, "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, value))
 refuse("negative step of time", "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, -1))
-refuse("quaternion longer than 1", "qform|quatern", **{**qform(AXES["identity"]), "sform_code": 0,
+refuse("quaternion longer than 1", "qform|quatern|position or orientation", **{**qform(AXES["identity"]), "sform_code": 0,
                                                        "quatern": (1, 1, 1)})
 refuse("sform of zeros", "sform|independent|singular|axes|length", srow=(0,) * 12)
-refuse("sform with equal columns", "sform|independent|singular|axes", srow=(1, 1, 0, 5) * 3)
-refuse("sform of rank 2", "sform|independent|singular|axes", srow=(1, 2, 3, 5, 4, 5, 9, 5, 7, 8, 15, 5))
+refuse("sform with equal columns", "sform|independent|singular|axes|spacing", srow=(1, 1, 0, 5) * 3)
+refuse("sform of rank 2", "sform|independent|singular|axes|spacing", srow=(1, 2, 3, 5, 4, 5, 9, 5, 7, 8, 15, 5))
 
 # The rest of the header
 for offset in (352, 356, 368, 416, 1024):
@@ -339,11 +340,17 @@ def analyze(array, order="<", **fields):
     return Files("i.hdr", {"i.hdr": pack(fields, order), "i.img": raw(array, order)}), fields
 
 
+def held_by_analyze(array, fields):
+    """Its axes are taken for those of LPS."""
+    image = held(array, fields, warns=ANALYZE_WARNS)
+    return replace(image, affine=RAS_TO_LPS @ image.affine)
+
+
 for case in combinations(type=("u1", "i2", "i4", "f4", "f8"), order=ORDERS, frames=(None, 2)):
     array = voxels(case["type"], case["frames"])
     files, analyze_fields = analyze(array, case["order"])
     ROWS.append(row("ANALYZE", title(case), files,
-                    held(array, analyze_fields, warns=ANALYZE_WARNS)))
+                    held_by_analyze(array, analyze_fields)))
 for name, words, options in (("RGB", "RGB|colour|128", {"datatype": 128, "bitpix": 24}),
                              ("2D", "dim|slice", {"dim": (2, 5, 4)}),
                              ("complex", "complex|32", {"datatype": 32, "bitpix": 64}),
@@ -382,5 +389,5 @@ SOUND = [
     Sound("NIfTI", "raw", nifti(_MORE, "i.hdr", **OBLIQUE), _HELD, "i.img"),
     Sound("NIfTI", "gzip", nifti(_MORE, "i.hdr.gz", **OBLIQUE), _HELD, "i.img.gz"),
     Sound("NIfTI-2", "raw", nifti2(_MORE, **OBLIQUE), _HELD),
-    Sound("ANALYZE", "raw", analyze(_MORE)[0], held(_MORE, analyze(_MORE)[1], warns=ANALYZE_WARNS), "i.img"),
+    Sound("ANALYZE", "raw", analyze(_MORE)[0], held_by_analyze(_MORE, analyze(_MORE)[1]), "i.img"),
 ]
