@@ -24,8 +24,11 @@ struct ShrunkLabel
 
 /** A label is shrunk if the mesh has less than this part of its volume... */
 inline constexpr double ShrunkFraction = 0.5;
-/** ... and it has at least this number of voxels. Specks are only kept, with few elements. */
-inline constexpr std::int64_t FewestVoxelsOfShrunk = 100;
+/**
+ * ... and it has at least this number of voxels, as ComponentOptions::Smallest. Specks are only kept,
+ * with few elements.
+ */
+inline constexpr std::int64_t FewestVoxelsOfShrunk = 8;
 
 /**
  * The shrunk labels, in increasing order. Labels without an element are not among them.

@@ -64,10 +64,10 @@ TEST(ShrunkLabels, AreThoseWithLessThanHalfOfTheirVolume)
 
 TEST(ShrunkLabels, SpecksAreNotAmongThem)
 {
-  const auto grid = GridGeometry<3>::Orthogonal({ 10, 10, 2 }, { 1.0, 1.0, 1.0 });
-  std::vector<std::int32_t> voxels(200, 1);
-  voxels[50] = 0;
-  std::fill(voxels.begin() + 100, voxels.end(), 2); // 99 voxels of 1, and 100 of 2
+  const auto grid = GridGeometry<3>::Orthogonal({ 4, 2, 2 }, { 10.0, 10.0, 10.0 });
+  std::vector<std::int32_t> voxels(16, 1);
+  voxels[5] = 0;
+  std::fill(voxels.begin() + 8, voxels.end(), 2); // 7 voxels of 1, and 8 of 2
   const LabelImage<3> image = LabelImage<3>::FromScalars<std::int32_t>(voxels, grid);
   SimplexMesh<3> mesh;
   Add(mesh, 1, 1);
