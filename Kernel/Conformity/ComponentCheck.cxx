@@ -155,13 +155,7 @@ Remedy<D> ComponentCheck<D>::Treat(const std::vector<std::uint32_t>& lost)
   }
   for (const std::uint32_t c : lost)
   {
-    const Component<D>& component = this->All.All()[c];
-    ComponentReport entry{ this->Image.Values()[component.Label], component.Voxels, {} };
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      entry.Voxel.push_back(this->Image.CropOrigin()[a] + component.First[a]);
-    }
-    this->Statistics.Lost.push_back(std::move(entry));
+    this->Statistics.Lost.push_back(ReportOf(this->All.All()[c], this->Image));
   }
   return {};
 }

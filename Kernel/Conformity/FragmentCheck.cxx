@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/FragmentCheck.h"
 
-#include "Base/DisjointSets.h"
+#include "Base/GridIndex.h"
 #include "Conformity/FinestSpacing.h"
 #include "Conformity/InterfaceSampling.h"
-#include "Mesh/LabelledTriangulation.h"
+#include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace voxplex
@@ -17,89 +19,106 @@ namespace voxplex
 namespace
 {
 
+using Index = GridGeometry<3>::Index;
+
 /**
- * The spacing of points at the first visit of a place, in sampling distances, and at each further
- * visit, in spacings of the visit before. With 0.4 and 0.5, meshes of thin sheets have up to six times
- * as many elements.
+ * The spacing of points at a visit of a place, in spacings of the visit before; at the first visit in
+ * sampling distances. With 0.4, meshes of thin sheets have up to six times as many elements.
  */
-constexpr double FirstSpacing = 0.6;
 constexpr double NextSpacing = 0.6;
 
 /** The sampling distance of R1 is this factor times the spacing of points. */
 constexpr double BoundFactor = 2.0;
 
-/** The finest spacing of points, as FinestSpacing() takes it. */
-constexpr double FinestVoxels = 0.5;
+/**
+ * The finest spacing of points, as FinestSpacing() takes it. A vessel of one voxel is 0.8 voxels thick
+ * in the label field along an axis, and where it leaves a thick part much less. With 0.2, vessels stay
+ * in fragments there, and if voxels are much longer along them.
+ */
+constexpr double FinestVoxels = 0.1;
 
 /**
- * Faces are sampled within this many longest edges of a tetrahedron around its vertices: a gap
- * between fragments is hardly wider than an edge, and is closed from both sides.
+ * Points are asked for this many times at most. Each time the spacing becomes finer where they are asked
+ * for, so most meshes need less than 15. But where a finer part of a vessel meets a coarser one, a new
+ * gap may open.
+ */
+constexpr unsigned MostRounds = 64;
+
+/**
+ * Without exact components, those are listed whose largest fragment has less than this part of the volume.
+ * Many meshes have a few tetrahedra that hang on the rest at an edge.
+ */
+constexpr double WholeFraction = 0.9;
+
+/**
+ * Around a fragment that has no centre of a voxel, faces are sampled within this many longest edges of a
+ * tetrahedron around its vertices.
  */
 constexpr double RadiusAtVertex = 0.5;
 
-/** The sets of simplices of one label that are connected through faces. */
-DisjointSets FindFragments(const LabelledTriangulation<3>& elements)
+double LongestEdge(const std::array<Point<3>, 4>& p)
 {
-  const std::span<const LabelId> labels = elements.GetLabels();
-  DisjointSets fragments(labels.size());
-  for (SimplexId s = 0; s < labels.size(); ++s)
-  {
-    if (labels[s] != 0)
-    {
-      for (const SimplexId n : elements.GetTriangulation().GetSimplex(s).N)
-      {
-        if (n < s && labels[n] == labels[s])
-        {
-          fragments.Join(s, n);
-        }
-      }
-    }
-  }
-  return fragments;
-}
-
-/** The size of the largest fragment of a component. */
-struct Largest
-{
-  std::uint32_t Size = 0;
-  std::uint32_t OfThisSize = 0;
-  std::uint32_t Fragments = 0; ///< in all
-
-  void Add(std::uint32_t size)
-  {
-    ++this->Fragments;
-    this->OfThisSize = size > this->Size ? 1 : this->OfThisSize + (size == this->Size ? 1 : 0);
-    this->Size = std::max(this->Size, size);
-  }
-
-  /** Whether a fragment of this size is larger than all others. */
-  bool IsAlone(std::uint32_t size) const { return size == this->Size && this->OfThisSize == 1; }
-};
-
-double LongestEdge(const Triangulation<3>& mesh, SimplexId s)
-{
-  const auto& v = mesh.GetSimplex(s).V;
   double longest2 = 0.0;
-  for (std::size_t i = 0; i < v.size(); ++i)
+  for (std::size_t i = 0; i < p.size(); ++i)
   {
     for (std::size_t j = 0; j < i; ++j)
     {
-      longest2 = std::max(longest2, Distance2(mesh.Position(v[i]), mesh.Position(v[j])));
+      longest2 = std::max(longest2, Distance2(p[i], p[j]));
     }
   }
   return std::sqrt(longest2);
 }
 
+/** Calls visit(voxel) with the voxels of the crop that have their centres in or on a tetrahedron. */
+template <typename Visit>
+void ForEachCentreIn(std::array<Point<3>, 4> points, const LabelImage<3>& image, const Visit& visit)
+{
+  Index low;
+  Index high;
+  low.fill(std::numeric_limits<std::int64_t>::max());
+  high.fill(std::numeric_limits<std::int64_t>::min());
+  for (Point<3>& p : points)
+  {
+    p = image.Grid().ToIndex(p);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      p[a] -= static_cast<double>(image.CropOrigin()[a]);
+      low[a] = std::min<std::int64_t>(low[a], std::llround(p[a]));
+      high[a] = std::max<std::int64_t>(high[a], std::llround(p[a]));
+    }
+  }
+  const std::array<const Point<3>*, 4> corners = { &points[0], &points[1], &points[2], &points[3] };
+  constexpr double Tolerance = 1e-9; // centres may be on faces
+  const double whole = SignedVolume<3>(corners.data());
+  ForEachIndex(low, high,
+    [&](const Index& voxel)
+    {
+      const Point<3> centre = { static_cast<double>(voxel[0]), static_cast<double>(voxel[1]),
+        static_cast<double>(voxel[2]) };
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        std::array<const Point<3>*, 4> part = corners;
+        part[i] = &centre;
+        if (SignedVolume<3>(part.data()) < -Tolerance * whole)
+        {
+          return;
+        }
+      }
+      visit(voxel);
+    });
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-FragmentCheck::FragmentCheck(const Subject& subject, std::int64_t fewestVoxels, unsigned rounds,
-  LocalDelta<3>& local, ComponentStatistics& statistics, double& seconds,
+FragmentCheck::FragmentCheck(const Subject& subject, const ComponentOptions& options,
+  bool mayRefine, LocalDelta<3>& local, ComponentStatistics& statistics, double& seconds,
   const std::stop_token& stop)
   : ConformityCheck<3>(seconds)
   , Of(subject)
-  , Wanted(subject.All.FindWanted(fewestVoxels))
-  , RoundsLeft(rounds)
+  , Wanted(subject.All.FindWanted(options.Smallest))
+  , Exact(options.Exact)
+  , RoundsLeft(options.Exact && mayRefine ? MostRounds : 0)
   , Local(local)
   , Statistics(statistics)
   , Stop(stop)
@@ -110,11 +129,16 @@ FragmentCheck::FragmentCheck(const Subject& subject, std::int64_t fewestVoxels, 
 //------------------------------------------------------------------------------------------------
 Remedy<3> FragmentCheck::InspectElements(const LabelledTriangulation<3>& elements)
 {
-  if (this->RoundsLeft == 0)
+  ElementFragments fragments(elements, this->Stop);
+  fragments.FindComponents(this->Of.All, this->Of.Image);
+  const std::vector<Pieces> pieces = this->FindPieces(fragments);
+  this->Report(pieces);
+  if (this->RoundsLeft == 0 || this->Statistics.Broken.empty())
   {
     return {};
   }
-  std::vector<FeatureSeed<3>> points = this->Sample(this->FacesOfFragments(elements));
+  std::vector<FeatureSeed<3>> points =
+    this->Sample(this->FacesNear(this->FindGaps(fragments, pieces), pieces));
   if (points.empty())
   {
     return {};
@@ -126,94 +150,140 @@ Remedy<3> FragmentCheck::InspectElements(const LabelledTriangulation<3>& element
 }
 
 //------------------------------------------------------------------------------------------------
-std::uint32_t FragmentCheck::ComponentOf(const Triangulation<3>& mesh, SimplexId s) const
+std::vector<FragmentCheck::Pieces> FragmentCheck::FindPieces(ElementFragments& fragments) const
 {
-  Point<3> centroid{};
-  for (const VertexId v : mesh.GetSimplex(s).V)
+  std::vector<Pieces> pieces(this->Wanted.size());
+  for (const ElementFragments::Fragment& fragment : fragments.All())
   {
-    for (std::size_t a = 0; a < 3; ++a)
+    if (fragment.Component != None && this->Wanted[fragment.Component])
     {
-      centroid[a] += 0.25 * mesh.Position(v)[a];
+      ++pieces[fragment.Component].Number;
     }
   }
-  const Point<3> at = this->Of.Image.Grid().ToIndex(centroid);
-  Index voxel;
-  for (std::size_t a = 0; a < 3; ++a)
+  std::vector<bool> isOfBroken;
+  for (const ElementFragments::Fragment& fragment : fragments.All())
   {
-    voxel[a] = std::llround(at[a]) - this->Of.Image.CropOrigin()[a];
+    isOfBroken.push_back(fragment.Component != None && pieces[fragment.Component].Number > 1);
   }
-  return this->Of.All.At(voxel);
-}
-
-std::vector<VoxelFace<3>> FragmentCheck::FacesOfFragments(
-  const LabelledTriangulation<3>& elements) const
-{
-  constexpr std::uint32_t Unknown = Components<3>::None;
-  const Triangulation<3>& mesh = elements.GetTriangulation();
-  const std::span<const LabelId> labels = elements.GetLabels();
-  const std::vector<Component<3>>& all = this->Of.All.All();
-  DisjointSets fragments = FindFragments(elements);
-  std::vector<std::uint32_t> size(labels.size()); // by name of the fragment
-  for (SimplexId s = 0; s < labels.size(); ++s)
+  fragments.MeasureVolumes(isOfBroken);
+  for (std::uint32_t f = 0; f < fragments.All().size(); ++f)
   {
-    ++size[fragments.Find(s)];
-  }
-  ThrowIfStopped(this->Stop);
-
-  std::vector<std::uint32_t> component(labels.size(), Unknown); // likewise
-  std::vector<Largest> largest(all.size());                     // by component
-  for (SimplexId s = 0; s < labels.size(); ++s)
-  {
-    const std::uint32_t fragment = fragments.Find(s);
-    if (labels[s] == 0 || component[fragment] != Unknown)
+    if (isOfBroken[f])
     {
-      continue;
-    }
-    const std::uint32_t c = this->ComponentOf(mesh, s);
-    if (c == Components<3>::None || all[c].Label != labels[s] || !this->Wanted[c])
-    {
-      continue;
-    }
-    component[fragment] = c;
-    largest[c].Add(size[fragment]);
-  }
-
-  std::vector<SearchBall<3>> balls;
-  for (SimplexId s = 0; s < labels.size(); ++s)
-  {
-    const std::uint32_t fragment = fragments.Find(s);
-    const std::uint32_t c = component[fragment];
-    if (labels[s] != 0 && c != Unknown && !largest[c].IsAlone(size[fragment]))
-    {
-      const double radius =
-        std::max(this->Of.Image.Grid().VoxelDiagonal(), RadiusAtVertex * LongestEdge(mesh, s));
-      for (const VertexId v : mesh.GetSimplex(s).V)
+      const double volume = fragments.All()[f].Volume;
+      Pieces& of = pieces[fragments.All()[f].Component];
+      of.Volume += volume;
+      if (volume > of.LargestVolume)
       {
-        balls.push_back({ mesh.Position(v), radius });
+        of.LargestVolume = volume;
+        of.Largest = f;
       }
     }
   }
-  if (balls.empty())
+  return pieces;
+}
+
+void FragmentCheck::Report(const std::vector<Pieces>& pieces)
+{
+  this->Statistics.Broken.clear(); // of an earlier round
+  for (std::size_t c = 0; c < pieces.size(); ++c)
   {
-    return {};
+    if (pieces[c].Number < 2)
+    {
+      continue;
+    }
+    const double largest = pieces[c].LargestVolume / pieces[c].Volume;
+    if (this->Exact || largest < WholeFraction)
+    {
+      this->Statistics.Broken.push_back(
+        { ReportOf(this->Of.All.All()[c], this->Of.Image), pieces[c].Number, largest });
+    }
   }
-  std::vector<VoxelFace<3>> faces =
-    FindFacesNear(this->Of.Image, this->Of.Sites, balls, this->Stop);
-  const auto isInFragmentsAt = [&](const Index& voxel)
+}
+
+//------------------------------------------------------------------------------------------------
+// Only fragments other than the largest are looked at: each gap is beside one of them. A gap is where
+// two voxels of a component are neighbours, and a fragment has the centre of only one of them.
+std::vector<SearchBall<3>> FragmentCheck::FindGaps(
+  const ElementFragments& fragments, const std::vector<Pieces>& pieces) const
+{
+  const auto isSmaller = [&](std::uint32_t f)
+  {
+    const std::uint32_t c = f == None ? None : fragments.All()[f].Component;
+    return c != None && pieces[c].Number > 1 && pieces[c].Largest != f;
+  };
+  std::vector<std::pair<std::uint32_t, Index>> held; // fragments, and the centres that they have
+  std::vector<bool> hasCentre(fragments.All().size());
+  for (std::size_t s = 0; s < fragments.Size(); ++s)
+  {
+    const std::uint32_t f = fragments.Of(s);
+    if (isSmaller(f))
+    {
+      ForEachCentreIn(fragments.PointsOf(s), this->Of.Image,
+        [&](const Index& voxel)
+        {
+          if (this->Of.All.At(voxel) == fragments.All()[f].Component)
+          {
+            held.emplace_back(f, voxel);
+            hasCentre[f] = true;
+          }
+        });
+    }
+  }
+  std::sort(held.begin(), held.end());
+
+  const double diagonal = this->Of.Image.Grid().VoxelDiagonal();
+  std::vector<SearchBall<3>> gaps;
+  for (const auto& [f, voxel] : held)
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      for (const std::int64_t direction : { -1, 1 })
+      {
+        Index next = voxel;
+        next[a] += direction;
+        if (this->Of.All.At(next) == fragments.All()[f].Component &&
+          !std::binary_search(held.begin(), held.end(), std::pair(f, next)))
+        {
+          gaps.push_back(
+            { Interpolate(this->Of.Image.CentreOf(voxel), this->Of.Image.CentreOf(next), 0.5),
+              diagonal });
+        }
+      }
+    }
+  }
+  for (std::size_t s = 0; s < fragments.Size(); ++s)
+  {
+    if (isSmaller(fragments.Of(s)) && !hasCentre[fragments.Of(s)])
+    {
+      const std::array<Point<3>, 4> points = fragments.PointsOf(s);
+      for (const Point<3>& p : points)
+      {
+        gaps.push_back({ p, std::max(diagonal, RadiusAtVertex * LongestEdge(points)) });
+      }
+    }
+  }
+  return gaps;
+}
+
+std::vector<VoxelFace<3>> FragmentCheck::FacesNear(
+  const std::vector<SearchBall<3>>& gaps, const std::vector<Pieces>& pieces) const
+{
+  std::vector<VoxelFace<3>> faces = FindFacesNear(this->Of.Image, this->Of.Sites, gaps, this->Stop);
+  const auto isBrokenAt = [&](const Index& voxel)
   {
     const std::uint32_t c = this->Of.All.At(voxel);
-    return c != Components<3>::None && largest[c].Fragments > 1;
+    return c != Components<3>::None && pieces[c].Number > 1;
   };
   std::erase_if(faces,
-    [&](const VoxelFace<3>& face)
-    { return !isInFragmentsAt(face.Voxel) && !isInFragmentsAt(face.Next()); });
+    [&](const VoxelFace<3>& face) { return !isBrokenAt(face.Voxel) && !isBrokenAt(face.Next()); });
   return faces;
 }
 
 //------------------------------------------------------------------------------------------------
-/** Points on these faces, and bounds there. Each cell is sampled once in a call. */
 std::vector<FeatureSeed<3>> FragmentCheck::Sample(const std::vector<VoxelFace<3>>& faces)
 {
+  constexpr double Done = 0.0;
   std::vector<FeatureSeed<3>> seeds;
   std::map<Index, double> now;
   for (const VoxelFace<3>& face : faces)
@@ -224,15 +294,17 @@ std::vector<FeatureSeed<3>> FragmentCheck::Sample(const std::vector<VoxelFace<3>
     auto spacing = now.find(cell);
     if (spacing == now.end())
     {
-      const auto last = this->Spacings.find(cell);
-      const double next = last != this->Spacings.end() ? NextSpacing * last->second
-                                                       : FirstSpacing *
-          this->Of.Sizing.SamplingDistance(CentreOf(face, this->Of.Image), before, after);
+      const auto visited = this->Spacings.find(cell);
+      const double last = visited != this->Spacings.end()
+        ? visited->second
+        : this->Of.Sizing.SamplingDistance(CentreOf(face, this->Of.Image), before, after);
+      const double next =
+        last > this->FinestSpacing ? std::max(NextSpacing * last, this->FinestSpacing) : Done;
       spacing = now.emplace(cell, next).first;
       this->Spacings[cell] = next;
     }
     Point<3> z;
-    if (spacing->second >= this->FinestSpacing &&
+    if (spacing->second != Done &&
       this->Of.Surfaces.FirstCrossing(
         this->Of.Image.CentreOf(face.Voxel), before, this->Of.Image.CentreOf(face.Next()), z))
     {

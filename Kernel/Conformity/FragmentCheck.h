@@ -9,6 +9,8 @@
 
 #include "Conformity/ComponentStatistics.h"
 #include "Conformity/ConformityCheck.h"
+#include "Conformity/ConformityOptions.h"
+#include "Conformity/ElementFragments.h"
 #include "Domain/Domain.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
@@ -25,7 +27,7 @@ namespace voxplex
 {
 
 /**
- * @brief Samples more finely where the elements of a component are in several fragments.
+ * @brief Tells which components are in several fragments, and samples more finely where they have gaps.
  *
  * A fragment is a maximal set of tetrahedra of one label that are connected through faces. If a part
  * of a component is thin compared with the sampling distance, a Delaunay mesh of too few points joins
@@ -33,18 +35,18 @@ namespace voxplex
  * together at edges and vertices only, or not at all, and a finite-element model of them falls apart.
  *
  * A fragment belongs to the component in whose voxels the centroid of one of its tetrahedra lies. The
- * largest fragment of a component stays as it is, unless several are as large. Around the vertices of
- * the others, interfaces are sampled more finely, and R1 gets a smaller sampling distance, at each
- * round again, until the component is in one fragment.
+ * fragment with the largest volume stays as it is. Where one of the others ends, and the component goes
+ * on, interfaces are sampled more finely, and R1 gets a smaller sampling distance, at each round again,
+ * until the component is in one fragment.
  *
  * More points can connect each component, because the label field does: it has the label of two
  * voxels with a common face all along the line between their centres. But the field may be narrow
- * there. So sampling does not become finer than half a voxel, and components as thin as a voxel may
- * stay in fragments.
+ * there. So sampling does not become finer than a tenth of a voxel, and ends after 64 rounds.
+ * ComponentStatistics::Broken lists what is left in fragments.
  *
  * This goes beyond the thesis, which gives no guarantee for parts that are thin compared with delta.
  *
- * Not thread safe. An inspection takes time linear in the number of simplices, and memory of 12 bytes
+ * Not thread safe. An inspection takes time linear in the number of simplices, and memory of 10 bytes
  * for each.
  */
 class FragmentCheck final : public ConformityCheck<3>
@@ -61,12 +63,15 @@ public:
   };
 
   /**
-   * @param fewestVoxels smaller components are not checked, except the largest of each label
-   * @param rounds points are requested this many times at most
+   * @param options components smaller than Smallest are not checked, except the largest of each label.
+   * Unless they are to be exact, they are listed only, if the largest fragment has less than 90 % of
+   * the volume
+   * @param mayRefine false: components in fragments are listed only
    * @param local receives the spacing of the points, and bounds; must outlive the check
-   * @param statistics counts rounds and points; must outlive the check
+   * @param statistics lists components in fragments, and counts rounds and points; must outlive the
+   * check
    */
-  FragmentCheck(const Subject& subject, std::int64_t fewestVoxels, unsigned rounds,
+  FragmentCheck(const Subject& subject, const ComponentOptions& options, bool mayRefine,
     LocalDelta<3>& local, ComponentStatistics& statistics, double& seconds,
     const std::stop_token& stop);
 
@@ -75,20 +80,36 @@ public:
 private:
   using Index = GridGeometry<3>::Index;
 
-  /** The component in whose voxels the centroid of a simplex lies, or None. */
-  std::uint32_t ComponentOf(const Triangulation<3>& mesh, SimplexId s) const;
-  /** Faces of components that are in several fragments, near to all of these but the largest. */
-  std::vector<VoxelFace<3>> FacesOfFragments(const LabelledTriangulation<3>& elements) const;
+  /** The fragments of a component. */
+  struct Pieces
+  {
+    std::uint64_t Number = 0;
+    double Volume = 0.0; ///< of all; if there are several, like the rest
+    double LargestVolume = 0.0;
+    std::uint32_t Largest = None; ///< the fragment that has it
+  };
+
+  /** The fragments of each component. Measures those of components that have several. */
+  std::vector<Pieces> FindPieces(ElementFragments& fragments) const;
+  void Report(const std::vector<Pieces>& pieces);
+  /** Balls where components are broken. */
+  std::vector<SearchBall<3>> FindGaps(
+    const ElementFragments& fragments, const std::vector<Pieces>& pieces) const;
+  /** The faces of broken components in these balls. */
+  std::vector<VoxelFace<3>> FacesNear(
+    const std::vector<SearchBall<3>>& gaps, const std::vector<Pieces>& pieces) const;
+  /** Points on these faces, and bounds there. Each cell is sampled once in a call. */
   std::vector<FeatureSeed<3>> Sample(const std::vector<VoxelFace<3>>& faces);
 
   const Subject Of;
   const std::vector<bool> Wanted; ///< by component
+  const bool Exact;
   unsigned RoundsLeft;
   LocalDelta<3>& Local;
   ComponentStatistics& Statistics;
   const std::stop_token Stop;
   const double FinestSpacing;
-  std::map<Index, double> Spacings; ///< of the last points, by cell of LocalDelta
+  std::map<Index, double> Spacings; ///< of the last points, by cell of LocalDelta; 0: no more
 };
 
 } // namespace voxplex

@@ -85,12 +85,7 @@ std::vector<ComponentReport> DropComponents(
       }
       components.ForEachRun(
         c, [&](const auto& first, std::int64_t length) { image.Relabel(first, length, label); });
-      ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
-      }
-      dropped.push_back(std::move(report));
+      dropped.push_back(ReportOf(component, image));
       any = true;
     }
   }

@@ -7,6 +7,7 @@
 #ifndef voxplex_DropComponents_h
 #define voxplex_DropComponents_h
 
+#include "Image/Components.h"
 #include "Image/LabelImage.h"
 
 #include <cstdint>
@@ -23,6 +24,17 @@ struct ComponentReport
   std::int64_t Voxels = 0;
   std::vector<std::int64_t> Voxel; ///< the index of one of its voxels in the whole image
 };
+
+template <int D>
+ComponentReport ReportOf(const Component<D>& component, const LabelImage<D>& image)
+{
+  ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
+  }
+  return report;
+}
 
 /**
  * Removes the connected components (through faces) that are smaller than a volume. Each takes the

@@ -44,6 +44,8 @@ public:
   /** The label of each simplex id, also of those that are replaced by pieces. */
   std::span<const LabelId> GetLabels() const { return this->Labels; }
 
+  const Subdivision<D>& GetParts() const { return this->Parts; }
+
   std::size_t Size() const { return this->Labels.size() + this->Parts.Pieces.size(); }
 
   /** Point i of an element that has a label. */

@@ -184,14 +184,10 @@ Dimension<3>::Checks::Checks(
       run.Options.Components.Exact, true, local, run.Statistics.Components,
       run.Statistics.Times.Components, run.Options.Team.Threads, run.Stop);
     run.Statistics.Times.Components += time.Seconds();
-    if (run.Options.Components.Exact)
-    {
-      this->Fragments.emplace(
-        FragmentCheck::Subject{ run.Prepared.Image, *run.Prepared.Sites, *run.Prepared.Surfaces,
-          stage.Sizing(), *run.Prepared.AllComponents },
-        run.Options.Components.Smallest, run.Options.Interfaces.Rounds, local,
-        run.Statistics.Components, run.Statistics.Times.Components, run.Stop);
-    }
+    this->Fragments.emplace(FragmentCheck::Subject{ run.Prepared.Image, *run.Prepared.Sites,
+                              *run.Prepared.Surfaces, stage.Sizing(), *run.Prepared.AllComponents },
+      run.Options.Components, run.Options.Interfaces.Rounds > 0, local, run.Statistics.Components,
+      run.Statistics.Times.Components, run.Stop);
   }
 }
 

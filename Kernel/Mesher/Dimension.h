@@ -95,7 +95,7 @@ struct Dimension<3>
     const RunEnvironment<3> Run;
     const Triangulation<3>& Source;
     std::optional<ComponentCheck<3>> Components; ///< empty if components are not checked
-    std::optional<FragmentCheck> Fragments;      ///< empty unless components are to be exact
+    std::optional<FragmentCheck> Fragments;      ///< likewise
     InterfaceCheck Interfaces;
   };
 };

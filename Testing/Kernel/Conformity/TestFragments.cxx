@@ -4,9 +4,15 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Conformity/Crumbs.h"
+#include "Conformity/EdgeSpindles.h"
+#include "Conformity/ElementFragments.h"
+#include "Conformity/NonManifoldRidges.h"
 #include "Domain/ImageDomain.h"
+#include "Geometry/SimplexQuality.h"
 #include "Image/Components.h"
 #include "InterfaceChecks.h"
+#include "Mesh/MeshExtraction.h"
+#include "Mesh/Subdivision.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
 #include "Quality/Fragments.h"
@@ -17,7 +23,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace voxplex;
 using namespace voxplex::checks;
@@ -189,6 +199,109 @@ std::size_t FragmentsOfBlockWithRods(bool exact)
   return number;
 }
 
+using Voxels = std::set<GridGeometry<3>::Index>;
+
+/** A straight row of 40 voxels along an axis. */
+Voxels Row(std::size_t axis)
+{
+  Voxels voxels;
+  for (std::int64_t i = 0; i < 40; ++i)
+  {
+    GridGeometry<3>::Index voxel = { 4, 4, 4 };
+    voxel[axis] += i;
+    voxels.insert(voxel);
+  }
+  return voxels;
+}
+
+/** Steps of one voxel along some axes in turn. */
+Voxels Stairs(const std::vector<std::size_t>& axes)
+{
+  Voxels voxels;
+  GridGeometry<3>::Index voxel = { 4, 4, 4 };
+  for (std::size_t i = 0; i < 40; ++i)
+  {
+    voxels.insert(voxel);
+    ++voxel[axes[i % axes.size()]];
+  }
+  return voxels;
+}
+
+/** A closed ring of voxels that are connected through faces. */
+Voxels Ring()
+{
+  Voxels voxels;
+  GridGeometry<3>::Index last = { 22, 13, 5 };
+  for (int i = 0; i <= 2000; ++i)
+  {
+    const double angle = 0.001 * std::numbers::pi * i;
+    const GridGeometry<3>::Index next = { std::llround(13.0 + 9.0 * std::cos(angle)),
+      std::llround(13.0 + 9.0 * std::sin(angle)), 5 };
+    voxels.insert({ next[0], last[1], 5 });
+    voxels.insert(next);
+    last = next;
+  }
+  return voxels;
+}
+
+/** A ball with a row of voxels that ends in it. */
+Voxels BallWithRow()
+{
+  Voxels voxels;
+  for (std::int64_t k = 0; k < 21 * 21 * 21; ++k)
+  {
+    const GridGeometry<3>::Index voxel = { k % 21, k / 21 % 21, k / 441 };
+    const auto square = [](std::int64_t x) { return (2 * x - 21) * (2 * x - 21); };
+    if (square(voxel[0]) + square(voxel[1]) + square(voxel[2]) < 4 * 64)
+    {
+      voxels.insert(voxel);
+    }
+  }
+  for (std::int64_t x = 10; x < 45; ++x)
+  {
+    voxels.insert({ x, 10, 10 });
+  }
+  return voxels;
+}
+
+/** Label 1 at these voxels, in background or in a block of label 2. */
+LabelImage<3> ImageOf(const Voxels& voxels, std::uint8_t around, const Point<3>& spacing)
+{
+  GridGeometry<3>::Index n = { 0, 0, 0 };
+  for (const auto& voxel : voxels)
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      n[a] = std::max(n[a], voxel[a] + 5);
+    }
+  }
+  std::vector<std::uint8_t> labels;
+  for (std::int64_t z = 0; z < n[2]; ++z)
+  {
+    for (std::int64_t y = 0; y < n[1]; ++y)
+    {
+      for (std::int64_t x = 0; x < n[0]; ++x)
+      {
+        labels.push_back(voxels.contains({ x, y, z }) ? 1 : around);
+      }
+    }
+  }
+  return LabelImage<3>::FromScalars(
+    std::span<const std::uint8_t>(labels), GridGeometry<3>::Orthogonal(n, spacing));
+}
+
+/** Meshes an image. Each component must be in the mesh, and broken ones must be listed. */
+SimplexMesh<3> MeshListed(const LabelImage<3>& image, const MeshingOptions<3>& options,
+  std::vector<BrokenComponent>& broken)
+{
+  SimplexMesh<3> mesh;
+  ImageMesher<3> mesher(options);
+  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  EXPECT_TRUE(mesher.Statistics().Components.Lost.empty());
+  broken = mesher.Statistics().Components.Broken;
+  return mesh;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -274,4 +387,98 @@ TEST(FragmentCheck, ThinPartsHoldTogetherIfTheyAreToBeExact)
   ASSERT_EQ(Components<3>(image).All().size(), 1u);
   EXPECT_GT(FragmentsOfBlockWithRods(false), 1u); // or the image is too easy
   EXPECT_EQ(FragmentsOfBlockWithRods(true), 1u);
+}
+
+//------------------------------------------------------------------------------------------------
+// What is one voxel thick, with sampling distances below and above.
+TEST(FragmentCheck, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
+{
+  const std::pair<const char*, Voxels> vessels[] = { { "x", Row(0) }, { "y", Row(1) },
+    { "z", Row(2) }, { "in a plane", Stairs({ 0, 1 }) }, { "in space", Stairs({ 0, 1, 2 }) },
+    { "ring", Ring() }, { "from a ball", BallWithRow() } };
+  for (const auto& [name, voxels] : vessels)
+  {
+    for (const Point<3>& spacing : { Point<3>{ 1.0, 1.0, 1.0 }, { 0.5, 0.5, 1.5 } })
+    {
+      for (const std::uint8_t around : { 0, 2 })
+      {
+        const LabelImage<3> image = ImageOf(voxels, around, spacing);
+        for (const double delta : { 1.0, 2.0, 8.0 })
+        {
+          MeshingOptions<3> options;
+          options.Sampling.Delta = delta;
+          options.Components.Exact = true;
+          std::vector<BrokenComponent> broken;
+          const SimplexMesh<3> mesh = MeshListed(image, options, broken);
+          const std::string of = std::string(name) + " in " + std::to_string(around) + ", delta " +
+            std::to_string(delta) + ", spacing " + std::to_string(spacing[2]);
+          EXPECT_EQ(CountFragments(mesh).at(1), 1u) << of;
+          EXPECT_TRUE(broken.empty()) << of;
+        }
+      }
+    }
+  }
+}
+
+// Without exactness, and where refinement is not resumed.
+TEST(FragmentCheck, BrokenComponentsAreListed)
+{
+  const Voxels voxels = Row(2);
+  const LabelImage<3> image = ImageOf(voxels, 0, { 1.0, 1.0, 1.0 });
+  for (const bool exact : { false, true })
+  {
+    for (const unsigned threads : { 1u, 2u })
+    {
+      MeshingOptions<3> options;
+      options.Sampling.Delta = 1.0;
+      options.Components.Exact = exact;
+      options.Interfaces.Rounds = exact ? 0 : options.Interfaces.Rounds;
+      options.Team.Threads = threads;
+      std::vector<BrokenComponent> broken;
+      const SimplexMesh<3> mesh = MeshListed(image, options, broken);
+      ASSERT_EQ(broken.size(), 1u);
+      EXPECT_EQ(broken[0].Component.Label, 1);
+      EXPECT_EQ(broken[0].Component.Voxels, 40);
+      EXPECT_EQ(broken[0].Component.Voxel, (std::vector<std::int64_t>{ 4, 4, 4 }));
+      EXPECT_EQ(broken[0].Fragments, CountFragments(mesh).at(1));
+      EXPECT_GT(broken[0].Fragments, 1u);
+      EXPECT_GT(broken[0].Largest, 0.0);
+      EXPECT_LT(broken[0].Largest, 1.0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+// Many edges are opened here: pieces of tetrahedra connect others, or do not.
+TEST(ElementFragments, AreThoseOfTheExtractedMesh)
+{
+  std::size_t pieces = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    const LabelledBlobs blobs(seed);
+    const Subdivision<3> parts = MakeSpindles<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels,
+      FindNonManifoldRidges<3>(blobs.Mesh(), blobs.Labels))
+                                   .Parts;
+    SimplexMesh<3> mesh;
+    ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
+    Subdivide<3>(blobs.Mesh(), blobs.Surfaces, parts, mesh);
+    const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels, parts);
+    ElementFragments fragments(elements, {});
+    fragments.MeasureVolumes(std::vector<bool>(fragments.All().size(), true));
+    std::map<std::int64_t, std::uint64_t> numbers;
+    double volume = 0.0;
+    for (const ElementFragments::Fragment& fragment : fragments.All())
+    {
+      ++numbers[blobs.Surfaces.LabelValue(fragment.Label)];
+      volume += fragment.Volume;
+    }
+    EXPECT_EQ(numbers, CountFragments(mesh));
+    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    {
+      volume -= SignedVolume<3>(mesh.PointsOf(s).data());
+    }
+    EXPECT_NEAR(volume, 0.0, 1e-6);
+    pieces += parts.Pieces.size();
+  }
+  EXPECT_GT(pieces, 100u);
 }
