@@ -253,6 +253,31 @@ std::string DescribeShrunk(const ordered_json& report)
     (labels.size() == 1 ? "it" : "them");
 }
 
+/** Components that are in pieces: those of the most pieces, and how many there are. */
+std::string DescribeBroken(const ordered_json& report)
+{
+  constexpr std::size_t most = 5;
+  std::vector<ordered_json> components = report["broken_components"];
+  std::stable_sort(components.begin(), components.end(),
+    [](const ordered_json& a, const ordered_json& b)
+    { return a["fragments"].get<std::uint64_t>() > b["fragments"].get<std::uint64_t>(); });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, components.size()); ++i)
+  {
+    text += (i ? ", " : "") + std::string("label ") + components[i]["label"].dump() + " at voxel " +
+      components[i]["voxel"].dump() + " in " + components[i]["fragments"].dump() + " pieces";
+  }
+  const bool exact = report["parameters"]["exact_components"].get<bool>();
+  return std::to_string(components.size()) +
+    (components.size() == 1 ? " connected component of the image is"
+                            : " connected components of the image are") +
+    " in pieces that no common faces connect: " + text + (components.size() > most ? ", ..." : "") +
+    "; " +
+    (exact ? "a smaller --delta, or an image with smaller voxels, may connect "
+           : "--exact-components or a smaller --delta connects ") +
+    (components.size() == 1 ? "it" : "them");
+}
+
 } // namespace
 
 ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
@@ -299,6 +324,10 @@ std::vector<std::string> Warnings(const ordered_json& report)
   if (!report["shrunk_labels"].empty())
   {
     warnings.push_back(DescribeShrunk(report));
+  }
+  if (!report["broken_components"].empty())
+  {
+    warnings.push_back(DescribeBroken(report));
   }
   for (const ordered_json& component : report["lost_components"])
   {

@@ -74,7 +74,7 @@ public:
 
   ///@{
   /**
-   * Labels of 100 voxels or more of which the mesh has less than half of the volume, in increasing
+   * Labels of 8 voxels or more of which the mesh has less than half of the volume, in increasing
    * order, and the fraction of the volume that it has. They are thin compared with Delta, and the
    * filter warns of them. Filled for meshes of tetrahedra.
    */

@@ -58,6 +58,18 @@ ordered_json ShrunkToJson(const std::vector<ShrunkLabel>& labels)
   return shrunk;
 }
 
+ordered_json BrokenToJson(const std::vector<BrokenComponent>& components)
+{
+  ordered_json broken = ordered_json::array();
+  for (const BrokenComponent& component : components)
+  {
+    broken.push_back({ { "label", component.Component.Label },
+      { "voxels", component.Component.Voxels }, { "voxel", component.Component.Voxel },
+      { "fragments", component.Fragments }, { "largest", component.Largest } });
+  }
+  return broken;
+}
+
 ordered_json YieldingToJson(const std::vector<YieldingReport>& yielding)
 {
   ordered_json regions = ordered_json::array();
@@ -214,6 +226,7 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     { "shrunk_labels", ShrunkToJson(v.ShrunkLabels) },
     { "components", v.Run.Components.Found },
     { "lost_components", ComponentsToJson(v.Run.Components.Lost) },
+    { "broken_components", BrokenToJson(v.Run.Components.Broken) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },
     { "frame_components", v.Run.FrameComponents.Found },
     { "lost_frame_components", ComponentsToJson(v.Run.FrameComponents.Lost) },

@@ -164,6 +164,17 @@ std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures
     }
   };
   warnOfLost(run.Components, "the image");
+  if (!run.Components.Broken.empty())
+  {
+    const auto describe = [](const BrokenComponent& component)
+    { return Describe(component.Component) + " in " + std::to_string(component.Fragments); };
+    warnings.push_back(
+      "Tetrahedra of these connected components of the image are in several pieces "
+      "that no common faces connect: " +
+      ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
+      (exactComponents ? ". A smaller Delta, or an image with smaller voxels, may connect them."
+                       : ". ExactComponents or a smaller Delta connects them."));
+  }
   warnOfLost(run.FrameComponents, "frames of the image");
   if (!run.Yielding.empty())
   {

@@ -13,6 +13,11 @@ from pathlib import Path
 PROGRAM = os.environ.get("VOXPLEX_PROGRAM", "voxplex")
 
 
+def without_pieces(text):
+    """Coarse meshes of thin parts are in pieces, and the program warns of it. TestOptions looks at that warning."""
+    return re.sub(r"voxplex: warning: \d+ connected components?[^\n]* no common faces connect[^\n]*\n", "", text)
+
+
 class ProgramTestCase(unittest.TestCase):
     """Each test runs in an empty folder of its own, which is removed afterwards."""
 
@@ -31,10 +36,11 @@ class ProgramTestCase(unittest.TestCase):
         """A call that must succeed quietly: one paragraph on standard output, nothing on the other but a warning."""
         done = self.call(*arguments, **options)
         self.assertEqual(done.returncode, 0, done.stderr)
+        told = without_pieces(done.stderr)
         if warning:
-            self.assertRegex(done.stderr, "^voxplex: warning: [^\n]*" + warning + "[^\n]*\n$")
+            self.assertRegex(told, "^voxplex: warning: [^\n]*" + warning + "[^\n]*\n$")
         else:
-            self.assertEqual(done.stderr, "")
+            self.assertEqual(told, "")
         self.assertEqual(len(done.stdout.strip().split("\n")), 1, done.stdout)
         self.assertRegex(done.stdout, "tetrahedra|pentatopes")
         self.assertEqual(self.hidden_files(), [])

@@ -40,5 +40,10 @@ int TestMeshingMessages(int, char*[])
   shrunk.ShrunkLabels = { { .Label = 7, .Fraction = 0.25 } };
   ExpectOne(shrunk, "7 (25 %). ExactComponents or a smaller Delta keeps them.");
   ExpectOne(shrunk, "7 (25 %). A smaller Delta keeps them.", true);
+
+  vtkMeshingStatistics::Figures broken;
+  broken.Run.Components.Broken = { { { 3, 64, { 4, 4, 4 } }, 21, 0.1 } };
+  ExpectOne(broken, "64 voxels of label 3 at (4, 4, 4) in 21. ExactComponents or a smaller Delta");
+  ExpectOne(broken, "in 21. A smaller Delta, or an image with smaller voxels", true);
   return EXIT_SUCCESS;
 }

@@ -176,7 +176,7 @@ void TestLostLabels()
   CHECK(statistics->GetLostLabel(5) == 0);
 }
 
-/** A sheet that is thin for Delta loses volume: the statistics and one warning say so. */
+/** A sheet that is thin for Delta loses volume, and is in pieces: the statistics and two warnings say so. */
 void TestShrunkLabels()
 {
   const auto filter = MakeFilter(MakeImage({},
@@ -196,17 +196,20 @@ void TestShrunkLabels()
   CHECK(fraction > 0.0 && fraction < 0.5);
   CHECK(statistics->ToJSON().find("\"shrunk_labels\":[{\"label\":9,\"fraction\":0.") !=
     std::string::npos);
-  CHECK(errors->FromFilter.size() == 1 &&
+  CHECK(errors->FromFilter.size() == 2 &&
     errors->FromFilter.front().find(
       "less than half of the volume of these labels, which are thin for a Delta of 4: 9 (") !=
       std::string::npos);
+  CHECK(errors->FromFilter.back().find("in several pieces that no common faces connect: ") !=
+    std::string::npos);
   CHECK(statistics->GetShrunkLabel(1) == 0 && statistics->GetShrunkLabelFraction(-1) == 0.0);
 
   filter->ExactComponentsOn();
   filter->Update();
   CHECK(statistics->GetNumberOfShrunkLabels() == 0);
   CHECK(statistics->ToJSON().find("\"shrunk_labels\":[]") != std::string::npos);
-  CHECK(errors->FromFilter.size() == 1);
+  CHECK(statistics->ToJSON().find("\"broken_components\":[]") != std::string::npos);
+  CHECK(errors->FromFilter.size() == 2);
 }
 
 } // namespace
