@@ -87,9 +87,12 @@ void Allow(int ruleset, const fs::path& path, std::uint64_t access)
 
 void ForbidOtherFiles(const ImageRequest& request)
 {
+  const auto version = static_cast<int>(
+    syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
+  // The first version has 13 rights, the second one more, and the third one more: to cut files.
+  const int rights = 12 + std::clamp(version, 1, 3);
   landlock_ruleset_attr attributes{};
-  // The thirteen rights of the first version, which all later ones have.
-  attributes.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
+  attributes.handled_access_fs = (1ULL << rights) - 1;
   const auto ruleset =
     static_cast<int>(syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes.handled_access_fs, 0));
   if (ruleset < 0)

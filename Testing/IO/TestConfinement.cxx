@@ -4,6 +4,7 @@
 
 #include "ReaderProcess/Confinement.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -31,13 +32,19 @@ bool CanOpen(const fs::path& path, int flags)
   return descriptor >= 0;
 }
 
-bool HasLandlock()
+/** 0 without it. */
+long LandlockVersion()
 {
 #if defined(SYS_landlock_create_ruleset)
-  return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1) > 0; // its version
+  return std::max(0L, syscall(SYS_landlock_create_ruleset, nullptr, 0, 1));
 #else
-  return false;
+  return 0;
 #endif
+}
+
+bool HasLandlock()
+{
+  return LandlockVersion() > 0;
 }
 
 /** In a process of its own, since there is no way back. Returns what is wrong, as an exit status. */
@@ -84,6 +91,7 @@ int TestConfinement(int, char*[])
           : HasLandlock() && CanOpen(root / "secret", O_RDONLY) != anywhere ? 3
           : HasLandlock() && CanOpen(folder / "new", O_WRONLY | O_CREAT) ? 4
           : HasLandlock() && CanOpen(folder / "i.nhdr", O_WRONLY) ? 5
+          : LandlockVersion() >= 3 && truncate((root / "secret").c_str(), 0) == 0 ? 7
           : !isLimited ? 6
                        : 0;
       });
