@@ -18,6 +18,9 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData
 
+# NumPy has types for a part of it only.
+_MASKED: Any = numpy.ma
+
 
 def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 1.0),
                      origin: Sequence[float] = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
@@ -80,7 +83,7 @@ def images_from_array(array: ArrayLike, *, times: Optional[Sequence[float]] = No
     Raises ValueError for shapes that do not fit. A uint8 array whose last axis has the length 3 or 4 is taken for a
     stack of coloured pictures, and refused, unless there are times.
     """
-    voxels = numpy.ma.asanyarray(array)  # of a list of masked arrays, too
+    voxels = _MASKED.asanyarray(array)  # of a list of masked arrays, too
     if voxels.ndim != 4:
         raise ValueError(f"the array has {voxels.ndim} dimensions, not 4 ([t, k, j, i])")
     if times is None and voxels.dtype == numpy.uint8 and voxels.shape[3] in (3, 4):
@@ -116,10 +119,10 @@ def set_times(frames: Sequence[vtkImageData], times: Sequence[float]) -> None:
 
 def _unmasked(array: ArrayLike) -> Tuple[NDArray[Any], Optional[NDArray[numpy.bool_]]]:
     """The array with masked voxels set to background, and its mask; without masked voxels the array itself and None."""
-    voxels = numpy.ma.asanyarray(array)
-    if not numpy.ma.is_masked(voxels):
+    voxels = _MASKED.asanyarray(array)
+    if not _MASKED.is_masked(voxels):
         return voxels.data, None
-    return voxels.filled(numpy.nan if voxels.dtype.kind == "f" else 0), numpy.ma.getmaskarray(voxels)
+    return voxels.filled(numpy.nan if voxels.dtype.kind == "f" else 0), _MASKED.getmaskarray(voxels)
 
 
 def _share(values: NDArray[Any]) -> vtkDataArray:

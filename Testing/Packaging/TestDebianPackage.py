@@ -39,7 +39,7 @@ class Package(unittest.TestCase):
         if HAVE_PYTHON:
             expected |= {"python3", "python3-vtk9", "python3-numpy"}
         if os.environ["VOXPLEX_HAVE_IO"] == "1":
-            expected.add("libinsighttoolkit5.2")
+            expected |= {"libgdcm3.0", "libtiff6"}
         self.assertEqual(expected - depends, set(), depends)
         self.assertFalse([name for name in depends if name.endswith("-dev")])
         self.assertIn("libvtk9-dev", self.field("Suggests"))
