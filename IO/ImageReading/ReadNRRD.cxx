@@ -278,7 +278,7 @@ bool IsDomain(const Axis& axis)
       "segment where several overlap, and save that");
   }
   throw FileError("it has " + components + " components a voxel (colours or vectors); a label image has one: export it as "
-    "a label map first, or, if they are time frames, give their axis (" + std::to_string(axis) + ") the kind 'list'");
+    "a label map first, or, if they are time frames, save an image of four dimensions, or give their axis (" + std::to_string(axis) + ") the kind 'list'");
 }
 
 Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const Space& space)
@@ -326,7 +326,7 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
   }
   if (space.Dimension == 4 && roles.Space.size() == 4)
   {
-    throw FileError("its directions mix time with space; only images whose frames each show one time can be meshed: correct "
+    throw FileError("its direction matrix mixes time with space; only images whose frames each show one time can be meshed: correct "
       "the header, or resample the image");
   }
   while (roles.Space.size() > 3 && axes[roles.Space.back()].Size == 1)
@@ -371,7 +371,7 @@ void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const
     }
     if (direction.size() == 4 && std::abs(direction[3]) >= DirectionTolerance)
     {
-      throw FileError("its directions mix time with space; only images whose frames each show one time can be meshed: "
+      throw FileError("its direction matrix mixes time with space; only images whose frames each show one time can be meshed: "
         "correct the header, or resample the image");
     }
   }

@@ -39,12 +39,23 @@ class HostileTestCase(ProgramTestCase):
         self.assertLess(len(done.stderr), 500)
         self.assertNotIn("memory", done.stderr)
 
+    def accept(self, *arguments, warning=".*"):
+        """Small images lose volume, of which there is a warning, too."""
+        done = self.call(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, warning)
+
+    def refuse_one_slice(self, path):
+        done = self.call("--input", path, "--output", "mesh.vtu")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, "1 voxel")
+
     def survive(self, path):
         """What is damaged in a way that only the library which reads it sees: an image, or one line that names the file."""
         done = self.call("--input", path, "--output", "mesh.vtu", "--delta", 1, timeout=60, preexec_fn=limit_memory)
         self.assertIn(done.returncode, (0, 1), done.stderr)
         if done.returncode == 1:
-            self.assertRegex(done.stderr, r"^voxplex: cannot (read|mesh) '[^\n]*%s[^\n]*\n$" % os.path.basename(str(path)))
+            self.assertRegex(done.stderr.splitlines(True)[-1], r"^voxplex: cannot (read|mesh) '[^\n]*%s[^\n]*\n$" % os.path.basename(str(path)))
 
     def write(self, name, data):
         (self.folder / name).write_bytes(data)
@@ -120,7 +131,7 @@ class Sizes(HostileTestCase):
             with self.subTest(fields):
                 self.refuse("its position or orientation in space is not finite, or far too large", self.nifti("i.nii", **fields))
         self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
-        self.mesh("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu", warning="does not say where the image lies")
+        self.accept("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu", warning="does not say where the image lies")
 
     def test_nifti_of_two_files(self):
         self.nifti("i.hdr", _42=("3h", 3000, 3000, 3000), _344=("4s", b"ni1\0"))
@@ -231,7 +242,7 @@ class Sizes(HostileTestCase):
                      insert(element(0x18, 0x50, b"DS", b" 1.5e+0 "), element(0x18, 0x88, b"DS", b"  ")),
                      insert(element(0x40, 0xA730, b"UN", item(struct.pack("<2HI", 0x8, 0x100, 2) + b"AB")))):
             self.write(path.name, data)
-            self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+            self.refuse_one_slice(path.name)
 
     def tiff(self, name, *entries, form="<", big=False, next_directory=0):
         """entries: tag, type, count, value or offset."""
@@ -275,7 +286,7 @@ class Sizes(HostileTestCase):
         path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
         header = Path(self.folder / self.tiff("i.tif", (273, 4, 150994945, 8))).read_bytes()
         path.write_bytes(header.ljust(128, b"\0") + path.read_bytes()[128:])
-        self.assert_refused(1, "1 voxel", "--input", path.name, "--output", "mesh.vtu")
+        self.refuse_one_slice(path.name)
 
     def change_metaimage(self, old, new):
         data = Path(images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))).read_bytes()
@@ -294,7 +305,7 @@ class Sizes(HostileTestCase):
                 self.refuse(message, self.change_metaimage(old, new))
         self.change_metaimage(
             b"ElementType", b"Comment = " + b"a" * 5000 + b"\r\n \nMy Field: b = c\n" + b"a" * 5000 + b" = b\nColor = 1 1\nElementType")
-        self.mesh("--input", "i.mha", "--delta", 1, "--output", "mesh.vtu")
+        self.accept("--input", "i.mha", "--delta", 1, "--output", "mesh.vtu")
         # Names and order are not checked letter by letter.
         self.change_metaimage(b"NDims = 3", b"elementspacing: 1 1 1\nNDims = 3\n")
         self.refuse("gives 'ElementSpacing' more than once", "i.mha")
@@ -324,7 +335,7 @@ class Sizes(HostileTestCase):
         head = Path(images.write_nrrd(self.folder / "i.nrrd", ball, header_lines={"encoding": "ascii"})).read_bytes()
         text = " ".join(map(str, ball.ravel())).encode()
         self.write("i.nrrd", head.split(b"\n\n")[0] + b"\n\n" + text)
-        self.mesh("--input", "i.nrrd", "--delta", 3, "--output", "mesh.vtu")
+        self.accept("--input", "i.nrrd", "--delta", 3, "--output", "mesh.vtu")
 
 
 class Headers(HostileTestCase):
@@ -424,13 +435,13 @@ class DataFiles(HostileTestCase):
         names = "\n".join("a%d.raw" % k for k in range(4))
         for data_file, message in (
                 ("LISTS\n" + names, "its data file 'LISTS' does not exist"),
-                ("LIST\na0.raw\na1.raw\na2.raw", "claims 4 x 4 x 4 voxels of 1 byte, and its 3 files have 48 bytes"),
-                ("a%d.raw 0 2 1", "claims 4 x 4 x 4 voxels of 1 byte, and its 3 files have 48 bytes"),
+                ("LIST\na0.raw\na1.raw\na2.raw", "its header names 3 data files, which cannot hold 4 x 4 x 4 voxels"),
+                ("a%d.raw 0 2 1", "its header names 3 data files, which cannot hold 4 x 4 x 4 voxels"),
                 ("a%d.raw 3 0 1", "is no pattern of names")):
             with self.subTest(data_file):
                 self.refuse(message, self.metaimage_header("i.mhd", data_file))
         for data_file in ("LIST\n" + names, "LIST 2\n" + names + "\n\n", "a%d.raw 0 3 1", "a%d.raw 0 3"):
-            self.mesh("--input", self.metaimage_header("i.mhd", data_file), "--delta", 1, "--output", "mesh.vtu")
+            self.accept("--input", self.metaimage_header("i.mhd", data_file), "--delta", 0.5, "--output", "mesh.vtu")
 
     def test_sound_ones(self):
         ball = images.ball(8, 2.8)
@@ -439,7 +450,7 @@ class DataFiles(HostileTestCase):
         for data_file in ("slice_%03d.raw 0 7 1", "LIST\n" + "\n".join("slice_%03d.raw" % k for k in range(8))):
             fields = {"sizes": "8 8 8", "data_file": data_file}
             with self.subTest(data_file):
-                self.mesh("--input", self.nrrd_header("i.nhdr", **fields), "--delta", 2, "--output", "mesh.vtu")
+                self.accept("--input", self.nrrd_header("i.nhdr", **fields), "--delta", 1, "--output", "mesh.vtu")
 
 
 class Files(HostileTestCase):
