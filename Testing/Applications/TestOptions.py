@@ -49,11 +49,15 @@ class Options(ProgramTestCase):
         grains = np.arange(1, 14**3 + 1, dtype=np.uint16).reshape(14, 14, 14)
         coarse = ("--delta", 6, "--no-optimise", "--no-manifold", "--smallest-component", 0)
         images.write_nrrd(self.input, grains.repeat(3, 0).repeat(3, 1).repeat(3, 2))
-        self.mesh("--input", self.input, "--output", "mesh.vtu", *coarse, warning="not in the mesh")
+        done = self.call("--input", self.input, "--output", "mesh.vtu", *coarse)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "not in the mesh")
         images.write_nrrd(self.input, np.random.default_rng(1).permutation(grains.reshape(-1)).reshape(14, 14, 14))
         self.assert_refused(1, "2744 labels look like grey values.*with --labels.*or go on with --force",
                             "--input", self.input, *coarse)
-        self.mesh("--input", self.input, "--output", "mesh.vtu", "--force", *coarse, warning="not in the mesh")
+        done = self.call("--input", self.input, "--output", "mesh.vtu", "--force", *coarse)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "not in the mesh")
 
     def test_delta_controls_density(self):
         coarse = sum(self.elements_of_labels("--delta", 4).values())
