@@ -254,12 +254,10 @@ void ReadPart(const StoredVoxels& stored, const std::string& path, ScalarType ty
     start = file.Size() - std::min<std::uint64_t>(file.Size(), to.size());
   }
   FileSource raw(file, start);
-  for (std::int64_t line = 0; line < stored.LinesToSkip; ++line)
+  for (std::int64_t lines = stored.LinesToSkip; lines > 0;)
   {
-    for (std::optional<char> c = raw.Get(); c && *c != '\n';)
-    {
-      c = raw.Get();
-    }
+    const std::optional<char> c = raw.Get();
+    lines = c ? lines - (*c == '\n') : 0;
   }
   InflateSource unpacked(raw);
   ByteSource& source = stored.Coding == Encoding::Deflate ? static_cast<ByteSource&>(unpacked) : raw;

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <sstream>
@@ -46,6 +46,7 @@ struct Structure
   bool IsAppended = false;
   bool IsBase64 = false;
   std::uint64_t AppendedTag = 0; ///< where its element begins
+  bool IsInFields = false;       ///< and not in data of points or cells
   bool IsInline = false;         ///< inside an array in base64
   std::string InlineBeginning;
   std::uint64_t InlineLength = 0;                   ///< of the array in base64
@@ -93,13 +94,14 @@ std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structur
   return count;
 }
 
-/** VTK notices itself if compressed data are short. */
+/** What is compressed begins with the number of blocks, and has a size for each; VTK notices itself if blocks are short. */
 void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
 {
-  if (!structure.IsCompressed && (count > bytes || count + structure.BytesOfCount > bytes))
+  const std::uint64_t most = bytes - std::min<std::uint64_t>(bytes, structure.BytesOfCount);
+  if (count > (structure.IsCompressed ? most / structure.BytesOfCount : most))
   {
-    RefuseDamage(
-      "an array claims " + std::to_string(count) + " bytes, and has " + std::to_string(bytes));
+    RefuseDamage("an array claims " + std::to_string(count) + (structure.IsCompressed ? " blocks" : " bytes") +
+      ", and has " + std::to_string(bytes) + " bytes");
   }
 }
 
@@ -132,8 +134,15 @@ std::string Normalize(const std::string& numbers)
   return all;
 }
 
-/** An attribute of so many finite numbers, if it is there. */
-void CheckNumbers(Structure& structure, const char** attributes, const char* name, std::size_t count)
+struct Limits
+{
+  double Least = -std::numeric_limits<double>::max();
+  double Most = std::numeric_limits<double>::max();
+};
+
+/** An attribute of so many numbers, if it is there. */
+void CheckNumbers(
+  Structure& structure, const char** attributes, const char* name, std::size_t count, Limits limits = {})
 {
   const std::string text = Attribute(attributes, name);
   std::istringstream words(text);
@@ -142,12 +151,43 @@ void CheckNumbers(Structure& structure, const char** attributes, const char* nam
   {
     double number = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+    const bool isNumber = error == std::errc() && end == word.data() + word.size() && number >= limits.Least &&
+      number <= limits.Most;
     found += isNumber ? 0 : count;
   }
   if (found != count && !text.empty())
   {
     structure.Wrong = std::string(name) + "=\"" + Excerpt(text) + "\"";
+  }
+}
+
+void StartArray(Structure& structure, const char** attributes)
+{
+  constexpr double mostComponents = 10'000;
+  constexpr double mostTuples = 10'000'000; // of field data; other arrays have one for each point or cell
+  CheckNumbers(structure, attributes, "NumberOfComponents", 1, { 1, mostComponents });
+  CheckNumbers(structure, attributes, "NumberOfTuples", 1, structure.IsInFields ? Limits{ 0, mostTuples } : Limits{});
+  CheckNumbers(structure, attributes, "offset", 1, { 0 });
+  if (Attribute(attributes, "type") == "String" && !structure.IsInFields)
+  {
+    structure.Wrong = "type=\"String\" of an array"; // VTK's reader crashes
+  }
+  const std::string format = Attribute(attributes, "format");
+  if (format == "appended")
+  {
+    const std::string offset = Attribute(attributes, "offset");
+    std::uint64_t value = 0;
+    if (std::from_chars(offset.data(), offset.data() + offset.size(), value).ec != std::errc())
+    {
+      structure.Wrong = "offset=\"" + Excerpt(offset) + "\"";
+    }
+    structure.Offsets.push_back(value);
+  }
+  else if (format == "binary")
+  {
+    structure.IsInline = true;
+    structure.InlineBeginning.clear();
+    structure.InlineLength = 0;
   }
 }
 
@@ -172,22 +212,13 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   {
     structure.Extents.push_back(Normalize(Attribute(attributes, "Extent")));
   }
-  else if (name == "DataArray" && Attribute(attributes, "format") == "appended")
+  else if (name == "FieldData" || name == "PointData" || name == "CellData")
   {
-    CheckNumbers(structure, attributes, "offset", 1);
-    const std::string offset = Attribute(attributes, "offset");
-    std::uint64_t value = 0;
-    if (std::from_chars(offset.data(), offset.data() + offset.size(), value).ec != std::errc())
-    {
-      structure.Wrong = "offset=\"" + Excerpt(offset) + "\"";
-    }
-    structure.Offsets.push_back(value);
+    structure.IsInFields = name == "FieldData";
   }
-  else if (name == "DataArray" && Attribute(attributes, "format") == "binary")
+  else if (name == "DataArray" || name == "Array")
   {
-    structure.IsInline = true;
-    structure.InlineBeginning.clear();
-    structure.InlineLength = 0;
+    StartArray(structure, attributes);
   }
   else if (name == "AppendedData")
   {
@@ -316,7 +347,7 @@ void CheckStructureOfVTI(const InputFile& file)
   const Structure structure = Parse(file);
   if (!structure.Wrong.empty())
   {
-    throw FileError("its header gives " + structure.Wrong + ", where finite numbers must be: correct the header");
+    throw FileError("its header gives " + structure.Wrong + ", where other numbers must be: correct the header");
   }
   if (structure.Extents.size() != 1)
   {

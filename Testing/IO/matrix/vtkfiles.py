@@ -268,6 +268,11 @@ for matrix in (9 * "0 ", "1 1 0 1 1 0 0 0 1", "nan 0 0 0 1 0 0 0 1", "1 2 3 4 5 
                    b'Direction="1.0 0.0 0.0 0.0 1.0 0.0 0.0 0.0 1.0"', b'Direction="%s"' % matrix.encode())))
 for name in ("String", "Complex", "x" * 5000):
     xml_refuse("data type %s" % name[:10], ".", type=name, is_broken=True)
+xml_refuse("an array of texts", "String", type="String", wrap=lambda f: f.with_data(f.data().replace(b"DataArray", b"Array")))
+for count in (-1, 0, 10 ** 9):
+    xml_refuse("%d components" % count, "NumberOfComponents", attributes=' NumberOfComponents="%d"' % count, is_broken=True)
+xml_refuse("10^9 texts", "NumberOfTuples", is_broken=True, wrap=lambda f: f.replaced(
+    b"<Piece", b'<FieldData><Array type="String" Name="a" NumberOfTuples="1000000000" format="ascii">1</Array></FieldData><Piece'))
 xml_refuse("a compressor that there is not", ".", is_broken=True, wrap=lambda f: f.replaced(
     b"header_type", b'compressor="vtkRarDataCompressor" header_type'))
 for blocks in (1 << 31, (1 << 32) - 1, 1000):
