@@ -31,10 +31,15 @@ class Result:
 
 
 class Host:
-    """A process that has loaded the reader. It stands for Python, ParaView or 3D Slicer."""
+    """A process that has loaded the reader. It stands for Python, ParaView or 3D Slicer.
 
-    def __init__(self, timeout=10):
+    apart: whether images are read in processes of their own, as they are unless the size of files is limited. In this one
+        VTK may print.
+    """
+
+    def __init__(self, timeout=10, apart=True):
         self._timeout = timeout
+        self._apart = apart
         self._process = None
         self.starts = 0
 
@@ -75,7 +80,7 @@ class Host:
         context = multiprocessing.get_context("fork")
         self._pipe, theirs = context.Pipe()
         self._printed = tempfile.TemporaryFile()
-        self._process = context.Process(target=_serve, args=(theirs, self._pipe, self._printed.fileno()))
+        self._process = context.Process(target=_serve, args=(theirs, self._pipe, self._printed.fileno(), self._apart))
         self._process.start()
         theirs.close()
         self.starts += 1
@@ -83,9 +88,11 @@ class Host:
             raise RuntimeError("the reader cannot be loaded")
 
 
-def _serve(pipe, other_end, printed):
+def _serve(pipe, other_end, printed, apart):
     other_end.close()
     os.setsid()
+    if not apart:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 40, resource.RLIM_INFINITY))
     import voxplex
     from vtkmodules.vtkCommonCore import vtkObject
     vtkObject.GlobalWarningDisplayOff()
@@ -100,7 +107,7 @@ def _serve(pipe, other_end, printed):
         Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
         result = _read(voxplex, path)
         result.resident = _resident()
-        if os.fstat(printed).st_size:
+        if os.fstat(printed).st_size and apart:
             result.fault = "prints: " + os.pread(printed, MOST_PRINTED, 0).decode(errors="replace")
             os.ftruncate(printed, 0)
             os.lseek(printed, 0, os.SEEK_SET)
@@ -115,6 +122,8 @@ def _read(voxplex, path):
     count = reader.GetNumberOfFrames()
     result = Result((), message=reader.GetErrorMessage(),
                     warnings=tuple(reader.GetWarning(i) for i in range(reader.GetNumberOfWarnings())))
+    if "its reading ended" in result.message:
+        result.fault = result.message
     image = reader.GetOutput()
     if result.message or count == 0:
         if not result.message or count or image.GetNumberOfPoints():
