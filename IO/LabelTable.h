@@ -45,8 +45,8 @@ struct LabelTable
 bool IsUTF8(std::string_view text);
 
 /**
- * The texts of an array in field data: those of a vtkStringArray, or of the bytes that our .vtu and .vtk files have in its
- * place, a vtkUnsignedCharArray that has a 0 at the end of each text. Empty if there is no such array.
+ * The texts of an array in field data: those of a vtkStringArray, or of the bytes that our .vtu and .vtk files have in
+ * its place, a vtkUnsignedCharArray that has a 0 at the end of each text. Empty if there is no such array.
  */
 std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name);
 

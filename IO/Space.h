@@ -27,7 +27,8 @@ inline const char* ToString(Space space)
 /** The factors between coordinates in LPS and those in another space, both ways. */
 inline std::array<double, 3> SignsFromLPS(Space space)
 {
-  return space == Space::LPS ? std::array<double, 3>{ 1.0, 1.0, 1.0 } : std::array<double, 3>{ -1.0, -1.0, 1.0 };
+  return space == Space::LPS ? std::array<double, 3>{ 1.0, 1.0, 1.0 }
+                             : std::array<double, 3>{ -1.0, -1.0, 1.0 };
 }
 
 } // namespace voxplex::io

@@ -109,8 +109,10 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
      << "LabelTableFileName: " << (this->LabelTableFileName ? this->LabelTableFileName : "(none)")
      << "\n"
      << indent << "Space: " << (this->Space == SPACE_LPS ? "LPS" : "RAS") << "\n"
-     << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " " << this->Spacing[2] << "\n"
-     << indent << "Origin: " << this->Origin[0] << " " << this->Origin[1] << " " << this->Origin[2] << "\n"
+     << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " "
+     << this->Spacing[2] << "\n"
+     << indent << "Origin: " << this->Origin[0] << " " << this->Origin[1] << " " << this->Origin[2]
+     << "\n"
      << indent << "Direction: ";
   for (const double number : this->Direction)
   {
@@ -224,9 +226,10 @@ bool vtkSegmentationReader::Read()
 void vtkSegmentationReader::PlaceImage()
 {
   ScalarImage& image = this->Private->Image;
-  const std::array<double, 3> signs = voxplex::io::SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
-  const bool hasDirection =
-    std::any_of(std::begin(this->Direction), std::end(this->Direction), [](double number) { return number != 0; });
+  const std::array<double, 3> signs =
+    voxplex::io::SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
+  const bool hasDirection = std::any_of(std::begin(this->Direction), std::end(this->Direction),
+    [](double number) { return number != 0; });
   const auto given = std::count_if(
     std::begin(this->Spacing), std::end(this->Spacing), [](double number) { return number > 0; });
   std::array<voxplex::io::Vector3, 3> steps{};
@@ -234,14 +237,16 @@ void vtkSegmentationReader::PlaceImage()
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double spacing = this->Spacing[axis] > 0 ? this->Spacing[axis] : image.Spacing[axis];
-    const double length = std::hypot(this->Direction[axis], this->Direction[3 + axis], this->Direction[6 + axis]);
+    const double length =
+      std::hypot(this->Direction[axis], this->Direction[3 + axis], this->Direction[6 + axis]);
     for (std::size_t row = 0; row < 3; ++row)
     {
       const std::size_t at = 3 * row + axis;
       steps[axis][row] =
         spacing * (hasDirection ? signs[row] * this->Direction[at] / length : image.Direction[at]);
     }
-    origin[axis] = std::isnan(this->Origin[axis]) ? image.Origin[axis] : signs[axis] * this->Origin[axis];
+    origin[axis] =
+      std::isnan(this->Origin[axis]) ? image.Origin[axis] : signs[axis] * this->Origin[axis];
   }
   if (given == 3) // what the warning asks for
   {
@@ -258,8 +263,10 @@ void vtkSegmentationReader::PlaceImage()
   }
   catch (const voxplex::io::FileError&)
   {
-    throw voxplex::io::FileError("SetSpacing(), SetOrigin() and SetDirection() give '" + std::string(this->FileName) +
-      "' no place in space: numbers must be finite, and the columns of the direction matrix independent");
+    throw voxplex::io::FileError("SetSpacing(), SetOrigin() and SetDirection() give '" +
+      std::string(this->FileName) +
+      "' no place in space: numbers must be finite, and the columns of the direction matrix "
+      "independent");
   }
 }
 

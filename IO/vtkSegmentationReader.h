@@ -4,9 +4,10 @@
  * @class   vtkSegmentationReader
  * @brief   reads a segmentation with its place in space, its times and the names of its labels
  *
- * Reads one file, or a folder with a DICOM series, in three or four dimensions, the fourth being time. The first bytes of a
- * file tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK (.vtk, .vti), GIPL, MRC.
- * Documentation/FileFormats.md says what each of them tells about the place of the image, and what is done where it does not.
+ * Reads one file, or a folder with a DICOM series, in three or four dimensions, the fourth being time. The first bytes
+ * of a file tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK (.vtk, .vti), GIPL, MRC.
+ * Documentation/FileFormats.md says what each of them tells about the place of the image, and what is done where it
+ * does not.
  *
  * @par Output
  * vtkImageData with origin, spacing and direction matrix as in the file, in the coordinates that Space
@@ -30,8 +31,8 @@
  * What cannot be read is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage()
  * keeps the reason: no such file, unknown format, truncated or damaged data, several components that are
  * not frames, more than four dimensions, a spacing that is not positive, a singular direction matrix,
- * several DICOM series and no SeriesUID, a file that made the reading process crash or take too long. What was odd but could be read
- * is reported with vtkWarningMacro, and kept for GetWarning().
+ * several DICOM series and no SeriesUID, a file that made the reading process crash or take too long. What was odd but
+ * could be read is reported with vtkWarningMacro, and kept for GetWarning().
  *
  * @par When it reads
  * The whole file is read when the pipeline first asks for information, so that damage is known before
@@ -39,9 +40,10 @@
  * has changed.
  *
  * @par The reading process
- * The file is read by a program of its own (voxplexImageReader, beside this library), which may open no other files and has
- * limits of memory and time; it hands over the voxels in shared memory. Whatever a damaged file does to the libraries that
- * read it, this process lives and has a message. Where no process can be started, the file is read in this process.
+ * The file is read by a program of its own (voxplexImageReader, beside this library), which may open no other files
+ * and has limits of memory and time; it hands over the voxels in shared memory. Whatever a damaged file does to the
+ * libraries that read it, this process lives and has a message. Where no process can be started, the file is read in
+ * this process.
  *
  * @par Thread safety
  * Distinct instances may execute at the same time.
@@ -105,11 +107,11 @@ public:
 
   ///@{
   /**
-   * The distances of voxels along each axis, the place of the first voxel, and the directions of the axes (nine numbers, row
-   * by row, whose columns are the directions, of any length), in place of those of the file: for formats that do not know
-   * them (TIFF), and for files that are wrong. Place and directions are in the coordinates of Space. What is not positive
-   * (spacing), NaN (origin; ClearOrigin() makes it so) or all 0 (direction) is taken from the file: so is everything by
-   * default.
+   * The distances of voxels along each axis, the place of the first voxel, and the directions of the axes (nine
+   * numbers, row by row, whose columns are the directions, of any length), in place of those of the file: for formats
+   * that do not know them (TIFF), and for files that are wrong. Place and directions are in the coordinates of Space.
+   * What is not positive (spacing), NaN (origin; ClearOrigin() makes it so) or all 0 (direction) is taken from the
+   * file: so is everything by default.
    */
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
@@ -122,8 +124,8 @@ public:
 
   ///@{
   /**
-   * Whether the header of an image (.nhdr, .mhd, .hdr) may name data files anywhere. Default off: such files must be in the
-   * folder of the header or below, since a header from a stranger could name any file of the user's.
+   * Whether the header of an image (.nhdr, .mhd, .hdr) may name data files anywhere. Default off: such files must be
+   * in the folder of the header or below, since a header from a stranger could name any file of the user's.
    */
   vtkSetMacro(DataFilesAnywhere, bool);
   vtkGetMacro(DataFilesAnywhere, bool);

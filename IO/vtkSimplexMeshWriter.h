@@ -30,7 +30,8 @@
  * @par Errors
  * Write() returns 0, reports with vtkErrorMacro and sets the error code; GetErrorMessage() keeps the
  * reason: no or another extension than those for the content and dimension, a missing array or cells of other
- * types, a label that does not fit the format, a slab that is not there, a folder that does not exist or takes no files, a full disk.
+ * types, a label that does not fit the format, a slab that is not there, a folder that does not exist or takes no
+ * files, a full disk.
  *
  * @par Thread safety
  * Distinct instances may write distinct files at the same time.

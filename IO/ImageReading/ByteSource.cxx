@@ -29,15 +29,17 @@ std::optional<char> ByteSource::Get()
     bytes.resize(this->Read(bytes));
     this->Ahead = std::move(bytes);
   }
-  return this->Next < this->Ahead.size() ? std::optional(static_cast<char>(this->Ahead[this->Next++]))
-                                         : std::nullopt;
+  return this->Next < this->Ahead.size()
+    ? std::optional(static_cast<char>(this->Ahead[this->Next++]))
+    : std::nullopt;
 }
 
 void ByteSource::Skip(std::uint64_t count)
 {
   while (count > 0)
   {
-    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, BufferSize)));
+    std::vector<std::byte> bytes(
+      static_cast<std::size_t>(std::min<std::uint64_t>(count, BufferSize)));
     const std::size_t got = this->Read(bytes);
     if (got == 0)
     {
@@ -112,7 +114,8 @@ std::size_t InflateSource::Read(std::span<std::byte> to)
       inflateReset(&this->Stream);
       this->HasEnded = false;
     }
-    const auto room = static_cast<uInt>(std::min<std::size_t>(to.size() - done, std::numeric_limits<uInt>::max()));
+    const auto room =
+      static_cast<uInt>(std::min<std::size_t>(to.size() - done, std::numeric_limits<uInt>::max()));
     this->Stream.next_out = reinterpret_cast<Bytef*>(to.data() + done);
     this->Stream.avail_out = room;
     const int result = inflate(&this->Stream, Z_NO_FLUSH);

@@ -102,8 +102,9 @@ Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
 }
 
 /**
- * One scan of a lossless JPEG that goes on to the end. Where its data end too soon, or have a code that there is not, GDCM
- * goes on with zeros, and fails at the second warning only. So it gets a byte before the end that is worth the first one.
+ * One scan of a lossless JPEG that goes on to the end. Where its data end too soon, or have a code that there is not,
+ * GDCM goes on with zeros, and fails at the second warning only. So it gets a byte before the end that is worth the
+ * first one.
  */
 std::vector<std::byte> WithWarning(Codestream stream, std::size_t scan)
 {

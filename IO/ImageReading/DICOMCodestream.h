@@ -4,8 +4,8 @@
  * @file DICOMCodestream.h
  * @brief Frames that are compressed by JPEG, JPEG-LS or JPEG 2000. GDCM decompresses them.
  *
- * GDCM believes the header of the codestream where it differs from the header of the file, and gives what there is when it
- * ends too soon. So both are compared before, and the end is looked for.
+ * GDCM believes the header of the codestream where it differs from the header of the file, and gives what there is
+ * when it ends too soon. So both are compared before, and the end is looked for.
  */
 #ifndef voxplex_io_DICOMCodestream_h
 #define voxplex_io_DICOMCodestream_h

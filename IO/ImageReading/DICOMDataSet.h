@@ -4,9 +4,9 @@
  * @file DICOMDataSet.h
  * @brief The data elements of a DICOM file (PS3.5 and PS3.10).
  *
- * GDCM has a reader for them, too. Where it meets what is no DICOM it begins anew by the grammar of some faulty writer, it
- * takes memory for what elements claim, puts zeros where pixels are missing, and ends the program at odd values. This one has
- * one grammar, and reads values when they are asked for.
+ * GDCM has a reader for them, too. Where it meets what is no DICOM it begins anew by the grammar of some faulty
+ * writer, it takes memory for what elements claim, puts zeros where pixels are missing, and ends the program at odd
+ * values. This one has one grammar, and reads values when they are asked for.
  */
 #ifndef voxplex_io_DICOMDataSet_h
 #define voxplex_io_DICOMDataSet_h

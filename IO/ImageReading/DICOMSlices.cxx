@@ -77,8 +77,8 @@ std::string Show(double number)
 }
 
 /**
- * The item with a functional group: of the frame, of all frames, or where there are no groups, the file. Empty items are
- * found if it is nowhere.
+ * The item with a functional group: of the frame, of all frames, or where there are no groups, the file. Empty items
+ * are found if it is nowhere.
  */
 class Groups
 {

@@ -40,7 +40,8 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
 
 /**
  * Sorts slices along their normal.
- * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is unknown
+ * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is
+ * unknown
  * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place
  */
 Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices);

@@ -38,7 +38,8 @@ void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector
 {
   if (!IsUsable(origin) || !std::all_of(steps.begin(), steps.end(), IsUsable))
   {
-    throw FileError("its position or orientation in space is not finite, or far too large: correct the header");
+    throw FileError(
+      "its position or orientation in space is not finite, or far too large: correct the header");
   }
   image.Origin = origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -58,7 +59,8 @@ void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector
   }
   if (std::abs(Determinant(image.Direction)) < SmallestDeterminant)
   {
-    throw FileError("its axes are not independent, the direction matrix is singular: correct the header");
+    throw FileError(
+      "its axes are not independent, the direction matrix is singular: correct the header");
   }
 }
 
@@ -94,11 +96,13 @@ void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes)
   constexpr double mostVoxels = 1e15;
   if (sizes.size() < 3)
   {
-    throw FileError("it has " + std::to_string(sizes.size()) + " dimensions, and a volume has three: give a volume");
+    throw FileError("it has " + std::to_string(sizes.size()) +
+      " dimensions, and a volume has three: give a volume");
   }
   if (!areUsable || voxels > mostVoxels)
   {
-    throw FileError("its header claims " + text.str() + " voxels, which no image has: correct the header");
+    throw FileError(
+      "its header claims " + text.str() + " voxels, which no image has: correct the header");
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -111,9 +115,8 @@ void SetFrameTimes(ScalarImage& image, const std::vector<double>& times)
 {
   image.Times.clear();
   image.TimeOrigin = times.front();
-  image.TimeSpacing = times.size() > 1
-    ? (times.back() - times.front()) / static_cast<double>(times.size() - 1)
-    : 1.0;
+  image.TimeSpacing =
+    times.size() > 1 ? (times.back() - times.front()) / static_cast<double>(times.size() - 1) : 1.0;
   for (std::size_t n = 0; n < times.size(); ++n)
   {
     if (!std::isfinite(times[n]) || (n > 0 && !(times[n] > times[n - 1])))

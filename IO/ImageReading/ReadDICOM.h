@@ -4,8 +4,8 @@
  * @file ReadDICOM.h
  * @brief Volumes from DICOM: series of files with a slice each, and files with several frames.
  *
- * Slices are placed by Image Position and Orientation (Patient) and Pixel Spacing. Their files' names, order and numbers do
- * not matter. What has no place in space, or no single value a voxel, is refused with its name.
+ * Slices are placed by Image Position and Orientation (Patient) and Pixel Spacing. Their files' names, order and
+ * numbers do not matter. What has no place in space, or no single value a voxel, is refused with its name.
  */
 #ifndef voxplex_io_ReadDICOM_h
 #define voxplex_io_ReadDICOM_h

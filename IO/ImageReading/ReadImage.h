@@ -21,33 +21,36 @@ namespace voxplex::io
 
 struct ImageRequest
 {
-  std::string Path;               ///< a file, or a folder with a DICOM series
-  std::string Series;             ///< UID of the series to read from a folder, or its beginning; may be empty if there is one
-  bool DataFilesAnywhere = false; ///< whether a header may name files that are not in its folder or below
+  std::string Path; ///< a file, or a folder with a DICOM series
+  std::string
+    Series; ///< UID of the series to read from a folder, or its beginning; may be empty if there is one
+  bool DataFilesAnywhere =
+    false; ///< whether a header may name files that are not in its folder or below
 };
 
 struct ImageAnswer
 {
   ScalarImage Image;
-  LabelTable Labels;                 ///< names and colours that the file has itself
-  std::vector<std::string> Warnings; ///< what was odd but could be read, one line each, with the name of the image
+  LabelTable Labels; ///< names and colours that the file has itself
+  std::vector<std::string>
+    Warnings; ///< what was odd but could be read, one line each, with the name of the image
 };
 
 using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 
 /**
- * Reads an image here and now, in the scalar type that the file has. The first bytes of a file tell its format, not its name:
- * NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, GIPL, MRC. A fourth dimension is time; last dimensions of length 1 do not
- * count, so that an image with one frame is a 3D image. Never prints.
+ * Reads an image here and now, in the scalar type that the file has. The first bytes of a file tell its format, not
+ * its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, GIPL, MRC. A fourth dimension is time; last dimensions
+ * of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
  *
- * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three or
- *   four dimensions, a place that is none
+ * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three
+ * or four dimensions, a place that is none
  */
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate);
 
 /**
- * Reads an image in a process of its own, which may open no other files and has limits of memory and time: whatever the file
- * does to the libraries that read it, this process lives. Where no process can be started, reads here.
+ * Reads an image in a process of its own, which may open no other files and has limits of memory and time: whatever
+ * the file does to the libraries that read it, this process lives. Where no process can be started, reads here.
  *
  * Any thread may call it at any time.
  *

@@ -62,13 +62,16 @@ constexpr std::array<Stranger, 19> Strangers{ {
   { "\xff\x4f\xff\x51", Picture },
   { "P5", Picture },
   { "P6", Picture },
-  { "\x89HDF\r\n", "it is an HDF5 file, of which there are many kinds (MINC, Imaris, ilastik ...)" },
+  { "\x89HDF\r\n",
+    "it is an HDF5 file, of which there are many kinds (MINC, Imaris, ilastik ...)" },
   { "CDF", "it is a netCDF file" },
   { "PK\x03\x04", "it is a ZIP archive: unpack it first" },
   { "# === DATA DESCRIPTION FILE", "it is a Philips PAR file: convert it with dcm2niix" },
   { "##TITLE", "it is a Bruker parameter file" },
   { "BZh", "it is compressed by bzip2: unpack it first" },
-  { "\xfd" "7zXZ", "it is compressed by xz: unpack it first" },
+  { "\xfd"
+    "7zXZ",
+    "it is compressed by xz: unpack it first" },
   { "%PDF", "it is a PDF document" },
   { "ply", "it is a surface, and not an image" },
   { "solid", "it is a surface, and not an image" },
@@ -78,7 +81,8 @@ constexpr std::array<Stranger, 19> Strangers{ {
 [[noreturn]] void RefuseStranger(const InputFile& file)
 {
   constexpr std::size_t longest = 64;
-  constexpr const char* readable = "those that are read are NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL and MRC";
+  constexpr const char* readable =
+    "those that are read are NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL and MRC";
   const std::string begin = file.Beginning(longest);
   const auto stranger = std::find_if(Strangers.begin(), Strangers.end(),
     [&begin](const Stranger& one) { return begin.starts_with(one.Begin); });
@@ -94,8 +98,8 @@ ScalarImage ReadFile(const std::string& path, Reading& reading)
   {
     throw FileError("the file is empty");
   }
-  const auto format =
-    std::find_if(Formats.begin(), Formats.end(), [&file](const Format& one) { return one.Is(file); });
+  const auto format = std::find_if(
+    Formats.begin(), Formats.end(), [&file](const Format& one) { return one.Is(file); });
   if (format == Formats.end())
   {
     RefuseStranger(file);

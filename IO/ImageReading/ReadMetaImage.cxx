@@ -43,7 +43,8 @@ ScalarType TypeNamed(const std::string& name)
   const auto type = types.find(name);
   if (type == types.end())
   {
-    throw FileError("its header gives the ElementType '" + Excerpt(name) + "', which is not a type of single numbers");
+    throw FileError("its header gives the ElementType '" + Excerpt(name) +
+      "', which is not a type of single numbers");
   }
   return type->second;
 }
@@ -69,7 +70,8 @@ std::vector<std::int64_t> ReadSizes(const TextHeader& header, std::size_t axes)
   }
   if (sizes.size() > TimeAxis + 1)
   {
-    throw FileError("it has " + std::to_string(sizes.size()) + " dimensions; voxplex meshes images of three, and of four "
+    throw FileError("it has " + std::to_string(sizes.size()) +
+      " dimensions; voxplex meshes images of three, and of four "
       "with time as the last: extract one of those first");
   }
   return sizes;
@@ -88,12 +90,13 @@ Geometry ReadGeometry(const TextHeader& header, std::size_t axes, Reading& readi
   Geometry geometry;
   geometry.Spacing = header.Numbers({ "elementspacing", "elementsize" }, axes);
   geometry.Origin = header.Numbers({ "offset", "position", "origin" }, axes);
-  geometry.Directions = header.Numbers({ "transformmatrix", "rotation", "orientation" }, axes * axes);
+  geometry.Directions =
+    header.Numbers({ "transformmatrix", "rotation", "orientation" }, axes * axes);
   if (geometry.Spacing.empty())
   {
     geometry.Spacing.assign(axes, 1.0);
-    reading.Warnings.push_back(
-      "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
+    reading.Warnings.push_back("its header gives no spacing of the voxels, which is taken to be 1; "
+                               "set it with SetSpacing()");
   }
   geometry.Origin.resize(axes, 0.0);
   if (geometry.Directions.empty())
@@ -104,11 +107,13 @@ Geometry ReadGeometry(const TextHeader& header, std::size_t axes, Reading& readi
       geometry.Directions[axis * axes + axis] = 1.0;
     }
   }
-  const bool isPositive = std::all_of(geometry.Spacing.begin(), geometry.Spacing.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(axes)),
+  const bool isPositive = std::all_of(geometry.Spacing.begin(),
+    geometry.Spacing.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(axes)),
     [](double spacing) { return spacing > 0 && std::isfinite(spacing); });
   if (!isPositive)
   {
-    throw FileError("the voxel spacing in its header is '" + Excerpt(*header.FindAny({ "elementspacing", "elementsize" })) +
+    throw FileError("the voxel spacing in its header is '" +
+      Excerpt(*header.FindAny({ "elementspacing", "elementsize" })) +
       "'; it must be a positive length along each axis: correct the header");
   }
   return geometry;
@@ -129,18 +134,21 @@ void PlaceImage(const Geometry& geometry, std::size_t axes, ScalarImage& image)
   Place(image, steps, origin);
 }
 
-void AdoptTimes(const TextHeader& header, const Geometry& geometry, std::size_t axes, ScalarImage& image)
+void AdoptTimes(
+  const TextHeader& header, const Geometry& geometry, std::size_t axes, ScalarImage& image)
 {
   bool isApart = true;
   for (std::size_t axis = 0; axis < TimeAxis; ++axis)
   {
-    isApart = isApart && std::abs(geometry.Directions[axis * axes + TimeAxis]) < DirectionTolerance &&
+    isApart = isApart &&
+      std::abs(geometry.Directions[axis * axes + TimeAxis]) < DirectionTolerance &&
       std::abs(geometry.Directions[TimeAxis * axes + axis]) < DirectionTolerance;
   }
   if (!isApart)
   {
-    throw FileError("its direction matrix mixes time with space; only images whose frames each show one time can be meshed: "
-      "correct the header, or resample the image");
+    throw FileError("its direction matrix mixes time with space; only images whose frames each "
+                    "show one time can be meshed: "
+                    "correct the header, or resample the image");
   }
   if (geometry.Directions[TimeAxis * axes + TimeAxis] < 0)
   {
@@ -183,7 +191,8 @@ StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
   if (headerSize < StoredVoxels::FromTheEnd ||
     (headerSize == StoredVoxels::FromTheEnd && stored.Coding != Encoding::Raw))
   {
-    throw FileError("its header gives the HeaderSize " + std::to_string(headerSize) + ", which is none: correct the header");
+    throw FileError("its header gives the HeaderSize " + std::to_string(headerSize) +
+      ", which is none: correct the header");
   }
   if (headerSize > 0)
   {
@@ -206,7 +215,8 @@ bool IsMetaImage(const InputFile& file)
   {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::size_t separator = text.find_first_of("=:", at);
-    if (separator < end && Words(text.substr(at, separator - at)) == std::vector<std::string>{ "NDims" })
+    if (separator < end &&
+      Words(text.substr(at, separator - at)) == std::vector<std::string>{ "NDims" })
     {
       return true;
     }
@@ -221,7 +231,8 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
   const TextHeader header(file);
   if (const std::string object = header.Word({ "objecttype" }, "image"); object != "image")
   {
-    throw FileError("it is a MetaIO file of the ObjectType '" + Excerpt(object) + "', and no image");
+    throw FileError(
+      "it is a MetaIO file of the ObjectType '" + Excerpt(object) + "', and no image");
   }
   const std::int64_t axes = header.Whole({ "ndims" }, 0);
   constexpr std::int64_t most = 10; // which MetaImage has
@@ -233,8 +244,10 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
   const std::int64_t channels = header.Whole({ "elementnumberofchannels" }, 1);
   if (channels != 1)
   {
-    throw FileError("it has " + std::to_string(channels) + " components a voxel (colours or vectors); a label image has one: "
-      "export it as a label map first, or, if they are time frames, as an image of four dimensions");
+    throw FileError("it has " + std::to_string(channels) +
+      " components a voxel (colours or vectors); a label image has one: "
+      "export it as a label map first, or, if they are time frames, as an image of four "
+      "dimensions");
   }
   const auto count = static_cast<std::size_t>(axes);
   ScalarImage image;
@@ -247,7 +260,9 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
   {
     AdoptTimes(header, geometry, count, image);
   }
-  WarnOfLengths(header.Word({ "distanceunits" }, "") == "?" ? "" : header.Word({ "distanceunits" }, ""), reading);
+  WarnOfLengths(
+    header.Word({ "distanceunits" }, "") == "?" ? "" : header.Word({ "distanceunits" }, ""),
+    reading);
   ReadVoxels(FindVoxels(header, reading), image, reading);
   return image;
 }

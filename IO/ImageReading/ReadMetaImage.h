@@ -21,8 +21,8 @@ struct Reading;
 bool IsMetaImage(const InputFile& file);
 
 /**
- * Binary, compressed and text voxels in one file, one file a slice (LIST, patterns), or behind the header. A fourth axis is
- * time. Coordinates are LPS. @throws FileError
+ * Binary, compressed and text voxels in one file, one file a slice (LIST, patterns), or behind the header. A fourth
+ * axis is time. Coordinates are LPS. @throws FileError
  */
 ScalarImage ReadMetaImage(const std::string& path, Reading& reading);
 

@@ -37,7 +37,7 @@ struct Header
   bool IsBigEndian = false;
   bool IsAnalyze = false; ///< without a magic word
   bool HoldsVoxels = false;
-  std::size_t Length = Size1 + 4; ///< with the four bytes that say whether extensions follow
+  std::size_t Length = Size1 + 4;      ///< with the four bytes that say whether extensions follow
   std::array<std::int64_t, 8> Sizes{}; ///< [0] is the number of the others that count
   std::int64_t Type = 0;
   std::int64_t BitsPerVoxel = 0;
@@ -140,7 +140,8 @@ std::optional<Header> FindHeader(const InputFile& file)
         header.reset();
       }
     }
-    else if (size == Size2 && bytes.size() >= Size2 && (fields.Text(4, 3) == "n+2" || fields.Text(4, 3) == "ni2"))
+    else if (size == Size2 && bytes.size() >= Size2 &&
+      (fields.Text(4, 3) == "n+2" || fields.Text(4, 3) == "ni2"))
     {
       header = Parse2(fields);
     }
@@ -154,7 +155,8 @@ std::optional<Header> FindHeader(const InputFile& file)
 }
 
 /** The other of two files: x.img for x.hdr, packed or not. Nothing if it is not there. */
-std::optional<std::string> FindCompanion(const std::string& path, std::string_view from, std::string_view to)
+std::optional<std::string> FindCompanion(
+  const std::string& path, std::string_view from, std::string_view to)
 {
   std::string stem = path;
   if (LowerCase(stem).ends_with(".gz"))
@@ -169,7 +171,8 @@ std::optional<std::string> FindCompanion(const std::string& path, std::string_vi
   std::string other(to);
   if (extension != LowerCase(extension))
   {
-    std::transform(other.begin(), other.end(), other.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(other.begin(), other.end(), other.begin(),
+      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   }
   for (const char* packed : { "", ".gz" })
   {
@@ -202,14 +205,15 @@ ScalarType TypeOf(const Header& header)
     { 8, 32, ScalarType::Int32 }, { 16, 32, ScalarType::Float32 }, { 64, 64, ScalarType::Float64 },
     { 256, 8, ScalarType::Int8 }, { 512, 16, ScalarType::UInt16 }, { 768, 32, ScalarType::UInt32 },
     { 1024, 64, ScalarType::Int64 }, { 1280, 64, ScalarType::UInt64 } } };
-  const auto type =
-    std::find_if(types.begin(), types.end(), [&header](const Type& one) { return one.Code == header.Type; });
+  const auto type = std::find_if(
+    types.begin(), types.end(), [&header](const Type& one) { return one.Code == header.Type; });
   const std::string code = std::to_string(header.Type);
   if (type == types.end())
   {
     const bool isColour = header.Type == 128 || header.Type == 2304;
-    throw FileError(isColour ? "its voxels are colours (datatype " + code + "); a label image has one label a voxel"
-                             : "its header gives the datatype " + code + ", which is not a type of single numbers");
+    throw FileError(isColour
+        ? "its voxels are colours (datatype " + code + "); a label image has one label a voxel"
+        : "its header gives the datatype " + code + ", which is not a type of single numbers");
   }
   if (type->Bits != header.BitsPerVoxel)
   {
@@ -241,7 +245,8 @@ std::vector<std::int64_t> SizesOf(const Header& header)
       text << (axis ? " x " : "") << sizes[axis];
     }
     throw FileError("it has " + std::to_string(sizes.size()) + " dimensions (" + text.str() +
-      "); voxplex meshes images of three, and of four with time as the last: extract one of those first");
+      "); voxplex meshes images of three, and of four with time as the last: extract one of those "
+      "first");
   }
   return sizes;
 }
@@ -271,12 +276,14 @@ void CheckSteps(const Header& header)
 {
   for (std::size_t axis = 1; axis <= 3; ++axis)
   {
-    const bool counts = static_cast<std::int64_t>(axis) <= header.Sizes[0] && header.Sizes[axis] > 1;
+    const bool counts =
+      static_cast<std::int64_t>(axis) <= header.Sizes[0] && header.Sizes[axis] > 1;
     if (counts && (!(header.Steps[axis] > 0) || !std::isfinite(header.Steps[axis])))
     {
       std::ostringstream reason;
-      reason << "the voxel spacing in its header is '" << header.Steps[1] << ' ' << header.Steps[2] << ' '
-             << header.Steps[3] << "'; it must be a positive length along each axis: correct the header";
+      reason << "the voxel spacing in its header is '" << header.Steps[1] << ' ' << header.Steps[2]
+             << ' ' << header.Steps[3]
+             << "'; it must be a positive length along each axis: correct the header";
       throw FileError(reason.str());
     }
   }
@@ -351,7 +358,8 @@ double DistanceBetween(const Affine& a, const Affine& b, const ScalarImage& imag
   return largest;
 }
 
-void WarnIfFormsDiffer(const Affine& sform, const Affine& qform, double unit, const ScalarImage& image, Reading& reading)
+void WarnIfFormsDiffer(
+  const Affine& sform, const Affine& qform, double unit, const ScalarImage& image, Reading& reading)
 {
   const double distance = DistanceBetween(sform, qform, image) * unit;
   double spacing = std::numeric_limits<double>::infinity();
@@ -364,8 +372,8 @@ void WarnIfFormsDiffer(const Affine& sform, const Affine& qform, double unit, co
   {
     std::ostringstream warning;
     warning.precision(3);
-    warning << "its header gives two places, and the sform is used; the qform puts a corner " << distance
-            << " mm from there: if that is right, set the sform's code to 0";
+    warning << "its header gives two places, and the sform is used; the qform puts a corner "
+            << distance << " mm from there: if that is right, set the sform's code to 0";
     reading.Warnings.push_back(warning.str());
   }
 }
@@ -388,7 +396,8 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
   }
   reading.Warnings.push_back(header.IsAnalyze
       ? "the format ANALYZE does not say how an image lies: its axes are taken for those of LPS"
-      : "its header does not say where the image lies (qform and sform have the code 0): its axes are taken for those of "
+      : "its header does not say where the image lies (qform and sform have the code 0): its axes "
+        "are taken for those of "
         "RAS, from 0 on");
   return AffineAlongAxes(header);
 }
@@ -429,7 +438,8 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
   const double step = header.Steps[4];
   if (!std::isfinite(header.FirstTime))
   {
-    throw FileError("the time of the first frame in its header (toffset) is not a finite number: correct the header");
+    throw FileError("the time of the first frame in its header (toffset) is not a finite number: "
+                    "correct the header");
   }
   if (!(step >= 0) || !std::isfinite(step))
   {
@@ -440,7 +450,8 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
   }
   if (step == 0)
   {
-    reading.Warnings.push_back("its header has 0 for the time from frame to frame, which is taken to be 1; use "
+    reading.Warnings.push_back(
+      "its header has 0 for the time from frame to frame, which is taken to be 1; use "
       "SetTimeScale() to weigh time against space");
   }
   image.TimeOrigin = header.FirstTime;
@@ -457,14 +468,15 @@ StoredVoxels FindVoxels(const Header& header, const std::string& path, const Rea
     voxels = FindCompanion(path, ".hdr", ".img").value_or("");
     if (voxels.empty())
     {
-      throw FileError("its voxels are in another file, '" + fs::path(path).stem().replace_extension(".img").string() +
-        "', which is not beside it");
+      throw FileError("its voxels are in another file, '" +
+        fs::path(path).stem().replace_extension(".img").string() + "', which is not beside it");
     }
     voxels = FindDataFile(path, fs::path(voxels).filename().string(), reading.DataFilesAnywhere);
   }
   constexpr double largest = 1e15;
   const double least = header.HoldsVoxels ? static_cast<double>(header.Length) : 0.0;
-  if (!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) || !(header.Offset <= largest))
+  if (!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) ||
+    !(header.Offset <= largest))
   {
     std::ostringstream reason;
     reason << "its header says that voxels begin at byte " << header.Offset
@@ -484,7 +496,8 @@ bool IsNIfTI(const InputFile& file)
   const std::string headerPath = HeaderPathOf(file.Path());
   std::error_code ignored;
   return FindHeader(file) ||
-    (headerPath != file.Path() && fs::is_regular_file(headerPath, ignored) && FindHeader(InputFile(headerPath)));
+    (headerPath != file.Path() && fs::is_regular_file(headerPath, ignored) &&
+      FindHeader(InputFile(headerPath)));
 }
 
 ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
@@ -509,7 +522,8 @@ ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
     AdoptTimes(*header, image, reading);
   }
   ReadVoxels(FindVoxels(*header, headerPath, reading), image, reading);
-  const bool isScaled = header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
+  const bool isScaled =
+    header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
   if (isScaled)
   {
     Rescale(image, header->Slope, header->Intercept, reading);

@@ -92,7 +92,8 @@ ScalarType TypeNamed(const std::string& name)
   const auto type = types.find(name);
   if (type == types.end())
   {
-    throw FileError("its header gives the type '" + Excerpt(name) + "', which is not a type of single numbers");
+    throw FileError(
+      "its header gives the type '" + Excerpt(name) + "', which is not a type of single numbers");
   }
   return type->second;
 }
@@ -113,7 +114,8 @@ Space SpaceNamed(std::string name)
   for (const char* time : { "-time", "t" })
   {
     const std::size_t length = std::string_view(time).size();
-    const auto space = name.ends_with(time) ? spaces.find(name.substr(0, name.size() - length)) : spaces.end();
+    const auto space =
+      name.ends_with(time) ? spaces.find(name.substr(0, name.size() - length)) : spaces.end();
     if (space != spaces.end())
     {
       Space result = space->second;
@@ -124,7 +126,8 @@ Space SpaceNamed(std::string name)
   const auto space = spaces.find(name);
   if (space == spaces.end())
   {
-    throw FileError("its header gives the space '" + Excerpt(name) + "', which NRRD does not have: correct the header");
+    throw FileError("its header gives the space '" + Excerpt(name) +
+      "', which NRRD does not have: correct the header");
   }
   return space->second;
 }
@@ -138,7 +141,8 @@ Space FindSpace(const TextHeader& header)
   const std::int64_t dimension = header.Whole({ "space dimension" }, 0);
   if (dimension != 0 && dimension != 3 && dimension != 4)
   {
-    throw FileError("its space has " + std::to_string(dimension) + " dimensions; voxplex meshes images in three, and in "
+    throw FileError("its space has " + std::to_string(dimension) +
+      " dimensions; voxplex meshes images in three, and in "
       "four with time as the last");
   }
   return { { 1, 1, 1 }, static_cast<std::size_t>(dimension), false };
@@ -147,16 +151,18 @@ Space FindSpace(const TextHeader& header)
 /** A field with another name may be a misspelt one that matters. */
 void CheckFields(const TextHeader& header)
 {
-  static const std::set<std::string> known{ "axis maxs", "axis mins", "axismaxs", "axismins", "block size", "blocksize",
-    "byte skip", "byteskip", "centerings", "centers", "content", "data file", "datafile", "dimension", "encoding", "endian",
-    "kinds", "labels", "line skip", "lineskip", "max", "measurement frame", "min", "number", "old max", "old min", "oldmax",
-    "oldmin", "sample units", "sampleunits", "sizes", "space", "space dimension", "space directions", "space origin",
-    "space units", "spacings", "thicknesses", "type", "units" };
+  static const std::set<std::string> known{ "axis maxs", "axis mins", "axismaxs", "axismins",
+    "block size", "blocksize", "byte skip", "byteskip", "centerings", "centers", "content",
+    "data file", "datafile", "dimension", "encoding", "endian", "kinds", "labels", "line skip",
+    "lineskip", "max", "measurement frame", "min", "number", "old max", "old min", "oldmax",
+    "oldmin", "sample units", "sampleunits", "sizes", "space", "space dimension",
+    "space directions", "space origin", "space units", "spacings", "thicknesses", "type", "units" };
   for (const auto& [key, spelling] : header.Own())
   {
     if (!known.contains(key))
     {
-      throw FileError("its header gives '" + Excerpt(spelling) + "', which is no field of NRRD: correct the header");
+      throw FileError("its header gives '" + Excerpt(spelling) +
+        "', which is no field of NRRD: correct the header");
     }
   }
 }
@@ -171,7 +177,8 @@ std::vector<std::vector<double>> ParseVectors(const std::string& text, std::size
   {
     const bool isVector = text[at] == '(';
     const std::size_t end = std::min(text.find_first_of(isVector ? ")" : " \t", at), text.size());
-    std::vector<double> vector = isVector ? ParseNumbers(text.substr(at, end - at)) : std::vector<double>();
+    std::vector<double> vector =
+      isVector ? ParseNumbers(text.substr(at, end - at)) : std::vector<double>();
     if (std::all_of(vector.begin(), vector.end(), [](double number) { return std::isnan(number); }))
     {
       vector.clear();
@@ -193,8 +200,8 @@ void CheckNumberOf(const std::vector<T>& values, const std::vector<Axis>& axes, 
 {
   if (values.size() != axes.size())
   {
-    throw FileError("its header has " + std::to_string(axes.size()) + " axes, and " + std::to_string(values.size()) +
-      " of '" + field + "': correct the header");
+    throw FileError("its header has " + std::to_string(axes.size()) + " axes, and " +
+      std::to_string(values.size()) + " of '" + field + "': correct the header");
   }
 }
 
@@ -204,7 +211,8 @@ std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
   constexpr std::int64_t most = 16; // which NRRD has
   if (dimension < 1 || dimension > most)
   {
-    throw FileError("its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
+    throw FileError(
+      "its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
   }
   std::vector<Axis> axes(static_cast<std::size_t>(dimension));
   const std::vector<std::int64_t> sizes = header.Wholes({ "sizes" }, axes.size());
@@ -259,7 +267,8 @@ struct Roles
 bool IsAlongTime(const std::vector<double>& direction)
 {
   return direction.size() == 4 && direction[3] != 0 &&
-    std::all_of(direction.begin(), direction.begin() + 3, [](double number) { return std::abs(number) < DirectionTolerance; });
+    std::all_of(direction.begin(), direction.begin() + 3,
+      [](double number) { return std::abs(number) < DirectionTolerance; });
 }
 
 /** NRRD's kinds of axes along which samples have places. */
@@ -268,17 +277,23 @@ bool IsDomain(const Axis& axis)
   return axis.Kind.empty() || axis.Kind == "domain" || axis.Kind == "space" || axis.Kind == "time";
 }
 
-[[noreturn]] void RefuseComponents(const TextHeader& header, const std::vector<Axis>& axes, std::size_t axis)
+[[noreturn]] void RefuseComponents(
+  const TextHeader& header, const std::vector<Axis>& axes, std::size_t axis)
 {
   const std::string components = std::to_string(axes[axis].Size);
   if (const std::string layers = DescribeLayers(header); !layers.empty())
   {
-    throw FileError("its segments overlap, so that they are stored in " + components + " layers: " + layers +
-      "; a label image has one label a voxel: in 3D Slicer, export the segmentation to a label map, which decides for one "
+    throw FileError("its segments overlap, so that they are stored in " + components +
+      " layers: " + layers +
+      "; a label image has one label a voxel: in 3D Slicer, export the segmentation to a label "
+      "map, which decides for one "
       "segment where several overlap, and save that");
   }
-  throw FileError("it has " + components + " components a voxel (colours or vectors); a label image has one: export it as "
-    "a label map first, or, if they are time frames, save an image of four dimensions, or give their axis (" + std::to_string(axis) + ") the kind 'list'");
+  throw FileError("it has " + components +
+    " components a voxel (colours or vectors); a label image has one: export it as "
+    "a label map first, or, if they are time frames, save an image of four dimensions, or give "
+    "their axis (" +
+    std::to_string(axis) + ") the kind 'list'");
 }
 
 Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const Space& space)
@@ -301,16 +316,17 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
   }
   for (const std::size_t a : others)
   {
-    const bool isTime = axes[a].Kind == "time" || axes[a].Kind == "list" || IsAlongTime(axes[a].Direction) ||
-      (!hasDirections && IsDomain(axes[a]));
+    const bool isTime = axes[a].Kind == "time" || axes[a].Kind == "list" ||
+      IsAlongTime(axes[a].Direction) || (!hasDirections && IsDomain(axes[a]));
     if (axes[a].Size == 1)
     {
       continue; // one frame, or one component
     }
     if (!isTime && axes[a].Kind.empty() && space.Dimension > 0)
     {
-      throw FileError("its header gives no space direction to axis " + std::to_string(a) + ", which has " +
-        std::to_string(axes[a].Size) + " samples: if they are time frames, give that axis the kind 'list', or use a space of "
+      throw FileError("its header gives no space direction to axis " + std::to_string(a) +
+        ", which has " + std::to_string(axes[a].Size) +
+        " samples: if they are time frames, give that axis the kind 'list', or use a space of "
         "four dimensions such as left-posterior-superior-time");
     }
     if (!isTime || (axes[a].Kind == "list" && !DescribeLayers(header).empty()))
@@ -319,15 +335,17 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
     }
     if (roles.Frames)
     {
-      throw FileError("it has " + std::to_string(axes.size()) + " dimensions; voxplex meshes images of three, and of four "
+      throw FileError("it has " + std::to_string(axes.size()) +
+        " dimensions; voxplex meshes images of three, and of four "
         "with time as one: extract one of those first");
     }
     roles.Frames = a;
   }
   if (space.Dimension == 4 && roles.Space.size() == 4)
   {
-    throw FileError("its direction matrix mixes time with space; only images whose frames each show one time can be meshed: correct "
-      "the header, or resample the image");
+    throw FileError("its direction matrix mixes time with space; only images whose frames each "
+                    "show one time can be meshed: correct "
+                    "the header, or resample the image");
   }
   while (roles.Space.size() > 3 && axes[roles.Space.back()].Size == 1)
   {
@@ -335,7 +353,8 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
   }
   if (roles.Space.size() != 3)
   {
-    throw FileError("it has " + std::to_string(roles.Space.size()) + " axes of space; a volume has three: give a volume");
+    throw FileError("it has " + std::to_string(roles.Space.size()) +
+      " axes of space; a volume has three: give a volume");
   }
   return roles;
 }
@@ -344,12 +363,13 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
 
 std::string SpacingFault(const TextHeader& header, const char* field)
 {
-  return "the voxel spacing in its header is '" + Excerpt(*header.FindAny({ field, "axis maxs", "axismaxs" })) +
+  return "the voxel spacing in its header is '" +
+    Excerpt(*header.FindAny({ field, "axis maxs", "axismaxs" })) +
     "'; it must be a positive length along each axis: correct the header";
 }
 
-void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles, const Space& space,
-  ScalarImage& image, Reading& reading)
+void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
+  const Space& space, ScalarImage& image, Reading& reading)
 {
   const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
   Vector3 origin{};
@@ -365,20 +385,23 @@ void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const
   for (std::size_t i = 0; i < 3; ++i)
   {
     const std::vector<double>& direction = axes[roles.Space[i]].Direction;
-    if (!std::all_of(direction.begin(), direction.end(), [](double number) { return std::isfinite(number); }))
+    if (!std::all_of(
+          direction.begin(), direction.end(), [](double number) { return std::isfinite(number); }))
     {
       throw FileError(SpacingFault(header, "space directions"));
     }
     if (direction.size() == 4 && std::abs(direction[3]) >= DirectionTolerance)
     {
-      throw FileError("its direction matrix mixes time with space; only images whose frames each show one time can be meshed: "
-        "correct the header, or resample the image");
+      throw FileError("its direction matrix mixes time with space; only images whose frames each "
+                      "show one time can be meshed: "
+                      "correct the header, or resample the image");
     }
   }
   Place(image, steps, origin);
   if (!space.SaysWhereLeftIs)
   {
-    reading.Warnings.push_back("its header does not say where left, posterior and superior are (space '" +
+    reading.Warnings.push_back(
+      "its header does not say where left, posterior and superior are (space '" +
       Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
   }
 }
@@ -405,15 +428,16 @@ void PlaceBySpacings(const TextHeader& header, const std::vector<Axis>& axes, co
   Place(image, steps, origin);
   if (!hasSpacings)
   {
-    reading.Warnings.push_back(
-      "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
+    reading.Warnings.push_back("its header gives no spacing of the voxels, which is taken to be 1; "
+                               "set it with SetSpacing()");
   }
 }
 
 // --- Frames ------------------------------------------------------------------------------------------
 
 /** What 3D Slicer's sequences have: "axis 0 index values:=0 0.04 0.08". */
-bool AdoptIndexValues(const TextHeader& header, std::size_t axis, ScalarImage& image, Reading& reading)
+bool AdoptIndexValues(
+  const TextHeader& header, std::size_t axis, ScalarImage& image, Reading& reading)
 {
   const std::string key = "axis " + std::to_string(axis) + " index ";
   const std::string* values = header.Find(key + "values");
@@ -423,17 +447,21 @@ bool AdoptIndexValues(const TextHeader& header, std::size_t axis, ScalarImage& i
   }
   const std::string* type = header.Find(key + "type");
   const std::vector<double> times = ParseNumbers(*values);
-  const bool isFinite = std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
-  if (times.size() != static_cast<std::size_t>(image.Frames) || !isFinite || (type && *type == "text"))
+  const bool isFinite =
+    std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
+  if (times.size() != static_cast<std::size_t>(image.Frames) || !isFinite ||
+    (type && *type == "text"))
   {
-    reading.Warnings.push_back("its '" + key + "values' are not one number for each frame, and are not used");
+    reading.Warnings.push_back(
+      "its '" + key + "values' are not one number for each frame, and are not used");
     return false;
   }
   SetFrameTimes(image, times);
   return true;
 }
 
-void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, ScalarImage& image, Reading& reading)
+void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, ScalarImage& image,
+  Reading& reading)
 {
   if (AdoptIndexValues(header, number, image, reading))
   {
@@ -448,15 +476,16 @@ void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, 
   if (!std::isnan(step) && (!(step > 0) || !std::isfinite(step)))
   {
     throw FileError("the time from frame to frame in its header is '" +
-      Excerpt(*header.FindAny({ isInSpace ? "space directions" : "spacings", "axis maxs", "axismaxs" })) +
+      Excerpt(
+        *header.FindAny({ isInSpace ? "space directions" : "spacings", "axis maxs", "axismaxs" })) +
       "'; it must be a positive number: correct the header");
   }
   const std::vector<double> origin =
     isInSpace ? header.Numbers({ "space origin" }, 4) : std::vector<double>();
   image.TimeSpacing = std::isnan(step) ? 1.0 : step;
   image.TimeOrigin = !origin.empty() && !std::isnan(origin[3]) ? origin[3]
-    : std::isnan(axis.First)                                     ? 0.0
-                                                                 : axis.First;
+    : std::isnan(axis.First)                                   ? 0.0
+                                                               : axis.First;
 }
 
 /** @param size of a voxel in bytes */
@@ -482,14 +511,17 @@ StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Readin
   }
   else
   {
-    throw FileError((encoding.empty() ? std::string("its header gives no encoding")
-                                      : "its voxels are in the encoding '" + Excerpt(encoding) + "'") +
+    throw FileError(
+      (encoding.empty() ? std::string("its header gives no encoding")
+                        : "its voxels are in the encoding '" + Excerpt(encoding) + "'") +
       "; those that are read are raw, gzip, text and hex: save it with one of these");
   }
-  const std::string endian = header.Word({ "endian" }, stored.Coding == Encoding::Text || size == 1 ? "little" : "not given");
+  const std::string endian = header.Word(
+    { "endian" }, stored.Coding == Encoding::Text || size == 1 ? "little" : "not given");
   if (endian != "little" && endian != "big")
   {
-    throw FileError("its header gives the byte order '" + Excerpt(endian) + "', which is neither little nor big ('endian'): correct the header");
+    throw FileError("its header gives the byte order '" + Excerpt(endian) +
+      "', which is neither little nor big ('endian'): correct the header");
   }
   stored.IsBigEndian = endian == "big";
   stored.LinesToSkip = header.Whole({ "line skip", "lineskip" }, 0);
@@ -497,7 +529,8 @@ StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Readin
   const bool isRaw = stored.Coding == Encoding::Raw;
   if (stored.LinesToSkip < 0 || stored.BytesToSkip < (isRaw ? StoredVoxels::FromTheEnd : 0))
   {
-    throw FileError("its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
+    throw FileError(
+      "its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
   }
   header.SetFiles(header.FindAny({ "data file", "datafile" }), reading.DataFilesAnywhere, stored);
   return stored;
@@ -526,7 +559,8 @@ void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
     const std::string own = at < texts.size() ? texts[at] : "";
     if (i > 0 && own != unit)
     {
-      throw FileError("its axes have the units '" + Excerpt(unit) + "' and '" + Excerpt(own) + "': write it with one unit");
+      throw FileError("its axes have the units '" + Excerpt(unit) + "' and '" + Excerpt(own) +
+        "': write it with one unit");
     }
     unit = own;
   }
@@ -577,8 +611,8 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
   ReadVoxels(FindVoxels(header, SizeOf(image.Type), reading), image, reading);
   if (roles.Frames)
   {
-    const auto before = static_cast<std::size_t>(std::count_if(roles.Space.begin(), roles.Space.end(),
-      [&roles](std::size_t a) { return a < *roles.Frames; }));
+    const auto before = static_cast<std::size_t>(std::count_if(roles.Space.begin(),
+      roles.Space.end(), [&roles](std::size_t a) { return a < *roles.Frames; }));
     MoveFramesToTheEnd(image, before, reading);
   }
   reading.Labels = ReadSegments(header, reading.Warnings);

@@ -23,9 +23,9 @@ bool IsNRRD(const InputFile& file);
  * Encodings raw, gzip, text and hex. Spaces are turned into LPS; those that do not say where left is (scanner-xyz,
  * 3D-right-handed, 3D-left-handed, a space dimension only) are taken for LPS, with a warning.
  *
- * A fourth axis of time is one of the space ("...-time"), of the kind time or list (3D Slicer's sequences, with the times of
- * their "axis 0 index values"), or the last of four that have no space. It may be at any place in the file. Segments of
- * 3D Slicer are given as labels.
+ * A fourth axis of time is one of the space ("...-time"), of the kind time or list (3D Slicer's sequences, with the
+ * times of their "axis 0 index values"), or the last of four that have no space. It may be at any place in the file.
+ * Segments of 3D Slicer are given as labels.
  *
  * @throws FileError
  */

@@ -71,7 +71,8 @@ ScalarType TypeOfMRC(const Fields& fields)
   switch (const std::int32_t mode = fields.Get<std::int32_t>(12))
   {
     case 0:
-      return fields.Get<std::int32_t>(152) == stampOfIMOD && (fields.Get<std::int32_t>(156) & 1) == 0
+      return fields.Get<std::int32_t>(152) == stampOfIMOD &&
+          (fields.Get<std::int32_t>(156) & 1) == 0
         ? ScalarType::UInt8
         : ScalarType::Int8;
     case 1:
@@ -93,23 +94,27 @@ void PlaceMRC(const Fields& fields, ScalarImage& image)
   bool hasOrigin = false;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const std::int32_t axis = fields.Get<std::int32_t>(64 + 4 * i); // of columns, rows, sections: 1 to 3
+    const std::int32_t axis =
+      fields.Get<std::int32_t>(64 + 4 * i); // of columns, rows, sections: 1 to 3
     axes[i] = axis == 0 ? i : static_cast<std::size_t>(axis - 1);
     origin[i] = fields.Get<float>(196 + 4 * i);
     hasOrigin = hasOrigin || origin[i] != 0;
     const std::int32_t intervals = fields.Get<std::int32_t>(28 + 4 * i);
     if (intervals <= 0)
     {
-      throw FileError("its header gives " + std::to_string(intervals) + " for the sampling of its cell: correct the header");
+      throw FileError("its header gives " + std::to_string(intervals) +
+        " for the sampling of its cell: correct the header");
     }
     spacing[i] = fields.Get<float>(40 + 4 * i) / static_cast<double>(intervals);
     const float angle = fields.Get<float>(52 + 4 * i);
     if (angle != 90.0F && angle != 0.0F)
     {
-      throw FileError("its cell is not rectangular (angles of " + std::to_string(angle) + "): resample it");
+      throw FileError(
+        "its cell is not rectangular (angles of " + std::to_string(angle) + "): resample it");
     }
   }
-  if (axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 || axes[0] == axes[1])
+  if (axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 ||
+    axes[0] == axes[1])
   {
     throw FileError("its header does not say which axes columns, rows and sections run along");
   }
@@ -134,7 +139,8 @@ void PlaceMRC(const Fields& fields, ScalarImage& image)
 bool IsGIPL(const InputFile& file)
 {
   const std::string bytes = UnpackBeginning(file, SizeOfGIPL);
-  const std::uint32_t magic = bytes.size() < SizeOfGIPL ? 0 : Fields(bytes, true).Get<std::uint32_t>(252);
+  const std::uint32_t magic =
+    bytes.size() < SizeOfGIPL ? 0 : Fields(bytes, true).Get<std::uint32_t>(252);
   return magic == 0xEFFFE9B0U || magic == 0x2AE389B8U;
 }
 
@@ -194,7 +200,8 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   const Fields fields(bytes, stored.IsBigEndian);
   ScalarImage image;
   image.Type = TypeOfMRC(fields);
-  SetSizes(image, { fields.Get<std::int32_t>(0), fields.Get<std::int32_t>(4), fields.Get<std::int32_t>(8) });
+  SetSizes(image,
+    { fields.Get<std::int32_t>(0), fields.Get<std::int32_t>(4), fields.Get<std::int32_t>(8) });
   PlaceMRC(fields, image);
   const std::int32_t extension = fields.Get<std::int32_t>(92);
   if (extension < 0)

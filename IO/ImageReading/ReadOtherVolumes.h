@@ -27,7 +27,8 @@ ScalarImage ReadGIPL(const std::string& path, Reading& reading);
 bool IsMRC(const InputFile& file);
 
 /**
- * Modes 0, 1, 2 and 6. Columns, rows and sections may run along any of the axes. Lengths are in angstrom, with a warning.
+ * Modes 0, 1, 2 and 6. Columns, rows and sections may run along any of the axes. Lengths are in angstrom, with a
+ * warning.
  *
  * @throws FileError
  */

@@ -223,7 +223,8 @@ void CheckClaim(vtkAlgorithm* reader, std::uint64_t size, double mostOfAByte)
   }
   if (voxels == 0)
   {
-    throw FileError("its header claims " + sizes + " points (DIMENSIONS or extent), which no image has: correct the header");
+    throw FileError("its header claims " + sizes +
+      " points (DIMENSIONS or extent), which no image has: correct the header");
   }
   if (voxels > mostOfAByte * static_cast<double>(size))
   {
@@ -379,7 +380,8 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
     sizes.push_back(isBetween ? points[a] - 1 : points[a]);
     if (!(image->GetSpacing()[axis] > 0))
     {
-      throw FileError("the voxel spacing along axis " + std::to_string(axis) + " is not positive in its header: correct the header");
+      throw FileError("the voxel spacing along axis " + std::to_string(axis) +
+        " is not positive in its header: correct the header");
     }
     first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
     for (int row = 0; row < 3; ++row)

@@ -16,7 +16,8 @@ void WarnOfLengths(const std::string& unit, Reading& reading)
       return;
     }
   }
-  reading.Warnings.push_back("its lengths are in '" + Excerpt(unit) + "', and so are those of the mesh");
+  reading.Warnings.push_back(
+    "its lengths are in '" + Excerpt(unit) + "', and so are those of the mesh");
 }
 
 } // namespace voxplex::io

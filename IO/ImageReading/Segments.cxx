@@ -98,7 +98,8 @@ std::vector<Segment> ListSegments(const TextHeader& header)
   std::set<int> numbers;
   for (const auto& [key, value] : header.All())
   {
-    if (key.starts_with(before) && key.ends_with(after) && key.size() > before.size() + after.size())
+    if (key.starts_with(before) && key.ends_with(after) &&
+      key.size() > before.size() + after.size())
     {
       const char* const end = key.data() + key.size() - after.size();
       int number = 0;

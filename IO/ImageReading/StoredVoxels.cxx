@@ -92,7 +92,8 @@ double Capacity(Encoding encoding, double bytes, ScalarType type)
     case Encoding::Text:
       break;
   }
-  return (bytes + 1.0) / 2.0 * static_cast<double>(SizeOf(type)); // a digit and a blank for each number
+  return (bytes + 1.0) / 2.0 *
+    static_cast<double>(SizeOf(type)); // a digit and a blank for each number
 }
 
 /** Before memory is taken. Files hold whole slices, volumes or frames. */
@@ -104,8 +105,8 @@ void CheckClaim(const StoredVoxels& stored, const ScalarImage& image)
     static_cast<double>(image.Frames) * image.Dimensions[2] * image.Dimensions[1] };
   if (std::find(parts.begin(), parts.end(), count) == parts.end() && count != image.Dimensions[2])
   {
-    throw FileError("its header names " + std::to_string(stored.Files.size()) + " data files, which cannot hold " +
-      DescribeClaim(image) + " in equal parts");
+    throw FileError("its header names " + std::to_string(stored.Files.size()) +
+      " data files, which cannot hold " + DescribeClaim(image) + " in equal parts");
   }
   const double claimed = static_cast<double>(image.NumberOfVoxels()) * image.Frames *
     static_cast<double>(SizeOf(image.Type));
@@ -137,7 +138,8 @@ public:
   {
     constexpr std::size_t longest = 64; // of a number
     std::string word;
-    for (std::optional<char> c = this->Source.Get(); c && word.size() <= longest; c = this->Source.Get())
+    for (std::optional<char> c = this->Source.Get(); c && word.size() <= longest;
+         c = this->Source.Get())
     {
       const bool separates = *c == ' ' || *c == ',' || (*c >= '\t' && *c <= '\r');
       if (!separates)
@@ -223,7 +225,8 @@ std::size_t ReadHex(ByteSource& source, std::span<std::byte> to)
     }
     if (digit(*c) < 0)
     {
-      throw FileError("'" + Excerpt(std::string(1, *c)) + "' among its voxels is not a hexadecimal digit");
+      throw FileError(
+        "'" + Excerpt(std::string(1, *c)) + "' among its voxels is not a hexadecimal digit");
     }
     value = 16 * value + digit(*c);
     if (++digits % 2 == 0)
@@ -237,15 +240,18 @@ std::size_t ReadHex(ByteSource& source, std::span<std::byte> to)
 
 // --- Files -------------------------------------------------------------------------------------------
 
-[[noreturn]] void RefuseAsTruncated(const std::string& path, double found, double expected, const char* what)
+[[noreturn]] void RefuseAsTruncated(
+  const std::string& path, double found, double expected, const char* what)
 {
   std::ostringstream reason;
   reason << std::fixed << std::setprecision(0) << "it is truncated: '"
-         << Excerpt(fs::path(path).filename().string()) << "' holds " << found << " of " << expected << ' ' << what;
+         << Excerpt(fs::path(path).filename().string()) << "' holds " << found << " of " << expected
+         << ' ' << what;
   throw FileError(reason.str());
 }
 
-void ReadPart(const StoredVoxels& stored, const std::string& path, ScalarType type, std::span<std::byte> to)
+void ReadPart(
+  const StoredVoxels& stored, const std::string& path, ScalarType type, std::span<std::byte> to)
 {
   const InputFile file(path);
   std::uint64_t start = static_cast<std::uint64_t>(stored.Offset);
@@ -260,8 +266,11 @@ void ReadPart(const StoredVoxels& stored, const std::string& path, ScalarType ty
     lines = c ? lines - (*c == '\n') : 0;
   }
   InflateSource unpacked(raw);
-  ByteSource& source = stored.Coding == Encoding::Deflate ? static_cast<ByteSource&>(unpacked) : raw;
-  source.Skip(stored.BytesToSkip == StoredVoxels::FromTheEnd ? 0 : static_cast<std::uint64_t>(stored.BytesToSkip));
+  ByteSource& source =
+    stored.Coding == Encoding::Deflate ? static_cast<ByteSource&>(unpacked) : raw;
+  source.Skip(stored.BytesToSkip == StoredVoxels::FromTheEnd
+      ? 0
+      : static_cast<std::uint64_t>(stored.BytesToSkip));
 
   if (stored.Coding == Encoding::Text)
   {
@@ -270,14 +279,16 @@ void ReadPart(const StoredVoxels& stored, const std::string& path, ScalarType ty
     if (found < to.size())
     {
       const auto size = static_cast<double>(SizeOf(type));
-      RefuseAsTruncated(path, static_cast<double>(found) / size, static_cast<double>(to.size()) / size, "numbers");
+      RefuseAsTruncated(
+        path, static_cast<double>(found) / size, static_cast<double>(to.size()) / size, "numbers");
     }
     return;
   }
   const std::size_t found = stored.Coding == Encoding::Hex ? ReadHex(source, to) : source.Read(to);
   if (found < to.size())
   {
-    RefuseAsTruncated(path, static_cast<double>(found), static_cast<double>(to.size()), "bytes of voxels");
+    RefuseAsTruncated(
+      path, static_cast<double>(found), static_cast<double>(to.size()), "bytes of voxels");
   }
   source.Finish();
 }
@@ -299,8 +310,8 @@ using Wide = __int128; // of products of 64-bit integers
 std::optional<ScalarType> IntegerTypeFor(Wide low, Wide high)
 {
   std::optional<ScalarType> found;
-  for (const ScalarType type : { ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Int32,
-         ScalarType::UInt32, ScalarType::Int64, ScalarType::UInt64 })
+  for (const ScalarType type : { ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16,
+         ScalarType::Int32, ScalarType::UInt32, ScalarType::Int64, ScalarType::UInt64 })
   {
     Dispatch(type,
       [&](auto zero)
@@ -308,7 +319,8 @@ std::optional<ScalarType> IntegerTypeFor(Wide low, Wide high)
         using T = decltype(zero);
         if constexpr (std::is_integral_v<T>)
         {
-          const bool holds = low >= Wide{ std::numeric_limits<T>::min() } && high <= Wide{ std::numeric_limits<T>::max() };
+          const bool holds = low >= Wide{ std::numeric_limits<T>::min() } &&
+            high <= Wide{ std::numeric_limits<T>::max() };
           found = holds && !found ? std::optional(type) : found;
         }
       });
@@ -325,15 +337,18 @@ bool IsWhole(double number)
 
 /** The type of the results, if all of them are integers. */
 template <typename T>
-std::optional<ScalarType> FindTypeOfResults(std::span<const T> values, double slope, double intercept)
+std::optional<ScalarType> FindTypeOfResults(
+  std::span<const T> values, double slope, double intercept)
 {
   if constexpr (std::is_integral_v<T>)
   {
     if (IsWhole(slope) && IsWhole(intercept))
     {
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
-      const Wide a = Wide{ static_cast<std::int64_t>(slope) } * *low + static_cast<std::int64_t>(intercept);
-      const Wide b = Wide{ static_cast<std::int64_t>(slope) } * *high + static_cast<std::int64_t>(intercept);
+      const Wide a =
+        Wide{ static_cast<std::int64_t>(slope) } * *low + static_cast<std::int64_t>(intercept);
+      const Wide b =
+        Wide{ static_cast<std::int64_t>(slope) } * *high + static_cast<std::int64_t>(intercept);
       return IntegerTypeFor(std::min(a, b), std::max(a, b));
     }
   }
@@ -347,7 +362,8 @@ void Convert(std::span<const TFrom> from, TTo* to, double slope, double intercep
   {
     if constexpr (std::is_integral_v<TFrom> && std::is_integral_v<TTo>)
     {
-      to[i] = static_cast<TTo>(Wide{ static_cast<std::int64_t>(slope) } * from[i] + static_cast<std::int64_t>(intercept));
+      to[i] = static_cast<TTo>(
+        Wide{ static_cast<std::int64_t>(slope) } * from[i] + static_cast<std::int64_t>(intercept));
     }
     else
     {
@@ -357,7 +373,8 @@ void Convert(std::span<const TFrom> from, TTo* to, double slope, double intercep
 }
 
 template <typename T>
-void Transpose(const std::byte* from, std::byte* to, std::size_t inner, std::size_t frames, std::size_t outer)
+void Transpose(
+  const std::byte* from, std::byte* to, std::size_t inner, std::size_t frames, std::size_t outer)
 {
   for (std::size_t f = 0; f < frames; ++f)
   {
@@ -395,7 +412,8 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
   if (isSwapped && stored.Coding != Encoding::Text)
   {
     Dispatch(image.Type,
-      [&](auto zero) { SwapBytes<decltype(zero)>(static_cast<std::byte*>(image.Scalars.get()), voxels); });
+      [&](auto zero)
+      { SwapBytes<decltype(zero)>(static_cast<std::byte*>(image.Scalars.get()), voxels); });
   }
 }
 
@@ -438,27 +456,31 @@ void Rescale(ScalarImage& image, double slope, double intercept, Reading& readin
       image.Type = FindTypeOfResults(values, slope, intercept).value_or(ScalarType::Float64);
       image.Scalars = reading.Allocate(count * SizeOf(image.Type));
       Dispatch(image.Type,
-        [&](auto result)
-        { Convert(values, static_cast<decltype(result)*>(image.Scalars.get()), slope, intercept); });
+        [&](auto result) {
+          Convert(values, static_cast<decltype(result)*>(image.Scalars.get()), slope, intercept);
+        });
     });
 }
 
 std::string FindDataFile(const std::string& header, const std::string& name, bool anywhere)
 {
   const fs::path given(name);
-  const fs::path folder = fs::path(header).has_parent_path() ? fs::path(header).parent_path() : fs::path(".");
+  const fs::path folder =
+    fs::path(header).has_parent_path() ? fs::path(header).parent_path() : fs::path(".");
   const fs::path path = folder / given;
   if (!anywhere)
   {
     std::error_code failed;
     const fs::path root = fs::canonical(folder, failed);
     const fs::path real = fs::weakly_canonical(path, failed);
-    const bool isBelow = !given.is_absolute() && std::find(given.begin(), given.end(), "..") == given.end() &&
+    const bool isBelow = !given.is_absolute() &&
+      std::find(given.begin(), given.end(), "..") == given.end() &&
       std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
     if (!isBelow)
     {
       throw FileError("its header names the data file '" + Excerpt(name) +
-        "', which is not in the folder of the header or below; move it there, or use SetDataFilesAnywhere() if you trust the "
+        "', which is not in the folder of the header or below; move it there, or use "
+        "SetDataFilesAnywhere() if you trust the "
         "header");
     }
   }
@@ -476,7 +498,10 @@ std::vector<std::string> ExpandPattern(const std::string& value)
 {
   constexpr std::size_t mostFiles = 100000;
   const auto refuse = [&value]
-  { throw FileError("'" + Excerpt(value) + "' in its header is no pattern of names such as 'a_%03d.raw 1 40 1'"); };
+  {
+    throw FileError(
+      "'" + Excerpt(value) + "' in its header is no pattern of names such as 'a_%03d.raw 1 40 1'");
+  };
   std::istringstream words(value);
   std::string pattern;
   std::int32_t first = 0;
@@ -496,8 +521,8 @@ std::vector<std::string> ExpandPattern(const std::string& value)
   const std::size_t percent = pattern.find('%');
   const std::size_t letter = pattern.find_first_not_of("0123456789", percent + 1);
   const bool isPattern = percent != std::string::npos && letter != std::string::npos &&
-    (pattern[letter] == 'd' || pattern[letter] == 'i' || pattern[letter] == 'u') && letter - percent <= 3 &&
-    pattern.find('%', letter) == std::string::npos;
+    (pattern[letter] == 'd' || pattern[letter] == 'i' || pattern[letter] == 'u') &&
+    letter - percent <= 3 && pattern.find('%', letter) == std::string::npos;
   const std::int64_t span = std::int64_t{ last } - first;
   if (!isPattern || !hasNumbers || step == 0 || (span != 0 && (span > 0) != (step > 0)))
   {
@@ -514,8 +539,9 @@ std::vector<std::string> ExpandPattern(const std::string& value)
   for (std::int64_t i = 0; i < count; ++i)
   {
     std::ostringstream name;
-    name << pattern.substr(0, percent) << std::internal << std::setfill(pattern[percent + 1] == '0' ? '0' : ' ')
-         << std::setw(width) << first + i * step << pattern.substr(letter + 1);
+    name << pattern.substr(0, percent) << std::internal
+         << std::setfill(pattern[percent + 1] == '0' ? '0' : ' ') << std::setw(width)
+         << first + i * step << pattern.substr(letter + 1);
     names.push_back(name.str());
   }
   return names;
@@ -527,7 +553,9 @@ std::string UnpackBeginning(const InputFile& file, std::size_t length)
   InflateSource unpacked(raw);
   const bool isPacked = file.Beginning(2) == "\x1f\x8b";
   ByteSource& source = isPacked ? static_cast<ByteSource&>(unpacked) : raw;
-  std::string text(isPacked ? length : static_cast<std::size_t>(std::min<std::uint64_t>(length, file.Size())), '\0');
+  std::string text(
+    isPacked ? length : static_cast<std::size_t>(std::min<std::uint64_t>(length, file.Size())),
+    '\0');
   text.resize(source.Read(std::as_writable_bytes(std::span(text))));
   return text;
 }

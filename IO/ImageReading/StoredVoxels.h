@@ -39,16 +39,20 @@ struct StoredVoxels
   Encoding Coding = Encoding::Raw;
   bool IsBigEndian = false;
   std::vector<std::string> Files;
-  std::int64_t Offset = 0;    ///< of the first voxel in each file, of compressed ones where compression begins
+  std::int64_t Offset =
+    0; ///< of the first voxel in each file, of compressed ones where compression begins
   std::int64_t LinesToSkip = 0; ///< from Offset on, before they are unpacked
-  std::int64_t BytesToSkip = 0; ///< after that, of what is unpacked; FromTheEnd: the voxels are the last bytes (raw only)
+  std::int64_t BytesToSkip =
+    0; ///< after that, of what is unpacked; FromTheEnd: the voxels are the last bytes (raw only)
 };
 
 /**
- * Reads as many voxels as the sizes of the image ask for into its Scalars, and turns them into this machine's byte order.
+ * Reads as many voxels as the sizes of the image ask for into its Scalars, and turns them into this machine's byte
+ * order.
  *
- * @throws FileError: files that hold fewer, damaged compression (checksums included), texts that are not numbers of the type;
- *   before memory is taken if the files are too small for what the header claims (deflate packs 1032 bytes into one at most)
+ * @throws FileError: files that hold fewer, damaged compression (checksums included), texts that are not numbers of
+ * the type; before memory is taken if the files are too small for what the header claims (deflate packs 1032 bytes
+ * into one at most)
  */
 void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading);
 
@@ -58,8 +62,8 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
 void MoveFramesToTheEnd(ScalarImage& image, std::size_t before, Reading& reading);
 
 /**
- * Replaces each voxel by slope * voxel + intercept, as NIfTI and DICOM mean it. Integers remain integers, in a type that holds
- * the results, if both numbers are whole; else the results are of type Float64.
+ * Replaces each voxel by slope * voxel + intercept, as NIfTI and DICOM mean it. Integers remain integers, in a type
+ * that holds the results, if both numbers are whole; else the results are of type Float64.
  */
 void Rescale(ScalarImage& image, double slope, double intercept, Reading& reading);
 
@@ -72,14 +76,15 @@ void Rescale(ScalarImage& image, double slope, double intercept, Reading& readin
 std::string FindDataFile(const std::string& header, const std::string& name, bool anywhere);
 
 /**
- * The data files that NRRD and MetaImage headers name by a pattern and numbers: "slice_%03d.raw 1 40 1". One number may be
- * printed; the step may be left out.
+ * The data files that NRRD and MetaImage headers name by a pattern and numbers: "slice_%03d.raw 1 40 1". One number
+ * may be printed; the step may be left out.
  *
  * @throws FileError for what is no such pattern, and for more than 100,000 files
  */
 std::vector<std::string> ExpandPattern(const std::string& value);
 
-/** Unpacks a file by its content: the bytes of a gzip file, or those of another. What is missing at the end is left out. */
+/** Unpacks a file by its content: the bytes of a gzip file, or those of another. What is missing at the end is left
+ * out. */
 std::string UnpackBeginning(const InputFile& file, std::size_t length);
 
 } // namespace voxplex::io

@@ -33,7 +33,8 @@ std::optional<double> ParseNumber(const std::string& word)
   const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
   double number = 0.0;
   const auto [end, error] = std::from_chars(begin, word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
+  return error == std::errc() && end == word.data() + word.size() ? std::optional(number)
+                                                                  : std::nullopt;
 }
 
 std::string WithoutBrackets(std::string text)
@@ -113,9 +114,12 @@ bool TextHeader::TakeLine(std::string line)
   }
   // In NRRD a key may have a colon, which no blank or equals sign follows.
   const std::size_t ofNRRD = std::min(line.find(": "), line.find(":="));
-  const std::size_t separator = this->IsNRRD && ofNRRD != std::string::npos ? ofNRRD : line.find_first_of(this->IsNRRD ? ":" : "=:");
+  const std::size_t separator = this->IsNRRD && ofNRRD != std::string::npos
+    ? ofNRRD
+    : line.find_first_of(this->IsNRRD ? ":" : "=:");
   const std::string name = Trim(line.substr(0, separator));
-  const bool isKeyValue = separator != std::string::npos && line.compare(separator, 2, ":=") == 0; // of NRRD
+  const bool isKeyValue =
+    separator != std::string::npos && line.compare(separator, 2, ":=") == 0; // of NRRD
   if (separator == std::string::npos || (name.empty() && !isKeyValue))
   {
     throw FileError("the line '" + Excerpt(line) + "' of its header is no field");
@@ -157,16 +161,19 @@ const std::string* TextHeader::FindAny(std::initializer_list<const char*> keys) 
 
 const std::string& TextHeader::SpellingOf(std::initializer_list<const char*> keys) const
 {
-  return this->Spellings.at(*std::find_if(keys.begin(), keys.end(), [this](const char* key) { return this->Find(key); }));
+  return this->Spellings.at(
+    *std::find_if(keys.begin(), keys.end(), [this](const char* key) { return this->Find(key); }));
 }
 
-std::string TextHeader::Word(std::initializer_list<const char*> keys, const std::string& missing) const
+std::string TextHeader::Word(
+  std::initializer_list<const char*> keys, const std::string& missing) const
 {
   const std::string* value = this->FindAny(keys);
   return value ? LowerCase(*value) : missing;
 }
 
-std::vector<double> TextHeader::Numbers(std::initializer_list<const char*> keys, std::size_t count) const
+std::vector<double> TextHeader::Numbers(
+  std::initializer_list<const char*> keys, std::size_t count) const
 {
   const std::string* value = this->FindAny(keys);
   if (!value)
@@ -184,13 +191,15 @@ std::vector<double> TextHeader::Numbers(std::initializer_list<const char*> keys,
   }
   if (numbers.size() != count || words.size() != count)
   {
-    throw FileError("its header gives '" + Excerpt(*value) + "' for '" + Excerpt(this->SpellingOf(keys)) + "', where " +
-      std::to_string(count) + (count == 1 ? " number" : " numbers") + " must be: correct the header");
+    throw FileError("its header gives '" + Excerpt(*value) + "' for '" +
+      Excerpt(this->SpellingOf(keys)) + "', where " + std::to_string(count) +
+      (count == 1 ? " number" : " numbers") + " must be: correct the header");
   }
   return numbers;
 }
 
-std::vector<std::int64_t> TextHeader::Wholes(std::initializer_list<const char*> keys, std::size_t count) const
+std::vector<std::int64_t> TextHeader::Wholes(
+  std::initializer_list<const char*> keys, std::size_t count) const
 {
   std::vector<std::int64_t> wholes;
   for (const double number : this->Numbers(keys, count))
@@ -198,8 +207,8 @@ std::vector<std::int64_t> TextHeader::Wholes(std::initializer_list<const char*> 
     constexpr double limit = 9e15;
     if (!(std::abs(number) <= limit) || std::trunc(number) != number)
     {
-      throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" + Excerpt(this->SpellingOf(keys)) +
-        "', where whole numbers must be: correct the header");
+      throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" +
+        Excerpt(this->SpellingOf(keys)) + "', where whole numbers must be: correct the header");
     }
     wholes.push_back(static_cast<std::int64_t>(number));
   }

@@ -40,13 +40,14 @@ public:
   std::string Word(std::initializer_list<const char*> keys, const std::string& missing) const;
 
   /**
-   * A list of numbers; empty if there is no such field. @throws FileError for words that are no numbers, and for another
-   * number of them than `count`
+   * A list of numbers; empty if there is no such field. @throws FileError for words that are no numbers, and for
+   * another number of them than `count`
    */
   std::vector<double> Numbers(std::initializer_list<const char*> keys, std::size_t count) const;
 
   /** A list of whole numbers, as above. */
-  std::vector<std::int64_t> Wholes(std::initializer_list<const char*> keys, std::size_t count) const;
+  std::vector<std::int64_t> Wholes(
+    std::initializer_list<const char*> keys, std::size_t count) const;
 
   /** A whole number. @throws FileError for other values */
   std::int64_t Whole(std::initializer_list<const char*> keys, std::int64_t missing) const;

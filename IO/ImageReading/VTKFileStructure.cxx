@@ -94,14 +94,16 @@ std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structur
   return count;
 }
 
-/** What is compressed begins with the number of blocks, and has a size for each; VTK notices itself if blocks are short. */
+/** What is compressed begins with the number of blocks, and has a size for each; VTK notices itself if blocks are
+ * short. */
 void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
 {
   const std::uint64_t most = bytes - std::min<std::uint64_t>(bytes, structure.BytesOfCount);
   if (count > (structure.IsCompressed ? most / structure.BytesOfCount : most))
   {
-    RefuseDamage("an array claims " + std::to_string(count) + (structure.IsCompressed ? " blocks" : " bytes") +
-      ", and has " + std::to_string(bytes) + " bytes");
+    RefuseDamage("an array claims " + std::to_string(count) +
+      (structure.IsCompressed ? " blocks" : " bytes") + ", and has " + std::to_string(bytes) +
+      " bytes");
   }
 }
 
@@ -141,8 +143,8 @@ struct Limits
 };
 
 /** An attribute of so many numbers, if it is there. */
-void CheckNumbers(
-  Structure& structure, const char** attributes, const char* name, std::size_t count, Limits limits = {})
+void CheckNumbers(Structure& structure, const char** attributes, const char* name,
+  std::size_t count, Limits limits = {})
 {
   const std::string text = Attribute(attributes, name);
   std::istringstream words(text);
@@ -151,8 +153,8 @@ void CheckNumbers(
   {
     double number = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = error == std::errc() && end == word.data() + word.size() && number >= limits.Least &&
-      number <= limits.Most;
+    const bool isNumber = error == std::errc() && end == word.data() + word.size() &&
+      number >= limits.Least && number <= limits.Most;
     found += isNumber ? 0 : count;
   }
   if (found != count && !text.empty())
@@ -164,9 +166,11 @@ void CheckNumbers(
 void StartArray(Structure& structure, const char** attributes)
 {
   constexpr double mostComponents = 10'000;
-  constexpr double mostTuples = 10'000'000; // of field data; other arrays have one for each point or cell
+  constexpr double mostTuples =
+    10'000'000; // of field data; other arrays have one for each point or cell
   CheckNumbers(structure, attributes, "NumberOfComponents", 1, { 1, mostComponents });
-  CheckNumbers(structure, attributes, "NumberOfTuples", 1, structure.IsInFields ? Limits{ 0, mostTuples } : Limits{});
+  CheckNumbers(structure, attributes, "NumberOfTuples", 1,
+    structure.IsInFields ? Limits{ 0, mostTuples } : Limits{});
   CheckNumbers(structure, attributes, "offset", 1, { 0 });
   if (Attribute(attributes, "type") == "String" && !structure.IsInFields)
   {
@@ -347,7 +351,8 @@ void CheckStructureOfVTI(const InputFile& file)
   const Structure structure = Parse(file);
   if (!structure.Wrong.empty())
   {
-    throw FileError("its header gives " + structure.Wrong + ", where other numbers must be: correct the header");
+    throw FileError(
+      "its header gives " + structure.Wrong + ", where other numbers must be: correct the header");
   }
   if (structure.Extents.size() != 1)
   {

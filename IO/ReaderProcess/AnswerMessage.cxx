@@ -115,14 +115,13 @@ ScalarImage ParseImage(const Json& json)
 std::string ToText(const AnswerMessage& message)
 {
   const ScalarImage& image = message.Answer.Image;
-  const Json json = message.Error.empty()
-    ? Json{ { "type", static_cast<int>(image.Type) },
-        { "sizes", { image.Dimensions[0], image.Dimensions[1], image.Dimensions[2], image.Frames } },
-        { "origin", image.Origin }, { "spacing", image.Spacing }, { "direction", image.Direction },
-        { "time", { image.TimeOrigin, image.TimeSpacing } }, { "times", image.Times },
-        { "offset", message.Offset }, { "labels", LabelsToJson(message.Answer.Labels) },
-        { "warnings", message.Answer.Warnings } }
-    : Json{ { "error", message.Error } };
+  const Json json = message.Error.empty() ? Json{ { "type", static_cast<int>(image.Type) },
+    { "sizes", { image.Dimensions[0], image.Dimensions[1], image.Dimensions[2], image.Frames } },
+    { "origin", image.Origin }, { "spacing", image.Spacing }, { "direction", image.Direction },
+    { "time", { image.TimeOrigin, image.TimeSpacing } }, { "times", image.Times },
+    { "offset", message.Offset }, { "labels", LabelsToJson(message.Answer.Labels) },
+    { "warnings", message.Answer.Warnings } }
+                                          : Json{ { "error", message.Error } };
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

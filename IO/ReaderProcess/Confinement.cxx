@@ -37,7 +37,9 @@ constexpr bool HasSanitizer = false;
 fs::path FolderOf(const fs::path& image)
 {
   std::error_code ignored;
-  return fs::is_directory(image, ignored) ? image : image.has_parent_path() ? image.parent_path() : fs::path(".");
+  return fs::is_directory(image, ignored) ? image
+    : image.has_parent_path()             ? image.parent_path()
+                                          : fs::path(".");
 }
 
 /** What the limits depend on: the image's own size, or that of all in its folder, since headers name other files. */
@@ -93,8 +95,8 @@ void ForbidOtherFiles(const ImageRequest& request)
   const int rights = 12 + std::clamp(version, 1, 3);
   landlock_ruleset_attr attributes{};
   attributes.handled_access_fs = (1ULL << rights) - 1;
-  const auto ruleset =
-    static_cast<int>(syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes.handled_access_fs, 0));
+  const auto ruleset = static_cast<int>(
+    syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes.handled_access_fs, 0));
   if (ruleset < 0)
   {
     return;
@@ -103,7 +105,8 @@ void ForbidOtherFiles(const ImageRequest& request)
   {
     Allow(ruleset, "/", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
   }
-  Allow(ruleset, FolderOf(request.Path), LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
+  Allow(
+    ruleset, FolderOf(request.Path), LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
   std::error_code ignored;
   if (fs::is_regular_file(request.Path, ignored)) // which may be a link to another folder
   {

@@ -135,7 +135,8 @@ public:
   {
     std::string reader = FindReader();
     std::array<int, 2> ends{ -1, -1 };
-    if (reader.empty() || !FilesMayGrow() || this->Memory.Get() < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
+    if (reader.empty() || !FilesMayGrow() || this->Memory.Get() < 0 ||
+      pipe2(ends.data(), O_CLOEXEC) != 0)
     {
       return;
     }
@@ -152,8 +153,10 @@ public:
     std::string path = request.Path;
     std::string series = request.Series;
     std::string anywhere = request.DataFilesAnywhere ? "1" : "0";
-    const std::array<char*, 5> arguments{ reader.data(), path.data(), series.data(), anywhere.data(), nullptr };
-    if (posix_spawn(&this->Id, reader.c_str(), &settings.Actions, &settings.Attributes, arguments.data(), environ) != 0)
+    const std::array<char*, 5> arguments{ reader.data(), path.data(), series.data(),
+      anywhere.data(), nullptr };
+    if (posix_spawn(&this->Id, reader.c_str(), &settings.Actions, &settings.Attributes,
+          arguments.data(), environ) != 0)
     {
       this->Id = -1;
     }
@@ -224,10 +227,12 @@ std::string DescribeEnd(int status)
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (number == SIGXCPU || number == SIGKILL)
   {
-    return "its reading took too long or too much memory, and was stopped: it is damaged, or made to do harm";
+    return "its reading took too long or too much memory, and was stopped: it is damaged, or made "
+           "to do harm";
   }
   return "its reading ended with " +
-    (number ? "signal " + std::to_string(number) : "status " + std::to_string(WEXITSTATUS(status))) +
+    (number ? "signal " + std::to_string(number)
+            : "status " + std::to_string(WEXITSTATUS(status))) +
     ": it is damaged, or made to do harm";
 }
 
@@ -257,8 +262,8 @@ std::optional<ImageAnswer> ReadApart(const ImageRequest& request)
   }
   try
   {
-    AnswerMessage message =
-      ParseAnswer(std::string_view(text).substr(Greeting.size()), FixSharedMemory(process.MemoryDescriptor()));
+    AnswerMessage message = ParseAnswer(
+      std::string_view(text).substr(Greeting.size()), FixSharedMemory(process.MemoryDescriptor()));
     if (!message.Error.empty())
     {
       throw FileError(message.Error);
@@ -279,7 +284,8 @@ std::optional<ImageAnswer> ReadApart(const ImageRequest& request)
   }
   catch (const std::exception&)
   {
-    throw FileError(start + "the process that read it gave no sound answer: it is damaged, or made to do harm");
+    throw FileError(
+      start + "the process that read it gave no sound answer: it is damaged, or made to do harm");
   }
 }
 

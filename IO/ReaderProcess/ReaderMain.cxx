@@ -49,7 +49,8 @@ AnswerMessage Read(const ImageRequest& request)
   AnswerMessage message;
   try
   {
-    message.Answer = ReadImageHere(request, [&memory](std::size_t bytes) { return memory.Allocate(bytes); });
+    message.Answer =
+      ReadImageHere(request, [&memory](std::size_t bytes) { return memory.Allocate(bytes); });
     message.Offset = memory.OffsetOf(message.Answer.Image.Scalars.get());
   }
   catch (const FileError& error)

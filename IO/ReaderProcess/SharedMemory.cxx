@@ -26,7 +26,8 @@ std::uint64_t MemoryOfMachine()
 }
 
 /** Maps whole pages around what is asked for. */
-std::shared_ptr<void> Map(int descriptor, std::uint64_t offset, std::size_t bytes, int flags, bool isGivenBack)
+std::shared_ptr<void> Map(
+  int descriptor, std::uint64_t offset, std::size_t bytes, int flags, bool isGivenBack)
 {
   const std::uint64_t inPage = offset % PageSize();
   const std::size_t length = bytes + static_cast<std::size_t>(inPage);
@@ -43,8 +44,8 @@ std::shared_ptr<void> Map(int descriptor, std::uint64_t offset, std::size_t byte
 #if defined(FALLOC_FL_PUNCH_HOLE)
       if (isGivenBack)
       {
-        [[maybe_unused]] const int done =
-          fallocate(descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, start, static_cast<off_t>(length));
+        [[maybe_unused]] const int done = fallocate(descriptor,
+          FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, start, static_cast<off_t>(length));
       }
 #endif
     } };

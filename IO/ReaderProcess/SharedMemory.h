@@ -42,7 +42,8 @@ private:
 /** How many bytes there are, of which nobody can take any away from now on; 0 if that cannot be had. */
 std::uint64_t FixSharedMemory(int descriptor);
 
-/** The memory from an offset on, for as long as the pointer lives; the descriptor may be closed. @throws std::bad_alloc */
+/** The memory from an offset on, for as long as the pointer lives; the descriptor may be closed. @throws
+ * std::bad_alloc */
 std::shared_ptr<void> MapSharedMemory(int descriptor, std::uint64_t offset, std::size_t bytes);
 
 } // namespace voxplex::io

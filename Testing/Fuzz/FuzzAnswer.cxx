@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const voxplex::io::ScalarImage& image = message.Answer.Image;
     const double bytes = static_cast<double>(image.NumberOfVoxels()) * image.Frames *
       static_cast<double>(voxplex::io::SizeOf(image.Type));
-    if (message.Error.empty() && !(bytes > 0 && static_cast<double>(message.Offset) + bytes <= memory))
+    if (message.Error.empty() &&
+      !(bytes > 0 && static_cast<double>(message.Offset) + bytes <= memory))
     {
       fuzz::Fail("voxels outside of the memory");
     }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-/** @file FuzzImage.cxx @brief The readers of images, in this process, on files with the extension VOXPLEX_FUZZ_EXTENSION. */
+/** @file FuzzImage.cxx @brief The readers of images, in this process, on files with the extension
+ * VOXPLEX_FUZZ_EXTENSION. */
 #include "FileError.h"
 #include "Fuzzing.h"
 #include "ImageReading/ReadImage.h"

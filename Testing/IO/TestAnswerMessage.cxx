@@ -54,13 +54,17 @@ void RoundTrip()
   const AnswerMessage after = ParseAnswer(ToText(before), Memory);
   const ScalarImage& a = before.Answer.Image;
   const ScalarImage& b = after.Answer.Image;
-  Expect(a.Type == b.Type && a.Dimensions == b.Dimensions && a.Frames == b.Frames, "type and sizes");
-  Expect(a.Origin == b.Origin && a.Spacing == b.Spacing && a.Direction == b.Direction, "the same bits of the place");
-  Expect(a.TimeOrigin == b.TimeOrigin && a.TimeSpacing == b.TimeSpacing && a.Times == b.Times, "times");
+  Expect(
+    a.Type == b.Type && a.Dimensions == b.Dimensions && a.Frames == b.Frames, "type and sizes");
+  Expect(a.Origin == b.Origin && a.Spacing == b.Spacing && a.Direction == b.Direction,
+    "the same bits of the place");
+  Expect(
+    a.TimeOrigin == b.TimeOrigin && a.TimeSpacing == b.TimeSpacing && a.Times == b.Times, "times");
   Expect(after.Offset == 24 && after.Error.empty(), "offset");
   const auto& labels = after.Answer.Labels.Entries;
-  Expect(labels.size() == 2 && labels.at(7).Name == "Fémur \"left\"" && labels.at(7).Color->at(2) == 1.0 &&
-      labels.at(1LL << 40).Name == "far" && !labels.at(1LL << 40).Color,
+  Expect(labels.size() == 2 && labels.at(7).Name == "Fémur \"left\"" &&
+      labels.at(7).Color->at(2) == 1.0 && labels.at(1LL << 40).Name == "far" &&
+      !labels.at(1LL << 40).Color,
     "labels");
   Expect(after.Answer.Warnings.size() == 2 && after.Answer.Warnings[0] == "odd\nlines", "warnings");
 

@@ -69,7 +69,8 @@ int TestConfinement(int, char*[])
   const fs::path root = mkdtemp(pattern.data());
   const fs::path folder = root / "images";
   fs::create_directories(folder / "slices");
-  for (const fs::path& path : { folder / "i.nhdr", folder / "slices" / "1.raw", root / "secret", root / "real.nrrd" })
+  for (const fs::path& path :
+    { folder / "i.nhdr", folder / "slices" / "1.raw", root / "secret", root / "real.nrrd" })
   {
     std::ofstream(path) << "content";
   }
@@ -86,14 +87,14 @@ int TestConfinement(int, char*[])
         getrlimit(RLIMIT_DATA, &memory);
         getrlimit(RLIMIT_CPU, &time);
         const bool isLimited = memory.rlim_cur < (600UL << 20) && time.rlim_cur == 60;
-        return !CanOpen(folder / image, O_RDONLY) ? 1
-          : !CanOpen(folder / "slices" / "1.raw", O_RDONLY) ? 2
-          : HasLandlock() && CanOpen(root / "secret", O_RDONLY) != anywhere ? 3
-          : HasLandlock() && CanOpen(folder / "new", O_WRONLY | O_CREAT) ? 4
-          : HasLandlock() && CanOpen(folder / "i.nhdr", O_WRONLY) ? 5
+        return !CanOpen(folder / image, O_RDONLY)                                 ? 1
+          : !CanOpen(folder / "slices" / "1.raw", O_RDONLY)                       ? 2
+          : HasLandlock() && CanOpen(root / "secret", O_RDONLY) != anywhere       ? 3
+          : HasLandlock() && CanOpen(folder / "new", O_WRONLY | O_CREAT)          ? 4
+          : HasLandlock() && CanOpen(folder / "i.nhdr", O_WRONLY)                 ? 5
           : LandlockVersion() >= 3 && truncate((root / "secret").c_str(), 0) == 0 ? 7
-          : !isLimited ? 6
-                       : 0;
+          : !isLimited                                                            ? 6
+                                                                                  : 0;
       });
   };
   const int own = confined("i.nhdr", false);
@@ -102,7 +103,8 @@ int TestConfinement(int, char*[])
   fs::remove_all(root);
   if (own != 0 || link != 0 || anywhere != 0)
   {
-    std::cerr << "wrong: " << own << " with a file, " << link << " with a link, " << anywhere << " with data files anywhere\n";
+    std::cerr << "wrong: " << own << " with a file, " << link << " with a link, " << anywhere
+              << " with data files anywhere\n";
     return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;
