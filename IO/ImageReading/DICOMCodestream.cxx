@@ -31,6 +31,7 @@ struct Header
   unsigned Components = 0;
   unsigned Bits = 0;
   bool IsSigned = false;
+  bool IsLossy = false;    ///< as far as it can be told
   std::uint32_t Frame = 0; ///< marker of its kind, in JPEG
   std::size_t Scan = 0;    ///< where its data begin, in JPEG
 };
@@ -67,11 +68,15 @@ Codestream WithoutPadding(const std::vector<std::byte>& packed)
   return stream;
 }
 
+constexpr std::uint32_t FillBytes = 0xFFFF;
 constexpr std::uint32_t StartOfScan = 0xFFDA;
 constexpr std::uint32_t LosslessFrame = 0xFFC3;
 constexpr std::uint32_t FirstRestart = 0xFFD0;
 
-/** From the marker segment SOF, of JPEG-LS or of JPEG. All segments up to the first scan follow each other. */
+/**
+ * From the marker segment SOF, of JPEG-LS or of JPEG. All segments up to the first scan follow each other, and bytes
+ * 0xFF may fill up before each marker.
+ */
 Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
 {
   constexpr std::uint32_t startOfImage = 0xFFD8;
@@ -84,12 +89,15 @@ Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
   std::size_t at = 2;
   for (; isSound && marker != StartOfScan; at += 2 + NumberAt(stream, at + 2, 2))
   {
-    marker = NumberAt(stream, at, 2);
+    while ((marker = NumberAt(stream, at, 2)) == FillBytes)
+    {
+      ++at;
+    }
     if (isLS ? marker == frameOfLS : marker >= firstFrame && marker <= LosslessFrame)
     {
       isSound = !header;
       header = Header{ NumberAt(stream, at + 7, 2), NumberAt(stream, at + 5, 2),
-        NumberAt(stream, at + 9, 1), NumberAt(stream, at + 4, 1), false, marker };
+        NumberAt(stream, at + 9, 1), NumberAt(stream, at + 4, 1), false, false, marker };
     }
     isSound = isSound && marker >= firstFrame && marker != EndOfImage;
   }
@@ -98,6 +106,8 @@ Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
     RefuseDamage(isLS ? "a frame is no JPEG-LS" : "a frame is no JPEG of a kind that is supported");
   }
   header->Scan = at;
+  header->IsLossy = isLS ? NumberAt(stream, at - 3, 1) != 0 // how far off values may be
+                         : header->Frame != LosslessFrame;
   return *header;
 }
 
@@ -108,14 +118,18 @@ Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
  */
 std::vector<std::byte> WithWarning(Codestream stream, std::size_t scan)
 {
-  std::vector<std::byte> result(stream.begin(), stream.end() - 2);
-  for (std::size_t at = scan; at < result.size(); ++at)
+  std::vector<std::byte> result(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(scan));
+  for (std::size_t at = scan; at + 2 < stream.size(); ++at)
   {
     const std::uint32_t marker = NumberAt(stream, at, 2);
     const bool isRestart = marker >= FirstRestart && marker < FirstRestart + 8;
-    if (marker > 0xFF00 && !isRestart)
+    if (marker > 0xFF00 && marker != FillBytes && !isRestart)
     {
       RefuseDamage("a compressed frame has a marker within its pixels");
+    }
+    if (marker != FillBytes)
+    {
+      result.push_back(stream[at]);
     }
   }
   // A restart takes the library out of the scan; what is after it belongs to nothing.
@@ -126,14 +140,20 @@ std::vector<std::byte> WithWarning(Codestream stream, std::size_t scan)
   return result;
 }
 
-/** All tiles are there, up to the end. The library would leave out those that are missing. */
-void CheckTiles(Codestream stream, std::uint64_t count)
+/**
+ * All tiles are there, up to the end. The library would leave out those that are missing.
+ * @return whether the wavelets are those of whole numbers, with which nothing need be lost
+ */
+bool CheckTiles(Codestream stream, std::uint64_t count)
 {
   constexpr std::uint32_t startOfTile = 0xFF90;
+  constexpr std::uint32_t codingStyle = 0xFF52;
+  bool isReversible = true;
   std::size_t at = 2;
-  while (NumberAt(stream, at, 2) != startOfTile)
+  for (std::uint32_t marker = 0; (marker = NumberAt(stream, at, 2)) != startOfTile;
+       at += 2 + NumberAt(stream, at + 2, 2))
   {
-    at += 2 + NumberAt(stream, at + 2, 2);
+    isReversible = isReversible && (marker != codingStyle || NumberAt(stream, at + 13, 1) == 1);
   }
   std::set<std::uint32_t> tiles;
   while (NumberAt(stream, at, 2) == startOfTile)
@@ -157,12 +177,19 @@ void CheckTiles(Codestream stream, std::uint64_t count)
     RefuseDamage("a JPEG 2000 frame has " + std::to_string(tiles.size()) + " whole tiles of " +
       std::to_string(count));
   }
+  return isReversible;
 }
 
 /** From the marker segment SIZ, which comes first. */
 Header ReadHeaderOfJPEG2000(Codestream stream)
 {
   constexpr std::uint32_t startOfCodestream = 0xFF4FFF51; // with SIZ
+  constexpr std::uint32_t startOfFile = 0x0000000C;
+  if (NumberAt(stream, 0, 4) == startOfFile)
+  {
+    throw FileError("its frames are files of JPEG 2000, where codestreams must be: decompress it "
+                    "first (gdcmconv --raw)");
+  }
   if (NumberAt(stream, 0, 4) != startOfCodestream)
   {
     RefuseDamage("a frame is no JPEG 2000 codestream");
@@ -182,11 +209,11 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
   {
     RefuseDamage("a frame has sizes that JPEG 2000 does not allow, or is subsampled");
   }
-  CheckTiles(stream,
+  const bool isReversible = CheckTiles(stream,
     ((right - tileLeft + tileColumns - 1) / tileColumns) *
       ((bottom - tileTop + tileRows - 1) / tileRows));
   return { right - left, bottom - top, NumberAt(stream, 40, 2), (depth & 0x7F) + 1, depth >= 0x80,
-    0, 0 };
+    !isReversible, 0, 0 };
 }
 
 void CheckHeader(const Header& header, const DICOMPixelFormat& format)
@@ -201,7 +228,12 @@ void CheckHeader(const Header& header, const DICOMPixelFormat& format)
   const bool isShifted =
     format.HighBit + 1 != format.BitsStored && header.Bits != format.BitsAllocated;
   const bool isSignLost = format.IsSigned ? header.Bits < format.BitsStored : header.IsSigned;
-  if (header.Bits < 2 || header.Bits > format.BitsAllocated || isShifted || isSignLost)
+  if (header.Bits < 2)
+  {
+    throw FileError("its pixels are compressed and have " + std::to_string(header.Bits) +
+      " bit, which is not supported: decompress it first (gdcmconv --raw)");
+  }
+  if (header.Bits > format.BitsAllocated || isShifted || isSignLost)
   {
     throw FileError("its pixels have " + std::to_string(header.Bits) +
       (header.IsSigned ? " signed" : "") + " bits where they are compressed, and " +
@@ -211,8 +243,8 @@ void CheckHeader(const Header& header, const DICOMPixelFormat& format)
 }
 
 /** With one codec of GDCM. */
-DICOMFrame Decode(gdcm::ImageCodec& codec, Codestream stream, const DICOMPixelFormat& format,
-  const gdcm::PixelFormat& pixels)
+DICOMFrame Decode(gdcm::ImageCodec& codec, const Header& header, Codestream stream,
+  const DICOMPixelFormat& format, const gdcm::PixelFormat& pixels)
 {
   gdcm::Trace::SetWarning(false);
   gdcm::Trace::SetError(false);
@@ -243,7 +275,7 @@ DICOMFrame Decode(gdcm::ImageCodec& codec, Codestream stream, const DICOMPixelFo
       std::to_string(expected) + " bytes");
   }
   const auto* begin = reinterpret_cast<const std::byte*>(bytes->GetPointer());
-  return { { begin, begin + expected }, bytesOfSample };
+  return { { begin, begin + expected }, bytesOfSample, header.IsLossy };
 }
 
 /** Samples as GDCM gives them, in whole bytes. */
@@ -267,7 +299,7 @@ DICOMFrame DecodeJPEG(const std::vector<std::byte>& packed, const DICOMPixelForm
   const bool isTwelve = header.Bits > 8 && header.Bits <= 12;
   gdcm::JPEGCodec codec;
   // There is a library for each of 8, 12 and 16 bits, and that for 16 bits complains of 12.
-  return Decode(codec, isLossless ? Codestream(warned) : stream, format,
+  return Decode(codec, header, isLossless ? Codestream(warned) : stream, format,
     isTwelve ? gdcm::PixelFormat(1, 12, 12, 11, 0) : FormatOfSamples(header.Bits, false));
 }
 
@@ -277,7 +309,7 @@ DICOMFrame DecodeJPEGLS(const std::vector<std::byte>& packed, const DICOMPixelFo
   const Header header = ReadHeaderOfJPEG(stream, true);
   CheckHeader(header, format);
   gdcm::JPEGLSCodec codec;
-  return Decode(codec, stream, format, FormatOfSamples(header.Bits, false));
+  return Decode(codec, header, stream, format, FormatOfSamples(header.Bits, false));
 }
 
 DICOMFrame DecodeJPEG2000(const std::vector<std::byte>& packed, const DICOMPixelFormat& format)
@@ -289,7 +321,7 @@ DICOMFrame DecodeJPEG2000(const std::vector<std::byte>& packed, const DICOMPixel
   pixels.SetBitsStored(static_cast<unsigned short>(header.Bits));
   pixels.SetHighBit(static_cast<unsigned short>(header.Bits - 1));
   gdcm::JPEG2000Codec codec;
-  return Decode(codec, stream, format, pixels);
+  return Decode(codec, header, stream, format, pixels);
 }
 
 } // namespace voxplex::io

@@ -46,7 +46,7 @@ public:
     if (this->IsDeflated && position >= this->Start)
     {
       this->Inflate(position - this->Start + length);
-      const std::uint64_t end = this->Start + this->Unpacked.size();
+      const std::uint64_t end = this->Start + this->NumberUnpacked;
       return std::min(length, end - std::min(end, position));
     }
     return std::min(length, this->File.Size() - std::min(this->File.Size(), position));
@@ -59,8 +59,15 @@ public:
     {
       return this->ReadFile(position, to.first(length));
     }
-    const auto begin = this->Unpacked.begin() + static_cast<std::ptrdiff_t>(position - this->Start);
-    std::copy_n(begin, length, to.begin());
+    for (std::size_t done = 0; done < length;)
+    {
+      const auto at = static_cast<std::size_t>(position - this->Start) + done;
+      const std::span<const std::byte> part =
+        std::span(this->Unpacked[at / PartSize]).subspan(at % PartSize);
+      const std::size_t count = std::min(length - done, part.size());
+      std::copy_n(part.begin(), count, to.begin() + static_cast<std::ptrdiff_t>(done));
+      done += count;
+    }
     return length;
   }
 
@@ -90,9 +97,8 @@ private:
 
   void Inflate(std::uint64_t wanted)
   {
-    constexpr std::size_t part = 1 << 16;
-    std::array<std::byte, part> packed;
-    while (!this->IsAtEnd && this->Unpacked.size() < wanted)
+    std::array<std::byte, 1 << 16> packed;
+    while (!this->IsAtEnd && this->NumberUnpacked < wanted)
     {
       if (this->Stream.avail_in == 0)
       {
@@ -101,12 +107,15 @@ private:
         this->Stream.next_in = reinterpret_cast<Bytef*>(packed.data());
         this->Stream.avail_in = static_cast<uInt>(got);
       }
-      const std::size_t before = this->Unpacked.size();
-      this->Unpacked.resize(before + part);
-      this->Stream.next_out = reinterpret_cast<Bytef*>(this->Unpacked.data() + before);
-      this->Stream.avail_out = static_cast<uInt>(part);
+      const std::size_t used = this->NumberUnpacked % PartSize;
+      if (this->NumberUnpacked == PartSize * this->Unpacked.size())
+      {
+        this->Unpacked.emplace_back(PartSize);
+      }
+      this->Stream.next_out = reinterpret_cast<Bytef*>(this->Unpacked.back().data() + used);
+      this->Stream.avail_out = static_cast<uInt>(PartSize - used);
       const int status = inflate(&this->Stream, Z_NO_FLUSH);
-      this->Unpacked.resize(before + part - this->Stream.avail_out);
+      this->NumberUnpacked += PartSize - used - this->Stream.avail_out;
       this->IsAtEnd = status == Z_STREAM_END;
       if (status != Z_OK && status != Z_STREAM_END)
       {
@@ -126,7 +135,9 @@ private:
   std::uint64_t Start = 0; ///< of what is deflated
   std::uint64_t Next = 0;  ///< of the file, to be unpacked
   z_stream Stream{};
-  std::vector<std::byte> Unpacked;
+  static constexpr std::size_t PartSize = 1 << 20;
+  std::vector<std::vector<std::byte>> Unpacked; ///< all parts have this size
+  std::uint64_t NumberUnpacked = 0;             ///< bytes
 };
 
 namespace
@@ -423,6 +434,11 @@ DICOMDataSet::DICOMDataSet(const std::string& path)
   }
   if (const std::string uid = this->Text({ TransferSyntax, "Transfer Syntax UID" }); !uid.empty())
   {
+    if (!uid.starts_with("1.2.840.10008.1.2"))
+    {
+      throw FileError("its transfer syntax '" + Excerpt(uid) +
+        "' is not supported: decompress it first (gdcmconv --raw, dcmdjpeg)");
+    }
     this->Encoding = SyntaxNamed(uid);
   }
   else

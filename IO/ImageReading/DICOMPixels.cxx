@@ -32,9 +32,6 @@ constexpr DICOMTag PixelRepresentation{ 0x00280103, "Pixel Representation" };
 constexpr DICOMTag LossyCompression{ 0x00282110, "Lossy Image Compression" };
 constexpr DICOMTag PixelData{ 0x7FE00010, "Pixel Data" };
 
-/** The values of which are labels, also where a palette gives them colours. */
-constexpr std::string_view LabelMapSegmentation = "1.2.840.10008.5.1.4.1.1.66.7";
-
 unsigned Required(const DICOMDataSet& data, const DICOMTag& tag)
 {
   const std::optional<unsigned> number = data.Short(tag);
@@ -60,8 +57,8 @@ void CheckColours(const DICOMDataSet& data)
     RefuseValue(SamplesPerPixel, std::to_string(samples), colours);
   }
   const std::string meaning = data.Text(Photometric);
-  const bool isLabelMap = data.Text(SOPClass) == LabelMapSegmentation && meaning == "PALETTE COLOR";
-  if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1" && !isLabelMap)
+  const bool isLabels = IsLabelMap(data) && meaning == "PALETTE COLOR";
+  if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1" && !isLabels)
   {
     RefuseValue(Photometric, "'" + meaning + "'", colours);
   }
@@ -178,7 +175,7 @@ DICOMFrame DecodeRLE(const std::vector<std::byte>& packed, const DICOMPixelForma
       " run-length segments, and " + std::to_string(expected) + " are needed");
   }
   DICOMFrame frame{ std::vector<std::byte>(static_cast<std::size_t>(format.BytesOfFrame())),
-    expected };
+    expected, false };
   for (std::size_t segment = 0; segment < expected; ++segment)
   {
     const std::size_t begin = number(1 + segment);
@@ -196,7 +193,21 @@ DICOMFrame DecodeRLE(const std::vector<std::byte>& packed, const DICOMPixelForma
   return frame;
 }
 
+/** Whether a fragment ends with the marker EOI or EOC, which a zero may follow. */
+bool EndsImage(const DICOMDataSet& data, const DICOMElement& fragment)
+{
+  std::array<std::byte, 3> end{};
+  const std::size_t length = std::min<std::size_t>(end.size(), fragment.Length);
+  data.ReadBytes(fragment.Position + fragment.Length - length, std::span(end).last(length));
+  return ReadNumber(std::span(end).last(2), true) == 0xFFD9 || ReadNumber(end, true) == 0xFFD900;
+}
+
 } // namespace
+
+bool IsLabelMap(const DICOMDataSet& data)
+{
+  return data.Text(SOPClass) == "1.2.840.10008.5.1.4.1.1.66.7";
+}
 
 DICOMPixels::DICOMPixels(const DICOMDataSet& data)
   : Data(data)
@@ -285,7 +296,7 @@ void DICOMPixels::CheckRawLength(const DICOMElement& pixels) const
   }
 }
 
-/** A frame has one fragment, or those that the table of offsets gives it. */
+/** A frame has one fragment, or those that the table of offsets gives it, or those up to an end of an image. */
 void DICOMPixels::FindFrames(const DICOMElement& pixels)
 {
   std::vector<DICOMElement> fragments = this->Data.Fragments(pixels);
@@ -296,6 +307,7 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
   std::vector<std::byte> table(fragments.front().Length);
   this->Data.ReadBytes(fragments.front().Position, table);
   fragments.erase(fragments.begin());
+  const std::size_t count = fragments.size();
 
   const auto frames = static_cast<std::size_t>(this->NumberOfFrames);
   if (frames == 1 && !fragments.empty())
@@ -312,6 +324,22 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
     return;
   }
   std::size_t frame = 0;
+  if (table.empty() && this->Method != Compression::RLE)
+  {
+    bool hasEnded = true;
+    for (const DICOMElement& fragment : fragments)
+    {
+      if (hasEnded)
+      {
+        this->FragmentsOfFrames.emplace_back();
+        ++frame;
+      }
+      this->FragmentsOfFrames.back().push_back(fragment);
+      hasEnded = EndsImage(this->Data, fragment);
+    }
+    table.resize(4 * frame);
+    fragments.clear();
+  }
   for (const DICOMElement& fragment : fragments)
   {
     const std::uint64_t offset = fragment.Position - fragments.front().Position;
@@ -329,16 +357,18 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
   }
   if (frame != frames || table.size() != 4 * frames)
   {
-    throw FileError("its pixels are truncated or damaged: it has " +
-      std::to_string(fragments.size()) + " compressed fragments for " + std::to_string(frames) +
-      " frames");
+    throw FileError("its pixels are truncated or damaged: it has " + std::to_string(count) +
+      " compressed fragments for " + std::to_string(frames) + " frames");
   }
 }
 
 /** Memory is not taken for what a file cannot hold. */
 void DICOMPixels::CheckRatio() const
 {
-  const std::uint64_t most = this->Method == Compression::RLE ? 64 : 65536;
+  // A block of 64 pixels takes a bit of JPEG at least.
+  const std::uint64_t most = this->Method == Compression::RLE ? 64
+    : this->Method == Compression::JPEG                       ? 1024
+                                                              : 65536;
   for (const std::vector<DICOMElement>& fragments : this->FragmentsOfFrames)
   {
     std::uint64_t packed = 0;
@@ -378,7 +408,7 @@ DICOMFrame DICOMPixels::ReadRaw(int frame) const
   const std::size_t size = static_cast<std::size_t>(this->Layout.BytesOfFrame());
   const std::size_t bytesOfSample = this->Layout.BitsAllocated / 8;
   const std::uint64_t offset = static_cast<std::uint64_t>(frame) * size;
-  DICOMFrame result{ std::vector<std::byte>(size), bytesOfSample };
+  DICOMFrame result{ std::vector<std::byte>(size), bytesOfSample, false };
   if (!this->AreBytesSwapped || bytesOfSample > 1)
   {
     this->Data.ReadBytes(this->Begin + offset, result.Samples);

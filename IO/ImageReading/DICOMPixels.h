@@ -37,7 +37,14 @@ struct DICOMFrame
 {
   std::vector<std::byte> Samples; ///< little endian
   std::size_t BytesOfSample = 1;
+  bool IsLossy = false; ///< by what is compressed itself
 };
+
+/**
+ * Whether it is a segmentation of the kind label map. Its values are labels, also where a palette gives them colours, and
+ * slices without labels may have been left out.
+ */
+bool IsLabelMap(const DICOMDataSet& data);
 
 class DICOMPixels
 {

@@ -20,6 +20,7 @@ namespace
 constexpr DICOMTag MediaStorage{ 0x00020002, "Media Storage SOP Class UID" };
 constexpr DICOMTag ImageType{ 0x00080008, "Image Type" };
 constexpr DICOMTag SOPClass{ 0x00080016, "SOP Class UID" };
+constexpr DICOMTag NominalSpacing{ 0x00182010, "Nominal Scanned Pixel Spacing" };
 constexpr DICOMTag SliceThickness{ 0x00180050, "Slice Thickness" };
 constexpr DICOMTag SpacingBetweenSlices{ 0x00180088, "Spacing Between Slices" };
 constexpr DICOMTag ImagePosition{ 0x00200032, "Image Position (Patient)" };
@@ -133,7 +134,12 @@ private:
 void ReadDirections(DICOMSlice& slice, const Groups& groups)
 {
   const std::vector<double> cosines = groups.Required(PlaneOrientation, ImageOrientation, 6);
-  const std::vector<double> spacing = groups.Required(PixelMeasures, PixelSpacing, 2);
+  // ITK writes images without a modality as captured ones, which have no other spacing.
+  const std::vector<double> nominal = groups.Numbers(PixelMeasures, NominalSpacing, 2);
+  const bool hasSpacing =
+    nominal.empty() || !groups.Numbers(PixelMeasures, PixelSpacing, 2).empty();
+  const std::vector<double> spacing =
+    hasSpacing ? groups.Required(PixelMeasures, PixelSpacing, 2) : nominal;
   const Vector3 row{ cosines[0], cosines[1], cosines[2] };
   const Vector3 column{ cosines[3], cosines[4], cosines[5] };
   if (std::abs(Length(row) - 1.0) > Tolerance || std::abs(Length(column) - 1.0) > Tolerance ||
@@ -176,9 +182,8 @@ DICOMSlice ReadSlice(const Groups& groups)
   ReadRescaling(slice, groups);
   const std::vector<double> distance = groups.Numbers(PixelMeasures, SpacingBetweenSlices, 1);
   const std::vector<double> thickness = groups.Numbers(PixelMeasures, SliceThickness, 1);
-  slice.Thickness = !distance.empty() ? std::abs(distance[0])
-    : !thickness.empty()              ? thickness[0]
-                                      : 0.0;
+  slice.Distance = distance.empty() ? 0.0 : std::abs(distance[0]);
+  slice.Thickness = thickness.empty() ? 0.0 : thickness[0];
   return slice;
 }
 
@@ -186,20 +191,24 @@ DICOMSlice ReadSlice(const Groups& groups)
 std::vector<DICOMSlice> ReadDose(const DICOMDataSet& data, std::size_t frames)
 {
   const std::vector<double> offsets = data.AnyNumbers(GridFrameOffsets);
-  if (offsets.size() != frames || offsets[0] != 0.0)
+  DICOMSlice first = ReadSlice(Groups(data, nullptr, nullptr));
+  const bool isAxial = NormalOf(first) == Vector3{ 0.0, 0.0, 1.0 };
+  const double start = isAxial && !offsets.empty() && offsets[0] == first.Position[2]
+    ? offsets[0] // they are places along z
+    : 0.0;
+  if (offsets.size() != frames || offsets[0] != start)
   {
     throw FileError("its " + Describe(GridFrameOffsets) + " has " + std::to_string(offsets.size()) +
       " offsets for " + std::to_string(frames) +
       " frames, or does not begin with 0: convert it to NRRD first (3D Slicer)");
   }
-  DICOMSlice first = ReadSlice(Groups(data, nullptr, nullptr));
   const std::vector<double> scale = data.Numbers(DoseGridScaling, 1);
   first.Slope = scale.empty() ? 1.0 : scale[0];
   const Vector3 normal = NormalOf(first);
   std::vector<DICOMSlice> slices(frames, first);
   for (std::size_t i = 0; i < frames; ++i)
   {
-    slices[i].Position = Combine(first.Position, offsets[i], normal);
+    slices[i].Position = Combine(first.Position, offsets[i] - start, normal);
   }
   return slices;
 }
@@ -251,6 +260,35 @@ void CheckDirections(const std::vector<DICOMSlice>& slices)
         ": slices of one volume are parallel and alike; take the others away first");
     }
   }
+}
+
+/** The slices are sorted, and not at one place. */
+void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
+{
+  constexpr double most = 100'000;
+  std::vector<DICOMSlice> all;
+  for (const DICOMSlice& slice : slices)
+  {
+    const double distance = slices.front().Distance;
+    const DICOMSlice before = all.empty() ? slice : all.back();
+    const Vector3 between = Combine(slice.Position, -1.0, before.Position);
+    const double gap = Dot(between, normal);
+    const double missing = distance > 0 ? std::round(gap / distance) - 1.0 : 0.0;
+    if (missing > most)
+    {
+      throw FileError(slices.front().Name + " and " + slice.Name + " are " + Show(gap) +
+        " mm apart, and its " + Describe(SpacingBetweenSlices) + " is " + Show(distance) +
+        ": correct its header");
+    }
+    for (double i = 1.0; i <= missing; ++i)
+    {
+      all.push_back(before);
+      all.back().Frame = DICOMSlice::NoFrame;
+      all.back().Position = Combine(before.Position, i / (missing + 1.0), between);
+    }
+    all.push_back(slice);
+  }
+  slices = std::move(all);
 }
 
 } // namespace
@@ -322,10 +360,11 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames)
   return slices;
 }
 
-Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices)
+Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete)
 {
   constexpr double samePlace = 0.01; // of the distance of slices
   constexpr double tolerated = 0.1;
+  constexpr double toleratedInPlane = 0.25; // of a voxel
   CheckDirections(slices);
   const Vector3 normal = NormalOf(slices.front());
   std::stable_sort(slices.begin(), slices.end(),
@@ -333,12 +372,18 @@ Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices)
     { return Dot(a.Position, normal) < Dot(b.Position, normal); });
   if (slices.size() == 1)
   {
-    return Combine({}, slices[0].Thickness, normal);
+    const DICOMSlice& only = slices[0];
+    return Combine({}, only.Distance > 0 ? only.Distance : only.Thickness, normal);
+  }
+  if (!isComplete)
+  {
+    FillGaps(slices, normal);
   }
   const double count = static_cast<double>(slices.size() - 1);
   const Vector3 step =
     Combine({}, 1.0 / count, Combine(slices.back().Position, -1.0, slices.front().Position));
   const double distance = Dot(step, normal);
+  const double smallest = std::min(Length(slices.front().Row), Length(slices.front().Column));
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
     const Vector3 between = Combine(slices[i].Position, -1.0, slices[i - 1].Position);
@@ -353,8 +398,11 @@ Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices)
   for (std::size_t i = 0; i < slices.size(); ++i)
   {
     const Vector3 place = Combine(slices.front().Position, static_cast<double>(i), step);
-    const double deviation = Length(Combine(slices[i].Position, -1.0, place));
-    if (deviation > tolerated * distance)
+    const Vector3 apart = Combine(slices[i].Position, -1.0, place);
+    const double along = std::abs(Dot(apart, normal));
+    const double inPlane = Length(Combine(apart, -Dot(apart, normal), normal));
+    const double deviation = Length(apart);
+    if (along > tolerated * distance || inPlane > toleratedInPlane * smallest)
     {
       throw FileError("slices are missing, damaged or not evenly spaced: " + slices[i].Name +
         " is " + Show(deviation) + " mm from where slices " + Show(distance) +

@@ -22,12 +22,15 @@ struct DICOMSlice
 {
   std::string Name; ///< for messages: "'a.dcm'", "frame 3"
   std::size_t File = 0;
-  int Frame = 0;
+  int Frame = 0; ///< NoFrame: all voxels are 0
+
+  static constexpr int NoFrame = -1;
 
   Vector3 Position{}; ///< of the first voxel, LPS
   Vector3 Row{};      ///< from voxel to voxel
   Vector3 Column{};
-  double Thickness = 0.0; ///< or distance of slices; 0: unknown
+  double Distance = 0.0;  ///< of slices; 0: unknown
+  double Thickness = 0.0; ///< 0: unknown
   double Slope = 1.0;
   double Intercept = 0.0;
 };
@@ -40,11 +43,12 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
 
 /**
  * Sorts slices along their normal.
+ * @param isComplete if not, slices without a frame are put where slices have been left out; their distance must be known
  * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is
  * unknown
  * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place
  */
-Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices);
+Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete);
 
 } // namespace voxplex::io
 

@@ -43,6 +43,7 @@ struct Volume
   std::vector<DICOMSlice> Slices;
   DICOMPixelFormat Format;
   bool IsLossy = false;
+  bool IsComplete = true; ///< no slices have been left out
 };
 
 std::string NameInFolder(const std::string& path)
@@ -102,6 +103,7 @@ DICOMPixelFormat AddFile(Volume& volume, const std::string& path)
     volume.Slices.push_back(slice);
   }
   volume.IsLossy = volume.IsLossy || pixels.IsLossy();
+  volume.IsComplete = volume.IsComplete && !IsLabelMap(data);
   volume.Files.push_back(path);
   return pixels.Format();
 }
@@ -238,7 +240,7 @@ void ConvertToType(const DICOMFrame& frame, const DICOMPixelFormat& format, cons
 /** Where the voxels lie. */
 void PlaceVolume(ScalarImage& image, Volume& volume, Reading& reading)
 {
-  Vector3 step = ArrangeSlices(volume.Slices);
+  Vector3 step = ArrangeSlices(volume.Slices, volume.IsComplete);
   const DICOMSlice& first = volume.Slices.front();
   if (step == Vector3{})
   {
@@ -259,10 +261,10 @@ void PlaceVolume(ScalarImage& image, Volume& volume, Reading& reading)
 ScalarImage ReadVolume(Volume& volume, Reading& reading)
 {
   ScalarImage image;
+  PlaceVolume(image, volume, reading);
   SetSizes(image,
     { std::int64_t(volume.Format.Columns), std::int64_t(volume.Format.Rows),
       static_cast<std::int64_t>(volume.Slices.size()) });
-  PlaceVolume(image, volume, reading);
   image.Type = ChooseType(volume);
   const std::size_t bytesOfSlice =
     static_cast<std::size_t>(volume.Format.Pixels()) * SizeOf(image.Type);
@@ -289,9 +291,15 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
           throw FileError("it has changed while it was read");
         }
       }
-      ConvertToType(
-        pixels->Read(slice.Frame), volume.Format, slice, image.Type, voxels + k * bytesOfSlice);
+      const DICOMFrame frame = pixels->Read(slice.Frame);
+      volume.IsLossy = volume.IsLossy || frame.IsLossy;
+      ConvertToType(frame, volume.Format, slice, image.Type, voxels + k * bytesOfSlice);
     };
+    if (slice.Frame == DICOMSlice::NoFrame)
+    {
+      std::fill_n(voxels + k * bytesOfSlice, bytesOfSlice, std::byte(0));
+      continue;
+    }
     isFolder ? Naming(volume.Files[slice.File], read) : read();
   }
   if (volume.IsLossy)
@@ -346,7 +354,10 @@ SeriesByUID FindSeries(const std::string& path)
        entry.increment(error))
   {
     std::error_code ignored;
-    if (!fs::is_directory(entry->status(ignored)))
+    const fs::file_status status = entry->status(ignored);
+    const bool isOther = fs::exists(status) && !fs::is_regular_file(status);
+    if (!isOther &&
+      !entry->path().filename().string().starts_with('.')) // those of macOS, and locks
     {
       files.push_back(entry->path().string());
     }

@@ -25,14 +25,6 @@ namespace voxplex::io
 namespace
 {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool HasSanitizer = true;
-#elif defined(__has_feature)
-constexpr bool HasSanitizer = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool HasSanitizer = false;
-#endif
-
 /** The folder in which an image's files are. */
 fs::path FolderOf(const fs::path& image)
 {
@@ -111,6 +103,15 @@ void ForbidOtherFiles(const ImageRequest& request)
   if (fs::is_regular_file(request.Path, ignored)) // which may be a link to another folder
   {
     Allow(ruleset, request.Path, LANDLOCK_ACCESS_FS_READ_FILE);
+  }
+  // A folder of slices may be one of links. They are read if they are DICOM, and by no name in another file.
+  for (const fs::directory_entry& entry : fs::directory_iterator(request.Path, ignored))
+  {
+    std::error_code failed;
+    if (entry.is_symlink(failed) && entry.is_regular_file(failed))
+    {
+      Allow(ruleset, entry.path(), LANDLOCK_ACCESS_FS_READ_FILE);
+    }
   }
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   syscall(SYS_landlock_restrict_self, ruleset, 0);

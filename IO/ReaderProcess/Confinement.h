@@ -12,6 +12,15 @@
 namespace voxplex::io
 {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool HasSanitizer = true;
+#elif defined(__has_feature)
+inline constexpr bool HasSanitizer =
+  __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+inline constexpr bool HasSanitizer = false;
+#endif
+
 /**
  * For the rest of its life this process
  * - may read what is in the folder of the image and below, and no other file, and write none (Linux 5.13 and newer with
@@ -19,7 +28,7 @@ namespace voxplex::io
  * - may take 512 MiB of memory and 16 times the size of the files, beside that of the voxels that it gives away;
  * - may compute for a minute and a second for each two megabytes of the files.
  *
- * Of a folder, all files in it count. Builds with sanitizers have no limit of memory.
+ * Of a folder, all files in it count, and what links in it lead to may be read. Builds with sanitizers have no limit of memory.
  */
 void Confine(const ImageRequest& request);
 

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """DICOM: a row a case. pydicom writes the files, GDCM compresses them; voxels and places are those of the array."""
+import os
 import struct
 import subprocess
 import unittest
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pydicom
 from pydicom.dataset import Dataset, FileMetaDataset
-from pydicom.encaps import encapsulate
+from pydicom.encaps import decode_data_sequence, encapsulate
 from pydicom.sequence import Sequence
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -107,7 +108,7 @@ def item(**tags):
 
 
 def write_frames(folder, array=ARRAY, step=STEP, syntax=EXPLICIT, convert=None, order=(3, 0, 4, 1, 2), change=None,
-    **tags):
+                 change_saved=None, **tags):
     """All slices in a file, in an order of no meaning. change(data) changes the data set."""
     data = data_set(array[list(order)], ">" if syntax == BIG_ENDIAN else "<", NumberOfFrames=len(order))
     for name in ("ImagePositionPatient", "ImageOrientationPatient", "PixelSpacing"):
@@ -122,7 +123,12 @@ def write_frames(folder, array=ARRAY, step=STEP, syntax=EXPLICIT, convert=None, 
     data.HighBit = tags.get("HighBit", data.BitsStored - 1)
     if change:
         change(data)
-    return save(folder / "frames.dcm", data, syntax, convert)
+    path = save(folder / "frames.dcm", data, syntax, convert)
+    if change_saved:
+        data = pydicom.dcmread(path)
+        change_saved(data)
+        data.save_as(path)
+    return path
 
 
 def write_slice(folder, image=ARRAY[0], syntax=EXPLICIT, convert=None, edit=None, **tags):
@@ -186,6 +192,22 @@ def rescale_groups(k, slope):
     def change(data):
         data.PerFrameFunctionalGroupsSequence[k].PixelValueTransformationSequence = item(**rescaled(slope, "0"))
     return change
+
+
+def filled_up(marker):
+    """The first such marker of the pixels gets bytes before it, which its fragment makes room for."""
+    def edit(data):
+        begin = data.index(b"\xfe\xff\0\xe0", data.index(struct.pack("<2H", 0x7FE0, 0x10)))
+        begin += 8 + struct.unpack_from("<I", data, begin + 4)[0]  # the table of offsets
+        place, (length,) = data.index(marker, begin), struct.unpack_from("<I", data, begin + 4)
+        return (data[:begin + 4] + struct.pack("<I", length + 2) + data[begin + 8:place] + b"\xff\xff" + data[place:])
+    return edit
+
+
+def in_fragments(data):
+    """Two of each frame, and an empty table of offsets."""
+    parts = [part for frame in decode_data_sequence(data.PixelData) for part in (frame[:40], frame[40:])]
+    data.PixelData = b"".join(struct.pack("<2HI", 0xFFFE, 0xE000, len(part)) + part for part in [b"", *parts])
 
 
 # name, writer, its options, and what is expected other than ARRAY at OBLIQUE: array, step
@@ -257,6 +279,19 @@ SOUND = (
      {"array": (FIVE * np.array([1, 1, 1, 10, 1])[:, None, None]).astype("i2")}),
     ("label map segmentation", write_frames,
      {"array": FIVE, "SOPClassUID": LABEL_MAP, "PhotometricInterpretation": "PALETTE COLOR"}, {"array": FIVE}),
+    ("label map without its empty slices", write_frames,
+     {"array": FIVE, "SOPClassUID": LABEL_MAP, "order": (4, 0, 3), "change": lambda data:
+      data.SharedFunctionalGroupsSequence[0].PixelMeasuresSequence[0].__setattr__("SpacingBetweenSlices", "2")},
+     {"array": FIVE * np.array([1, 0, 0, 1, 1], "u1")[:, None, None]}),
+    ("JPEG lossless, filled up before the end", write_slice,
+     {"convert": ("--jpeg",), "edit": filled_up(b"\xff\xd9")}, {"array": ARRAY[:1]}),
+    ("JPEG lossless, filled up in the header", write_slice,
+     {"convert": ("--jpeg",), "edit": filled_up(b"\xff\xc4")}, {"array": ARRAY[:1]}),
+    ("JPEG 2000 in fragments, without offsets", write_frames, {"convert": ("--j2k",), "change_saved": in_fragments}, {}),
+    ("deflated, several parts", write_slice,
+     {"image": np.tile(ARRAY[0], (100, 100)), "syntax": DEFLATED}, {"array": np.tile(ARRAY[0], (100, 100))[None]}),
+    ("captured, as ITK writes it", write_series,
+     {"SOPClassUID": SECONDARY_CAPTURE, "PixelSpacing": None, "NominalScannedPixelSpacing": numbers([0.75, 0.5])}, {}),
     ("slice", write_slice, {}, {"array": ARRAY[:1]}),
     ("slice, distance of slices", write_slice,
      {"SliceThickness": "7", "SpacingBetweenSlices": "2"}, {"array": ARRAY[:1]}),
@@ -304,6 +339,12 @@ def ended(data):
     return data[:middle] + b"\xff\xd9" + bytes(len(data) - middle - 10) + data[-8:]
 
 
+def without(tag):
+    """An element of two characters gets a private tag."""
+    return lambda data: data.replace(struct.pack("<2H2s", tag >> 16, tag & 0xFFFF, b"CS"),
+                                     struct.pack("<2H2s", (tag >> 16) + 1, tag & 0xFFFF, b"CS"))
+
+
 def element(tag, value):
     return lambda data: data.replace(struct.pack("<2H2s2H", tag >> 16, tag & 0xFFFF, b"US", 2, value[0]),
                                      struct.pack("<2H2s2H", tag >> 16, tag & 0xFFFF, b"US", 2, value[1]))
@@ -321,6 +362,15 @@ REFUSED = (
     ("a slice is missing", write_series, {"places": [place(k + (k > 1)) for k in range(5)]}, MISSING % ("0.5", "2.5")),
     ("a slice is beside the others", write_series,
      {"places": [place(k) + 0.5 * (k == 2) * OBLIQUE.direction[:, 0] for k in range(5)]}, MISSING % ("0.5", "2")),
+    ("a slice is half a voxel beside the others", write_series,
+     {"places": [place(k) + 0.25 * (k == 2) * OBLIQUE.direction[:, 0] for k in range(5)]}, MISSING % ("0.25", "2")),
+    ("GE's own transfer syntax", write_slice, {"edit": replaced(b"1.2.840.10008.1.2.1\0", b"1.2.840.113619.5.2\0\0")},
+     "its transfer syntax '1.2.840.113619.5.2' is not supported"),
+    ("pixels of JPEG from nothing", write_compressed,
+     {"frames": [b"\xff\xd8\xff\xd9"], "syntax": JPEG, "Rows": 40000, "Columns": 40000}, "are not compressed to 4"),
+    ("a file of JPEG 2000", write_compressed,
+     {"frames": [b"\0\0\0\x0cjP  \r\n\x87\n" + b"\0" * 20 + b"\xff\xd9"], "syntax": JPEG_2000},
+     "files of JPEG 2000, where codestreams must be"),
     ("two times", write_series, {"places": [place(k // 2) for k in range(5)]}, "'.*' and '.*' " + PLACES),
     ("frames of two times", write_frames, {"step": (0, 0, 0)}, "frame . and frame . " + PLACES),
     ("columns differ", write_series, {"change": at(3, lambda data: assign(data, {
@@ -440,6 +490,12 @@ for option, marker in (("--jpeg", 0xFFC3), ("--jpegls", 0xFFF7), ("--j2k", 0xFF5
 
 # name, writer, its options, words of the warning, what is expected
 WARNED = (
+    ("JPEG-LS with loss that its header does not tell", write_slice,
+     {"image": np.full((8, 8), 77, "u1"), "convert": ("--jpegls", "--lossy", "-e", "3"),
+      "edit": without(0x00282110)}, "compressed with loss", {"array": np.full((1, 8, 8), 77, "u1")}),
+    ("JPEG 2000 with loss that its header does not tell", write_slice,
+     {"image": np.full((64, 64), 77, "u1"), "convert": ("--j2k", "--lossy", "--irreversible"),
+      "edit": without(0x00282110)}, "compressed with loss", {"array": np.full((1, 64, 64), 77, "u1")}),
     ("slice of no thickness", write_slice, {"SliceThickness": None},
      "one slice, of which the thickness is not known: 0.5 mm",
      {"array": ARRAY[:1], "step": 0.5 * NORMAL}),
@@ -497,10 +553,20 @@ class Folders(FolderTestCase):
 
     def test_other_files(self):
         (self.series / "notes.txt").write_text("hello")
+        (self.series / "._0.dcm").write_bytes(b"\0\5\x16\7 of macOS")
+        (self.series / ".#lock").symlink_to("nowhere")
+        os.mkfifo(self.series / "fifo")
         (self.series / "deeper").mkdir()
         save(self.series / "report", data_set(ARRAY[0], SOPClassUID=ROOT + "88.11", SeriesInstanceUID="1.2.3",
             PixelData=None))
         self.compare(self.read(self.series))
+
+    def test_links(self):
+        folder = self.folder / "links"
+        folder.mkdir()
+        for path in self.series.iterdir():
+            (folder / path.name).symlink_to(path)
+        self.compare(self.read(folder))
 
     def test_two_series(self):
         write_slice(self.series, SeriesInstanceUID=SERIES + ".8")
