@@ -21,6 +21,7 @@ struct Parsing
   XML_Parser Parser = nullptr;
   OMEMetadata Metadata;
   bool IsInUUID = false;
+  std::size_t DepthOfAnnotations = 0; ///< elements that are open, from StructuredAnnotations on
   bool HasDocumentType = false;
 };
 
@@ -56,7 +57,11 @@ void StartElement(void* data, const char* qualifiedName, const char** attributes
 {
   OMEMetadata& metadata = At(data).Metadata;
   const std::string_view name = LocalName(qualifiedName);
-  if (name == "OME")
+  if (At(data).DepthOfAnnotations > 0 || name == "StructuredAnnotations")
+  {
+    ++At(data).DepthOfAnnotations; // they may hold elements of any name
+  }
+  else if (name == "OME")
   {
     metadata.File = TextOf(FieldsOf(attributes), "UUID");
   }
@@ -85,7 +90,9 @@ void StartElement(void* data, const char* qualifiedName, const char** attributes
 
 void EndElement(void* data, const char* /*name*/)
 {
-  At(data).IsInUUID = false;
+  Parsing& parsing = At(data);
+  parsing.IsInUUID = false;
+  parsing.DepthOfAnnotations -= parsing.DepthOfAnnotations > 0 ? 1 : 0;
 }
 
 void AddText(void* data, const char* text, int length)

@@ -8,6 +8,7 @@
 #include "TIFFStack.h"
 
 #include <vtk_tiff.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -319,9 +321,11 @@ std::string CheckCompression(std::uint16_t compression)
   }
   const bool changesNumbers = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG ||
     compression == COMPRESSION_PIXARLOG;
-  return changesNumbers ? "it is compressed with " + name +
-      ", which changes numbers: labels may be wrong, most of all where tissues meet"
-                        : "";
+  const bool mayChangeNumbers = compression == COMPRESSION_LERC; // this is a choice of the writer
+  return changesNumbers || mayChangeNumbers
+    ? "it is compressed with " + name + ", which " + (mayChangeNumbers ? "may change" : "changes") +
+      " numbers: labels may be wrong, most of all where tissues meet"
+    : "";
 }
 
 /** Strips or tiles: they cover a page in rows of equal parts. */
@@ -558,6 +562,12 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
     const std::uint64_t row = part / parts.Across * parts.Length;
     const std::uint64_t offset = TIFFGetStrileOffset(tiff, static_cast<std::uint32_t>(part));
     const std::uint64_t bytes = TIFFGetStrileByteCount(tiff, static_cast<std::uint32_t>(part));
+    if (offset == 0 && bytes == 0)
+    {
+      throw FileError("it is a sparse file, which leaves out strip or tile " +
+        std::to_string(part + 1) + " of page " + std::to_string(page) +
+        ": save it with all strips and tiles");
+    }
     const std::uint64_t needed = isPlain ? rowBytes * parts.RowsFrom(row, this->First) : 1;
     if (bytes < needed || offset == 0 || offset > size || bytes > size - offset)
     {
@@ -652,6 +662,41 @@ bool WarnsOfDamage(std::uint16_t compression)
   return std::find(decoders.begin(), decoders.end(), compression) != decoders.end();
 }
 
+/** libtiff stops when a part is full, and the checksum comes after that. The last strip may be longer than its rows. */
+bool IsSoundStream(
+  const InputFile& file, std::uint64_t offset, std::uint64_t bytes, bool areBitsReversed)
+{
+  std::array<Bytef, 1 << 14> packed{};
+  std::array<Bytef, 1 << 14> unpacked{};
+  z_stream stream{};
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  int result = inflateInit(&stream);
+  while (result == Z_OK)
+  {
+    if (stream.avail_in == 0)
+    {
+      const std::size_t size = std::min<std::uint64_t>(bytes, packed.size());
+      stream.next_in = packed.data();
+      stream.avail_in = static_cast<uInt>(
+        file.ReadAt(offset, std::as_writable_bytes(std::span(packed).first(size))));
+      offset += size;
+      bytes -= size;
+      if (areBitsReversed)
+      {
+        TIFFReverseBits(packed.data(), static_cast<tmsize_t>(size));
+      }
+    }
+    stream.next_out = unpacked.data();
+    stream.avail_out = static_cast<uInt>(unpacked.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+  }
+  if (result == Z_MEM_ERROR)
+  {
+    throw std::bad_alloc();
+  }
+  return result == Z_STREAM_END;
+}
+
 void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::byte> to)
 {
   TIFF* const tiff = this->Handle.get();
@@ -664,10 +709,20 @@ void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::
   {
     RefuseDamage(page, this->Reads.Error);
   }
-  if (!this->Reads.Warning.empty() &&
-    WarnsOfDamage(Get<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE)))
+  const auto compression = Get<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (!this->Reads.Warning.empty() && WarnsOfDamage(compression))
   {
     RefuseDamage(page, this->Reads.Warning);
+  }
+  const bool isDeflated =
+    compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE;
+  if (isDeflated &&
+    !IsSoundStream(this->Reads.File, TIFFGetStrileOffset(tiff, part),
+      TIFFGetStrileByteCount(tiff, part),
+      Get<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) != FILLORDER_MSB2LSB))
+  {
+    RefuseDamage(
+      page, "the zlib stream of its strip or tile " + std::to_string(part + 1) + " is damaged");
   }
 }
 

@@ -470,12 +470,20 @@ std::string FindJSON(const std::string& text, const std::string& key, char first
 
 /**
  * The shape of an array, slowest axis first, perhaps with names of its axes:
- * {"axes": "TZYX", "shape": [2, 12, 30, 20]}. If there are none, one axis besides those of a page is that of slices.
+ * {"axes": "TZYX", "shape": [2, 12, 30, 20]}. If there are none, one axis besides those of a page is that of slices. A
+ * last axis may be that of samples, of which a page has one.
  */
 TIFFStack DescribeTifffile(const TIFFPages& pages, Warnings& warnings)
 {
-  const std::vector<std::string> shape = Split(FindJSON(pages.Description, "shape", '[', ']'), ',');
-  const std::string names = FindJSON(pages.Description, "axes", '"', '"');
+  std::vector<std::string> shape = Split(FindJSON(pages.Description, "shape", '[', ']'), ',');
+  std::string names = FindJSON(pages.Description, "axes", '"', '"');
+  const std::array<std::string, 3> page{ std::to_string(pages.Length), std::to_string(pages.Width),
+    "1" };
+  if (shape.size() >= page.size() && std::equal(page.rbegin(), page.rend(), shape.rbegin()))
+  {
+    names.resize(names.size() == shape.size() ? names.size() - 1 : names.size());
+    shape.pop_back();
+  }
   std::vector<PageAxis> axes;
   for (std::size_t a = 0; a + 2 < shape.size(); ++a)
   {

@@ -7,6 +7,7 @@ import lzma
 import re
 import struct
 import unittest
+import unittest.mock
 import zlib
 
 import numpy as np
@@ -228,6 +229,34 @@ class Layouts(TIFFTestCase):
             with self.subTest(name):
                 self.check(self.save(array, **options), wanted)
 
+    def test_streams_of_deflate(self):
+        """A last strip may be as long as the others, and bits may be reversed."""
+        array = labels("u2", (3, 12, 20))
+        longer = np.concatenate((array, array[:, :3]), axis=1)
+        self.check(self.save(longer, compression="Deflate", change=change_all({257: (4, [12])})), array)
+        reverse = bytes(int(format(byte, "08b")[::-1], 2) for byte in range(256))
+        path = self.save(array, compression="Deflate", rows=12, change=change_all({266: (3, [2])}))
+        file = path.read_bytes()
+        for packed in map(zlib.compress, map(np.ndarray.tobytes, array)):
+            self.assertIn(packed, file)
+            file = file.replace(packed, packed.translate(reverse))
+        path.write_bytes(file)
+        self.check(path, array)
+
+    def test_lerc(self):
+        """Whether numbers are changed is a choice of the writer."""
+        array = np.full((3, 12, 20), 4, "u1")
+
+        def lerc(data):
+            unsigned8, largest_error = 1, 0.5
+            return b"Lerc2 " + struct.pack("<7i3di", 2, 12, 20, 240, 8, 62, unsigned8, largest_error, 4, 4, 0)
+
+        with unittest.mock.patch.dict(COMPRESSIONS, LERC=(34887, lerc)):
+            path = self.save(array, compression="LERC", rows=12)
+        if "which this libtiff cannot read" in self.reader(path).GetErrorMessage():
+            self.skipTest("libtiff without LERC")
+        self.check(path, array, warnings=("compressed with LERC, which may change numbers", UNKNOWN))
+
     def test_pyramids(self):
         """Reduced images and masks are no slices."""
         array = labels("u2")
@@ -420,6 +449,13 @@ class Descriptions(TIFFTestCase):
             path = self.described(self.OME % ("XYZCT", 6, 1, "", places), pages=pages,
                                   change=lambda number, entries: entries.update({254: (4, [number % 2])}))
             self.check(path, self.ARRAY, spacing=box, warnings=(MICRONS,))
+        with self.subTest("annotations"):
+            other = "<XMLAnnotation><Value><A><Image/><Pixels SizeX='9'/></A></Value></XMLAnnotation><UUID>9</UUID>"
+            annotations = "<StructuredAnnotations>%s</StructuredAnnotations>" % other
+            whole = self.OME % ("XYZCT", 6, 1, "", "<TiffData/>")
+            for place in ("<Image ", "</OME>"):
+                self.check(self.described(whole.replace(place, annotations + place)), self.ARRAY, spacing=box,
+                           warnings=(MICRONS,))
         with self.subTest("no sizes"):
             self.check(self.described(re.sub(r'PhysicalSize.="[0-9.]+"', "", self.OME % ("XYZCT", 6, 1, "", ""))),
                        self.ARRAY)
@@ -456,6 +492,10 @@ class Descriptions(TIFFTestCase):
         for description, wanted, warnings in (
                 ('{"shape": [6, 12, 20]}', self.ARRAY, (UNKNOWN,)),
                 ('{"shape": [1, 6, 12, 20]}', self.ARRAY, (UNKNOWN,)),
+                ('{"shape": [6, 12, 20, 1]}', self.ARRAY, (UNKNOWN,)),
+                ('{"shape": [1, 1, 6, 12, 20, 1]}', self.ARRAY, (UNKNOWN,)),
+                ('{"shape": [12, 20, 1]}', self.ARRAY, (UNKNOWN,)),
+                ('{"axes": "TZYXS", "shape": [2, 3, 12, 20, 1]}', self.MOVING, (UNKNOWN, NO_TIME)),
                 ('{"axes": "TZYX", "shape": [2, 3, 12, 20]}', self.MOVING, (UNKNOWN, NO_TIME)),
                 ('{"shape": [3, 2, 12, 20], "axes": "ZTYX"}', self.ACROSS, (UNKNOWN, NO_TIME)),
                 ('{"shape": [12, 20]}', self.ARRAY, (UNKNOWN,)),
@@ -548,6 +588,29 @@ class Damage(TIFFTestCase):
                                                                       damaged[:len(sound)].ljust(len(sound), b"\0")))
                     if compression != "PackBits" or damaged is not short:
                         self.refused("truncated or damaged: page 2", self.folder / "i.tif")
+
+    def test_checksums(self):
+        """Deflate: a stream ends with a checksum, within its part, also if it is longer than the part needs."""
+        for name, damaged in (("wrong", lambda data: zlib.compress(data)[:-4] + b"none"),
+                              ("missing", lambda data: zlib.compress(data)[:-4]),
+                              ("cut", lambda data: zlib.compress(data)[:-1]),
+                              ("wrong, longer", lambda data: zlib.compress(2 * data)[:-4] + b"none"),
+                              ("missing, longer", lambda data: zlib.compress(2 * data)[:-4])):
+            for code, tile in itertools.product((8, 32946), (None, (16, 16))):
+                with self.subTest(name, code=code, tile=tile):
+                    with unittest.mock.patch.dict(COMPRESSIONS, damaged=(code, damaged)):
+                        path = self.save(self.ARRAY, compression="damaged", tile=tile)
+                    self.refused("truncated or damaged: page 1", path)
+
+    def test_sparse(self):
+        """Parts that are left out on purpose are no damage."""
+        def leave_out(_, entries):
+            for tag in (324, 325) if tile else (273, 279):
+                entries[tag][1][1] = 0
+
+        for tile in None, (16, 16):
+            self.refused("^[^(]*sparse file, which leaves out strip or tile 2 of page 1: save it with all",
+                         self.save(self.ARRAY, tile=tile, change=leave_out))
 
     def test_circles(self):
         for loop in range(3):
