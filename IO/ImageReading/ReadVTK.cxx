@@ -160,21 +160,6 @@ bool IsLegacy(const std::string& beginning)
   return beginning.rfind("# vtk DataFile", 0) == 0;
 }
 
-/** An attribute of the first element, or an empty string. */
-std::string XMLType(const std::string& beginning)
-{
-  constexpr std::string_view key = "type=";
-  const std::size_t element = beginning.find("<VTKFile");
-  const std::size_t at = beginning.find(key, element);
-  const std::size_t end = beginning.find('>', element);
-  if (at == beginning.npos || at > end || at + key.size() + 1 >= beginning.size())
-  {
-    return {};
-  }
-  const std::size_t first = at + key.size() + 1; // after the quote
-  return beginning.substr(first, beginning.find(beginning[first - 1], first) - first);
-}
-
 /** What the fourth line says. */
 std::string LegacyType(const std::string& beginning)
 {
@@ -192,19 +177,6 @@ std::string LegacyType(const std::string& beginning)
   std::transform(type.begin(), type.end(), type.begin(),
     [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
   return keyword == "DATASET" ? type : keyword;
-}
-
-void CheckKind(const std::string& kind, std::string_view wanted)
-{
-  if (kind.empty())
-  {
-    throw FileError("it is truncated or damaged: it does not say what it holds");
-  }
-  if (kind != wanted)
-  {
-    throw FileError("it holds " + Excerpt(kind) + "; a label image of VTK is " +
-      std::string(wanted) + ": sample it on a regular grid (vtkImageData) first");
-  }
 }
 
 /** Before memory is taken. A bit of the file is a voxel at least, and a byte is one that is compressed. */
@@ -484,8 +456,10 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   const InputFile file(path);
   const std::string beginning = file.Beginning(LongestBeginning);
   const bool isLegacy = IsLegacy(beginning);
-  CheckKind(isLegacy ? LegacyType(beginning) : XMLType(beginning),
-    isLegacy ? "STRUCTURED_POINTS" : "ImageData");
+  if (isLegacy)
+  {
+    CheckKindOfVTK(LegacyType(beginning), "STRUCTURED_POINTS");
+  }
   const Messages messages;
   const vtkSmartPointer<vtkImageData> image =
     isLegacy ? ReadLegacy(file, messages) : ReadXML(file, messages);

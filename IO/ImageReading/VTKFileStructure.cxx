@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -31,12 +32,46 @@ namespace
   throw FileError("it is truncated or damaged: " + reason);
 }
 
+/** Of a number. */
+struct Limits
+{
+  double Least = -std::numeric_limits<double>::max();
+  double Most = std::numeric_limits<double>::max();
+};
+
+template <typename T>
+Limits LimitsOf()
+{
+  return { static_cast<double>(std::numeric_limits<T>::lowest()),
+    static_cast<double>(std::numeric_limits<T>::max()) };
+}
+
+/** Of the numbers of an array; nothing for a type that VTK does not have. */
+std::optional<Limits> LimitsOfType(std::string_view type)
+{
+  struct Known
+  {
+    std::string_view Name;
+    Limits Numbers;
+  };
+  const std::array<Known, 11> known{ { { "Int8", LimitsOf<std::int8_t>() },
+    { "UInt8", LimitsOf<std::uint8_t>() }, { "Int16", LimitsOf<std::int16_t>() },
+    { "UInt16", LimitsOf<std::uint16_t>() }, { "Int32", LimitsOf<std::int32_t>() },
+    { "UInt32", LimitsOf<std::uint32_t>() }, { "Int64", LimitsOf<std::int64_t>() },
+    { "UInt64", LimitsOf<std::uint64_t>() }, { "Float32", LimitsOf<double>() },
+    { "Float64", LimitsOf<double>() }, { "Bit", { 0, 1 } } } };
+  const auto found =
+    std::find_if(known.begin(), known.end(), [type](const Known& one) { return one.Name == type; });
+  return found == known.end() ? std::nullopt : std::optional(found->Numbers);
+}
+
 /** What comes before the appended data. */
 struct Structure
 {
   XML_Parser Parser = nullptr;
   bool HasDocumentType = false;
   std::string Wrong; ///< an attribute that is none, and that VTK would leave out
+  std::string Kind;  ///< of what the file holds
   bool IsCompressed = false;
   bool IsBigEndian = false;
   std::size_t BytesOfCount = 4; ///< before the bytes of an array
@@ -49,7 +84,11 @@ struct Structure
   bool IsInFields = false;       ///< and not in data of points or cells
   bool IsInline = false;         ///< inside an array in base64
   std::string InlineBeginning;
-  std::uint64_t InlineLength = 0;                   ///< of the array in base64
+  std::uint64_t InlineLength = 0; ///< of the array in base64
+  bool IsInterrupted = false;     ///< what is in base64 has blanks or other letters within
+  bool HasBlank = false;          ///< after letters of the array
+  std::optional<Limits> OfText;   ///< inside an array of text: of its numbers
+  std::string Word;               ///< the last of them
   std::vector<std::array<std::uint64_t, 2>> Inline; ///< of each: the bytes that it claims, and has
 };
 
@@ -79,6 +118,17 @@ std::string DecodeWords(const std::string& letters)
 }
 
 constexpr std::size_t LettersOfCount = 12; // are enough for either size
+
+bool IsBase64(char letter)
+{
+  return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') ||
+    (letter >= '0' && letter <= '9') || letter == '+' || letter == '/' || letter == '=';
+}
+
+bool IsBlank(char letter)
+{
+  return letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
+}
 
 /** The number of bytes that an array claims, of which these are the first. */
 std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structure& structure)
@@ -136,12 +186,6 @@ std::string Normalize(const std::string& numbers)
   return all;
 }
 
-struct Limits
-{
-  double Least = -std::numeric_limits<double>::max();
-  double Most = std::numeric_limits<double>::max();
-};
-
 /** An attribute of so many numbers, if it is there. */
 void CheckNumbers(Structure& structure, const char** attributes, const char* name,
   std::size_t count, Limits limits = {})
@@ -172,11 +216,17 @@ void StartArray(Structure& structure, const char** attributes)
   CheckNumbers(structure, attributes, "NumberOfTuples", 1,
     structure.IsInFields ? Limits{ 0, mostTuples } : Limits{});
   CheckNumbers(structure, attributes, "offset", 1, { 0 });
-  if (Attribute(attributes, "type") == "String" && !structure.IsInFields)
+  const std::string type = Attribute(attributes, "type");
+  const std::optional<Limits> limits = LimitsOfType(type);
+  if (!limits && !(type == "String" && structure.IsInFields)) // VTK's reader crashes
   {
-    structure.Wrong = "type=\"String\" of an array"; // VTK's reader crashes
+    structure.Wrong = "type=\"" + Excerpt(type) + "\" of an array";
   }
   const std::string format = Attribute(attributes, "format");
+  if (format == "ascii" && type != "Float32" && type != "Float64")
+  {
+    structure.OfText = limits;
+  }
   if (format == "appended")
   {
     const std::string offset = Attribute(attributes, "offset");
@@ -192,6 +242,7 @@ void StartArray(Structure& structure, const char** attributes)
     structure.IsInline = true;
     structure.InlineBeginning.clear();
     structure.InlineLength = 0;
+    structure.HasBlank = false;
   }
 }
 
@@ -201,6 +252,7 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   const std::string_view name(elementName);
   if (name == "VTKFile")
   {
+    structure.Kind = Attribute(attributes, "type");
     structure.IsCompressed = !Attribute(attributes, "compressor").empty();
     structure.IsBigEndian = Attribute(attributes, "byte_order") == "BigEndian";
     structure.BytesOfCount = Attribute(attributes, "header_type") == "UInt64" ? 8 : 4;
@@ -233,17 +285,47 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   }
 }
 
+/** VTK would make another number of one that does not fit. What is no number it finds itself. */
+void CheckWord(Structure& structure)
+{
+  double number = 0.0;
+  const char* const begin = structure.Word.data();
+  if (std::from_chars(begin, begin + structure.Word.size(), number).ec == std::errc() &&
+    !(number >= structure.OfText->Least && number <= structure.OfText->Most))
+  {
+    structure.Wrong = "the number " + Excerpt(structure.Word) + " in an array of a smaller type";
+  }
+  structure.Word.clear();
+}
+
 void AddText(void* data, const char* text, int length)
 {
   Structure& structure = At(data);
   const std::string_view letters(text, structure.IsInline ? static_cast<std::size_t>(length) : 0);
   for (const char letter : letters)
   {
-    const bool isBlank = letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
-    structure.InlineLength += isBlank ? 0 : 1;
-    if (!isBlank && structure.InlineBeginning.size() < LettersOfCount)
+    if (IsBlank(letter))
+    {
+      structure.HasBlank = structure.InlineLength > 0;
+      continue;
+    }
+    structure.IsInterrupted = structure.IsInterrupted || structure.HasBlank || !IsBase64(letter);
+    ++structure.InlineLength;
+    if (structure.InlineBeginning.size() < LettersOfCount)
     {
       structure.InlineBeginning += letter;
+    }
+  }
+  for (const char letter :
+    std::string_view(text, structure.OfText ? static_cast<std::size_t>(length) : 0))
+  {
+    if (IsBlank(letter))
+    {
+      CheckWord(structure);
+    }
+    else
+    {
+      structure.Word += letter;
     }
   }
 }
@@ -257,6 +339,11 @@ void EndElement(void* data, const char* /*name*/)
       { DecodeCount(structure.InlineBeginning, true, structure), structure.InlineLength / 4 * 3 });
   }
   structure.IsInline = false;
+  if (structure.OfText)
+  {
+    CheckWord(structure);
+    structure.OfText.reset();
+  }
 }
 
 /** VTK's files have none. */
@@ -289,10 +376,12 @@ Structure Parse(const InputFile& file)
           isLast) != XML_STATUS_OK &&
       !structure.IsAppended)
     {
-      RefuseDamage(structure.HasDocumentType
-          ? "it has a document type, which VTK's files have not"
-          : std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
-            std::to_string(XML_GetCurrentLineNumber(parser.get())));
+      if (structure.HasDocumentType)
+      {
+        throw FileError("it has a document type, which VTK's files have not: take that line out");
+      }
+      RefuseDamage(std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
+        std::to_string(XML_GetCurrentLineNumber(parser.get())));
     }
   }
   return structure;
@@ -327,9 +416,30 @@ Range FindAppendedData(const InputFile& file, const Structure& structure)
   return { structure.AppendedTag + mark + 1, tail + last };
 }
 
-void CheckAppendedData(const InputFile& file, const Structure& structure)
+/** VTK takes what it has for numbers where a letter is none of base64. */
+void CheckLetters(const InputFile& file, const Range& data, Structure& structure)
+{
+  constexpr std::uint64_t most = 1 << 20;
+  bool hasBegun = false;
+  bool hasBlank = false;
+  for (std::uint64_t at = data.Begin; at < data.End && structure.IsBase64; at += most)
+  {
+    const std::uint64_t length = std::min(most, data.End - at);
+    for (const char letter : ReadText(file, at, static_cast<std::size_t>(length)))
+    {
+      const bool isBlank = IsBlank(letter);
+      structure.IsInterrupted =
+        structure.IsInterrupted || (!isBlank && (hasBlank || !IsBase64(letter)));
+      hasBlank = isBlank && hasBegun;
+      hasBegun = hasBegun || !isBlank;
+    }
+  }
+}
+
+void CheckAppendedData(const InputFile& file, Structure& structure)
 {
   const Range data = FindAppendedData(file, structure);
+  CheckLetters(file, data, structure);
   const std::uint64_t length = data.End > data.Begin ? data.End - data.Begin : 0;
   for (const std::uint64_t offset : structure.Offsets)
   {
@@ -346,13 +456,27 @@ void CheckAppendedData(const InputFile& file, const Structure& structure)
 
 } // namespace
 
+void CheckKindOfVTK(const std::string& kind, std::string_view wanted)
+{
+  if (kind.empty())
+  {
+    throw FileError("it is truncated or damaged: it does not say what it holds");
+  }
+  if (kind != wanted)
+  {
+    throw FileError("it holds " + Excerpt(kind) + "; a label image of VTK is " +
+      std::string(wanted) + ": sample it on a regular grid (vtkImageData) first");
+  }
+}
+
 void CheckStructureOfVTI(const InputFile& file)
 {
-  const Structure structure = Parse(file);
+  Structure structure = Parse(file);
+  CheckKindOfVTK(structure.Kind, "ImageData");
   if (!structure.Wrong.empty())
   {
     throw FileError(
-      "its header gives " + structure.Wrong + ", where other numbers must be: correct the header");
+      "its header gives " + structure.Wrong + ", which cannot be: correct the header");
   }
   if (structure.Extents.size() != 1)
   {
@@ -371,6 +495,11 @@ void CheckStructureOfVTI(const InputFile& file)
   if (structure.IsAppended)
   {
     CheckAppendedData(file, structure);
+  }
+  if (structure.IsInterrupted)
+  {
+    throw FileError("its data in base64 have line breaks or foreign letters within, which VTK does "
+                    "not read: save it in the encoding raw");
   }
 }
 

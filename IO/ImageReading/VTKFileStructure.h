@@ -11,12 +11,18 @@
 
 #include "InputFile.h"
 
+#include <string>
+#include <string_view>
+
 namespace voxplex::io
 {
 
+/** @throws FileError that says what the file holds, if that is not what is wanted */
+void CheckKindOfVTK(const std::string& kind, std::string_view wanted);
+
 /**
- * @throws FileError: XML that is not well-formed, several pieces, a piece that is not all of the image, arrays that are
- * shorter than they claim
+ * @throws FileError: XML that is not well-formed or holds something else, several pieces, a piece that is not all of the
+ * image, arrays that are shorter than they claim, of unknown types, or with numbers that their type does not hold
  */
 void CheckStructureOfVTI(const InputFile& file);
 

@@ -6,6 +6,7 @@ They name no directions of the body; their coordinates are taken as LPS.
 """
 import base64
 import lzma
+import re
 import struct
 import zlib
 
@@ -221,6 +222,12 @@ def xml_equal(name, image=IMAGE, also=(), wrap=lambda files: files, **options):
     ROWS.append(row("VTK XML", name, wrap(vti(image.voxels, **options)), image, *also))
 
 
+def _interrupted(data, letter):
+    """With a letter amid the first array in base64."""
+    start = re.search(rb'format="binary">\s*|encoding="base64">\s*_', data).end() + 20
+    return data[:start] + letter + data[start:]
+
+
 def xml_refuse(name, words, array=I2, wrap=lambda files: files, is_broken=False, **options):
     ROWS.append(row("VTK XML", name, wrap(vti(array, **options)), refused(words, is_broken)))
 
@@ -273,6 +280,21 @@ for count in (-1, 0, 10 ** 9):
     xml_refuse("%d components" % count, "NumberOfComponents", attributes=' NumberOfComponents="%d"' % count, is_broken=True)
 xml_refuse("10^9 texts", "NumberOfTuples", is_broken=True, wrap=lambda f: f.replaced(
     b"<Piece", b'<FieldData><Array type="String" Name="a" NumberOfTuples="1000000000" format="ascii">1</Array></FieldData><Piece'))
+for where, letter in (("in the middle", b"\n"), ("in the middle", b" "), ("in the middle", b"*")):
+    for form in ("binary", "base64"):
+        xml_refuse("%r %s, %s" % (letter.decode(), where, form), "base64", form=form, wrap=lambda f, letter=letter: f.with_data(
+            _interrupted(f.data(), letter)))
+for value, type in ((b"300", "u1"), (b"-1", "u1"), (b"40000", "i2")):
+    xml_refuse("%s as text of %s" % (value.decode(), type), "smaller type", array=voxels(type), form="ascii",
+               wrap=lambda f, value=value: f.with_data(re.sub(rb'(format="ascii">\s*)-?\d+', rb"\g<1>" + value, f.data())))
+for tag, type in (("DataArray", ' type="Foo"'), ("DataArray", ""), ("Array", ' type="Variant"')):
+    xml_refuse("field data of type%s" % (type or " none"), "type=", wrap=lambda f, tag=tag, type=type: f.replaced(
+        b"<Piece", ('<FieldData><%s%s Name="a" NumberOfTuples="1" format="ascii">1</%s></FieldData><Piece' % (
+            tag, type, tag)).encode()))
+xml_equal("attributes in another order", wrap=lambda f: f.replaced(
+    b'type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt32"',
+    b'byte_order="LittleEndian" header_type = "UInt32" type = "ImageData" version="1.0"'))
+xml_refuse("a document type", "document type", wrap=lambda f: f.replaced(b"<VTKFile", b"<!DOCTYPE VTKFile>\n<VTKFile"))
 xml_refuse("a compressor that there is not", ".", is_broken=True, wrap=lambda f: f.replaced(
     b"header_type", b'compressor="vtkRarDataCompressor" header_type'))
 for blocks in (1 << 31, (1 << 32) - 1, 1000):
