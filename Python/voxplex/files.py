@@ -105,7 +105,7 @@ def write(mesh: vtkPointSet, path: Path, *, interfaces: Optional[vtkPointSet] = 
     """
     _need_io()
     writer = vtkSimplexMeshWriter()
-    writer.SetFileName(os.fspath(path))
+    writer.SetFileName(os.fsencode(path))
     if _is_mesh(mesh):
         writer.SetContent(writer.CONTENT_MESH)
         writer.SetSlab(-1 if slab is None else slab)
@@ -142,12 +142,12 @@ def segmentation_reader(path: Path, *, space: str = "LPS", series_uid: Optional[
     if space not in ("LPS", "RAS"):
         raise ValueError(f"space is {space!r}, not 'LPS' or 'RAS'")
     reader = vtkSegmentationReader()
-    reader.SetFileName(os.fspath(path))
+    reader.SetFileName(os.fsencode(path))
     reader.SetSpace(reader.SPACE_LPS if space == "LPS" else reader.SPACE_RAS)
     if series_uid is not None:
         reader.SetSeriesUID(series_uid)
     if label_table is not None:
-        reader.SetLabelTableFileName(os.fspath(label_table))
+        reader.SetLabelTableFileName(os.fsencode(label_table))
     _place(reader, spacing, origin, direction)
     reader.SetDataFilesAnywhere(data_files_anywhere)
     _execute(reader, reader.UpdateInformation)

@@ -66,6 +66,18 @@ class Files(unittest.TestCase):
         numpy.testing.assert_allclose(other.GetOrigin(), ORIGIN * (-1, -1, 1))
         self.assertEqual(other.GetFieldData().GetAbstractArray("SPACE").GetValue(0), "RAS")
 
+    def test_names_that_are_no_text(self):
+        path = os.fsdecode(os.fsencode(self.folder) + b"/\xe9.nrrd")
+        os.rename(self.image, path)
+        image = voxplex.read_segmentation(path)
+        numpy.testing.assert_array_equal(voxplex.array_from_image(image), self.labels)
+        mesh = os.fsdecode(os.fsencode(self.folder) + b"/\xe9.vtu")
+        voxplex.write(voxplex.mesh(image, delta=2), mesh)
+        self.assertTrue(os.path.exists(mesh))
+        Path(path).write_bytes(b"no image")
+        with self.assertRaisesRegex(voxplex.FileError, ".nrrd': it is not an image"):
+            voxplex.read_segmentation(path)
+
     def test_place(self):
         """What the caller says counts before the file, for images, series and meshes."""
         place = dict(spacing=(1.0, 2.0, 4.0), origin=(1, 2, 3), direction=numpy.diag([-1.0, -1.0, 1.0]))
