@@ -32,16 +32,16 @@ struct Format
   ScalarImage (*Read)(const std::string& path, Reading& reading);
 };
 
-/** By what is surest in the first bytes of a file. */
+/** By what is surest in the first bytes of a file. MRC has three letters there, which may be in a comment of others. */
 constexpr std::array<Format, 8> Formats{ {
   { IsNRRD, ReadNRRD },
   { IsDICOM, ReadDICOMFile },
   { IsTIFF, ReadTIFF },
   { IsVTK, ReadVTK },
-  { IsMRC, ReadMRC },
   { IsGIPL, ReadGIPL },
   { IsNIfTI, ReadNIfTI },
   { IsMetaImage, ReadMetaImage },
+  { IsMRC, ReadMRC },
 } };
 
 /** Files that people try, and what they are. */
@@ -53,7 +53,7 @@ struct Stranger
 
 constexpr const char* Picture = "it is a picture of one slice, and a label image has several";
 
-constexpr std::array<Stranger, 19> Strangers{ {
+constexpr std::array<Stranger, 20> Strangers{ {
   { "\x89PNG", Picture },
   { "\xff\xd8\xff", Picture },
   { "BM", Picture },
@@ -68,6 +68,7 @@ constexpr std::array<Stranger, 19> Strangers{ {
   { "PK\x03\x04", "it is a ZIP archive: unpack it first" },
   { "# === DATA DESCRIPTION FILE", "it is a Philips PAR file: convert it with dcm2niix" },
   { "##TITLE", "it is a Bruker parameter file" },
+  { "\x1f\x8b", "it is compressed by gzip, and is not an image of NIfTI or GIPL: unpack it first" },
   { "BZh", "it is compressed by bzip2: unpack it first" },
   { "\xfd"
     "7zXZ",

@@ -296,15 +296,28 @@ double StepOf(const Header& header, std::size_t axis)
   return step > 0 && std::isfinite(step) ? step : 1.0;
 }
 
+/** The square of a, which the quaternion leaves out. */
+double RestOfQuaternion(const Header& header)
+{
+  const auto [b, c, d, x, y, z] = header.QForm;
+  return 1.0 - (b * b + c * c + d * d);
+}
+
+/** Its quaternion is not longer than 1. */
+bool IsRotation(const Header& header)
+{
+  constexpr double rounding = 1e-5; // of single-precision numbers
+  return RestOfQuaternion(header) >= -rounding;
+}
+
 /** The quaternion's rotation, as the standard has it. */
 Affine AffineOfQForm(const Header& header)
 {
   const auto [b, c, d, x, y, z] = header.QForm;
-  const double rest = 1.0 - (b * b + c * c + d * d);
-  constexpr double rounding = 1e-5; // of single-precision numbers
-  if (rest < -rounding)
+  const double rest = RestOfQuaternion(header);
+  if (!IsRotation(header) && !std::isnan(rest)) // Place() refuses what is no number
   {
-    throw FileError("the quaternion of its qform is longer than 1: correct the header");
+    throw FileError("the quaternion of its qform is no rotation: correct the header");
   }
   const double a = std::sqrt(std::max(0.0, rest));
   const double norm = rest < 0 ? std::sqrt(b * b + c * c + d * d) : 1.0; // a rounded half turn
@@ -383,7 +396,12 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
   if (header.SFormCode > 0)
   {
     const Affine sform = AffineOfSForm(header);
-    if (header.QFormCode > 0)
+    if (header.QFormCode > 0 && !IsRotation(header))
+    {
+      reading.Warnings.push_back("its header gives two places, and the sform is used; the qform is "
+                                 "no rotation: set its code to 0");
+    }
+    else if (header.QFormCode > 0)
     {
       WarnIfFormsDiffer(sform, AffineOfQForm(header), unit, image, reading);
     }
@@ -416,6 +434,20 @@ double UnitOfLength(const Header& header)
   }
 }
 
+/** Into seconds. */
+double UnitOfTime(const Header& header)
+{
+  switch (header.Units & 56)
+  {
+    case 16:
+      return 1e-3; // millisecond
+    case 24:
+      return 1e-6; // microsecond
+    default:
+      return 1.0;
+  }
+}
+
 void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 {
   const double unit = UnitOfLength(header);
@@ -435,7 +467,8 @@ void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 
 void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
 {
-  const double step = header.Steps[4];
+  const double unit = UnitOfTime(header);
+  const double step = header.Steps[4] * unit;
   if (!std::isfinite(header.FirstTime))
   {
     throw FileError("the time of the first frame in its header (toffset) is not a finite number: "
@@ -444,7 +477,7 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
   if (!(step >= 0) || !std::isfinite(step))
   {
     std::ostringstream reason;
-    reason << "the time from frame to frame in its header is '" << step
+    reason << "the time from frame to frame in its header is '" << header.Steps[4]
            << "'; it must be a positive number: correct the header";
     throw FileError(reason.str());
   }
@@ -454,7 +487,7 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
       "its header has 0 for the time from frame to frame, which is taken to be 1; use "
       "SetTimeScale() to weigh time against space");
   }
-  image.TimeOrigin = header.FirstTime;
+  image.TimeOrigin = header.FirstTime * unit;
   image.TimeSpacing = step == 0 ? 1.0 : step;
 }
 

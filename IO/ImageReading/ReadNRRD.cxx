@@ -98,20 +98,23 @@ ScalarType TypeNamed(const std::string& name)
   return type->second;
 }
 
-Space SpaceNamed(std::string name)
+/** Words may be joined by anything: Teem writes "left-posterior-superior", and reads "left posterior superior", too. */
+Space SpaceNamed(const std::string& text)
 {
   static const std::map<std::string, Space> spaces{
-    { "right-anterior-superior", { { -1, -1, 1 }, 3 } },
+    { "rightanteriorsuperior", { { -1, -1, 1 }, 3 } },
     { "ras", { { -1, -1, 1 }, 3 } },
-    { "left-anterior-superior", { { 1, -1, 1 }, 3 } },
+    { "leftanteriorsuperior", { { 1, -1, 1 }, 3 } },
     { "las", { { 1, -1, 1 }, 3 } },
-    { "left-posterior-superior", { { 1, 1, 1 }, 3 } },
+    { "leftposteriorsuperior", { { 1, 1, 1 }, 3 } },
     { "lps", { { 1, 1, 1 }, 3 } },
-    { "scanner-xyz", { { 1, 1, 1 }, 3, false } },
-    { "3d-right-handed", { { 1, 1, 1 }, 3, false } },
-    { "3d-left-handed", { { 1, 1, 1 }, 3, false } },
+    { "scannerxyz", { { 1, 1, 1 }, 3, false } },
+    { "3drighthanded", { { 1, 1, 1 }, 3, false } },
+    { "3dlefthanded", { { 1, 1, 1 }, 3, false } },
   };
-  for (const char* time : { "-time", "t" })
+  std::string name = LowerCase(text);
+  std::erase_if(name, [](char c) { return c == '-' || c == '_' || c == ' '; });
+  for (const char* time : { "time", "t" })
   {
     const std::size_t length = std::string_view(time).size();
     const auto space =
@@ -126,7 +129,7 @@ Space SpaceNamed(std::string name)
   const auto space = spaces.find(name);
   if (space == spaces.end())
   {
-    throw FileError("its header gives the space '" + Excerpt(name) +
+    throw FileError("its header gives the space '" + Excerpt(text) +
       "', which NRRD does not have: correct the header");
   }
   return space->second;
@@ -136,7 +139,7 @@ Space FindSpace(const TextHeader& header)
 {
   if (const std::string* name = header.Find("space"))
   {
-    return SpaceNamed(LowerCase(*name));
+    return SpaceNamed(*name);
   }
   const std::int64_t dimension = header.Whole({ "space dimension" }, 0);
   if (dimension != 0 && dimension != 3 && dimension != 4)
@@ -159,7 +162,8 @@ void CheckFields(const TextHeader& header)
     "space directions", "space origin", "space units", "spacings", "thicknesses", "type", "units" };
   for (const auto& [key, spelling] : header.Own())
   {
-    if (!known.contains(key))
+    const bool isPair = header.Find(key)->find(":=") != std::string::npos; // "a: b:=c"
+    if (!known.contains(key) && !isPair)
     {
       throw FileError("its header gives '" + Excerpt(spelling) +
         "', which is no field of NRRD: correct the header");
@@ -440,12 +444,12 @@ bool AdoptIndexValues(
   const TextHeader& header, std::size_t axis, ScalarImage& image, Reading& reading)
 {
   const std::string key = "axis " + std::to_string(axis) + " index ";
-  const std::string* values = header.Find(key + "values");
+  const std::string* values = header.FindPair(key + "values");
   if (!values)
   {
     return false;
   }
-  const std::string* type = header.Find(key + "type");
+  const std::string* type = header.FindPair(key + "type");
   const std::vector<double> times = ParseNumbers(*values);
   const bool isFinite =
     std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });

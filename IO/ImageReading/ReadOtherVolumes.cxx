@@ -64,17 +64,20 @@ bool IsBigEndianMRC(const std::string& bytes)
   return stamp == bigEndian || (stamp != littleEndian && (mode < 0 || mode > most));
 }
 
+bool IsOfIMOD(const Fields& fields)
+{
+  constexpr std::int32_t stamp = 1146047817;
+  return fields.Get<std::int32_t>(152) == stamp;
+}
+
 /** Bytes of mode 0 are signed, but those that IMOD wrote before it said so. */
 ScalarType TypeOfMRC(const Fields& fields)
 {
-  constexpr std::int32_t stampOfIMOD = 1146047817;
   switch (const std::int32_t mode = fields.Get<std::int32_t>(12))
   {
     case 0:
-      return fields.Get<std::int32_t>(152) == stampOfIMOD &&
-          (fields.Get<std::int32_t>(156) & 1) == 0
-        ? ScalarType::UInt8
-        : ScalarType::Int8;
+      return IsOfIMOD(fields) && (fields.Get<std::int32_t>(156) & 1) == 0 ? ScalarType::UInt8
+                                                                          : ScalarType::Int8;
     case 1:
       return ScalarType::Int16;
     case 2:
@@ -86,7 +89,22 @@ ScalarType TypeOfMRC(const Fields& fields)
   }
 }
 
-void PlaceMRC(const Fields& fields, ScalarImage& image)
+/** ITK and others before 2014 mean numbers up to 255 by mode 0, and do not say so. */
+void WarnOfNegativeBytes(const Fields& fields, const ScalarImage& image, Reading& reading)
+{
+  constexpr std::int32_t firstThatSaysSo = 20140;
+  const auto* const bytes = static_cast<const std::int8_t*>(image.Scalars.get());
+  if (image.Type == ScalarType::Int8 && !IsOfIMOD(fields) &&
+    fields.Get<std::int32_t>(108) < firstThatSaysSo &&
+    std::any_of(bytes, bytes + image.NumberOfVoxels(), [](std::int8_t voxel) { return voxel < 0; }))
+  {
+    reading.Warnings.push_back(
+      "it has negative voxels (mode 0), by which the program that wrote it "
+      "may have meant numbers from 128 to 255");
+  }
+}
+
+void PlaceMRC(const Fields& fields, ScalarImage& image, Reading& reading)
 {
   Vector3 origin{};
   Vector3 spacing{};
@@ -117,6 +135,12 @@ void PlaceMRC(const Fields& fields, ScalarImage& image)
     axes[0] == axes[1])
   {
     throw FileError("its header does not say which axes columns, rows and sections run along");
+  }
+  if (spacing == Vector3{}) // what mrcfile writes, if it is not told
+  {
+    spacing = { 1.0, 1.0, 1.0 };
+    reading.Warnings.push_back("its header gives no spacing of the voxels, which is taken to be 1; "
+                               "set it with SetSpacing()");
   }
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -202,7 +226,7 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   image.Type = TypeOfMRC(fields);
   SetSizes(image,
     { fields.Get<std::int32_t>(0), fields.Get<std::int32_t>(4), fields.Get<std::int32_t>(8) });
-  PlaceMRC(fields, image);
+  PlaceMRC(fields, image, reading);
   const std::int32_t extension = fields.Get<std::int32_t>(92);
   if (extension < 0)
   {
@@ -217,6 +241,7 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   stored.Files = { path };
   stored.BytesToSkip = static_cast<std::int64_t>(SizeOfMRC) + extension;
   ReadVoxels(stored, image, reading);
+  WarnOfNegativeBytes(fields, image, reading);
   return image;
 }
 

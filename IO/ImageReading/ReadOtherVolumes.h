@@ -27,8 +27,9 @@ ScalarImage ReadGIPL(const std::string& path, Reading& reading);
 bool IsMRC(const InputFile& file);
 
 /**
- * Modes 0, 1, 2 and 6. Columns, rows and sections may run along any of the axes. Lengths are in angstrom, with a
- * warning.
+ * Modes 0, 1, 2 and 6. Bytes are signed, as MRC2014 has them, unless IMOD says otherwise; if the header is older and
+ * some are negative, there is a warning. Columns, rows and sections may run along any of the axes. Lengths are in
+ * angstrom, with a warning. If the cell is 0, the spacing is 1, with a warning.
  *
  * @throws FileError
  */

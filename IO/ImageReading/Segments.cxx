@@ -70,7 +70,7 @@ public:
 private:
   const std::string* Find(const char* key) const
   {
-    return this->Header.Find("segment" + std::to_string(this->Number) + "_" + key);
+    return this->Header.FindPair("segment" + std::to_string(this->Number) + "_" + key);
   }
 
   /** 0 if it is not a whole number. */
@@ -96,7 +96,7 @@ std::vector<Segment> ListSegments(const TextHeader& header)
   constexpr std::string_view before = "segment";
   constexpr std::string_view after = "_id";
   std::set<int> numbers;
-  for (const auto& [key, value] : header.All())
+  for (const auto& [key, value] : header.AllPairs())
   {
     if (key.starts_with(before) && key.ends_with(after) &&
       key.size() > before.size() + after.size())

@@ -37,6 +37,22 @@ std::optional<double> ParseNumber(const std::string& word)
                                                                   : std::nullopt;
 }
 
+/** Whether a name of files has "%d" or "%03d". Any other % is a part of a name. */
+bool IsPattern(const std::string& name)
+{
+  std::size_t at = name.find('%');
+  while (at != std::string::npos)
+  {
+    at = name.find_first_not_of("0123456789", at + 1);
+    if (at != std::string::npos && (name[at] == 'd' || name[at] == 'i' || name[at] == 'u'))
+    {
+      return true;
+    }
+    at = name.find('%', at);
+  }
+  return false;
+}
+
 std::string WithoutBrackets(std::string text)
 {
   std::replace_if(
@@ -118,23 +134,25 @@ bool TextHeader::TakeLine(std::string line)
     ? ofNRRD
     : line.find_first_of(this->IsNRRD ? ":" : "=:");
   const std::string name = Trim(line.substr(0, separator));
-  const bool isKeyValue =
-    separator != std::string::npos && line.compare(separator, 2, ":=") == 0; // of NRRD
-  if (separator == std::string::npos || (name.empty() && !isKeyValue))
+  const bool isAssigned = separator != std::string::npos && line.compare(separator, 2, ":=") == 0;
+  const bool isPair = this->IsNRRD && isAssigned;
+  if (separator == std::string::npos || (name.empty() && !isPair))
   {
     throw FileError("the line '" + Excerpt(line) + "' of its header is no field");
   }
   const std::string key = LowerCase(name);
-  std::string value = Trim(line.substr(separator + (isKeyValue ? 2 : 1)));
+  std::string value = Trim(line.substr(separator + (isAssigned ? 2 : 1)));
+  if (isPair)
+  {
+    this->Pairs.insert_or_assign(key, std::move(value));
+    return false;
+  }
   const bool isDataOfMetaImage = !this->IsNRRD && key == "elementdatafile";
   const bool isDataFile = isDataOfMetaImage || key == "data file" || key == "datafile";
   this->IsInList = isDataFile && !Words(value).empty() && Words(value).front() == "LIST";
-  if (!isKeyValue)
-  {
-    this->Spellings.emplace(key, name);
-  }
+  this->Spellings.emplace(key, name);
   const bool isNew = this->Fields.emplace(key, std::move(value)).second;
-  if (!isNew && !isKeyValue && key != "comment")
+  if (!isNew && key != "comment")
   {
     throw FileError("its header gives '" + Excerpt(name) + "' more than once");
   }
@@ -145,6 +163,12 @@ const std::string* TextHeader::Find(const std::string& key) const
 {
   const auto field = this->Fields.find(key);
   return field == this->Fields.end() ? nullptr : &field->second;
+}
+
+const std::string* TextHeader::FindPair(const std::string& key) const
+{
+  const auto pair = this->Pairs.find(key);
+  return pair == this->Pairs.end() ? nullptr : &pair->second;
 }
 
 const std::string* TextHeader::FindAny(std::initializer_list<const char*> keys) const
@@ -230,7 +254,7 @@ void TextHeader::SetFiles(const std::string* value, bool anywhere, StoredVoxels&
     return;
   }
   const std::vector<std::string> names = this->IsInList ? this->List
-    : value->find('%') != std::string::npos             ? ExpandPattern(*value)
+    : IsPattern(*value)                                 ? ExpandPattern(*value)
                                                         : std::vector{ *value };
   for (const std::string& name : names)
   {

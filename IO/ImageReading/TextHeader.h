@@ -19,7 +19,10 @@ namespace voxplex::io
 class InputFile;
 struct StoredVoxels;
 
-/** Keys are in lower case. "key: value", "key = value" and NRRD's "key:=value" are all fields. */
+/**
+ * Keys are in lower case. "key: value" and "key = value" are fields. NRRD keeps "key:=value" apart, as pairs, whose keys
+ * may be those of fields; of two pairs with one key the last counts.
+ */
 class TextHeader
 {
 public:
@@ -52,9 +55,12 @@ public:
   /** A whole number. @throws FileError for other values */
   std::int64_t Whole(std::initializer_list<const char*> keys, std::int64_t missing) const;
 
-  const std::map<std::string, std::string>& All() const { return this->Fields; }
+  /** The value of a pair, or null. */
+  const std::string* FindPair(const std::string& key) const;
 
-  /** Without the key/value pairs of NRRD: keys, and how the file writes them. */
+  const std::map<std::string, std::string>& AllPairs() const { return this->Pairs; }
+
+  /** Keys of the fields, and how the file writes them. */
   const std::map<std::string, std::string>& Own() const { return this->Spellings; }
 
   /**
@@ -74,6 +80,7 @@ private:
   std::string Path;
   std::map<std::string, std::string> Fields;
   std::map<std::string, std::string> Spellings; ///< by key
+  std::map<std::string, std::string> Pairs;
   std::vector<std::string> List;
   std::size_t Length = 0; ///< of the header, in bytes
   bool IsNRRD = false;

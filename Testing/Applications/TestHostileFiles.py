@@ -419,11 +419,12 @@ class DataFiles(HostileTestCase):
                             "--output", "mesh.vtu")
 
     def test_patterns(self):
-        for pattern in ("%s%s%s%n%d.raw 1 4 1", "%0999999999d.raw 1 4 1", "a%d%n.raw 1 4 1", "%n.raw 1 4 1",
+        for pattern in ("%s%s%s%n%d.raw 1 4 1", "%0999999999d.raw 1 4 1", "a%d%n.raw 1 4 1",
                         "a%d.raw 1 4 0", "a%d.raw 4 1 1", "a%d.raw"):
             self.refuse_data_file("is no pattern of names such as", pattern)
         self.refuse_data_file("names 1000000000 data files", "a%d.raw 1 1000000000 1")
-        name = self.metaimage_header("i.mhd", "%S%s%n.raw")
+        self.refuse_data_file("its data file '%n.raw 1 4 1' does not exist", "%n.raw 1 4 1")
+        name = self.metaimage_header("i.mhd", "%S%s%d.raw")
         path = self.folder / name
         path.write_bytes(path.read_bytes().replace(b"ElementDataFile", b"\n \n  ElementDataFile"))
         self.refuse("is no pattern of names such as", name)  # also after empty lines, which MetaImage skips

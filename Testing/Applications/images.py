@@ -153,7 +153,7 @@ def write_metaimage(path, array, geometry=None, header_lines=None):
 
 
 def write_nifti(path, array, geometry=None, pixdim=None):
-    """Compressed if the path ends in .gz. The sform and the qform hold the geometry in RAS; milliseconds."""
+    """Compressed if the path ends in .gz. The sform and the qform hold the geometry in RAS; seconds."""
     geometry = geometry or Geometry()
     codes = {"u1": (2, 8), "i2": (4, 16), "i4": (8, 32), "f4": (16, 32), "f8": (64, 64), "u2": (512, 16)}
     code, bits = codes[array.dtype.str[1:]]
@@ -173,7 +173,7 @@ def write_nifti(path, array, geometry=None, pixdim=None):
     struct.pack_into("<8f", header, 76, *steps[:8])
     struct.pack_into("<f", header, 108, 352.0)
     struct.pack_into("<f", header, 112, 1.0)
-    struct.pack_into("<B", header, 123, 2 + 16)
+    struct.pack_into("<B", header, 123, 2 + 8)
     struct.pack_into("<f", header, 136, geometry.first_time)
     struct.pack_into("<2h", header, 252, 1, 1)
     struct.pack_into("<6f", header, 256, b, c, d, *origin)

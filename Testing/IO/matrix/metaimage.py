@@ -102,6 +102,9 @@ for unit in ("mm", "um", "cm"):
     equal("DistanceUnits %s" % unit, Image(I2, affine(), warns="" if unit == "mm" else "its lengths are in '%s'" % unit),
           DistanceUnits=unit)
 equal("a field that is not known", MyField="x")
+equal("a comment with the word of MRC", Image(voxels("i2", shape=LARGER), affine()),
+      wrap=lambda f: f.with_data(b"Comment = ".ljust(208, b"x") + b"MAP\n" + f.data()))
+equal("a name of a file with a %", file="i.mhd", data="50% done.raw")
 equal("carriage returns", wrap=lambda f: f.with_data(f.data()[:f.header].replace(b"\n", b"\r\n") + f.data()[f.header:]))
 equal("no blanks around =", wrap=lambda f: f.with_data(f.data()[:f.header].replace(b" = ", b"=") + f.data()[f.header:]),
       also=[refused("field|=|line")])

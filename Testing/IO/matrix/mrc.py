@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 
-from .images import LARGER, ORDERS, ORIGIN, SPACING, affine, combinations, raw, title, voxels
+from .images import LARGER, ORDERS, ORIGIN, SPACING, affine, combinations, gzipped, raw, title, voxels
 from .rows import ANY, Fifo, Files, Image, Sound, refused, row
 
 # Lengths are in Angstrom. A mesh has the numbers of the file; 1e-7 would make mm of them.
@@ -66,6 +66,7 @@ equal("bytes of 0 to 127, old header", Image(np.arange(60, dtype="i1").reshape(3
       [Image(np.arange(60, dtype="u1").reshape(3, 4, 5), WHERE, warns=WARNS)], nversion=0)
 equal("unsigned bytes of IMOD", Image(voxels("u1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=0, nversion=0)
 equal("signed bytes of IMOD", Image(voxels("i1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
+equal("negative bytes, old header", Image(voxels("i1"), WHERE, warns="negative.*128 to 255"), nversion=0)
 equal("half floats", Image(np.arange(60, dtype="f2").reshape(3, 4, 5).astype("f4"), WHERE), [refused("mode|12|half")],
       wrap=lambda f: mrc(np.arange(60, dtype="f2").reshape(3, 4, 5), mode=12))
 for mode, name in ((3, "complex short"), (4, "complex float"), (5, "none"), (16, "RGB"), (101, "4 bits"), (-1, "none"),
@@ -83,6 +84,8 @@ equal("nstart beside an origin", Image(I2, WHERE, warns=ANY), [
     Image(I2, affine(origin=ORIGIN + SPACING * (2, -3, 4)) * ANGSTROM, warns=ANY)], start=(2, -3, 4))
 equal("neither", Image(I2, affine(origin=(0, 0, 0)) * ANGSTROM, warns=ANY), origin=(0, 0, 0))
 equal("a part of the cell", m=(10, 8, 6), cell=SPACING * (10, 8, 6))
+equal("no cell", Image(I2, affine(np.eye(3)), warns="spacing.*taken to be 1"), cell=(0, 0, 0))
+refuse("gzipped", "compressed by gzip.*unpack it", wrap=lambda f: f.with_data(gzipped(f.data())))
 equal("no sampling, no cell", Image(I2, affine(np.eye(3)) * ANGSTROM, warns=ANY), [refused("cell|spacing|sampling")],
       m=(0, 0, 0), cell=(0, 0, 0))
 equal("angles of 0", angles=(0, 0, 0), also=[refused("angle"), Image(I2, WHERE, warns=ANY)])
@@ -90,7 +93,7 @@ refuse("angles of 120", "angle", angles=(90, 90, 120))
 equal("map of zeros", map=(0, 0, 0), also=[refused("axes|map"), Image(I2, WHERE, warns=ANY)])
 for axes in ((1, 1, 3), (1, 2, 4), (3, 2, 2), (-1, 2, 3)):
     refuse("map of %s" % (axes,), "axes|map", map=axes)
-for value in (0, -1, np.nan, np.inf):
+for value in (0, -1, np.nan, np.inf):  # along one axis
     refuse("cell of %s" % value, "cell|spacing|position", cell=(1, value, 1))
 for value in (np.nan, np.inf):
     refuse("origin of %s" % value, "origin|position|finite|number", origin=(0, value, 0))

@@ -28,6 +28,7 @@ NIFTI2 = {
 DATATYPES = {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768, "i8": 1024, "u8": 1280}
 MM, MICRON, METRE, SECONDS, MILLISECONDS, MICROSECONDS = 2, 3, 1, 8, 16, 24
 LENGTHS = {0: 1.0, METRE: 1e3, MM: 1.0, MICRON: 1e-3}
+TIMES = {MILLISECONDS: 1e-3, MICROSECONDS: 1e-6}  # in seconds; other numbers are those of the file
 
 # ----- writing
 
@@ -148,7 +149,8 @@ def held(array, fields, warns=""):
     frames = len(array) if array.ndim == 4 else 1
     if frames == 1 and values.ndim == 4:
         values = values[0]
-    return Image(values, where, times(frames, float(np.float32(fields["toffset"])), step), any_integer, warns)
+    unit = TIMES.get(fields["xyzt_units"] & 56, 1.0)
+    return Image(values, where, times(frames, float(np.float32(fields["toffset"])) * unit, step * unit), any_integer, warns)
 
 
 # ----- rows
@@ -220,6 +222,9 @@ equal("sform, pixdim 0", I2, warns=ANY, outcome=refused("pixdim|spacing"),
 equal("qfac 0", I2, **{**qform(AXES["identity"]), "pixdim": (0, *SPACING)})
 equal("quaternion longer than 1 by rounding", I2, warns=ANY,
       **{**qform(AXES["identity"]), "quatern": (0, 0, 1.0000001)})
+for quatern in ((0.8, 0.8, 0), (1.0001, 0, 0), (np.nan, 0, 0)):
+    equal("sform beside a quaternion of %s" % (quatern,), I2, r"two places.*sform.*qform is no rotation",
+          **{**OBLIQUE, "quatern": quatern})
 
 # Units
 for units in (0, MM, MICRON, METRE):
@@ -229,6 +234,9 @@ for units in (0, MM, MICRON, METRE):
     equal("length unit %d, neither" % units, I2, xyzt_units=units)
 for units in (0, SECONDS, MILLISECONDS, MICROSECONDS, 32, 40):
     equal("time unit %d" % units, FOUR, warns=ANY if units in (0, 32, 40) else "", xyzt_units=MM + units, **OBLIQUE)
+for units in (SECONDS, MILLISECONDS, MICROSECONDS):
+    ROWS.append(row("NIfTI-2", "time unit %d" % units, nifti2(FOUR, xyzt_units=MM + units, **OBLIQUE),
+                    held(FOUR, {**OBLIQUE, "xyzt_units": MM + units})))
 equal("micron and milliseconds", FOUR, xyzt_units=MICRON + MILLISECONDS, **OBLIQUE)
 equal("length unit 7", I2, warns=ANY, outcome=refused("unit"), xyzt_units=7, **OBLIQUE)
 
@@ -296,6 +304,7 @@ for offset in (1e5, 1e9, 1e30):
 equal("texts in all fields", I2, descrip=b"x" * 80, intent_name=b"y" * 16, data_type=b"z" * 10, db_name=b"w" * 18,
       **OBLIQUE)
 equal("labels as intent", U1, intent_code=1002, cal_max=9, glmax=255, **OBLIQUE)
+equal("a description with the word of MRC", voxels("i2", shape=LARGER), descrip=60 * b"x" + b"MAP y", **OBLIQUE)
 refuse("sizeof_hdr 347", "format|header|not an image", sizeof_hdr=347)
 refuse("no magic", "format|magic|header|not an image|ANALYZE|img", magic=b"abc")
 
@@ -310,7 +319,7 @@ for other in ("i.nii", "i.dat", "i.gz"):
           **OBLIQUE)
 equal("two members of gzip", I2, file="i.nii.gz", **OBLIQUE, wrap=lambda f: f.with_data(
     gzipped(gzip.decompress(f.data())[:400]) + gzipped(gzip.decompress(f.data())[400:])))
-refuse("gzip of gzip", "gzip|format|not an image", wrap=lambda f: f.with_data(gzipped(f.data())), file="i.nii.gz")
+refuse("gzip of gzip", "compressed by gzip.*unpack it", wrap=lambda f: f.with_data(gzipped(f.data())), file="i.nii.gz")
 ROWS.append(row("NIfTI", "a pair without its .img", Files("i.hdr", {"i.hdr": nifti(I2, "i.hdr").data()}),
                 broken(r"i\.img")))
 for what, part in (("a FIFO", Fifo()), ("a folder", Folder()), ("a link to itself", Link("i.img"))):

@@ -183,6 +183,11 @@ for space in SPACES:
           **frame_list(3, AXES["oblique"], space))
 equal("space Right-Anterior-Superior", Image(I2, _turned("RAS")), [refused("space")], space="Right-Anterior-Superior",
       space_directions=directions(AXES["oblique"]))
+for space, same in (("left posterior superior", "LPS"), ("leftposteriorsuperior", "LPS"), ("right_anterior_superior", "RAS"),
+                    ("left anterior superior", "LAS")):
+    equal("space %s" % space, Image(I2, _turned(same)), space=space, space_directions=directions(AXES["oblique"]))
+equal("space right anterior superior time", Image(FOUR, _turned("RAS"), times(3)), **space_time("right anterior superior time", AXES["oblique"]))
+equal("space 3D right handed", Image(I2, _turned("LPS"), warns="LPS"), space="3D right handed", space_directions=directions(AXES["oblique"]))
 equal("space dimension 3", Image(I2, _turned("LPS"), warns=ANY), space=None, space_dimension=3,
       wrap=lambda f: f.replaced(b"space dimension: 3\n", b"").replaced(b"sizes", b"space dimension: 3\nsizes"),
       space_directions=directions(AXES["oblique"]))
@@ -240,6 +245,14 @@ for centers in ("cell cell cell", "node node node", "??? ??? ???", "none none no
 equal("a measurement frame", measurement_frame="(0,1,0) (1,0,0) (0,0,1)")
 equal("labels, content, and more", content="a segmentation: of x", labels='"x y" "z\\"" ""', thicknesses="1 nan 1",
       min=0, max=9, old_min=0, sample_units="label", number=60, keys={"modality": "CT", "a:b": "c := d", "": "x"})
+for key in ("space", "space origin", "space units", "units", "axis mins", "axis maxs", "spacings", "kinds", "centers", "type", "dimension",
+            "sizes", "encoding", "endian", "byte skip", "line skip", "data file", "datafile", "a: b"):
+    for name in (key, key.title()):
+        equal("a pair %s" % name, keys={name: "LIST"})
+        equal("a pair %s, before the fields" % name, wrap=lambda f, name=name: f.replaced(b"type", name.encode() + b":=8 2\ntype"))
+equal("pairs of names of fields, no space", Image(I2, affine(origin=(0, 0, 0)), warns=ANY), **PLAIN, spacings="0.5 1.25 2",
+      keys={"Space": "RAS", "axis mins": "100 100 100", "Space Directions": "none", "Units": '"um"'})
+equal("a pair given twice", wrap=lambda f: f.replaced(b"type", b"Modality:=CT\nModality:=MR\ntype"))
 equal("comments", wrap=lambda f: f.replaced(b"type", b"# type: float\n#\ntype").replaced(
     b"sizes", b"#sizes: 1 1 1\nsizes"))
 equal("lines with carriage returns", newline="\r\n")
@@ -411,7 +424,7 @@ for pattern in ("%s%n.dat 1 3 1", "s%d.dat 1 3 0", "s%d.dat 3 1 1", "s%d.dat 1 1
     ROWS.append(row("NRRD", "the pattern %s" % pattern, pieces(I2, pattern, SLICES),
                     broken("pattern|data file|s%d|names")))
 
-for data in ("data/i.dat", "./i.dat", "i dat.raw", "d/e/f/i.dat"):
+for data in ("data/i.dat", "./i.dat", "i dat.raw", "d/e/f/i.dat", "50%.raw", "100% done.raw", "5%n.raw 1 3 1"):
     equal("data file %s" % data, file="i.nhdr", data=data)
 equal("data file of a header named .nrrd", file="i.nrrd", data="i.dat")
 equal("voxels in a header named .nhdr", file="i.nhdr")
@@ -438,7 +451,7 @@ equal("data file is a link within", file="i.nhdr", data="i.dat",
 # The content decides
 for other in ("i.nii", "i.nii.gz", "i.mha", "i.vtk", "i.mrc", "i", "i.dcm", "i.hdr", "i.NRRD", "i.seg.nrrd"):
     equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-refuse("gzipped as a whole", "format|not an image|gzip",
+refuse("gzipped as a whole", "compressed by gzip.*unpack it",
        wrap=lambda f: f.with_data(gzipped(f.data())).renamed("i.nrrd.gz"))
 for beside in ("i.img", "i.hdr", "visu_pars", "i.raw"):
     equal("a FIFO named %s beside it" % beside, wrap=lambda f,
