@@ -24,7 +24,7 @@ from matrix.rows import Files, Sound
 
 HOSTILE = TESTING / "../../shared/data/hostile"
 COUNT = 8  # of each sound file
-EACH = 4  # of the rows: the other tests read them all
+EACH = 8  # of the rows: the other tests read them all
 TIMEOUT = 60  # seconds; the sanitizers are slow where much memory is claimed
 PROGRAM = sys.argv.pop(1)
 
