@@ -33,10 +33,6 @@
 #include <iostream>
 #include <optional>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace voxplex::cli
 {
 namespace
@@ -57,18 +53,6 @@ void SilenceVTK()
   vtkNew<SilentWindow> window;
   vtkOutputWindow::SetInstance(window);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-}
-
-/**
- * Large arrays get pages of their own, which the system has back when the arrays are freed. Otherwise glibc keeps
- * ever larger arrays between others, and the peak of memory grows by a few per cent.
- */
-void ReturnLargeArrays()
-{
-#ifdef __GLIBC__
-  constexpr int Large = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, Large);
-#endif
 }
 
 /** Its clock is never set back, unlike that of vtkTimerLog, which is gettimeofday(). */
@@ -370,7 +354,6 @@ void Run(const Parameters& p)
 int Main(int argc, const char* const* argv)
 {
   Interruption::Install();
-  ReturnLargeArrays();
   SilenceVTK();
   try
   {
