@@ -195,7 +195,7 @@ template <int D>
 struct WorkerZone
 {
   HalfOpenBox<D> Extent;
-  /** R7 waits until the rest of the box has been refined. */
+  /** R7, in 4D R4, waits until the rest of the box has been refined. */
   bool PutsSliversOff = false;
   /** The current evaluation needs to know something outside. */
   bool HasLeft = false;

@@ -331,6 +331,13 @@ protected:
         !this->PlaceOf(centre, CentreMargin * radius).Moved);
   }
 
+  /** Whether it is the turn of slivers: nothing else is left, and the zone does not put them off. */
+  bool AreSliversNext() const
+  {
+    return this->Worker.Poor.OnlyLast() &&
+      !(this->Worker.Zone && this->Worker.Zone->PutsSliversOff);
+  }
+
   bool IsTooLarge(const Element& t) const
   {
     return t.LabelInMesh != 0 &&

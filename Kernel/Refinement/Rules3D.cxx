@@ -41,7 +41,7 @@ RuleOutcome Rules3D::Refine(SimplexId id)
   }
   if (outcome == RuleOutcome::Good && t.Label != 0 && this->IsToSplit(t))
   {
-    if (this->Worker.Poor.OnlyLast() && !(this->Worker.Zone && this->Worker.Zone->PutsSliversOff))
+    if (this->AreSliversNext())
     {
       return this->R7(t);
     }

@@ -32,7 +32,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
   }
   if (outcome == RuleOutcome::Good && s.LabelInMesh != 0 && this->IsSliver(id, s.Ball.Radius2))
   {
-    if (this->Worker.Poor.OnlyLast())
+    if (this->AreSliversNext())
     {
       return this->R4(s);
     }

@@ -166,6 +166,34 @@ TEST(SpaceTimeRefinement, PointsGoToTheNearestPlaceInTheBox)
   EXPECT_EQ(place.At(p, 1e18), onFace) << "not in a corner";
 }
 
+TEST(SpaceTimeRefinement, SliversWaitWhereTheyArePutOff)
+{
+  const BallDomainOf<4> ball(3.0);
+  RefinementSettings<4> settings;
+  settings.Sizing.Base = { 1.4 };
+  settings.SpaceTime.Slivers.Fight = true;
+  settings.SpaceTime.Slivers.VolumeBound = 0.3; // which not all pentatopes reach
+  const Box<4> box = Around(ball, 1.4);
+  RefinementContext<4> context(ball, settings, box, 1000);
+  Refiner<Rules4D> refiner(context);
+  ASSERT_TRUE(refiner.Run(nullptr));
+  ASSERT_GT(refiner.GetRuleStatistics().SliversKept, 0u);
+
+  RefinementWorker<4> worker(context);
+  WorkerZone<4> zone{ { box.Min, box.Max }, true, false, {} };
+  worker.Zone = &zone;
+  Rules4D rules(context, worker);
+  for (SimplexId s = 0; s < context.Mesh.SimplexIdEnd(); ++s)
+  {
+    if (context.Mesh.IsAlive(s))
+    {
+      rules.Refine(s);
+    }
+  }
+  EXPECT_GT(worker.Poor.Size(), 0u);
+  EXPECT_EQ(worker.Statistics.SliversFound, 0u) << "R4 has acted";
+}
+
 TEST(SpaceTimeRefinement, PickingRegionsLeaveNoSlivers)
 {
   const LabelImage<4> image = ImageOf(phantoms::FourBall(8.0));
