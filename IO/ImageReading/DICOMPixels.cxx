@@ -307,7 +307,6 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
   std::vector<std::byte> table(fragments.front().Length);
   this->Data.ReadBytes(fragments.front().Position, table);
   fragments.erase(fragments.begin());
-  const std::size_t count = fragments.size();
 
   const auto frames = static_cast<std::size_t>(this->NumberOfFrames);
   if (frames == 1 && !fragments.empty())
@@ -323,42 +322,30 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
     }
     return;
   }
-  std::size_t frame = 0;
-  if (table.empty() && this->Method != Compression::RLE)
-  {
-    bool hasEnded = true;
-    for (const DICOMElement& fragment : fragments)
-    {
-      if (hasEnded)
-      {
-        this->FragmentsOfFrames.emplace_back();
-        ++frame;
-      }
-      this->FragmentsOfFrames.back().push_back(fragment);
-      hasEnded = EndsImage(this->Data, fragment);
-    }
-    table.resize(4 * frame);
-    fragments.clear();
-  }
+  const bool isByEnds = table.empty() && this->Method != Compression::RLE;
+  bool hasEnded = true;
   for (const DICOMElement& fragment : fragments)
   {
+    const std::size_t at = 4 * this->FragmentsOfFrames.size(); // of the next frame in the table
     const std::uint64_t offset = fragment.Position - fragments.front().Position;
-    if (4 * frame + 4 <= table.size() &&
-      offset == ReadNumber(std::span(table).subspan(4 * frame, 4), false))
+    if (isByEnds
+        ? hasEnded
+        : at + 4 <= table.size() && offset == ReadNumber(std::span(table).subspan(at, 4), false))
     {
       this->FragmentsOfFrames.emplace_back();
-      ++frame;
     }
-    if (frame == 0)
+    if (this->FragmentsOfFrames.empty())
     {
       break;
     }
     this->FragmentsOfFrames.back().push_back(fragment);
+    hasEnded = isByEnds && EndsImage(this->Data, fragment);
   }
-  if (frame != frames || table.size() != 4 * frames)
+  if (this->FragmentsOfFrames.size() != frames || (!isByEnds && table.size() != 4 * frames))
   {
-    throw FileError("its pixels are truncated or damaged: it has " + std::to_string(count) +
-      " compressed fragments for " + std::to_string(frames) + " frames");
+    throw FileError("its pixels are truncated or damaged: it has " +
+      std::to_string(fragments.size()) + " compressed fragments for " + std::to_string(frames) +
+      " frames");
   }
 }
 

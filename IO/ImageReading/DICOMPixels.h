@@ -41,8 +41,8 @@ struct DICOMFrame
 };
 
 /**
- * Whether it is a segmentation of the kind label map. Its values are labels, also where a palette gives them colours, and
- * slices without labels may have been left out.
+ * Whether it is a segmentation of the kind label map. Its values are labels, also where a palette gives them colours,
+ * and slices without labels may have been left out.
  */
 bool IsLabelMap(const DICOMDataSet& data);
 

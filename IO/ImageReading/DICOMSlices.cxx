@@ -134,12 +134,15 @@ private:
 void ReadDirections(DICOMSlice& slice, const Groups& groups)
 {
   const std::vector<double> cosines = groups.Required(PlaneOrientation, ImageOrientation, 6);
-  // ITK writes images without a modality as captured ones, which have no other spacing.
-  const std::vector<double> nominal = groups.Numbers(PixelMeasures, NominalSpacing, 2);
-  const bool hasSpacing =
-    nominal.empty() || !groups.Numbers(PixelMeasures, PixelSpacing, 2).empty();
-  const std::vector<double> spacing =
-    hasSpacing ? groups.Required(PixelMeasures, PixelSpacing, 2) : nominal;
+  std::vector<double> spacing = groups.Numbers(PixelMeasures, PixelSpacing, 2);
+  if (spacing.empty()) // ITK writes images without a modality as captured ones
+  {
+    spacing = groups.Numbers(PixelMeasures, NominalSpacing, 2);
+  }
+  if (spacing.empty())
+  {
+    spacing = groups.Required(PixelMeasures, PixelSpacing, 2);
+  }
   const Vector3 row{ cosines[0], cosines[1], cosines[2] };
   const Vector3 column{ cosines[3], cosines[4], cosines[5] };
   if (std::abs(Length(row) - 1.0) > Tolerance || std::abs(Length(column) - 1.0) > Tolerance ||
@@ -262,10 +265,10 @@ void CheckDirections(const std::vector<DICOMSlice>& slices)
   }
 }
 
-/** The slices are sorted, and not at one place. */
+/** The slices are sorted. */
 void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
 {
-  constexpr double most = 100'000;
+  constexpr double most = 10'000; // few frames must not ask for much memory
   std::vector<DICOMSlice> all;
   for (const DICOMSlice& slice : slices)
   {
@@ -274,9 +277,9 @@ void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
     const Vector3 between = Combine(slice.Position, -1.0, before.Position);
     const double gap = Dot(between, normal);
     const double missing = distance > 0 ? std::round(gap / distance) - 1.0 : 0.0;
-    if (missing > most)
+    if (missing + static_cast<double>(all.size()) > most)
     {
-      throw FileError(slices.front().Name + " and " + slice.Name + " are " + Show(gap) +
+      throw FileError(before.Name + " and " + slice.Name + " are " + Show(gap) +
         " mm apart, and its " + Describe(SpacingBetweenSlices) + " is " + Show(distance) +
         ": correct its header");
     }

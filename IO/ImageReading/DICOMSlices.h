@@ -43,7 +43,8 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
 
 /**
  * Sorts slices along their normal.
- * @param isComplete if not, slices without a frame are put where slices have been left out; their distance must be known
+ * @param isComplete if not, slices without a frame are put where slices have been left out; their distance must be
+ * known
  * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is
  * unknown
  * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place

@@ -23,9 +23,9 @@ bool IsNIfTI(const InputFile& file);
 /**
  * The image lies where the sform says, if its code is positive, else where the qform says, if its code is; nibabel and
  * FSL do so, too. If both are there and differ, a warning tells by how much. If neither is, it lies along the axes of
- * RAS from 0, with a warning. Lengths in metres or micrometres are turned into millimetres, and times in milliseconds or
- * microseconds into seconds; numbers with other units, or none, are those of the file. Voxels are scaled as scl_slope and scl_inter say. ANALYZE does not say how an image lies: along the
- * axes of LPS, with a warning.
+ * RAS from 0, with a warning. Lengths in metres or micrometres are turned into millimetres, and times in milliseconds
+ * or microseconds into seconds; numbers with other units, or none, are those of the file. Voxels are scaled as
+ * scl_slope and scl_inter say. ANALYZE does not say how an image lies: along the axes of LPS, with a warning.
  *
  * @throws FileError
  */

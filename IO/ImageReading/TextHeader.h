@@ -20,8 +20,8 @@ class InputFile;
 struct StoredVoxels;
 
 /**
- * Keys are in lower case. "key: value" and "key = value" are fields. NRRD keeps "key:=value" apart, as pairs, whose keys
- * may be those of fields; of two pairs with one key the last counts.
+ * Keys are in lower case. "key: value" and "key = value" are fields. NRRD keeps "key:=value" apart, as pairs, whose
+ * keys may be those of fields; of two pairs with one key the last counts.
  */
 class TextHeader
 {

@@ -475,8 +475,7 @@ void CheckStructureOfVTI(const InputFile& file)
   CheckKindOfVTK(structure.Kind, "ImageData");
   if (!structure.Wrong.empty())
   {
-    throw FileError(
-      "its header gives " + structure.Wrong + ", which cannot be: correct the header");
+    throw FileError("it has " + structure.Wrong + ", which cannot be: correct it");
   }
   if (structure.Extents.size() != 1)
   {

@@ -21,8 +21,8 @@ namespace voxplex::io
 void CheckKindOfVTK(const std::string& kind, std::string_view wanted);
 
 /**
- * @throws FileError: XML that is not well-formed or holds something else, several pieces, a piece that is not all of the
- * image, arrays that are shorter than they claim, of unknown types, or with numbers that their type does not hold
+ * @throws FileError: XML that is not well-formed or holds something else, several pieces, a piece that is not all of
+ * the image, arrays that are shorter than they claim, of unknown types, or with numbers that their type does not hold
  */
 void CheckStructureOfVTI(const InputFile& file);
 

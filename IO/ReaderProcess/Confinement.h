@@ -28,7 +28,8 @@ inline constexpr bool HasSanitizer = false;
  * - may take 512 MiB of memory and 16 times the size of the files, beside that of the voxels that it gives away;
  * - may compute for a minute and a second for each two megabytes of the files.
  *
- * Of a folder, all files in it count, and what links in it lead to may be read. Builds with sanitizers have no limit of memory.
+ * Of a folder, all files in it count, and what links in it lead to may be read. Builds with sanitizers have no limit of
+ * memory.
  */
 void Confine(const ImageRequest& request);
 

@@ -371,6 +371,10 @@ REFUSED = (
     ("a file of JPEG 2000", write_compressed,
      {"frames": [b"\0\0\0\x0cjP  \r\n\x87\n" + b"\0" * 20 + b"\xff\xd9"], "syntax": JPEG_2000},
      "files of JPEG 2000, where codestreams must be"),
+    ("a label map that asks for very many empty slices", write_frames,
+     {"array": FIVE, "SOPClassUID": LABEL_MAP, "order": (0, 4), "change": lambda data:
+      data.SharedFunctionalGroupsSequence[0].PixelMeasuresSequence[0].__setattr__("SpacingBetweenSlices", "0.0001")},
+     "8 mm apart, and its Spacing Between Slices .* is 0.0001"),
     ("two times", write_series, {"places": [place(k // 2) for k in range(5)]}, "'.*' and '.*' " + PLACES),
     ("frames of two times", write_frames, {"step": (0, 0, 0)}, "frame . and frame . " + PLACES),
     ("columns differ", write_series, {"change": at(3, lambda data: assign(data, {
