@@ -14,8 +14,8 @@ namespace voxplex::io
 namespace
 {
 
-constexpr std::size_t BufferSize = 1 << 18;
-constexpr int ZlibOrGzip = 15 + 32; // the largest window, and either header
+constexpr std::size_t BufferSize = 1 << 15; // small, since some files have very many streams
+constexpr int ZlibOrGzip = 15 + 32;         // the largest window, and either header
 
 } // namespace
 
@@ -60,8 +60,11 @@ std::size_t ByteSource::TakeAhead(std::span<std::byte> to)
 std::size_t FileSource::Read(std::span<std::byte> to)
 {
   const std::size_t ahead = this->TakeAhead(to);
-  const std::size_t got = this->File.ReadAt(this->Position, to.subspan(ahead));
+  to = to.subspan(ahead);
+  const auto length = static_cast<std::size_t>(std::min<std::uint64_t>(to.size(), this->Left));
+  const std::size_t got = this->File.ReadAt(this->Position, to.first(length));
   this->Position += got;
+  this->Left -= got;
   return ahead + got;
 }
 

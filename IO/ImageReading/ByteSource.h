@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,13 +47,15 @@ protected:
   std::size_t TakeAhead(std::span<std::byte> to);
 };
 
-/** A file from a position on. */
+/** A file from a position on, or a part of it. */
 class FileSource : public ByteSource
 {
 public:
-  FileSource(const InputFile& file, std::uint64_t position)
+  FileSource(const InputFile& file, std::uint64_t position,
+    std::uint64_t length = std::numeric_limits<std::uint64_t>::max())
     : File(file)
     , Position(position)
+    , Left(length)
   {
   }
   std::size_t Read(std::span<std::byte> to) override;
@@ -60,6 +63,7 @@ public:
 private:
   const InputFile& File;
   std::uint64_t Position;
+  std::uint64_t Left; ///< bytes of the part
 };
 
 /** What a zlib or gzip stream unpacks to; gzip streams may follow each other, as parallel programs write them. */

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadTIFF.h"
 
+#include "ByteSource.h"
 #include "Excerpt.h"
 #include "FileError.h"
 #include "Placement.h"
 #include "TIFFStack.h"
 
 #include <vtk_tiff.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,6 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -405,6 +404,7 @@ private:
   }
   void ReadPage(std::int64_t page, std::byte* to);
   void ReadPart(std::int64_t page, std::uint32_t part, std::span<std::byte> to);
+  void CheckSum(std::int64_t page, std::uint32_t part);
   void Paste(std::byte* to, const Parts& parts, std::uint64_t column, std::uint64_t row) const;
 
   Source Reads;
@@ -662,41 +662,6 @@ bool WarnsOfDamage(std::uint16_t compression)
   return std::find(decoders.begin(), decoders.end(), compression) != decoders.end();
 }
 
-/** libtiff stops when a part is full, and the checksum comes after that. The last strip may be longer than its rows. */
-bool IsSoundStream(
-  const InputFile& file, std::uint64_t offset, std::uint64_t bytes, bool areBitsReversed)
-{
-  std::array<Bytef, 1 << 14> packed{};
-  std::array<Bytef, 1 << 14> unpacked{};
-  z_stream stream{};
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
-  int result = inflateInit(&stream);
-  while (result == Z_OK)
-  {
-    if (stream.avail_in == 0)
-    {
-      const std::size_t size = std::min<std::uint64_t>(bytes, packed.size());
-      stream.next_in = packed.data();
-      stream.avail_in = static_cast<uInt>(
-        file.ReadAt(offset, std::as_writable_bytes(std::span(packed).first(size))));
-      offset += size;
-      bytes -= size;
-      if (areBitsReversed)
-      {
-        TIFFReverseBits(packed.data(), static_cast<tmsize_t>(size));
-      }
-    }
-    stream.next_out = unpacked.data();
-    stream.avail_out = static_cast<uInt>(unpacked.size());
-    result = inflate(&stream, Z_NO_FLUSH);
-  }
-  if (result == Z_MEM_ERROR)
-  {
-    throw std::bad_alloc();
-  }
-  return result == Z_STREAM_END;
-}
-
 void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::byte> to)
 {
   TIFF* const tiff = this->Handle.get();
@@ -716,13 +681,26 @@ void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::
   }
   const bool isDeflated =
     compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE;
-  if (isDeflated &&
-    !IsSoundStream(this->Reads.File, TIFFGetStrileOffset(tiff, part),
-      TIFFGetStrileByteCount(tiff, part),
-      Get<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) != FILLORDER_MSB2LSB))
+  const auto order = Get<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB);
+  if (isDeflated && order == FILLORDER_MSB2LSB)
   {
-    RefuseDamage(
-      page, "the zlib stream of its strip or tile " + std::to_string(part + 1) + " is damaged");
+    this->CheckSum(page, part);
+  }
+}
+
+/** libtiff stops when a part is full, and the checksum comes after that. */
+void PageReader::CheckSum(std::int64_t page, std::uint32_t part)
+{
+  TIFF* const tiff = this->Handle.get();
+  FileSource packed(
+    this->Reads.File, TIFFGetStrileOffset(tiff, part), TIFFGetStrileByteCount(tiff, part));
+  try
+  {
+    InflateSource(packed).Finish();
+  }
+  catch (const FileError& error)
+  {
+    RefuseDamage(page, error.what());
   }
 }
 
