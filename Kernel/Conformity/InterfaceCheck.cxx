@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceCheck.h"
 
-#include "Base/FreeMemory.h"
-
 #include <utility>
 
 namespace voxplex
@@ -95,7 +93,6 @@ void InterfaceCheck::MakeLabels()
 {
   this->Made = {}; // the labels of the round before need no memory beside the new ones
   this->Spindles = {};
-  ReturnFreeMemory();
   if (this->Options.Manifold)
   {
     this->Made = this->Labeller.Make(this->Statistics);

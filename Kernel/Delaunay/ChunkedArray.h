@@ -7,6 +7,8 @@
 #ifndef voxplex_ChunkedArray_h
 #define voxplex_ChunkedArray_h
 
+#include "Base/PageMemory.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -32,6 +34,7 @@ template <typename T, unsigned ChunkBits = 14>
 class ChunkedArray
 {
   static_assert(std::is_trivially_copyable_v<T>, "elements are never constructed or destroyed");
+  static_assert(alignof(T) <= 64, "AllocatePages() aligns to 64 bytes");
 
 public:
   static constexpr std::uint32_t ChunkSize = 1u << ChunkBits;
@@ -72,7 +75,7 @@ public:
         }
         continue;
       }
-      ::operator delete(chunk, std::align_val_t(Alignment));
+      FreePages(chunk, BytesOfChunk);
     }
   }
 
@@ -108,12 +111,11 @@ public:
 
 private:
   static constexpr std::uint32_t NumberOfChunks = 1u << (32 - ChunkBits);
-  static constexpr std::size_t Alignment = alignof(T) < 64 ? 64 : alignof(T);
+  static constexpr std::size_t BytesOfChunk = sizeof(T) * std::size_t(ChunkSize);
 
   void MakeChunk(std::uint32_t c)
   {
-    T* fresh = static_cast<T*>(
-      ::operator new(sizeof(T) * std::size_t(ChunkSize), std::align_val_t(Alignment)));
+    T* fresh = static_cast<T*>(AllocatePages(BytesOfChunk));
     if (this->Initialise)
     {
       std::uninitialized_fill_n(fresh, ChunkSize, this->Initial);
@@ -122,7 +124,7 @@ private:
     // Release: a thread that sees the pointer sees the initial values.
     if (!this->Chunks[c].compare_exchange_strong(expected, fresh, std::memory_order_acq_rel))
     {
-      ::operator delete(fresh, std::align_val_t(Alignment));
+      FreePages(fresh, BytesOfChunk);
     }
     std::uint32_t highest = this->HighestChunk.load(std::memory_order_relaxed);
     while (highest < c &&

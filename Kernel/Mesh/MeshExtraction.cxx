@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/MeshExtraction.h"
 
-#include "Base/FreeMemory.h"
 #include "Base/UninitialisedVector.h"
 #include "Geometry/HilbertOrder.h"
 #include "Parallel/ChunkCounts.h"
@@ -48,7 +47,6 @@ public:
     this->MarkVertices();
     this->NumberPoints();
     this->SortSimplices();
-    ReturnFreeMemory(); // the memory of sorting, before the mesh takes much more
     this->WriteSimplices();
     if (!keepsNumbers)
     {

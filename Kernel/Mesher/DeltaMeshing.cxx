@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/DeltaMeshing.h"
 
-#include "Base/FreeMemory.h"
 #include "Base/Stopwatch.h"
 #include "Mesher/MeshSizeEstimate.h"
 #include "Mesher/RefinementStage.h"
@@ -173,7 +172,6 @@ Remedy<D> InspectAndExtract(const RunEnvironment<D>& run, RefinementStage<D>& st
     {
       checks.Finish();
       stage.Finish();
-      ReturnFreeMemory();
     }
     const Stopwatch time;
     StageTimes& times = run.Statistics.Times;
@@ -209,7 +207,6 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
-    ReturnFreeMemory();                   // the lists of poor elements
     sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
     Remedy<D> remedy = InspectAndExtract(run, *stage, checks, inspection, mesh);
     if (!remedy.IsNeeded)
@@ -235,7 +232,6 @@ bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isW
   }
   if (isWorthOptimising(mesh))
   {
-    ReturnFreeMemory(); // the triangulation's, which is as large as what optimisation needs
     Dimension<D>::Optimise(run, mesh);
   }
   return !run.Stop.stop_requested();
