@@ -214,7 +214,7 @@ public:
   /** What the elements are to keep. */
   double RadiusEdgeBound() const
   {
-    return this->Options.Optimises()
+    return D == 3 && this->Options.Optimisation.Run
       ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.Shape.RadiusEdgeRatio)
       : this->Options.Shape.RadiusEdgeRatio;
   }

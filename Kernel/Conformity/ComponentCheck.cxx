@@ -74,9 +74,8 @@ template <int D>
 ComponentCheck<D>::ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
   const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
   bool exact, bool mayRefine, LocalDelta<D>& local, ComponentStatistics& statistics,
-  double& seconds, unsigned threads, const std::stop_token& stop)
-  : ConformityCheck<D>(seconds)
-  , Image(image)
+  unsigned threads, const std::stop_token& stop)
+  : Image(image)
   , Surfaces(domain)
   , All(components)
   , Attempts(components.All().size(), exact ? AttemptsAtThickest : 0)
@@ -125,39 +124,14 @@ std::vector<FeatureSeed<D>> ComponentCheck<D>::TakeSeeds()
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-Remedy<D> ComponentCheck<D>::InspectElements(const LabelledTriangulation<D>& elements)
+Remedy<D> ComponentCheck<D>::Inspect(const LabelledTriangulation<D>& elements)
 {
-  if constexpr (D == 3)
+  if (!this->SampleFiner(this->FindLost(elements)))
   {
-    return this->Treat(this->FindLost(elements));
+    return {};
   }
-  return {};
-}
-
-template <int D>
-Remedy<D> ComponentCheck<D>::InspectMesh(const SimplexMesh<D>& mesh)
-{
-  if constexpr (D == 4)
-  {
-    return this->Treat(this->FindLost(mesh));
-  }
-  return {};
-}
-
-template <int D>
-Remedy<D> ComponentCheck<D>::Treat(const std::vector<std::uint32_t>& lost)
-{
-  this->Statistics.Lost.clear(); // of an earlier round
-  if (this->SampleFiner(lost))
-  {
-    ++this->Statistics.Rounds;
-    return { true, this->TakeSeeds() };
-  }
-  for (const std::uint32_t c : lost)
-  {
-    this->Statistics.Lost.push_back(ReportOf(this->All.All()[c], this->Image));
-  }
-  return {};
+  ++this->Statistics.Rounds;
+  return { true, this->TakeSeeds() };
 }
 
 //------------------------------------------------------------------------------------------------

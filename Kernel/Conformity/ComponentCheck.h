@@ -8,10 +8,10 @@
 #define voxplex_ComponentCheck_h
 
 #include "Conformity/ComponentStatistics.h"
-#include "Conformity/ConformityCheck.h"
+#include "Conformity/Remedy.h"
 #include "Domain/Domain.h"
 #include "Image/Components.h"
-#include "Mesh/SimplexMesh.h"
+#include "Mesh/LabelledTriangulation.h"
 #include "Quality/LostComponents.h"
 #include "Refinement/FeatureSeed.h"
 #include "Sizing/SizingField.h"
@@ -24,8 +24,7 @@ namespace voxplex
 {
 
 /**
- * @brief Chooses where to sample more finely so that every component gets elements, and reports the
- * components that got none.
+ * @brief Chooses where to sample more finely so that every component gets elements.
  *
  * If an interface is sampled with delta, objects much thinner than delta can be lost: a Delaunay
  * mesh of too few points joins the regions on both sides. So some components may have no element
@@ -50,7 +49,7 @@ namespace voxplex
  * guarantee for objects that are small compared with delta.
  */
 template <int D>
-class ComponentCheck final : public ConformityCheck<D>
+class ComponentCheck
 {
 public:
   /**
@@ -59,30 +58,26 @@ public:
    * @param fewestVoxels smaller components are not checked, except the largest of each label
    * @param exact whether components that are thin compared with delta are sampled as a whole from
    *   the start
-   * @param mayRefine false: lost components are listed, and nothing else is done
+   * @param mayRefine false: nothing is requested
    * @param local where to sample more finely; receives bounds
-   * @param statistics counts rounds and points, and lists the lost components
+   * @param statistics counts rounds and points
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
   ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
     const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
     bool exact, bool mayRefine, LocalDelta<D>& local, ComponentStatistics& statistics,
-    double& seconds, unsigned threads, const std::stop_token& stop);
+    unsigned threads, const std::stop_token& stop);
 
   /** The points chosen since the last call, in the order of components. */
   std::vector<FeatureSeed<D>> TakeSeeds();
 
-  /**
-   * Requests points for components without elements. Gives up components that cannot get an
-   * element, and lists them. In 4D this is done by InspectMesh(), since extraction moves vertices.
-   */
-  Remedy<D> InspectElements(const LabelledTriangulation<D>& elements) override;
-  Remedy<D> InspectMesh(const SimplexMesh<D>& mesh) override;
+  /** Requests points for components without elements. Gives up those that cannot get one. */
+  Remedy<D> Inspect(const LabelledTriangulation<D>& elements);
 
   /**
    * Components without an element of their label within a voxel of them, in increasing order.
-   * @param elements a SimplexMesh; in 3D also a LabelledTriangulation
+   * @param elements a SimplexMesh or a LabelledTriangulation
    */
   template <typename Elements>
   std::vector<std::uint32_t> FindLost(const Elements& elements) const
@@ -100,8 +95,6 @@ public:
 private:
   using Index = typename GridGeometry<D>::Index;
 
-  /** The remedy for lost components. Lists them if there is none. */
-  Remedy<D> Treat(const std::vector<std::uint32_t>& lost);
   /** The delta that suits the mean thickness of a component. */
   double OwnDelta(std::uint32_t component) const;
   void SampleThickest(std::uint32_t component);

@@ -18,67 +18,6 @@ namespace
 
 using Index = GridGeometry<3>::Index;
 
-/** A face of an element. */
-struct Face
-{
-  std::array<VertexId, 3> V; ///< ascending
-  std::uint32_t Element;
-
-  auto operator<=>(const Face&) const = default; // NOLINT(modernize-use-nullptr): not a null
-};
-
-Face FaceOf(const std::array<VertexId, 4>& v, std::size_t opposite, std::size_t element)
-{
-  Face face{ {}, static_cast<std::uint32_t>(element) };
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    if (i != opposite)
-    {
-      face.V[k++] = v[i];
-    }
-  }
-  std::sort(face.V.begin(), face.V.end());
-  return face;
-}
-
-/** Joins pieces of one label with each other, and with the simplices around what they replace. */
-void JoinPieces(const LabelledTriangulation<3>& elements, const std::vector<LabelId>& labels,
-  DisjointSets& fragments)
-{
-  const Subdivision<3>& parts = elements.GetParts();
-  const Triangulation<3>& mesh = elements.GetTriangulation();
-  std::vector<Face> faces;
-  for (std::size_t k = 0; k < parts.Pieces.size(); ++k)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      faces.push_back(FaceOf(parts.Pieces[k].V, i, elements.GetLabels().size() + k));
-    }
-  }
-  for (const SimplexId s : parts.Replaced)
-  {
-    const auto& simplex = mesh.GetSimplex(s);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      if (simplex.N[i] != None)
-      {
-        faces.push_back(FaceOf(simplex.V, i, simplex.N[i]));
-      }
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t k = 1; k < faces.size(); ++k)
-  {
-    const std::uint32_t a = faces[k - 1].Element;
-    const std::uint32_t b = faces[k].Element;
-    if (faces[k - 1].V == faces[k].V && labels[a] != 0 && labels[a] == labels[b])
-    {
-      fragments.Join(a, b);
-    }
-  }
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -87,14 +26,9 @@ ElementFragments::ElementFragments(
   : Elements(elements)
 {
   const Triangulation<3>& mesh = elements.GetTriangulation();
-  std::vector<LabelId> labels(elements.Size());
-  LabelledTriangulation<3>::LabelReader labelOf(elements);
-  for (std::size_t s = 0; s < labels.size(); ++s)
-  {
-    labels[s] = labelOf(s);
-  }
+  const std::span<const LabelId> labels = elements.GetLabels();
   DisjointSets sets(labels.size());
-  for (SimplexId s = 0; s < elements.GetLabels().size(); ++s)
+  for (SimplexId s = 0; s < labels.size(); ++s)
   {
     if (labels[s] != 0)
     {
@@ -108,8 +42,6 @@ ElementFragments::ElementFragments(
     }
   }
   ThrowIfStopped(stop);
-  JoinPieces(elements, labels, sets);
-
   this->Numbers.assign(labels.size(), None);
   for (std::uint32_t s = 0; s < labels.size(); ++s)
   {

@@ -22,8 +22,7 @@ namespace voxplex
 /**
  * @brief The fragments of each label: maximal sets of its elements that are connected through faces.
  *
- * Fragments are numbered from 0 in the order of their first elements. Pieces of simplices are
- * elements like others.
+ * Fragments are numbered from 0 in the order of their first elements.
  */
 class ElementFragments
 {

@@ -112,10 +112,9 @@ void ForEachCentreIn(std::array<Point<3>, 4> points, const LabelImage<3>& image,
 
 //------------------------------------------------------------------------------------------------
 FragmentCheck::FragmentCheck(const Subject& subject, const ComponentOptions& options,
-  bool mayRefine, LocalDelta<3>& local, ComponentStatistics& statistics, double& seconds,
+  bool mayRefine, LocalDelta<3>& local, ComponentStatistics& statistics,
   const std::stop_token& stop)
-  : ConformityCheck<3>(seconds)
-  , Of(subject)
+  : Of(subject)
   , Wanted(subject.All.FindWanted(options.Smallest))
   , Exact(options.Exact)
   , RoundsLeft(options.Exact && mayRefine ? MostRounds : 0)
@@ -127,7 +126,7 @@ FragmentCheck::FragmentCheck(const Subject& subject, const ComponentOptions& opt
 }
 
 //------------------------------------------------------------------------------------------------
-Remedy<3> FragmentCheck::InspectElements(const LabelledTriangulation<3>& elements)
+Remedy<3> FragmentCheck::Inspect(const LabelledTriangulation<3>& elements)
 {
   ElementFragments fragments(elements, this->Stop);
   fragments.FindComponents(this->Of.All, this->Of.Image);

@@ -8,9 +8,9 @@
 #define voxplex_FragmentCheck_h
 
 #include "Conformity/ComponentStatistics.h"
-#include "Conformity/ConformityCheck.h"
 #include "Conformity/ConformityOptions.h"
 #include "Conformity/ElementFragments.h"
+#include "Conformity/Remedy.h"
 #include "Domain/Domain.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
@@ -49,7 +49,7 @@ namespace voxplex
  * Not thread safe. An inspection takes time linear in the number of simplices, and memory of 10 bytes
  * for each.
  */
-class FragmentCheck final : public ConformityCheck<3>
+class FragmentCheck
 {
 public:
   /** The objects to inspect. The references must outlive the check. */
@@ -72,10 +72,9 @@ public:
    * check
    */
   FragmentCheck(const Subject& subject, const ComponentOptions& options, bool mayRefine,
-    LocalDelta<3>& local, ComponentStatistics& statistics, double& seconds,
-    const std::stop_token& stop);
+    LocalDelta<3>& local, ComponentStatistics& statistics, const std::stop_token& stop);
 
-  Remedy<3> InspectElements(const LabelledTriangulation<3>& elements) override;
+  Remedy<3> Inspect(const LabelledTriangulation<3>& elements);
 
 private:
   using Index = GridGeometry<3>::Index;

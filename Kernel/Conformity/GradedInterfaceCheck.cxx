@@ -3,12 +3,14 @@
 #include "Conformity/GradedInterfaceCheck.h"
 
 #include "Conformity/FaceScan.h"
+#include "Conformity/NonManifoldRidges.h"
 #include "Geometry/BoundingTree.h"
 #include "Refinement/FeatureGrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace voxplex
 {
@@ -24,24 +26,6 @@ constexpr double SurfaceDistance = 1.22;
 
 /** The mesh may be farther from voxel faces by this factor, because voxel faces form stairs. */
 constexpr double StairFactor = 1.15;
-
-std::vector<Point<3>> VerticesOfInterfaces(const SimplexMesh<3>& mesh)
-{
-  std::vector<Point<3>> vertices;
-  std::vector<bool> added(mesh.Points.size());
-  for (const auto& facet : mesh.Facets)
-  {
-    for (const std::uint32_t v : facet)
-    {
-      if (!added[v])
-      {
-        added[v] = true;
-        vertices.push_back(mesh.Points[v]);
-      }
-    }
-  }
-  return vertices;
-}
 
 } // namespace
 
@@ -67,15 +51,29 @@ double GradedInterfaceCheck::LargestDistance(const GridGeometry<3>& grid, double
 
 //------------------------------------------------------------------------------------------------
 std::vector<FeatureSeed<3>> GradedInterfaceCheck::Inspect(
-  const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace<3>>& edges)
+  const LabelledTriangulation<3>& elements, const std::vector<NonManifoldPlace<3>>& edges)
 {
-  const std::vector<Point<3>> points = VerticesOfInterfaces(mesh);
-  FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, this->Largest, points.size());
-  for (const Point<3>& p : points)
+  const Triangulation<3>& triangulation = elements.GetTriangulation();
+  const InterfaceFacets<3> interfaces =
+    FindInterfaceFacets<3>(triangulation, elements.GetLabels(), this->Threads, this->Stop);
+  FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, this->Largest, interfaces.Facets.size() / 2);
+  std::vector<Triangle> all;
+  all.reserve(interfaces.Facets.size());
+  std::vector<bool> isAdded(triangulation.VertexIdEnd());
+  for (const auto& facet : interfaces.Facets)
   {
-    vertices.Add(p);
+    all.push_back({ triangulation.Position(facet[0]), triangulation.Position(facet[1]),
+      triangulation.Position(facet[2]) });
+    for (const VertexId v : facet)
+    {
+      if (!isAdded[v])
+      {
+        isAdded[v] = true;
+        vertices.Add(triangulation.Position(v));
+      }
+    }
   }
-  const BoundingTree<Triangle> triangles(TrianglesOf(mesh), this->Threads, this->Stop);
+  const BoundingTree<Triangle> triangles(std::move(all), this->Threads, this->Stop);
 
   // Checks the voxel face, and the smooth interface near it, which is the interface that is meshed.
   using Hint = std::uint32_t; // see BoundingTree

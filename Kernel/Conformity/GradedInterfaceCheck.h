@@ -9,7 +9,7 @@
 #define voxplex_GradedInterfaceCheck_h
 
 #include "Conformity/InterfaceSampling.h"
-#include "Mesh/SimplexMesh.h"
+#include "Mesh/LabelledTriangulation.h"
 
 #include <stop_token>
 #include <vector>
@@ -44,13 +44,13 @@ public:
     const std::stop_token& stop);
 
   /**
-   * Proposes points that repair a mesh's interfaces.
-   * @param edges the non-manifold edges of the mesh
+   * Proposes points that repair interfaces.
+   * @param edges those that are not manifold
    * @return empty if nothing is wrong, or if the label field has no finer features to sample
    * @throws Cancelled if a stop was requested before the end
    */
   std::vector<FeatureSeed<3>> Inspect(
-    const SimplexMesh<3>& mesh, const std::vector<NonManifoldPlace<3>>& edges);
+    const LabelledTriangulation<3>& elements, const std::vector<NonManifoldPlace<3>>& edges);
 
   /** The number of far faces at the last inspection. */
   std::size_t NumberOfFarFaces() const { return this->FarFaces; }

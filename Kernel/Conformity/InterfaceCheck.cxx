@@ -2,114 +2,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/InterfaceCheck.h"
 
+#include "Mesh/LabelledTriangulation.h"
+
 #include <utility>
 
 namespace voxplex
 {
 
-namespace
+template <int D>
+InterfaceCheck<D>::InterfaceCheck(const Subject& subject, unsigned rounds, LocalDelta<D>& local,
+  InterfaceStatistics& statistics, const std::stop_token& stop)
+  : Of(subject)
+  , Rounds(rounds)
+  , Statistics(statistics)
+  , Vertices(subject.Mesh, subject.Surfaces, subject.Threads, stop)
 {
-
-ManifoldRepairOptions<3> RepairOptionsFor(const InterfaceCheck::Subject& subject)
-{
-  ManifoldRepairOptions<3> options;
-  options.Shape = subject.Shape;
-  options.Surfaces = &subject.Surfaces;
-  options.Sizing = &subject.Sizing;
-  return options;
+  if constexpr (D == 3)
+  {
+    if (subject.Sizing.Base().Graded)
+    {
+      this->Graded.emplace(subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local,
+        subject.Threads, stop);
+      return;
+    }
+  }
+  this->Uniform.emplace(
+    subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
 }
 
-} // namespace
-
-InterfaceCheck::InterfaceCheck(const Subject& subject, const InterfaceOptions& options,
-  LocalDelta<3>& local, InterfaceStatistics& statistics, double& seconds,
-  const std::stop_token& stop)
-  : ConformityCheck(seconds)
-  , Of(subject)
-  , Options(options)
-  , Statistics(statistics)
-  , Stop(stop)
-  , Vertices(subject.Mesh, subject.Surfaces, subject.Threads, stop)
-  , Labeller(subject.Mesh, RepairOptionsFor(subject), subject.Threads, stop)
+template <int D>
+Remedy<D> InterfaceCheck<D>::InspectVertices()
 {
-  if (subject.Sizing.Base().Graded)
+  return this->Uniform && this->MayGoOn()
+    ? this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()))
+    : Remedy<D>();
+}
+
+template <int D>
+Remedy<D> InterfaceCheck<D>::InspectLabels(const ManifoldLabels<D>& made)
+{
+  if (!this->MayGoOn())
   {
-    this->Graded.emplace(
-      subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
+    return {};
+  }
+  if constexpr (D == 3)
+  {
+    return this->Counted(this->Graded
+        ? this->Graded->Inspect(LabelledTriangulation<3>(this->Of.Mesh, made.Labels), made.Places)
+        : this->Uniform->InspectLabels(made.Gone, made.Places));
   }
   else
   {
-    this->Uniform.emplace(
-      subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
+    return this->Counted(this->Uniform->InspectLabels(made.Gone, {}));
   }
 }
 
-//------------------------------------------------------------------------------------------------
-Remedy<3> InterfaceCheck::InspectTriangulation()
-{
-  if (this->Uniform && this->MayGoOn())
-  {
-    Remedy<3> remedy = this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()));
-    if (remedy.IsNeeded)
-    {
-      return remedy;
-    }
-  }
-  this->MakeLabels();
-  this->OpenEdges();
-  return {};
-}
-
-Remedy<3> InterfaceCheck::InspectElements(const LabelledTriangulation<3>&)
-{
-  return this->Uniform && this->MayGoOn()
-    ? this->Counted(this->Uniform->InspectLabels(this->Made.Gone, this->Made.Places))
-    : Remedy<3>();
-}
-
-Remedy<3> InterfaceCheck::InspectMesh(const SimplexMesh<3>& mesh)
-{
-  return this->NeedsMesh() ? this->Counted(this->Graded->Inspect(mesh, this->Made.Places))
-                           : Remedy<3>();
-}
-
-void InterfaceCheck::Finish()
+template <int D>
+void InterfaceCheck<D>::Finish()
 {
   this->Vertices.Forget();
-  this->Labeller.Forget();
   this->Uniform.reset();
 }
 
 /** Makes a remedy of these points. If there are any, counts a round. */
-Remedy<3> InterfaceCheck::Counted(std::vector<FeatureSeed<3>> points)
+template <int D>
+Remedy<D> InterfaceCheck<D>::Counted(std::vector<FeatureSeed<D>> points)
 {
   this->Statistics.Rounds += points.empty() ? 0 : 1;
   this->Statistics.Seeds += points.size();
   return { !points.empty(), std::move(points) };
 }
 
-//------------------------------------------------------------------------------------------------
-void InterfaceCheck::MakeLabels()
-{
-  this->Made = {}; // the labels of the round before need no memory beside the new ones
-  this->Spindles = {};
-  if (this->Options.Manifold)
-  {
-    this->Made = this->Labeller.Make(this->Statistics);
-  }
-  else
-  {
-    this->Made.Labels = this->Labeller.MakePlain();
-  }
-}
-
-/** Opens the edges that are not manifold with these labels. */
-void InterfaceCheck::OpenEdges()
-{
-  SpindleResult<3> result = MakeSpindles(
-    this->Of.Mesh, this->Of.Surfaces, this->Made.Labels, this->Made.NonManifold, this->Stop);
-  this->Statistics.CountOpened(this->Made.NonManifold.size(), result.Left.size());
-  this->Spindles = std::move(result.Parts);
-}
+template class InterfaceCheck<3>;
+template class InterfaceCheck<4>;
 
 } // namespace voxplex

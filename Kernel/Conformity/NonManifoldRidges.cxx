@@ -18,69 +18,6 @@ namespace voxplex
 namespace
 {
 
-/** The facets of the interfaces of a triangulation. */
-template <int D>
-struct InterfaceFacets
-{
-  UninitialisedVector<repair::Facet<D>> Facets;
-  UninitialisedVector<std::array<LabelId, 2>> Labels; ///< on both sides of each
-};
-
-/** The facets are in the order of the simplices on the side of the larger label. */
-template <int D>
-InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
-  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
-{
-  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
-  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
-  {
-    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-    {
-      if (labels[s] == 0)
-      {
-        continue;
-      }
-      const auto& simplex = triangulation.GetSimplex(s);
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
-        if (beside < labels[s])
-        {
-          visit(s, i, beside);
-        }
-      }
-    }
-  };
-  const auto forChunks = [&](auto&& function)
-  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
-  ChunkCounts places(labels.size());
-  forChunks(
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t number = 0;
-      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
-      places.OfChunk(first) = number;
-    });
-  const std::size_t number = places.TurnIntoPlaces();
-  InterfaceFacets<D> all;
-  all.Facets.resize(number);
-  all.Labels.resize(number);
-  forChunks(
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t place = places.OfChunk(first);
-      forEachOf(first, last,
-        [&](SimplexId s, unsigned i, LabelId beside)
-        {
-          const auto& simplex = triangulation.GetSimplex(s);
-          all.Facets[place] = repair::FacetOf<D>(simplex.V, i);
-          all.Labels[place] = { labels[s], beside };
-          ++place;
-        });
-    });
-  return all;
-}
-
 //------------------------------------------------------------------------------------------------
 /** Finds bad ridges one by one. */
 template <int D>
@@ -148,6 +85,61 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <int D>
+InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
+{
+  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
+  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
+  {
+    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+    {
+      if (labels[s] == 0)
+      {
+        continue;
+      }
+      const auto& simplex = triangulation.GetSimplex(s);
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
+        if (beside < labels[s])
+        {
+          visit(s, i, beside);
+        }
+      }
+    }
+  };
+  const auto forChunks = [&](auto&& function)
+  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
+  ChunkCounts places(labels.size());
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t number = 0;
+      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
+      places.OfChunk(first) = number;
+    });
+  const std::size_t number = places.TurnIntoPlaces();
+  InterfaceFacets<D> all;
+  all.Facets.resize(number);
+  all.Labels.resize(number);
+  forChunks(
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t place = places.OfChunk(first);
+      forEachOf(first, last,
+        [&](SimplexId s, unsigned i, LabelId beside)
+        {
+          const auto& simplex = triangulation.GetSimplex(s);
+          all.Facets[place] = repair::FacetOf<D>(simplex.V, i);
+          all.Labels[place] = { labels[s], beside };
+          ++place;
+        });
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
 std::vector<InterfaceRidge<D>> FindNonManifoldRidges(const Triangulation<D>& triangulation,
   std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
 {
@@ -211,6 +203,8 @@ std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& t
   return ridges;
 }
 
+template InterfaceFacets<3> FindInterfaceFacets<3>(
+  const Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
 template std::vector<InterfaceRidge<3>> FindNonManifoldRidges<3>(
   const Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
 template std::vector<InterfaceRidge<4>> FindNonManifoldRidges<4>(

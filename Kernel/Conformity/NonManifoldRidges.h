@@ -9,16 +9,35 @@
 #ifndef voxplex_NonManifoldRidges_h
 #define voxplex_NonManifoldRidges_h
 
+#include "Base/UninitialisedVector.h"
 #include "Delaunay/Triangulation.h"
 #include "Image/LabelImage.h"
 #include "Quality/InterfaceEdges.h"
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 namespace voxplex
 {
+
+/** The facets of the interfaces of a triangulation. */
+template <int D>
+struct InterfaceFacets
+{
+  UninitialisedVector<std::array<VertexId, static_cast<std::size_t>(D)>> Facets;
+  UninitialisedVector<std::array<LabelId, 2>> Labels; ///< on both sides of each
+};
+
+/**
+ * Finds them, in the order of the simplices on the side of the larger label. For parameters, time
+ * and errors see FindNonManifoldRidges().
+ */
+template <int D>
+InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop);
 
 /**
  * Finds the ridges that some label has in more than one group of neighbouring simplices. Background

@@ -8,7 +8,7 @@
 #define voxplex_LabelledTriangulation_h
 
 #include "Delaunay/Triangulation.h"
-#include "Mesh/Subdivision.h"
+#include "Image/LabelImage.h"
 
 #include <cstddef>
 #include <span>
@@ -17,49 +17,36 @@ namespace voxplex
 {
 
 /**
- * @brief The simplices of a triangulation with their labels, some of them replaced by pieces: the
- * elements that ExtractMesh() and Subdivide() make of them, in another order.
- *
- * Elements 0 ... SimplexIdEnd() - 1 are the simplices by their ids; then come the pieces.
+ * @brief The simplices of a triangulation with their labels: the elements that ExtractMesh() makes of
+ * them, in another order. Their numbers are the simplex ids.
  */
 template <int D>
 class LabelledTriangulation
 {
 public:
+  static constexpr int Dimension = D;
+
   /**
    * All must outlive this object.
    * @param labels of each simplex id; 0 for simplices that are outside or do not exist
    */
-  LabelledTriangulation(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    const Subdivision<D>& parts)
+  LabelledTriangulation(const Triangulation<D>& triangulation, std::span<const LabelId> labels)
     : Source(triangulation)
     , Labels(labels)
-    , Parts(parts)
-    , VertexEnd(triangulation.VertexIdEnd())
   {
   }
 
   const Triangulation<D>& GetTriangulation() const { return this->Source; }
-
-  /** The label of each simplex id, also of those that are replaced by pieces. */
   std::span<const LabelId> GetLabels() const { return this->Labels; }
-
-  const Subdivision<D>& GetParts() const { return this->Parts; }
-
-  std::size_t Size() const { return this->Labels.size() + this->Parts.Pieces.size(); }
+  std::size_t Size() const { return this->Labels.size(); }
 
   /** Point i of an element that has a label. */
   const Point<D>& PointOf(std::size_t element, std::size_t i) const
   {
-    if (element < this->Labels.size())
-    {
-      return this->Source.Position(this->Source.GetSimplex(static_cast<SimplexId>(element)).V[i]);
-    }
-    const VertexId v = this->Parts.Pieces[element - this->Labels.size()].V[i];
-    return v < this->VertexEnd ? this->Source.Position(v) : this->Parts.Points[v - this->VertexEnd];
+    return this->Source.Position(this->Source.GetSimplex(static_cast<SimplexId>(element)).V[i]);
   }
 
-  /** Tells the labels of elements that are asked for in ascending order; 0 if not in the mesh. */
+  /** Tells the labels of elements; 0 if not in the mesh. */
   class LabelReader
   {
   public:
@@ -68,32 +55,15 @@ public:
     {
     }
 
-    LabelId operator()(std::size_t element)
-    {
-      if (element >= this->Of.Labels.size())
-      {
-        return this->Of.Parts.Pieces[element - this->Of.Labels.size()].Label;
-      }
-      const auto& replaced = this->Of.Parts.Replaced;
-      while (this->NextReplaced < replaced.size() && replaced[this->NextReplaced] < element)
-      {
-        ++this->NextReplaced;
-      }
-      const bool isReplaced =
-        this->NextReplaced < replaced.size() && replaced[this->NextReplaced] == element;
-      return isReplaced ? LabelId{ 0 } : this->Of.Labels[element];
-    }
+    LabelId operator()(std::size_t element) const { return this->Of.Labels[element]; }
 
   private:
     const LabelledTriangulation& Of;
-    std::size_t NextReplaced = 0;
   };
 
 private:
   const Triangulation<D>& Source;
   const std::span<const LabelId> Labels;
-  const Subdivision<D>& Parts;
-  const VertexId VertexEnd;
 };
 
 } // namespace voxplex

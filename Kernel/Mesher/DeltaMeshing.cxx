@@ -3,6 +3,8 @@
 #include "Mesher/DeltaMeshing.h"
 
 #include "Base/Stopwatch.h"
+#include "Mesher/Dimension.h"
+#include "Mesher/Inspection.h"
 #include "Mesher/MeshSizeEstimate.h"
 #include "Mesher/RefinementStage.h"
 
@@ -108,86 +110,11 @@ MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, doubl
   return estimate;
 }
 
-//------------------------------------------------------------------------------------------------
-/** A step of inspection, as ConformityCheck describes them. It may be taken once a round. */
-template <int D>
-class InspectionStep
-{
-public:
-  /**
-   * Runs the checks in order. Returns what they need together. If one needs a remedy, this round is
-   * not the last. Then checks that needed nothing in the round before can wait.
-   */
-  template <typename Inspect>
-  Remedy<D> Take(const std::vector<ConformityCheck<D>*>& checks, Inspect&& inspect)
-  {
-    this->NeededNothing.resize(checks.size(), false);
-    Remedy<D> all;
-    for (std::size_t k = 0; k < checks.size(); ++k)
-    {
-      if (all.IsNeeded && this->NeededNothing[k])
-      {
-        continue;
-      }
-      const Stopwatch time;
-      const Remedy<D> remedy = inspect(*checks[k]);
-      checks[k]->Seconds += time.Seconds();
-      this->NeededNothing[k] = !remedy.IsNeeded;
-      all.IsNeeded = all.IsNeeded || remedy.IsNeeded;
-      all.Points.insert(all.Points.end(), remedy.Points.begin(), remedy.Points.end());
-    }
-    return all;
-  }
-
-private:
-  std::vector<bool> NeededNothing; ///< of each check, at its last inspection
-};
-
-/** The steps of inspection. */
-template <int D>
-struct Inspection
-{
-  InspectionStep<D> OfTriangulation;
-  InspectionStep<D> OfElements;
-  InspectionStep<D> OfMesh;
-};
-
-/** Inspects the triangulation and the mesh. If no check needs a remedy, the mesh is in `mesh`. */
-template <int D>
-Remedy<D> InspectAndExtract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
-  typename Dimension<D>::Checks& checks, Inspection<D>& inspection, SimplexMesh<D>& mesh)
-{
-  const std::vector<ConformityCheck<D>*> all = checks.All();
-  Remedy<D> remedy = inspection.OfTriangulation.Take(
-    all, [](ConformityCheck<D>& check) { return check.InspectTriangulation(); });
-  if (!remedy.IsNeeded)
-  {
-    const LabelledTriangulation<D> elements = checks.Elements();
-    remedy = inspection.OfElements.Take(
-      all, [&](ConformityCheck<D>& check) { return check.InspectElements(elements); });
-  }
-  if (!remedy.IsNeeded)
-  {
-    if (!checks.NeedMesh())
-    {
-      checks.Finish();
-      stage.Finish();
-    }
-    const Stopwatch time;
-    StageTimes& times = run.Statistics.Times;
-    const double optimisation = times.Optimisation;
-    checks.Extract(mesh);
-    times.Extraction += time.Seconds() - (times.Optimisation - optimisation);
-    remedy = inspection.OfMesh.Take(
-      all, [&](ConformityCheck<D>& check) { return check.InspectMesh(mesh); });
-  }
-  return remedy;
-}
+} // namespace
 
 //------------------------------------------------------------------------------------------------
-/** Refines until no check needs a remedy. @return false if stopped */
 template <int D>
-bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, SimplexMesh<D>& mesh)
+bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, ExtractedMesh<D>& mesh)
 {
   MeshSizing<D> sizing(run);
   const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
@@ -196,11 +123,10 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
   const std::unique_ptr<RefinementStage<D>> stage = Dimension<D>::MakeStage(run,
     { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
       estimate.InterfaceVertices });
-  typename Dimension<D>::Checks checks(run, *stage, sizing.LocalBounds());
-  Inspection<D> inspection;
+  Inspection<D> inspection(run, *stage, sizing.LocalBounds());
   stage->FollowLocalBounds();
   std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());
-  const std::vector<FeatureSeed<D>> more = checks.TakeSeeds();
+  const std::vector<FeatureSeed<D>> more = inspection.TakeSeeds();
   seeds.insert(seeds.end(), more.begin(), more.end());
 
   for (RefinementStart start = RefinementStart::Everywhere; stage->Refine(seeds, start, progress);
@@ -208,10 +134,12 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
   {
     progress.EndRefinement();
     sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
-    Remedy<D> remedy = InspectAndExtract(run, *stage, checks, inspection, mesh);
+    Remedy<D> remedy = inspection.Inspect();
     if (!remedy.IsNeeded)
     {
-      return true;
+      inspection.Finish();
+      Extract(run, *stage, inspection.Labels(), mesh);
+      return !run.Stop.stop_requested();
     }
     seeds = std::move(remedy.Points);
     stage->FollowLocalBounds();
@@ -219,27 +147,7 @@ bool RefineAndCheck(const RunEnvironment<D>& run, RunProgress& progress, Simplex
   return false;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------------------------
-template <int D>
-bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,
-  RunProgress& progress, SimplexMesh<D>& mesh)
-{
-  if (!RefineAndCheck(run, progress, mesh))
-  {
-    return false;
-  }
-  if (isWorthOptimising(mesh))
-  {
-    Dimension<D>::Optimise(run, mesh);
-  }
-  return !run.Stop.stop_requested();
-}
-
-template bool MeshWithDelta<3>(
-  const RunEnvironment<3>&, const IsWorthOptimising<3>&, RunProgress&, SimplexMesh<3>&);
-template bool MeshWithDelta<4>(
-  const RunEnvironment<4>&, const IsWorthOptimising<4>&, RunProgress&, SimplexMesh<4>&);
+template bool RefineAndExtract<3>(const RunEnvironment<3>&, RunProgress&, ExtractedMesh<3>&);
+template bool RefineAndExtract<4>(const RunEnvironment<4>&, RunProgress&, ExtractedMesh<4>&);
 
 } // namespace voxplex

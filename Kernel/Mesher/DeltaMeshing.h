@@ -7,22 +7,16 @@
 #ifndef voxplex_DeltaMeshing_h
 #define voxplex_DeltaMeshing_h
 
-#include "Mesh/SimplexMesh.h"
-#include "Mesher/Dimension.h"
+#include "Mesher/MeshFinishing.h"
+#include "Mesher/RefinementStage.h"
 #include "Mesher/RunProgress.h"
-
-#include <functional>
 
 namespace voxplex
 {
 
-/** Whether the extracted mesh is worth optimising. */
-template <int D>
-using IsWorthOptimising = std::function<bool(const SimplexMesh<D>&)>;
-
 /**
- * Meshes in these steps: chooses sampling distances; refines; runs the checks (ConformityCheck),
- * and refines again until no check needs a remedy; extracts the mesh; optimises it.
+ * Chooses sampling distances. Refines and inspects the triangulation (Inspection) in turn, until
+ * nothing more is needed. Then extracts the mesh, once. FinishMesh() is the next step.
  *
  * @param run its statistics receive all counts and times; their Delta is the sampling distance
  * @param mesh receives the mesh
@@ -31,13 +25,10 @@ using IsWorthOptimising = std::function<bool(const SimplexMesh<D>&)>;
  *   std::bad_alloc
  */
 template <int D>
-bool MeshWithDelta(const RunEnvironment<D>& run, const IsWorthOptimising<D>& isWorthOptimising,
-  RunProgress& progress, SimplexMesh<D>& mesh);
+bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, ExtractedMesh<D>& mesh);
 
-extern template bool MeshWithDelta<3>(
-  const RunEnvironment<3>&, const IsWorthOptimising<3>&, RunProgress&, SimplexMesh<3>&);
-extern template bool MeshWithDelta<4>(
-  const RunEnvironment<4>&, const IsWorthOptimising<4>&, RunProgress&, SimplexMesh<4>&);
+extern template bool RefineAndExtract<3>(const RunEnvironment<3>&, RunProgress&, ExtractedMesh<3>&);
+extern template bool RefineAndExtract<4>(const RunEnvironment<4>&, RunProgress&, ExtractedMesh<4>&);
 
 } // namespace voxplex
 

@@ -125,8 +125,6 @@ struct MeshingOptions
   LimitOptions Limits;
 
   bool LooksAfterComponents() const { return this->Components.Smallest > 0; }
-  /** Whether optimisation follows the extraction of the mesh. In 4D it is part of it. */
-  bool Optimises() const { return D == 3 && this->Optimisation.Run; }
 };
 
 /** The largest radius-edge ratio that optimisation allows in 3D. */

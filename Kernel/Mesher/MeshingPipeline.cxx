@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -33,8 +34,12 @@ constexpr double OptimisedPerEstimated = 1.0;
  */
 constexpr double LargestExcess = 16.0;
 
-/** The fraction of the elements that optimisation leaves. The search plans with it. */
-constexpr double ElementsLeftByOptimisation = 0.96;
+/**
+ * The fraction of the elements that optimisation leaves. The search plans with it, and optimises
+ * the mesh that it finds.
+ */
+template <int D>
+constexpr double ElementsLeftByOptimisation = D == 3 ? 0.96 : 1.0;
 
 //------------------------------------------------------------------------------------------------
 /** Searches the delta that gives the requested number of elements. */
@@ -59,7 +64,7 @@ public:
     MeshingStatistics& statistics = this->Run.Statistics;
     const MeshingStatistics before = statistics;
     MeshingStatistics best;
-    SimplexMesh<D> next;
+    ExtractedMesh<D> nearest;
     while (search.Next())
     {
       const StageTimes times = statistics.Times;
@@ -67,17 +72,17 @@ public:
       statistics.Times = times;
       statistics.Delta = *search.Next();
       this->Progress.BeginOneOfSeveral();
-      const auto isNear = [this](const SimplexMesh<D>& one) { return this->IsNearTarget(one); };
-      if (!MeshWithDelta<D>(this->Run, isNear, this->Progress, next))
+      ExtractedMesh<D> next;
+      if (!RefineAndExtract<D>(this->Run, this->Progress, next))
       {
         return false;
       }
       this->Progress.EndOneOfSeveral();
-      search.Add(this->ExpectedElements(next));
+      search.Add(this->ExpectedElements(next.Mesh));
       if (search.Best().Delta == statistics.Delta)
       {
         best = statistics;
-        mesh = std::move(next);
+        nearest = std::move(next);
       }
     }
     best.Times = statistics.Times;
@@ -87,7 +92,13 @@ public:
     {
       this->ThrowNotFound(search);
     }
-    return true;
+    FinishMesh<D>(this->Run, nearest);
+    mesh = std::move(nearest.Mesh);
+    for (MeshingRun& run : statistics.Runs)
+    {
+      run.Elements = run.Delta == statistics.Delta ? mesh.Simplices.size() : run.Elements;
+    }
+    return !this->Run.Stop.stop_requested();
   }
 
 private:
@@ -104,7 +115,7 @@ private:
       EstimateMeshSize<D>(prepared.Image, delta, SpacingFloorFraction * delta, prepared.Size.get(),
         this->Run.Options.Team.Threads, this->Run.Stop);
     const double perEstimated =
-      this->Run.Options.Optimises() ? OptimisedPerEstimated : ElementsPerEstimated;
+      D == 3 && this->Run.Options.Optimisation.Run ? OptimisedPerEstimated : ElementsPerEstimated;
     const auto wanted = static_cast<double>(this->Run.Options.Sampling.Elements);
     const double target = wanted / perEstimated;
     const double interfaces = std::max(static_cast<double>(estimate.InterfaceElements), 1.0);
@@ -116,24 +127,12 @@ private:
       std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
   }
 
-  /**
-   * The expected number of elements after optimisation. A mesh is optimised if it may be the
-   * result.
-   */
+  /** The expected number of elements after optimisation. */
   std::uint64_t ExpectedElements(const SimplexMesh<D>& mesh) const
   {
     const auto elements = static_cast<double>(mesh.Simplices.size());
-    const bool willBeFewer =
-      this->Run.Options.Optimises() && !this->Run.Statistics.Optimisation.Ran;
     return static_cast<std::uint64_t>(
-      willBeFewer ? elements * ElementsLeftByOptimisation : elements);
-  }
-
-  bool IsNearTarget(const SimplexMesh<D>& mesh) const
-  {
-    const double ratio = static_cast<double>(this->ExpectedElements(mesh)) /
-      static_cast<double>(this->Run.Options.Sampling.Elements);
-    return !(std::abs(ratio - 1.0) > DeltaSearch::Tolerance);
+      this->Run.Options.Optimisation.Run ? elements * ElementsLeftByOptimisation<D> : elements);
   }
 
   [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
@@ -171,10 +170,18 @@ bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurfac
     const PreparedImage<D> prepared = Prepare(image, isosurface, options, statistics, stop);
     progress.EndPreparation();
     const RunEnvironment<D> run{ prepared, options, statistics, stop };
-    return options.Sampling.Elements > 0
-      ? ElementTarget<D>(run, progress).Mesh(mesh)
-      : MeshWithDelta<D>(
-          run, [](const SimplexMesh<D>&) { return true; }, progress, mesh);
+    if (options.Sampling.Elements > 0)
+    {
+      return ElementTarget<D>(run, progress).Mesh(mesh);
+    }
+    ExtractedMesh<D> extracted;
+    if (!RefineAndExtract<D>(run, progress, extracted))
+    {
+      return false;
+    }
+    FinishMesh<D>(run, extracted);
+    mesh = std::move(extracted.Mesh);
+    return !stop.stop_requested();
   }
   catch (const Cancelled&)
   {

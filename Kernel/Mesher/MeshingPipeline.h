@@ -20,9 +20,9 @@ namespace voxplex
 {
 
 /**
- * Calls Prepare() once. Then calls MeshWithDelta() with the sampling distance of the options. If
+ * Calls Prepare() once. Then calls RefineAndExtract() with the sampling distance of the options. If
  * the options request a number of elements, tries several sampling distances until it is met
- * (DeltaSearch).
+ * (DeltaSearch). Then calls FinishMesh(), once.
  *
  * @param isosurface the isosurface to mesh, or null to mesh the labels alone
  * @param statistics must have the sampling distance, unless a number of elements is requested

@@ -388,7 +388,7 @@ bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const TetrahedralComplex::Label own = mesh.Labels[t];
   const auto& cell = mesh.Cells[t];
-  if (!this->Target.MayChange(t))
+  if (!this->Target.MayChange(t) || mesh.IsHolder(t))
   {
     return false;
   }

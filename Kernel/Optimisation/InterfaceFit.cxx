@@ -74,6 +74,11 @@ public:
     this->FindVertices();
     this->MeasureFacets();
     this->FindSimplices();
+    if (this->Bounds.Guard)
+    {
+      this->AreHolders = this->Bounds.Guard->FindHolders(
+        LabelledTriangulation<4>(this->Source, this->Labels), this->Threads, this->Stop);
+    }
     for (unsigned round = 0; round < Rounds; ++round)
     {
       this->FindSteps();
@@ -584,7 +589,9 @@ private:
     {
       return volume > VolumeKeptOutside * SignedVolume<4>(before.data());
     }
-    if (!(volume > 0.0))
+    if (!(volume > 0.0) ||
+      (!this->AreHolders.empty() && this->AreHolders[s] != 0 &&
+        !this->Bounds.Guard->Keeps(this->Labels[s], before, after)))
     {
       return false;
     }
@@ -652,6 +659,7 @@ private:
   std::vector<Corner> Corners;
   double TargetFactor = 1.0;
   UninitialisedVector<SimplexId> Simplices; ///< those with a corner
+  std::vector<std::uint8_t> AreHolders;     ///< by simplex id; empty if there are none
   std::vector<std::size_t> FirstFacet;      ///< of each corner, in FacetsOf; and the end
   UninitialisedVector<std::uint32_t> FacetsOf;
   UninitialisedVector<Point<4>> Positions; ///< of each vertex id, with the steps of this round

@@ -13,6 +13,7 @@
 #include "Domain/TimePlanes.h"
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexLabels.h"
+#include "Quality/ComponentGuard.h"
 #include "Sizing/SizingField.h"
 
 #include <array>
@@ -40,6 +41,8 @@ struct FitBounds
    * ascending by the first.
    */
   std::span<const std::array<VertexId, 2>> Twins = {};
+  /** No step that would lose one of its components is made. Null: all are. */
+  ComponentGuard<4>* Guard = nullptr;
 };
 
 /** The result of FitInterfaces(). */
@@ -65,12 +68,12 @@ struct FittedPositions
  * begin with d = 0, solve this well enough: d remains smooth. Where interfaces meet, the
  * displacement of a vertex serves the facets of all of them.
  *
- * Free vertices stay. Vertices on flat ends and time planes stay on them. Twins are one vertex with the facets
- * of both. Where a simplex, inside or outside of the
- * object, would be turned over or violate a bound, the steps of its vertices are halved, twice, then
- * dropped. So the moved triangulation is a triangulation of the same box. There are three rounds. In
- * the second and third, targets h(f) are larger by what the rounds before have missed, so that other
- * vertices make up for those that had to stay.
+ * Free vertices stay. Vertices on flat ends and time planes stay on them. Twins are one vertex with
+ * the facets of both. The steps of the vertices of a simplex, inside or outside of the object, are
+ * halved, twice, then dropped, where it would be turned over or violate a bound, or a component
+ * would be lost. So the moved triangulation is a triangulation of the same box. There are three
+ * rounds. In the second and third, targets h(f) are larger by what the rounds before have missed,
+ * so that other vertices make up for those that had to stay.
  *
  * O(n) time for n simplices, and one search for an interface for each facet. The result does not
  * depend on the number of threads. No thread may change the triangulation meanwhile.

@@ -53,9 +53,6 @@ constexpr unsigned EdgesOfRoom = 2;
 constexpr double TighterBounds = 1.2;
 constexpr double TighterEachRound = 0.1;
 
-/** The largest number of attempts because of tetrahedra that should have stayed. */
-constexpr unsigned MostAttempts = 8;
-
 /** The limits of ShapeScore. */
 constexpr double LargestLowerBound = 59.0;
 constexpr double SmallestUpperBound = 91.0;
@@ -573,37 +570,21 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   statistics.After = statistics.Before;
   if (statistics.Before.Poor != 0)
   {
-    std::vector<std::uint32_t> kept;
-    for (unsigned attempt = 0; attempt < MostAttempts; ++attempt)
+    const SpareRoom spare{ SpareCells(statistics.Before.Poor),
+      mesh.Points.size() / VerticesPerSpare };
+    TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores, spare);
+    complex.FindBorderFaces(domain);
+    if (options.Guard)
     {
-      SimplexMesh<3> result;
-      {
-        const SpareRoom spare{ SpareCells(statistics.Before.Poor),
-          mesh.Points.size() / VerticesPerSpare };
-        TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores, spare);
-        complex.FindBorderFaces(domain);
-        complex.Kept = kept;
-        Optimisation(complex, domain, options, threads, limits, statistics).Run();
-        ThrowIfStopped(stop);
-        complex.Write(result, threads, stop);
-      }
-      const std::vector<std::uint32_t> more =
-        options.ShouldHaveStayed ? options.ShouldHaveStayed(result) : std::vector<std::uint32_t>();
-      if (more.empty())
-      {
-        statistics.After = MeasureShapes(result, options, threads, stop);
-        mesh = std::move(result);
-        break;
-      }
-      const std::size_t before = kept.size();
-      kept.insert(kept.end(), more.begin(), more.end());
-      std::sort(kept.begin(), kept.end());
-      kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-      if (kept.size() == before)
-      {
-        break;
-      }
+      complex.Guard = options.Guard;
+      complex.AreHolders = options.Guard->FindHolders(mesh, threads, stop);
     }
+    Optimisation(complex, domain, options, threads, limits, statistics).Run();
+    ThrowIfStopped(stop);
+    SimplexMesh<3> result;
+    complex.Write(result, threads, stop);
+    statistics.After = MeasureShapes(result, options, threads, stop);
+    mesh = std::move(result);
     statistics.OutOfTime = limits.OutOfTime();
   }
   statistics.Seconds = std::chrono::duration<double>(Clock::now() - start).count();

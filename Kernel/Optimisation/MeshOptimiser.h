@@ -12,13 +12,12 @@
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/Flips.h"
 #include "Optimisation/Smoother.h"
+#include "Quality/ComponentGuard.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <stop_token>
-#include <vector>
 
 namespace voxplex
 {
@@ -51,12 +50,8 @@ struct OptimisationOptions
    */
   double Seconds = 0.0;
 
-  /**
-   * Called with the resulting mesh. Returns the tetrahedra of the original mesh that should have
-   * been left unchanged. If there are any, optimisation starts again and leaves these unchanged.
-   * After a limited number of attempts, the mesh is not optimised at all. May be empty.
-   */
-  std::function<std::vector<std::uint32_t>(const SimplexMesh<3>& result)> ShouldHaveStayed;
+  /** No change that would lose one of its components is made. Null: all are. */
+  ComponentGuard<3>* Guard = nullptr;
 };
 
 /** Shapes of a mesh's tetrahedra. */
@@ -94,6 +89,7 @@ struct OptimisationStatistics
  * the changed tetrahedra grows, so the worst shape of the mesh never gets worse. Optimisation keeps
  * - conformity, positive orientation and every label;
  * - the connected pieces of each label, except single tetrahedra;
+ * - the components that OptimisationOptions::Guard guards;
  * - the bounds of planar angles of interfaces;
  * - the position of interfaces: vertices on them move only along them (except by
  *   InterfaceTolerance), and their triangles change only where they are nearly flat.

@@ -146,7 +146,7 @@ void Patch::Touch(const Vertices& v)
 
 bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh)
 {
-  if (fresh.size() > old.size() + this->FreeSlots.size())
+  if (fresh.size() > old.size() + this->FreeSlots.size() || !this->FindNextHolders(old, fresh))
   {
     return false;
   }
@@ -182,6 +182,10 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
   {
     cells[old[k]].V[0] = None;
     this->FreeSlots.push_back(old[k]);
+    if (!this->NextHolders.empty())
+    {
+      this->Complex.AreHolders[old[k]] = 0;
+    }
   }
   // If a vertex of the hole loses its host, it gets another one beside the hole, if there is any.
   for (const OpenFacet& open : this->Open)
@@ -191,10 +195,15 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
       this->Complex.Hosts[v] = open.Cell;
     }
   }
-  for (const NewTetrahedron& tetrahedron : fresh)
+  for (std::size_t k = 0; k < fresh.size(); ++k)
   {
+    const NewTetrahedron& tetrahedron = fresh[k];
     const std::uint32_t t = this->FreeSlots.back();
     this->FreeSlots.pop_back();
+    if (!this->NextHolders.empty())
+    {
+      this->Complex.AreHolders[t] = this->NextHolders[k];
+    }
     cells[t] = { tetrahedron.V, { None, None, None, None } };
     this->Complex.Labels[t] = tetrahedron.Label;
     const auto score = static_cast<float>(this->Complex.Score(tetrahedron.V));
@@ -227,8 +236,21 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
   return true;
 }
 
-void Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores)
+bool Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores)
 {
+  for (std::size_t k = 0; k < star.Cells.size(); ++k)
+  {
+    if (this->Complex.IsHolder(star.Cells[k]))
+    {
+      ComponentGuard<3>::Corners after = this->CornersOf(star.Corners[k]);
+      after[0] = &to; // Corners have the vertex first
+      if (!this->Complex.Guard->Keeps(this->LabelInImage(this->Complex.Labels[star.Cells[k]]),
+            this->CornersOf(star.Corners[k]), after))
+      {
+        return false;
+      }
+    }
+  }
   ++this->Clock;
   this->Complex.Points[star.Vertex] = to;
   for (std::size_t k = 0; k < star.Cells.size(); ++k)
@@ -240,6 +262,63 @@ void Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const flo
       this->Poor.push_back(star.Cells[k]);
     }
   }
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+ComponentGuard<3>::Corners Patch::CornersOf(const Vertices& v) const
+{
+  const auto& points = this->Complex.Points;
+  return { &points[v[0]], &points[v[1]], &points[v[2]], &points[v[3]] };
+}
+
+LabelId Patch::LabelInImage(TetrahedralComplex::Label label) const
+{
+  return this->Complex.Guard->LabelOf(this->Complex.LabelValues[label]);
+}
+
+/**
+ * Finds the new tetrahedra that hold what old ones have held. NextHolders becomes empty if there are
+ * no holders in the mesh. Returns false if a component would be lost.
+ */
+bool Patch::FindNextHolders(
+  std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh)
+{
+  this->NextHolders.clear();
+  if (this->Complex.AreHolders.empty())
+  {
+    return true;
+  }
+  this->NextHolders.resize(std::max<std::size_t>(fresh.size(), 1));
+  for (const std::uint32_t t : old)
+  {
+    if (!this->Complex.IsHolder(t))
+    {
+      continue;
+    }
+    const TetrahedralComplex::Label label = this->Complex.Labels[t];
+    std::vector<ComponentGuard<3>::Corners> corners;
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < fresh.size(); ++k)
+    {
+      if (fresh[k].Label == label)
+      {
+        corners.push_back(this->CornersOf(fresh[k].V));
+        places.push_back(k);
+      }
+    }
+    std::vector<std::uint8_t> areHolders(corners.size());
+    if (!this->Complex.Guard->Keeps(this->LabelInImage(label),
+          this->CornersOf(this->Complex.Cells[t].V), corners, areHolders))
+    {
+      return false;
+    }
+    for (std::size_t k = 0; k < places.size(); ++k)
+    {
+      this->NextHolders[places[k]] |= areHolders[k];
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -299,8 +378,7 @@ bool Patch::UseFoundStar(VertexStar& star) const
   for (const std::uint32_t t : star.Cells)
   {
     const Vertices& v = this->Complex.Cells[t].V;
-    if (!this->Complex.IsAlive(t) || this->Complex.IsKept(t) ||
-      std::find(v.begin(), v.end(), star.Vertex) == v.end())
+    if (!this->Complex.IsAlive(t) || std::find(v.begin(), v.end(), star.Vertex) == v.end())
     {
       return false;
     }

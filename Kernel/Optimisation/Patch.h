@@ -85,10 +85,7 @@ public:
   }
 
   /** Whether t may be changed or deleted. */
-  bool MayChange(std::uint32_t t) const
-  {
-    return this->OwnsAll(this->Complex.Cells[t].V) && !this->Complex.IsKept(t);
-  }
+  bool MayChange(std::uint32_t t) const { return this->OwnsAll(this->Complex.Cells[t].V); }
 
   /**
    * Gathers the star of v.
@@ -107,12 +104,15 @@ public:
   /**
    * Replaces tetrahedra by others. A facet becomes a boundary facet of the mesh if only one
    * tetrahedron has it afterwards.
-   * @return false, with nothing changed, if there are no slots left
+   * @return false, with nothing changed, if there are no slots left, or a component would be lost
    */
   bool Replace(std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh);
 
-  /** Moves the vertex of a star. The scores of the star become `scores`. */
-  void Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores);
+  /**
+   * Moves the vertex of a star. The scores of the star become `scores`.
+   * @return false, with nothing changed, if a component would be lost
+   */
+  bool Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores);
 
   /** Sets the slots of dead tetrahedra that new ones may take, the last one first. */
   void SetSlots(std::vector<std::uint32_t> slots) { this->FreeSlots = std::move(slots); }
@@ -171,6 +171,9 @@ private:
   };
 
   void Touch(const TetrahedralComplex::Vertices& v);
+  ComponentGuard<3>::Corners CornersOf(const TetrahedralComplex::Vertices& v) const;
+  LabelId LabelInImage(TetrahedralComplex::Label label) const;
+  bool FindNextHolders(std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh);
 
   TetrahedralComplex& Complex;
   std::span<const std::uint32_t> Blocks;
@@ -180,6 +183,7 @@ private:
   std::uint32_t NextSpare = 0;
   std::uint32_t LastSpare = 0;
   std::vector<OpenFacet> Open;
+  std::vector<std::uint8_t> NextHolders; ///< of the new tetrahedra of a Replace()
 };
 
 } // namespace voxplex

@@ -162,6 +162,10 @@ PentatopeComplex::PentatopeComplex(const SimplexMesh<4>& mesh, const Surrounding
       }
     },
     stop);
+  if (bounds.Guard)
+  {
+    this->AreHolders = bounds.Guard->FindHolders(mesh, threads, stop);
+  }
   this->FindStars();
   ListUsers(this->MeshPoints, this->Facets, this->FirstFacet, this->FacetsOf);
   this->Twins.resize(mesh.Twins.empty() ? 0 : this->Points.size(), None);
@@ -357,6 +361,46 @@ bool PentatopeComplex::Allows(const PentatopeShape& shape, double oldRatio, Labe
   }
   const double size = BelowSize * this->Bounds.Sizing->ElementSize(centre, label);
   return shape.Ball.Radius2 < size * size;
+}
+
+bool PentatopeComplex::HandOver(
+  std::span<const std::uint32_t> old, std::span<const Vertices> fresh, const Point<4>& added)
+{
+  if (std::none_of(old.begin(), old.end(), [this](std::uint32_t s) { return this->IsHolder(s); }))
+  {
+    return true;
+  }
+  std::vector<ComponentGuard<4>::Corners> corners(fresh.size());
+  for (std::size_t k = 0; k < fresh.size(); ++k)
+  {
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+      corners[k][i] = fresh[k][i] == None ? &added : &this->Points[fresh[k][i]];
+    }
+  }
+  std::vector<std::uint8_t> areHolders(fresh.size());
+  for (const std::uint32_t s : old)
+  {
+    if (this->IsHolder(s) &&
+      !this->Bounds.Guard->Keeps(
+        this->Labels[s], this->PointsOf(this->Corners[s]), corners, areHolders))
+    {
+      return false;
+    }
+  }
+  this->AreHolders.resize(this->Corners.size());
+  for (std::size_t k = 0; k < std::max(old.size(), fresh.size()); ++k)
+  {
+    if (k < old.size())
+    {
+      this->AreHolders[old[k]] = k < fresh.size() ? areHolders[k] : std::uint8_t{ 0 };
+    }
+    else
+    {
+      this->AreHolders.push_back(areHolders[k]);
+    }
+  }
+  return true;
 }
 
 std::uint32_t PentatopeComplex::Append(LabelId label)

@@ -15,6 +15,7 @@
 #include "Mesh/SimplexLabels.h"
 #include "Mesh/SimplexMesh.h"
 #include "Mesh/Subdivision.h"
+#include "Quality/ComponentGuard.h"
 #include "Sizing/SizingField.h"
 
 #include <array>
@@ -70,6 +71,8 @@ struct PentatopeBounds
    * periodic mesh.
    */
   TimePlanes Planes = {};
+  /** No change that would lose one of its components is made. Null: all are. */
+  ComponentGuard<4>* Guard = nullptr;
 };
 
 /**
@@ -174,6 +177,21 @@ public:
       this->Points[twin] = { p[0], p[1], p[2], this->Points[twin][3] };
     }
   }
+  /** Whether a component needs a pentatope: see PentatopeBounds::Guard. */
+  bool IsHolder(std::size_t s) const
+  {
+    return s < this->AreHolders.size() && this->AreHolders[s] != 0;
+  }
+  const ComponentGuard<4>* Guard() const { return this->Bounds.Guard; }
+  /**
+   * To be called before pentatopes of one label are replaced. Each new one takes the place of an old
+   * one, or is appended.
+   * @param added the place of the vertex None of new ones
+   * @return false if a component would be lost; otherwise it is noted what holds it next
+   */
+  bool HandOver(std::span<const std::uint32_t> old, std::span<const Vertices> fresh,
+    const Point<4>& added = {});
+
   void SetQuality(std::size_t s, double quality) { this->Qualities[s] = quality; }
   void Replace(std::size_t s, const Vertices& corners, double quality)
   {
@@ -217,9 +235,10 @@ private:
   std::vector<Vertices> Corners;
   std::vector<LabelId> Labels;
   std::vector<double> Qualities;
-  std::vector<Range> PlacesOfStars;   ///< of each vertex, in Stars
-  std::vector<std::uint32_t> Stars;   ///< with gaps
-  std::size_t StarsFound = 0;         ///< the length of Stars after all were found
+  std::vector<std::uint8_t> AreHolders; ///< of each pentatope; empty if there are none
+  std::vector<Range> PlacesOfStars;     ///< of each vertex, in Stars
+  std::vector<std::uint32_t> Stars;     ///< with gaps
+  std::size_t StarsFound = 0;           ///< the length of Stars after all were found
   std::vector<std::uint32_t> Changed; ///< pentatopes, since stars were brought up to date; repeated
   std::vector<Corner> Left;           ///< of such pentatopes, before they changed
   std::vector<std::size_t> FirstFacet; ///< by vertex of the mesh, and the end

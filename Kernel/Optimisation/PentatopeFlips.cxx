@@ -114,8 +114,13 @@ PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
   return best;
 }
 
-void MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip)
+bool MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip)
 {
+  if (!complex.HandOver(
+        { flip.Old.data(), flip.NumberOfOld }, { flip.New.data(), flip.NumberOfNew }))
+  {
+    return false;
+  }
   const LabelId label = complex.LabelOf(flip.Old[0]);
   for (std::size_t k = 0; k < std::max(flip.NumberOfOld, flip.NumberOfNew); ++k)
   {
@@ -127,6 +132,7 @@ void MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip)
     const std::uint32_t s = k < flip.NumberOfOld ? flip.Old[k] : complex.Append(label);
     complex.Replace(s, flip.New[k], flip.Qualities[k]);
   }
+  return true;
 }
 
 } // namespace voxplex

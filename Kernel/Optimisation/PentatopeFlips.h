@@ -41,8 +41,11 @@ struct PentatopeFlip
  */
 PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s);
 
-/** Makes a flip. Stars then have to be brought up to date. */
-void MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip);
+/**
+ * Makes a flip. Stars then have to be brought up to date.
+ * @return false, with nothing changed, if a component would be lost
+ */
+bool MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip);
 
 } // namespace voxplex
 

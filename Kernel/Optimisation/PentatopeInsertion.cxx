@@ -306,6 +306,10 @@ PentatopeInsertion PentatopeCavity::Result(const Point<4>& p, double worth) cons
 //------------------------------------------------------------------------------------------------
 std::uint32_t MakeInsertion(PentatopeComplex& complex, const PentatopeInsertion& insertion)
 {
+  if (!complex.HandOver(insertion.Old, insertion.New, insertion.Place))
+  {
+    return None;
+  }
   const LabelId label = complex.LabelOf(insertion.Old.front());
   const std::uint32_t v = complex.AddPoint(insertion.Place);
   for (std::size_t k = 0; k < std::max(insertion.Old.size(), insertion.New.size()); ++k)

@@ -81,7 +81,10 @@ private:
   double Before = 0.0;
 };
 
-/** Makes an insertion, and returns the new vertex. Stars then have to be brought up to date. */
+/**
+ * Makes an insertion, and returns the new vertex. Stars then have to be brought up to date.
+ * @return None, with nothing changed, if a component would be lost
+ */
 std::uint32_t MakeInsertion(PentatopeComplex& complex, const PentatopeInsertion& insertion);
 
 } // namespace voxplex

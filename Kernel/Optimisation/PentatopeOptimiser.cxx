@@ -229,14 +229,15 @@ private:
     {
       const std::span<const std::uint32_t> old(flip.Old.data(), flip.NumberOfOld);
       next.insert(next.end(), old.begin(), old.end());
-      if (std::none_of(old.begin(), old.end(), [&](std::uint32_t s) { return hasChanged[s] != 0; }))
+      const auto first = static_cast<std::uint32_t>(this->Complex.NumberOfPentatopes());
+      if (std::none_of(
+            old.begin(), old.end(), [&](std::uint32_t s) { return hasChanged[s] != 0; }) &&
+        MakeFlip(this->Complex, flip))
       {
         for (const std::uint32_t s : old)
         {
           hasChanged[s] = 1;
         }
-        const auto first = static_cast<std::uint32_t>(this->Complex.NumberOfPentatopes());
-        MakeFlip(this->Complex, flip);
         for (std::uint32_t s = first; s < this->Complex.NumberOfPentatopes(); ++s)
         {
           next.push_back(s);
@@ -436,7 +437,10 @@ private:
     {
       this->TellVertices(this->Complex.CornersOf(old));
     }
-    MakeInsertion(this->Complex, insertion);
+    if (MakeInsertion(this->Complex, insertion) == None)
+    {
+      return false;
+    }
     ++this->Done.Insertions;
     this->HasNews.push_back(1);
     return true;

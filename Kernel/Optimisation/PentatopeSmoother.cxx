@@ -345,7 +345,27 @@ bool PentatopeSmoother::Try(const Point<4>& p, double floor)
     }
     this->Tried[s] = shape.Quality;
   }
-  return true;
+  return std::all_of(inside.begin(), inside.end(),
+    [&](const MovedPentatope& one) { return this->KeepsComponents(one, p); });
+}
+
+/** Whether what a pentatope holds is held if the vertex moves to p. */
+bool PentatopeSmoother::KeepsComponents(const MovedPentatope& one, const Point<4>& p) const
+{
+  if (!this->Target.IsHolder(one.Id))
+  {
+    return true;
+  }
+  const std::array<const Point<4>*, 5> before =
+    this->Target.PointsOf(this->Target.CornersOf(one.Id));
+  const Point<4> moved = one.PlaceOf(p);
+  std::array<const Point<4>*, 5> after = before;
+  for (const Point<4>*& corner : after)
+  {
+    corner =
+      std::find(one.Facet.begin(), one.Facet.end(), corner) == one.Facet.end() ? &moved : corner;
+  }
+  return this->Target.Guard()->Keeps(one.Label, before, after);
 }
 
 bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape) const

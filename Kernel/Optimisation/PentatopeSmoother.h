@@ -69,6 +69,7 @@ private:
   Point<4> GradientOfSum(const Point<4>& p) const;
   bool MayMoveTo(std::uint32_t v, const Point<4>& p) const;
   bool Allows(MovedPentatope& one, const PentatopeShape& shape) const;
+  bool KeepsComponents(const MovedPentatope& one, const Point<4>& p) const;
   bool Try(const Point<4>& p, double floor);
   void Take(std::uint32_t v, const Point<4>& p);
   void Finish() const;

@@ -367,8 +367,7 @@ bool Smoother::AscendInStar(Point<3>& p)
   {
     return false;
   }
-  this->Target.Move(this->Star, p, this->Scores);
-  return true;
+  return this->Target.Move(this->Star, p, this->Scores);
 }
 
 /** Moves p until the smallest score is enough or no step helps. False if p does not move. */

@@ -186,6 +186,7 @@ void TetrahedralComplex::AddCells(std::size_t number)
   this->Cells.resize(old + number);
   this->Labels.resize(old + number);
   this->Scores.resize(old + number);
+  this->AreHolders.resize(this->AreHolders.empty() ? 0 : old + number);
   for (std::size_t t = old; t < this->Cells.size(); ++t)
   {
     this->Cells[t].V[0] = None;

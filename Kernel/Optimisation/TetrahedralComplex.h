@@ -11,6 +11,7 @@
 #include "Domain/Domain.h"
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/ShapeScore.h"
+#include "Quality/ComponentGuard.h"
 
 #include <algorithm>
 #include <array>
@@ -93,9 +94,10 @@ public:
   void AddVertices(std::size_t number);
 
   bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
-  bool IsKept(std::uint32_t t) const
+  /** Whether a component needs t: see Guard. */
+  bool IsHolder(std::uint32_t t) const
   {
-    return std::binary_search(this->Kept.begin(), this->Kept.end(), t);
+    return !this->AreHolders.empty() && this->AreHolders[t] != 0;
   }
   Label LabelOf(std::uint32_t t) const { return t == None ? 0 : this->Labels[t]; }
   /** Domain::BorderFaces of a vertex. */
@@ -139,7 +141,8 @@ public:
   UninitialisedVector<Label> Labels;
   UninitialisedVector<float> Scores;
   std::vector<std::int64_t> LabelValues;
-  std::vector<std::uint32_t> Kept; ///< tetrahedra that stay as they are; sorted
+  const ComponentGuard<3>* Guard = nullptr; ///< is asked before a holder changes; null: none does
+  std::vector<std::uint8_t> AreHolders;     ///< by tetrahedron; empty if there are none
 
 private:
   void FindLabels(const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop);

@@ -3,17 +3,16 @@
 #include "Quality/LostComponents.h"
 
 #include "Base/GridIndex.h"
-#include "Geometry/SimplexQuality.h"
 #include "Image/BitMask.h"
+#include "Mesh/MeshElements.h"
 #include "Parallel/ParallelFor.h"
+#include "Quality/ElementVoxels.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <memory>
-#include <span>
 
 namespace voxplex
 {
@@ -21,203 +20,28 @@ namespace voxplex
 namespace
 {
 
-/** The elements of a mesh, as LabelledTriangulation has them. */
+/** The corners of an element of either kind. */
+template <typename Elements>
+auto CornersOf(const Elements& elements, std::size_t s)
+{
+  typename ElementVoxels<Elements::Dimension>::Corners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    corners[i] = &elements.PointOf(s, i);
+  }
+  return corners;
+}
+
+/** The voxels whose block (ElementVoxels::ForEachAround) contains a voxel of some components. */
 template <int D>
-class MeshElements
-{
-public:
-  /** Both must outlive this object. */
-  MeshElements(const SimplexMesh<D>& mesh, const LabelImage<D>& image)
-    : Mesh(mesh)
-    , Values(image.Values())
-  {
-  }
-
-  std::size_t Size() const { return this->Mesh.Simplices.size(); }
-
-  const Point<D>& PointOf(std::size_t element, std::size_t i) const
-  {
-    return this->Mesh.Points[this->Mesh.Simplices[element][i]];
-  }
-
-  /** Tells the labels of elements; 0 for a value that the image does not have. */
-  class LabelReader
-  {
-  public:
-    explicit LabelReader(const MeshElements& elements)
-      : Of(elements)
-    {
-    }
-
-    LabelId operator()(std::size_t element)
-    {
-      if (this->Of.Mesh.Labels[element] != this->Value)
-      {
-        this->Value = this->Of.Mesh.Labels[element];
-        const auto values = this->Of.Values;
-        const auto at =
-          std::lower_bound(values.begin() + 1, values.end(), this->Value); // after background
-        this->Label = at != values.end() && *at == this->Value
-          ? static_cast<LabelId>(at - values.begin())
-          : LabelId{ 0 };
-      }
-      return this->Label;
-    }
-
-  private:
-    const MeshElements& Of;
-    std::int64_t Value = 0;
-    LabelId Label = 0;
-  };
-
-private:
-  const SimplexMesh<D>& Mesh;
-  const std::span<const std::int64_t> Values;
-};
-
-/** The voxels of the crop where elements are looked for. */
-template <int D, typename Elements>
-class Places
-{
-public:
-  using Index = typename GridGeometry<D>::Index;
-
-  /** All must outlive this object. */
-  Places(const Components<D>& components, const LabelImage<D>& image, const Elements& elements)
-    : Extent(components.Extent())
-    , Image(image)
-    , All(elements)
-  {
-  }
-
-  /**
-   * Calls visit with the voxel that contains the centroid of an element. If components are those of
-   * frames: with the voxels that contain the centroid of its cut at each frame.
-   */
-  template <typename Visit>
-  void ForEachOf(std::size_t element, const Visit& visit) const
-  {
-    if (this->Extent == D)
-    {
-      Point<D> centroid{};
-      for (std::size_t i = 0; i <= D; ++i)
-      {
-        const Point<D>& p = this->All.PointOf(element, i);
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          centroid[a] += p[a] / (D + 1);
-        }
-      }
-      visit(this->VoxelOf(this->Image.Grid().ToIndex(centroid)));
-      return;
-    }
-    std::array<Point<D>, D + 1> corners;
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      corners[i] = this->Image.Grid().ToIndex(this->All.PointOf(element, i));
-    }
-    constexpr std::size_t time = D - 1;
-    const auto [first, last] = std::minmax_element(corners.begin(), corners.end(),
-      [](const Point<D>& p, const Point<D>& q) { return p[time] < q[time]; });
-    const auto end = std::llround(std::floor((*last)[time] + OnFrame));
-    for (auto frame = std::llround(std::ceil((*first)[time] - OnFrame)); frame <= end; ++frame)
-    {
-      Point<D> centroid;
-      if (CutCentroid(corners, static_cast<double>(frame), centroid))
-      {
-        visit(this->VoxelOf(centroid));
-      }
-    }
-  }
-
-  /** Calls visit with each voxel of the block of three voxels along each axis of a component. */
-  template <typename Visit>
-  void ForEachAround(const Index& centre, const Visit& visit) const
-  {
-    ForEachIndex(this->Shifted(centre, -1), this->Shifted(centre, 1), visit);
-  }
-
-  /** Shifted along each axis of a component. */
-  Index Shifted(Index index, std::int64_t by) const
-  {
-    for (std::size_t a = 0; a < this->Extent; ++a)
-    {
-      index[a] += by;
-    }
-    return index;
-  }
-
-private:
-  /** A point counts as lying at a frame's time if it is no farther from it, in frames. */
-  static constexpr double OnFrame = 1e-9;
-
-  /** The centroid of the corners of a cut. False if the cut has no volume. */
-  static bool CutCentroid(
-    const std::array<Point<D>, D + 1>& corners, double frame, Point<D>& centroid)
-  {
-    std::array<int, D + 1> side;
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      const double after = corners[i][D - 1] - frame;
-      side[i] = after > OnFrame ? 1 : after < -OnFrame ? -1 : 0;
-    }
-    centroid = {};
-    std::size_t number = 0;
-    const auto add = [&](const Point<D>& p)
-    {
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        centroid[a] += p[a];
-      }
-      ++number;
-    };
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      if (side[i] == 0)
-      {
-        add(corners[i]);
-      }
-      for (std::size_t j = 0; j < i; ++j)
-      {
-        if (side[i] * side[j] < 0)
-        {
-          add(Interpolate(corners[i], corners[j],
-            (frame - corners[i][D - 1]) / (corners[j][D - 1] - corners[i][D - 1])));
-        }
-      }
-    }
-    for (double& x : centroid)
-    {
-      x /= static_cast<double>(number);
-    }
-    return number >= D; // fewer corners span no volume
-  }
-
-  Index VoxelOf(const Point<D>& index) const
-  {
-    Index voxel;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
-    }
-    return voxel;
-  }
-
-  const std::size_t Extent;
-  const LabelImage<D>& Image;
-  const Elements& All;
-};
-
-/** The voxels whose block (Places::ForEachAround) contains a voxel of some components. */
-template <int D, typename Elements>
 class Surroundings
 {
 public:
   using Index = typename GridGeometry<D>::Index;
 
-  Surroundings(const Places<D, Elements>& places, const Index& dimensions)
-    : Where(places)
-    , Mask(places.Shifted(dimensions, 2))
+  Surroundings(const ElementVoxels<D>& voxels, const Index& dimensions)
+    : Voxels(voxels)
+    , Mask(voxels.Shifted(dimensions, 2))
   {
   }
 
@@ -227,7 +51,7 @@ public:
       [this](const Index& first, std::int64_t length)
       {
         Index high =
-          this->Where.Shifted(first, 2); // one voxel farther, in a mask that begins at -1
+          this->Voxels.Shifted(first, 2); // one voxel farther, in a mask that begins at -1
         high[0] += length - 1;
         ForEachIndex(first, high, [this](const Index& at) { this->Mask.Set(at); });
       });
@@ -235,7 +59,7 @@ public:
 
   bool Contain(const Index& voxel) const
   {
-    const Index at = this->Where.Shifted(voxel, 1);
+    const Index at = this->Voxels.Shifted(voxel, 1);
     for (std::size_t a = 0; a < D; ++a)
     {
       if (at[a] < 0 || at[a] >= this->Mask.Dimensions()[a])
@@ -247,95 +71,171 @@ public:
   }
 
 private:
-  const Places<D, Elements>& Where;
+  const ElementVoxels<D>& Voxels;
   BitMask<D> Mask;
 };
 
-//------------------------------------------------------------------------------------------------
-/** FindLostComponents() among the elements of either kind. */
-template <int D, typename Elements>
-std::vector<std::uint32_t> FindLost(const Components<D>& components, const LabelImage<D>& image,
-  const Elements& elements, const std::vector<bool>& wanted, unsigned threads,
-  const std::stop_token& stop)
+/** Makes a number that threads share the smaller one. @return whether it was None */
+bool Lower(std::atomic<std::uint32_t>& number, std::uint32_t to)
 {
-  using Index = typename GridGeometry<D>::Index;
-  const std::vector<Component<D>>& all = components.All();
-  const Places<D, Elements> places(components, image, elements);
-  const auto found = std::make_unique<std::atomic<bool>[]>(all.size());
-  // Most elements belong to labels whose components have all been found.
-  const auto missing = std::make_unique<std::atomic<std::uint32_t>[]>(image.Values().size());
-  for (std::size_t c = 0; c < all.size(); ++c)
+  std::uint32_t old = number.load(std::memory_order_relaxed); // None is the largest number
+  while (to < old && !number.compare_exchange_weak(old, to, std::memory_order_relaxed))
   {
-    missing[all[c].Label] += wanted[c] ? 1u : 0u;
   }
-  const auto mark = [&](const Index& voxel, LabelId label)
+  return old == None;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Finds elements that keep components from being lost. */
+template <int D, typename Elements>
+class WitnessSearch
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  /** @param wantsFirst whether the witness of a component is its first one; otherwise it is any */
+  WitnessSearch(const Components<D>& components, const LabelImage<D>& image,
+    const Elements& elements, const std::vector<bool>& wanted, bool wantsFirst, unsigned threads,
+    const std::stop_token& stop)
+    : All(components)
+    , Image(image)
+    , Of(elements)
+    , Wanted(wanted)
+    , WantsFirst(wantsFirst)
+    , Threads(threads)
+    , Stop(stop)
+    , Voxels(components, image)
+    , Witnesses(std::make_unique<std::atomic<std::uint32_t>[]>(components.All().size()))
+    , Missing(std::make_unique<std::atomic<std::uint32_t>[]>(image.Values().size()))
   {
-    const std::uint32_t c = components.At(voxel);
-    if (c != Components<D>::None && all[c].Label == label &&
-      !found[c].load(std::memory_order_relaxed) &&
-      !found[c].exchange(true, std::memory_order_relaxed) && wanted[c])
+    for (std::size_t c = 0; c < components.All().size(); ++c)
     {
-      missing[label].fetch_sub(1, std::memory_order_relaxed);
+      this->Witnesses[c] = None;
+      this->Missing[components.All()[c].Label] += wanted[c] ? 1u : 0u;
     }
-  };
-  /** Calls visit(element, label) for the elements of labels with components that are missing. */
-  const auto forEachOfMissing = [&](auto&& visit)
+  }
+
+  /** A witness of each component; None if it is lost or not wanted. */
+  std::vector<std::uint32_t> Find()
   {
+    this->ForEachOfMissing(
+      [&](std::size_t s, LabelId label)
+      {
+        this->Voxels.ForEachOf(
+          CornersOf(this->Of, s), [&](const Index& voxel) { this->Mark(voxel, label, s); });
+      });
+    std::vector<std::uint32_t> found = this->Copy();
+    Surroundings<D> near(this->Voxels, this->Image.CropDimensions());
+    bool anyLost = false;
+    for (std::uint32_t c = 0; c < found.size(); ++c)
+    {
+      if (this->Wanted[c] && found[c] == None)
+      {
+        near.Add(this->All, c);
+        anyLost = true;
+      }
+    }
+    if (!anyLost)
+    {
+      return found;
+    }
+    this->ForEachOfMissing(
+      [&](std::size_t s, LabelId label)
+      {
+        this->Voxels.ForEachOf(CornersOf(this->Of, s),
+          [&](const Index& centre)
+          {
+            if (near.Contain(centre))
+            {
+              this->Voxels.ForEachAround(
+                centre, [&](const Index& voxel) { this->Mark(voxel, label, s); });
+            }
+          });
+      });
+    const std::vector<std::uint32_t> around = this->Copy();
+    for (std::size_t c = 0; c < found.size(); ++c)
+    {
+      found[c] = found[c] == None ? around[c] : found[c];
+    }
+    return found;
+  }
+
+private:
+  void Mark(const Index& voxel, LabelId label, std::size_t element)
+  {
+    const std::uint32_t c = this->All.At(voxel);
+    if (c != None && this->Wanted[c] && this->All.All()[c].Label == label &&
+      Lower(this->Witnesses[c], static_cast<std::uint32_t>(element)))
+    {
+      this->Missing[label].fetch_sub(1, std::memory_order_relaxed);
+    }
+  }
+
+  /**
+   * Calls visit(element, label) for the elements of labels with wanted components; unless the first
+   * witness is wanted, no more for those whose components have all been found. Those are most.
+   */
+  template <typename Visit>
+  void ForEachOfMissing(const Visit& visit)
+  {
+    std::vector<bool> isWanted(this->Image.Values().size());
+    for (std::size_t label = 0; label < isWanted.size(); ++label)
+    {
+      isWanted[label] = this->Missing[label] != 0;
+    }
     constexpr std::size_t ElementsAtOnce = 4096;
     ParallelFor(
-      0, elements.Size(), ElementsAtOnce, threads,
+      0, this->Of.Size(), ElementsAtOnce, this->Threads,
       [&](std::size_t begin, std::size_t end)
       {
-        typename Elements::LabelReader labelOf(elements);
+        typename Elements::LabelReader labelOf(this->Of);
         for (std::size_t s = begin; s < end; ++s)
         {
           const LabelId label = labelOf(s);
-          if (missing[label].load(std::memory_order_relaxed) != 0)
+          if (isWanted[label] &&
+            (this->WantsFirst || this->Missing[label].load(std::memory_order_relaxed) != 0))
           {
             visit(s, label);
           }
         }
       },
-      stop);
-  };
-  forEachOfMissing([&](std::size_t s, LabelId label)
-    { places.ForEachOf(s, [&](const Index& voxel) { mark(voxel, label); }); });
+      this->Stop);
+  }
 
-  const auto findLost = [&]
+  std::vector<std::uint32_t> Copy() const
   {
-    std::vector<std::uint32_t> lost;
-    for (std::size_t c = 0; c < all.size(); ++c)
+    return std::vector<std::uint32_t>(
+      this->Witnesses.get(), this->Witnesses.get() + this->All.All().size());
+  }
+
+  const Components<D>& All;
+  const LabelImage<D>& Image;
+  const Elements& Of;
+  const std::vector<bool>& Wanted;
+  const bool WantsFirst;
+  const unsigned Threads;
+  const std::stop_token& Stop;
+  const ElementVoxels<D> Voxels;
+  std::unique_ptr<std::atomic<std::uint32_t>[]> Witnesses; ///< by component
+  std::unique_ptr<std::atomic<std::uint32_t>[]> Missing;   ///< wanted components by label
+};
+
+template <int D, typename Elements>
+std::vector<std::uint32_t> FindLost(const Components<D>& components, const LabelImage<D>& image,
+  const Elements& elements, const std::vector<bool>& wanted, unsigned threads,
+  const std::stop_token& stop)
+{
+  const std::vector<std::uint32_t> witnesses =
+    WitnessSearch<D, Elements>(components, image, elements, wanted, false, threads, stop).Find();
+  std::vector<std::uint32_t> lost;
+  for (std::uint32_t c = 0; c < witnesses.size(); ++c)
+  {
+    if (wanted[c] && witnesses[c] == None)
     {
-      if (wanted[c] && !found[c].load(std::memory_order_relaxed))
-      {
-        lost.push_back(static_cast<std::uint32_t>(c));
-      }
+      lost.push_back(c);
     }
-    return lost;
-  };
-  const std::vector<std::uint32_t> seemLost = findLost();
-  if (seemLost.empty())
-  {
-    return {};
   }
-  Surroundings<D, Elements> near(places, image.CropDimensions());
-  for (const std::uint32_t c : seemLost)
-  {
-    near.Add(components, c);
-  }
-  forEachOfMissing(
-    [&](std::size_t s, LabelId label)
-    {
-      places.ForEachOf(s,
-        [&](const Index& centre)
-        {
-          if (near.Contain(centre))
-          {
-            places.ForEachAround(centre, [&](const Index& voxel) { mark(voxel, label); });
-          }
-        });
-    });
-  return findLost();
+  return lost;
 }
 
 } // namespace
@@ -358,84 +258,32 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
 }
 
 //------------------------------------------------------------------------------------------------
-template <int D>
-std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& components,
-  const Components<D>& all, const LabelImage<D>& image, const SimplexMesh<D>& mesh)
+template <int D, typename Elements>
+std::vector<std::uint32_t> FindFirstWitnesses(const Components<D>& components,
+  const LabelImage<D>& image, const Elements& elements, const std::vector<bool>& wanted,
+  unsigned threads, const std::stop_token& stop)
 {
-  if (components.empty())
-  {
-    return {};
-  }
-  struct Witness
-  {
-    double Shape = -1.0;
-    std::uint32_t Element = 0;
-  };
-  const MeshElements<D> candidates(mesh, image);
-  const Places<D, MeshElements<D>> places(all, image, candidates);
-  Surroundings<D, MeshElements<D>> near(places, image.CropDimensions());
-  std::vector<bool> isWanted(image.Values().size());
-  for (const std::uint32_t c : components)
-  {
-    near.Add(all, c);
-    isWanted[all.All()[c].Label] = true;
-  }
-  std::vector<Witness> witnesses(components.size());
-  const auto consider = [&](std::uint32_t element, const typename GridGeometry<D>::Index& voxel)
-  {
-    const std::uint32_t c = all.At(voxel);
-    const auto at = std::lower_bound(components.begin(), components.end(), c);
-    if (at == components.end() || *at != c ||
-      image.Values()[all.All()[c].Label] != mesh.Labels[element])
-    {
-      return;
-    }
-    const double shape = NormalizedVolume<D>(mesh.PointsOf(element).data());
-    Witness& best = witnesses[static_cast<std::size_t>(at - components.begin())];
-    best = shape > best.Shape ? Witness{ shape, element } : best;
-  };
-  typename MeshElements<D>::LabelReader labelOf(candidates);
-  for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
-  {
-    if (!isWanted[labelOf(s)])
-    {
-      continue;
-    }
-    places.ForEachOf(s,
-      [&](const auto& centre)
-      {
-        if (near.Contain(centre))
-        {
-          places.ForEachAround(
-            centre, [&](const auto& voxel) { consider(static_cast<std::uint32_t>(s), voxel); });
-        }
-      });
-  }
-  std::vector<std::uint32_t> elements;
-  for (const Witness& witness : witnesses)
-  {
-    if (witness.Shape >= 0.0)
-    {
-      elements.push_back(witness.Element);
-    }
-  }
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-  return elements;
+  return WitnessSearch<D, Elements>(components, image, elements, wanted, true, threads, stop)
+    .Find();
 }
 
 template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
   const LabelImage<3>&, const SimplexMesh<3>&, const std::vector<bool>&, unsigned,
   const std::stop_token&);
-template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
-  const LabelImage<4>&, const SimplexMesh<4>&, const std::vector<bool>&, unsigned,
-  const std::stop_token&);
 template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
   const LabelImage<3>&, const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned,
   const std::stop_token&);
-template std::vector<std::uint32_t> FindWitnessesOf<3>(const std::vector<std::uint32_t>&,
-  const Components<3>&, const LabelImage<3>&, const SimplexMesh<3>&);
-template std::vector<std::uint32_t> FindWitnessesOf<4>(const std::vector<std::uint32_t>&,
-  const Components<4>&, const LabelImage<4>&, const SimplexMesh<4>&);
+template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
+  const LabelImage<4>&, const SimplexMesh<4>&, const std::vector<bool>&, unsigned,
+  const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
+  const LabelImage<4>&, const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned,
+  const std::stop_token&);
+template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, const LabelImage<3>&,
+  const MeshElements<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
+  const MeshElements<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
+  const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

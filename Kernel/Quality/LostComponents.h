@@ -38,25 +38,24 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop = {});
 
-/** The same for a mesh that has not been extracted yet. Instantiated in 3D only. */
+/** The same for a mesh that has not been extracted yet. */
 template <int D>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const LabelledTriangulation<D>& elements,
   const std::vector<bool>& wanted, unsigned threads, const std::stop_token& stop = {});
 
 /**
- * Finds one witness for each of some components: of all elements that keep FindLostComponents()
- * from calling the component lost, the one with the largest normalized volume. Lost components have
- * none.
+ * Finds a witness of each component: the first of the elements that have their centroid in it, as
+ * FindLostComponents() sees it; if there is none, the first of those that have it within one voxel.
+ * For the rest, see FindLostComponents().
  *
- * O(elements), by one thread.
- *
- * @return numbers of elements, increasing, each once
- * @throws std::bad_alloc
+ * @param elements MeshElements, or in 4D a LabelledTriangulation
+ * @return by component; None if it is lost or not wanted
  */
-template <int D>
-std::vector<std::uint32_t> FindWitnessesOf(const std::vector<std::uint32_t>& components,
-  const Components<D>& all, const LabelImage<D>& image, const SimplexMesh<D>& mesh);
+template <int D, typename Elements>
+std::vector<std::uint32_t> FindFirstWitnesses(const Components<D>& components,
+  const LabelImage<D>& image, const Elements& elements, const std::vector<bool>& wanted,
+  unsigned threads, const std::stop_token& stop = {});
 
 } // namespace voxplex
 

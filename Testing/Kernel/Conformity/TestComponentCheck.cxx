@@ -6,6 +6,7 @@
 #include "Domain/ImageDomain.h"
 #include "Image/Components.h"
 #include "Image/DropComponents.h"
+#include "Mesh/MeshElements.h"
 #include "MeshChecks.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
@@ -526,9 +527,8 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
     const Components<3> components(image);
     const SizingField<3> sizing(domain, { .Base = { 3.0 } });
     LocalDelta<3> local(image);
-    double seconds = 0.0;
-    const ComponentCheck<3> check(image, domain, components, sizing, 1, false, true, local,
-      statistics.Components, seconds, 1, {});
+    const ComponentCheck<3> check(
+      image, domain, components, sizing, 1, false, true, local, statistics.Components, 1, {});
     EXPECT_GT(components.All().size(), 100u);
     EXPECT_TRUE(check.FindLost(mesh).empty());
   }
@@ -565,9 +565,8 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   const SizingField<3> sizing(domain, { .Base = { 5.0 } });
   LocalDelta<3> local(islands.Image);
   ComponentStatistics counts;
-  double seconds = 0.0;
   ComponentCheck<3> check(
-    islands.Image, domain, components, sizing, 8, false, true, local, counts, seconds, 2, {});
+    islands.Image, domain, components, sizing, 8, false, true, local, counts, 2, {});
   MeshingOptions<3> options;
   options.Sampling.Delta = 5.0;
   MeshingStatistics statistics;
@@ -583,11 +582,17 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
       }) -
     components.All().begin());
   ASSERT_LT(island, components.All().size());
-  const std::vector<std::uint32_t> witnesses =
-    FindWitnessesOf({ island }, components, islands.Image, mesh);
-  ASSERT_EQ(witnesses.size(), 1u);
-  EXPECT_EQ(mesh.Labels[witnesses[0]], 2);
-  for (const std::uint32_t v : mesh.Simplices[witnesses[0]])
+  std::vector<bool> wanted(components.All().size());
+  wanted[island] = true;
+  const auto witness = [&](unsigned threads)
+  {
+    return FindFirstWitnesses(
+      components, islands.Image, MeshElements<3>(mesh, islands.Image), wanted, threads)[island];
+  };
+  ASSERT_NE(witness(1), None);
+  EXPECT_EQ(witness(1), witness(3));
+  EXPECT_EQ(mesh.Labels[witness(1)], 2);
+  for (const std::uint32_t v : mesh.Simplices[witness(1)])
   {
     EXPECT_LT(Distance(mesh.Points[v], islands.Centres[13]), 3.0);
   }
@@ -604,7 +609,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   }
   const std::vector<std::uint32_t> lost = check.FindLost(mesh);
   EXPECT_EQ(lost, std::vector<std::uint32_t>{ island });
-  EXPECT_TRUE(FindWitnessesOf(lost, components, islands.Image, mesh).empty());
+  EXPECT_EQ(witness(1), None);
   EXPECT_EQ(all[lost[0]].Voxels, 8);
   for (std::size_t a = 0; a < 3; ++a) // indices of the crop, which begins at 2
   {

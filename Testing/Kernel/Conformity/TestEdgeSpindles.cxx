@@ -339,18 +339,17 @@ TEST(LabelledTriangulation, HasTheElementsOfTheMesh)
   const ShuffledBall shuffled;
   const SimplexLabels labels = shuffled.Labels(4, 3, true);
   const Opened opened(shuffled.Context->Mesh, PlainLabels(), labels);
-  ASSERT_FALSE(opened.Result.Parts.Pieces.empty());
   using Element = std::pair<std::int64_t, std::array<Point<3>, 4>>;
   std::vector<Element> extracted;
-  for (std::size_t t = 0; t < opened.After.Simplices.size(); ++t)
+  for (std::size_t t = 0; t < opened.Before.Simplices.size(); ++t)
   {
-    Element& element = extracted.emplace_back(opened.After.Labels[t], std::array<Point<3>, 4>{});
+    Element& element = extracted.emplace_back(opened.Before.Labels[t], std::array<Point<3>, 4>{});
     for (std::size_t i = 0; i < 4; ++i)
     {
-      element.second[i] = opened.After.Points[opened.After.Simplices[t][i]];
+      element.second[i] = opened.Before.Points[opened.Before.Simplices[t][i]];
     }
   }
-  const LabelledTriangulation<3> elements(shuffled.Context->Mesh, labels, opened.Result.Parts);
+  const LabelledTriangulation<3> elements(shuffled.Context->Mesh, labels);
   LabelledTriangulation<3>::LabelReader labelOf(elements);
   std::vector<Element> found;
   for (std::size_t t = 0; t < elements.Size(); ++t)

@@ -66,9 +66,12 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
     ASSERT_TRUE(Refiner<Rules3D>(context).Run(nullptr));
     const InterfaceOptions options;
     InterfaceStatistics figures;
-    double seconds = 0.0;
-    InterfaceCheck check({ context.Mesh, image, domain.GetSites(), domain, context.Sizing, {}, 1 },
-      options, local, figures, seconds, {});
+    InterfaceCheck<3> check({ context.Mesh, image, domain.GetSites(), domain, context.Sizing, 1 },
+      options.Rounds, local, figures, {});
+    ManifoldRepairOptions<3> repairOptions;
+    repairOptions.Surfaces = &domain;
+    repairOptions.Sizing = &context.Sizing;
+    ManifoldLabeller<3> labeller(context.Mesh, repairOptions, 1, {});
     for (bool hadPinches = false;;)
     {
       local.ForgetLowered();
@@ -86,10 +89,10 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
       const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(), delta);
-      std::vector<FeatureSeed<3>> seeds = check.InspectTriangulation().Points;
+      std::vector<FeatureSeed<3>> seeds = check.InspectVertices().Points;
       if (seeds.empty())
       {
-        seeds = check.InspectElements({ context.Mesh, check.Labels(), check.Parts() }).Points;
+        seeds = check.InspectLabels(labeller.Make(figures)).Points;
       }
       EXPECT_EQ(!seeds.empty(), wasFar || hasPinches || isFar);
       afterRepair += isFar && !wasFar && !hasPinches ? 1 : 0;

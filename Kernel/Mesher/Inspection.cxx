@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/Inspection.h"
+
+#include "Base/Stopwatch.h"
+#include "Geometry/ShapeBounds.h"
+#include "Mesh/LabelledTriangulation.h"
+#include "Mesher/Dimension.h"
+#include "Refinement/PlaneLabels.h"
+
+namespace voxplex
+{
+
+namespace
+{
+
+template <int D>
+ManifoldRepairOptions<D> RepairOptionsOf(
+  const RunEnvironment<D>& run, const RefinementStage<D>& stage)
+{
+  ManifoldRepairOptions<D> options;
+  options.Shape =
+    ShapeBounds::With(run.Options.Shape.RadiusEdgeRatio, run.Options.Shape.FacetAngle);
+  options.Surfaces = run.Prepared.Surfaces.get();
+  options.Sizing = &stage.Sizing();
+  options.Keeps = KeepsItsLabel(run, stage.Mesh());
+  return options;
+}
+
+} // namespace
+
+template <int D>
+std::function<bool(SimplexId)> KeepsItsLabel(
+  const RunEnvironment<D>& run, const Triangulation<D>& mesh)
+{
+  if constexpr (D == 4)
+  {
+    const TimePlanes& planes = run.Prepared.Planes;
+    if (planes.Exist())
+    {
+      return [&mesh, &planes](SimplexId s)
+      {
+        return FacetOnPlane(mesh, s,
+          [&planes](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); })
+          .has_value();
+      };
+    }
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Inspection<D>::Inspection(
+  const RunEnvironment<D>& run, const RefinementStage<D>& stage, LocalDelta<D>& local)
+  : Run(run)
+  , Source(stage.Mesh())
+  , Interfaces({ stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
+                 stage.Sizing(), run.Options.Team.Threads },
+      Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, local,
+      run.Statistics.Interfaces, run.Stop)
+  , Labeller(stage.Mesh(), RepairOptionsOf(run, stage), run.Options.Team.Threads, run.Stop)
+{
+  const Stopwatch time;
+  const PreparedImage<D>& prepared = run.Prepared;
+  const ComponentOptions& options = run.Options.Components;
+  const auto start = [&](const std::optional<voxplex::Components<D>>& all,
+                       ComponentStatistics& statistics, std::optional<ComponentCheck<D>>& check)
+  {
+    if (all)
+    {
+      check.emplace(prepared.Image, *prepared.Surfaces, *all, stage.Sizing(), options.Smallest,
+        options.Exact, Dimension<D>::MayRefine(run), local, statistics, run.Options.Team.Threads,
+        run.Stop);
+    }
+  };
+  start(prepared.AllComponents, run.Statistics.Components, this->Components);
+  start(prepared.OfFrames, run.Statistics.FrameComponents, this->OfFrames);
+  if constexpr (D == 3)
+  {
+    if (prepared.AllComponents)
+    {
+      this->Fragments.emplace(FragmentCheck::Subject{ prepared.Image, *prepared.Sites,
+                                *prepared.Surfaces, stage.Sizing(), *prepared.AllComponents },
+        options, run.Options.Interfaces.Rounds > 0, local, run.Statistics.Components, run.Stop);
+    }
+  }
+  run.Statistics.Times.Components += time.Seconds();
+}
+
+template <int D>
+std::vector<FeatureSeed<D>> Inspection<D>::TakeSeeds()
+{
+  std::vector<FeatureSeed<D>> seeds;
+  for (std::optional<ComponentCheck<D>>* const check : { &this->Components, &this->OfFrames })
+  {
+    if (*check)
+    {
+      const std::vector<FeatureSeed<D>> more = (*check)->TakeSeeds();
+      seeds.insert(seeds.end(), more.begin(), more.end());
+    }
+  }
+  return seeds;
+}
+
+template <int D>
+void Inspection<D>::Finish()
+{
+  this->Interfaces.Finish();
+  this->Labeller.Forget();
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+Remedy<D> Inspection<D>::Inspect()
+{
+  StageTimes& times = this->Run.Statistics.Times;
+  {
+    const Stopwatch time;
+    Remedy<D> remedy = this->Interfaces.InspectVertices();
+    if (!remedy.IsNeeded)
+    {
+      this->MakeLabels();
+    }
+    times.Interfaces += time.Seconds();
+    if (remedy.IsNeeded)
+    {
+      return remedy;
+    }
+  }
+  Remedy<D> all;
+  const LabelledTriangulation<D> elements(this->Source, this->Made.Labels);
+  if (this->Components)
+  {
+    this->Take(
+      all, LostComponents, times.Components, [&] { return this->Components->Inspect(elements); });
+  }
+  if (this->OfFrames)
+  {
+    this->Take(
+      all, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
+  }
+  this->Take(all, ChangedInterfaces, times.Interfaces,
+    [&] { return this->Interfaces.InspectLabels(this->Made); });
+  if constexpr (D == 3)
+  {
+    if (this->Fragments)
+    {
+      this->Take(
+        all, LooseFragments, times.Components, [&] { return this->Fragments->Inspect(elements); });
+    }
+  }
+  return all;
+}
+
+/** Adds what a finder needs. */
+template <int D>
+template <typename Find>
+void Inspection<D>::Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find)
+{
+  if (all.IsNeeded && this->NeededNothing[finder])
+  {
+    return;
+  }
+  const Stopwatch time;
+  const Remedy<D> remedy = find();
+  this->NeededNothing[finder] = !remedy.IsNeeded;
+  all += remedy;
+  seconds += time.Seconds();
+}
+
+template <int D>
+void Inspection<D>::MakeLabels()
+{
+  this->Made = {}; // the labels of the round before need no memory beside the new ones
+  if (this->Run.Options.Interfaces.Manifold)
+  {
+    this->Made = this->Labeller.Make(this->Run.Statistics.Interfaces);
+  }
+  else
+  {
+    this->Made.Labels = this->Labeller.MakePlain();
+  }
+}
+
+template class Inspection<3>;
+template class Inspection<4>;
+template std::function<bool(SimplexId)> KeepsItsLabel<3>(
+  const RunEnvironment<3>&, const Triangulation<3>&);
+template std::function<bool(SimplexId)> KeepsItsLabel<4>(
+  const RunEnvironment<4>&, const Triangulation<4>&);
+
+} // namespace voxplex

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Inspection.h
+ * @brief Decides whether refinement goes on, and makes the labels of the mesh.
+ */
+#ifndef voxplex_Inspection_h
+#define voxplex_Inspection_h
+
+#include "Conformity/ComponentCheck.h"
+#include "Conformity/FragmentCheck.h"
+#include "Conformity/InterfaceCheck.h"
+#include "Conformity/ManifoldLabels.h"
+#include "Conformity/Remedy.h"
+#include "Mesher/RefinementStage.h"
+#include "Sizing/LocalDelta.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * Tells whether a simplex has a facet on a time plane or on an end of a periodic mesh. Such simplices
+ * keep their labels, so that both sides of the plane have the same ones. Empty if there are no
+ * planes, and in 3D. Both must outlive the result.
+ */
+template <int D>
+std::function<bool(SimplexId)> KeepsItsLabel(
+  const RunEnvironment<D>& run, const Triangulation<D>& mesh);
+
+/**
+ * @brief Inspects the refined triangulation.
+ *
+ * What refinement has to go on for is found in this order:
+ * 1. faces of voxels that are far from all vertices of interfaces (InterfaceCheck). If there are any,
+ *    inspection ends here. Otherwise the simplices get their labels (ManifoldLabeller);
+ * 2. components, in 4D also those of frames, that have no simplex (ComponentCheck);
+ * 3. interfaces that labels have changed (InterfaceCheck);
+ * 4. components whose simplices do not hold together (FragmentCheck; 3D).
+ *
+ * Steps 2 to 4 look at the same labels, and refinement goes on for all of them together. One that
+ * needed nothing the last time is left out if another needs something already. Each gives up after a
+ * limited number of remedies, so the run ends.
+ *
+ * Components may lower local bounds already in the constructor. Not thread safe.
+ */
+template <int D>
+class Inspection
+{
+public:
+  /** All references must outlive this object. */
+  Inspection(const RunEnvironment<D>& run, const RefinementStage<D>& stage, LocalDelta<D>& local);
+
+  /** Points for thin components, to be inserted before refinement. */
+  std::vector<FeatureSeed<D>> TakeSeeds();
+
+  /**
+   * To be called after each refinement.
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  Remedy<D> Inspect();
+
+  /** Valid if the last Inspect() needed no remedy. */
+  const ManifoldLabels<D>& Labels() const { return this->Made; }
+
+  /** Frees what only further inspections need. Labels() stay. */
+  void Finish();
+
+private:
+  /** The finders of steps 2 to 4. */
+  enum Finder : std::size_t
+  {
+    LostComponents,
+    LostInFrames,
+    ChangedInterfaces,
+    LooseFragments,
+    NumberOfFinders
+  };
+
+  void MakeLabels();
+  template <typename Find>
+  void Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find);
+
+  const RunEnvironment<D> Run;
+  const Triangulation<D>& Source;
+  InterfaceCheck<D> Interfaces;
+  ManifoldLabeller<D> Labeller;
+  std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked
+  std::optional<ComponentCheck<D>> OfFrames;   ///< likewise, and in 3D
+  std::optional<FragmentCheck> Fragments;      ///< likewise, and in 4D
+  ManifoldLabels<D> Made;
+  std::array<bool, NumberOfFinders> NeededNothing{}; ///< at its last inspection
+};
+
+extern template class Inspection<3>;
+extern template class Inspection<4>;
+extern template std::function<bool(SimplexId)> KeepsItsLabel<3>(
+  const RunEnvironment<3>&, const Triangulation<3>&);
+extern template std::function<bool(SimplexId)> KeepsItsLabel<4>(
+  const RunEnvironment<4>&, const Triangulation<4>&);
+
+} // namespace voxplex
+
+#endif

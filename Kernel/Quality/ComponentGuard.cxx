@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/ComponentGuard.h"
+
+#include "Quality/LostComponents.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/**
+ * Components are guarded if about this number of elements or fewer are expected in them, from their
+ * share of the voxels of their label.
+ */
+constexpr double MostElements = 100.0;
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+template <typename Elements>
+std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
+  const Elements& elements, unsigned threads, const std::stop_token& stop)
+{
+  std::vector<std::uint8_t> holders;
+  if (this->Sets.empty())
+  {
+    return holders;
+  }
+  std::vector<double> numbers(this->Image.Values().size()); // of elements, by label
+  typename Elements::LabelReader labelOf(elements);
+  for (std::size_t s = 0; s < elements.Size(); ++s)
+  {
+    ++numbers[labelOf(s)];
+  }
+  for (Set& set : this->Sets)
+  {
+    const std::vector<Component<D>>& all = set.All.All();
+    std::vector<double> voxels(numbers.size());
+    for (const Component<D>& component : all)
+    {
+      voxels[component.Label] += static_cast<double>(component.Voxels);
+    }
+    set.Guarded = set.Wanted;
+    for (std::size_t c = 0; c < all.size(); ++c)
+    {
+      const double expected =
+        numbers[all[c].Label] * static_cast<double>(all[c].Voxels) / voxels[all[c].Label];
+      set.Guarded[c] = set.Guarded[c] && expected <= MostElements;
+    }
+    const std::vector<std::uint32_t> witnesses =
+      FindFirstWitnesses<D>(set.All, this->Image, elements, set.Guarded, threads, stop);
+    for (std::size_t c = 0; c < all.size(); ++c)
+    {
+      set.Guarded[c] = witnesses[c] != None;
+      if (set.Guarded[c])
+      {
+        holders.resize(elements.Size());
+        holders[witnesses[c]] = 1;
+      }
+    }
+  }
+  return holders;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool ComponentGuard<D>::Keeps(LabelId label, const Corners& before, std::span<const Corners> after,
+  std::span<std::uint8_t> areHolders) const
+{
+  for (const Set& set : this->Sets)
+  {
+    const auto componentsOf = [&](const Corners& element)
+    {
+      std::vector<std::uint32_t> found;
+      set.Voxels.ForEachOf(element,
+        [&](const auto& centre)
+        {
+          set.Voxels.ForEachAround(centre,
+            [&](const auto& voxel)
+            {
+              const std::uint32_t c = set.All.At(voxel);
+              if (c != None && set.Guarded[c] && set.All.All()[c].Label == label &&
+                std::find(found.begin(), found.end(), c) == found.end())
+              {
+                found.push_back(c);
+              }
+            });
+        });
+      return found;
+    };
+    std::vector<std::uint32_t> missing = componentsOf(before);
+    for (std::size_t k = 0; k < after.size() && !missing.empty(); ++k)
+    {
+      const std::vector<std::uint32_t> held = componentsOf(after[k]);
+      if (std::erase_if(missing,
+            [&held](std::uint32_t c)
+            { return std::find(held.begin(), held.end(), c) != held.end(); }) > 0)
+      {
+        areHolders[k] = 1;
+      }
+    }
+    if (!missing.empty())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template class ComponentGuard<3>;
+template class ComponentGuard<4>;
+template std::vector<std::uint8_t> ComponentGuard<3>::FindHolders(
+  const MeshElements<3>&, unsigned, const std::stop_token&);
+template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
+  const MeshElements<4>&, unsigned, const std::stop_token&);
+template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
+  const LabelledTriangulation<4>&, unsigned, const std::stop_token&);
+
+} // namespace voxplex
