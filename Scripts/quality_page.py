@@ -56,13 +56,10 @@ class Atlas:
             ("components of 8 voxels and more lost",
              lambda f: f"{len(f['image']['lost_components'])} of {f['image']['components']}"),
             ("Hausdorff distance to the faces of voxels, mm", lambda f: number(f["hausdorff"]["voxels"]["distance"])),
-            ("- over delta", lambda f: number(f["hausdorff"]["voxels"]["distance"] / self.delta)),
             ("- from the mesh: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["mesh_to_image"])),
             ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["image_to_mesh"])),
             ("Hausdorff distance to the smooth interface, mm",
              lambda f: number(f["hausdorff"]["smooth"]["distance"])),
-            ("- from the mesh: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["smooth"]["mesh_to_image"])),
-            ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["smooth"]["image_to_mesh"])),
             ("volumes of labels, error, %", lambda f: number(100 * f["image"]["label_volume_error"])),
             ("radius-edge ratio, largest", lambda f: number(f["quality"]["max_radius_edge"], 4)),
             ("dihedral angle, smallest", lambda f: number(f["quality"]["min_dihedral"])),
@@ -91,50 +88,47 @@ class Atlas:
         return table([""] + [name for _, name in columns], rows)
 
     def criteria(self):
-        """What is asked, what was measured, and whether it is met; None where that cannot be said."""
-        result = []
-        for key, name in (("default", "Without optimisation"), ("optimised", "Optimised")):
-            figures, quality = self.figures[key], self.figures[key]["quality"]
-            image = figures["image"]
-            lost = len(image["lost_labels"]), len(image["lost_components"])
-            result.append((f"{name}: no label, no component of 8 voxels or more lost", f"{lost[0]}, {lost[1]}",
-                           lost == (0, 0)))
-            distance = figures["hausdorff"]["voxels"]["distance"] / self.delta
-            result.append((f"{name}: symmetric Hausdorff distance at most 1.5 delta", f"{distance:.2f} delta",
-                           distance <= 1.5))
-            result.append((f"{name}: no facet angle below 30 degrees off junctions",
-                           f"{off_junctions(quality)} facets, smallest {number(quality['min_planar_off_junctions'])}",
-                           off_junctions(quality) == 0))
-            small = quality["small_facet_angles_at_junctions"]
-            result.append((f"{name}: none below 20 at junctions",
-                           f"{small} facets, smallest {number(quality['min_planar_at_junctions'])}", small == 0))
-            off = non_manifold_off_junctions(figures)
-            result.append((f"{name}: non-manifold edges only at junctions", f"{off} off junctions", off == 0))
-            if self.title.startswith("Knee"):
-                edges = figures["topology"]["non_manifold_edges"]
-                result.append((f"{name}: fewer than half of CGAL's {CGAL_NON_MANIFOLD_ON_KNEE}", str(edges),
-                               2 * edges < CGAL_NON_MANIFOLD_ON_KNEE))
-        before, after = self.figures["default"]["quality"], self.figures["optimised"]["quality"]
-        result.append(("Without optimisation: radius-edge ratios below 2", number(before["max_radius_edge"], 4),
-                       before["max_radius_edge"] < 2))
-        result.append(("Without optimisation: dihedral angles of 4.6 to 171 degrees or better", _range(before),
-                       before["min_dihedral"] >= 4.6 and before["max_dihedral"] <= 171))
-        result.append(("Optimised: dihedral angles of 18 to 150 degrees or better", _range(after),
-                       after["min_dihedral"] >= 18 and after["max_dihedral"] <= 150))
-        result.append(("Optimised: radius-edge ratios at most 2.5", number(after["max_radius_edge"], 4),
-                       after["max_radius_edge"] <= 2.5))
-        ours = self.seconds("optimised")[1]
+        """What is asked; what was measured of both meshes, each with whether it is met."""
+        figures = [self.figures[key] for key in ("default", "optimised")]
+
+        def row(text, show, met):
+            return (text, *((show(f), met(f)) for f in figures))
+        result = [
+            row("labels, components of 8 voxels and more lost: none",
+                lambda f: f"{len(f['image']['lost_labels'])}, {len(f['image']['lost_components'])}",
+                lambda f: not f["image"]["lost_labels"] and not f["image"]["lost_components"]),
+            row("symmetric Hausdorff distance over delta: at most 1.5",
+                lambda f: number(f["hausdorff"]["voxels"]["distance"] / self.delta),
+                lambda f: f["hausdorff"]["voxels"]["distance"] / self.delta <= 1.5),
+            row("facet angles off junctions: 30 degrees or more",
+                lambda f: number(f["quality"]["min_planar_off_junctions"]), lambda f: off_junctions(f["quality"]) == 0),
+            row("facet angles at junctions: 20 degrees or more",
+                lambda f: number(f["quality"]["min_planar_at_junctions"]),
+                lambda f: f["quality"]["small_facet_angles_at_junctions"] == 0),
+            row("non-manifold edges off junctions: none",
+                lambda f: count(non_manifold_off_junctions(f)), lambda f: non_manifold_off_junctions(f) == 0)]
+        if self.title.startswith("Knee"):
+            result.append(row(f"non-manifold edges: fewer than half of CGAL's {CGAL_NON_MANIFOLD_ON_KNEE}",
+                              lambda f: count(f["topology"]["non_manifold_edges"]),
+                              lambda f: 2 * f["topology"]["non_manifold_edges"] < CGAL_NON_MANIFOLD_ON_KNEE))
+        before, after = (f["quality"] for f in figures)
+        result.append(("radius-edge ratio: below 2; optimised at most 2.5",
+                       (number(before["max_radius_edge"], 4), before["max_radius_edge"] < 2),
+                       (number(after["max_radius_edge"], 4), after["max_radius_edge"] <= 2.5)))
+        result.append(("dihedral angles: 4.6 to 171 degrees; optimised 18 to 150",
+                       (_range(before), before["min_dihedral"] >= 4.6 and before["max_dihedral"] <= 171),
+                       (_range(after), after["min_dihedral"] >= 18 and after["max_dihedral"] <= 150)))
         if "cgal-optimised" in self.figures:
-            theirs = self.seconds("cgal-optimised")[1]
-            result.append(("Optimisation in less time than perturb + exude", f"{ours:.2f} s against {theirs:.2f} s",
-                           ours < theirs))
+            ours, theirs = self.seconds("optimised")[1], self.seconds("cgal-optimised")[1]
+            result.append(("optimisation: less time than perturb + exude", None,
+                           (f"{ours:.2f} s against {theirs:.2f} s", ours < theirs)))
         for name, seconds in self.rates():
             plain = median(self.pairs, lambda pair: self.plain_rate(pair, seconds))
             full = median(self.pairs, lambda pair: pair["full"]["elements"] / seconds(pair["full"]))
             ratio = median(self.pairs, lambda pair: pair["full"]["elements"] / seconds(pair["full"]) /
                            self.plain_rate(pair, seconds))
-            result.append((f"{name}: everything on at least 70 % of plain refinement's",
-                           f"{100 * ratio:.0f} % ({full:,.0f} of {plain:,.0f})", ratio >= 0.7))
+            result.append((f"{name}: at least 70 % of plain refinement's",
+                           (f"{100 * ratio:.0f} % ({full:,.0f} of {plain:,.0f})", ratio >= 0.7), None))
         return result
 
     @staticmethod
@@ -149,12 +143,14 @@ class Atlas:
 
         def total(run):
             return run["time"]["total_without_io"] - run["time"]["optimisation"]
-        return [("Tetrahedra a second, components and refinement", refinement),
-                ("Tetrahedra a second, all but optimisation", total)]
+        return [("tetrahedra a second, components and refinement", refinement),
+                ("tetrahedra a second, all but optimisation", total)]
 
     def asked(self):
-        return table(["requirement", "measured", "met"],
-                     [[text, value, "yes" if met else "**no**"] for text, value, met in self.criteria()])
+        def cell(answer):
+            return "" if answer is None else answer[0] if answer[1] else f"**{answer[0]}: missed**"
+        return table(["asked", "Voxplex", "optimised"],
+                     [[text, *map(cell, answers)] for text, *answers in self.criteria()])
 
 
 def off_junctions(quality):
@@ -176,12 +172,10 @@ def _range(quality):
 def grading_section(grading):
     """None if the program cannot grade; else by input a list of runs of both modes."""
     if grading is None:
-        return ("Not measured in this run; [Benchmarks.md](Benchmarks.md#grading) has figures that are older than the sampling of "
-                "junctions and the inspection of interfaces.\n")
-    parts = ["Each input is meshed with several deltas in both modes. The table has, for each graded mesh, the number of tetrahedra\n"
-             "and the Hausdorff distance to the smooth interface. Beside it is the number of tetrahedra that a uniform mesh has at this\n"
-             "distance. It is interpolated between the two nearest uniform meshes, logarithms over logarithms. If the graded mesh is\n"
-             "nearer than all uniform ones, the nearest of these is taken, and the saving is at least the figure given.\n"]
+        return "Not measured in this run.\n"
+    parts = ["The Hausdorff distance of each graded mesh to the smooth interface, and the number of tetrahedra that a uniform mesh has at\n"
+             "this distance: interpolated between the two nearest of several uniform meshes, logarithms over logarithms. If the graded\n"
+             "mesh is nearer than all uniform ones, the nearest of these is taken, and the saving is at least the figure given.\n"]
     rows = []
     for name, series in grading.items():
         uniform = sorted((run["distance"], run["elements"]) for run in series["uniform"])
@@ -194,10 +188,6 @@ def grading_section(grading):
                          more + f"{100 * (1 - run['elements'] / equal):.0f} %" if equal else "-"])
     parts.append(table(["input", "delta", "ratio", "graded: tetrahedra", "distance, mm", "uniform: tetrahedra", "saved"],
                        rows))
-    rows = [[name, number(run["delta"]), count(run["elements"]), number(run["distance"], 3)]
-            for name, series in grading.items() for run in series["uniform"]]
-    parts.append("The uniform meshes:\n")
-    parts.append(table(["input", "delta", "tetrahedra", "distance, mm"], rows))
     return "\n".join(parts)
 
 
@@ -218,21 +208,29 @@ INTRODUCTION = """\
 # Quality of the meshes
 
 `Scripts/measure-quality` makes this page, its tables and its pictures. Do not edit it. All figures are those of
-`voxplex.quality()` ([Reference.md](Reference.md#quality)), measured in the files that the programs wrote. The same function
-measures the meshes of CGAL 5.5's Mesh_3. All runs have one thread. Times are medians of {repeat}, and the programs took turns
-on {machine}. The seconds are those of this machine, so compare them only with each other. A machine may change its
-pace, so rates are measured in {pairs} pairs: a run with all options on, against the mean of one run of plain refinement before
-it and one after it. The percentage is the median of the pairs' ratios. The rates beside it are medians of their own.
+`voxplex.quality()` ([Reference.md](Reference.md#quality)), measured in the files that the programs wrote. All runs have one
+thread. Times are medians of {repeat}, and the programs took turns
+on {machine}. Compare them only with each other.
 
 - **Voxplex** is `voxplex` without optimisation, with the defaults for all other options. **Optimised** is with it.
-- **CGAL** is `make_mesh_3` with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
+- **CGAL** is `make_mesh_3` of CGAL 5.5 with facet angle 30 degrees, radius-edge ratio 2 and a size tuned to as many tetrahedra as
   Voxplex has, without perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
-- A *junction* is an edge or point where three labels or more meet; background counts as a label. At a *corner* four meet.
-  An *irregular* junction point is no corner and does not have exactly two junction edges. An edge of a label's own
-  boundary is *non-manifold* if more than two facets of the boundary meet there. It counts once for each such label.
-- Distances are symmetric Hausdorff distances between the interfaces of the mesh and those of the image. The interfaces of
-  the image are the centres of faces between voxels of different labels, or the smooth interface that Voxplex meshes. CGAL
-  does not mesh the latter.
+- Rates are measured in {pairs} pairs: a run with all options on, against the mean of plain refinement before it and after it.
+- Distances are symmetric Hausdorff distances to the interfaces of the image: the centres of faces between voxels of different
+  labels, or the smooth interface that Voxplex meshes and CGAL does not.
+- A *corner* is a point where four labels meet. An *irregular* junction point is no corner and does not have exactly two junction
+  edges. A non-manifold edge counts once for each label.
+"""
+COMMANDS = """\
+The script makes the phantoms. Meshes of the last table are made with
+
+```sh
+voxplex --input INPUT --delta DELTA --grading uniform --threads 1 --no-optimise --hausdorff --stats grading.json
+voxplex --input INPUT --delta DELTA --grading lfs --feature-ratio RATIO --threads 1 --no-optimise --hausdorff --stats grading.json
+```
+
+and the others with
+
 """
 
 
@@ -247,5 +245,6 @@ def make_page(results):
     for name in results["missing"]:
         parts.append(f"{name}\n")
     parts += ["## Grading at equal distance\n", grading_section(results["grading"])]
-    parts += ["## Commands\n", "```sh\n" + "\n".join(results["commands"]) + "\n```\n"]
+    others = [command for command in results["commands"] if "--grading" not in command]
+    parts += ["## Commands\n", COMMANDS + "```sh\n" + "\n".join(others) + "\n```\n"]
     return "\n".join(parts)

@@ -44,7 +44,7 @@ def faults(page, root):
 
 
 def main(root):
-    pages = [*sorted(root.glob("*.md")), *sorted((root / "Documentation").glob("*.md"))]
+    pages = [path for folder in ("", "Documentation", "Benchmarks") for path in sorted((root / folder).glob("*.md"))]
     found = [fault for page in pages for fault in faults(page, root)]
     print("\n".join(found) or f"all links of {len(pages)} pages lead somewhere")
     return bool(found)
