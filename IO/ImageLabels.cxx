@@ -62,29 +62,7 @@ void KeepSeen(const ScalarImage& image, LabelTable& table)
 
 void KeepLabelsOf(const ScalarImage& image, LabelTable& table)
 {
-  switch (image.Type)
-  {
-    case ScalarType::Int8:
-      return KeepSeen<std::int8_t>(image, table);
-    case ScalarType::UInt8:
-      return KeepSeen<std::uint8_t>(image, table);
-    case ScalarType::Int16:
-      return KeepSeen<std::int16_t>(image, table);
-    case ScalarType::UInt16:
-      return KeepSeen<std::uint16_t>(image, table);
-    case ScalarType::Int32:
-      return KeepSeen<std::int32_t>(image, table);
-    case ScalarType::UInt32:
-      return KeepSeen<std::uint32_t>(image, table);
-    case ScalarType::Int64:
-      return KeepSeen<std::int64_t>(image, table);
-    case ScalarType::UInt64:
-      return KeepSeen<std::uint64_t>(image, table);
-    case ScalarType::Float32:
-      return KeepSeen<float>(image, table);
-    case ScalarType::Float64:
-      return KeepSeen<double>(image, table);
-  }
+  Dispatch(image.Type, [&](auto zero) { KeepSeen<decltype(zero)>(image, table); });
 }
 
 } // namespace voxplex::io

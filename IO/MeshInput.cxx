@@ -72,17 +72,11 @@ vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name, i
   vtkIdType count, const std::string& what)
 {
   vtkDataArray* array = attributes->GetArray(name);
-  if (!array || array->GetNumberOfComponents() != components)
-  {
-    throw FileError(what + " no array '" + name + "' of " + std::to_string(components) +
-      (components == 1 ? " component" : " components") +
-      "; give the outputs of the meshing filter, or write a .vtu file");
-  }
-  if (array->GetNumberOfTuples() != count)
-  {
-    throw FileError(what + " " + std::to_string(array->GetNumberOfTuples()) + " values '" + name +
-      "' for " + std::to_string(count) + " cells or points");
-  }
+  RefuseIf(!array || array->GetNumberOfComponents() != components, what, " no array '", name,
+    "' of ", components, (components == 1 ? " component" : " components"),
+    "; give the outputs of the meshing filter, or write a .vtu file");
+  RefuseIf(array->GetNumberOfTuples() != count, what, " ", array->GetNumberOfTuples(), " values '",
+    name, "' for ", count, " cells or points");
   return array;
 }
 
@@ -100,11 +94,10 @@ void RequireVertices(vtkCellArray* cells, vtkPointSet* owner)
   {
     cells->GetConnectivityArray()->GetRange(ids.data());
   }
-  if (offsets[0] < 0 || offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) ||
-    ids[0] < 0 || ids[1] >= static_cast<double>(owner->GetNumberOfPoints()))
-  {
-    throw FileError("it has cells with vertices that are none of its points");
-  }
+  RefuseIf(offsets[0] < 0 ||
+      offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) || ids[0] < 0 ||
+      ids[1] >= static_cast<double>(owner->GetNumberOfPoints()),
+    "it has cells with vertices that are none of its points");
 }
 
 void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
@@ -113,16 +106,12 @@ void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std
   {
     return;
   }
-  if (grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells())
-  {
-    throw FileError("it has not as many types as cells");
-  }
+  RefuseIf(grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells(),
+    "it has not as many types as cells");
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {
-    if (grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size)
-    {
-      throw FileError(what + ", and cell " + std::to_string(cell) + " is none; write a .vtu file");
-    }
+    RefuseIf(grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size, what,
+      ", and cell ", cell, " is none; write a .vtu file");
   }
   RequireVertices(grid->GetCells(), grid);
 }
@@ -131,10 +120,8 @@ void RequireTriangles(vtkPolyData* surface)
 {
   vtkCellArray* polygons = surface->GetPolys();
   const bool isOther = surface->GetNumberOfCells() != polygons->GetNumberOfCells();
-  if (isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3))
-  {
-    throw FileError("the interfaces must be triangles in this format; write a .vtp file");
-  }
+  RefuseIf(isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3),
+    "the interfaces must be triangles in this format; write a .vtp file");
   RequireVertices(polygons, surface);
 }
 
@@ -148,10 +135,8 @@ void RequireCells(vtkPolyData* surface)
     RequireVertices(cells, surface);
     for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
     {
-      if (cells->GetCellSize(cell) < leastSize)
-      {
-        throw FileError("it has cells with fewer vertices than they need");
-      }
+      RefuseIf(
+        cells->GetCellSize(cell) < leastSize, "it has cells with fewer vertices than they need");
     }
   }
 }
@@ -164,11 +149,8 @@ void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
   for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
   {
     const double id = ids->GetComponent(i, 0); // perhaps not a number
-    if (!(id >= 0 && id < static_cast<double>(numberOfPoints)))
-    {
-      throw FileError(
-        "the interfaces are not those of this mesh: their PointIds are not its points");
-    }
+    RefuseIf(!(id >= 0 && id < static_cast<double>(numberOfPoints)),
+      "the interfaces are not those of this mesh: their PointIds are not its points");
   }
 }
 
@@ -181,21 +163,17 @@ void RequireSlabs(vtkUnstructuredGrid* mesh)
   }
   vtkDataArray* const planes = mesh->GetFieldData()->GetArray("TimePlanes");
   vtkDataArray* const pairs = mesh->GetFieldData()->GetArray("PeriodicPairs");
-  if ((planes && planes->GetNumberOfComponents() != 1) ||
-    (pairs && pairs->GetNumberOfComponents() != 2))
-  {
-    throw FileError("its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; "
-                    "write a .vtu file");
-  }
+  RefuseIf((planes && planes->GetNumberOfComponents() != 1) ||
+      (pairs && pairs->GetNumberOfComponents() != 2),
+    "its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; write a .vtu "
+    "file");
   for (vtkIdType k = 0; pairs && k < pairs->GetNumberOfTuples(); ++k)
   {
     for (const int end : { 0, 1 })
     {
       const double id = pairs->GetComponent(k, end); // perhaps not a number
-      if (!(id >= 0 && id < static_cast<double>(mesh->GetNumberOfPoints())))
-      {
-        throw FileError("its PeriodicPairs are not its points");
-      }
+      RefuseIf(!(id >= 0 && id < static_cast<double>(mesh->GetNumberOfPoints())),
+        "its PeriodicPairs are not its points");
     }
   }
 }
@@ -225,12 +203,8 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab)
 {
   const bool hasCells = this->Mesh && this->Mesh->GetNumberOfCells() > 0;
   const bool isSpaceTime = hasCells && this->Mesh->GetCellType(0) == VTK_POLY_VERTEX;
-  if (hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr))
-  {
-    throw FileError(
-      "the interfaces are not those of this mesh: one is of three dimensions, and the "
-      "other of four");
-  }
+  RefuseIf(hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr),
+    "the interfaces are not those of this mesh: one is of three dimensions, and the other of four");
   this->Dimension = isSpaceTime || this->Tetrahedra ? 4 : 3;
   if (this->Space.empty())
   {
@@ -320,12 +294,10 @@ void MeshInput::Check(Content content, const std::string& name) const
 void MeshInput::CheckSlab(Content content) const
 {
   vtkDataArray* const planes = this->Mesh->GetFieldData()->GetArray("TimePlanes");
-  if (content != Content::Mesh || !planes || !this->Mesh->GetCellData()->HasArray("Slab") ||
-    this->Slab > planes->GetNumberOfTuples())
-  {
-    throw FileError("it has no slab " + std::to_string(this->Slab) +
-      "; slabs are those of the pentatopes of a mesh with time planes");
-  }
+  RefuseIf(content != Content::Mesh || !planes || !this->Mesh->GetCellData()->HasArray("Slab") ||
+      this->Slab > planes->GetNumberOfTuples(),
+    "it has no slab ", this->Slab,
+    "; slabs are those of the pentatopes of a mesh with time planes");
   RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells of slabs must be pentatopes");
   RequireArray(
     this->Mesh->GetPointData(), "Time", 1, this->Mesh->GetNumberOfPoints(), "the mesh has");

@@ -9,48 +9,21 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
+#include <vtkTypeTraits.h>
 
 #include <cstddef>
-#include <stdexcept>
 
 namespace voxplex::io
 {
 namespace
 {
 
-int VTKType(ScalarType type)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return VTK_TYPE_INT8;
-    case ScalarType::UInt8:
-      return VTK_TYPE_UINT8;
-    case ScalarType::Int16:
-      return VTK_TYPE_INT16;
-    case ScalarType::UInt16:
-      return VTK_TYPE_UINT16;
-    case ScalarType::Int32:
-      return VTK_TYPE_INT32;
-    case ScalarType::UInt32:
-      return VTK_TYPE_UINT32;
-    case ScalarType::Int64:
-      return VTK_TYPE_INT64;
-    case ScalarType::UInt64:
-      return VTK_TYPE_UINT64;
-    case ScalarType::Float32:
-      return VTK_TYPE_FLOAT32;
-    case ScalarType::Float64:
-      return VTK_TYPE_FLOAT64;
-  }
-  throw std::logic_error("unknown scalar type");
-}
-
 /** An array over the image's own buffer, which it keeps alive for as long as it lives itself. */
 vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
 {
-  const auto array =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTKType(image.Type)));
+  const int type =
+    Dispatch(image.Type, [](auto zero) { return vtkTypeTraits<decltype(zero)>::VTKTypeID(); });
+  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   array->SetName("Labels");
   const std::size_t frameSize =
     image.NumberOfVoxels() * static_cast<std::size_t>(array->GetDataTypeSize());

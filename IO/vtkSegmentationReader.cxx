@@ -47,12 +47,9 @@ int NearestFrame(const ScalarImage& image, double time)
 /** Replaces the times of the file. */
 void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::string& path)
 {
-  if (times.size() != static_cast<std::size_t>(image.Frames))
-  {
-    throw voxplex::io::FileError("AddFrameTime() gave " + std::to_string(times.size()) +
-      " times, but '" + path + "' has " + std::to_string(image.Frames) +
-      (image.Frames == 1 ? " frame" : " frames") + "; give one time for each frame");
-  }
+  voxplex::io::RefuseIf(times.size() != static_cast<std::size_t>(image.Frames),
+    "AddFrameTime() gave ", times.size(), " times, but '", path, "' has ", image.Frames,
+    (image.Frames == 1 ? " frame" : " frames"), "; give one time for each frame");
   for (std::size_t frame = 0; frame < times.size(); ++frame)
   {
     if (!std::isfinite(times[frame]) || (frame > 0 && !(times[frame] > times[frame - 1])))
@@ -60,7 +57,7 @@ void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::s
       std::ostringstream reason;
       reason << "the times of AddFrameTime() must be finite and increase, but that of frame "
              << frame << " is " << times[frame];
-      throw voxplex::io::FileError(reason.str());
+      voxplex::io::Refuse(reason.str());
     }
   }
   image.Times = times;
@@ -191,10 +188,7 @@ bool vtkSegmentationReader::Read()
   this->ErrorMessage.clear();
   try
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw voxplex::io::FileError("no file name is set");
-    }
+    voxplex::io::RefuseIf(!this->FileName || !*this->FileName, "no file name is set");
     voxplex::io::ImageAnswer answer = voxplex::io::ReadImage(
       { this->FileName, this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere });
     data.Image = std::move(answer.Image);
@@ -263,8 +257,7 @@ void vtkSegmentationReader::PlaceImage()
   }
   catch (const voxplex::io::FileError&)
   {
-    throw voxplex::io::FileError("SetSpacing(), SetOrigin() and SetDirection() give '" +
-      std::string(this->FileName) +
+    voxplex::io::Refuse("SetSpacing(), SetOrigin() and SetDirection() give '", this->FileName,
       "' no place in space: numbers must be finite, and the columns of the direction matrix "
       "independent");
   }

@@ -40,7 +40,7 @@ constexpr std::uint32_t EndOfImage = 0xFFD9; // of all three
 
 [[noreturn]] void RefuseDamage(const std::string& what)
 {
-  throw FileError("its pixels are truncated or damaged: " + what);
+  Refuse("its pixels are truncated or damaged: ", what);
 }
 
 /** At a position; big endian. */
@@ -185,11 +185,9 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
 {
   constexpr std::uint32_t startOfCodestream = 0xFF4FFF51; // with SIZ
   constexpr std::uint32_t startOfFile = 0x0000000C;
-  if (NumberAt(stream, 0, 4) == startOfFile)
-  {
-    throw FileError("its frames are files of JPEG 2000, where codestreams must be: decompress it "
-                    "first (gdcmconv --raw)");
-  }
+  RefuseIf(NumberAt(stream, 0, 4) == startOfFile,
+    "its frames are files of JPEG 2000, where codestreams must be: decompress it first (gdcmconv "
+    "--raw)");
   if (NumberAt(stream, 0, 4) != startOfCodestream)
   {
     RefuseDamage("a frame is no JPEG 2000 codestream");
@@ -218,28 +216,19 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
 
 void CheckHeader(const Header& header, const DICOMPixelFormat& format)
 {
-  if (header.Columns != format.Columns || header.Rows != format.Rows || header.Components != 1)
-  {
-    throw FileError("its pixels are damaged: a compressed frame has " +
-      std::to_string(header.Columns) + " x " + std::to_string(header.Rows) + " pixels of " +
-      std::to_string(header.Components) + " components, and its header says " +
-      std::to_string(format.Columns) + " x " + std::to_string(format.Rows) + " of 1");
-  }
+  RefuseIf(header.Columns != format.Columns || header.Rows != format.Rows || header.Components != 1,
+    "its pixels are damaged: a compressed frame has ", header.Columns, " x ", header.Rows,
+    " pixels of ", header.Components, " components, and its header says ", format.Columns, " x ",
+    format.Rows, " of 1");
   const bool isShifted =
     format.HighBit + 1 != format.BitsStored && header.Bits != format.BitsAllocated;
   const bool isSignLost = format.IsSigned ? header.Bits < format.BitsStored : header.IsSigned;
-  if (header.Bits < 2)
-  {
-    throw FileError("its pixels are compressed and have " + std::to_string(header.Bits) +
-      " bit, which is not supported: decompress it first (gdcmconv --raw)");
-  }
-  if (header.Bits > format.BitsAllocated || isShifted || isSignLost)
-  {
-    throw FileError("its pixels have " + std::to_string(header.Bits) +
-      (header.IsSigned ? " signed" : "") + " bits where they are compressed, and " +
-      std::to_string(format.BitsStored) + (format.IsSigned ? " signed" : "") +
-      " in its header, which do not fit together: decompress it first (gdcmconv --raw, dcmdjpeg)");
-  }
+  RefuseIf(header.Bits < 2, "its pixels are compressed and have ", header.Bits,
+    " bit, which is not supported: decompress it first (gdcmconv --raw)");
+  RefuseIf(header.Bits > format.BitsAllocated || isShifted || isSignLost, "its pixels have ",
+    header.Bits, (header.IsSigned ? " signed" : ""), " bits where they are compressed, and ",
+    format.BitsStored, (format.IsSigned ? " signed" : ""),
+    " in its header, which do not fit together: decompress it first (gdcmconv --raw, dcmdjpeg)");
 }
 
 /** With one codec of GDCM. */

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadTIFF.h"
+#include "Readers.h"
 
 #include "ByteSource.h"
-#include "Excerpt.h"
-#include "FileError.h"
 #include "Placement.h"
 #include "TIFFStack.h"
+#include "Text.h"
 
 #include <vtk_tiff.h>
 
@@ -189,7 +188,7 @@ TIFFHandle Open(Source& source)
 
 [[noreturn]] void RefuseDamage(std::int64_t page, const std::string& reason)
 {
-  throw FileError("it is truncated or damaged: page " + std::to_string(page) +
+  Refuse("it is truncated or damaged: page ", page,
     (reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")"));
 }
 
@@ -263,35 +262,24 @@ std::optional<ScalarType> FindScalarType(const PageType& type)
 
 void CheckType(const PageType& type)
 {
-  if (type.Samples != 1)
-  {
-    throw FileError("it has " + std::to_string(type.Samples) +
-      " components a voxel (colours or vectors); a label image has one: export it as a label map "
-      "first");
-  }
-  if (!FindScalarType(type))
-  {
-    throw FileError("its pages are " + Describe(type) +
-      "; voxplex reads integers of 1, 8, 16, 32 and 64 bits and floating-point numbers of 32 and "
-      "64: save it with one of these types");
-  }
+  RefuseIf(type.Samples != 1, "it has ", type.Samples,
+    " components a voxel (colours or vectors); a label image has one: export it as a label map "
+    "first");
+  RefuseIf(!FindScalarType(type), "its pages are ", Describe(type),
+    "; voxplex reads integers of 1, 8, 16, 32 and 64 bits and floating-point numbers of 32 and 64: "
+    "save it with one of these types");
 }
 
 /** ImageJ gives colours to numbers that have a meaning without them; for others, numbers only choose colours. */
 void CheckColours(TIFF* tiff, bool isImageJ)
 {
   const auto colours = Get<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  if (colours == PHOTOMETRIC_PALETTE && !isImageJ)
-  {
-    throw FileError("its numbers stand for colours of a palette, and need not be labels: save it "
-                    "as grey values");
-  }
-  if (colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_MINISWHITE &&
-    colours != PHOTOMETRIC_PALETTE)
-  {
-    throw FileError("its numbers are colours (PhotometricInterpretation " +
-      std::to_string(colours) + "), not labels: export it as a label map first");
-  }
+  RefuseIf(colours == PHOTOMETRIC_PALETTE && !isImageJ,
+    "its numbers stand for colours of a palette, and need not be labels: save it as grey values");
+  RefuseIf(colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_MINISWHITE &&
+      colours != PHOTOMETRIC_PALETTE,
+    "its numbers are colours (PhotometricInterpretation ", colours,
+    "), not labels: export it as a label map first");
 }
 
 /** Rows may run upwards. */
@@ -299,11 +287,8 @@ bool IsUpsideDown(TIFF* tiff)
 {
   const auto orientation =
     Get<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, std::uint16_t{ ORIENTATION_TOPLEFT });
-  if (orientation != ORIENTATION_TOPLEFT && orientation != ORIENTATION_BOTLEFT)
-  {
-    throw FileError("its pages are stored mirrored or turned (Orientation " +
-      std::to_string(orientation) + "): save it upright");
-  }
+  RefuseIf(orientation != ORIENTATION_TOPLEFT && orientation != ORIENTATION_BOTLEFT,
+    "its pages are stored mirrored or turned (Orientation ", orientation, "): save it upright");
   return orientation == ORIENTATION_BOTLEFT;
 }
 
@@ -313,11 +298,8 @@ std::string CheckCompression(std::uint16_t compression)
   const TIFFCodec* codec = TIFFFindCODEC(compression);
   const std::string name =
     codec ? codec->name : "a method that is unknown, " + std::to_string(compression);
-  if (!TIFFIsCODECConfigured(compression))
-  {
-    throw FileError("it is compressed with " + name +
-      ", which this libtiff cannot read: save it uncompressed, or with LZW or Deflate");
-  }
+  RefuseIf(!TIFFIsCODECConfigured(compression), "it is compressed with ", name,
+    ", which this libtiff cannot read: save it uncompressed, or with LZW or Deflate");
   const bool changesNumbers = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG ||
     compression == COMPRESSION_PIXARLOG;
   const bool mayChangeNumbers = compression == COMPRESSION_LERC; // this is a choice of the writer
@@ -473,19 +455,13 @@ TIFFPages PageReader::List(std::vector<std::string>& warnings)
       this->CheckPage(pages.Count(), pages.Description.rfind("ImageJ=", 0) == 0, warnings);
       pages.Contiguous = pages.Count() == 1 ? this->CountContiguous() : pages.Contiguous;
     }
-    if (++directory > most)
-    {
-      throw FileError("it has more than " + std::to_string(most) + " pages");
-    }
+    RefuseIf(++directory > most, "it has more than ", most, " pages");
     if (!this->Reads.Ignored.empty())
     {
       RefuseDamage(pages.Count(), this->Reads.Ignored);
     }
   } while (this->MoveToNext(pages.Count() + 1));
-  if (pages.Directories.empty())
-  {
-    throw FileError("it has no page that is not a reduced image or a mask");
-  }
+  RefuseIf(pages.Directories.empty(), "it has no page that is not a reduced image or a mask");
   return pages;
 }
 
@@ -507,16 +483,11 @@ void PageReader::CheckPage(std::int64_t page, bool isImageJ, std::vector<std::st
 {
   TIFF* const tiff = this->Handle.get();
   const PageType type = GetType(tiff);
-  if (type != this->First)
-  {
-    throw FileError("its pages differ: page " + std::to_string(page) + " is " + Describe(type) +
-      ", and the first is " + Describe(this->First));
-  }
-  if (Get<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1) != 1)
-  {
-    throw FileError("its pages have several slices each (ImageDepth), which voxplex does not read: "
-                    "save it with a page for each slice");
-  }
+  RefuseIf(type != this->First, "its pages differ: page ", page, " is ", Describe(type),
+    ", and the first is ", Describe(this->First));
+  RefuseIf(Get<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1) != 1,
+    "its pages have several slices each (ImageDepth), which voxplex does not read: save it with a "
+    "page for each slice");
   CheckColours(tiff, isImageJ);
   IsUpsideDown(tiff);
   const std::string warning =
@@ -534,11 +505,9 @@ constexpr double MostOfAByte = 65536.0;
 void PageReader::CheckClaim(std::uint64_t rowBytes, std::uint64_t rows) const
 {
   const double claim = static_cast<double>(rowBytes) * static_cast<double>(rows);
-  if (claim > MostOfAByte * static_cast<double>(this->Reads.File.Size()))
-  {
-    throw FileError("it is truncated or damaged: it claims " + Describe(this->First) +
-      " a page, and the file has " + std::to_string(this->Reads.File.Size()) + " bytes");
-  }
+  RefuseIf(claim > MostOfAByte * static_cast<double>(this->Reads.File.Size()),
+    "it is truncated or damaged: it claims ", Describe(this->First), " a page, and the file has ",
+    this->Reads.File.Size(), " bytes");
 }
 
 void PageReader::CheckParts(std::int64_t page, const Parts& parts)
@@ -562,12 +531,8 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
     const std::uint64_t row = part / parts.Across * parts.Length;
     const std::uint64_t offset = TIFFGetStrileOffset(tiff, static_cast<std::uint32_t>(part));
     const std::uint64_t bytes = TIFFGetStrileByteCount(tiff, static_cast<std::uint32_t>(part));
-    if (offset == 0 && bytes == 0)
-    {
-      throw FileError("it is a sparse file, which leaves out strip or tile " +
-        std::to_string(part + 1) + " of page " + std::to_string(page) +
-        ": save it with all strips and tiles");
-    }
+    RefuseIf(offset == 0 && bytes == 0, "it is a sparse file, which leaves out strip or tile ",
+      part + 1, " of page ", page, ": save it with all strips and tiles");
     const std::uint64_t needed = isPlain ? rowBytes * parts.RowsFrom(row, this->First) : 1;
     if (bytes < needed || offset == 0 || offset > size || bytes > size - offset)
     {

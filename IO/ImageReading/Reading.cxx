@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading.h"
 
-#include "Excerpt.h"
+#include "Text.h"
 
 namespace voxplex::io
 {
@@ -18,6 +18,12 @@ void WarnOfLengths(const std::string& unit, Reading& reading)
   }
   reading.Warnings.push_back(
     "its lengths are in '" + Excerpt(unit) + "', and so are those of the mesh");
+}
+
+void WarnOfSpacing(Reading& reading)
+{
+  reading.Warnings.push_back(
+    "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
 }
 
 } // namespace voxplex::io

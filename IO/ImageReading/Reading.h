@@ -41,11 +41,8 @@ struct Reading
  */
 void WarnOfLengths(const std::string& unit, Reading& reading);
 
-/*
- * Each format has a function `ScalarImage Read...(const std::string& path, Reading& reading)` in a source file of its
- * own. It throws FileError with the reason alone ("its header claims ..."): ReadImage() puts the name of the image
- * before it. All voxels that it returns are written by what the file says.
- */
+/** Where a header gives no spacing. */
+void WarnOfSpacing(Reading& reading);
 
 } // namespace voxplex::io
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segments.h"
 
-#include "Excerpt.h"
+#include "Text.h"
 #include "TextHeader.h"
 
 #include <algorithm>

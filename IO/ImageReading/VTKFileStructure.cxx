@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VTKFileStructure.h"
 
-#include "Excerpt.h"
 #include "FileError.h"
+#include "Text.h"
 
 #include <vtk_expat.h>
 
@@ -29,7 +29,7 @@ namespace
 
 [[noreturn]] void RefuseDamage(const std::string& reason)
 {
-  throw FileError("it is truncated or damaged: " + reason);
+  Refuse("it is truncated or damaged: ", reason);
 }
 
 /** Of a number. */
@@ -376,10 +376,8 @@ Structure Parse(const InputFile& file)
           isLast) != XML_STATUS_OK &&
       !structure.IsAppended)
     {
-      if (structure.HasDocumentType)
-      {
-        throw FileError("it has a document type, which VTK's files have not: take that line out");
-      }
+      RefuseIf(structure.HasDocumentType,
+        "it has a document type, which VTK's files have not: take that line out");
       RefuseDamage(std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
         std::to_string(XML_GetCurrentLineNumber(parser.get())));
     }
@@ -458,30 +456,18 @@ void CheckAppendedData(const InputFile& file, Structure& structure)
 
 void CheckKindOfVTK(const std::string& kind, std::string_view wanted)
 {
-  if (kind.empty())
-  {
-    throw FileError("it is truncated or damaged: it does not say what it holds");
-  }
-  if (kind != wanted)
-  {
-    throw FileError("it holds " + Excerpt(kind) + "; a label image of VTK is " +
-      std::string(wanted) + ": sample it on a regular grid (vtkImageData) first");
-  }
+  RefuseIf(kind.empty(), "it is truncated or damaged: it does not say what it holds");
+  RefuseIf(kind != wanted, "it holds ", Excerpt(kind), "; a label image of VTK is ", wanted,
+    ": sample it on a regular grid (vtkImageData) first");
 }
 
 void CheckStructureOfVTI(const InputFile& file)
 {
   Structure structure = Parse(file);
   CheckKindOfVTK(structure.Kind, "ImageData");
-  if (!structure.Wrong.empty())
-  {
-    throw FileError("it has " + structure.Wrong + ", which cannot be: correct it");
-  }
-  if (structure.Extents.size() != 1)
-  {
-    throw FileError(
-      "it is stored in " + std::to_string(structure.Extents.size()) + " pieces: save it in one");
-  }
+  RefuseIf(!structure.Wrong.empty(), "it has ", structure.Wrong, ", which cannot be: correct it");
+  RefuseIf(structure.Extents.size() != 1, "it is stored in ", structure.Extents.size(),
+    " pieces: save it in one");
   if (structure.Extents.front() != structure.WholeExtent)
   {
     RefuseDamage("it has the extent " + Excerpt(structure.WholeExtent) + ", and its piece " +
@@ -495,11 +481,9 @@ void CheckStructureOfVTI(const InputFile& file)
   {
     CheckAppendedData(file, structure);
   }
-  if (structure.IsInterrupted)
-  {
-    throw FileError("its data in base64 have line breaks or foreign letters within, which VTK does "
-                    "not read: save it in the encoding raw");
-  }
+  RefuseIf(structure.IsInterrupted,
+    "its data in base64 have line breaks or foreign letters within, which VTK does not read: save "
+    "it in the encoding raw");
 }
 
 } // namespace voxplex::io

@@ -67,11 +67,9 @@ std::vector<ElementFace> FindElementFaces(const MeshView& view)
   }
   const bool isComplete = std::all_of(
     faces.begin(), faces.end(), [](const ElementFace& face) { return face.Tetrahedron >= 0; });
-  if (!isComplete)
-  {
-    throw FileError("the interfaces are not those of this mesh: one of their triangles is no face "
-                    "of a tetrahedron with its label");
-  }
+  RefuseIf(!isComplete,
+    "the interfaces are not those of this mesh: one of their triangles is no face "
+    "of a tetrahedron with its label");
   return faces;
 }
 

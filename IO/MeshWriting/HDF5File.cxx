@@ -68,7 +68,7 @@ std::mutex& LibraryMutex()
 
 [[noreturn]] void Fail()
 {
-  throw FileError("the HDF5 library reports an error");
+  Refuse("the HDF5 library reports an error");
 }
 
 void WriteDataset(hid_t file, const std::string& name, hid_t storedType, hid_t type,

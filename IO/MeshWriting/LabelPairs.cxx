@@ -30,11 +30,8 @@ std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component)
 {
   const vtkIdType index = cell * labels->GetNumberOfComponents() + component;
   const auto label = static_cast<std::int64_t>(labels->GetVariantValue(index).ToTypeInt64());
-  if (!std::in_range<std::int32_t>(label))
-  {
-    throw FileError("label " + std::to_string(label) +
-      " does not fit into this format, which has 32 bits for it; write a .vtu file");
-  }
+  RefuseIf(!std::in_range<std::int32_t>(label), "label ", label,
+    " does not fit into this format, which has 32 bits for it; write a .vtu file");
   return label;
 }
 

@@ -10,7 +10,7 @@
 #include "SetNames.h"
 #include "TextFile.h"
 #include "Writers.h"
-#include "XMLText.h"
+#include "Text.h"
 
 #include <filesystem>
 
@@ -160,10 +160,8 @@ void WriteXDMF(const MeshData& mesh, const std::string& path, const std::string&
   const std::string& heavyPath)
 {
   const std::string heavyFile = std::filesystem::path(heavyName).filename().string();
-  if (heavyFile.find(':') != std::string::npos)
-  {
-    throw FileError("XDMF has no way to refer to a file with ':' in its name; choose another name");
-  }
+  RefuseIf(heavyFile.find(':') != std::string::npos,
+    "XDMF has no way to refer to a file with ':' in its name; choose another name");
   const MeshView view(mesh);
   WriteNumbers(view, heavyPath);
 
