@@ -77,33 +77,19 @@ const NameRules QuotedNames{ QuotedAllows, false, true, 127 };
 const NameRules FEBioNames{ FEBioAllows, false, true, 127 };
 
 SetNames::SetNames(const MeshView& view, const NameRules& rules)
-  : Rules(rules)
+  : SetNames(KeysOf(view.TetrahedraOfLabel), KeysOf(view.TrianglesOfPair), view.Table, rules)
 {
-  std::set<std::int64_t> labels;
-  std::set<LabelPair> pairs;
-  for (const auto& [label, cells] : view.TetrahedraOfLabel)
-  {
-    labels.insert(label);
-  }
-  for (const auto& [pair, cells] : view.TrianglesOfPair)
-  {
-    labels.insert({ pair.first, pair.second });
-    pairs.insert(pair);
-  }
-  labels.erase(0);
-  this->NameSets(labels, pairs, view.Table);
 }
 
-SetNames::SetNames(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
+SetNames::SetNames(std::set<std::int64_t> labels, const std::set<LabelPair>& pairs,
   const LabelTable& table, const NameRules& rules)
   : Rules(rules)
 {
-  this->NameSets(labels, pairs, table);
-}
-
-void SetNames::NameSets(
-  const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs, const LabelTable& table)
-{
+  for (const auto& [first, second] : pairs)
+  {
+    labels.insert({ first, second });
+  }
+  labels.erase(0);
   for (const std::int64_t label : labels)
   {
     const std::string suffix = "_" + std::to_string(label);

@@ -13,7 +13,6 @@
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkVariant.h>
 
 #include <algorithm>
 #include <array>
@@ -27,34 +26,15 @@ namespace voxplex::io
 namespace
 {
 
-/** With all 64 bits of the labels. */
-std::vector<SidedPair> PairsOf(vtkDataArray* labels, vtkDataArray* sides)
-{
-  std::vector<SidedPair> pairs;
-  for (vtkIdType cell = 0; cell < labels->GetNumberOfTuples(); ++cell)
-  {
-    const double side = sides ? sides->GetComponent(cell, 0) : 0.0;
-    pairs.push_back({ side == 1.0 ? 1
-        : side == 2.0             ? 2
-                                  : 0,
-      { labels->GetVariantValue(2 * cell).ToTypeInt64(),
-        labels->GetVariantValue(2 * cell + 1).ToTypeInt64() } });
-  }
-  return pairs;
-}
-
 /** By pair and side. */
 std::map<SidedPair, std::string> NamesOf(const std::set<SidedPair>& sided, const LabelTable& table)
 {
-  std::set<std::int64_t> labels;
   std::set<LabelPair> pairs;
   for (const auto& [side, pair] : sided)
   {
-    labels.insert({ pair.first, pair.second });
     pairs.insert(pair);
   }
-  labels.erase(0);
-  SetNames sets(labels, pairs, table, QuotedNames);
+  SetNames sets({}, pairs, table, QuotedNames);
   constexpr std::array<const char*, 3> ends{ "", "__initial", "__final" };
   std::map<SidedPair, std::string> names;
   for (const SidedPair& one : sided)
@@ -82,7 +62,7 @@ vtkSmartPointer<vtkUnstructuredGrid> WithSurfaces(vtkUnstructuredGrid* boundary)
   {
     return boundary;
   }
-  const std::vector<SidedPair> pairs = PairsOf(labels, sides);
+  const std::vector<SidedPair> pairs = SidedPairsOf(boundary, AnyLabelAt);
   const std::set<SidedPair> all(pairs.begin(), pairs.end());
   std::int64_t largest = 0; // every label has a boundary
   for (const auto& [side, pair] : all)

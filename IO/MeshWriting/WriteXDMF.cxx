@@ -8,9 +8,9 @@
 #include "HDF5File.h"
 #include "MeshView.h"
 #include "SetNames.h"
+#include "Text.h"
 #include "TextFile.h"
 #include "Writers.h"
-#include "Text.h"
 
 #include <filesystem>
 
@@ -46,7 +46,6 @@ std::vector<std::int64_t> Flat(const std::vector<std::array<vtkIdType, N>>& cell
 void WriteNumbers(const MeshView& view, const std::string& path)
 {
   HDF5File file;
-  file.AddGroup("mesh");
   file.Write("mesh/geometry", Coordinates(view), 3);
   file.Write("mesh/topology", Flat(view.Tetrahedra), 4);
   file.Write("mesh/labels",
@@ -60,7 +59,6 @@ void WriteNumbers(const MeshView& view, const std::string& path)
     pairs.push_back(static_cast<std::int32_t>(pair.first));
     pairs.push_back(static_cast<std::int32_t>(pair.second));
   }
-  file.AddGroup("facets");
   file.Write("facets/topology", Flat(view.Triangles), 3);
   file.Write("facets/numbers", numbers, 1);
   file.Write("facets/labels", pairs, 2);
