@@ -3,7 +3,9 @@
 #include "Readers.h"
 
 #include "ByteSource.h"
+#include "Fields.h"
 #include "Placement.h"
+#include "StoredVoxels.h"
 #include "TIFFStack.h"
 #include "Text.h"
 
@@ -300,11 +302,11 @@ std::string CheckCompression(std::uint16_t compression)
     codec ? codec->name : "a method that is unknown, " + std::to_string(compression);
   RefuseIf(!TIFFIsCODECConfigured(compression), "it is compressed with ", name,
     ", which this libtiff cannot read: save it uncompressed, or with LZW or Deflate");
-  const bool changesNumbers = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG ||
-    compression == COMPRESSION_PIXARLOG;
-  const bool mayChangeNumbers = compression == COMPRESSION_LERC; // this is a choice of the writer
-  return changesNumbers || mayChangeNumbers
-    ? "it is compressed with " + name + ", which " + (mayChangeNumbers ? "may change" : "changes") +
+  const bool mayChange = compression == COMPRESSION_LERC; // this is a choice of the writer
+  const bool isLossy = mayChange || compression == COMPRESSION_JPEG ||
+    compression == COMPRESSION_OJPEG || compression == COMPRESSION_PIXARLOG;
+  return isLossy
+    ? "it is compressed with " + name + ", which " + (mayChange ? "may change" : "changes") +
       " numbers: labels may be wrong, most of all where tissues meet"
     : "";
 }
@@ -366,7 +368,8 @@ public:
 
   /** @param places one for each page */
   void ReadInto(const std::vector<std::byte*>& places, const TIFFPages& pages);
-  void ReadContiguousInto(const std::vector<std::byte*>& places);
+  /** Where voxels are if the first page has a directory, and the others follow it without one. */
+  StoredVoxels Contiguous() const;
 
 private:
   bool HasLink();
@@ -402,21 +405,12 @@ bool PageReader::HasLink()
 {
   TIFF* const tiff = this->Handle.get();
   const bool isBig = this->Reads.File.Beginning(4).find('+') != std::string::npos;
-  std::array<std::byte, 8> bytes{}; // how many entries there are
-  const std::size_t bytesOfCount = isBig ? 8 : 2;
   const std::uint64_t start = TIFFCurrentDirOffset(tiff);
-  this->Reads.File.ReadAt(start, std::span(bytes).first(bytesOfCount));
-  if (!TIFFIsBigEndian(tiff))
-  {
-    std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytesOfCount));
-  }
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < bytesOfCount; ++i)
-  {
-    count = count << 8 | std::to_integer<std::uint64_t>(bytes[i]);
-  }
-  return start + bytesOfCount + count * (isBig ? 20 : 12) + (isBig ? 8 : 4) <=
-    this->Reads.File.Size();
+  std::string bytes(8, '\0');
+  this->Reads.File.ReadAt(start, std::as_writable_bytes(std::span(bytes)));
+  const Fields fields(bytes, TIFFIsBigEndian(tiff) != 0);
+  const std::uint64_t entries = isBig ? fields.Get<std::uint64_t>(0) : fields.Get<std::uint16_t>(0);
+  return start + (isBig ? 8 + 20 * entries + 8 : 2 + 12 * entries + 4) <= this->Reads.File.Size();
 }
 
 bool PageReader::MoveToNext(std::int64_t page)
@@ -568,6 +562,15 @@ std::int64_t PageReader::CountContiguous()
                     : 1;
 }
 
+StoredVoxels PageReader::Contiguous() const
+{
+  StoredVoxels stored;
+  stored.IsBigEndian = TIFFIsBigEndian(this->Handle.get()) != 0;
+  stored.Files = { this->Reads.File.Path() };
+  stored.Offset = static_cast<std::int64_t>(this->Begin);
+  return stored;
+}
+
 void PageReader::ReadInto(const std::vector<std::byte*>& places, const TIFFPages& pages)
 {
   TIFFSetDirectory(this->Handle.get(), 0);
@@ -692,39 +695,6 @@ void PageReader::Paste(
   }
 }
 
-void PageReader::ReadContiguousInto(const std::vector<std::byte*>& places)
-{
-  const std::size_t bytes = this->RowBytes() * this->First.Length;
-  const auto voxels =
-    static_cast<tmsize_t>(std::uint64_t{ this->First.Width } * this->First.Length);
-  std::uint64_t position = this->Begin;
-  for (std::size_t page = 0; page < places.size(); ++page, position += bytes)
-  {
-    if (this->Reads.File.ReadAt(position, std::span(places[page], bytes)) != bytes)
-    {
-      RefuseDamage(static_cast<std::int64_t>(page + 1), "");
-    }
-    void* const numbers = places[page];
-    if (TIFFIsByteSwapped(this->Handle.get()))
-    {
-      switch (this->First.Bits)
-      {
-        case 16:
-          TIFFSwabArrayOfShort(static_cast<std::uint16_t*>(numbers), voxels);
-          break;
-        case 32:
-          TIFFSwabArrayOfLong(static_cast<std::uint32_t*>(numbers), voxels);
-          break;
-        case 64:
-          TIFFSwabArrayOfLong8(static_cast<std::uint64_t*>(numbers), voxels);
-          break;
-        default:
-          break;
-      }
-    }
-  }
-}
-
 /** 32768 is to be 0. */
 void SubtractOffset(ScalarImage& image)
 {
@@ -760,19 +730,20 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading)
   image.TimeSpacing = stack.TimeStep;
   const std::size_t bytes = reader.BytesOfPage();
   reader.CheckClaim(bytes, stack.Pages.size());
-  image.Scalars = reading.Allocate(bytes * stack.Pages.size());
-
-  std::vector<std::byte*> places(stack.Pages.size());
-  for (std::size_t slice = 0; slice < places.size(); ++slice)
-  {
-    places[stack.Pages[slice]] = static_cast<std::byte*>(image.Scalars.get()) + slice * bytes;
-  }
   if (stack.IsContiguous)
   {
-    reader.ReadContiguousInto(places);
+    ReadVoxels(reader.Contiguous(), image, reading);
+    MoveFramesToTheEnd(
+      image, std::is_sorted(stack.Pages.begin(), stack.Pages.end()) ? 3 : 2, reading);
   }
   else
   {
+    image.Scalars = reading.Allocate(bytes * stack.Pages.size());
+    std::vector<std::byte*> places(stack.Pages.size());
+    for (std::size_t slice = 0; slice < places.size(); ++slice)
+    {
+      places[stack.Pages[slice]] = static_cast<std::byte*>(image.Scalars.get()) + slice * bytes;
+    }
     reader.ReadInto(places, pages);
   }
   if (stack.IsSignedWithOffset)

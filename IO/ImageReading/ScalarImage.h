@@ -7,11 +7,14 @@
 #ifndef voxplex_io_ScalarImage_h
 #define voxplex_io_ScalarImage_h
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxplex::io
@@ -73,6 +76,21 @@ constexpr auto Dispatch(ScalarType type, TFunction&& function)
     default:
       return function(double());
   }
+}
+
+/** Of each type, in their order: its names, between bars. */
+using TypeNames = std::array<std::string_view, 10>;
+
+/** Empty for other names. */
+inline std::optional<ScalarType> FindType(std::string_view name, const TypeNames& names)
+{
+  const std::string key = "|" + std::string(name) + "|";
+  const bool isName = !name.empty() && name.find('|') == name.npos;
+  const auto type = std::find_if(
+    names.begin(), names.end(), [&](std::string_view all) { return all.find(key) != all.npos; });
+  return isName && type != names.end()
+    ? std::optional(static_cast<ScalarType>(type - names.begin()))
+    : std::nullopt;
 }
 
 constexpr std::size_t SizeOf(ScalarType type)

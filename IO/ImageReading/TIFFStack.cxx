@@ -8,11 +8,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 namespace voxplex::io
@@ -24,33 +22,13 @@ using Warnings = std::vector<std::string>;
 
 // --- Fields of a description
 
-std::string_view Trim(std::string_view text)
-{
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == text.npos ? std::string_view()
-                            : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
-}
-
-std::vector<std::string> Split(std::string_view text, char separator)
-{
-  std::vector<std::string> parts;
-  std::istringstream stream{ std::string(text) };
-  for (std::string part; std::getline(stream, part, separator);)
-  {
-    parts.emplace_back(Trim(part));
-  }
-  return parts;
-}
-
 template <typename T>
 T ParseNumber(std::string_view name, std::string_view text)
 {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  RefuseIf(error != std::errc() || end != text.data() + text.size(), "its description has '",
-    Excerpt(text), "' for ", name, ", which is no such number: correct it");
-  return value;
+  const std::optional<T> value = ToNumber<T>(text);
+  RefuseIf(!value, "its description has '", Excerpt(text), "' for ", name,
+    ", which is no such number: correct it");
+  return *value;
 }
 
 std::string FindText(const TextFields& fields, std::string_view name)
@@ -120,11 +98,12 @@ constexpr std::array<Unit, 7> Units{
 /** Null if it is no unit that is known here. */
 const Unit* FindUnit(const std::string& text)
 {
-  const std::string word = " " + text + " ";
-  const bool isWord = !text.empty() && text.find(' ') == std::string::npos;
   const auto unit = std::find_if(Units.begin(), Units.end(),
     [&](const Unit& each)
-    { return isWord && each.Spellings.find(word) != std::string_view::npos; });
+    {
+      const std::vector<std::string_view> spellings = Words(each.Spellings);
+      return std::find(spellings.begin(), spellings.end(), text) != spellings.end();
+    });
   return unit == Units.end() ? nullptr : &*unit;
 }
 
@@ -213,13 +192,8 @@ void SetTimeStep(TIFFStack& stack, std::optional<double> step, Warnings& warning
     return;
   }
   constexpr double largest = 1e12;
-  if (!(*step > 0 && *step < largest))
-  {
-    std::ostringstream reason;
-    reason << "its description has " << *step
-           << " for the time from frame to frame, which must be a positive number: correct it";
-    Refuse(reason.str());
-  }
+  RefuseIf(!(*step > 0 && *step < largest), "its description has ", *step,
+    " for the time from frame to frame, which must be a positive number: correct it");
   stack.TimeStep = *step;
 }
 

@@ -105,11 +105,10 @@ std::vector<double> ParseNumbers(const std::string& text)
 
 ScalarType TypeNamed(const std::string& name, const char* field, const TypeNames& names)
 {
-  const auto type = std::find_if(names.begin(), names.end(),
-    [key = "|" + name + "|"](std::string_view all) { return all.find(key) != all.npos; });
-  RefuseIf(type == names.end() || name.empty() || IsOneOf('|', name), "its header gives the ",
-    field, " '", Excerpt(name), "', which is not a type of single numbers");
-  return static_cast<ScalarType>(type - names.begin());
+  const std::optional<ScalarType> type = FindType(name, names);
+  RefuseIf(!type, "its header gives the ", field, " '", Excerpt(name),
+    "', which is not a type of single numbers");
+  return *type;
 }
 
 TextHeader::TextHeader(const InputFile& file)

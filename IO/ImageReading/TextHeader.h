@@ -97,9 +97,6 @@ private:
 /** The numbers of a list; brackets and commas separate, words that are no numbers are left out. */
 std::vector<double> ParseNumbers(const std::string& text);
 
-/** Of each ScalarType, in their order: its names, between bars. */
-using TypeNames = std::array<std::string_view, 10>;
-
 /** @param field in which the name is, for the message. @throws FileError for other names */
 ScalarType TypeNamed(const std::string& name, const char* field, const TypeNames& names);
 
