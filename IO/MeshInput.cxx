@@ -32,8 +32,7 @@ namespace
 bool TakesAnything(const std::string& name)
 {
   const std::string extension = ExtensionOf(name);
-  constexpr std::array anything{ ".vtu", ".vtp", ".vtk", ".stl" };
-  return std::find(anything.begin(), anything.end(), extension) != anything.end();
+  return extension == ".vtu" || extension == ".vtp" || extension == ".vtk" || extension == ".stl";
 }
 
 std::string SpaceOf(vtkDataObject* data)
@@ -42,28 +41,28 @@ std::string SpaceOf(vtkDataObject* data)
   return texts.size() == 1 ? texts.front() : "";
 }
 
-/** Arrays without values, as the filters name them. */
+/** Adds an array without values, as the filters name it. */
+template <typename TArray>
+void AddArray(vtkDataSetAttributes* attributes, const char* name, int components = 1)
+{
+  vtkNew<TArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  attributes->AddArray(array);
+}
+
 void AddInterfaceArrays(vtkDataSet* interfaces)
 {
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Labels");
-  labels->SetNumberOfComponents(2);
-  interfaces->GetCellData()->AddArray(labels);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("PointIds");
-  interfaces->GetPointData()->AddArray(ids);
+  AddArray<vtkIntArray>(interfaces->GetCellData(), "Labels", 2);
+  AddArray<vtkIdTypeArray>(interfaces->GetPointData(), "PointIds");
 }
 
 void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
 {
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Label");
-  mesh->GetCellData()->AddArray(labels);
+  AddArray<vtkIntArray>(mesh->GetCellData(), "Label");
   if (isSpaceTime)
   {
-    vtkNew<vtkDoubleArray> times;
-    times->SetName("Time");
-    mesh->GetPointData()->AddArray(times);
+    AddArray<vtkDoubleArray>(mesh->GetPointData(), "Time");
   }
 }
 
@@ -141,17 +140,25 @@ void RequireCells(vtkPolyData* surface)
   }
 }
 
-/** Ids of the mesh's points. */
+/** Whether all numbers, which may be none, are ids of the mesh's points. */
+bool ArePoints(vtkDataArray* ids, vtkIdType numberOfPoints)
+{
+  bool are = true;
+  for (vtkIdType i = 0; are && i < ids->GetNumberOfValues(); ++i)
+  {
+    const int components = ids->GetNumberOfComponents();
+    const double id = ids->GetComponent(i / components, static_cast<int>(i % components));
+    are = id >= 0 && id < static_cast<double>(numberOfPoints);
+  }
+  return are;
+}
+
 void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
 {
   vtkDataArray* ids = RequireArray(interfaces->GetPointData(), "PointIds", 1,
     interfaces->GetNumberOfPoints(), "the interfaces have");
-  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
-  {
-    const double id = ids->GetComponent(i, 0); // perhaps not a number
-    RefuseIf(!(id >= 0 && id < static_cast<double>(numberOfPoints)),
-      "the interfaces are not those of this mesh: their PointIds are not its points");
-  }
+  RefuseIf(!ArePoints(ids, numberOfPoints),
+    "the interfaces are not those of this mesh: their PointIds are not its points");
 }
 
 /** Arrays of time planes, if the mesh has them. */
@@ -167,15 +174,8 @@ void RequireSlabs(vtkUnstructuredGrid* mesh)
       (pairs && pairs->GetNumberOfComponents() != 2),
     "its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; write a .vtu "
     "file");
-  for (vtkIdType k = 0; pairs && k < pairs->GetNumberOfTuples(); ++k)
-  {
-    for (const int end : { 0, 1 })
-    {
-      const double id = pairs->GetComponent(k, end); // perhaps not a number
-      RefuseIf(!(id >= 0 && id < static_cast<double>(mesh->GetNumberOfPoints())),
-        "its PeriodicPairs are not its points");
-    }
-  }
+  RefuseIf(
+    pairs && !ArePoints(pairs, mesh->GetNumberOfPoints()), "its PeriodicPairs are not its points");
 }
 
 /** The input itself is not touched. */
@@ -206,13 +206,9 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab)
   RefuseIf(hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr),
     "the interfaces are not those of this mesh: one is of three dimensions, and the other of four");
   this->Dimension = isSpaceTime || this->Tetrahedra ? 4 : 3;
-  if (this->Space.empty())
+  for (const std::string& other : { SpaceOf(interfaces), std::string("unknown") })
   {
-    this->Space = SpaceOf(interfaces);
-  }
-  if (this->Space.empty())
-  {
-    this->Space = "unknown";
+    this->Space = this->Space.empty() ? other : this->Space;
   }
   if (!this->Mesh)
   {

@@ -284,58 +284,48 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
 
 // --- Placement ---------------------------------------------------------------------------------------
 
-void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
+/** By space directions, or else by spacings along the axes of the space, which may be that of a header without one. */
+void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
   const Space& space, ScalarImage& image, Reading& reading)
 {
-  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
-  Vector3 origin{};
-  std::array<Vector3, 3> steps{};
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    origin[row] = given.empty() ? 0.0 : space.Signs[row] * given[row];
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      steps[i][row] = space.Signs[row] * axes[roles.Space[i]].Direction[row];
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::vector<double>& direction = axes[roles.Space[i]].Direction;
-    CheckSpacing(std::all_of(direction.begin(), direction.end(),
-                   [](double number) { return std::isfinite(number); }),
-      header.Shown({ "space directions" }));
-    CheckTimeIsApart(direction.size() != 4 || std::abs(direction[3]) < DirectionTolerance);
-  }
-  Place(image, steps, origin);
-  if (!space.SaysWhereLeftIs)
-  {
-    reading.Warnings.push_back(
-      "its header does not say where left, posterior and superior are (space '" +
-      Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
-  }
-}
-
-/** Axes are those of space, which may be that of a header without directions. */
-void PlaceBySpacings(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
-  const Space& space, ScalarImage& image, Reading& reading)
-{
-  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
+  const bool hasDirections = header.Find("space directions") != nullptr;
   const bool hasSpacings = header.FindAny({ "spacings", "axis maxs", "axismaxs" }) != nullptr;
+  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
   Vector3 origin{};
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
   {
     const Axis& axis = axes[roles.Space[i]];
-    CheckSpacing(!hasSpacings || (axis.Spacing > 0 && std::isfinite(axis.Spacing)),
-      header.Shown({ "spacings", "axis maxs", "axismaxs" }));
-    steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
-    const double first = given.empty() ? axis.First : given[i];
-    origin[i] = std::isnan(first) ? 0.0 : space.Signs[i] * first;
+    const double first = !given.empty() ? given[i] : hasDirections ? NaN : axis.First;
+    const bool isMissing = std::isnan(first) && (given.empty() || !hasDirections);
+    origin[i] = isMissing ? 0.0 : space.Signs[i] * first;
+    if (!hasDirections)
+    {
+      CheckSpacing(!hasSpacings || (axis.Spacing > 0 && std::isfinite(axis.Spacing)),
+        header.Shown({ "spacings", "axis maxs", "axismaxs" }));
+      steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
+      continue;
+    }
+    const std::vector<double>& direction = axis.Direction;
+    CheckSpacing(std::all_of(direction.begin(), direction.end(),
+                   [](double number) { return std::isfinite(number); }),
+      header.Shown({ "space directions" }));
+    CheckTimeIsApart(direction.size() != 4 || std::abs(direction[3]) < DirectionTolerance);
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      steps[i][row] = space.Signs[row] * direction[row];
+    }
   }
   Place(image, steps, origin);
-  if (!hasSpacings)
+  if (!hasDirections && !hasSpacings)
   {
     WarnOfSpacing(reading);
+  }
+  if (hasDirections && !space.SaysWhereLeftIs)
+  {
+    reading.Warnings.push_back(
+      "its header does not say where left, posterior and superior are (space '" +
+      Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
   }
 }
 
@@ -421,17 +411,12 @@ void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
   {
     return;
   }
-  std::vector<std::string> texts;
-  for (std::size_t at = 0; (at = units->find('"', at)) != std::string::npos;)
-  {
-    const std::size_t end = std::min(units->find('"', at + 1), units->size());
-    texts.push_back(units->substr(at + 1, end - at - 1));
-    at = std::min(end + 1, units->size());
-  }
+  const std::vector<std::string> texts =
+    Split(*units, '"'); // of which each second is within quotes
   std::string unit;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const std::size_t at = isOfSpace ? i : roles.Space[i];
+    const std::size_t at = 2 * (isOfSpace ? i : roles.Space[i]) + 1;
     const std::string own = at < texts.size() ? texts[at] : "";
     RefuseIf(i > 0 && own != unit, "its axes have the units '", Excerpt(unit), "' and '",
       Excerpt(own), "': write it with one unit");
@@ -468,14 +453,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
     sizes.push_back(axes[*roles.Frames].Size);
   }
   SetSizes(image, sizes);
-  if (header.Find("space directions"))
-  {
-    PlaceInSpace(header, axes, roles, space, image, reading);
-  }
-  else
-  {
-    PlaceBySpacings(header, axes, roles, space, image, reading);
-  }
+  PlaceImage(header, axes, roles, space, image, reading);
   WarnOfUnit(header, roles, reading);
   if (roles.Frames)
   {

@@ -8,6 +8,7 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
@@ -171,10 +172,11 @@ std::string LegacyType(const std::string& beginning)
   std::string keyword;
   std::string type;
   stream >> keyword >> type;
-  std::transform(keyword.begin(), keyword.end(), keyword.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
-  std::transform(type.begin(), type.end(), type.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  for (std::string* word : { &keyword, &type })
+  {
+    std::transform(word->begin(), word->end(), word->begin(),
+      [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  }
   return keyword == "DATASET" ? type : keyword;
 }
 
@@ -349,62 +351,23 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
 }
 
 /** The flags of vtkGhostType hide points or cells. A point is hidden, too, if all cells around it are. */
-class Visibility
+bool IsShown(vtkImageData* image, bool areCells, vtkIdType voxel, vtkIdList* around)
 {
-public:
-  Visibility(vtkImageData* image, bool areCells)
-    : Image(image)
-    , AreCells(areCells)
-    , CellFlags(image->GetCellGhostArray())
+  if (areCells)
   {
-    image->GetDimensions(this->Points.data());
+    return image->IsCellVisible(voxel) != 0;
   }
-
-  bool HidesNothing() const { return !this->Image->HasAnyBlankCells(); } // nor points, then
-
-  bool IsShown(vtkIdType voxel) const
+  vtkUnsignedCharArray* const flags = image->GetCellGhostArray();
+  bool hasShownCell = !flags;
+  if (flags)
   {
-    return this->AreCells
-      ? this->Image->IsCellVisible(voxel) != 0
-      : this->Image->IsPointVisible(voxel) && (!this->CellFlags || this->HasShownCell(voxel));
+    image->GetPointCells(voxel, around);
+    hasShownCell = std::any_of(around->begin(), around->end(),
+      [flags](vtkIdType cell)
+      { return !(flags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL); });
   }
-
-private:
-  bool HasShownCell(vtkIdType point) const
-  {
-    std::array<vtkIdType, 3> begin{};
-    std::array<vtkIdType, 3> end{};
-    std::array<vtkIdType, 3> cells{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const vtkIdType at = point % this->Points[axis];
-      point /= this->Points[axis];
-      cells[axis] = std::max(1, this->Points[axis] - 1);
-      begin[axis] = std::max<vtkIdType>(0, at - 1);
-      end[axis] = std::min(cells[axis], at + 1);
-    }
-    for (vtkIdType k = begin[2]; k < end[2]; ++k)
-    {
-      for (vtkIdType j = begin[1]; j < end[1]; ++j)
-      {
-        for (vtkIdType i = begin[0]; i < end[0]; ++i)
-        {
-          const vtkIdType cell = (k * cells[1] + j) * cells[0] + i;
-          if (!(this->CellFlags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL))
-          {
-            return true;
-          }
-        }
-      }
-    }
-    return false;
-  }
-
-  vtkImageData* Image;
-  bool AreCells;
-  vtkUnsignedCharArray* CellFlags; ///< null if there are none
-  std::array<int, 3> Points{};
-};
+  return image->IsPointVisible(voxel) && hasShownCell;
+}
 
 void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
 {
@@ -460,10 +423,11 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
   auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
   CopyNumbers(labels.Array, numbers, size);
-  const Visibility visibility(image, labels.AreCells);
-  for (vtkIdType voxel = 0; !visibility.HidesNothing() && voxel < count; ++voxel)
+  vtkNew<vtkIdList> around;
+  const bool hidesSome = image->HasAnyBlankCells(); // and so where points are hidden
+  for (vtkIdType voxel = 0; hidesSome && voxel < count; ++voxel)
   {
-    if (!visibility.IsShown(voxel))
+    if (!IsShown(image, labels.AreCells, voxel, around))
     {
       std::memset(numbers + static_cast<std::size_t>(voxel) * size, 0, size);
     }
