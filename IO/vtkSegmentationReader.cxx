@@ -3,7 +3,6 @@
 #include "vtkSegmentationReader.h"
 
 #include "FileError.h"
-#include "ImageLabels.h"
 #include "ImageReading/Placement.h"
 #include "ImageReading/ReadImage.h"
 #include "LabelTable.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DICOMPixels.h"
 
-#include "DICOMCodestream.h"
 #include "FileError.h"
 #include "Text.h"
 

@@ -4,6 +4,8 @@
 
 #include "FileError.h"
 
+#include <vtkMatrix3x3.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,12 +28,6 @@ bool IsUsable(const Vector3& numbers)
     [](double number) { return std::abs(number) <= Largest; }); // not NaN
 }
 
-double Determinant(const std::array<double, 9>& m)
-{
-  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
-    m[2] * (m[3] * m[7] - m[4] * m[6]);
-}
-
 } // namespace
 
 void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector3& origin)
@@ -51,7 +47,7 @@ void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector
       image.Direction[3 * row + axis] = step[row] / length;
     }
   }
-  RefuseIf(std::abs(Determinant(image.Direction)) < SmallestDeterminant,
+  RefuseIf(std::abs(vtkMatrix3x3::Determinant(image.Direction.data())) < SmallestDeterminant,
     "its axes are not independent, the direction matrix is singular: correct the header");
 }
 

@@ -7,6 +7,8 @@
 #include "StoredVoxels.h"
 #include "TextHeader.h"
 
+#include <vtkMath.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -266,20 +268,16 @@ Affine AffineOfQForm(const Header& header)
   RefuseIf(!IsRotation(header) && !std::isnan(rest), // Place() refuses what is no number
     "the quaternion of its qform is no rotation: correct the header");
   const double a = std::sqrt(std::max(0.0, rest));
-  const double norm = rest < 0 ? std::sqrt(b * b + c * c + d * d) : 1.0; // a rounded half turn
-  const double p = b / norm;
-  const double q = c / norm;
-  const double r = d / norm;
+  const std::array<double, 4> quaternion{ a, b, c, d };
+  double rotation[3][3];
+  vtkMath::QuaternionToMatrix3x3(quaternion.data(), rotation); // which makes its length 1
   Affine affine;
-  affine.Steps = { { { a * a + p * p - q * q - r * r, 2 * (p * q + a * r), 2 * (p * r - a * q) },
-    { 2 * (p * q - a * r), a * a + q * q - p * p - r * r, 2 * (q * r + a * p) },
-    { 2 * (p * r + a * q), 2 * (q * r - a * p), a * a + r * r - p * p - q * q } } };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double handedness = axis == 2 && header.Steps[0] < 0 ? -1.0 : 1.0;
-    for (double& component : affine.Steps[axis])
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      component *= handedness * StepOf(header, axis);
+      affine.Steps[axis][row] = rotation[row][axis] * handedness * StepOf(header, axis);
     }
   }
   affine.Origin = { x, y, z };

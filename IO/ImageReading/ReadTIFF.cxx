@@ -188,10 +188,12 @@ TIFFHandle Open(Source& source)
 }
 #endif
 
+constexpr const char* DamagedPage = "it is truncated or damaged: page ";
+
+/** By what libtiff says. */
 [[noreturn]] void RefuseDamage(std::int64_t page, const std::string& reason)
 {
-  Refuse("it is truncated or damaged: page ", page,
-    (reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")"));
+  Refuse(DamagedPage, page, reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")");
 }
 
 /** The value of a tag, or what TIFF says where there is none. */
@@ -417,10 +419,7 @@ bool PageReader::MoveToNext(std::int64_t page)
 {
   if (TIFFLastDirectory(this->Handle.get()))
   {
-    if (!this->HasLink())
-    {
-      RefuseDamage(page, "the file ends before it");
-    }
+    RefuseIf(!this->HasLink(), DamagedPage, page, " (the file ends before it)");
     return false;
   }
   this->Reads.Error.clear();
@@ -509,12 +508,8 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
   TIFF* const tiff = this->Handle.get();
   const std::uint64_t size = this->Reads.File.Size();
   const std::uint64_t count = parts.AreTiles ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
-  if (parts.Across * parts.Down != count || count == 0 || count > size)
-  {
-    RefuseDamage(page,
-      "it claims " + std::to_string(count) + " strips or tiles of " + std::to_string(parts.Width) +
-        " x " + std::to_string(parts.Length));
-  }
+  RefuseIf(parts.Across * parts.Down != count || count == 0 || count > size, DamagedPage, page,
+    " (it claims ", count, " strips or tiles of ", parts.Width, " x ", parts.Length, ")");
   const std::uint64_t rowBytes = this->First.BytesOf(parts.Width);
   this->CheckClaim(this->First.BytesOf(this->First.Width), this->First.Length);
   this->CheckClaim(rowBytes, parts.Length);
@@ -528,18 +523,12 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
     RefuseIf(offset == 0 && bytes == 0, "it is a sparse file, which leaves out strip or tile ",
       part + 1, " of page ", page, ": save it with all strips and tiles");
     const std::uint64_t needed = isPlain ? rowBytes * parts.RowsFrom(row, this->First) : 1;
-    if (bytes < needed || offset == 0 || offset > size || bytes > size - offset)
-    {
-      RefuseDamage(page,
-        "its strip or tile " + std::to_string(part + 1) + " has " + std::to_string(bytes) +
-          " bytes from byte " + std::to_string(offset) + " on; " + std::to_string(needed) +
-          " are needed, and the file has " + std::to_string(size));
-    }
+    RefuseIf(bytes < needed || offset == 0 || offset > size || bytes > size - offset, DamagedPage,
+      page, " (its strip or tile ", part + 1, " has ", bytes, " bytes from byte ", offset, " on; ",
+      needed, " are needed, and the file has ", size, ")");
     this->BytesUncompressed += isPlain ? needed : 0;
-    if (this->BytesUncompressed > size)
-    {
-      RefuseDamage(page, "it shares its voxels with other pages");
-    }
+    RefuseIf(this->BytesUncompressed > size, DamagedPage, page,
+      " (it shares its voxels with other pages)");
   }
 }
 

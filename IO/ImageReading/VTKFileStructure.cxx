@@ -28,10 +28,7 @@ namespace voxplex::io
 namespace
 {
 
-[[noreturn]] void RefuseDamage(const std::string& reason)
-{
-  Refuse("it is truncated or damaged: ", reason);
-}
+constexpr const char* Damaged = "it is truncated or damaged: ";
 
 /** Of a number. */
 struct Limits
@@ -136,12 +133,9 @@ std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structur
 void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
 {
   const std::uint64_t most = bytes - std::min<std::uint64_t>(bytes, structure.BytesOfCount);
-  if (count > (structure.IsCompressed ? most / structure.BytesOfCount : most))
-  {
-    RefuseDamage("an array claims " + std::to_string(count) +
-      (structure.IsCompressed ? " blocks" : " bytes") + ", and has " + std::to_string(bytes) +
-      " bytes");
-  }
+  RefuseIf(count > (structure.IsCompressed ? most / structure.BytesOfCount : most), Damaged,
+    "an array claims ", count, (structure.IsCompressed ? " blocks" : " bytes"), ", and has ", bytes,
+    " bytes");
 }
 
 Structure& At(void* data)
@@ -347,8 +341,8 @@ Structure Parse(const InputFile& file)
     {
       RefuseIf(structure.HasDocumentType,
         "it has a document type, which VTK's files have not: take that line out");
-      RefuseDamage(std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
-        std::to_string(XML_GetCurrentLineNumber(parser.get())));
+      Refuse(Damaged, XML_ErrorString(XML_GetErrorCode(parser.get())), " in line ",
+        XML_GetCurrentLineNumber(parser.get()));
     }
   }
   return structure;
@@ -376,10 +370,8 @@ Range FindAppendedData(const InputFile& file, const Structure& structure)
   const std::uint64_t tail = file.Size() - std::min<std::uint64_t>(file.Size(), enough);
   const std::string end = ReadText(file, tail, enough);
   const std::size_t last = end.rfind("</AppendedData>");
-  if (mark == start.npos || last == end.npos || end.find("</VTKFile>", last) == end.npos)
-  {
-    RefuseDamage("its appended data do not end");
-  }
+  RefuseIf(mark == start.npos || last == end.npos || end.find("</VTKFile>", last) == end.npos,
+    Damaged, "its appended data do not end");
   return { structure.AppendedTag + mark + 1, tail + last };
 }
 
@@ -401,10 +393,7 @@ void CheckAppendedData(const InputFile& file, Structure& structure)
   const std::uint64_t length = data.End > data.Begin ? data.End - data.Begin : 0;
   for (const std::uint64_t offset : structure.Offsets)
   {
-    if (offset >= length)
-    {
-      RefuseDamage("an array begins beyond the end");
-    }
+    RefuseIf(offset >= length, Damaged, "an array begins beyond the end");
     const std::string first = ReadText(
       file, data.Begin + offset, structure.IsBase64 ? LettersOfCount : structure.BytesOfCount);
     CheckCount(DecodeCount(first, structure.IsBase64, structure),
@@ -428,11 +417,8 @@ void CheckStructureOfVTI(const InputFile& file)
   RefuseIf(!structure.Wrong.empty(), "it has ", structure.Wrong, ", which cannot be: correct it");
   RefuseIf(structure.Extents.size() != 1, "it is stored in ", structure.Extents.size(),
     " pieces: save it in one");
-  if (structure.Extents.front() != structure.WholeExtent)
-  {
-    RefuseDamage("it has the extent " + Excerpt(structure.WholeExtent) + ", and its piece " +
-      Excerpt(structure.Extents.front()));
-  }
+  RefuseIf(structure.Extents.front() != structure.WholeExtent, Damaged, "it has the extent ",
+    Excerpt(structure.WholeExtent), ", and its piece ", Excerpt(structure.Extents.front()));
   for (const auto& [count, bytes] : structure.Inline)
   {
     CheckCount(count, bytes, structure);

@@ -8,11 +8,14 @@
 // meshes keep strings: meshio does not read their formats at all.
 
 #include "FileError.h"
+#include "LabelPairs.h"
 #include "LabelTable.h"
-#include "SpaceTimeSurfaces.h"
+#include "SetNames.h"
 #include "TimeSlabs.h"
 #include "Writers.h"
 
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -20,14 +23,20 @@
 #include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
 #include <vtkStringArray.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <map>
+#include <set>
+#include <vector>
 
 namespace voxplex::io
 {
@@ -115,6 +124,92 @@ void WriteLegacy(vtkDataSet* data, const std::string& header, const std::string&
   writer->SetFileTypeToBinary();
   writer->SetFileVersion(TWriter::VTK_LEGACY_READER_VERSION_4_2);
   Run(writer.Get(), data, path);
+}
+
+/** By pair and side. */
+std::map<SidedPair, std::string> NamesOf(const std::set<SidedPair>& sided, const LabelTable& table)
+{
+  std::set<LabelPair> pairs;
+  for (const auto& [side, pair] : sided)
+  {
+    pairs.insert(pair);
+  }
+  SetNames sets({}, pairs, table, QuotedNames);
+  constexpr std::array<const char*, 3> ends{ "", "__initial", "__final" };
+  std::map<SidedPair, std::string> names;
+  for (const SidedPair& one : sided)
+  {
+    const auto& [side, pair] = one;
+    const std::string end = ends.at(static_cast<std::size_t>(side));
+    names[one] = side == 0
+      ? sets.OfPair(pair)
+      : sets.MakeUnique(sets.OfPair(pair) + end,
+          "_" + std::to_string(pair.first) + "_" + std::to_string(pair.second) + end);
+  }
+  return names;
+}
+
+/**
+ * A copy of a boundary grid that shares its arrays, with
+ * - a cell array `Surface` (vtkTypeInt64Array): a number for the pair of labels and the side. The
+ *   numbers are those of NumberSidedPairs(), which .mfem and .mesh files have;
+ * - in the field data `SurfaceNumbers` (vtkTypeInt64Array), increasing, and `SurfaceNames`
+ *   (vtkStringArray): names as SetNames makes them, `Blood__Muscle`; those of flat ends are
+ *   `Blood__background__initial` and `Blood__background__final`.
+ *
+ * A grid without the cell array `Labels` is returned as it is. Labels may have 64 bits.
+ */
+vtkSmartPointer<vtkUnstructuredGrid> WithSurfaces(vtkUnstructuredGrid* boundary)
+{
+  vtkDataArray* const labels = boundary->GetCellData()->GetArray("Labels");
+  vtkDataArray* const sides = boundary->GetCellData()->GetArray("Side");
+  const vtkIdType cells = boundary->GetNumberOfCells();
+  const bool isOurs = labels && labels->GetNumberOfComponents() == 2 &&
+    labels->GetNumberOfTuples() == cells && (!sides || sides->GetNumberOfValues() == cells);
+  if (!isOurs)
+  {
+    return boundary;
+  }
+  const std::vector<SidedPair> pairs = SidedPairsOf(boundary, AnyLabelAt);
+  const std::set<SidedPair> all(pairs.begin(), pairs.end());
+  std::int64_t largest = 0; // every label has a boundary
+  for (const auto& [side, pair] : all)
+  {
+    largest = std::max(largest, pair.first);
+  }
+  const std::map<SidedPair, std::int64_t> numbers = NumberSidedPairs(all, largest);
+  const std::map<SidedPair, std::string> names =
+    NamesOf(all, GetLabelTable(boundary->GetFieldData()));
+
+  vtkNew<vtkTypeInt64Array> surfaces;
+  surfaces->SetName("Surface");
+  for (const SidedPair& pair : pairs)
+  {
+    surfaces->InsertNextValue(numbers.at(pair));
+  }
+  std::map<std::int64_t, std::string> nameOfNumber;
+  for (const auto& [pair, number] : numbers)
+  {
+    nameOfNumber[number] = names.at(pair);
+  }
+  vtkNew<vtkTypeInt64Array> listed;
+  listed->SetName("SurfaceNumbers");
+  vtkNew<vtkStringArray> texts;
+  texts->SetName("SurfaceNames");
+  for (const auto& [number, name] : nameOfNumber)
+  {
+    listed->InsertNextValue(number);
+    texts->InsertNextValue(name);
+  }
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  result->ShallowCopy(boundary);
+  result->GetCellData()->AddArray(surfaces);
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(boundary->GetFieldData());
+  fields->AddArray(listed);
+  fields->AddArray(texts);
+  result->SetFieldData(fields);
+  return result;
 }
 
 } // namespace
