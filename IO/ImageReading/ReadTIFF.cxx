@@ -17,81 +17,37 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace voxplex::io
 {
 namespace
 {
 
-// --- libtiff, which reads through InputFile and says what it finds to us alone
+// --- libtiff, which says what it finds to us alone
 
 struct Source
 {
   explicit Source(const InputFile& file)
     : File(file)
+    , Descriptor(fcntl(file.Descriptor(), F_DUPFD_CLOEXEC, 0))
   {
   }
 
   const InputFile& File;
-  std::uint64_t Position = 0;
+  int Descriptor;      ///< for libtiff, which closes it
   std::string Error;   ///< the first since it was cleared
   std::string Warning; ///< the last since it was cleared
   std::string
     Ignored; ///< the warning of a tag that matters and is not used; empty if there is none
 };
-
-Source& At(void* data)
-{
-  return *static_cast<Source*>(data);
-}
-
-tmsize_t ReadSource(thandle_t data, void* to, tmsize_t size)
-{
-  Source& source = At(data);
-  try
-  {
-    const std::size_t got = source.File.ReadAt(
-      source.Position, std::span(static_cast<std::byte*>(to), static_cast<std::size_t>(size)));
-    source.Position += got;
-    return static_cast<tmsize_t>(got);
-  }
-  catch (const std::exception& error)
-  {
-    source.Error = error.what();
-    return -1;
-  }
-}
-
-tmsize_t RefuseToWrite(thandle_t /*data*/, void* /*from*/, tmsize_t /*size*/)
-{
-  return -1;
-}
-
-toff_t SeekInSource(thandle_t data, toff_t offset, int whence)
-{
-  Source& source = At(data);
-  const std::uint64_t from = whence == SEEK_CUR ? source.Position
-    : whence == SEEK_END                        ? source.File.Size()
-                                                : 0;
-  source.Position = from + offset;
-  return source.Position;
-}
-
-int LeaveOpen(thandle_t /*data*/)
-{
-  return 0;
-}
-
-toff_t SizeOfSource(thandle_t data)
-{
-  return At(data).File.Size();
-}
 
 std::string Format(const char* format, va_list values)
 {
@@ -134,59 +90,54 @@ using TIFFHandle = std::unique_ptr<TIFF, TIFFCloser>;
 constexpr const char* Mode = "rmc";
 
 #if TIFFLIB_VERSION >= 20221213
-TIFFHandle Open(Source& source)
+template <void (*Note)(Source&, const char*, va_list)>
+int Handle(TIFF*, void* data, const char*, const char* format, va_list values)
+{
+  Note(*static_cast<Source*>(data), format, values);
+  return 1; // no other handler is asked
+}
+
+TIFF* OpenWithHandlers(Source& source)
 {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(
     TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
-  constexpr int handled = 1; // no other handler is asked
-  TIFFOpenOptionsSetErrorHandlerExtR(
-    options.get(),
-    [](TIFF*, void* data, const char*, const char* format, va_list values)
-    {
-      NoteError(At(data), format, values);
-      return handled;
-    },
-    &source);
-  TIFFOpenOptionsSetWarningHandlerExtR(
-    options.get(),
-    [](TIFF*, void* data, const char*, const char* format, va_list values)
-    {
-      NoteWarning(At(data), format, values);
-      return handled;
-    },
-    &source);
-  return TIFFHandle(TIFFClientOpenExt("", Mode, &source, ReadSource, RefuseToWrite, SeekInSource,
-    LeaveOpen, SizeOfSource, nullptr, nullptr, options.get()));
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), Handle<NoteError>, &source);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), Handle<NoteWarning>, &source);
+  return TIFFFdOpenExt(source.Descriptor, "", Mode, options.get());
 }
 #else
-/** Older ones have handlers for the whole process only, which get the handles of others, too. */
+/** Older ones have handlers for the whole process only, which get what is said of other files, too. */
 thread_local Source* current = nullptr;
 
-TIFFHandle Open(Source& source)
+template <void (*Note)(Source&, const char*, va_list)>
+void Handle(thandle_t file, const char*, const char* format, va_list values)
+{
+  if (current && reinterpret_cast<std::intptr_t>(file) == current->Descriptor)
+  {
+    Note(*current, format, values);
+  }
+}
+
+TIFF* OpenWithHandlers(Source& source)
 {
   current = &source;
   TIFFSetErrorHandler(nullptr);
-  TIFFSetErrorHandlerExt(
-    [](thandle_t data, const char*, const char* format, va_list values)
-    {
-      if (data == current)
-      {
-        NoteError(*current, format, values);
-      }
-    });
+  TIFFSetErrorHandlerExt(Handle<NoteError>);
   TIFFSetWarningHandler(nullptr);
-  TIFFSetWarningHandlerExt(
-    [](thandle_t data, const char*, const char* format, va_list values)
-    {
-      if (data == current)
-      {
-        NoteWarning(*current, format, values);
-      }
-    });
-  return TIFFHandle(TIFFClientOpen("", Mode, &source, ReadSource, RefuseToWrite, SeekInSource,
-    LeaveOpen, SizeOfSource, nullptr, nullptr));
+  TIFFSetWarningHandlerExt(Handle<NoteWarning>);
+  return TIFFFdOpen(source.Descriptor, "", Mode);
 }
 #endif
+
+TIFFHandle Open(Source& source)
+{
+  TIFFHandle handle(OpenWithHandlers(source));
+  if (!handle)
+  {
+    close(source.Descriptor);
+  }
+  return handle;
+}
 
 constexpr const char* DamagedPage = "it is truncated or damaged: page ";
 
