@@ -39,9 +39,9 @@ struct TableRow
 };
 
 template <typename... TParts>
-[[noreturn]] void RefuseLine(int line, const TParts&... parts)
+void RefuseLineIf(bool isWrong, int line, const TParts&... parts)
 {
-  Refuse("line ", line, ": ", parts...);
+  RefuseIf(isWrong, "line ", line, ": ", parts...);
 }
 
 bool IsNumber(std::string_view text)
@@ -60,18 +60,11 @@ std::string_view WithoutQuotes(std::string_view text)
 TableRow MakeRow(int line, std::string_view label, std::string_view name)
 {
   const std::int64_t value = ToNumber<std::int64_t>(label).value_or(-1);
-  if (value < 0)
-  {
-    RefuseLine(line, "'", Excerpt(label), "' is not a label; labels are whole numbers from 1 on");
-  }
-  if (name.empty())
-  {
-    RefuseLine(line, "label ", value, " has no name");
-  }
-  if (!IsUTF8(name))
-  {
-    RefuseLine(line, "the name is not in UTF-8; convert the file, with iconv for example");
-  }
+  RefuseLineIf(
+    value < 0, line, "'", Excerpt(label), "' is not a label; labels are whole numbers from 1 on");
+  RefuseLineIf(name.empty(), line, "label ", value, " has no name");
+  RefuseLineIf(
+    !IsUTF8(name), line, "the name is not in UTF-8; convert the file, with iconv for example");
   return { line, value, std::string(name), std::nullopt };
 }
 
@@ -82,11 +75,8 @@ std::array<double, 3> MakeColor(int line, const TText* texts)
   for (std::size_t i = 0; i < 3; ++i)
   {
     color[i] = ToNumber<double>(texts[i]).value_or(-1.0);
-    if (!(color[i] >= 0 && color[i] <= 255))
-    {
-      RefuseLine(line, "'", Excerpt(texts[i]),
-        "' is not a part of a colour; red, green and blue are numbers of 0 to 255");
-    }
+    RefuseLineIf(!(color[i] >= 0 && color[i] <= 255), line, "'", Excerpt(texts[i]),
+      "' is not a part of a colour; red, green and blue are numbers of 0 to 255");
   }
   return color;
 }
@@ -183,10 +173,7 @@ Fields SplitFields(const TableLine& line, char delimiter)
       fields.back() += text[i];
     }
   }
-  if (isQuoted)
-  {
-    RefuseLine(line.Number, "a quotation mark is not closed");
-  }
+  RefuseLineIf(isQuoted, line.Number, "a quotation mark is not closed");
   std::transform(fields.begin(), fields.end(), fields.begin(),
     [](const std::string& field) { return std::string(Trim(field)); });
   return fields;
@@ -234,11 +221,9 @@ Columns ReadHeader(const TableLine& line, char delimiter)
     FindColumn(header, { "value", "labelvalue", "label_value", "index", "id", "number", "label" });
   columns.Name =
     FindColumn(header, { "name", "labelname", "label_name", "region", "structure", "label" });
-  if (columns.Label == Missing || columns.Name == Missing || columns.Label == columns.Name)
-  {
-    RefuseLine(line.Number,
-      "it begins with no label and is not a header with columns 'value' and 'name', either");
-  }
+  RefuseLineIf(columns.Label == Missing || columns.Name == Missing || columns.Label == columns.Name,
+    line.Number,
+    "it begins with no label and is not a header with columns 'value' and 'name', either");
   columns.Color = { FindColumn(header, { "r", "red", "color_r" }),
     FindColumn(header, { "g", "green", "color_g" }),
     FindColumn(header, { "b", "blue", "color_b" }) };
@@ -261,16 +246,11 @@ std::optional<std::array<double, 3>> ColorOf(
 
 TableRow ParseFields(const TableLine& line, const Fields& fields, const Columns& columns)
 {
-  if (fields.size() < columns.Needed())
-  {
-    RefuseLine(line.Number, "it has no name");
-  }
-  if (!columns.HasHeader && fields.size() != 2 && fields.size() != 5 && fields.size() != 6)
-  {
-    RefuseLine(line.Number, "it has ", fields.size(),
-      " fields, and must be 'value,name' or 'value,name,red,green,blue'; put quotation marks "
-      "around a name with commas");
-  }
+  RefuseLineIf(fields.size() < columns.Needed(), line.Number, "it has no name");
+  RefuseLineIf(!columns.HasHeader && fields.size() != 2 && fields.size() != 5 && fields.size() != 6,
+    line.Number, "it has ", fields.size(),
+    " fields, and must be 'value,name' or 'value,name,red,green,blue'; put quotation marks "
+    "around a name with commas");
   TableRow row = MakeRow(line.Number, fields[columns.Label], fields[columns.Name]);
   row.Color = ColorOf(line, fields, columns);
   return row;
@@ -370,10 +350,8 @@ LabelTable ToTable(const std::vector<TableRow>& rows, bool mayBeFractions)
       entry.Color = { (*row.Color)[0] / scale, (*row.Color)[1] / scale, (*row.Color)[2] / scale };
     }
     const auto [line, isNew] = lineOf.emplace(row.Label, row.Line);
-    if (!isNew && table.Entries[row.Label].Name != entry.Name)
-    {
-      RefuseLine(row.Line, "label ", row.Label, " has another name on line ", line->second);
-    }
+    RefuseLineIf(!isNew && table.Entries[row.Label].Name != entry.Name, row.Line, "label ",
+      row.Label, " has another name on line ", line->second);
     table.Entries[row.Label] = entry;
   }
   table.Entries.erase(0);

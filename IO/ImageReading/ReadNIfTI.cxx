@@ -33,6 +33,7 @@ constexpr std::size_t Size2 = 540;
 /** The fields that matter here, of either version. */
 struct Header
 {
+  std::string Path; ///< of the file that it is in
   bool IsBigEndian = false;
   bool IsAnalyze = false; ///< without a magic word
   bool HoldsVoxels = false;
@@ -96,7 +97,7 @@ Header Parse(const Fields& fields, bool isFirst)
 }
 
 /** The header that a file begins with, packed or not; nothing if there is none. */
-std::optional<Header> FindHeader(const InputFile& file)
+std::optional<Header> HeaderIn(const InputFile& file)
 {
   const std::string bytes = UnpackBeginning(file, Size2);
   for (const bool isBigEndian : { false, true })
@@ -125,6 +126,7 @@ std::optional<Header> FindHeader(const InputFile& file)
     if (header)
     {
       header->IsBigEndian = isBigEndian;
+      header->Path = file.Path();
       return header;
     }
   }
@@ -163,10 +165,17 @@ std::optional<std::string> FindCompanion(
   return std::nullopt;
 }
 
-/** The file with the header of an image in two files. */
-std::string HeaderPathOf(const std::string& path)
+/** That of the file, or of the one with the header of an image in two files. */
+std::optional<Header> FindHeader(const std::string& path)
 {
-  return FindCompanion(path, ".img", ".hdr").value_or(path);
+  std::optional<Header> header = HeaderIn(InputFile(path));
+  const std::string other = FindCompanion(path, ".img", ".hdr").value_or("");
+  std::error_code ignored;
+  if (!header && fs::is_regular_file(other, ignored))
+  {
+    header = HeaderIn(InputFile(other));
+  }
+  return header;
 }
 
 struct Type
@@ -411,10 +420,11 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
   SetTimeStep(image, header.FirstTime * unit, step == 0 ? 1.0 : step, shown.str());
 }
 
-StoredVoxels FindVoxels(const Header& header, const std::string& path, const Reading& reading)
+StoredVoxels FindVoxels(const Header& header, const Reading& reading)
 {
   StoredVoxels stored;
   stored.IsBigEndian = header.IsBigEndian;
+  const std::string& path = header.Path;
   std::string voxels = path;
   if (!header.HoldsVoxels)
   {
@@ -439,22 +449,12 @@ StoredVoxels FindVoxels(const Header& header, const std::string& path, const Rea
 
 bool IsNIfTI(const InputFile& file)
 {
-  const std::string headerPath = HeaderPathOf(file.Path());
-  std::error_code ignored;
-  return FindHeader(file) ||
-    (headerPath != file.Path() && fs::is_regular_file(headerPath, ignored) &&
-      FindHeader(InputFile(headerPath)));
+  return FindHeader(file.Path()).has_value();
 }
 
 ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
 {
-  std::string headerPath = path;
-  std::optional<Header> header = FindHeader(InputFile(path));
-  if (!header)
-  {
-    headerPath = HeaderPathOf(path);
-    header = FindHeader(InputFile(headerPath));
-  }
+  const std::optional<Header> header = FindHeader(path);
   RefuseIf(!header, "it has no header of NIfTI");
   ScalarImage image;
   image.Type = TypeOf(*header);
@@ -464,7 +464,7 @@ ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
   {
     AdoptTimes(*header, image, reading);
   }
-  ReadVoxels(FindVoxels(*header, headerPath, reading), image, reading);
+  ReadVoxels(FindVoxels(*header, reading), image, reading);
   const bool isScaled =
     header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
   if (isScaled)

@@ -142,9 +142,9 @@ TIFFHandle Open(Source& source)
 constexpr const char* DamagedPage = "it is truncated or damaged: page ";
 
 /** By what libtiff says. */
-[[noreturn]] void RefuseDamage(std::int64_t page, const std::string& reason)
+void RefuseDamageIf(bool isDamaged, std::int64_t page, const std::string& reason)
 {
-  Refuse(DamagedPage, page, reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")");
+  RefuseIf(isDamaged, DamagedPage, page, reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")");
 }
 
 /** The value of a tag, or what TIFF says where there is none. */
@@ -305,10 +305,7 @@ public:
     : Reads(file)
     , Handle(Open(this->Reads))
   {
-    if (!this->Handle)
-    {
-      RefuseDamage(1, this->Reads.Error);
-    }
+    RefuseDamageIf(!this->Handle, 1, this->Reads.Error);
   }
 
   /** Looks at each directory, and checks that what it needs is in the file. */
@@ -375,10 +372,9 @@ bool PageReader::MoveToNext(std::int64_t page)
   }
   this->Reads.Error.clear();
   this->Reads.Warning.clear();
-  if (!TIFFReadDirectory(this->Handle.get()))
-  {
-    RefuseDamage(page, this->Reads.Error.empty() ? this->Reads.Warning : this->Reads.Error);
-  }
+  const bool isRead = TIFFReadDirectory(this->Handle.get()) != 0;
+  RefuseDamageIf(
+    !isRead, page, this->Reads.Error.empty() ? this->Reads.Warning : this->Reads.Error);
   return true;
 }
 
@@ -400,10 +396,7 @@ TIFFPages PageReader::List(std::vector<std::string>& warnings)
       pages.Contiguous = pages.Count() == 1 ? this->CountContiguous() : pages.Contiguous;
     }
     RefuseIf(++directory > most, "it has more than ", most, " pages");
-    if (!this->Reads.Ignored.empty())
-    {
-      RefuseDamage(pages.Count(), this->Reads.Ignored);
-    }
+    RefuseDamageIf(!this->Reads.Ignored.empty(), pages.Count(), this->Reads.Ignored);
   } while (this->MoveToNext(pages.Count() + 1));
   RefuseIf(pages.Directories.empty(), "it has no page that is not a reduced image or a mask");
   return pages;
@@ -578,15 +571,10 @@ void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::
   const auto size = static_cast<tmsize_t>(to.size());
   const tmsize_t got = TIFFIsTiled(tiff) ? TIFFReadEncodedTile(tiff, part, to.data(), size)
                                          : TIFFReadEncodedStrip(tiff, part, to.data(), size);
-  if (got != size || !this->Reads.Error.empty())
-  {
-    RefuseDamage(page, this->Reads.Error);
-  }
+  RefuseDamageIf(got != size || !this->Reads.Error.empty(), page, this->Reads.Error);
   const auto compression = Get<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (!this->Reads.Warning.empty() && WarnsOfDamage(compression))
-  {
-    RefuseDamage(page, this->Reads.Warning);
-  }
+  RefuseDamageIf(
+    !this->Reads.Warning.empty() && WarnsOfDamage(compression), page, this->Reads.Warning);
   const bool isDeflated =
     compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE;
   const auto order = Get<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB);
@@ -608,7 +596,7 @@ void PageReader::CheckSum(std::int64_t page, std::uint32_t part)
   }
   catch (const FileError& error)
   {
-    RefuseDamage(page, error.what());
+    RefuseDamageIf(true, page, error.what());
   }
 }
 
