@@ -3,9 +3,7 @@
 #include "StoredVoxels.h"
 
 #include "ByteSource.h"
-#include "FileError.h"
-#include "InputFile.h"
-#include "Reading.h"
+#include "Readers.h"
 #include "Text.h"
 
 #include <algorithm>
