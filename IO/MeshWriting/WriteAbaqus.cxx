@@ -34,7 +34,7 @@ struct ElementFace
 };
 
 /**
- * For each triangle the tetrahedron with the first, larger label of its pair. Its normal points out of this tetrahedron.
+ * For each triangle the tetrahedron with the first, larger label of its pair. Its normal points out of that.
  *
  * @throws FileError: a triangle is no face of such a tetrahedron, so these are not the interfaces of this mesh
  */

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's writers: .vtu and .vtp files (appended raw data, compressed with zlib, 64-bit block headers), .vtk files (binary,
-// version 4.2 of the format, which more programs read than 5.1), and .stl files (binary, all interfaces in one solid).
+// VTK's writers: .vtu and .vtp files (appended raw data, compressed with zlib, 64-bit block headers), .vtk files
+// (binary, version 4.2 of the format, which more programs read than 5.1), and .stl files (binary, all interfaces in one
+// solid).
 //
 // Names of labels and surfaces and the coordinate system are string arrays in memory. meshio reads no file that has
 // one. So files of meshes have the bytes of the texts in their place, see TextsOf() in LabelTable.h. Interfaces of 3D
