@@ -3,8 +3,8 @@
 #include "SliceFiles.h"
 
 #include "Errors.h"
-#include "MeshWriting/XMLText.h"
 #include "OutputFiles.h"
+#include "Text.h"
 #include "WholeFiles.h"
 
 #include <vtkDoubleArray.h>

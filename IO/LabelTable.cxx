@@ -44,39 +44,6 @@ bool IsColored(const std::pair<const std::int64_t, LabelTable::Entry>& row)
 
 } // namespace
 
-bool IsUTF8(std::string_view text)
-{
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size();)
-  {
-    const unsigned char lead = byte(i);
-    const std::size_t length = lead < 0x80 ? 1
-      : lead >= 0xC2 && lead < 0xE0        ? 2
-      : lead >= 0xE0 && lead < 0xF0        ? 3
-      : lead >= 0xF0 && lead < 0xF5        ? 4
-                                           : 0;
-    if (length == 0 || i + length > text.size())
-    {
-      return false;
-    }
-    for (std::size_t j = 1; j < length; ++j)
-    {
-      if ((byte(i + j) & 0xC0) != 0x80)
-      {
-        return false;
-      }
-    }
-    const unsigned char second = length > 1 ? byte(i + 1) : 0;
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-      (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-    {
-      return false;
-    }
-    i += length;
-  }
-  return true;
-}
-
 const std::string& LabelTable::NameOf(std::int64_t label) const
 {
   static const std::string none;

@@ -14,12 +14,13 @@
 #ifndef voxplex_io_LabelTable_h
 #define voxplex_io_LabelTable_h
 
+#include "Text.h"
+
 #include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 class vtkFieldData;
@@ -40,9 +41,6 @@ struct LabelTable
   /** Empty if the label is not listed. */
   const std::string& NameOf(std::int64_t label) const;
 };
-
-/** Whether a text is well-formed UTF-8, without overlong forms and surrogates. */
-bool IsUTF8(std::string_view text);
 
 /**
  * The texts of an array in field data: those of a vtkStringArray, or of the bytes that our .vtu and .vtk files have in

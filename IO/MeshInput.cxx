@@ -32,8 +32,7 @@ namespace
 bool TakesAnything(const std::string& name)
 {
   const std::string extension = ExtensionOf(name);
-  constexpr std::array anything{ ".vtu", ".vtp", ".vtk", ".stl" };
-  return std::find(anything.begin(), anything.end(), extension) != anything.end();
+  return extension == ".vtu" || extension == ".vtp" || extension == ".vtk" || extension == ".stl";
 }
 
 std::string SpaceOf(vtkDataObject* data)
@@ -42,28 +41,28 @@ std::string SpaceOf(vtkDataObject* data)
   return texts.size() == 1 ? texts.front() : "";
 }
 
-/** Arrays without values, as the filters name them. */
+/** Adds an array without values, as the filters name it. */
+template <typename TArray>
+void AddArray(vtkDataSetAttributes* attributes, const char* name, int components = 1)
+{
+  vtkNew<TArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  attributes->AddArray(array);
+}
+
 void AddInterfaceArrays(vtkDataSet* interfaces)
 {
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Labels");
-  labels->SetNumberOfComponents(2);
-  interfaces->GetCellData()->AddArray(labels);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("PointIds");
-  interfaces->GetPointData()->AddArray(ids);
+  AddArray<vtkIntArray>(interfaces->GetCellData(), "Labels", 2);
+  AddArray<vtkIdTypeArray>(interfaces->GetPointData(), "PointIds");
 }
 
 void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
 {
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Label");
-  mesh->GetCellData()->AddArray(labels);
+  AddArray<vtkIntArray>(mesh->GetCellData(), "Label");
   if (isSpaceTime)
   {
-    vtkNew<vtkDoubleArray> times;
-    times->SetName("Time");
-    mesh->GetPointData()->AddArray(times);
+    AddArray<vtkDoubleArray>(mesh->GetPointData(), "Time");
   }
 }
 
@@ -72,17 +71,11 @@ vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name, i
   vtkIdType count, const std::string& what)
 {
   vtkDataArray* array = attributes->GetArray(name);
-  if (!array || array->GetNumberOfComponents() != components)
-  {
-    throw FileError(what + " no array '" + name + "' of " + std::to_string(components) +
-      (components == 1 ? " component" : " components") +
-      "; give the outputs of the meshing filter, or write a .vtu file");
-  }
-  if (array->GetNumberOfTuples() != count)
-  {
-    throw FileError(what + " " + std::to_string(array->GetNumberOfTuples()) + " values '" + name +
-      "' for " + std::to_string(count) + " cells or points");
-  }
+  RefuseIf(!array || array->GetNumberOfComponents() != components, what, " no array '", name,
+    "' of ", components, (components == 1 ? " component" : " components"),
+    "; give the outputs of the meshing filter, or write a .vtu file");
+  RefuseIf(array->GetNumberOfTuples() != count, what, " ", array->GetNumberOfTuples(), " values '",
+    name, "' for ", count, " cells or points");
   return array;
 }
 
@@ -100,11 +93,10 @@ void RequireVertices(vtkCellArray* cells, vtkPointSet* owner)
   {
     cells->GetConnectivityArray()->GetRange(ids.data());
   }
-  if (offsets[0] < 0 || offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) ||
-    ids[0] < 0 || ids[1] >= static_cast<double>(owner->GetNumberOfPoints()))
-  {
-    throw FileError("it has cells with vertices that are none of its points");
-  }
+  RefuseIf(offsets[0] < 0 ||
+      offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) || ids[0] < 0 ||
+      ids[1] >= static_cast<double>(owner->GetNumberOfPoints()),
+    "it has cells with vertices that are none of its points");
 }
 
 void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
@@ -113,16 +105,12 @@ void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std
   {
     return;
   }
-  if (grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells())
-  {
-    throw FileError("it has not as many types as cells");
-  }
+  RefuseIf(grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells(),
+    "it has not as many types as cells");
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {
-    if (grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size)
-    {
-      throw FileError(what + ", and cell " + std::to_string(cell) + " is none; write a .vtu file");
-    }
+    RefuseIf(grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size, what,
+      ", and cell ", cell, " is none; write a .vtu file");
   }
   RequireVertices(grid->GetCells(), grid);
 }
@@ -131,10 +119,8 @@ void RequireTriangles(vtkPolyData* surface)
 {
   vtkCellArray* polygons = surface->GetPolys();
   const bool isOther = surface->GetNumberOfCells() != polygons->GetNumberOfCells();
-  if (isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3))
-  {
-    throw FileError("the interfaces must be triangles in this format; write a .vtp file");
-  }
+  RefuseIf(isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3),
+    "the interfaces must be triangles in this format; write a .vtp file");
   RequireVertices(polygons, surface);
 }
 
@@ -148,28 +134,31 @@ void RequireCells(vtkPolyData* surface)
     RequireVertices(cells, surface);
     for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
     {
-      if (cells->GetCellSize(cell) < leastSize)
-      {
-        throw FileError("it has cells with fewer vertices than they need");
-      }
+      RefuseIf(
+        cells->GetCellSize(cell) < leastSize, "it has cells with fewer vertices than they need");
     }
   }
 }
 
-/** Ids of the mesh's points. */
+/** Whether all numbers, which may be none, are ids of the mesh's points. */
+bool ArePoints(vtkDataArray* ids, vtkIdType numberOfPoints)
+{
+  bool are = true;
+  for (vtkIdType i = 0; are && i < ids->GetNumberOfValues(); ++i)
+  {
+    const int components = ids->GetNumberOfComponents();
+    const double id = ids->GetComponent(i / components, static_cast<int>(i % components));
+    are = id >= 0 && id < static_cast<double>(numberOfPoints);
+  }
+  return are;
+}
+
 void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
 {
   vtkDataArray* ids = RequireArray(interfaces->GetPointData(), "PointIds", 1,
     interfaces->GetNumberOfPoints(), "the interfaces have");
-  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
-  {
-    const double id = ids->GetComponent(i, 0); // perhaps not a number
-    if (!(id >= 0 && id < static_cast<double>(numberOfPoints)))
-    {
-      throw FileError(
-        "the interfaces are not those of this mesh: their PointIds are not its points");
-    }
-  }
+  RefuseIf(!ArePoints(ids, numberOfPoints),
+    "the interfaces are not those of this mesh: their PointIds are not its points");
 }
 
 /** Arrays of time planes, if the mesh has them. */
@@ -181,23 +170,12 @@ void RequireSlabs(vtkUnstructuredGrid* mesh)
   }
   vtkDataArray* const planes = mesh->GetFieldData()->GetArray("TimePlanes");
   vtkDataArray* const pairs = mesh->GetFieldData()->GetArray("PeriodicPairs");
-  if ((planes && planes->GetNumberOfComponents() != 1) ||
-    (pairs && pairs->GetNumberOfComponents() != 2))
-  {
-    throw FileError("its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; "
-                    "write a .vtu file");
-  }
-  for (vtkIdType k = 0; pairs && k < pairs->GetNumberOfTuples(); ++k)
-  {
-    for (const int end : { 0, 1 })
-    {
-      const double id = pairs->GetComponent(k, end); // perhaps not a number
-      if (!(id >= 0 && id < static_cast<double>(mesh->GetNumberOfPoints())))
-      {
-        throw FileError("its PeriodicPairs are not its points");
-      }
-    }
-  }
+  RefuseIf((planes && planes->GetNumberOfComponents() != 1) ||
+      (pairs && pairs->GetNumberOfComponents() != 2),
+    "its arrays 'TimePlanes' or 'PeriodicPairs' are not those of a meshing filter; write a .vtu "
+    "file");
+  RefuseIf(
+    pairs && !ArePoints(pairs, mesh->GetNumberOfPoints()), "its PeriodicPairs are not its points");
 }
 
 /** The input itself is not touched. */
@@ -225,20 +203,12 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab)
 {
   const bool hasCells = this->Mesh && this->Mesh->GetNumberOfCells() > 0;
   const bool isSpaceTime = hasCells && this->Mesh->GetCellType(0) == VTK_POLY_VERTEX;
-  if (hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr))
-  {
-    throw FileError(
-      "the interfaces are not those of this mesh: one is of three dimensions, and the "
-      "other of four");
-  }
+  RefuseIf(hasCells && interfaces && isSpaceTime != (this->Tetrahedra != nullptr),
+    "the interfaces are not those of this mesh: one is of three dimensions, and the other of four");
   this->Dimension = isSpaceTime || this->Tetrahedra ? 4 : 3;
-  if (this->Space.empty())
+  for (const std::string& other : { SpaceOf(interfaces), std::string("unknown") })
   {
-    this->Space = SpaceOf(interfaces);
-  }
-  if (this->Space.empty())
-  {
-    this->Space = "unknown";
+    this->Space = this->Space.empty() ? other : this->Space;
   }
   if (!this->Mesh)
   {
@@ -320,12 +290,10 @@ void MeshInput::Check(Content content, const std::string& name) const
 void MeshInput::CheckSlab(Content content) const
 {
   vtkDataArray* const planes = this->Mesh->GetFieldData()->GetArray("TimePlanes");
-  if (content != Content::Mesh || !planes || !this->Mesh->GetCellData()->HasArray("Slab") ||
-    this->Slab > planes->GetNumberOfTuples())
-  {
-    throw FileError("it has no slab " + std::to_string(this->Slab) +
-      "; slabs are those of the pentatopes of a mesh with time planes");
-  }
+  RefuseIf(content != Content::Mesh || !planes || !this->Mesh->GetCellData()->HasArray("Slab") ||
+      this->Slab > planes->GetNumberOfTuples(),
+    "it has no slab ", this->Slab,
+    "; slabs are those of the pentatopes of a mesh with time planes");
   RequireCells(this->Mesh, VTK_POLY_VERTEX, 5, "the cells of slabs must be pentatopes");
   RequireArray(
     this->Mesh->GetPointData(), "Time", 1, this->Mesh->GetNumberOfPoints(), "the mesh has");

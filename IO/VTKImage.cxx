@@ -9,48 +9,25 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
+#include <vtkTypeTraits.h>
 
 #include <cstddef>
-#include <stdexcept>
+#include <limits>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
 
 namespace voxplex::io
 {
 namespace
 {
 
-int VTKType(ScalarType type)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return VTK_TYPE_INT8;
-    case ScalarType::UInt8:
-      return VTK_TYPE_UINT8;
-    case ScalarType::Int16:
-      return VTK_TYPE_INT16;
-    case ScalarType::UInt16:
-      return VTK_TYPE_UINT16;
-    case ScalarType::Int32:
-      return VTK_TYPE_INT32;
-    case ScalarType::UInt32:
-      return VTK_TYPE_UINT32;
-    case ScalarType::Int64:
-      return VTK_TYPE_INT64;
-    case ScalarType::UInt64:
-      return VTK_TYPE_UINT64;
-    case ScalarType::Float32:
-      return VTK_TYPE_FLOAT32;
-    case ScalarType::Float64:
-      return VTK_TYPE_FLOAT64;
-  }
-  throw std::logic_error("unknown scalar type");
-}
-
 /** An array over the image's own buffer, which it keeps alive for as long as it lives itself. */
 vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
 {
-  const auto array =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTKType(image.Type)));
+  const int type =
+    Dispatch(image.Type, [](auto zero) { return vtkTypeTraits<decltype(zero)>::VTKTypeID(); });
+  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   array->SetName("Labels");
   const std::size_t frameSize =
     image.NumberOfVoxels() * static_cast<std::size_t>(array->GetDataTypeSize());
@@ -65,6 +42,52 @@ vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
     [](void* share) { delete static_cast<std::shared_ptr<void>*>(share); });
   array->AddObserver(vtkCommand::UserEvent, owner);
   return array;
+}
+
+/** Whether a scalar type has this very number. */
+template <typename T>
+bool Holds(std::int64_t label)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return label <= std::int64_t{ 1 } << std::numeric_limits<T>::digits;
+  }
+  else
+  {
+    return std::in_range<T>(label);
+  }
+}
+
+/** Keyed by the scalars' own type: comparing values of different types could take one for another. */
+template <typename T>
+void KeepSeen(const ScalarImage& image, LabelTable& table)
+{
+  std::unordered_map<T, std::int64_t> unseen;
+  for (const auto& [label, entry] : table.Entries)
+  {
+    if (Holds<T>(label))
+    {
+      unseen.emplace(static_cast<T>(label), label);
+    }
+  }
+  LabelTable seen;
+  const T* const scalars = static_cast<const T*>(image.Scalars.get());
+  const std::size_t count = image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames);
+  T last = 0; // the background, and then the previous voxel: they come in runs
+  for (std::size_t i = 0; i < count && !unseen.empty(); ++i)
+  {
+    if (scalars[i] != last)
+    {
+      last = scalars[i];
+      const auto found = unseen.find(last);
+      if (found != unseen.end())
+      {
+        seen.Entries.insert(table.Entries.extract(found->second));
+        unseen.erase(found);
+      }
+    }
+  }
+  table = std::move(seen);
 }
 
 } // namespace
@@ -97,6 +120,11 @@ void AddSpaceArray(vtkDataObject* data, Space space)
   array->SetName("SPACE");
   array->InsertNextValue(ToString(space));
   data->GetFieldData()->AddArray(array);
+}
+
+void KeepLabelsOf(const ScalarImage& image, LabelTable& table)
+{
+  Dispatch(image.Type, [&](auto zero) { KeepSeen<decltype(zero)>(image, table); });
 }
 
 } // namespace voxplex::io

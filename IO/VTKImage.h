@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VTKImage.h
- * @brief From the image that was read to vtkImageData, without copying voxels.
+ * @brief From the image that was read to vtkImageData, without copying voxels, and the labels that it has.
  */
 #ifndef voxplex_io_VTKImage_h
 #define voxplex_io_VTKImage_h
 
 #include "ImageReading/ScalarImage.h"
+#include "LabelTable.h"
 #include "Space.h"
 
 #include <vtkSmartPointer.h>
@@ -26,6 +27,9 @@ vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, 
 
 /** Adds the field-data string array SPACE, which 3D Slicer reads. */
 void AddSpaceArray(vtkDataObject* data, Space space);
+
+/** Removes labels that no voxel of any frame has. Ends when all of them have been seen. */
+void KeepLabelsOf(const ScalarImage& image, LabelTable& table);
 
 } // namespace voxplex::io
 

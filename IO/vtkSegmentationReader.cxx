@@ -3,7 +3,6 @@
 #include "vtkSegmentationReader.h"
 
 #include "FileError.h"
-#include "ImageLabels.h"
 #include "ImageReading/Placement.h"
 #include "ImageReading/ReadImage.h"
 #include "LabelTable.h"
@@ -22,10 +21,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
-using voxplex::io::ScalarImage;
+using namespace voxplex::io;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
@@ -47,21 +45,14 @@ int NearestFrame(const ScalarImage& image, double time)
 /** Replaces the times of the file. */
 void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::string& path)
 {
-  if (times.size() != static_cast<std::size_t>(image.Frames))
-  {
-    throw voxplex::io::FileError("AddFrameTime() gave " + std::to_string(times.size()) +
-      " times, but '" + path + "' has " + std::to_string(image.Frames) +
-      (image.Frames == 1 ? " frame" : " frames") + "; give one time for each frame");
-  }
+  RefuseIf(times.size() != static_cast<std::size_t>(image.Frames), "AddFrameTime() gave ",
+    times.size(), " times, but '", path, "' has ", image.Frames,
+    (image.Frames == 1 ? " frame" : " frames"), "; give one time for each frame");
   for (std::size_t frame = 0; frame < times.size(); ++frame)
   {
-    if (!std::isfinite(times[frame]) || (frame > 0 && !(times[frame] > times[frame - 1])))
-    {
-      std::ostringstream reason;
-      reason << "the times of AddFrameTime() must be finite and increase, but that of frame "
-             << frame << " is " << times[frame];
-      throw voxplex::io::FileError(reason.str());
-    }
+    RefuseIf(!std::isfinite(times[frame]) || (frame > 0 && !(times[frame] > times[frame - 1])),
+      "the times of AddFrameTime() must be finite and increase, but that of frame ", frame, " is ",
+      times[frame]);
   }
   image.Times = times;
 }
@@ -71,7 +62,7 @@ void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::s
 struct vtkSegmentationReader::Internals
 {
   ScalarImage Image; ///< without voxels as long as nothing was read
-  voxplex::io::LabelTable Labels;
+  LabelTable Labels;
   std::string LabelSource;
   std::vector<std::string> Warnings;
   vtkTimeStamp ReadTime;
@@ -191,11 +182,8 @@ bool vtkSegmentationReader::Read()
   this->ErrorMessage.clear();
   try
   {
-    if (!this->FileName || !*this->FileName)
-    {
-      throw voxplex::io::FileError("no file name is set");
-    }
-    voxplex::io::ImageAnswer answer = voxplex::io::ReadImage(
+    RefuseIf(!this->FileName || !*this->FileName, "no file name is set");
+    ImageAnswer answer = ReadImage(
       { this->FileName, this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere });
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
@@ -226,14 +214,13 @@ bool vtkSegmentationReader::Read()
 void vtkSegmentationReader::PlaceImage()
 {
   ScalarImage& image = this->Private->Image;
-  const std::array<double, 3> signs =
-    voxplex::io::SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
+  const std::array<double, 3> signs = SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
   const bool hasDirection = std::any_of(std::begin(this->Direction), std::end(this->Direction),
     [](double number) { return number != 0; });
   const auto given = std::count_if(
     std::begin(this->Spacing), std::end(this->Spacing), [](double number) { return number > 0; });
-  std::array<voxplex::io::Vector3, 3> steps{};
-  voxplex::io::Vector3 origin{};
+  std::array<Vector3, 3> steps{};
+  Vector3 origin{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double spacing = this->Spacing[axis] > 0 ? this->Spacing[axis] : image.Spacing[axis];
@@ -259,12 +246,11 @@ void vtkSegmentationReader::PlaceImage()
   }
   try
   {
-    voxplex::io::Place(image, steps, origin);
+    Place(image, steps, origin);
   }
-  catch (const voxplex::io::FileError&)
+  catch (const FileError&)
   {
-    throw voxplex::io::FileError("SetSpacing(), SetOrigin() and SetDirection() give '" +
-      std::string(this->FileName) +
+    Refuse("SetSpacing(), SetOrigin() and SetDirection() give '", this->FileName,
       "' no place in space: numbers must be finite, and the columns of the direction matrix "
       "independent");
   }
@@ -277,25 +263,25 @@ void vtkSegmentationReader::ReadLabels()
   if (this->LabelTableFileName && *this->LabelTableFileName)
   {
     data.LabelSource = this->LabelTableFileName;
-    data.Labels = voxplex::io::ReadLabelTableFile(data.LabelSource);
+    data.Labels = ReadLabelTableFile(data.LabelSource);
   }
   else if (!data.Labels.Entries.empty()) // the image's own
   {
     data.LabelSource = this->FileName;
   }
-  else if (const auto beside = voxplex::io::FindLabelTableFile(this->FileName))
+  else if (const auto beside = FindLabelTableFile(this->FileName))
   {
     try
     {
-      data.Labels = voxplex::io::ReadLabelTableFile(*beside);
+      data.Labels = ReadLabelTableFile(*beside);
       data.LabelSource = *beside;
     }
-    catch (const voxplex::io::FileError& error)
+    catch (const FileError& error)
     {
       data.Warnings.push_back(std::string("labels have no names: ") + error.what());
     }
   }
-  voxplex::io::KeepLabelsOf(data.Image, data.Labels);
+  KeepLabelsOf(data.Image, data.Labels);
   if (data.Labels.Entries.empty() && !data.LabelSource.empty())
   {
     data.Warnings.push_back(
@@ -320,7 +306,7 @@ int vtkSegmentationReader::RequestInformation(
   }
   const ScalarImage& image = this->Private->Image;
   const auto space = static_cast<voxplex::io::Space>(this->Space);
-  const auto frame = voxplex::io::ToVTKImage(image, space);
+  const auto frame = ToVTKImage(image, space);
   information->Set(Pipeline::WHOLE_EXTENT(), frame->GetExtent(), 6);
   information->Set(vtkDataObject::ORIGIN(), frame->GetOrigin(), 3);
   information->Set(vtkDataObject::SPACING(), frame->GetSpacing(), 3);
@@ -350,12 +336,12 @@ int vtkSegmentationReader::RequestData(
   const int frame =
     hasTime ? NearestFrame(image, information->Get(Pipeline::UPDATE_TIME_STEP())) : 0;
   const auto space = static_cast<voxplex::io::Space>(this->Space);
-  output->ShallowCopy(voxplex::io::ToVTKImage(image, space, frame));
+  output->ShallowCopy(ToVTKImage(image, space, frame));
   if (image.Frames > 1)
   {
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), image.TimeOf(frame));
   }
-  voxplex::io::AddSpaceArray(output, space);
-  voxplex::io::SetLabelTable(output->GetFieldData(), this->Private->Labels);
+  AddSpaceArray(output, space);
+  SetLabelTable(output->GetFieldData(), this->Private->Labels);
   return 1;
 }

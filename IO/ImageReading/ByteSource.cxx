@@ -68,8 +68,9 @@ std::size_t FileSource::Read(std::span<std::byte> to)
   return ahead + got;
 }
 
-InflateSource::InflateSource(ByteSource& packed)
+InflateSource::InflateSource(ByteSource& packed, bool hasHeader)
   : Packed(packed)
+  , HasHeader(hasHeader)
 {
 }
 
@@ -86,7 +87,7 @@ bool InflateSource::Refill()
 {
   if (!this->HasStarted)
   {
-    if (inflateInit2(&this->Stream, ZlibOrGzip) != Z_OK)
+    if (inflateInit2(&this->Stream, this->HasHeader ? ZlibOrGzip : -MAX_WBITS) != Z_OK)
     {
       throw std::bad_alloc();
     }
@@ -110,7 +111,7 @@ std::size_t InflateSource::Read(std::span<std::byte> to)
     if (this->HasEnded)
     {
       constexpr unsigned char gzip = 0x1f;
-      if (*this->Stream.next_in != gzip)
+      if (!this->HasHeader || *this->Stream.next_in != gzip)
       {
         break; // bytes after the streams
       }
@@ -128,11 +129,9 @@ std::size_t InflateSource::Read(std::span<std::byte> to)
     {
       throw std::bad_alloc();
     }
-    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
-    {
-      throw FileError("it is damaged: its compressed voxels do not unpack (" +
-        std::string(this->Stream.msg ? this->Stream.msg : "no zlib or gzip stream") + ")");
-    }
+    RefuseIf(result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR,
+      "it is damaged: its compressed voxels do not unpack (",
+      this->Stream.msg ? this->Stream.msg : "no zlib or gzip stream", ")");
   }
   return done;
 }
@@ -142,10 +141,8 @@ void InflateSource::Finish()
   std::vector<std::byte> rest(BufferSize);
   while (!this->HasEnded)
   {
-    if (this->Read(rest) == 0 && !this->HasEnded)
-    {
-      throw FileError("it is truncated: the end of its compressed voxels is missing");
-    }
+    RefuseIf(this->Read(rest) == 0 && !this->HasEnded,
+      "it is truncated: the end of its compressed voxels is missing");
   }
 }
 

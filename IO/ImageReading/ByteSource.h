@@ -66,11 +66,14 @@ private:
   std::uint64_t Left; ///< bytes of the part
 };
 
-/** What a zlib or gzip stream unpacks to; gzip streams may follow each other, as parallel programs write them. */
+/**
+ * What a zlib or gzip stream unpacks to; gzip streams may follow each other, as parallel programs write them. Or what a
+ * stream without a header does.
+ */
 class InflateSource : public ByteSource
 {
 public:
-  explicit InflateSource(ByteSource& packed);
+  explicit InflateSource(ByteSource& packed, bool hasHeader = true);
   ~InflateSource() override;
   InflateSource(const InflateSource&) = delete;
   InflateSource& operator=(const InflateSource&) = delete;
@@ -87,6 +90,7 @@ private:
   ByteSource& Packed;
   std::vector<std::byte> Input;
   z_stream Stream{};
+  bool HasHeader;
   bool HasStarted = false;
   bool HasEnded = false;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DICOMCodestream.h"
+#include "DICOMPixels.h"
 
 #include "FileError.h"
 
@@ -38,18 +38,12 @@ struct Header
 
 constexpr std::uint32_t EndOfImage = 0xFFD9; // of all three
 
-[[noreturn]] void RefuseDamage(const std::string& what)
-{
-  throw FileError("its pixels are truncated or damaged: " + what);
-}
+constexpr const char* Damaged = "its pixels are truncated or damaged: ";
 
 /** At a position; big endian. */
 std::uint32_t NumberAt(Codestream stream, std::size_t at, std::size_t size)
 {
-  if (at + size > stream.size())
-  {
-    RefuseDamage("a compressed frame ends within its header");
-  }
+  RefuseIf(at + size > stream.size(), Damaged, "a compressed frame ends within its header");
   return ReadNumber(stream.subspan(at, size), true);
 }
 
@@ -61,10 +55,8 @@ Codestream WithoutPadding(const std::vector<std::byte>& packed)
   {
     stream = stream.first(stream.size() - 1);
   }
-  if (stream.size() < 4 || NumberAt(stream, stream.size() - 2, 2) != EndOfImage)
-  {
-    RefuseDamage("a compressed frame of " + std::to_string(packed.size()) + " bytes has no end");
-  }
+  RefuseIf(stream.size() < 4 || NumberAt(stream, stream.size() - 2, 2) != EndOfImage, Damaged,
+    "a compressed frame of ", packed.size(), " bytes has no end");
   return stream;
 }
 
@@ -101,10 +93,8 @@ Header ReadHeaderOfJPEG(Codestream stream, bool isLS)
     }
     isSound = isSound && marker >= firstFrame && marker != EndOfImage;
   }
-  if (!isSound || !header)
-  {
-    RefuseDamage(isLS ? "a frame is no JPEG-LS" : "a frame is no JPEG of a kind that is supported");
-  }
+  RefuseIf(!isSound || !header, Damaged,
+    isLS ? "a frame is no JPEG-LS" : "a frame is no JPEG of a kind that is supported");
   header->Scan = at;
   header->IsLossy = isLS ? NumberAt(stream, at - 3, 1) != 0 // how far off values may be
                          : header->Frame != LosslessFrame;
@@ -123,10 +113,8 @@ std::vector<std::byte> WithWarning(Codestream stream, std::size_t scan)
   {
     const std::uint32_t marker = NumberAt(stream, at, 2);
     const bool isRestart = marker >= FirstRestart && marker < FirstRestart + 8;
-    if (marker > 0xFF00 && marker != FillBytes && !isRestart)
-    {
-      RefuseDamage("a compressed frame has a marker within its pixels");
-    }
+    RefuseIf(marker > 0xFF00 && marker != FillBytes && !isRestart, Damaged,
+      "a compressed frame has a marker within its pixels");
     if (marker != FillBytes)
     {
       result.push_back(stream[at]);
@@ -166,17 +154,11 @@ bool CheckTiles(Codestream stream, std::uint64_t count)
       at = stream.size() - 2;
       break;
     }
-    if (length < shortest)
-    {
-      RefuseDamage("a JPEG 2000 tile has " + std::to_string(length) + " bytes");
-    }
+    RefuseIf(length < shortest, Damaged, "a JPEG 2000 tile has ", length, " bytes");
     at += length;
   }
-  if (at != stream.size() - 2 || tiles.size() != count)
-  {
-    RefuseDamage("a JPEG 2000 frame has " + std::to_string(tiles.size()) + " whole tiles of " +
-      std::to_string(count));
-  }
+  RefuseIf(at != stream.size() - 2 || tiles.size() != count, Damaged, "a JPEG 2000 frame has ",
+    tiles.size(), " whole tiles of ", count);
   return isReversible;
 }
 
@@ -185,15 +167,11 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
 {
   constexpr std::uint32_t startOfCodestream = 0xFF4FFF51; // with SIZ
   constexpr std::uint32_t startOfFile = 0x0000000C;
-  if (NumberAt(stream, 0, 4) == startOfFile)
-  {
-    throw FileError("its frames are files of JPEG 2000, where codestreams must be: decompress it "
-                    "first (gdcmconv --raw)");
-  }
-  if (NumberAt(stream, 0, 4) != startOfCodestream)
-  {
-    RefuseDamage("a frame is no JPEG 2000 codestream");
-  }
+  RefuseIf(NumberAt(stream, 0, 4) == startOfFile,
+    "its frames are files of JPEG 2000, where codestreams must be: decompress it first (gdcmconv "
+    "--raw)");
+  RefuseIf(
+    NumberAt(stream, 0, 4) != startOfCodestream, Damaged, "a frame is no JPEG 2000 codestream");
   const std::uint64_t right = NumberAt(stream, 8, 4);
   const std::uint64_t bottom = NumberAt(stream, 12, 4);
   const std::uint64_t left = NumberAt(stream, 16, 4);
@@ -204,11 +182,9 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
   const std::uint64_t tileTop = NumberAt(stream, 36, 4);
   const std::uint32_t depth = NumberAt(stream, 42, 1);
   const bool isWhole = NumberAt(stream, 43, 2) == 0x0101; // not subsampled
-  if (!isWhole || left >= right || top >= bottom || tileLeft > left || tileTop > top ||
-    tileColumns == 0 || tileRows == 0)
-  {
-    RefuseDamage("a frame has sizes that JPEG 2000 does not allow, or is subsampled");
-  }
+  RefuseIf(!isWhole || left >= right || top >= bottom || tileLeft > left || tileTop > top ||
+      tileColumns == 0 || tileRows == 0,
+    Damaged, "a frame has sizes that JPEG 2000 does not allow, or is subsampled");
   const bool isReversible = CheckTiles(stream,
     ((right - tileLeft + tileColumns - 1) / tileColumns) *
       ((bottom - tileTop + tileRows - 1) / tileRows));
@@ -218,28 +194,19 @@ Header ReadHeaderOfJPEG2000(Codestream stream)
 
 void CheckHeader(const Header& header, const DICOMPixelFormat& format)
 {
-  if (header.Columns != format.Columns || header.Rows != format.Rows || header.Components != 1)
-  {
-    throw FileError("its pixels are damaged: a compressed frame has " +
-      std::to_string(header.Columns) + " x " + std::to_string(header.Rows) + " pixels of " +
-      std::to_string(header.Components) + " components, and its header says " +
-      std::to_string(format.Columns) + " x " + std::to_string(format.Rows) + " of 1");
-  }
+  RefuseIf(header.Columns != format.Columns || header.Rows != format.Rows || header.Components != 1,
+    "its pixels are damaged: a compressed frame has ", header.Columns, " x ", header.Rows,
+    " pixels of ", header.Components, " components, and its header says ", format.Columns, " x ",
+    format.Rows, " of 1");
   const bool isShifted =
     format.HighBit + 1 != format.BitsStored && header.Bits != format.BitsAllocated;
   const bool isSignLost = format.IsSigned ? header.Bits < format.BitsStored : header.IsSigned;
-  if (header.Bits < 2)
-  {
-    throw FileError("its pixels are compressed and have " + std::to_string(header.Bits) +
-      " bit, which is not supported: decompress it first (gdcmconv --raw)");
-  }
-  if (header.Bits > format.BitsAllocated || isShifted || isSignLost)
-  {
-    throw FileError("its pixels have " + std::to_string(header.Bits) +
-      (header.IsSigned ? " signed" : "") + " bits where they are compressed, and " +
-      std::to_string(format.BitsStored) + (format.IsSigned ? " signed" : "") +
-      " in its header, which do not fit together: decompress it first (gdcmconv --raw, dcmdjpeg)");
-  }
+  RefuseIf(header.Bits < 2, "its pixels are compressed and have ", header.Bits,
+    " bit, which is not supported: decompress it first (gdcmconv --raw)");
+  RefuseIf(header.Bits > format.BitsAllocated || isShifted || isSignLost, "its pixels have ",
+    header.Bits, (header.IsSigned ? " signed" : ""), " bits where they are compressed, and ",
+    format.BitsStored, (format.IsSigned ? " signed" : ""),
+    " in its header, which do not fit together: decompress it first (gdcmconv --raw, dcmdjpeg)");
 }
 
 /** With one codec of GDCM. */
@@ -269,11 +236,8 @@ DICOMFrame Decode(gdcm::ImageCodec& codec, const Header& header, Codestream stre
   const std::size_t bytesOfSample = (pixels.GetBitsAllocated() + 7U) / 8U;
   const std::uint64_t expected = format.Pixels() * bytesOfSample;
   const std::uint64_t found = bytes ? static_cast<std::uint32_t>(bytes->GetLength()) : 0;
-  if (found != expected && found != expected + expected % 2)
-  {
-    RefuseDamage("a compressed frame gives " + std::to_string(found) + " of " +
-      std::to_string(expected) + " bytes");
-  }
+  RefuseIf(found != expected && found != expected + expected % 2, Damaged,
+    "a compressed frame gives ", found, " of ", expected, " bytes");
   const auto* begin = reinterpret_cast<const std::byte*>(bytes->GetPointer());
   return { { begin, begin + expected }, bytesOfSample, header.IsLossy };
 }

@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DICOMDataSet.h"
 
-#include "Excerpt.h"
+#include "ByteSource.h"
 #include "FileError.h"
-
-#include <zlib.h>
+#include "Text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <iomanip>
+#include <deque>
 #include <limits>
-#include <sstream>
+#include <ostream>
 
 namespace voxplex::io
 {
@@ -25,28 +23,20 @@ public:
     : File(path)
   {
   }
-  ~DICOMSource()
-  {
-    if (this->IsDeflated)
-    {
-      inflateEnd(&this->Stream);
-    }
-  }
-  DICOMSource(const DICOMSource&) = delete;
-  DICOMSource& operator=(const DICOMSource&) = delete;
 
   void InflateFrom(std::uint64_t position)
   {
-    this->IsDeflated = inflateInit2(&this->Stream, -MAX_WBITS) == Z_OK;
-    this->Start = this->Next = position;
+    this->Packed.emplace(this->File, position);
+    this->Stream.emplace(*this->Packed, false);
+    this->Start = position;
   }
 
   std::uint64_t Available(std::uint64_t position, std::uint64_t length)
   {
-    if (this->IsDeflated && position >= this->Start)
+    if (this->Stream && position >= this->Start)
     {
       this->Inflate(position - this->Start + length);
-      const std::uint64_t end = this->Start + this->NumberUnpacked;
+      const std::uint64_t end = this->Start + this->Unpacked.size();
       return std::min(length, end - std::min(end, position));
     }
     return std::min(length, this->File.Size() - std::min(this->File.Size(), position));
@@ -55,19 +45,12 @@ public:
   std::size_t ReadAt(std::uint64_t position, std::span<std::byte> to)
   {
     const auto length = static_cast<std::size_t>(this->Available(position, to.size()));
-    if (!this->IsDeflated || position < this->Start)
+    if (!this->Stream || position < this->Start)
     {
       return this->ReadFile(position, to.first(length));
     }
-    for (std::size_t done = 0; done < length;)
-    {
-      const auto at = static_cast<std::size_t>(position - this->Start) + done;
-      const std::span<const std::byte> part =
-        std::span(this->Unpacked[at / PartSize]).subspan(at % PartSize);
-      const std::size_t count = std::min(length - done, part.size());
-      std::copy_n(part.begin(), count, to.begin() + static_cast<std::ptrdiff_t>(done));
-      done += count;
-    }
+    std::copy_n(this->Unpacked.begin() + static_cast<std::ptrdiff_t>(position - this->Start),
+      length, to.begin());
     return length;
   }
 
@@ -97,47 +80,37 @@ private:
 
   void Inflate(std::uint64_t wanted)
   {
-    std::array<std::byte, 1 << 16> packed;
-    while (!this->IsAtEnd && this->NumberUnpacked < wanted)
+    std::vector<std::byte> part(1 << 20);
+    while (!this->IsAtEnd && this->Unpacked.size() < wanted)
     {
-      if (this->Stream.avail_in == 0)
+      std::size_t got = 0;
+      try
       {
-        const std::size_t got = this->File.ReadAt(this->Next, packed);
-        this->Next += got;
-        this->Stream.next_in = reinterpret_cast<Bytef*>(packed.data());
-        this->Stream.avail_in = static_cast<uInt>(got);
+        got = this->Stream->Read(part);
+        this->IsAtEnd = got < part.size();
+        if (this->IsAtEnd)
+        {
+          this->Stream->Finish();
+        }
       }
-      const std::size_t used = this->NumberUnpacked % PartSize;
-      if (this->NumberUnpacked == PartSize * this->Unpacked.size())
+      catch (const FileError&)
       {
-        this->Unpacked.emplace_back(PartSize);
+        Refuse("it is truncated or damaged: what is compressed in it does not unpack");
       }
-      this->Stream.next_out = reinterpret_cast<Bytef*>(this->Unpacked.back().data() + used);
-      this->Stream.avail_out = static_cast<uInt>(PartSize - used);
-      const int status = inflate(&this->Stream, Z_NO_FLUSH);
-      this->NumberUnpacked += PartSize - used - this->Stream.avail_out;
-      this->IsAtEnd = status == Z_STREAM_END;
-      if (status != Z_OK && status != Z_STREAM_END)
-      {
-        throw FileError("it is truncated or damaged: what is compressed in it does not unpack");
-      }
+      this->Unpacked.insert(
+        this->Unpacked.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(got));
     }
-    this->Next -= this->Stream.avail_in; // is read again: `packed` does not outlive the call
-    this->Stream.avail_in = 0;
   }
 
   InputFile File;
   std::vector<std::byte> Window;
   std::uint64_t WindowStart = 0;
 
-  bool IsDeflated = false;
+  std::optional<FileSource> Packed;
+  std::optional<InflateSource> Stream; ///< empty if nothing is deflated
+  std::uint64_t Start = 0;             ///< of what is deflated
+  std::deque<std::byte> Unpacked;      ///< which grows without a copy
   bool IsAtEnd = false;
-  std::uint64_t Start = 0; ///< of what is deflated
-  std::uint64_t Next = 0;  ///< of the file, to be unpacked
-  z_stream Stream{};
-  static constexpr std::size_t PartSize = 1 << 20;
-  std::vector<std::vector<std::byte>> Unpacked; ///< all parts have this size
-  std::uint64_t NumberUnpacked = 0;             ///< bytes
 };
 
 namespace
@@ -169,14 +142,6 @@ bool Contains(const TList& list, std::string_view name)
 bool IsPixels(std::uint32_t tag)
 {
   return std::find(Pixels.begin(), Pixels.end(), tag) != Pixels.end();
-}
-
-std::string NameOf(std::uint32_t tag)
-{
-  std::ostringstream text;
-  text << std::hex << std::setfill('0') << '(' << std::setw(4) << (tag >> 16) << ',' << std::setw(4)
-       << (tag & 0xFFFF) << ')';
-  return text.str();
 }
 
 /** Goes through elements by their grammar. */
@@ -230,11 +195,8 @@ public:
       this->Position += element.Length;
       return;
     }
-    if (depth == DeepestNesting)
-    {
-      throw FileError("it is damaged: its sequences are nested more than " +
-        std::to_string(DeepestNesting) + " deep");
-    }
+    RefuseIf(depth == DeepestNesting, "it is damaged: its sequences are nested more than ",
+      DeepestNesting, " deep");
     const DICOMSyntax inner = SyntaxInside(element, syntax);
     for (DICOMElement item = this->NextItem(inner, end); item.Tag != SequenceEnd;
          item = this->NextItem(inner, end))
@@ -247,11 +209,8 @@ public:
   DICOMElement NextItem(const DICOMSyntax& syntax, std::uint64_t end)
   {
     const DICOMElement item = this->Next(syntax, end);
-    if (item.Tag != Item && item.Tag != SequenceEnd)
-    {
-      throw FileError(
-        "it is damaged: its element " + NameOf(item.Tag) + " is where an item must be");
-    }
+    RefuseIf(item.Tag != Item && item.Tag != SequenceEnd, "it is damaged: its element ",
+      DICOMTag{ item.Tag }, " is where an item must be");
     return item;
   }
 
@@ -278,14 +237,10 @@ public:
       {
         return;
       }
-      if (element.Tag >> 16 == 0xFFFE || element.Tag >> 16 == 0 || element.Tag >> 16 == 2)
-      {
-        throw FileError("it is damaged: its element " + NameOf(element.Tag) + " is out of place");
-      }
-      if (!elements.emplace(element.Tag, element).second)
-      {
-        throw FileError("it is damaged: it has its element " + NameOf(element.Tag) + " twice");
-      }
+      RefuseIf(element.Tag >> 16 == 0xFFFE || element.Tag >> 16 == 0 || element.Tag >> 16 == 2,
+        "it is damaged: its element ", DICOMTag{ element.Tag }, " is out of place");
+      RefuseIf(!elements.emplace(element.Tag, element).second, "it is damaged: it has its element ",
+        DICOMTag{ element.Tag }, " twice");
       if (depth == 0 && IsPixels(element.Tag))
       {
         return;
@@ -307,10 +262,8 @@ private:
   {
     std::array<std::byte, 4> bytes;
     const std::span<std::byte> part = std::span(bytes).first(size);
-    if (this->Source.ReadAt(this->Position, part) != size)
-    {
-      throw FileError("it is truncated or damaged: it ends within an element");
-    }
+    RefuseIf(this->Source.ReadAt(this->Position, part) != size,
+      "it is truncated or damaged: it ends within an element");
     this->Position += size;
     return ReadNumber(part, isBigEndian);
   }
@@ -325,7 +278,7 @@ private:
     {
       const bool isNamed = std::all_of(element.Representation.begin(), element.Representation.end(),
         [](char letter) { return letter >= 'A' && letter <= 'Z'; });
-      throw FileError("it is damaged: its element " + NameOf(element.Tag) +
+      Refuse("it is damaged: its element ", DICOMTag{ element.Tag },
         (isNamed ? " has the value representation '" + std::string(element.VR()) +
               "', which DICOM does not have"
                  : " has no value representation"));
@@ -340,10 +293,7 @@ private:
     {
       const bool mayBe = element.Tag >> 16 == 0xFFFE || !element.HasVR() || element.VR() == "SQ" ||
         element.VR() == "UN" || IsPixels(element.Tag);
-      if (!mayBe)
-      {
-        throw FileError("it is damaged: its element " + NameOf(element.Tag) + " has no length");
-      }
+      RefuseIf(!mayBe, "it is damaged: its element ", DICOMTag{ element.Tag }, " has no length");
       return;
     }
     if (IsPixels(element.Tag) && end == NoEnd) // is compared with the sizes of the image first
@@ -352,37 +302,18 @@ private:
     }
     const std::uint64_t left = std::min(
       this->Source.Available(this->Position, element.Length), end - std::min(end, this->Position));
-    if (left < element.Length || this->Position > end)
-    {
-      throw FileError("it is truncated or damaged: its element " + NameOf(element.Tag) +
-        " claims " + std::to_string(element.Length) + " bytes, and " + std::to_string(left) +
-        " are left");
-    }
+    RefuseIf(left < element.Length || this->Position > end,
+      "it is truncated or damaged: its element ", DICOMTag{ element.Tag }, " claims ",
+      element.Length, " bytes, and ", left, " are left");
   }
 
   DICOMSource& Source;
   std::uint64_t Position = 0;
 };
 
-std::string Trim(const std::string& text)
+std::string_view TrimValue(std::string_view text)
 {
-  constexpr std::string_view blanks(" \0\t\r\n", 5);
-  const std::size_t begin = text.find_first_not_of(blanks);
-  return begin == std::string::npos ? ""
-                                    : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-/** Without the locale's decimal mark. Blanks may surround it. */
-std::optional<double> ParseNumber(const std::string& text)
-{
-  std::string word = Trim(text);
-  word.erase(0, word.starts_with('+') ? 1 : 0);
-  double number = 0.0;
-  const std::from_chars_result result =
-    std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool isNumber =
-    result.ec == std::errc() && result.ptr == word.data() + word.size() && std::isfinite(number);
-  return isNumber ? std::optional(number) : std::nullopt;
+  return Trim(text, { " \0\t\r\n", 5 });
 }
 
 DICOMSyntax SyntaxNamed(const std::string& uid)
@@ -392,9 +323,15 @@ DICOMSyntax SyntaxNamed(const std::string& uid)
 
 } // namespace
 
-std::string Describe(const DICOMTag& tag)
+std::ostream& operator<<(std::ostream& stream, const DICOMTag& tag)
 {
-  return std::string(tag.Name) + " " + NameOf(tag.Number);
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string number = "(0000,0000)";
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    number[i + 1 + i / 4] = digits[tag.Number >> (28 - 4 * i) & 0xF];
+  }
+  return stream << tag.Name << (*tag.Name ? " " : "") << number;
 }
 
 std::uint32_t ReadNumber(std::span<const std::byte> bytes, bool isBigEndian)
@@ -421,24 +358,16 @@ DICOMDataSet::DICOMDataSet(const std::string& path)
   while (!walk.IsAtEnd() && walk.PeekGroup() == 2)
   {
     const DICOMElement element = walk.Next(meta, NoEnd);
-    if (element.Length == DICOMElement::Undefined ||
-      !this->Elements.emplace(element.Tag, element).second)
-    {
-      throw FileError("it is damaged: its element " + NameOf(element.Tag) + " is out of place");
-    }
+    RefuseIf(element.Length == DICOMElement::Undefined ||
+        !this->Elements.emplace(element.Tag, element).second,
+      "it is damaged: its element ", DICOMTag{ element.Tag }, " is out of place");
     walk.Skip(element, meta, NoEnd, 0);
   }
-  if (walk.IsAtEnd())
-  {
-    throw FileError("it is truncated: it ends before its first data element");
-  }
+  RefuseIf(walk.IsAtEnd(), "it is truncated: it ends before its first data element");
   if (const std::string uid = this->Text({ TransferSyntax, "Transfer Syntax UID" }); !uid.empty())
   {
-    if (!uid.starts_with("1.2.840.10008.1.2"))
-    {
-      throw FileError("its transfer syntax '" + Excerpt(uid) +
-        "' is not supported: decompress it first (gdcmconv --raw, dcmdjpeg)");
-    }
+    RefuseIf(!uid.starts_with("1.2.840.10008.1.2"), "its transfer syntax '", Excerpt(uid),
+      "' is not supported: decompress it first (gdcmconv --raw, dcmdjpeg)");
     this->Encoding = SyntaxNamed(uid);
   }
   else
@@ -468,11 +397,9 @@ std::string DICOMDataSet::Value(
   }
   const bool isWrong =
     element->HasVR() && element->VR() != "UN" && !Contains(representations, element->VR());
-  if (isWrong || element->Length == DICOMElement::Undefined)
-  {
-    throw FileError("it is damaged: its element " + NameOf(tag.Number) +
-      " has the value representation '" + std::string(element->VR()) + "', and must not have it");
-  }
+  RefuseIf(isWrong || element->Length == DICOMElement::Undefined, "it is damaged: its element ",
+    DICOMTag{ tag.Number }, " has the value representation '", element->VR(),
+    "', and must not have it");
   std::string value(element->Length, '\0');
   this->ReadBytes(element->Position, std::as_writable_bytes(std::span(value)));
   return value;
@@ -481,7 +408,7 @@ std::string DICOMDataSet::Value(
 std::string DICOMDataSet::Text(const DICOMTag& tag) const
 {
   constexpr std::array<std::string_view, 8> texts{ "CS", "DS", "IS", "LO", "SH", "UI", "ST", "LT" };
-  return Trim(this->Value(tag, texts));
+  return std::string(TrimValue(this->Value(tag, texts)));
 }
 
 std::vector<double> DICOMDataSet::AnyNumbers(const DICOMTag& tag) const
@@ -491,11 +418,10 @@ std::vector<double> DICOMDataSet::AnyNumbers(const DICOMTag& tag) const
   for (std::size_t at = 0; !text.empty() && at <= text.size();)
   {
     const std::size_t end = std::min(text.find('\\', at), text.size());
-    const std::optional<double> number = ParseNumber(text.substr(at, end - at));
-    if (!number)
-    {
-      throw FileError("its " + Describe(tag) + " is '" + Excerpt(text) + "', and must be numbers");
-    }
+    const std::optional<double> number =
+      ToNumber<double>(TrimValue(std::string_view(text).substr(at, end - at)));
+    RefuseIf(!number || !std::isfinite(*number), "its ", tag, " is '", Excerpt(text),
+      "', and must be numbers");
     numbers.push_back(*number);
     at = end + 1;
   }
@@ -507,9 +433,8 @@ std::vector<double> DICOMDataSet::Numbers(const DICOMTag& tag, std::size_t count
   std::vector<double> numbers = this->AnyNumbers(tag);
   if (!numbers.empty() && numbers.size() != count)
   {
-    throw FileError("its " + Describe(tag) + " is '" + Excerpt(this->Text(tag)) +
-      "', and must be " +
-      (count == 1 ? std::string("one number") : std::to_string(count) + " numbers"));
+    Refuse("its ", tag, " is '", Excerpt(this->Text(tag)), "', and must be ",
+      count == 1 ? "one number" : std::to_string(count) + " numbers");
   }
   return numbers;
 }
@@ -522,11 +447,8 @@ std::optional<unsigned> DICOMDataSet::Short(const DICOMTag& tag) const
   {
     return std::nullopt;
   }
-  if (value.size() != 2)
-  {
-    throw FileError("it is damaged: its " + Describe(tag) + " has " + std::to_string(value.size()) +
-      " bytes, and must have 2");
-  }
+  RefuseIf(value.size() != 2, "it is damaged: its ", tag, " has ", value.size(),
+    " bytes, and must have 2");
   return ReadNumber(std::as_bytes(std::span(value)), this->Encoding.IsBigEndian);
 }
 
@@ -567,10 +489,8 @@ std::vector<DICOMElement> DICOMDataSet::Fragments(const DICOMElement& pixels) co
   for (DICOMElement item = walk.NextItem(this->Encoding, NoEnd); item.Tag != SequenceEnd;
        item = walk.NextItem(this->Encoding, NoEnd))
   {
-    if (item.Length == DICOMElement::Undefined)
-    {
-      throw FileError("it is damaged: its compressed pixels have a fragment without a length");
-    }
+    RefuseIf(item.Length == DICOMElement::Undefined,
+      "it is damaged: its compressed pixels have a fragment without a length");
     fragments.push_back(item);
     walk.SkipItem(item, this->Encoding, NoEnd, 0);
   }
@@ -584,10 +504,8 @@ std::uint64_t DICOMDataSet::Available(std::uint64_t position, std::uint64_t leng
 
 void DICOMDataSet::ReadBytes(std::uint64_t position, std::span<std::byte> to) const
 {
-  if (this->Source->ReadAt(position, to) != to.size())
-  {
-    throw FileError("it is truncated or damaged: it ends within an element");
-  }
+  RefuseIf(this->Source->ReadAt(position, to) != to.size(),
+    "it is truncated or damaged: it ends within an element");
 }
 
 bool DICOMDataSet::Recognize(const InputFile& file)

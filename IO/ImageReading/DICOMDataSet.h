@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,8 +35,8 @@ struct DICOMTag
   const char* Name = "";
 };
 
-/** "Rows (0028,0010)" */
-std::string Describe(const DICOMTag& tag);
+/** "Rows (0028,0010)", or "(0028,0010)" if it has no name */
+std::ostream& operator<<(std::ostream& stream, const DICOMTag& tag);
 
 std::uint32_t ReadNumber(std::span<const std::byte> bytes, bool isBigEndian);
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DICOMPixels.h"
 
-#include "DICOMCodestream.h"
-#include "Excerpt.h"
 #include "FileError.h"
+#include "Text.h"
 
 #include <gdcmUIDs.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -35,33 +35,20 @@ constexpr DICOMTag PixelData{ 0x7FE00010, "Pixel Data" };
 unsigned Required(const DICOMDataSet& data, const DICOMTag& tag)
 {
   const std::optional<unsigned> number = data.Short(tag);
-  if (!number)
-  {
-    throw FileError("it has no " + Describe(tag));
-  }
+  RefuseIf(!number, "it has no ", tag);
   return *number;
-}
-
-[[noreturn]] void RefuseValue(const DICOMTag& tag, const std::string& value, const std::string& why)
-{
-  throw FileError("its " + Describe(tag) + " is " + Excerpt(value) + ": " + why);
 }
 
 void CheckColours(const DICOMDataSet& data)
 {
-  const std::string colours =
-    "its voxels are colours, and a label image has one value a voxel: export the labels, "
-    "or convert it to grey values first";
-  if (const unsigned samples = data.Short(SamplesPerPixel).value_or(1); samples != 1)
-  {
-    RefuseValue(SamplesPerPixel, std::to_string(samples), colours);
-  }
+  constexpr const char* colours = ": its voxels are colours, and a label image has one value a "
+                                  "voxel: export the labels, or convert it to grey values first";
+  const unsigned samples = data.Short(SamplesPerPixel).value_or(1);
+  RefuseIf(samples != 1, "its ", SamplesPerPixel, " is ", samples, colours);
   const std::string meaning = data.Text(Photometric);
   const bool isLabels = IsLabelMap(data) && meaning == "PALETTE COLOR";
-  if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1" && !isLabels)
-  {
-    RefuseValue(Photometric, "'" + meaning + "'", colours);
-  }
+  RefuseIf(meaning != "MONOCHROME2" && meaning != "MONOCHROME1" && !isLabels, "its ", Photometric,
+    " is '", Excerpt(meaning), "'", colours);
 }
 
 DICOMPixelFormat ReadFormat(const DICOMDataSet& data)
@@ -74,27 +61,17 @@ DICOMPixelFormat ReadFormat(const DICOMDataSet& data)
   format.HighBit = data.Short(HighBit).value_or(format.BitsStored - 1);
   const unsigned representation = Required(data, PixelRepresentation);
   format.IsSigned = representation == 1;
-  if (format.Rows == 0 || format.Columns == 0)
-  {
-    throw FileError("it has " + std::to_string(format.Rows) + " rows and " +
-      std::to_string(format.Columns) + " columns");
-  }
-  if (format.BitsAllocated != 8 && format.BitsAllocated != 16 && format.BitsAllocated != 32)
-  {
-    RefuseValue(BitsAllocated, std::to_string(format.BitsAllocated),
-      "voxels of 8, 16 and 32 bits are read: convert it first");
-  }
-  const std::string bits = std::to_string(format.BitsStored) + " bits stored up to bit " +
-    std::to_string(format.HighBit) + " of " + std::to_string(format.BitsAllocated);
-  if (format.BitsStored == 0 || format.HighBit >= format.BitsAllocated ||
-    format.HighBit + 1 < format.BitsStored)
-  {
-    throw FileError("its voxels have " + bits + ", which cannot be: correct its header");
-  }
-  if (representation > 1)
-  {
-    RefuseValue(PixelRepresentation, std::to_string(representation), "it must be 0 or 1");
-  }
+  RefuseIf(format.Rows == 0 || format.Columns == 0, "it has ", format.Rows, " rows and ",
+    format.Columns, " columns");
+  RefuseIf(format.BitsAllocated != 8 && format.BitsAllocated != 16 && format.BitsAllocated != 32,
+    "its ", BitsAllocated, " is ", format.BitsAllocated,
+    ": voxels of 8, 16 and 32 bits are read: convert it first");
+  RefuseIf(format.BitsStored == 0 || format.HighBit >= format.BitsAllocated ||
+      format.HighBit + 1 < format.BitsStored,
+    "its voxels have ", format.BitsStored, " bits stored up to bit ", format.HighBit, " of ",
+    format.BitsAllocated, ", which cannot be: correct its header");
+  RefuseIf(
+    representation > 1, "its ", PixelRepresentation, " is ", representation, ": it must be 0 or 1");
   return format;
 }
 
@@ -105,12 +82,10 @@ int ReadNumberOfFrames(const DICOMDataSet& data)
   {
     return 1;
   }
-  if (number[0] < 1 || number[0] > std::numeric_limits<int>::max() ||
-    number[0] != static_cast<int>(number[0]))
-  {
-    RefuseValue(NumberOfFramesTag, "'" + data.Text(NumberOfFramesTag) + "'",
-      "it must be a positive whole number");
-  }
+  RefuseIf(number[0] < 1 || number[0] > std::numeric_limits<int>::max() ||
+      number[0] != std::trunc(number[0]),
+    "its ", NumberOfFramesTag, " is '", Excerpt(data.Text(NumberOfFramesTag)),
+    "': it must be a positive whole number");
   return static_cast<int>(number[0]);
 }
 
@@ -153,12 +128,9 @@ void DecodeSegment(
   const std::span<const std::byte> padding = packed.subspan(at);
   const bool isPadded = std::all_of(
     padding.begin(), padding.end(), [](std::byte byte) { return byte == std::byte(0); });
-  if (done < count || !isPadded)
-  {
-    throw FileError("its pixels are truncated or damaged: a run-length segment has " +
-      (done < count ? std::to_string(done) + " of " : std::string("more than ")) +
-      std::to_string(count) + " bytes");
-  }
+  RefuseIf(done < count || !isPadded,
+    "its pixels are truncated or damaged: a run-length segment has ",
+    (done < count ? std::to_string(done) + " of " : std::string("more than ")), count, " bytes");
 }
 
 /** Segments hold a byte of each pixel, the most significant first. */
@@ -168,24 +140,19 @@ DICOMFrame DecodeRLE(const std::vector<std::byte>& packed, const DICOMPixelForma
   const std::size_t expected = format.BitsAllocated / 8;
   const auto number = [&packed](std::size_t index)
   { return ReadNumber(std::span(packed).subspan(4 * index, 4), false); };
-  if (packed.size() < headerSize || number(0) != expected)
-  {
-    throw FileError("its pixels are damaged: a frame has " +
-      (packed.size() < headerSize ? "no" : std::to_string(number(0))) +
-      " run-length segments, and " + std::to_string(expected) + " are needed");
-  }
+  RefuseIf(packed.size() < headerSize || number(0) != expected,
+    "its pixels are damaged: a frame has ",
+    (packed.size() < headerSize ? "no" : std::to_string(number(0))), " run-length segments, and ",
+    expected, " are needed");
   DICOMFrame frame{ std::vector<std::byte>(static_cast<std::size_t>(format.BytesOfFrame())),
     expected, false };
   for (std::size_t segment = 0; segment < expected; ++segment)
   {
     const std::size_t begin = number(1 + segment);
     const std::size_t end = segment + 1 < expected ? number(2 + segment) : packed.size();
-    if (begin < headerSize || begin > end || end > packed.size())
-    {
-      throw FileError("its pixels are damaged: a run-length segment begins at byte " +
-        std::to_string(begin) + " and ends at byte " + std::to_string(end) + " of " +
-        std::to_string(packed.size()));
-    }
+    RefuseIf(begin < headerSize || begin > end || end > packed.size(),
+      "its pixels are damaged: a run-length segment begins at byte ", begin, " and ends at byte ",
+      end, " of ", packed.size());
     DecodeSegment(std::span(packed).subspan(begin, end - begin),
       frame.Samples.data() + expected - 1 - segment, static_cast<std::size_t>(format.Pixels()),
       expected);
@@ -217,10 +184,7 @@ DICOMPixels::DICOMPixels(const DICOMDataSet& data)
   this->NumberOfFrames = ReadNumberOfFrames(data);
   this->ChooseCompression(data.Syntax().UID, data.Text(LossyCompression));
   const DICOMElement* pixels = data.Find(PixelData);
-  if (!pixels)
-  {
-    throw FileError("it has no " + Describe(PixelData));
-  }
+  RefuseIf(!pixels, "it has no ", PixelData);
   if (this->Method == Compression::None)
   {
     this->CheckRawLength(*pixels);
@@ -229,11 +193,9 @@ DICOMPixels::DICOMPixels(const DICOMDataSet& data)
       data.Syntax().IsBigEndian && (this->Layout.BitsAllocated > 8 || pixels->VR() == "OW");
     return;
   }
-  if (pixels->Length != DICOMElement::Undefined)
-  {
-    throw FileError("its pixels are damaged: they are not compressed, as its transfer syntax " +
-      NameOfSyntax(data.Syntax().UID) + " says");
-  }
+  RefuseIf(pixels->Length != DICOMElement::Undefined,
+    "its pixels are damaged: they are not compressed, as its transfer syntax ",
+    NameOfSyntax(data.Syntax().UID), " says");
   this->FindFrames(*pixels);
   this->CheckRatio();
 }
@@ -259,7 +221,7 @@ void DICOMPixels::ChooseCompression(const std::string& syntax, const std::string
     { return syntax.empty() ? one.UID.empty() : syntax == std::string(root).append(one.UID); });
   if (found == known.end())
   {
-    throw FileError("its transfer syntax " + NameOfSyntax(syntax) +
+    Refuse("its transfer syntax ", NameOfSyntax(syntax),
       " is not supported: decompress it first (gdcmconv --raw, dcmdjpeg)");
   }
   this->Method = found->Method;
@@ -274,25 +236,19 @@ void DICOMPixels::CheckRawLength(const DICOMElement& pixels) const
   const auto frames = static_cast<std::uint64_t>(this->NumberOfFrames);
   const bool isEndless = frame > std::numeric_limits<std::uint64_t>::max() / frames;
   const std::uint64_t needed = frame * frames;
-  if (pixels.Length == DICOMElement::Undefined)
-  {
-    throw FileError("its pixels are damaged: they have no length, and are not compressed");
-  }
-  if (isEndless || pixels.Length < needed)
-  {
-    throw FileError(isEndless ? "its header claims more pixels than memory has"
-                              : Truncation(pixels.Length, needed));
-  }
+  RefuseIf(pixels.Length == DICOMElement::Undefined,
+    "its pixels are damaged: they have no length, and are not compressed");
+  RefuseIf(isEndless || pixels.Length < needed,
+    isEndless ? "its header claims more pixels than memory has"
+              : Truncation(pixels.Length, needed));
   if (const std::uint64_t padded = needed + needed % 2; pixels.Length > padded)
   {
-    throw FileError("its pixels have " + std::to_string(pixels.Length) + " bytes, and " +
-      std::to_string(this->NumberOfFrames) + " frames of " + std::to_string(this->Layout.Columns) +
-      " x " + std::to_string(this->Layout.Rows) + " have " + std::to_string(needed) +
-      ": correct its header");
+    Refuse("its pixels have ", pixels.Length, " bytes, and ", this->NumberOfFrames, " frames of ",
+      this->Layout.Columns, " x ", this->Layout.Rows, " have ", needed, ": correct its header");
   }
   if (const std::uint64_t found = this->Data.Available(pixels.Position, needed); found < needed)
   {
-    throw FileError(Truncation(found, needed));
+    Refuse(Truncation(found, needed));
   }
 }
 
@@ -300,10 +256,7 @@ void DICOMPixels::CheckRawLength(const DICOMElement& pixels) const
 void DICOMPixels::FindFrames(const DICOMElement& pixels)
 {
   std::vector<DICOMElement> fragments = this->Data.Fragments(pixels);
-  if (fragments.empty())
-  {
-    throw FileError("its pixels are truncated: there are none");
-  }
+  RefuseIf(fragments.empty(), "its pixels are truncated: there are none");
   std::vector<std::byte> table(fragments.front().Length);
   this->Data.ReadBytes(fragments.front().Position, table);
   fragments.erase(fragments.begin());
@@ -341,12 +294,9 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
     this->FragmentsOfFrames.back().push_back(fragment);
     hasEnded = isByEnds && EndsImage(this->Data, fragment);
   }
-  if (this->FragmentsOfFrames.size() != frames || (!isByEnds && table.size() != 4 * frames))
-  {
-    throw FileError("its pixels are truncated or damaged: it has " +
-      std::to_string(fragments.size()) + " compressed fragments for " + std::to_string(frames) +
-      " frames");
-  }
+  RefuseIf(this->FragmentsOfFrames.size() != frames || (!isByEnds && table.size() != 4 * frames),
+    "its pixels are truncated or damaged: it has ", fragments.size(), " compressed fragments for ",
+    frames, " frames");
 }
 
 /** Memory is not taken for what a file cannot hold. */
@@ -363,12 +313,9 @@ void DICOMPixels::CheckRatio() const
     {
       packed += fragment.Length;
     }
-    if (packed * most < this->Layout.BytesOfFrame())
-    {
-      throw FileError("its pixels are truncated or damaged: frames of " +
-        std::to_string(this->Layout.BytesOfFrame()) + " bytes are not compressed to " +
-        std::to_string(packed));
-    }
+    RefuseIf(packed * most < this->Layout.BytesOfFrame(),
+      "its pixels are truncated or damaged: frames of ", this->Layout.BytesOfFrame(),
+      " bytes are not compressed to ", packed);
   }
 }
 

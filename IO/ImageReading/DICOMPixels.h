@@ -88,6 +88,19 @@ private:
   std::vector<std::vector<DICOMElement>> FragmentsOfFrames;
 };
 
+///@{
+/**
+ * Frames that are compressed by JPEG, JPEG-LS or JPEG 2000. GDCM believes the header of the codestream where it differs
+ * from the header of the file, and gives what there is when it ends too soon. So both are compared before, and the end
+ * is looked for.
+ *
+ * @throws FileError: sizes that differ from the format, a missing end, damage
+ */
+DICOMFrame DecodeJPEG(const std::vector<std::byte>& packed, const DICOMPixelFormat& format);
+DICOMFrame DecodeJPEGLS(const std::vector<std::byte>& packed, const DICOMPixelFormat& format);
+DICOMFrame DecodeJPEG2000(const std::vector<std::byte>& packed, const DICOMPixelFormat& format);
+///@}
+
 } // namespace voxplex::io
 
 #endif

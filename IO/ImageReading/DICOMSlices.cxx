@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DICOMSlices.h"
 
-#include "Excerpt.h"
 #include "FileError.h"
+#include "Text.h"
 
 #include <gdcmUIDs.h>
 
@@ -69,14 +69,6 @@ Vector3 NormalOf(const DICOMSlice& slice)
   return Combine({}, 1.0 / Length(cross), cross);
 }
 
-/** "1.5" */
-std::string Show(double number)
-{
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 /**
  * The item with a functional group: of the frame, of all frames, or where there are no groups, the file. Empty items
  * are found if it is nowhere.
@@ -98,10 +90,7 @@ public:
     {
       const std::vector<DICOMDataSet> items =
         groups ? groups->Items(group) : std::vector<DICOMDataSet>();
-      if (items.size() > 1)
-      {
-        throw FileError("its " + Describe(group) + " has several items for a frame");
-      }
+      RefuseIf(items.size() > 1, "its ", group, " has several items for a frame");
       if (items.size() == 1)
       {
         if (std::vector<double> numbers = items[0].Numbers(tag, count); !numbers.empty())
@@ -116,12 +105,9 @@ public:
   std::vector<double> Required(const DICOMTag& group, const DICOMTag& tag, std::size_t count) const
   {
     std::vector<double> numbers = this->Numbers(group, tag, count);
-    if (numbers.empty())
-    {
-      throw FileError("it has no " + Describe(tag) +
-        ", so that where its voxels are is not known: convert it to NRRD with its geometry first "
-        "(3D Slicer)");
-    }
+    RefuseIf(numbers.empty(), "it has no ", tag,
+      ", so that where its voxels are is not known: convert it to NRRD with its geometry first (3D "
+      "Slicer)");
     return numbers;
   }
 
@@ -145,18 +131,12 @@ void ReadDirections(DICOMSlice& slice, const Groups& groups)
   }
   const Vector3 row{ cosines[0], cosines[1], cosines[2] };
   const Vector3 column{ cosines[3], cosines[4], cosines[5] };
-  if (std::abs(Length(row) - 1.0) > Tolerance || std::abs(Length(column) - 1.0) > Tolerance ||
-    std::abs(Dot(row, column)) > Tolerance)
-  {
-    throw FileError("its " + Describe(ImageOrientation) +
-      " is not two directions of length 1 at a right angle: correct "
-      "its header");
-  }
-  if (!(spacing[0] > 0.0) || !(spacing[1] > 0.0))
-  {
-    throw FileError("its " + Describe(PixelSpacing) + " is " + Show(spacing[0]) + " and " +
-      Show(spacing[1]) + "; these must be positive lengths: correct its header");
-  }
+  RefuseIf(std::abs(Length(row) - 1.0) > Tolerance || std::abs(Length(column) - 1.0) > Tolerance ||
+      std::abs(Dot(row, column)) > Tolerance,
+    "its ", ImageOrientation,
+    " is not two directions of length 1 at a right angle: correct its header");
+  RefuseIf(!(spacing[0] > 0.0) || !(spacing[1] > 0.0), "its ", PixelSpacing, " is ", spacing[0],
+    " and ", spacing[1], "; these must be positive lengths: correct its header");
   // The first spacing is that from row to row.
   slice.Row = Combine({}, spacing[1] / Length(row), row);
   slice.Column = Combine({}, spacing[0] / Length(column), column);
@@ -168,11 +148,8 @@ void ReadRescaling(DICOMSlice& slice, const Groups& groups)
   const std::vector<double> intercept = groups.Numbers(PixelTransformation, RescaleIntercept, 1);
   slice.Slope = slope.empty() ? 1.0 : slope[0];
   slice.Intercept = intercept.empty() ? 0.0 : intercept[0];
-  if (slice.Slope == 0.0)
-  {
-    throw FileError("its " + Describe(RescaleSlope) +
-      " is 0, with which all voxels have one value: correct its header");
-  }
+  RefuseIf(slice.Slope == 0.0, "its ", RescaleSlope,
+    " is 0, with which all voxels have one value: correct its header");
 }
 
 /** All but the name and the number. */
@@ -199,12 +176,9 @@ std::vector<DICOMSlice> ReadDose(const DICOMDataSet& data, std::size_t frames)
   const double start = isAxial && !offsets.empty() && offsets[0] == first.Position[2]
     ? offsets[0] // they are places along z
     : 0.0;
-  if (offsets.size() != frames || offsets[0] != start)
-  {
-    throw FileError("its " + Describe(GridFrameOffsets) + " has " + std::to_string(offsets.size()) +
-      " offsets for " + std::to_string(frames) +
-      " frames, or does not begin with 0: convert it to NRRD first (3D Slicer)");
-  }
+  RefuseIf(offsets.size() != frames || offsets[0] != start, "its ", GridFrameOffsets, " has ",
+    offsets.size(), " offsets for ", frames,
+    " frames, or does not begin with 0: convert it to NRRD first (3D Slicer)");
   const std::vector<double> scale = data.Numbers(DoseGridScaling, 1);
   first.Slope = scale.empty() ? 1.0 : scale[0];
   const Vector3 normal = NormalOf(first);
@@ -225,20 +199,12 @@ std::vector<DICOMSlice> ReadFrames(const DICOMDataSet& data, std::size_t frames)
   {
     return ReadDose(data, frames);
   }
-  if (ofFrames.empty() && frames > 1)
-  {
-    throw FileError("its " + std::to_string(frames) +
-      " frames have no places in space: they are a film or pictures, and no slices of a volume, or "
-      "the places were lost "
-      "(there is no " +
-      Describe(GroupsOfFrames) + "): export slices with their positions");
-  }
-  if (!ofFrames.empty() && ofFrames.size() != frames)
-  {
-    throw FileError("it has " + std::to_string(frames) + " frames, and " +
-      std::to_string(ofFrames.size()) + " items in its " + Describe(GroupsOfFrames) +
-      ": correct its header");
-  }
+  RefuseIf(ofFrames.empty() && frames > 1, "its ", frames,
+    " frames have no places in space: they are a film or pictures, and no slices of a volume, or "
+    "the places were lost (there is no ",
+    GroupsOfFrames, "): export slices with their positions");
+  RefuseIf(!ofFrames.empty() && ofFrames.size() != frames, "it has ", frames, " frames, and ",
+    ofFrames.size(), " items in its ", GroupsOfFrames, ": correct its header");
   std::vector<DICOMSlice> slices;
   for (std::size_t i = 0; i < frames; ++i)
   {
@@ -255,13 +221,10 @@ void CheckDirections(const std::vector<DICOMSlice>& slices)
   const double allowed = tolerated * std::min(Length(first.Row), Length(first.Column));
   for (const DICOMSlice& slice : slices)
   {
-    if (Length(Combine(slice.Row, -1.0, first.Row)) > allowed ||
-      Length(Combine(slice.Column, -1.0, first.Column)) > allowed)
-    {
-      throw FileError(first.Name + " and " + slice.Name + " differ in " +
-        Describe(ImageOrientation) + " or " + Describe(PixelSpacing) +
-        ": slices of one volume are parallel and alike; take the others away first");
-    }
+    RefuseIf(Length(Combine(slice.Row, -1.0, first.Row)) > allowed ||
+        Length(Combine(slice.Column, -1.0, first.Column)) > allowed,
+      first.Name, " and ", slice.Name, " differ in ", ImageOrientation, " or ", PixelSpacing,
+      ": slices of one volume are parallel and alike; take the others away first");
   }
 }
 
@@ -277,12 +240,9 @@ void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
     const Vector3 between = Combine(slice.Position, -1.0, before.Position);
     const double gap = Dot(between, normal);
     const double missing = distance > 0 ? std::round(gap / distance) - 1.0 : 0.0;
-    if (missing + static_cast<double>(all.size()) > most)
-    {
-      throw FileError(before.Name + " and " + slice.Name + " are " + Show(gap) +
-        " mm apart, and its " + Describe(SpacingBetweenSlices) + " is " + Show(distance) +
-        ": correct its header");
-    }
+    RefuseIf(missing + static_cast<double>(all.size()) > most, before.Name, " and ", slice.Name,
+      " are ", gap, " mm apart, and its ", SpacingBetweenSlices, " is ", distance,
+      ": correct its header");
     for (double i = 1.0; i <= missing; ++i)
     {
       all.push_back(before);
@@ -308,8 +268,7 @@ void CheckObject(const DICOMDataSet& data)
       "a DICOMDIR, which lists other files: give one of these, or the folder of a series" },
     { "1.2.840.10008.5.1.4.1.1.66.4",
       "a DICOM segmentation object, whose segments are frames apart and may overlap: convert it to "
-      "a label map (dcmqi's "
-      "segimage2itkimage, 3D Slicer)" },
+      "a label map (dcmqi's segimage2itkimage, 3D Slicer)" },
     { "1.2.840.10008.5.1.4.1.1.66.5",
       "a DICOM surface segmentation, which has surfaces and no voxels: convert it to a label map "
       "(3D Slicer)" },
@@ -328,28 +287,21 @@ void CheckObject(const DICOMDataSet& data)
     unsuitable.begin(), unsuitable.end(), [&uid](const Unsuitable& one) { return one.UID == uid; });
   if (found != unsuitable.end())
   {
-    throw FileError(std::string("it is ") + found->Reason);
+    Refuse("it is ", found->Reason);
   }
   if (!data.Find(PixelData))
   {
     gdcm::UIDs names;
     const bool isFloat = data.Find(FloatPixels) || data.Find(DoublePixels);
-    throw FileError("it is a DICOM object " +
-      std::string(isFloat ? "of real numbers" : "without pixels") + " ('" +
-      (names.SetFromUID(uid.c_str()) ? std::string(names.GetName()) : Excerpt(uid)) +
+    Refuse("it is a DICOM object ", isFloat ? "of real numbers" : "without pixels", " ('",
+      (names.SetFromUID(uid.c_str()) ? std::string(names.GetName()) : Excerpt(uid)),
       "'), or it is cut off before them: give images of slices");
   }
-  if (data.Text(ImageType).find("MOSAIC") != std::string::npos)
-  {
-    throw FileError("it is a mosaic of Siemens, one picture with all slices side by side: convert "
-                    "it to NIfTI first "
-                    "(dcm2niix)");
-  }
-  if (data.Find(ModalityTable))
-  {
-    throw FileError("its voxels stand for others in a table (" + Describe(ModalityTable) +
-      "), which is not supported: apply it first");
-  }
+  RefuseIf(data.Text(ImageType).find("MOSAIC") != std::string::npos,
+    "it is a mosaic of Siemens, one picture with all slices side by side: convert it to NIfTI "
+    "first (dcm2niix)");
+  RefuseIf(data.Find(ModalityTable), "its voxels stand for others in a table (", ModalityTable,
+    "), which is not supported: apply it first");
 }
 
 std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames)
@@ -363,7 +315,8 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames)
   return slices;
 }
 
-Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete)
+Vector3 ArrangeSlices(
+  std::vector<DICOMSlice>& slices, bool isComplete, std::vector<std::string>& warnings)
 {
   constexpr double samePlace = 0.01; // of the distance of slices
   constexpr double tolerated = 0.1;
@@ -376,7 +329,15 @@ Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete)
   if (slices.size() == 1)
   {
     const DICOMSlice& only = slices[0];
-    return Combine({}, only.Distance > 0 ? only.Distance : only.Thickness, normal);
+    const double known = only.Distance > 0 ? only.Distance : only.Thickness;
+    if (known == 0)
+    {
+      std::ostringstream warning;
+      warning << "it is one slice, of which the thickness is not known: " << Length(only.Row)
+              << " mm was taken, as between columns";
+      warnings.push_back(warning.str());
+    }
+    return Combine({}, known == 0 ? Length(only.Row) : known, normal);
   }
   if (!isComplete)
   {
@@ -390,13 +351,10 @@ Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete)
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
     const Vector3 between = Combine(slices[i].Position, -1.0, slices[i - 1].Position);
-    if (!(Dot(between, normal) > samePlace * distance))
-    {
-      throw FileError(slices[i - 1].Name + " and " + slices[i].Name +
-        " are slices at one place: there are several images (times, echoes, copies), and one can "
-        "be read: give the slices "
-        "of one, in a folder of their own");
-    }
+    RefuseIf(!(Dot(between, normal) > samePlace * distance), slices[i - 1].Name, " and ",
+      slices[i].Name,
+      " are slices at one place: there are several images (times, echoes, copies), and one can be "
+      "read: give the slices of one, in a folder of their own");
   }
   for (std::size_t i = 0; i < slices.size(); ++i)
   {
@@ -405,12 +363,9 @@ Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete)
     const double along = std::abs(Dot(apart, normal));
     const double inPlane = Length(Combine(apart, -Dot(apart, normal), normal));
     const double deviation = Length(apart);
-    if (along > tolerated * distance || inPlane > toleratedInPlane * smallest)
-    {
-      throw FileError("slices are missing, damaged or not evenly spaced: " + slices[i].Name +
-        " is " + Show(deviation) + " mm from where slices " + Show(distance) +
-        " mm apart put it; complete or resample the series");
-    }
+    RefuseIf(along > tolerated * distance || inPlane > toleratedInPlane * smallest,
+      "slices are missing, damaged or not evenly spaced: ", slices[i].Name, " is ", deviation,
+      " mm from where slices ", distance, " mm apart put it; complete or resample the series");
   }
   return step;
 }

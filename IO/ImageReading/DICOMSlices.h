@@ -45,11 +45,12 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
  * Sorts slices along their normal.
  * @param isComplete if not, slices without a frame are put where slices have been left out; their distance must be
  * known
- * @return the step from slice to slice, which need not be along the normal; for one slice a zero vector if it is
- * unknown
+ * @param warnings receives what was taken for the thickness of one slice that does not tell it
+ * @return the step from slice to slice, which need not be along the normal
  * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place
  */
-Vector3 ArrangeSlices(std::vector<DICOMSlice>& slices, bool isComplete);
+Vector3 ArrangeSlices(
+  std::vector<DICOMSlice>& slices, bool isComplete, std::vector<std::string>& warnings);
 
 } // namespace voxplex::io
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OMEMetadata.h"
 
-#include "Excerpt.h"
 #include "FileError.h"
+#include "Text.h"
 
 #include <vtk_expat.h>
 

@@ -4,10 +4,12 @@
 
 #include "FileError.h"
 
+#include <vtkMatrix3x3.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <string>
 
 namespace voxplex::io
 {
@@ -26,42 +28,27 @@ bool IsUsable(const Vector3& numbers)
     [](double number) { return std::abs(number) <= Largest; }); // not NaN
 }
 
-double Determinant(const std::array<double, 9>& m)
-{
-  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
-    m[2] * (m[3] * m[7] - m[4] * m[6]);
-}
-
 } // namespace
 
 void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector3& origin)
 {
-  if (!IsUsable(origin) || !std::all_of(steps.begin(), steps.end(), IsUsable))
-  {
-    throw FileError(
-      "its position or orientation in space is not finite, or far too large: correct the header");
-  }
+  RefuseIf(!IsUsable(origin) || !std::all_of(steps.begin(), steps.end(), IsUsable),
+    "its position or orientation in space is not finite, or far too large: correct the header");
   image.Origin = origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const Vector3& step = steps[axis];
     const double length = std::hypot(step[0], step[1], step[2]);
-    if (!(length > 0))
-    {
-      throw FileError("the voxel spacing along axis " + std::to_string(axis) +
-        " is 0 in its header; it must be a positive length: correct the header");
-    }
+    RefuseIf(!(length > 0), "the voxel spacing along axis ", axis,
+      " is 0 in its header; it must be a positive length: correct the header");
     image.Spacing[axis] = length;
     for (std::size_t row = 0; row < 3; ++row)
     {
       image.Direction[3 * row + axis] = step[row] / length;
     }
   }
-  if (std::abs(Determinant(image.Direction)) < SmallestDeterminant)
-  {
-    throw FileError(
-      "its axes are not independent, the direction matrix is singular: correct the header");
-  }
+  RefuseIf(std::abs(vtkMatrix3x3::Determinant(image.Direction.data())) < SmallestDeterminant,
+    "its axes are not independent, the direction matrix is singular: correct the header");
 }
 
 void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& origin)
@@ -69,46 +56,62 @@ void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& o
   std::array<Vector3, 3> steps{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (!(spacing[axis] > 0) || !std::isfinite(spacing[axis]))
-    {
-      std::ostringstream reason;
-      reason << "the voxel spacing along axis " << axis << " is " << spacing[axis]
-             << " in its header; it must be a positive length: correct the header";
-      throw FileError(reason.str());
-    }
+    RefuseIf(!(spacing[axis] > 0) || !std::isfinite(spacing[axis]), "the voxel spacing along axis ",
+      axis, " is ", spacing[axis],
+      " in its header; it must be a positive length: correct the header");
     steps[axis][axis] = spacing[axis];
   }
   Place(image, steps, origin);
 }
 
-void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes)
+void SetSizes(ScalarImage& image, std::vector<std::int64_t> sizes)
 {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  std::ostringstream text;
-  double voxels = 1.0;
-  bool areUsable = sizes.size() <= 4;
-  for (std::size_t axis = 0; axis < sizes.size(); ++axis)
-  {
-    text << (axis ? " x " : "") << sizes[axis];
-    areUsable = areUsable && sizes[axis] >= 1 && sizes[axis] <= most;
-    voxels *= static_cast<double>(sizes[axis]);
-  }
   constexpr double mostVoxels = 1e15;
-  if (sizes.size() < 3)
+  while (sizes.size() > 3 && sizes.back() == 1)
   {
-    throw FileError("it has " + std::to_string(sizes.size()) +
-      " dimensions, and a volume has three: give a volume");
+    sizes.pop_back();
   }
-  if (!areUsable || voxels > mostVoxels)
+  std::string text;
+  double voxels = 1.0;
+  bool areUsable = true;
+  for (const std::int64_t size : sizes)
   {
-    throw FileError(
-      "its header claims " + text.str() + " voxels, which no image has: correct the header");
+    text += (text.empty() ? "" : " x ") + std::to_string(size);
+    areUsable = areUsable && size >= 1 && size <= most;
+    voxels *= static_cast<double>(size);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    image.Dimensions[axis] = static_cast<int>(sizes[axis]);
-  }
+  RefuseIf(sizes.size() < 3, "it has ", sizes.size(),
+    " dimensions, and a volume has three: give a volume");
+  RefuseIf(sizes.size() > 4, "it has ", sizes.size(), " dimensions (", text,
+    "); voxplex meshes images of three, and of four with time as the last: extract one of those "
+    "first");
+  RefuseIf(!areUsable || voxels > mostVoxels, "its header claims ", text,
+    " voxels, which no image has: correct the header");
+  std::copy_n(sizes.begin(), 3, image.Dimensions.begin());
   image.Frames = sizes.size() == 4 ? static_cast<int>(sizes[3]) : 1;
+}
+
+void CheckSpacing(bool isRight, std::string_view shown)
+{
+  RefuseIf(!isRight, "the voxel spacing in its header is '", shown,
+    "'; it must be a positive length along each axis: correct the header");
+}
+
+void CheckTimeIsApart(bool isApart)
+{
+  RefuseIf(!isApart,
+    "its direction matrix mixes time with space; only images whose frames each show one time can "
+    "be meshed: correct the header, or resample the image");
+}
+
+void SetTimeStep(ScalarImage& image, double first, double step, std::string_view shown)
+{
+  RefuseIf(!(step > 0) || !std::isfinite(step) || !std::isfinite(first),
+    "the time from frame to frame in its header is '", shown,
+    "'; it must be a positive number: correct the header");
+  image.TimeOrigin = first;
+  image.TimeSpacing = step;
 }
 
 void SetFrameTimes(ScalarImage& image, const std::vector<double>& times)
@@ -121,10 +124,8 @@ void SetFrameTimes(ScalarImage& image, const std::vector<double>& times)
   {
     if (!std::isfinite(times[n]) || (n > 0 && !(times[n] > times[n - 1])))
     {
-      std::ostringstream reason;
-      reason << "the times of its frames do not increase: " << times[n] << " follows "
-             << (n > 0 ? times[n - 1] : 0.0) << "; sort the frames, or correct the header";
-      throw FileError(reason.str());
+      Refuse("the times of its frames do not increase: ", times[n], " follows ",
+        n > 0 ? times[n - 1] : 0.0, "; sort the frames, or correct the header");
     }
     const double expected = image.TimeOrigin + static_cast<double>(n) * image.TimeSpacing;
     if (std::abs(times[n] - expected) > TimeTolerance * image.TimeSpacing)

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace voxplex::io
@@ -32,10 +33,24 @@ void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& o
 /**
  * Sets the sizes, which must be positive and fit into int, and whose product into memory.
  *
- * @param sizes of three axes, or of four with time as the last
+ * @param sizes of three axes, or of four with time as the last. Of more, the last must be 1.
  * @throws FileError that shows the sizes
  */
-void SetSizes(ScalarImage& image, const std::vector<std::int64_t>& sizes);
+void SetSizes(ScalarImage& image, std::vector<std::int64_t> sizes);
+
+/** @throws FileError for spacings that are wrong. @param shown how the header gives them */
+void CheckSpacing(bool isRight, std::string_view shown);
+
+/** @throws FileError for axes that are wrong */
+void CheckTimeIsApart(bool isApart);
+
+/**
+ * Sets the times of frames that are equally spaced.
+ *
+ * @param shown how the header gives the step
+ * @throws FileError for a step that is negative or 0, and for numbers that are not finite
+ */
+void SetTimeStep(ScalarImage& image, double first, double step, std::string_view shown);
 
 /**
  * Sets the time of each frame. @throws FileError if they do not increase.

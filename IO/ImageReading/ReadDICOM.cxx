@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadDICOM.h"
+#include "Readers.h"
 
 #include "DICOMDataSet.h"
 #include "DICOMPixels.h"
 #include "DICOMSlices.h"
-#include "Excerpt.h"
-#include "FileError.h"
 #include "Placement.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
@@ -61,34 +60,25 @@ auto Naming(const std::string& path, TRead&& read)
   }
   catch (const FileError& error)
   {
-    throw FileError(NameInFolder(path) + ": " + error.what());
+    Refuse(NameInFolder(path), ": ", error.what());
   }
 }
 
 void CheckFormat(const DICOMSlice& first, const DICOMPixelFormat& a, const DICOMSlice& second,
   const DICOMPixelFormat& b)
 {
-  struct Part
+  const auto check = [&](const char* name, unsigned one, unsigned other)
   {
-    const char* Name;
-    unsigned First;
-    unsigned Second;
+    RefuseIf(one != other, first.Name, " and ", second.Name, " differ in ", name, ", which is ",
+      one, " and ", other,
+      ": slices of one volume are alike; take the others out of the folder first");
   };
-  const std::array<Part, 6> parts{ { { "Columns (0028,0011)", a.Columns, b.Columns },
-    { "Rows (0028,0010)", a.Rows, b.Rows },
-    { "Bits Allocated (0028,0100)", a.BitsAllocated, b.BitsAllocated },
-    { "Bits Stored (0028,0101)", a.BitsStored, b.BitsStored },
-    { "High Bit (0028,0102)", a.HighBit, b.HighBit },
-    { "Pixel Representation (0028,0103)", a.IsSigned, b.IsSigned } } };
-  for (const Part& part : parts)
-  {
-    if (part.First != part.Second)
-    {
-      throw FileError(first.Name + " and " + second.Name + " differ in " + part.Name +
-        ", which is " + std::to_string(part.First) + " and " + std::to_string(part.Second) +
-        ": slices of one volume are alike; take the others out of the folder first");
-    }
-  }
+  check("Columns (0028,0011)", a.Columns, b.Columns);
+  check("Rows (0028,0010)", a.Rows, b.Rows);
+  check("Bits Allocated (0028,0100)", a.BitsAllocated, b.BitsAllocated);
+  check("Bits Stored (0028,0101)", a.BitsStored, b.BitsStored);
+  check("High Bit (0028,0102)", a.HighBit, b.HighBit);
+  check("Pixel Representation (0028,0103)", a.IsSigned, b.IsSigned);
 }
 
 /** Adds the slices of a file. */
@@ -115,7 +105,7 @@ void AddSlice(Volume& volume, const std::string& path)
   const DICOMPixelFormat format = Naming(path, [&] { return AddFile(volume, path); });
   if (const std::size_t frames = volume.Slices.size() - before; frames > 1)
   {
-    throw FileError(NameInFolder(path) + " has " + std::to_string(frames) +
+    Refuse(NameInFolder(path), " has ", frames,
       " frames, and there are other files in its series: each may be an image of its own: give one "
       "of the files");
   }
@@ -172,7 +162,7 @@ ScalarType ChooseType(const Volume& volume)
 }
 
 /** Takes the bits that belong to a sample, gives them their sign and rescales. */
-template <typename TStored, typename TVoxel>
+template <typename TVoxel>
 void Convert(
   const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice, TVoxel* to)
 {
@@ -184,84 +174,23 @@ void Convert(
   const auto slope = static_cast<Number>(slice.Slope);
   const auto intercept = static_cast<Number>(slice.Intercept);
   const auto count = static_cast<std::size_t>(format.Pixels());
+  const std::span<const std::byte> samples(frame.Samples);
   for (std::size_t i = 0; i < count; ++i)
   {
-    std::uint32_t bits = 0;
-    for (std::size_t byte = sizeof(TStored); byte-- > 0;)
-    {
-      bits = bits << 8 | std::to_integer<std::uint32_t>(frame.Samples[sizeof(TStored) * i + byte]);
-    }
-    bits = bits >> shift & mask;
+    const std::uint32_t bits =
+      ReadNumber(samples.subspan(frame.BytesOfSample * i, frame.BytesOfSample), false) >> shift &
+      mask;
     const std::int64_t value = std::int64_t(bits) - (bits & sign ? std::int64_t(sign) * 2 : 0);
     to[i] = static_cast<TVoxel>(static_cast<Number>(value) * slope + intercept);
   }
 }
 
-template <typename TVoxel>
-void ConvertTo(
-  const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice, void* voxels)
-{
-  TVoxel* to = static_cast<TVoxel*>(voxels);
-  switch (frame.BytesOfSample)
-  {
-    case 1:
-      return Convert<std::uint8_t>(frame, format, slice, to);
-    case 2:
-      return Convert<std::uint16_t>(frame, format, slice, to);
-    default:
-      return Convert<std::uint32_t>(frame, format, slice, to);
-  }
-}
-
-void ConvertToType(const DICOMFrame& frame, const DICOMPixelFormat& format, const DICOMSlice& slice,
-  ScalarType type, void* to)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return ConvertTo<std::int8_t>(frame, format, slice, to);
-    case ScalarType::UInt8:
-      return ConvertTo<std::uint8_t>(frame, format, slice, to);
-    case ScalarType::Int16:
-      return ConvertTo<std::int16_t>(frame, format, slice, to);
-    case ScalarType::UInt16:
-      return ConvertTo<std::uint16_t>(frame, format, slice, to);
-    case ScalarType::Int32:
-      return ConvertTo<std::int32_t>(frame, format, slice, to);
-    case ScalarType::UInt32:
-      return ConvertTo<std::uint32_t>(frame, format, slice, to);
-    case ScalarType::Int64:
-      return ConvertTo<std::int64_t>(frame, format, slice, to);
-    default:
-      return ConvertTo<double>(frame, format, slice, to);
-  }
-}
-
-/** Where the voxels lie. */
-void PlaceVolume(ScalarImage& image, Volume& volume, Reading& reading)
-{
-  Vector3 step = ArrangeSlices(volume.Slices, volume.IsComplete);
-  const DICOMSlice& first = volume.Slices.front();
-  if (step == Vector3{})
-  {
-    const Vector3& a = first.Row;
-    const Vector3& b = first.Column;
-    const double spacing = std::hypot(a[0], a[1], a[2]);
-    const double scale = 1.0 / std::hypot(b[0], b[1], b[2]);
-    step = { scale * (a[1] * b[2] - a[2] * b[1]), scale * (a[2] * b[0] - a[0] * b[2]),
-      scale * (a[0] * b[1] - a[1] * b[0]) };
-    std::ostringstream warning;
-    warning << "it is one slice, of which the thickness is not known: " << spacing
-            << " mm was taken, as between columns";
-    reading.Warnings.push_back(warning.str());
-  }
-  Place(image, { first.Row, first.Column, step }, first.Position);
-}
-
 ScalarImage ReadVolume(Volume& volume, Reading& reading)
 {
   ScalarImage image;
-  PlaceVolume(image, volume, reading);
+  const Vector3 step = ArrangeSlices(volume.Slices, volume.IsComplete, reading.Warnings);
+  const DICOMSlice& first = volume.Slices.front();
+  Place(image, { first.Row, first.Column, step }, first.Position);
   SetSizes(image,
     { std::int64_t(volume.Format.Columns), std::int64_t(volume.Format.Rows),
       static_cast<std::int64_t>(volume.Slices.size()) });
@@ -286,14 +215,17 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
         data = std::make_unique<DICOMDataSet>(volume.Files[slice.File]);
         pixels = std::make_unique<DICOMPixels>(*data);
         open = slice.File;
-        if (pixels->Format() != volume.Format || slice.Frame >= pixels->Frames())
-        {
-          throw FileError("it has changed while it was read");
-        }
+        RefuseIf(pixels->Format() != volume.Format || slice.Frame >= pixels->Frames(),
+          "it has changed while it was read");
       }
       const DICOMFrame frame = pixels->Read(slice.Frame);
       volume.IsLossy = volume.IsLossy || frame.IsLossy;
-      ConvertToType(frame, volume.Format, slice, image.Type, voxels + k * bytesOfSlice);
+      Dispatch(image.Type,
+        [&](auto zero)
+        {
+          Convert(frame, volume.Format, slice,
+            reinterpret_cast<decltype(zero)*>(voxels + k * bytesOfSlice));
+        });
     };
     if (slice.Frame == DICOMSlice::NoFrame)
     {
@@ -304,9 +236,8 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
   }
   if (volume.IsLossy)
   {
-    reading.Warnings.push_back(
-      "its voxels were compressed with loss, which makes wrong labels at their borders: take the "
-      "images from before, if there are any");
+    reading.Warnings.push_back("its voxels were compressed with loss, which makes wrong labels at "
+                               "their borders: take the images from before, if there are any");
   }
   return image;
 }
@@ -324,10 +255,8 @@ void AddToSeries(SeriesByUID& series, const std::string& path)
 {
   if (!IsDICOM(InputFile(path)))
   {
-    if (fs::path(path).extension() == ".dcm")
-    {
-      throw FileError("it is no DICOM file, or its beginning is damaged");
-    }
+    RefuseIf(
+      fs::path(path).extension() == ".dcm", "it is no DICOM file, or its beginning is damaged");
     return;
   }
   const DICOMDataSet data(path);
@@ -362,10 +291,7 @@ SeriesByUID FindSeries(const std::string& path)
       files.push_back(entry->path().string());
     }
   }
-  if (error)
-  {
-    throw FileError(error.message());
-  }
+  RefuseIf(static_cast<bool>(error), error.message());
   std::sort(files.begin(), files.end());
   SeriesByUID series;
   for (const std::string& name : files)
@@ -396,10 +322,7 @@ std::string ListSeries(const SeriesByUID& series)
 /** The one series of a folder, or the one that the user asks for. */
 FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
 {
-  if (available.empty())
-  {
-    throw FileError("the folder holds no DICOM images");
-  }
+  RefuseIf(available.empty(), "the folder holds no DICOM images");
   if (const auto exact = available.find(wanted); exact != available.end() && !wanted.empty())
   {
     return exact->second.Files;
@@ -407,15 +330,10 @@ FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
   SeriesByUID matching;
   std::copy_if(available.begin(), available.end(), std::inserter(matching, matching.end()),
     [&wanted](const auto& one) { return one.first.starts_with(wanted); });
-  if (matching.empty())
-  {
-    throw FileError("there is no DICOM series '" + wanted + "'; there are" + ListSeries(available));
-  }
-  if (matching.size() > 1)
-  {
-    throw FileError("the folder holds " + std::to_string(matching.size()) +
-      " DICOM series; choose one with" + ListSeries(matching));
-  }
+  RefuseIf(
+    matching.empty(), "there is no DICOM series '", wanted, "'; there are", ListSeries(available));
+  RefuseIf(matching.size() > 1, "the folder holds ", matching.size(),
+    " DICOM series; choose one with", ListSeries(matching));
   return matching.begin()->second.Files;
 }
 

@@ -2,16 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadImage.h"
 
-#include "FileError.h"
-#include "InputFile.h"
-#include "ReadDICOM.h"
-#include "ReadMetaImage.h"
-#include "ReadNIfTI.h"
-#include "ReadNRRD.h"
-#include "ReadOtherVolumes.h"
-#include "ReadTIFF.h"
-#include "ReadVTK.h"
-#include "Reading.h"
+#include "Readers.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
@@ -95,10 +87,7 @@ constexpr std::array<Stranger, 20> Strangers{ {
 ScalarImage ReadFile(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
-  if (file.Size() == 0)
-  {
-    throw FileError("the file is empty");
-  }
+  RefuseIf(file.Size() == 0, "the file is empty");
   const auto format = std::find_if(
     Formats.begin(), Formats.end(), [&file](const Format& one) { return one.Is(file); });
   if (format == Formats.end())
@@ -112,26 +101,35 @@ ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
 {
   std::error_code ignored;
   const fs::file_status status = fs::status(request.Path, ignored);
-  if (!fs::exists(status))
-  {
-    throw FileError("there is no such file or folder");
-  }
+  RefuseIf(!fs::exists(status), "there is no such file or folder");
   if (fs::is_directory(status))
   {
     return ReadDICOMFolder(request.Path, request.Series, reading);
   }
-  if (!fs::is_regular_file(status))
-  {
-    throw FileError("it is neither a regular file nor a folder");
-  }
-  if (!request.Series.empty())
-  {
-    throw FileError("SetSeriesUID() needs a folder with DICOM files, and this is a file");
-  }
+  RefuseIf(!fs::is_regular_file(status), "it is neither a regular file nor a folder");
+  RefuseIf(
+    !request.Series.empty(), "SetSeriesUID() needs a folder with DICOM files, and this is a file");
   return ReadFile(request.Path, reading);
 }
 
 } // namespace
+
+void WarnOfLengths(const std::string& unit, Reading& reading)
+{
+  constexpr std::array<std::string_view, 6> plain{ "", "mm", "millimeter", "millimetre",
+    "millimeters", "millimetres" };
+  if (std::find(plain.begin(), plain.end(), unit) == plain.end())
+  {
+    reading.Warnings.push_back(
+      "its lengths are in '" + Excerpt(unit) + "', and so are those of the mesh");
+  }
+}
+
+void WarnOfSpacing(Reading& reading)
+{
+  reading.Warnings.push_back(
+    "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
+}
 
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
@@ -144,15 +142,15 @@ ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& all
   }
   catch (const FileError& error)
   {
-    throw FileError(start + error.what());
+    Refuse(start, error.what());
   }
   catch (const std::bad_alloc&)
   {
-    throw FileError(start + "it does not fit into memory");
+    Refuse(start, "it does not fit into memory");
   }
   catch (const std::exception& error)
   {
-    throw FileError(start + "it is damaged (" + error.what() + ")");
+    Refuse(start, "it is damaged (", error.what(), ")");
   }
   answer.Labels = std::move(reading.Labels);
   for (const std::string& warning : reading.Warnings)

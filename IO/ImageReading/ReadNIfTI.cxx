@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadNIfTI.h"
+#include "Readers.h"
 
 #include "Fields.h"
-#include "FileError.h"
-#include "InputFile.h"
 #include "Placement.h"
-#include "Reading.h"
 #include "StoredVoxels.h"
 #include "TextHeader.h"
+
+#include <vtkMath.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +33,7 @@ constexpr std::size_t Size2 = 540;
 /** The fields that matter here, of either version. */
 struct Header
 {
+  std::string Path; ///< of the file that it is in
   bool IsBigEndian = false;
   bool IsAnalyze = false; ///< without a magic word
   bool HoldsVoxels = false;
@@ -53,73 +53,51 @@ struct Header
   std::array<double, 12> SForm{};
 };
 
-Header Parse1(const Fields& fields)
+/** Of version 1 with numbers of 16 and 32 bits, or of version 2 with wider ones at other places. */
+Header Parse(const Fields& fields, bool isFirst)
 {
+  const auto whole = [&](std::size_t first, std::size_t second) -> std::int64_t
+  { return isFirst ? fields.Get<std::int16_t>(first) : fields.Get<std::int32_t>(second); };
+  const auto real = [&](std::size_t first, std::size_t second, std::size_t i = 0) -> double
+  { return isFirst ? fields.Get<float>(first + 4 * i) : fields.Get<double>(second + 8 * i); };
   Header header;
-  const std::string magic = fields.Text(344, 3);
-  header.IsAnalyze = magic != "n+1" && magic != "ni1";
-  header.HoldsVoxels = magic == "n+1";
+  const std::string magic = fields.Text(isFirst ? 344 : 4, 3);
+  header.Length = isFirst ? Size1 + 4 : Size2 + 4;
+  header.IsAnalyze = isFirst && magic != "n+1" && magic != "ni1";
+  header.HoldsVoxels = magic == (isFirst ? "n+1" : "n+2");
   for (std::size_t i = 0; i < 8; ++i)
   {
-    header.Sizes[i] = fields.Get<std::int16_t>(40 + 2 * i);
-    header.Steps[i] = fields.Get<float>(76 + 4 * i);
+    header.Sizes[i] =
+      isFirst ? fields.Get<std::int16_t>(40 + 2 * i) : fields.Get<std::int64_t>(16 + 8 * i);
+    header.Steps[i] = real(76, 104, i);
   }
-  header.Type = fields.Get<std::int16_t>(70);
-  header.BitsPerVoxel = fields.Get<std::int16_t>(72);
-  header.Offset = fields.Get<float>(108);
+  header.Type = fields.Get<std::int16_t>(isFirst ? 70 : 12);
+  header.BitsPerVoxel = fields.Get<std::int16_t>(isFirst ? 72 : 14);
+  header.Offset =
+    isFirst ? fields.Get<float>(108) : static_cast<double>(fields.Get<std::int64_t>(168));
   if (header.IsAnalyze)
   {
     return header; // whose other fields mean something else
   }
-  header.Slope = fields.Get<float>(112);
-  header.Intercept = fields.Get<float>(116);
-  header.Units = fields.Get<std::uint8_t>(123);
-  header.FirstTime = fields.Get<float>(136);
-  header.QFormCode = fields.Get<std::int16_t>(252);
-  header.SFormCode = fields.Get<std::int16_t>(254);
+  header.Slope = real(112, 176);
+  header.Intercept = real(116, 184);
+  header.FirstTime = real(136, 216);
+  header.Units = isFirst ? fields.Get<std::uint8_t>(123) : fields.Get<std::int32_t>(500);
+  header.QFormCode = whole(252, 344);
+  header.SFormCode = whole(254, 348);
   for (std::size_t i = 0; i < header.QForm.size(); ++i)
   {
-    header.QForm[i] = fields.Get<float>(256 + 4 * i);
+    header.QForm[i] = real(256, 352, i);
   }
   for (std::size_t i = 0; i < header.SForm.size(); ++i)
   {
-    header.SForm[i] = fields.Get<float>(280 + 4 * i);
+    header.SForm[i] = real(280, 400, i);
   }
-  return header;
-}
-
-Header Parse2(const Fields& fields)
-{
-  Header header;
-  header.Length = Size2 + 4;
-  header.HoldsVoxels = fields.Text(4, 3) == "n+2";
-  header.Type = fields.Get<std::int16_t>(12);
-  header.BitsPerVoxel = fields.Get<std::int16_t>(14);
-  for (std::size_t i = 0; i < 8; ++i)
-  {
-    header.Sizes[i] = fields.Get<std::int64_t>(16 + 8 * i);
-    header.Steps[i] = fields.Get<double>(104 + 8 * i);
-  }
-  header.Offset = static_cast<double>(fields.Get<std::int64_t>(168));
-  header.Slope = fields.Get<double>(176);
-  header.Intercept = fields.Get<double>(184);
-  header.FirstTime = fields.Get<double>(216);
-  header.QFormCode = fields.Get<std::int32_t>(344);
-  header.SFormCode = fields.Get<std::int32_t>(348);
-  for (std::size_t i = 0; i < header.QForm.size(); ++i)
-  {
-    header.QForm[i] = fields.Get<double>(352 + 8 * i);
-  }
-  for (std::size_t i = 0; i < header.SForm.size(); ++i)
-  {
-    header.SForm[i] = fields.Get<double>(400 + 8 * i);
-  }
-  header.Units = fields.Get<std::int32_t>(500);
   return header;
 }
 
 /** The header that a file begins with, packed or not; nothing if there is none. */
-std::optional<Header> FindHeader(const InputFile& file)
+std::optional<Header> HeaderIn(const InputFile& file)
 {
   const std::string bytes = UnpackBeginning(file, Size2);
   for (const bool isBigEndian : { false, true })
@@ -133,7 +111,7 @@ std::optional<Header> FindHeader(const InputFile& file)
     std::optional<Header> header;
     if (size == Size1)
     {
-      header = Parse1(fields);
+      header = Parse(fields, true);
       const std::string name = LowerCase(fs::path(file.Path()).filename().string());
       if (header->IsAnalyze && !name.ends_with(".hdr") && !name.ends_with(".hdr.gz"))
       {
@@ -143,11 +121,12 @@ std::optional<Header> FindHeader(const InputFile& file)
     else if (size == Size2 && bytes.size() >= Size2 &&
       (fields.Text(4, 3) == "n+2" || fields.Text(4, 3) == "ni2"))
     {
-      header = Parse2(fields);
+      header = Parse(fields, false);
     }
     if (header)
     {
       header->IsBigEndian = isBigEndian;
+      header->Path = file.Path();
       return header;
     }
   }
@@ -186,10 +165,17 @@ std::optional<std::string> FindCompanion(
   return std::nullopt;
 }
 
-/** The file with the header of an image in two files. */
-std::string HeaderPathOf(const std::string& path)
+/** That of the file, or of the one with the header of an image in two files. */
+std::optional<Header> FindHeader(const std::string& path)
 {
-  return FindCompanion(path, ".img", ".hdr").value_or(path);
+  std::optional<Header> header = HeaderIn(InputFile(path));
+  const std::string other = FindCompanion(path, ".img", ".hdr").value_or("");
+  std::error_code ignored;
+  if (!header && fs::is_regular_file(other, ignored))
+  {
+    header = HeaderIn(InputFile(other));
+  }
+  return header;
 }
 
 struct Type
@@ -207,19 +193,15 @@ ScalarType TypeOf(const Header& header)
     { 1024, 64, ScalarType::Int64 }, { 1280, 64, ScalarType::UInt64 } } };
   const auto type = std::find_if(
     types.begin(), types.end(), [&header](const Type& one) { return one.Code == header.Type; });
-  const std::string code = std::to_string(header.Type);
+  RefuseIf(header.Type == 128 || header.Type == 2304, "its voxels are colours (datatype ",
+    header.Type, "); a label image has one label a voxel");
   if (type == types.end())
   {
-    const bool isColour = header.Type == 128 || header.Type == 2304;
-    throw FileError(isColour
-        ? "its voxels are colours (datatype " + code + "); a label image has one label a voxel"
-        : "its header gives the datatype " + code + ", which is not a type of single numbers");
+    Refuse(
+      "its header gives the datatype ", header.Type, ", which is not a type of single numbers");
   }
-  if (type->Bits != header.BitsPerVoxel)
-  {
-    throw FileError("its header gives " + std::to_string(header.BitsPerVoxel) +
-      " bits a voxel (bitpix), and its datatype " + code + " has " + std::to_string(type->Bits));
-  }
+  RefuseIf(type->Bits != header.BitsPerVoxel, "its header gives ", header.BitsPerVoxel,
+    " bits a voxel (bitpix), and its datatype ", header.Type, " has ", type->Bits);
   return type->Scalars;
 }
 
@@ -227,28 +209,9 @@ std::vector<std::int64_t> SizesOf(const Header& header)
 {
   constexpr std::int64_t most = 7;
   const std::int64_t count = header.Sizes[0];
-  if (count < 1 || count > most)
-  {
-    throw FileError(
-      "its header gives " + std::to_string(count) + " dimensions, and the format has 1 to 7");
-  }
-  std::vector<std::int64_t> sizes(header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count);
-  while (sizes.size() > 3 && sizes.back() == 1)
-  {
-    sizes.pop_back();
-  }
-  if (sizes.size() > 4)
-  {
-    std::ostringstream text;
-    for (std::size_t axis = 0; axis < sizes.size(); ++axis)
-    {
-      text << (axis ? " x " : "") << sizes[axis];
-    }
-    throw FileError("it has " + std::to_string(sizes.size()) + " dimensions (" + text.str() +
-      "); voxplex meshes images of three, and of four with time as the last: extract one of those "
-      "first");
-  }
-  return sizes;
+  RefuseIf(count < 1 || count > most, "its header gives ", count,
+    " dimensions, and the format has 1 to 7");
+  return { header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count };
 }
 
 /** From a voxel's indices to RAS, in the header's unit of length. */
@@ -278,14 +241,10 @@ void CheckSteps(const Header& header)
   {
     const bool counts =
       static_cast<std::int64_t>(axis) <= header.Sizes[0] && header.Sizes[axis] > 1;
-    if (counts && (!(header.Steps[axis] > 0) || !std::isfinite(header.Steps[axis])))
-    {
-      std::ostringstream reason;
-      reason << "the voxel spacing in its header is '" << header.Steps[1] << ' ' << header.Steps[2]
-             << ' ' << header.Steps[3]
-             << "'; it must be a positive length along each axis: correct the header";
-      throw FileError(reason.str());
-    }
+    std::ostringstream shown;
+    shown << header.Steps[1] << ' ' << header.Steps[2] << ' ' << header.Steps[3];
+    CheckSpacing(
+      !counts || (header.Steps[axis] > 0 && std::isfinite(header.Steps[axis])), shown.str());
   }
 }
 
@@ -315,25 +274,19 @@ Affine AffineOfQForm(const Header& header)
 {
   const auto [b, c, d, x, y, z] = header.QForm;
   const double rest = RestOfQuaternion(header);
-  if (!IsRotation(header) && !std::isnan(rest)) // Place() refuses what is no number
-  {
-    throw FileError("the quaternion of its qform is no rotation: correct the header");
-  }
+  RefuseIf(!IsRotation(header) && !std::isnan(rest), // Place() refuses what is no number
+    "the quaternion of its qform is no rotation: correct the header");
   const double a = std::sqrt(std::max(0.0, rest));
-  const double norm = rest < 0 ? std::sqrt(b * b + c * c + d * d) : 1.0; // a rounded half turn
-  const double p = b / norm;
-  const double q = c / norm;
-  const double r = d / norm;
+  const std::array<double, 4> quaternion{ a, b, c, d };
+  double rotation[3][3];
+  vtkMath::QuaternionToMatrix3x3(quaternion.data(), rotation); // which makes its length 1
   Affine affine;
-  affine.Steps = { { { a * a + p * p - q * q - r * r, 2 * (p * q + a * r), 2 * (p * r - a * q) },
-    { 2 * (p * q - a * r), a * a + q * q - p * p - r * r, 2 * (q * r + a * p) },
-    { 2 * (p * r + a * q), 2 * (q * r - a * p), a * a + r * r - p * p - q * q } } };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double handedness = axis == 2 && header.Steps[0] < 0 ? -1.0 : 1.0;
-    for (double& component : affine.Steps[axis])
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      component *= handedness * StepOf(header, axis);
+      affine.Steps[axis][row] = rotation[row][axis] * handedness * StepOf(header, axis);
     }
   }
   affine.Origin = { x, y, z };
@@ -415,37 +368,22 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
   reading.Warnings.push_back(header.IsAnalyze
       ? "the format ANALYZE does not say how an image lies: its axes are taken for those of LPS"
       : "its header does not say where the image lies (qform and sform have the code 0): its axes "
-        "are taken for those of "
-        "RAS, from 0 on");
+        "are taken for those of RAS, from 0 on");
   return AffineAlongAxes(header);
 }
 
-/** Into millimetres. */
+/** Into millimetres, from metres and micrometres. */
 double UnitOfLength(const Header& header)
 {
-  switch (header.Units & 7)
-  {
-    case 1:
-      return 1e3; // metre
-    case 3:
-      return 1e-3; // micrometre
-    default:
-      return 1.0;
-  }
+  const std::int64_t code = header.Units & 7;
+  return code == 1 ? 1e3 : code == 3 ? 1e-3 : 1.0;
 }
 
-/** Into seconds. */
+/** Into seconds, from milliseconds and microseconds. */
 double UnitOfTime(const Header& header)
 {
-  switch (header.Units & 56)
-  {
-    case 16:
-      return 1e-3; // millisecond
-    case 24:
-      return 1e-6; // microsecond
-    default:
-      return 1.0;
-  }
+  const std::int64_t code = header.Units & 56;
+  return code == 16 ? 1e-3 : code == 24 ? 1e-6 : 1.0;
 }
 
 void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
@@ -469,53 +407,38 @@ void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
 {
   const double unit = UnitOfTime(header);
   const double step = header.Steps[4] * unit;
-  if (!std::isfinite(header.FirstTime))
-  {
-    throw FileError("the time of the first frame in its header (toffset) is not a finite number: "
-                    "correct the header");
-  }
-  if (!(step >= 0) || !std::isfinite(step))
-  {
-    std::ostringstream reason;
-    reason << "the time from frame to frame in its header is '" << header.Steps[4]
-           << "'; it must be a positive number: correct the header";
-    throw FileError(reason.str());
-  }
+  RefuseIf(!std::isfinite(header.FirstTime),
+    "the time of the first frame in its header (toffset) is not a finite number: correct the "
+    "header");
   if (step == 0)
   {
-    reading.Warnings.push_back(
-      "its header has 0 for the time from frame to frame, which is taken to be 1; use "
-      "SetTimeScale() to weigh time against space");
+    reading.Warnings.push_back("its header has 0 for the time from frame to frame, which is taken "
+                               "to be 1; use SetTimeScale() to weigh time against space");
   }
-  image.TimeOrigin = header.FirstTime * unit;
-  image.TimeSpacing = step == 0 ? 1.0 : step;
+  std::ostringstream shown;
+  shown << header.Steps[4];
+  SetTimeStep(image, header.FirstTime * unit, step == 0 ? 1.0 : step, shown.str());
 }
 
-StoredVoxels FindVoxels(const Header& header, const std::string& path, const Reading& reading)
+StoredVoxels FindVoxels(const Header& header, const Reading& reading)
 {
   StoredVoxels stored;
   stored.IsBigEndian = header.IsBigEndian;
+  const std::string& path = header.Path;
   std::string voxels = path;
   if (!header.HoldsVoxels)
   {
     voxels = FindCompanion(path, ".hdr", ".img").value_or("");
-    if (voxels.empty())
-    {
-      throw FileError("its voxels are in another file, '" +
-        fs::path(path).stem().replace_extension(".img").string() + "', which is not beside it");
-    }
+    RefuseIf(voxels.empty(), "its voxels are in another file, '",
+      fs::path(path).stem().replace_extension(".img").string(), "', which is not beside it");
     voxels = FindDataFile(path, fs::path(voxels).filename().string(), reading.DataFilesAnywhere);
   }
   constexpr double largest = 1e15;
   const double least = header.HoldsVoxels ? static_cast<double>(header.Length) : 0.0;
-  if (!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) ||
-    !(header.Offset <= largest))
-  {
-    std::ostringstream reason;
-    reason << "its header says that voxels begin at byte " << header.Offset
-           << " (vox_offset), which is within the header or nowhere";
-    throw FileError(reason.str());
-  }
+  RefuseIf(!(header.Offset >= least || (header.Offset == 0 && !header.HoldsVoxels)) ||
+      !(header.Offset <= largest),
+    "its header says that voxels begin at byte ", header.Offset,
+    " (vox_offset), which is within the header or nowhere");
   stored.Files = { voxels };
   stored.Coding = InputFile(voxels).Beginning(2) == "\x1f\x8b" ? Encoding::Deflate : Encoding::Raw;
   stored.BytesToSkip = static_cast<std::int64_t>(header.Offset);
@@ -526,26 +449,13 @@ StoredVoxels FindVoxels(const Header& header, const std::string& path, const Rea
 
 bool IsNIfTI(const InputFile& file)
 {
-  const std::string headerPath = HeaderPathOf(file.Path());
-  std::error_code ignored;
-  return FindHeader(file) ||
-    (headerPath != file.Path() && fs::is_regular_file(headerPath, ignored) &&
-      FindHeader(InputFile(headerPath)));
+  return FindHeader(file.Path()).has_value();
 }
 
 ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
 {
-  std::string headerPath = path;
-  std::optional<Header> header = FindHeader(InputFile(path));
-  if (!header)
-  {
-    headerPath = HeaderPathOf(path);
-    header = FindHeader(InputFile(headerPath));
-  }
-  if (!header)
-  {
-    throw FileError("it has no header of NIfTI");
-  }
+  const std::optional<Header> header = FindHeader(path);
+  RefuseIf(!header, "it has no header of NIfTI");
   ScalarImage image;
   image.Type = TypeOf(*header);
   SetSizes(image, SizesOf(*header));
@@ -554,7 +464,7 @@ ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
   {
     AdoptTimes(*header, image, reading);
   }
-  ReadVoxels(FindVoxels(*header, headerPath, reading), image, reading);
+  ReadVoxels(FindVoxels(*header, reading), image, reading);
   const bool isScaled =
     header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
   if (isScaled)

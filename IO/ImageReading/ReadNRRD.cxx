@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadNRRD.h"
+#include "Readers.h"
 
-#include "Excerpt.h"
-#include "FileError.h"
-#include "InputFile.h"
 #include "Placement.h"
-#include "Reading.h"
 #include "Segments.h"
 #include "StoredVoxels.h"
+#include "Text.h"
 #include "TextHeader.h"
 
 #include <algorithm>
@@ -45,58 +42,18 @@ struct Axis
   double First = NaN; ///< position of its first sample
 };
 
-ScalarType TypeNamed(const std::string& name)
-{
-  static const std::map<std::string, ScalarType> types{
-    { "signed char", ScalarType::Int8 },
-    { "int8", ScalarType::Int8 },
-    { "int8_t", ScalarType::Int8 },
-    { "uchar", ScalarType::UInt8 },
-    { "unsigned char", ScalarType::UInt8 },
-    { "uint8", ScalarType::UInt8 },
-    { "uint8_t", ScalarType::UInt8 },
-    { "short", ScalarType::Int16 },
-    { "short int", ScalarType::Int16 },
-    { "signed short", ScalarType::Int16 },
-    { "signed short int", ScalarType::Int16 },
-    { "int16", ScalarType::Int16 },
-    { "int16_t", ScalarType::Int16 },
-    { "ushort", ScalarType::UInt16 },
-    { "unsigned short", ScalarType::UInt16 },
-    { "unsigned short int", ScalarType::UInt16 },
-    { "uint16", ScalarType::UInt16 },
-    { "uint16_t", ScalarType::UInt16 },
-    { "int", ScalarType::Int32 },
-    { "signed int", ScalarType::Int32 },
-    { "int32", ScalarType::Int32 },
-    { "int32_t", ScalarType::Int32 },
-    { "uint", ScalarType::UInt32 },
-    { "unsigned int", ScalarType::UInt32 },
-    { "uint32", ScalarType::UInt32 },
-    { "uint32_t", ScalarType::UInt32 },
-    { "longlong", ScalarType::Int64 },
-    { "long long", ScalarType::Int64 },
-    { "long long int", ScalarType::Int64 },
-    { "signed long long", ScalarType::Int64 },
-    { "signed long long int", ScalarType::Int64 },
-    { "int64", ScalarType::Int64 },
-    { "int64_t", ScalarType::Int64 },
-    { "ulonglong", ScalarType::UInt64 },
-    { "unsigned long long", ScalarType::UInt64 },
-    { "unsigned long long int", ScalarType::UInt64 },
-    { "uint64", ScalarType::UInt64 },
-    { "uint64_t", ScalarType::UInt64 },
-    { "float", ScalarType::Float32 },
-    { "double", ScalarType::Float64 },
-  };
-  const auto type = types.find(name);
-  if (type == types.end())
-  {
-    throw FileError(
-      "its header gives the type '" + Excerpt(name) + "', which is not a type of single numbers");
-  }
-  return type->second;
-}
+constexpr TypeNames Types{
+  "|signed char|int8|int8_t|",
+  "|uchar|unsigned char|uint8|uint8_t|",
+  "|short|short int|signed short|signed short int|int16|int16_t|",
+  "|ushort|unsigned short|unsigned short int|uint16|uint16_t|",
+  "|int|signed int|int32|int32_t|",
+  "|uint|unsigned int|uint32|uint32_t|",
+  "|longlong|long long|long long int|signed long long|signed long long int|int64|int64_t|",
+  "|ulonglong|unsigned long long|unsigned long long int|uint64|uint64_t|",
+  "|float|",
+  "|double|",
+};
 
 /** Words may be joined by anything: Teem writes "left-posterior-superior", and reads "left posterior superior", too. */
 Space SpaceNamed(const std::string& text)
@@ -114,25 +71,19 @@ Space SpaceNamed(const std::string& text)
   };
   std::string name = LowerCase(text);
   std::erase_if(name, [](char c) { return c == '-' || c == '_' || c == ' '; });
-  for (const char* time : { "time", "t" })
+  for (const std::string_view end : { "", "time", "t" })
   {
-    const std::size_t length = std::string_view(time).size();
     const auto space =
-      name.ends_with(time) ? spaces.find(name.substr(0, name.size() - length)) : spaces.end();
+      name.ends_with(end) ? spaces.find(name.substr(0, name.size() - end.size())) : spaces.end();
     if (space != spaces.end())
     {
       Space result = space->second;
-      result.Dimension = 4;
+      result.Dimension = end.empty() ? 3 : 4;
       return result;
     }
   }
-  const auto space = spaces.find(name);
-  if (space == spaces.end())
-  {
-    throw FileError("its header gives the space '" + Excerpt(text) +
-      "', which NRRD does not have: correct the header");
-  }
-  return space->second;
+  Refuse("its header gives the space '", Excerpt(text),
+    "', which NRRD does not have: correct the header");
 }
 
 Space FindSpace(const TextHeader& header)
@@ -142,12 +93,8 @@ Space FindSpace(const TextHeader& header)
     return SpaceNamed(*name);
   }
   const std::int64_t dimension = header.Whole({ "space dimension" }, 0);
-  if (dimension != 0 && dimension != 3 && dimension != 4)
-  {
-    throw FileError("its space has " + std::to_string(dimension) +
-      " dimensions; voxplex meshes images in three, and in "
-      "four with time as the last");
-  }
+  RefuseIf(dimension != 0 && dimension != 3 && dimension != 4, "its space has ", dimension,
+    " dimensions; voxplex meshes images in three, and in four with time as the last");
   return { { 1, 1, 1 }, static_cast<std::size_t>(dimension), false };
 }
 
@@ -163,11 +110,8 @@ void CheckFields(const TextHeader& header)
   for (const auto& [key, spelling] : header.Own())
   {
     const bool isPair = header.Find(key)->find(":=") != std::string::npos; // "a: b:=c"
-    if (!known.contains(key) && !isPair)
-    {
-      throw FileError("its header gives '" + Excerpt(spelling) +
-        "', which is no field of NRRD: correct the header");
-    }
+    RefuseIf(!known.contains(key) && !isPair, "its header gives '", Excerpt(spelling),
+      "', which is no field of NRRD: correct the header");
   }
 }
 
@@ -187,49 +131,47 @@ std::vector<std::vector<double>> ParseVectors(const std::string& text, std::size
     {
       vector.clear();
     }
-    if (!vector.empty() && vector.size() != dimension)
-    {
-      throw FileError("its header gives a space direction of " + std::to_string(vector.size()) +
-        " numbers in a space of " + std::to_string(dimension) + " dimensions: correct the header");
-    }
+    RefuseIf(!vector.empty() && vector.size() != dimension,
+      "its header gives a space direction of ", vector.size(), " numbers in a space of ", dimension,
+      " dimensions: correct the header");
     vectors.push_back(std::move(vector));
     at = std::min(end + 1, text.size());
   }
   return vectors;
 }
 
-/** One number, or word, for each axis, if the field is there. */
+/** One for each axis. */
 template <typename T>
 void CheckNumberOf(const std::vector<T>& values, const std::vector<Axis>& axes, const char* field)
 {
-  if (values.size() != axes.size())
+  RefuseIf(values.size() != axes.size(), "its header has ", axes.size(), " axes, and ",
+    values.size(), " of '", field, "': correct the header");
+}
+
+/** A word for each axis; empty if the field is not there. */
+std::vector<std::string> AxisWords(
+  const TextHeader& header, std::initializer_list<const char*> keys, const std::vector<Axis>& axes)
+{
+  const std::string text = header.Word(keys, "");
+  const std::vector<std::string_view> words = Words(text);
+  if (header.FindAny(keys))
   {
-    throw FileError("its header has " + std::to_string(axes.size()) + " axes, and " +
-      std::to_string(values.size()) + " of '" + field + "': correct the header");
+    CheckNumberOf(words, axes, *keys.begin());
   }
+  return { words.begin(), words.end() };
 }
 
 std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
 {
   const std::int64_t dimension = header.Whole({ "dimension" }, 0);
   constexpr std::int64_t most = 16; // which NRRD has
-  if (dimension < 1 || dimension > most)
-  {
-    throw FileError(
-      "its header gives " + std::to_string(dimension) + " dimensions, and NRRD has 1 to 16");
-  }
+  RefuseIf(dimension < 1 || dimension > most, "its header gives ", dimension,
+    " dimensions, and NRRD has 1 to 16");
   std::vector<Axis> axes(static_cast<std::size_t>(dimension));
   const std::vector<std::int64_t> sizes = header.Wholes({ "sizes" }, axes.size());
-  if (sizes.empty())
-  {
-    throw FileError("its header does not give 'sizes'");
-  }
-  std::vector<std::string> kinds;
-  if (const std::string* text = header.FindAny({ "kinds" }))
-  {
-    kinds = Words(LowerCase(*text));
-    CheckNumberOf(kinds, axes, "kinds");
-  }
+  RefuseIf(sizes.empty(), "its header does not give 'sizes'");
+  const std::vector<std::string> kinds = AxisWords(header, { "kinds" }, axes);
+  const std::vector<std::string> centers = AxisWords(header, { "centers", "centerings" }, axes);
   std::vector<std::vector<double>> directions;
   if (const std::string* text = header.Find("space directions"))
   {
@@ -239,12 +181,6 @@ std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
   const std::vector<double> spacings = header.Numbers({ "spacings" }, axes.size());
   const std::vector<double> mins = header.Numbers({ "axis mins", "axismins" }, axes.size());
   const std::vector<double> maxs = header.Numbers({ "axis maxs", "axismaxs" }, axes.size());
-  std::vector<std::string> centers;
-  if (const std::string* text = header.FindAny({ "centers", "centerings" }))
-  {
-    centers = Words(LowerCase(*text));
-    CheckNumberOf(centers, axes, "centers");
-  }
   for (std::size_t a = 0; a < axes.size(); ++a)
   {
     Axis& axis = axes[a];
@@ -287,17 +223,14 @@ bool IsDomain(const Axis& axis)
   const std::string components = std::to_string(axes[axis].Size);
   if (const std::string layers = DescribeLayers(header); !layers.empty())
   {
-    throw FileError("its segments overlap, so that they are stored in " + components +
-      " layers: " + layers +
+    Refuse("its segments overlap, so that they are stored in ", components, " layers: ", layers,
       "; a label image has one label a voxel: in 3D Slicer, export the segmentation to a label "
-      "map, which decides for one "
-      "segment where several overlap, and save that");
+      "map, which decides for one segment where several overlap, and save that");
   }
-  throw FileError("it has " + components +
-    " components a voxel (colours or vectors); a label image has one: export it as "
-    "a label map first, or, if they are time frames, save an image of four dimensions, or give "
-    "their axis (" +
-    std::to_string(axis) + ") the kind 'list'");
+  Refuse("it has ", components,
+    " components a voxel (colours or vectors); a label image has one: export it as a label map "
+    "first, or, if they are time frames, save an image of four dimensions, or give their axis (",
+    axis, ") the kind 'list'");
 }
 
 Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const Space& space)
@@ -326,114 +259,73 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
     {
       continue; // one frame, or one component
     }
-    if (!isTime && axes[a].Kind.empty() && space.Dimension > 0)
-    {
-      throw FileError("its header gives no space direction to axis " + std::to_string(a) +
-        ", which has " + std::to_string(axes[a].Size) +
-        " samples: if they are time frames, give that axis the kind 'list', or use a space of "
-        "four dimensions such as left-posterior-superior-time");
-    }
+    RefuseIf(!isTime && axes[a].Kind.empty() && space.Dimension > 0,
+      "its header gives no space direction to axis ", a, ", which has ", axes[a].Size,
+      " samples: if they are time frames, give that axis the kind 'list', or use a space of four "
+      "dimensions such as left-posterior-superior-time");
     if (!isTime || (axes[a].Kind == "list" && !DescribeLayers(header).empty()))
     {
       RefuseComponents(header, axes, a);
     }
-    if (roles.Frames)
-    {
-      throw FileError("it has " + std::to_string(axes.size()) +
-        " dimensions; voxplex meshes images of three, and of four "
-        "with time as one: extract one of those first");
-    }
+    RefuseIf(roles.Frames.has_value(), "it has ", axes.size(),
+      " dimensions; voxplex meshes images of three, and of four with time as one: extract one of "
+      "those first");
     roles.Frames = a;
   }
-  if (space.Dimension == 4 && roles.Space.size() == 4)
-  {
-    throw FileError("its direction matrix mixes time with space; only images whose frames each "
-                    "show one time can be meshed: correct "
-                    "the header, or resample the image");
-  }
+  CheckTimeIsApart(space.Dimension != 4 || roles.Space.size() != 4);
   while (roles.Space.size() > 3 && axes[roles.Space.back()].Size == 1)
   {
     roles.Space.pop_back();
   }
-  if (roles.Space.size() != 3)
-  {
-    throw FileError("it has " + std::to_string(roles.Space.size()) +
-      " axes of space; a volume has three: give a volume");
-  }
+  RefuseIf(roles.Space.size() != 3, "it has ", roles.Space.size(),
+    " axes of space; a volume has three: give a volume");
   return roles;
 }
 
 // --- Placement ---------------------------------------------------------------------------------------
 
-std::string SpacingFault(const TextHeader& header, const char* field)
-{
-  return "the voxel spacing in its header is '" +
-    Excerpt(*header.FindAny({ field, "axis maxs", "axismaxs" })) +
-    "'; it must be a positive length along each axis: correct the header";
-}
-
-void PlaceInSpace(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
+/** By space directions, or else by spacings along the axes of the space, which may be that of a header without one. */
+void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
   const Space& space, ScalarImage& image, Reading& reading)
 {
-  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
-  Vector3 origin{};
-  std::array<Vector3, 3> steps{};
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    origin[row] = given.empty() ? 0.0 : space.Signs[row] * given[row];
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      steps[i][row] = space.Signs[row] * axes[roles.Space[i]].Direction[row];
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::vector<double>& direction = axes[roles.Space[i]].Direction;
-    if (!std::all_of(
-          direction.begin(), direction.end(), [](double number) { return std::isfinite(number); }))
-    {
-      throw FileError(SpacingFault(header, "space directions"));
-    }
-    if (direction.size() == 4 && std::abs(direction[3]) >= DirectionTolerance)
-    {
-      throw FileError("its direction matrix mixes time with space; only images whose frames each "
-                      "show one time can be meshed: "
-                      "correct the header, or resample the image");
-    }
-  }
-  Place(image, steps, origin);
-  if (!space.SaysWhereLeftIs)
-  {
-    reading.Warnings.push_back(
-      "its header does not say where left, posterior and superior are (space '" +
-      Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
-  }
-}
-
-/** Axes are those of space, which may be that of a header without directions. */
-void PlaceBySpacings(const TextHeader& header, const std::vector<Axis>& axes, const Roles& roles,
-  const Space& space, ScalarImage& image, Reading& reading)
-{
-  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
+  const bool hasDirections = header.Find("space directions") != nullptr;
   const bool hasSpacings = header.FindAny({ "spacings", "axis maxs", "axismaxs" }) != nullptr;
+  const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
   Vector3 origin{};
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
   {
     const Axis& axis = axes[roles.Space[i]];
-    if (hasSpacings && (!(axis.Spacing > 0) || !std::isfinite(axis.Spacing)))
+    const double first = !given.empty() ? given[i] : hasDirections ? NaN : axis.First;
+    const bool isMissing = std::isnan(first) && (given.empty() || !hasDirections);
+    origin[i] = isMissing ? 0.0 : space.Signs[i] * first;
+    if (!hasDirections)
     {
-      throw FileError(SpacingFault(header, "spacings"));
+      CheckSpacing(!hasSpacings || (axis.Spacing > 0 && std::isfinite(axis.Spacing)),
+        header.Shown({ "spacings", "axis maxs", "axismaxs" }));
+      steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
+      continue;
     }
-    steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
-    const double first = given.empty() ? axis.First : given[i];
-    origin[i] = std::isnan(first) ? 0.0 : space.Signs[i] * first;
+    const std::vector<double>& direction = axis.Direction;
+    CheckSpacing(std::all_of(direction.begin(), direction.end(),
+                   [](double number) { return std::isfinite(number); }),
+      header.Shown({ "space directions" }));
+    CheckTimeIsApart(direction.size() != 4 || std::abs(direction[3]) < DirectionTolerance);
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      steps[i][row] = space.Signs[row] * direction[row];
+    }
   }
   Place(image, steps, origin);
-  if (!hasSpacings)
+  if (!hasDirections && !hasSpacings)
   {
-    reading.Warnings.push_back("its header gives no spacing of the voxels, which is taken to be 1; "
-                               "set it with SetSpacing()");
+    WarnOfSpacing(reading);
+  }
+  if (hasDirections && !space.SaysWhereLeftIs)
+  {
+    reading.Warnings.push_back(
+      "its header does not say where left, posterior and superior are (space '" +
+      Excerpt(header.Word({ "space" }, "none")) + "'); its coordinates are taken for LPS");
   }
 }
 
@@ -473,69 +365,39 @@ void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, 
   }
   const bool isInSpace = axis.Direction.size() == 4;
   const double step = isInSpace ? axis.Direction[3] : axis.Spacing;
-  if (isInSpace && step < 0)
-  {
-    throw FileError("its time runs backwards: reverse the frames, or correct the header");
-  }
-  if (!std::isnan(step) && (!(step > 0) || !std::isfinite(step)))
-  {
-    throw FileError("the time from frame to frame in its header is '" +
-      Excerpt(
-        *header.FindAny({ isInSpace ? "space directions" : "spacings", "axis maxs", "axismaxs" })) +
-      "'; it must be a positive number: correct the header");
-  }
+  RefuseIf(
+    isInSpace && step < 0, "its time runs backwards: reverse the frames, or correct the header");
   const std::vector<double> origin =
     isInSpace ? header.Numbers({ "space origin" }, 4) : std::vector<double>();
-  image.TimeSpacing = std::isnan(step) ? 1.0 : step;
-  image.TimeOrigin = !origin.empty() && !std::isnan(origin[3]) ? origin[3]
-    : std::isnan(axis.First)                                   ? 0.0
-                                                               : axis.First;
+  const double first = !origin.empty() && !std::isnan(origin[3]) ? origin[3] : axis.First;
+  SetTimeStep(image, std::isnan(first) ? 0.0 : first, std::isnan(step) ? 1.0 : step,
+    header.Shown({ isInSpace ? "space directions" : "spacings", "axis maxs", "axismaxs" }));
 }
 
 /** @param size of a voxel in bytes */
 StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Reading& reading)
 {
   StoredVoxels stored;
-  const std::string encoding = header.Word({ "encoding" }, "");
-  if (encoding == "raw")
-  {
-    stored.Coding = Encoding::Raw;
-  }
-  else if (encoding == "gz" || encoding == "gzip")
-  {
-    stored.Coding = Encoding::Deflate;
-  }
-  else if (encoding == "txt" || encoding == "text" || encoding == "ascii")
-  {
-    stored.Coding = Encoding::Text;
-  }
-  else if (encoding == "hex")
-  {
-    stored.Coding = Encoding::Hex;
-  }
-  else
-  {
-    throw FileError(
-      (encoding.empty() ? std::string("its header gives no encoding")
-                        : "its voxels are in the encoding '" + Excerpt(encoding) + "'") +
-      "; those that are read are raw, gzip, text and hex: save it with one of these");
-  }
+  static const std::map<std::string, Encoding> encodings{ { "raw", Encoding::Raw },
+    { "gz", Encoding::Deflate }, { "gzip", Encoding::Deflate }, { "txt", Encoding::Text },
+    { "text", Encoding::Text }, { "ascii", Encoding::Text }, { "hex", Encoding::Hex } };
+  const std::string name = header.Word({ "encoding" }, "");
+  const auto encoding = encodings.find(name);
+  RefuseIf(encoding == encodings.end(),
+    name.empty() ? "its header gives no encoding"
+                 : "its voxels are in the encoding '" + Excerpt(name) + "'",
+    "; those that are read are raw, gzip, text and hex: save it with one of these");
+  stored.Coding = encoding->second;
   const std::string endian = header.Word(
     { "endian" }, stored.Coding == Encoding::Text || size == 1 ? "little" : "not given");
-  if (endian != "little" && endian != "big")
-  {
-    throw FileError("its header gives the byte order '" + Excerpt(endian) +
-      "', which is neither little nor big ('endian'): correct the header");
-  }
+  RefuseIf(endian != "little" && endian != "big", "its header gives the byte order '",
+    Excerpt(endian), "', which is neither little nor big ('endian'): correct the header");
   stored.IsBigEndian = endian == "big";
   stored.LinesToSkip = header.Whole({ "line skip", "lineskip" }, 0);
   stored.BytesToSkip = header.Whole({ "byte skip", "byteskip" }, 0);
   const bool isRaw = stored.Coding == Encoding::Raw;
-  if (stored.LinesToSkip < 0 || stored.BytesToSkip < (isRaw ? StoredVoxels::FromTheEnd : 0))
-  {
-    throw FileError(
-      "its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
-  }
+  RefuseIf(stored.LinesToSkip < 0 || stored.BytesToSkip < (isRaw ? StoredVoxels::FromTheEnd : 0),
+    "its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
   header.SetFiles(header.FindAny({ "data file", "datafile" }), reading.DataFilesAnywhere, stored);
   return stored;
 }
@@ -549,23 +411,15 @@ void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
   {
     return;
   }
-  std::vector<std::string> texts;
-  for (std::size_t at = 0; (at = units->find('"', at)) != std::string::npos;)
-  {
-    const std::size_t end = std::min(units->find('"', at + 1), units->size());
-    texts.push_back(units->substr(at + 1, end - at - 1));
-    at = std::min(end + 1, units->size());
-  }
+  const std::vector<std::string> texts =
+    Split(*units, '"'); // of which each second is within quotes
   std::string unit;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const std::size_t at = isOfSpace ? i : roles.Space[i];
+    const std::size_t at = 2 * (isOfSpace ? i : roles.Space[i]) + 1;
     const std::string own = at < texts.size() ? texts[at] : "";
-    if (i > 0 && own != unit)
-    {
-      throw FileError("its axes have the units '" + Excerpt(unit) + "' and '" + Excerpt(own) +
-        "': write it with one unit");
-    }
+    RefuseIf(i > 0 && own != unit, "its axes have the units '", Excerpt(unit), "' and '",
+      Excerpt(own), "': write it with one unit");
     unit = own;
   }
   WarnOfLengths(unit, reading);
@@ -588,7 +442,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
   const Roles roles = AssignRoles(header, axes, space);
 
   ScalarImage image;
-  image.Type = TypeNamed(header.Word({ "type" }, ""));
+  image.Type = TypeNamed(header.Word({ "type" }, ""), "type", Types);
   std::vector<std::int64_t> sizes;
   for (const std::size_t a : roles.Space)
   {
@@ -599,14 +453,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
     sizes.push_back(axes[*roles.Frames].Size);
   }
   SetSizes(image, sizes);
-  if (header.Find("space directions"))
-  {
-    PlaceInSpace(header, axes, roles, space, image, reading);
-  }
-  else
-  {
-    PlaceBySpacings(header, axes, roles, space, image, reading);
-  }
+  PlaceImage(header, axes, roles, space, image, reading);
   WarnOfUnit(header, roles, reading);
   if (roles.Frames)
   {

@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadOtherVolumes.h"
+#include "Readers.h"
 
 #include "Fields.h"
-#include "FileError.h"
-#include "InputFile.h"
 #include "Placement.h"
-#include "Reading.h"
 #include "StoredVoxels.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace voxplex::io
@@ -23,35 +21,23 @@ namespace
 constexpr std::size_t SizeOfGIPL = 256;
 constexpr std::size_t SizeOfMRC = 1024;
 
-std::string DescribeType(const char* what, std::int64_t code)
+[[noreturn]] void RefuseType(const char* what, std::int64_t code)
 {
-  return std::string("its header gives the ") + what + ' ' + std::to_string(code) +
-    ", which is not a type of single numbers that is read";
+  Refuse("its header gives the ", what, ' ', code,
+    ", which is not a type of single numbers that is read");
 }
 
 ScalarType TypeOfGIPL(std::int64_t code)
 {
-  switch (code)
+  using enum ScalarType;
+  static const std::map<std::int64_t, ScalarType> types{ { 7, Int8 }, { 8, UInt8 }, { 15, Int16 },
+    { 16, UInt16 }, { 31, UInt32 }, { 32, Int32 }, { 64, Float32 }, { 65, Float64 } };
+  const auto type = types.find(code);
+  if (type == types.end())
   {
-    case 7:
-      return ScalarType::Int8;
-    case 8:
-      return ScalarType::UInt8;
-    case 15:
-      return ScalarType::Int16;
-    case 16:
-      return ScalarType::UInt16;
-    case 31:
-      return ScalarType::UInt32;
-    case 32:
-      return ScalarType::Int32;
-    case 64:
-      return ScalarType::Float32;
-    case 65:
-      return ScalarType::Float64;
-    default:
-      throw FileError(DescribeType("image type", code));
+    RefuseType("image type", code);
   }
+  return type->second;
 }
 
 bool IsBigEndianMRC(const std::string& bytes)
@@ -85,7 +71,7 @@ ScalarType TypeOfMRC(const Fields& fields)
     case 6:
       return ScalarType::UInt16;
     default:
-      throw FileError(DescribeType("mode", mode));
+      RefuseType("mode", mode);
   }
 }
 
@@ -98,9 +84,8 @@ void WarnOfNegativeBytes(const Fields& fields, const ScalarImage& image, Reading
     fields.Get<std::int32_t>(108) < firstThatSaysSo &&
     std::any_of(bytes, bytes + image.NumberOfVoxels(), [](std::int8_t voxel) { return voxel < 0; }))
   {
-    reading.Warnings.push_back(
-      "it has negative voxels (mode 0), by which the program that wrote it "
-      "may have meant numbers from 128 to 255");
+    reading.Warnings.push_back("it has negative voxels (mode 0), by which the program that wrote "
+                               "it may have meant numbers from 128 to 255");
   }
 }
 
@@ -118,37 +103,26 @@ void PlaceMRC(const Fields& fields, ScalarImage& image, Reading& reading)
     origin[i] = fields.Get<float>(196 + 4 * i);
     hasOrigin = hasOrigin || origin[i] != 0;
     const std::int32_t intervals = fields.Get<std::int32_t>(28 + 4 * i);
-    if (intervals <= 0)
-    {
-      throw FileError("its header gives " + std::to_string(intervals) +
-        " for the sampling of its cell: correct the header");
-    }
+    RefuseIf(intervals <= 0, "its header gives ", intervals,
+      " for the sampling of its cell: correct the header");
     spacing[i] = fields.Get<float>(40 + 4 * i) / static_cast<double>(intervals);
     const float angle = fields.Get<float>(52 + 4 * i);
-    if (angle != 90.0F && angle != 0.0F)
-    {
-      throw FileError(
-        "its cell is not rectangular (angles of " + std::to_string(angle) + "): resample it");
-    }
+    RefuseIf(angle != 90.0F && angle != 0.0F, "its cell is not rectangular (angles of ", angle,
+      "): resample it");
   }
-  if (axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 ||
-    axes[0] == axes[1])
-  {
-    throw FileError("its header does not say which axes columns, rows and sections run along");
-  }
+  RefuseIf(axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 ||
+      axes[0] == axes[1],
+    "its header does not say which axes columns, rows and sections run along");
   if (spacing == Vector3{}) // what mrcfile writes, if it is not told
   {
     spacing = { 1.0, 1.0, 1.0 };
-    reading.Warnings.push_back("its header gives no spacing of the voxels, which is taken to be 1; "
-                               "set it with SetSpacing()");
+    WarnOfSpacing(reading);
   }
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
   {
-    if (!(spacing[axes[i]] > 0))
-    {
-      throw FileError("the size of its cell is not positive in its header: correct the header");
-    }
+    RefuseIf(!(spacing[axes[i]] > 0),
+      "the size of its cell is not positive in its header: correct the header");
     steps[i][axes[i]] = spacing[axes[i]];
     if (!hasOrigin)
     {
@@ -228,15 +202,10 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
     { fields.Get<std::int32_t>(0), fields.Get<std::int32_t>(4), fields.Get<std::int32_t>(8) });
   PlaceMRC(fields, image, reading);
   const std::int32_t extension = fields.Get<std::int32_t>(92);
-  if (extension < 0)
-  {
-    throw FileError("its header claims an extension of " + std::to_string(extension) + " bytes");
-  }
+  RefuseIf(extension < 0, "its header claims an extension of ", extension, " bytes");
   constexpr std::int32_t firstOfStacks = 401;
-  if (fields.Get<std::int32_t>(88) >= firstOfStacks)
-  {
-    throw FileError("it is a stack of volumes: extract one of them first");
-  }
+  RefuseIf(fields.Get<std::int32_t>(88) >= firstOfStacks,
+    "it is a stack of volumes: extract one of them first");
   WarnOfLengths("angstrom", reading);
   stored.Files = { path };
   stored.BytesToSkip = static_cast<std::int64_t>(SizeOfMRC) + extension;

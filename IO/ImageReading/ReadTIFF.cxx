@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadTIFF.h"
+#include "Readers.h"
 
 #include "ByteSource.h"
-#include "Excerpt.h"
-#include "FileError.h"
+#include "Fields.h"
 #include "Placement.h"
+#include "StoredVoxels.h"
 #include "TIFFStack.h"
+#include "Text.h"
 
 #include <vtk_tiff.h>
 
@@ -16,81 +17,37 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace voxplex::io
 {
 namespace
 {
 
-// --- libtiff, which reads through InputFile and says what it finds to us alone
+// --- libtiff, which says what it finds to us alone
 
 struct Source
 {
   explicit Source(const InputFile& file)
     : File(file)
+    , Descriptor(fcntl(file.Descriptor(), F_DUPFD_CLOEXEC, 0))
   {
   }
 
   const InputFile& File;
-  std::uint64_t Position = 0;
+  int Descriptor;      ///< for libtiff, which closes it
   std::string Error;   ///< the first since it was cleared
   std::string Warning; ///< the last since it was cleared
   std::string
     Ignored; ///< the warning of a tag that matters and is not used; empty if there is none
 };
-
-Source& At(void* data)
-{
-  return *static_cast<Source*>(data);
-}
-
-tmsize_t ReadSource(thandle_t data, void* to, tmsize_t size)
-{
-  Source& source = At(data);
-  try
-  {
-    const std::size_t got = source.File.ReadAt(
-      source.Position, std::span(static_cast<std::byte*>(to), static_cast<std::size_t>(size)));
-    source.Position += got;
-    return static_cast<tmsize_t>(got);
-  }
-  catch (const std::exception& error)
-  {
-    source.Error = error.what();
-    return -1;
-  }
-}
-
-tmsize_t RefuseToWrite(thandle_t /*data*/, void* /*from*/, tmsize_t /*size*/)
-{
-  return -1;
-}
-
-toff_t SeekInSource(thandle_t data, toff_t offset, int whence)
-{
-  Source& source = At(data);
-  const std::uint64_t from = whence == SEEK_CUR ? source.Position
-    : whence == SEEK_END                        ? source.File.Size()
-                                                : 0;
-  source.Position = from + offset;
-  return source.Position;
-}
-
-int LeaveOpen(thandle_t /*data*/)
-{
-  return 0;
-}
-
-toff_t SizeOfSource(thandle_t data)
-{
-  return At(data).File.Size();
-}
 
 std::string Format(const char* format, va_list values)
 {
@@ -133,64 +90,61 @@ using TIFFHandle = std::unique_ptr<TIFF, TIFFCloser>;
 constexpr const char* Mode = "rmc";
 
 #if TIFFLIB_VERSION >= 20221213
-TIFFHandle Open(Source& source)
+template <void (*Note)(Source&, const char*, va_list)>
+int Handle(TIFF*, void* data, const char*, const char* format, va_list values)
+{
+  Note(*static_cast<Source*>(data), format, values);
+  return 1; // no other handler is asked
+}
+
+TIFF* OpenWithHandlers(Source& source)
 {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(
     TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
-  constexpr int handled = 1; // no other handler is asked
-  TIFFOpenOptionsSetErrorHandlerExtR(
-    options.get(),
-    [](TIFF*, void* data, const char*, const char* format, va_list values)
-    {
-      NoteError(At(data), format, values);
-      return handled;
-    },
-    &source);
-  TIFFOpenOptionsSetWarningHandlerExtR(
-    options.get(),
-    [](TIFF*, void* data, const char*, const char* format, va_list values)
-    {
-      NoteWarning(At(data), format, values);
-      return handled;
-    },
-    &source);
-  return TIFFHandle(TIFFClientOpenExt("", Mode, &source, ReadSource, RefuseToWrite, SeekInSource,
-    LeaveOpen, SizeOfSource, nullptr, nullptr, options.get()));
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), Handle<NoteError>, &source);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), Handle<NoteWarning>, &source);
+  return TIFFFdOpenExt(source.Descriptor, "", Mode, options.get());
 }
 #else
-/** Older ones have handlers for the whole process only, which get the handles of others, too. */
+/** Older ones have handlers for the whole process only, which get what is said of other files, too. */
 thread_local Source* current = nullptr;
 
-TIFFHandle Open(Source& source)
+template <void (*Note)(Source&, const char*, va_list)>
+void Handle(thandle_t file, const char*, const char* format, va_list values)
+{
+  if (current && reinterpret_cast<std::intptr_t>(file) == current->Descriptor)
+  {
+    Note(*current, format, values);
+  }
+}
+
+TIFF* OpenWithHandlers(Source& source)
 {
   current = &source;
   TIFFSetErrorHandler(nullptr);
-  TIFFSetErrorHandlerExt(
-    [](thandle_t data, const char*, const char* format, va_list values)
-    {
-      if (data == current)
-      {
-        NoteError(*current, format, values);
-      }
-    });
+  TIFFSetErrorHandlerExt(Handle<NoteError>);
   TIFFSetWarningHandler(nullptr);
-  TIFFSetWarningHandlerExt(
-    [](thandle_t data, const char*, const char* format, va_list values)
-    {
-      if (data == current)
-      {
-        NoteWarning(*current, format, values);
-      }
-    });
-  return TIFFHandle(TIFFClientOpen("", Mode, &source, ReadSource, RefuseToWrite, SeekInSource,
-    LeaveOpen, SizeOfSource, nullptr, nullptr));
+  TIFFSetWarningHandlerExt(Handle<NoteWarning>);
+  return TIFFFdOpen(source.Descriptor, "", Mode);
 }
 #endif
 
-[[noreturn]] void RefuseDamage(std::int64_t page, const std::string& reason)
+TIFFHandle Open(Source& source)
 {
-  throw FileError("it is truncated or damaged: page " + std::to_string(page) +
-    (reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")"));
+  TIFFHandle handle(OpenWithHandlers(source));
+  if (!handle)
+  {
+    close(source.Descriptor);
+  }
+  return handle;
+}
+
+constexpr const char* DamagedPage = "it is truncated or damaged: page ";
+
+/** By what libtiff says. */
+void RefuseDamageIf(bool isDamaged, std::int64_t page, const std::string& reason)
+{
+  RefuseIf(isDamaged, DamagedPage, page, reason.empty() ? "" : " (" + Excerpt(reason, 200) + ")");
 }
 
 /** The value of a tag, or what TIFF says where there is none. */
@@ -263,35 +217,24 @@ std::optional<ScalarType> FindScalarType(const PageType& type)
 
 void CheckType(const PageType& type)
 {
-  if (type.Samples != 1)
-  {
-    throw FileError("it has " + std::to_string(type.Samples) +
-      " components a voxel (colours or vectors); a label image has one: export it as a label map "
-      "first");
-  }
-  if (!FindScalarType(type))
-  {
-    throw FileError("its pages are " + Describe(type) +
-      "; voxplex reads integers of 1, 8, 16, 32 and 64 bits and floating-point numbers of 32 and "
-      "64: save it with one of these types");
-  }
+  RefuseIf(type.Samples != 1, "it has ", type.Samples,
+    " components a voxel (colours or vectors); a label image has one: export it as a label map "
+    "first");
+  RefuseIf(!FindScalarType(type), "its pages are ", Describe(type),
+    "; voxplex reads integers of 1, 8, 16, 32 and 64 bits and floating-point numbers of 32 and 64: "
+    "save it with one of these types");
 }
 
 /** ImageJ gives colours to numbers that have a meaning without them; for others, numbers only choose colours. */
 void CheckColours(TIFF* tiff, bool isImageJ)
 {
   const auto colours = Get<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  if (colours == PHOTOMETRIC_PALETTE && !isImageJ)
-  {
-    throw FileError("its numbers stand for colours of a palette, and need not be labels: save it "
-                    "as grey values");
-  }
-  if (colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_MINISWHITE &&
-    colours != PHOTOMETRIC_PALETTE)
-  {
-    throw FileError("its numbers are colours (PhotometricInterpretation " +
-      std::to_string(colours) + "), not labels: export it as a label map first");
-  }
+  RefuseIf(colours == PHOTOMETRIC_PALETTE && !isImageJ,
+    "its numbers stand for colours of a palette, and need not be labels: save it as grey values");
+  RefuseIf(colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_MINISWHITE &&
+      colours != PHOTOMETRIC_PALETTE,
+    "its numbers are colours (PhotometricInterpretation ", colours,
+    "), not labels: export it as a label map first");
 }
 
 /** Rows may run upwards. */
@@ -299,11 +242,8 @@ bool IsUpsideDown(TIFF* tiff)
 {
   const auto orientation =
     Get<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, std::uint16_t{ ORIENTATION_TOPLEFT });
-  if (orientation != ORIENTATION_TOPLEFT && orientation != ORIENTATION_BOTLEFT)
-  {
-    throw FileError("its pages are stored mirrored or turned (Orientation " +
-      std::to_string(orientation) + "): save it upright");
-  }
+  RefuseIf(orientation != ORIENTATION_TOPLEFT && orientation != ORIENTATION_BOTLEFT,
+    "its pages are stored mirrored or turned (Orientation ", orientation, "): save it upright");
   return orientation == ORIENTATION_BOTLEFT;
 }
 
@@ -313,16 +253,13 @@ std::string CheckCompression(std::uint16_t compression)
   const TIFFCodec* codec = TIFFFindCODEC(compression);
   const std::string name =
     codec ? codec->name : "a method that is unknown, " + std::to_string(compression);
-  if (!TIFFIsCODECConfigured(compression))
-  {
-    throw FileError("it is compressed with " + name +
-      ", which this libtiff cannot read: save it uncompressed, or with LZW or Deflate");
-  }
-  const bool changesNumbers = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG ||
-    compression == COMPRESSION_PIXARLOG;
-  const bool mayChangeNumbers = compression == COMPRESSION_LERC; // this is a choice of the writer
-  return changesNumbers || mayChangeNumbers
-    ? "it is compressed with " + name + ", which " + (mayChangeNumbers ? "may change" : "changes") +
+  RefuseIf(!TIFFIsCODECConfigured(compression), "it is compressed with ", name,
+    ", which this libtiff cannot read: save it uncompressed, or with LZW or Deflate");
+  const bool mayChange = compression == COMPRESSION_LERC; // this is a choice of the writer
+  const bool isLossy = mayChange || compression == COMPRESSION_JPEG ||
+    compression == COMPRESSION_OJPEG || compression == COMPRESSION_PIXARLOG;
+  return isLossy
+    ? "it is compressed with " + name + ", which " + (mayChange ? "may change" : "changes") +
       " numbers: labels may be wrong, most of all where tissues meet"
     : "";
 }
@@ -368,10 +305,7 @@ public:
     : Reads(file)
     , Handle(Open(this->Reads))
   {
-    if (!this->Handle)
-    {
-      RefuseDamage(1, this->Reads.Error);
-    }
+    RefuseDamageIf(!this->Handle, 1, this->Reads.Error);
   }
 
   /** Looks at each directory, and checks that what it needs is in the file. */
@@ -384,7 +318,8 @@ public:
 
   /** @param places one for each page */
   void ReadInto(const std::vector<std::byte*>& places, const TIFFPages& pages);
-  void ReadContiguousInto(const std::vector<std::byte*>& places);
+  /** Where voxels are if the first page has a directory, and the others follow it without one. */
+  StoredVoxels Contiguous() const;
 
 private:
   bool HasLink();
@@ -420,39 +355,26 @@ bool PageReader::HasLink()
 {
   TIFF* const tiff = this->Handle.get();
   const bool isBig = this->Reads.File.Beginning(4).find('+') != std::string::npos;
-  std::array<std::byte, 8> bytes{}; // how many entries there are
-  const std::size_t bytesOfCount = isBig ? 8 : 2;
   const std::uint64_t start = TIFFCurrentDirOffset(tiff);
-  this->Reads.File.ReadAt(start, std::span(bytes).first(bytesOfCount));
-  if (!TIFFIsBigEndian(tiff))
-  {
-    std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytesOfCount));
-  }
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < bytesOfCount; ++i)
-  {
-    count = count << 8 | std::to_integer<std::uint64_t>(bytes[i]);
-  }
-  return start + bytesOfCount + count * (isBig ? 20 : 12) + (isBig ? 8 : 4) <=
-    this->Reads.File.Size();
+  std::string bytes(8, '\0');
+  this->Reads.File.ReadAt(start, std::as_writable_bytes(std::span(bytes)));
+  const Fields fields(bytes, TIFFIsBigEndian(tiff) != 0);
+  const std::uint64_t entries = isBig ? fields.Get<std::uint64_t>(0) : fields.Get<std::uint16_t>(0);
+  return start + (isBig ? 8 + 20 * entries + 8 : 2 + 12 * entries + 4) <= this->Reads.File.Size();
 }
 
 bool PageReader::MoveToNext(std::int64_t page)
 {
   if (TIFFLastDirectory(this->Handle.get()))
   {
-    if (!this->HasLink())
-    {
-      RefuseDamage(page, "the file ends before it");
-    }
+    RefuseIf(!this->HasLink(), DamagedPage, page, " (the file ends before it)");
     return false;
   }
   this->Reads.Error.clear();
   this->Reads.Warning.clear();
-  if (!TIFFReadDirectory(this->Handle.get()))
-  {
-    RefuseDamage(page, this->Reads.Error.empty() ? this->Reads.Warning : this->Reads.Error);
-  }
+  const bool isRead = TIFFReadDirectory(this->Handle.get()) != 0;
+  RefuseDamageIf(
+    !isRead, page, this->Reads.Error.empty() ? this->Reads.Warning : this->Reads.Error);
   return true;
 }
 
@@ -473,19 +395,10 @@ TIFFPages PageReader::List(std::vector<std::string>& warnings)
       this->CheckPage(pages.Count(), pages.Description.rfind("ImageJ=", 0) == 0, warnings);
       pages.Contiguous = pages.Count() == 1 ? this->CountContiguous() : pages.Contiguous;
     }
-    if (++directory > most)
-    {
-      throw FileError("it has more than " + std::to_string(most) + " pages");
-    }
-    if (!this->Reads.Ignored.empty())
-    {
-      RefuseDamage(pages.Count(), this->Reads.Ignored);
-    }
+    RefuseIf(++directory > most, "it has more than ", most, " pages");
+    RefuseDamageIf(!this->Reads.Ignored.empty(), pages.Count(), this->Reads.Ignored);
   } while (this->MoveToNext(pages.Count() + 1));
-  if (pages.Directories.empty())
-  {
-    throw FileError("it has no page that is not a reduced image or a mask");
-  }
+  RefuseIf(pages.Directories.empty(), "it has no page that is not a reduced image or a mask");
   return pages;
 }
 
@@ -507,16 +420,11 @@ void PageReader::CheckPage(std::int64_t page, bool isImageJ, std::vector<std::st
 {
   TIFF* const tiff = this->Handle.get();
   const PageType type = GetType(tiff);
-  if (type != this->First)
-  {
-    throw FileError("its pages differ: page " + std::to_string(page) + " is " + Describe(type) +
-      ", and the first is " + Describe(this->First));
-  }
-  if (Get<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1) != 1)
-  {
-    throw FileError("its pages have several slices each (ImageDepth), which voxplex does not read: "
-                    "save it with a page for each slice");
-  }
+  RefuseIf(type != this->First, "its pages differ: page ", page, " is ", Describe(type),
+    ", and the first is ", Describe(this->First));
+  RefuseIf(Get<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1) != 1,
+    "its pages have several slices each (ImageDepth), which voxplex does not read: save it with a "
+    "page for each slice");
   CheckColours(tiff, isImageJ);
   IsUpsideDown(tiff);
   const std::string warning =
@@ -534,11 +442,9 @@ constexpr double MostOfAByte = 65536.0;
 void PageReader::CheckClaim(std::uint64_t rowBytes, std::uint64_t rows) const
 {
   const double claim = static_cast<double>(rowBytes) * static_cast<double>(rows);
-  if (claim > MostOfAByte * static_cast<double>(this->Reads.File.Size()))
-  {
-    throw FileError("it is truncated or damaged: it claims " + Describe(this->First) +
-      " a page, and the file has " + std::to_string(this->Reads.File.Size()) + " bytes");
-  }
+  RefuseIf(claim > MostOfAByte * static_cast<double>(this->Reads.File.Size()),
+    "it is truncated or damaged: it claims ", Describe(this->First), " a page, and the file has ",
+    this->Reads.File.Size(), " bytes");
 }
 
 void PageReader::CheckParts(std::int64_t page, const Parts& parts)
@@ -546,12 +452,8 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
   TIFF* const tiff = this->Handle.get();
   const std::uint64_t size = this->Reads.File.Size();
   const std::uint64_t count = parts.AreTiles ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
-  if (parts.Across * parts.Down != count || count == 0 || count > size)
-  {
-    RefuseDamage(page,
-      "it claims " + std::to_string(count) + " strips or tiles of " + std::to_string(parts.Width) +
-        " x " + std::to_string(parts.Length));
-  }
+  RefuseIf(parts.Across * parts.Down != count || count == 0 || count > size, DamagedPage, page,
+    " (it claims ", count, " strips or tiles of ", parts.Width, " x ", parts.Length, ")");
   const std::uint64_t rowBytes = this->First.BytesOf(parts.Width);
   this->CheckClaim(this->First.BytesOf(this->First.Width), this->First.Length);
   this->CheckClaim(rowBytes, parts.Length);
@@ -562,25 +464,15 @@ void PageReader::CheckParts(std::int64_t page, const Parts& parts)
     const std::uint64_t row = part / parts.Across * parts.Length;
     const std::uint64_t offset = TIFFGetStrileOffset(tiff, static_cast<std::uint32_t>(part));
     const std::uint64_t bytes = TIFFGetStrileByteCount(tiff, static_cast<std::uint32_t>(part));
-    if (offset == 0 && bytes == 0)
-    {
-      throw FileError("it is a sparse file, which leaves out strip or tile " +
-        std::to_string(part + 1) + " of page " + std::to_string(page) +
-        ": save it with all strips and tiles");
-    }
+    RefuseIf(offset == 0 && bytes == 0, "it is a sparse file, which leaves out strip or tile ",
+      part + 1, " of page ", page, ": save it with all strips and tiles");
     const std::uint64_t needed = isPlain ? rowBytes * parts.RowsFrom(row, this->First) : 1;
-    if (bytes < needed || offset == 0 || offset > size || bytes > size - offset)
-    {
-      RefuseDamage(page,
-        "its strip or tile " + std::to_string(part + 1) + " has " + std::to_string(bytes) +
-          " bytes from byte " + std::to_string(offset) + " on; " + std::to_string(needed) +
-          " are needed, and the file has " + std::to_string(size));
-    }
+    RefuseIf(bytes < needed || offset == 0 || offset > size || bytes > size - offset, DamagedPage,
+      page, " (its strip or tile ", part + 1, " has ", bytes, " bytes from byte ", offset, " on; ",
+      needed, " are needed, and the file has ", size, ")");
     this->BytesUncompressed += isPlain ? needed : 0;
-    if (this->BytesUncompressed > size)
-    {
-      RefuseDamage(page, "it shares its voxels with other pages");
-    }
+    RefuseIf(this->BytesUncompressed > size, DamagedPage, page,
+      " (it shares its voxels with other pages)");
   }
 }
 
@@ -601,6 +493,15 @@ std::int64_t PageReader::CountContiguous()
   return isOnePiece ? static_cast<std::int64_t>(
                         (this->Reads.File.Size() - this->Begin) / (rowBytes * this->First.Length))
                     : 1;
+}
+
+StoredVoxels PageReader::Contiguous() const
+{
+  StoredVoxels stored;
+  stored.IsBigEndian = TIFFIsBigEndian(this->Handle.get()) != 0;
+  stored.Files = { this->Reads.File.Path() };
+  stored.Offset = static_cast<std::int64_t>(this->Begin);
+  return stored;
 }
 
 void PageReader::ReadInto(const std::vector<std::byte*>& places, const TIFFPages& pages)
@@ -670,15 +571,10 @@ void PageReader::ReadPart(std::int64_t page, std::uint32_t part, std::span<std::
   const auto size = static_cast<tmsize_t>(to.size());
   const tmsize_t got = TIFFIsTiled(tiff) ? TIFFReadEncodedTile(tiff, part, to.data(), size)
                                          : TIFFReadEncodedStrip(tiff, part, to.data(), size);
-  if (got != size || !this->Reads.Error.empty())
-  {
-    RefuseDamage(page, this->Reads.Error);
-  }
+  RefuseDamageIf(got != size || !this->Reads.Error.empty(), page, this->Reads.Error);
   const auto compression = Get<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (!this->Reads.Warning.empty() && WarnsOfDamage(compression))
-  {
-    RefuseDamage(page, this->Reads.Warning);
-  }
+  RefuseDamageIf(
+    !this->Reads.Warning.empty() && WarnsOfDamage(compression), page, this->Reads.Warning);
   const bool isDeflated =
     compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE;
   const auto order = Get<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB);
@@ -700,7 +596,7 @@ void PageReader::CheckSum(std::int64_t page, std::uint32_t part)
   }
   catch (const FileError& error)
   {
-    RefuseDamage(page, error.what());
+    RefuseDamageIf(true, page, error.what());
   }
 }
 
@@ -723,39 +619,6 @@ void PageReader::Paste(
     for (std::uint64_t c = 0; c < columns; ++c)
     {
       line[column + c] = (from[c / 8] >> (7 - c % 8)) & std::byte{ 1 };
-    }
-  }
-}
-
-void PageReader::ReadContiguousInto(const std::vector<std::byte*>& places)
-{
-  const std::size_t bytes = this->RowBytes() * this->First.Length;
-  const auto voxels =
-    static_cast<tmsize_t>(std::uint64_t{ this->First.Width } * this->First.Length);
-  std::uint64_t position = this->Begin;
-  for (std::size_t page = 0; page < places.size(); ++page, position += bytes)
-  {
-    if (this->Reads.File.ReadAt(position, std::span(places[page], bytes)) != bytes)
-    {
-      RefuseDamage(static_cast<std::int64_t>(page + 1), "");
-    }
-    void* const numbers = places[page];
-    if (TIFFIsByteSwapped(this->Handle.get()))
-    {
-      switch (this->First.Bits)
-      {
-        case 16:
-          TIFFSwabArrayOfShort(static_cast<std::uint16_t*>(numbers), voxels);
-          break;
-        case 32:
-          TIFFSwabArrayOfLong(static_cast<std::uint32_t*>(numbers), voxels);
-          break;
-        case 64:
-          TIFFSwabArrayOfLong8(static_cast<std::uint64_t*>(numbers), voxels);
-          break;
-        default:
-          break;
-      }
     }
   }
 }
@@ -795,19 +658,20 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading)
   image.TimeSpacing = stack.TimeStep;
   const std::size_t bytes = reader.BytesOfPage();
   reader.CheckClaim(bytes, stack.Pages.size());
-  image.Scalars = reading.Allocate(bytes * stack.Pages.size());
-
-  std::vector<std::byte*> places(stack.Pages.size());
-  for (std::size_t slice = 0; slice < places.size(); ++slice)
-  {
-    places[stack.Pages[slice]] = static_cast<std::byte*>(image.Scalars.get()) + slice * bytes;
-  }
   if (stack.IsContiguous)
   {
-    reader.ReadContiguousInto(places);
+    ReadVoxels(reader.Contiguous(), image, reading);
+    MoveFramesToTheEnd(
+      image, std::is_sorted(stack.Pages.begin(), stack.Pages.end()) ? 3 : 2, reading);
   }
   else
   {
+    image.Scalars = reading.Allocate(bytes * stack.Pages.size());
+    std::vector<std::byte*> places(stack.Pages.size());
+    for (std::size_t slice = 0; slice < places.size(); ++slice)
+    {
+      places[stack.Pages[slice]] = static_cast<std::byte*>(image.Scalars.get()) + slice * bytes;
+    }
     reader.ReadInto(places, pages);
   }
   if (stack.IsSignedWithOffset)

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadVTK.h"
+#include "Readers.h"
 
-#include "Excerpt.h"
-#include "FileError.h"
 #include "Placement.h"
+#include "Text.h"
 #include "VTKFileStructure.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
@@ -133,7 +133,7 @@ public:
   {
     if (!this->Window->Errors.empty())
     {
-      throw FileError("VTK does not read it: " + this->Window->Errors.front());
+      Refuse("VTK does not read it: ", this->Window->Errors.front());
     }
   }
 
@@ -172,10 +172,11 @@ std::string LegacyType(const std::string& beginning)
   std::string keyword;
   std::string type;
   stream >> keyword >> type;
-  std::transform(keyword.begin(), keyword.end(), keyword.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
-  std::transform(type.begin(), type.end(), type.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  for (std::string* word : { &keyword, &type })
+  {
+    std::transform(word->begin(), word->end(), word->begin(),
+      [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  }
   return keyword == "DATASET" ? type : keyword;
 }
 
@@ -193,16 +194,11 @@ void CheckClaim(vtkAlgorithm* reader, std::uint64_t size, double mostOfAByte)
     voxels *= static_cast<double>(std::max<std::int64_t>(0, length));
     sizes += (sizes.empty() ? "" : " x ") + std::to_string(length);
   }
-  if (voxels == 0)
-  {
-    throw FileError("its header claims " + sizes +
-      " points (DIMENSIONS or extent), which no image has: correct the header");
-  }
-  if (voxels > mostOfAByte * static_cast<double>(size))
-  {
-    throw FileError("it is truncated or damaged: its header claims " + sizes +
-      " points, and the file has " + std::to_string(size) + " bytes");
-  }
+  RefuseIf(voxels == 0, "its header claims ", sizes,
+    " points (DIMENSIONS or extent), which no image has: correct the header");
+  RefuseIf(voxels > mostOfAByte * static_cast<double>(size),
+    "it is truncated or damaged: its header claims ", sizes, " points, and the file has ", size,
+    " bytes");
 }
 
 vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const Messages& messages)
@@ -225,11 +221,8 @@ vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const Messages& mes
   reader->SetFileName(file.Path().c_str());
   reader->UpdateInformation();
   messages.CheckErrors();
-  if (reader->GetNumberOfTimeSteps() > 1)
-  {
-    throw FileError("it holds " + std::to_string(reader->GetNumberOfTimeSteps()) +
-      " time steps: save each in a file of its own, or all of them as NRRD or NIfTI");
-  }
+  RefuseIf(reader->GetNumberOfTimeSteps() > 1, "it holds ", reader->GetNumberOfTimeSteps(),
+    " time steps: save each in a file of its own, or all of them as NRRD or NIfTI");
   constexpr double compressed = 65536.0;
   CheckClaim(reader, file.Size(), compressed);
   reader->Update();
@@ -262,12 +255,10 @@ std::string NameOf(const Labels& labels)
 void CheckComponents(vtkDataSetAttributes* data)
 {
   vtkDataArray* const scalars = data->GetScalars();
-  if (scalars && scalars->GetNumberOfComponents() != 1)
-  {
-    throw FileError("it has " + std::to_string(scalars->GetNumberOfComponents()) +
-      " components a voxel (colours or vectors); a label image has one: export it as a label map "
-      "first");
-  }
+  const int components = scalars ? scalars->GetNumberOfComponents() : 1;
+  RefuseIf(components != 1, "it has ", components,
+    " components a voxel (colours or vectors); a label image has one: export it as a label map "
+    "first");
 }
 
 Labels ChooseLabels(vtkImageData* image)
@@ -293,10 +284,7 @@ Labels ChooseLabels(vtkImageData* image)
     }
   }
   const std::vector<Labels>& choice = active.empty() ? candidates : active;
-  if (choice.empty())
-  {
-    throw FileError("it has no array of numbers with one component for its points or cells");
-  }
+  RefuseIf(choice.empty(), "it has no array of numbers with one component for its points or cells");
   if (choice.size() > 1)
   {
     std::string names;
@@ -304,7 +292,7 @@ Labels ChooseLabels(vtkImageData* image)
     {
       names += (names.empty() ? "" : ", ") + NameOf(labels);
     }
-    throw FileError("it has several arrays that could be labels (" + names +
+    Refuse("it has several arrays that could be labels (", names,
       "): make one of them the active scalars, or save it alone");
   }
   return choice.front();
@@ -328,11 +316,8 @@ ScalarType ScalarTypeOf(vtkDataArray* array)
   }
   const bool isSigned = array->GetDataTypeMin() < 0;
   const auto type = IntegerType(static_cast<std::size_t>(array->GetDataTypeSize()), isSigned);
-  if (!type)
-  {
-    throw FileError("its numbers are of the type " + Excerpt(array->GetDataTypeAsString()) +
-      ", which voxplex does not read");
-  }
+  RefuseIf(!type, "its numbers are of the type ", Excerpt(array->GetDataTypeAsString()),
+    ", which voxplex does not read");
   return *type;
 }
 
@@ -350,11 +335,8 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
     const auto a = static_cast<std::size_t>(axis);
     const bool isBetween = areCells && points[a] > 1;
     sizes.push_back(isBetween ? points[a] - 1 : points[a]);
-    if (!(image->GetSpacing()[axis] > 0))
-    {
-      throw FileError("the voxel spacing along axis " + std::to_string(axis) +
-        " is not positive in its header: correct the header");
-    }
+    RefuseIf(!(image->GetSpacing()[axis] > 0), "the voxel spacing along axis ", axis,
+      " is not positive in its header: correct the header");
     first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
     for (int row = 0; row < 3; ++row)
     {
@@ -369,62 +351,23 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
 }
 
 /** The flags of vtkGhostType hide points or cells. A point is hidden, too, if all cells around it are. */
-class Visibility
+bool IsShown(vtkImageData* image, bool areCells, vtkIdType voxel, vtkIdList* around)
 {
-public:
-  Visibility(vtkImageData* image, bool areCells)
-    : Image(image)
-    , AreCells(areCells)
-    , CellFlags(image->GetCellGhostArray())
+  if (areCells)
   {
-    image->GetDimensions(this->Points.data());
+    return image->IsCellVisible(voxel) != 0;
   }
-
-  bool HidesNothing() const { return !this->Image->HasAnyBlankCells(); } // nor points, then
-
-  bool IsShown(vtkIdType voxel) const
+  vtkUnsignedCharArray* const flags = image->GetCellGhostArray();
+  bool hasShownCell = !flags;
+  if (flags)
   {
-    return this->AreCells
-      ? this->Image->IsCellVisible(voxel) != 0
-      : this->Image->IsPointVisible(voxel) && (!this->CellFlags || this->HasShownCell(voxel));
+    image->GetPointCells(voxel, around);
+    hasShownCell = std::any_of(around->begin(), around->end(),
+      [flags](vtkIdType cell)
+      { return !(flags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL); });
   }
-
-private:
-  bool HasShownCell(vtkIdType point) const
-  {
-    std::array<vtkIdType, 3> begin{};
-    std::array<vtkIdType, 3> end{};
-    std::array<vtkIdType, 3> cells{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const vtkIdType at = point % this->Points[axis];
-      point /= this->Points[axis];
-      cells[axis] = std::max(1, this->Points[axis] - 1);
-      begin[axis] = std::max<vtkIdType>(0, at - 1);
-      end[axis] = std::min(cells[axis], at + 1);
-    }
-    for (vtkIdType k = begin[2]; k < end[2]; ++k)
-    {
-      for (vtkIdType j = begin[1]; j < end[1]; ++j)
-      {
-        for (vtkIdType i = begin[0]; i < end[0]; ++i)
-        {
-          const vtkIdType cell = (k * cells[1] + j) * cells[0] + i;
-          if (!(this->CellFlags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL))
-          {
-            return true;
-          }
-        }
-      }
-    }
-    return false;
-  }
-
-  vtkImageData* Image;
-  bool AreCells;
-  vtkUnsignedCharArray* CellFlags; ///< null if there are none
-  std::array<int, 3> Points{};
-};
+  return image->IsPointVisible(voxel) && hasShownCell;
+}
 
 void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
 {
@@ -473,20 +416,18 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   result.Type = ScalarTypeOf(labels.Array);
   SetGeometry(result, image, labels.AreCells);
   const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
-  if (labels.Array->GetNumberOfTuples() != count)
-  {
-    throw FileError("it is truncated or damaged: its array " + NameOf(labels) + " has " +
-      std::to_string(labels.Array->GetNumberOfTuples()) + " numbers of " + std::to_string(count));
-  }
+  RefuseIf(labels.Array->GetNumberOfTuples() != count, "it is truncated or damaged: its array ",
+    NameOf(labels), " has ", labels.Array->GetNumberOfTuples(), " numbers of ", count);
   const bool areBits = labels.Array->GetDataType() == VTK_BIT;
   const std::size_t size = areBits ? 1 : static_cast<std::size_t>(labels.Array->GetDataTypeSize());
   result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
   auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
   CopyNumbers(labels.Array, numbers, size);
-  const Visibility visibility(image, labels.AreCells);
-  for (vtkIdType voxel = 0; !visibility.HidesNothing() && voxel < count; ++voxel)
+  vtkNew<vtkIdList> around;
+  const bool hidesSome = image->HasAnyBlankCells(); // and so where points are hidden
+  for (vtkIdType voxel = 0; hidesSome && voxel < count; ++voxel)
   {
-    if (!visibility.IsShown(voxel))
+    if (!IsShown(image, labels.AreCells, voxel, around))
     {
       std::memset(numbers + static_cast<std::size_t>(voxel) * size, 0, size);
     }

@@ -7,10 +7,14 @@
 #ifndef voxplex_io_ScalarImage_h
 #define voxplex_io_ScalarImage_h
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxplex::io
@@ -33,38 +37,65 @@ enum class ScalarType
 /** The type of integers of 1, 2, 4 or 8 bytes; empty for other sizes. */
 constexpr std::optional<ScalarType> IntegerType(std::size_t bytes, bool isSigned)
 {
-  switch (bytes)
+  using enum ScalarType;
+  constexpr std::array types{ Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64 };
+  for (std::size_t i = 0; i < types.size(); ++i)
   {
-    case 1:
-      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-    case 2:
-      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-    case 4:
-      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-    case 8:
-      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-    default:
-      return std::nullopt;
+    if (bytes == std::size_t{ 1 } << i / 2 && isSigned == (i % 2 == 0))
+    {
+      return types[i];
+    }
   }
+  return std::nullopt;
 }
 
-constexpr std::size_t SizeOf(ScalarType type)
+/** Calls function with a 0 of the type. */
+template <typename TFunction>
+constexpr auto Dispatch(ScalarType type, TFunction&& function)
 {
   switch (type)
   {
     case ScalarType::Int8:
+      return function(std::int8_t());
     case ScalarType::UInt8:
-      return 1;
+      return function(std::uint8_t());
     case ScalarType::Int16:
+      return function(std::int16_t());
     case ScalarType::UInt16:
-      return 2;
+      return function(std::uint16_t());
     case ScalarType::Int32:
+      return function(std::int32_t());
     case ScalarType::UInt32:
+      return function(std::uint32_t());
+    case ScalarType::Int64:
+      return function(std::int64_t());
+    case ScalarType::UInt64:
+      return function(std::uint64_t());
     case ScalarType::Float32:
-      return 4;
+      return function(float());
     default:
-      return 8;
+      return function(double());
   }
+}
+
+/** Of each type, in their order: its names, between bars. */
+using TypeNames = std::array<std::string_view, 10>;
+
+/** Empty for other names. */
+inline std::optional<ScalarType> FindType(std::string_view name, const TypeNames& names)
+{
+  const std::string key = "|" + std::string(name) + "|";
+  const bool isName = !name.empty() && name.find('|') == name.npos;
+  const auto type = std::find_if(
+    names.begin(), names.end(), [&](std::string_view all) { return all.find(key) != all.npos; });
+  return isName && type != names.end()
+    ? std::optional(static_cast<ScalarType>(type - names.begin()))
+    : std::nullopt;
+}
+
+constexpr std::size_t SizeOf(ScalarType type)
+{
+  return Dispatch(type, [](auto zero) { return sizeof zero; });
 }
 
 /**

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segments.h"
 
-#include "Excerpt.h"
+#include "Text.h"
 #include "TextHeader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 #include <string_view>
@@ -77,13 +76,7 @@ private:
   std::int64_t Integer(const char* key, std::int64_t missing) const
   {
     const std::string* text = this->Find(key);
-    if (!text)
-    {
-      return missing;
-    }
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-    return error == std::errc() && end == text->data() + text->size() ? value : 0;
+    return text ? ToNumber<std::int64_t>(*text).value_or(0) : missing;
   }
 
   const TextHeader& Header;
@@ -98,16 +91,13 @@ std::vector<Segment> ListSegments(const TextHeader& header)
   std::set<int> numbers;
   for (const auto& [key, value] : header.AllPairs())
   {
-    if (key.starts_with(before) && key.ends_with(after) &&
-      key.size() > before.size() + after.size())
+    const std::size_t around = before.size() + after.size();
+    const bool isSegment = key.starts_with(before) && key.ends_with(after) && key.size() > around;
+    const std::optional<int> number = ToNumber<int>(
+      isSegment ? std::string_view(key).substr(before.size(), key.size() - around) : "");
+    if (number && *number >= 0)
     {
-      const char* const end = key.data() + key.size() - after.size();
-      int number = 0;
-      const auto [at, error] = std::from_chars(key.data() + before.size(), end, number);
-      if (error == std::errc() && at == end && number >= 0)
-      {
-        numbers.insert(number);
-      }
+      numbers.insert(*number);
     }
   }
   std::vector<Segment> segments;

@@ -3,19 +3,15 @@
 #include "StoredVoxels.h"
 
 #include "ByteSource.h"
-#include "Excerpt.h"
-#include "FileError.h"
-#include "InputFile.h"
-#include "Reading.h"
+#include "Readers.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <iomanip>
 #include <limits>
 #include <optional>
 #include <span>
@@ -32,35 +28,6 @@ namespace
 {
 
 constexpr double LargestDeflateRatio = 1032.0;
-
-/** Calls function with a value of the type. */
-template <typename TFunction>
-void Dispatch(ScalarType type, TFunction&& function)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return function(std::int8_t());
-    case ScalarType::UInt8:
-      return function(std::uint8_t());
-    case ScalarType::Int16:
-      return function(std::int16_t());
-    case ScalarType::UInt16:
-      return function(std::uint16_t());
-    case ScalarType::Int32:
-      return function(std::int32_t());
-    case ScalarType::UInt32:
-      return function(std::uint32_t());
-    case ScalarType::Int64:
-      return function(std::int64_t());
-    case ScalarType::UInt64:
-      return function(std::uint64_t());
-    case ScalarType::Float32:
-      return function(float());
-    case ScalarType::Float64:
-      return function(double());
-  }
-}
 
 // --- Sizes -------------------------------------------------------------------------------------------
 
@@ -103,103 +70,74 @@ void CheckClaim(const StoredVoxels& stored, const ScalarImage& image)
   const std::array<double, 4> parts{ 1.0, double{ static_cast<double>(image.Frames) },
     static_cast<double>(image.Frames) * image.Dimensions[2],
     static_cast<double>(image.Frames) * image.Dimensions[2] * image.Dimensions[1] };
-  if (std::find(parts.begin(), parts.end(), count) == parts.end() && count != image.Dimensions[2])
-  {
-    throw FileError("its header names " + std::to_string(stored.Files.size()) +
-      " data files, which cannot hold " + DescribeClaim(image) + " in equal parts");
-  }
+  RefuseIf(
+    std::find(parts.begin(), parts.end(), count) == parts.end() && count != image.Dimensions[2],
+    "its header names ", stored.Files.size(), " data files, which cannot hold ",
+    DescribeClaim(image), " in equal parts");
   const double claimed = static_cast<double>(image.NumberOfVoxels()) * image.Frames *
     static_cast<double>(SizeOf(image.Type));
   for (const std::string& path : stored.Files)
   {
     const std::uint64_t size = InputFile(path).Size();
-    if (claimed / count > Capacity(stored.Coding, static_cast<double>(size), image.Type))
-    {
-      throw FileError("it is truncated or damaged: its header claims " + DescribeClaim(image) +
-        (count > 1 ? " in " + std::to_string(stored.Files.size()) + " files" : "") + ", and '" +
-        Excerpt(fs::path(path).filename().string()) + "' has " + std::to_string(size) + " bytes");
-    }
+    RefuseIf(claimed / count > Capacity(stored.Coding, static_cast<double>(size), image.Type),
+      "it is truncated or damaged: its header claims ", DescribeClaim(image),
+      (count > 1 ? " in " + std::to_string(stored.Files.size()) + " files" : ""), ", and '",
+      Excerpt(fs::path(path).filename().string()), "' has ", size, " bytes");
   }
+}
+
+/** Whether a number is whole, and small enough to be so exactly. */
+bool IsWhole(double number)
+{
+  constexpr double exact = 9007199254740992.0; // 2^53
+  return std::trunc(number) == number && std::abs(number) <= exact;
 }
 
 // --- Texts -------------------------------------------------------------------------------------------
 
-/** The words of a source, which blanks, line ends and commas separate. */
-class WordReader
+/** What blanks, line ends and commas separate; empty at the end. */
+std::string NextWord(ByteSource& source)
 {
-public:
-  explicit WordReader(ByteSource& source)
-    : Source(source)
+  constexpr std::size_t longest = 64; // of a number
+  std::string word;
+  for (std::optional<char> c; word.size() <= longest && (c = source.Get());)
   {
-  }
-
-  /** Empty at the end. */
-  std::string Next()
-  {
-    constexpr std::size_t longest = 64; // of a number
-    std::string word;
-    for (std::optional<char> c = this->Source.Get(); c && word.size() <= longest;
-         c = this->Source.Get())
+    const bool separates = *c == ' ' || *c == ',' || (*c >= '\t' && *c <= '\r');
+    if (separates && !word.empty())
     {
-      const bool separates = *c == ' ' || *c == ',' || (*c >= '\t' && *c <= '\r');
-      if (!separates)
-      {
-        word += *c;
-      }
-      else if (!word.empty())
-      {
-        break;
-      }
+      break;
     }
-    return word;
+    word.append(separates ? 0 : 1, *c);
   }
-
-private:
-  ByteSource& Source;
-};
+  return word;
+}
 
 /** "7", and "7.0" for an integer, too; nothing for other words and numbers that the type does not hold. */
 template <typename T>
-std::optional<T> ParseNumber(const std::string& word)
+std::optional<T> ParseVoxel(const std::string& word)
 {
-  const char* const begin = word.data() + (word[0] == '+' ? 1 : 0);
-  const char* const end = word.data() + word.size();
-  T number{};
-  if (const auto [at, error] = std::from_chars(begin, end, number);
-      error == std::errc() && at == end)
-  {
-    return number;
-  }
+  std::optional<T> number = ToNumber<T>(word);
   if constexpr (std::is_integral_v<T>)
   {
-    double real = 0.0;
-    const auto [at, error] = std::from_chars(begin, end, real);
-    constexpr double limit = 9007199254740992.0; // 2^53
-    if (error == std::errc() && at == end && std::abs(real) <= limit && std::trunc(real) == real &&
-      std::in_range<T>(static_cast<std::int64_t>(real)))
+    const double real = number ? 0.5 : ToNumber<double>(word).value_or(0.5);
+    if (IsWhole(real) && std::in_range<T>(static_cast<std::int64_t>(real)))
     {
-      return static_cast<T>(real);
+      number = static_cast<T>(real);
     }
   }
-  return std::nullopt;
+  return number;
 }
 
 template <typename T>
 std::size_t ReadText(ByteSource& source, std::span<std::byte> to)
 {
-  WordReader words(source);
   std::size_t done = 0;
-  for (; done < to.size(); done += sizeof(T))
+  for (std::string word; done < to.size() && !(word = NextWord(source)).empty(); done += sizeof(T))
   {
-    const std::string word = words.Next();
-    if (word.empty())
-    {
-      break;
-    }
-    const std::optional<T> number = ParseNumber<T>(word);
+    const std::optional<T> number = ParseVoxel<T>(word);
     if (!number)
     {
-      throw FileError("'" + Excerpt(word) + "' among its voxels is not a number of their type");
+      Refuse("'", Excerpt(word), "' among its voxels is not a number of their type");
     }
     std::memcpy(to.data() + done, &*number, sizeof(T));
   }
@@ -225,8 +163,7 @@ std::size_t ReadHex(ByteSource& source, std::span<std::byte> to)
     }
     if (digit(*c) < 0)
     {
-      throw FileError(
-        "'" + Excerpt(std::string(1, *c)) + "' among its voxels is not a hexadecimal digit");
+      Refuse("'", Excerpt({ &*c, 1 }), "' among its voxels is not a hexadecimal digit");
     }
     value = 16 * value + digit(*c);
     if (++digits % 2 == 0)
@@ -240,26 +177,14 @@ std::size_t ReadHex(ByteSource& source, std::span<std::byte> to)
 
 // --- Files -------------------------------------------------------------------------------------------
 
-[[noreturn]] void RefuseAsTruncated(
-  const std::string& path, double found, double expected, const char* what)
-{
-  std::ostringstream reason;
-  reason << std::fixed << std::setprecision(0) << "it is truncated: '"
-         << Excerpt(fs::path(path).filename().string()) << "' holds " << found << " of " << expected
-         << ' ' << what;
-  throw FileError(reason.str());
-}
-
 void ReadPart(
   const StoredVoxels& stored, const std::string& path, ScalarType type, std::span<std::byte> to)
 {
   const InputFile file(path);
-  std::uint64_t start = static_cast<std::uint64_t>(stored.Offset);
-  if (stored.BytesToSkip == StoredVoxels::FromTheEnd)
-  {
-    start = file.Size() - std::min<std::uint64_t>(file.Size(), to.size());
-  }
-  FileSource raw(file, start);
+  const bool areLast = stored.BytesToSkip == StoredVoxels::FromTheEnd;
+  FileSource raw(file,
+    areLast ? file.Size() - std::min<std::uint64_t>(file.Size(), to.size())
+            : static_cast<std::uint64_t>(stored.Offset));
   for (std::int64_t lines = stored.LinesToSkip; lines > 0;)
   {
     const std::optional<char> c = raw.Get();
@@ -268,37 +193,19 @@ void ReadPart(
   InflateSource unpacked(raw);
   ByteSource& source =
     stored.Coding == Encoding::Deflate ? static_cast<ByteSource&>(unpacked) : raw;
-  source.Skip(stored.BytesToSkip == StoredVoxels::FromTheEnd
-      ? 0
-      : static_cast<std::uint64_t>(stored.BytesToSkip));
+  source.Skip(areLast ? 0 : static_cast<std::uint64_t>(stored.BytesToSkip));
 
-  if (stored.Coding == Encoding::Text)
+  const bool isText = stored.Coding == Encoding::Text;
+  const std::size_t unit = isText ? SizeOf(type) : 1;
+  const std::size_t found = isText
+    ? Dispatch(type, [&](auto zero) { return ReadText<decltype(zero)>(source, to); })
+    : stored.Coding == Encoding::Hex ? ReadHex(source, to)
+                                     : source.Read(to);
+  RefuseIf(found < to.size(), "it is truncated: '", Excerpt(fs::path(path).filename().string()),
+    "' holds ", found / unit, " of ", to.size() / unit, isText ? " numbers" : " bytes of voxels");
+  if (!isText)
   {
-    std::size_t found = 0;
-    Dispatch(type, [&](auto zero) { found = ReadText<decltype(zero)>(source, to); });
-    if (found < to.size())
-    {
-      const auto size = static_cast<double>(SizeOf(type));
-      RefuseAsTruncated(
-        path, static_cast<double>(found) / size, static_cast<double>(to.size()) / size, "numbers");
-    }
-    return;
-  }
-  const std::size_t found = stored.Coding == Encoding::Hex ? ReadHex(source, to) : source.Read(to);
-  if (found < to.size())
-  {
-    RefuseAsTruncated(
-      path, static_cast<double>(found), static_cast<double>(to.size()), "bytes of voxels");
-  }
-  source.Finish();
-}
-
-template <typename T>
-void SwapBytes(std::byte* voxels, std::size_t count)
-{
-  for (std::size_t i = 0; i < count; ++i, voxels += sizeof(T))
-  {
-    std::reverse(voxels, voxels + sizeof(T));
+    source.Finish();
   }
 }
 
@@ -326,13 +233,6 @@ std::optional<ScalarType> IntegerTypeFor(Wide low, Wide high)
       });
   }
   return found;
-}
-
-/** Whether a number is whole, and small enough to be so exactly. */
-bool IsWhole(double number)
-{
-  constexpr double exact = 9007199254740992.0; // 2^53
-  return std::trunc(number) == number && std::abs(number) <= exact;
 }
 
 /** The type of the results, if all of them are integers. */
@@ -372,31 +272,11 @@ void Convert(std::span<const TFrom> from, TTo* to, double slope, double intercep
   }
 }
 
-template <typename T>
-void Transpose(
-  const std::byte* from, std::byte* to, std::size_t inner, std::size_t frames, std::size_t outer)
-{
-  for (std::size_t f = 0; f < frames; ++f)
-  {
-    for (std::size_t o = 0; o < outer; ++o)
-    {
-      for (std::size_t i = 0; i < inner; ++i)
-      {
-        std::memcpy(to, from + ((o * frames + f) * inner + i) * sizeof(T), sizeof(T));
-        to += sizeof(T);
-      }
-    }
-  }
-}
-
 } // namespace
 
 void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading)
 {
-  if (stored.Files.empty())
-  {
-    throw FileError("its header names no data file");
-  }
+  RefuseIf(stored.Files.empty(), "its header names no data file");
   CheckClaim(stored, image);
   const std::size_t voxels = image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames);
   const std::size_t bytes = voxels * SizeOf(image.Type);
@@ -413,7 +293,13 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
   {
     Dispatch(image.Type,
       [&](auto zero)
-      { SwapBytes<decltype(zero)>(static_cast<std::byte*>(image.Scalars.get()), voxels); });
+      {
+        auto* voxel = static_cast<std::byte*>(image.Scalars.get());
+        for (std::size_t i = 0; i < voxels; ++i, voxel += sizeof zero)
+        {
+          std::reverse(voxel, voxel + sizeof zero);
+        }
+      });
   }
 }
 
@@ -423,21 +309,24 @@ void MoveFramesToTheEnd(ScalarImage& image, std::size_t before, Reading& reading
   {
     return;
   }
-  std::size_t inner = 1;
+  std::size_t inner = SizeOf(image.Type); // bytes that stay together
   for (std::size_t axis = 0; axis < before; ++axis)
   {
     inner *= static_cast<std::size_t>(image.Dimensions[axis]);
   }
-  const std::size_t outer = image.NumberOfVoxels() / inner;
+  const std::size_t bytes = image.NumberOfVoxels() * SizeOf(image.Type);
   const auto frames = static_cast<std::size_t>(image.Frames);
   const std::shared_ptr<void> together = image.Scalars;
-  image.Scalars = reading.Allocate(image.NumberOfVoxels() * frames * SizeOf(image.Type));
-  Dispatch(image.Type,
-    [&](auto zero)
+  image.Scalars = reading.Allocate(bytes * frames);
+  auto* to = static_cast<std::byte*>(image.Scalars.get());
+  for (std::size_t f = 0; f < frames; ++f)
+  {
+    const std::byte* from = static_cast<const std::byte*>(together.get()) + f * inner;
+    for (std::size_t at = 0; at < bytes; at += inner, from += frames * inner, to += inner)
     {
-      Transpose<decltype(zero)>(static_cast<const std::byte*>(together.get()),
-        static_cast<std::byte*>(image.Scalars.get()), inner, frames, outer);
-    });
+      std::memcpy(to, from, inner);
+    }
+  }
 }
 
 void Rescale(ScalarImage& image, double slope, double intercept, Reading& reading)
@@ -476,75 +365,15 @@ std::string FindDataFile(const std::string& header, const std::string& name, boo
     const bool isBelow = !given.is_absolute() &&
       std::find(given.begin(), given.end(), "..") == given.end() &&
       std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
-    if (!isBelow)
-    {
-      throw FileError("its header names the data file '" + Excerpt(name) +
-        "', which is not in the folder of the header or below; move it there, or use "
-        "SetDataFilesAnywhere() if you trust the "
-        "header");
-    }
+    RefuseIf(!isBelow, "its header names the data file '", Excerpt(name),
+      "', which is not in the folder of the header or below; move it there, or use "
+      "SetDataFilesAnywhere() if you trust the header");
   }
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
-  if (!fs::is_regular_file(status))
-  {
-    throw FileError("its data file '" + Excerpt(name) +
-      (fs::exists(status) ? "' is not a regular file" : "' does not exist"));
-  }
+  RefuseIf(!fs::is_regular_file(status), "its data file '", Excerpt(name),
+    (fs::exists(status) ? "' is not a regular file" : "' does not exist"));
   return path.string();
-}
-
-std::vector<std::string> ExpandPattern(const std::string& value)
-{
-  constexpr std::size_t mostFiles = 100000;
-  const auto refuse = [&value]
-  {
-    throw FileError(
-      "'" + Excerpt(value) + "' in its header is no pattern of names such as 'a_%03d.raw 1 40 1'");
-  };
-  std::istringstream words(value);
-  std::string pattern;
-  std::int32_t first = 0;
-  std::int32_t last = 0;
-  std::int32_t step = 1;
-  words >> pattern >> first >> last;
-  const bool hasNumbers = !words.fail();
-  std::string rest;
-  if (!(words >> step).fail())
-  {
-    words >> rest; // NRRD's number of dimensions in each file, which the sizes tell, too
-  }
-  else if (!words.eof())
-  {
-    refuse();
-  }
-  const std::size_t percent = pattern.find('%');
-  const std::size_t letter = pattern.find_first_not_of("0123456789", percent + 1);
-  const bool isPattern = percent != std::string::npos && letter != std::string::npos &&
-    (pattern[letter] == 'd' || pattern[letter] == 'i' || pattern[letter] == 'u') &&
-    letter - percent <= 3 && pattern.find('%', letter) == std::string::npos;
-  const std::int64_t span = std::int64_t{ last } - first;
-  if (!isPattern || !hasNumbers || step == 0 || (span != 0 && (span > 0) != (step > 0)))
-  {
-    refuse();
-  }
-  const std::int64_t count = span / step + 1;
-  if (count > static_cast<std::int64_t>(mostFiles))
-  {
-    throw FileError("its header names " + std::to_string(count) + " data files");
-  }
-  int width = 0;
-  std::from_chars(pattern.data() + percent + 1, pattern.data() + letter, width);
-  std::vector<std::string> names;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    std::ostringstream name;
-    name << pattern.substr(0, percent) << std::internal
-         << std::setfill(pattern[percent + 1] == '0' ? '0' : ' ') << std::setw(width)
-         << first + i * step << pattern.substr(letter + 1);
-    names.push_back(name.str());
-  }
-  return names;
 }
 
 std::string UnpackBeginning(const InputFile& file, std::size_t length)

@@ -75,14 +75,6 @@ void Rescale(ScalarImage& image, double slope, double intercept, Reading& readin
  */
 std::string FindDataFile(const std::string& header, const std::string& name, bool anywhere);
 
-/**
- * The data files that NRRD and MetaImage headers name by a pattern and numbers: "slice_%03d.raw 1 40 1". One number
- * may be printed; the step may be left out.
- *
- * @throws FileError for what is no such pattern, and for more than 100,000 files
- */
-std::vector<std::string> ExpandPattern(const std::string& value);
-
 /** Unpacks a file by its content: the bytes of a gzip file, or those of another. What is missing at the end is left
  * out. */
 std::string UnpackBeginning(const InputFile& file, std::size_t length);

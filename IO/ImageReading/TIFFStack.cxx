@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TIFFStack.h"
 
-#include "Excerpt.h"
 #include "FileError.h"
 #include "OMEMetadata.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 namespace voxplex::io
@@ -24,36 +22,13 @@ using Warnings = std::vector<std::string>;
 
 // --- Fields of a description
 
-std::string_view Trim(std::string_view text)
-{
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == text.npos ? std::string_view()
-                            : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
-}
-
-std::vector<std::string> Split(std::string_view text, char separator)
-{
-  std::vector<std::string> parts;
-  std::istringstream stream{ std::string(text) };
-  for (std::string part; std::getline(stream, part, separator);)
-  {
-    parts.emplace_back(Trim(part));
-  }
-  return parts;
-}
-
 template <typename T>
 T ParseNumber(std::string_view name, std::string_view text)
 {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-  {
-    throw FileError("its description has '" + Excerpt(text) + "' for " + std::string(name) +
-      ", which is no such number: correct it");
-  }
-  return value;
+  const std::optional<T> value = ToNumber<T>(text);
+  RefuseIf(!value, "its description has '", Excerpt(text), "' for ", name,
+    ", which is no such number: correct it");
+  return *value;
 }
 
 std::string FindText(const TextFields& fields, std::string_view name)
@@ -72,11 +47,8 @@ std::optional<T> FindNumber(const TextFields& fields, std::string_view name)
 
 std::int64_t CheckCount(std::string_view name, std::int64_t count)
 {
-  if (count < 1 || count > std::numeric_limits<std::int32_t>::max())
-  {
-    throw FileError("its description has " + std::to_string(count) + " for " + std::string(name) +
-      ": correct it");
-  }
+  RefuseIf(count < 1 || count > std::numeric_limits<std::int32_t>::max(), "its description has ",
+    count, " for ", name, ": correct it");
   return count;
 }
 
@@ -126,11 +98,12 @@ constexpr std::array<Unit, 7> Units{
 /** Null if it is no unit that is known here. */
 const Unit* FindUnit(const std::string& text)
 {
-  const std::string word = " " + text + " ";
-  const bool isWord = !text.empty() && text.find(' ') == std::string::npos;
   const auto unit = std::find_if(Units.begin(), Units.end(),
     [&](const Unit& each)
-    { return isWord && each.Spellings.find(word) != std::string_view::npos; });
+    {
+      const std::vector<std::string_view> spellings = Words(each.Spellings);
+      return std::find(spellings.begin(), spellings.end(), text) != spellings.end();
+    });
   return unit == Units.end() ? nullptr : &*unit;
 }
 
@@ -148,11 +121,8 @@ double UnitRatio(const std::string& unit, const std::string& other)
   }
   const Unit* above = FindUnit(unit);
   const Unit* below = FindUnit(other);
-  if (!above || !below)
-  {
-    throw FileError("its description gives lengths in different units, '" + Excerpt(unit) +
-      "' and '" + Excerpt(other) + "': write it with one unit for all axes");
-  }
+  RefuseIf(!above || !below, "its description gives lengths in different units, '", Excerpt(unit),
+    "' and '", Excerpt(other), "': write it with one unit for all axes");
   return above == below ? 1.0 : above->Metres / below->Metres;
 }
 
@@ -188,9 +158,9 @@ void SetSpacing(TIFFStack& stack, const VoxelSize& size, Warnings& warnings)
   if (first == size.Length.end() ||
     (!hasUnit && std::all_of(size.Length.begin(), size.Length.end(), isOne)))
   {
-    warnings.push_back("it does not say how large its voxels are (the resolution of a TIFF file is "
-                       "that of a print), and they are taken to be 1 x 1 x 1: give their size with "
-                       "SetSpacing()");
+    warnings.push_back(
+      "it does not say how large its voxels are (the resolution of a TIFF file is that of a "
+      "print), and they are taken to be 1 x 1 x 1: give their size with SetSpacing()");
     return;
   }
   const std::string& unit = size.Unit[static_cast<std::size_t>(first - size.Length.begin())];
@@ -217,18 +187,13 @@ void SetTimeStep(TIFFStack& stack, std::optional<double> step, Warnings& warning
   }
   if (!step || *step == 0)
   {
-    warnings.push_back("it does not give the time from frame to frame, which is taken to be 1; "
-                       "use SetTimeScale() to weigh time against space");
+    warnings.push_back("it does not give the time from frame to frame, which is taken to be 1; use "
+                       "SetTimeScale() to weigh time against space");
     return;
   }
   constexpr double largest = 1e12;
-  if (!(*step > 0 && *step < largest))
-  {
-    std::ostringstream reason;
-    reason << "its description has " << *step
-           << " for the time from frame to frame, which must be a positive number: correct it";
-    throw FileError(reason.str());
-  }
+  RefuseIf(!(*step > 0 && *step < largest), "its description has ", *step,
+    " for the time from frame to frame, which must be a positive number: correct it");
   stack.TimeStep = *step;
 }
 
@@ -289,17 +254,12 @@ void NumberPages(TIFFStack& stack, const std::vector<PageAxis>& axes, std::int64
 {
   for (const PageAxis& axis : axes)
   {
-    if (axis.Name != Slices && axis.Name != Frames && axis.Length > 1)
-    {
-      throw FileError("it has " + std::to_string(axis.Length) + " " + axis.Name +
-        "; a label image has one number a voxel: save what holds the labels by itself");
-    }
+    RefuseIf(axis.Name != Slices && axis.Name != Frames && axis.Length > 1, "it has ", axis.Length,
+      " ", axis.Name,
+      "; a label image has one number a voxel: save what holds the labels by itself");
   }
-  if (CountPages(axes, pages) != pages)
-  {
-    throw FileError("its description says " + Describe(axes) + ", and the file has " +
-      std::to_string(pages) + " pages: save it again with the program that wrote it");
-  }
+  RefuseIf(CountPages(axes, pages) != pages, "its description says ", Describe(axes),
+    ", and the file has ", pages, " pages: save it again with the program that wrote it");
   std::int64_t sliceStep = 0;
   std::int64_t frameStep = 0;
   std::int64_t step = 1;
@@ -328,11 +288,8 @@ std::int64_t FindPages(TIFFStack& stack, const TIFFPages& pages, std::int64_t cl
   {
     return pages.Count();
   }
-  if (claimed > pages.Contiguous)
-  {
-    throw FileError("it is truncated or damaged: its description says " + std::to_string(claimed) +
-      " pages, and it holds " + std::to_string(pages.Contiguous));
-  }
+  RefuseIf(claimed > pages.Contiguous, "it is truncated or damaged: its description says ", claimed,
+    " pages, and it holds ", pages.Contiguous);
   stack.IsContiguous = true;
   return claimed;
 }
@@ -393,11 +350,9 @@ TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
     axes[1].Length = images;
   }
   NumberPages(stack, axes, images);
-  if (FindText(fields, "inverty") == "true")
-  {
-    throw FileError("its y axis runs upwards (inverty=true), so that the mesh would be a mirror "
-                    "image: in ImageJ, clear 'Invert Y coordinates' and save it again");
-  }
+  RefuseIf(FindText(fields, "inverty") == "true",
+    "its y axis runs upwards (inverty=true), so that the mesh would be a mirror image: in ImageJ, "
+    "clear 'Invert Y coordinates' and save it again");
   SetSpacing(stack, FindVoxelSizeOfImageJ(pages, fields), warnings);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -427,12 +382,9 @@ TIFFStack DescribeSCIFIO(const TIFFPages& pages, Warnings& warnings)
   const std::vector<std::string> lengths = Split(FindText(fields, "lengths"), ',');
   const std::vector<std::string> scales = Split(FindText(fields, "scales"), ',');
   const std::vector<std::string> units = Split(FindText(fields, "units"), ',');
-  if (names.size() < 2 || names[0] != "X" || names[1] != "Y" || lengths.size() != names.size())
-  {
-    throw FileError("its SCIFIO description has the axes '" + Excerpt(FindText(fields, "axes")) +
-      "' of the lengths '" + Excerpt(FindText(fields, "lengths")) +
-      "', which are no stack of pages");
-  }
+  RefuseIf(names.size() < 2 || names[0] != "X" || names[1] != "Y" || lengths.size() != names.size(),
+    "its SCIFIO description has the axes '", Excerpt(FindText(fields, "axes")),
+    "' of the lengths '", Excerpt(FindText(fields, "lengths")), "', which are no stack of pages");
   std::vector<PageAxis> axes;
   VoxelSize size;
   std::optional<double> timeStep;
@@ -498,13 +450,10 @@ TIFFStack DescribeTifffile(const TIFFPages& pages, Warnings& warnings)
   {
     axes[0].Name = Slices;
   }
-  if (axes.size() > 1 && names.empty())
-  {
-    throw FileError("it is an array of " + std::to_string(shape.size()) + " axes without names (" +
-      Excerpt(FindJSON(pages.Description, "shape", '[', ']')) +
-      "), which could be slices, frames or channels: write it with tifffile's "
-      "metadata={'axes': 'TZYX'}");
-  }
+  RefuseIf(axes.size() > 1 && names.empty(), "it is an array of ", shape.size(),
+    " axes without names (", Excerpt(FindJSON(pages.Description, "shape", '[', ']')),
+    "), which could be slices, frames or channels: write it with tifffile's metadata={'axes': "
+    "'TZYX'}");
   TIFFStack stack;
   const std::int64_t count = FindPages(stack, pages, CountPages(axes, INT32_MAX));
   if (axes.empty()) // of each page by itself
@@ -567,11 +516,9 @@ std::vector<std::size_t> FindPagesOfPlanes(
       found[first + i] = static_cast<std::size_t>(page - pages.Directories.begin());
     }
   }
-  if (!isRight || std::find(found.begin(), found.end(), none) != found.end())
-  {
-    throw FileError("its OME metadata do not give one page to each slice and frame (TiffData): "
-                    "save it again with the program that wrote it");
-  }
+  RefuseIf(!isRight || std::find(found.begin(), found.end(), none) != found.end(),
+    "its OME metadata do not give one page to each slice and frame (TiffData): save it again with "
+    "the program that wrote it");
   return found;
 }
 
@@ -594,11 +541,9 @@ std::vector<PageAxis> FindAxesOfOME(const TextFields& fields)
   const std::string order = FindText(fields, "DimensionOrder");
   std::string sorted = order;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted != "CTXYZ" || order.rfind("XY", 0) != 0)
-  {
-    throw FileError("its OME metadata have the DimensionOrder '" + Excerpt(order) +
-      "', which must be XY and then Z, C and T in any order");
-  }
+  RefuseIf(sorted != "CTXYZ" || order.rfind("XY", 0) != 0,
+    "its OME metadata have the DimensionOrder '", Excerpt(order),
+    "', which must be XY and then Z, C and T in any order");
   std::vector<PageAxis> axes;
   for (const char axis : order.substr(2))
   {
@@ -612,22 +557,16 @@ TIFFStack DescribeOME(const TIFFPages& pages, Warnings& warnings)
   const OMEMetadata metadata = ParseOMEMetadata(pages.Description);
   if (const std::string other = FindOtherFile(metadata); !other.empty())
   {
-    throw FileError("its OME metadata say that a part of the image is in another file, '" +
-      Excerpt(other) + "': save the image as one file");
+    Refuse("its OME metadata say that a part of the image is in another file, '", Excerpt(other),
+      "': save the image as one file");
   }
-  if (metadata.Images != 1)
-  {
-    throw FileError("it holds " + std::to_string(metadata.Images) +
-      " images, by its OME metadata; a label image is one: save it by itself");
-  }
+  RefuseIf(metadata.Images != 1, "it holds ", metadata.Images,
+    " images, by its OME metadata; a label image is one: save it by itself");
   const std::int64_t width = FindCount(metadata.Pixels, "SizeX");
   const std::int64_t length = FindCount(metadata.Pixels, "SizeY");
-  if (width != pages.Width || length != pages.Length)
-  {
-    throw FileError("its OME metadata say " + std::to_string(width) + " x " +
-      std::to_string(length) + " voxels a page, and its pages have " + std::to_string(pages.Width) +
-      " x " + std::to_string(pages.Length) + ": save it again with the program that wrote it");
-  }
+  RefuseIf(width != pages.Width || length != pages.Length, "its OME metadata say ", width, " x ",
+    length, " voxels a page, and its pages have ", pages.Width, " x ", pages.Length,
+    ": save it again with the program that wrote it");
   TIFFStack stack;
   NumberPages(stack, FindAxesOfOME(metadata.Pixels), pages.Count());
   if (!metadata.TiffData.empty())
@@ -675,17 +614,12 @@ TIFFStack DescribeAny(const TIFFPages& pages, Warnings& warnings)
 TIFFStack DescribeStack(const TIFFPages& pages, Warnings& warnings)
 {
   TIFFStack stack = DescribeAny(pages, warnings);
-  if (stack.Slices == 1 && stack.Frames == 1)
-  {
-    throw FileError("it is a picture of one slice, and a label image has several: give a volume "
-                    "(TIFF with a page for each slice, NRRD, NIfTI, MetaImage, DICOM, ...)");
-  }
-  if (stack.Slices == 1)
-  {
-    throw FileError("its description says that its " + std::to_string(stack.Frames) +
-      " pages are frames in time, of one slice each, and a label image has several slices: if "
-      "they are slices, say so where it was written (in ImageJ: Image > Properties)");
-  }
+  RefuseIf(stack.Slices == 1 && stack.Frames == 1,
+    "it is a picture of one slice, and a label image has several: give a volume (TIFF with a page "
+    "for each slice, NRRD, NIfTI, MetaImage, DICOM, ...)");
+  RefuseIf(stack.Slices == 1, "its description says that its ", stack.Frames,
+    " pages are frames in time, of one slice each, and a label image has several slices: if they "
+    "are slices, say so where it was written (in ImageJ: Image > Properties)");
   return stack;
 }
 

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextHeader.h"
 
-#include "Excerpt.h"
 #include "FileError.h"
 #include "InputFile.h"
 #include "StoredVoxels.h"
+#include "Text.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace voxplex::io
@@ -20,21 +19,9 @@ namespace
 
 constexpr std::size_t MaximumLength = 1 << 20; // of a header
 
-std::string Trim(std::string text)
+bool IsOneOf(char letter, std::string_view letters)
 {
-  text.erase(text.find_last_not_of(" \t\r") + 1);
-  text.erase(0, text.find_first_not_of(" \t\r"));
-  return text;
-}
-
-/** Numbers need no locale here: a decimal comma of the host's does not change them. */
-std::optional<double> ParseNumber(const std::string& word)
-{
-  const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(begin, word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(number)
-                                                                  : std::nullopt;
+  return letters.find(letter) != letters.npos;
 }
 
 /** Whether a name of files has "%d" or "%03d". Any other % is a part of a name. */
@@ -44,7 +31,7 @@ bool IsPattern(const std::string& name)
   while (at != std::string::npos)
   {
     at = name.find_first_not_of("0123456789", at + 1);
-    if (at != std::string::npos && (name[at] == 'd' || name[at] == 'i' || name[at] == 'u'))
+    if (at != std::string::npos && IsOneOf(name[at], "diu"))
     {
       return true;
     }
@@ -53,44 +40,75 @@ bool IsPattern(const std::string& name)
   return false;
 }
 
-std::string WithoutBrackets(std::string text)
+/**
+ * The data files that NRRD and MetaImage headers name by a pattern and numbers: "slice_%03d.raw 1 40 1". One number
+ * may be printed; the step may be left out.
+ *
+ * @throws FileError for what is no such pattern, and for more than 100,000 files
+ */
+std::vector<std::string> ExpandPattern(const std::string& value)
 {
-  std::replace_if(
-    text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  return text;
+  constexpr std::int64_t mostFiles = 100000;
+  const std::vector<std::string_view> words = Words(value);
+  const auto number = [&words](std::size_t word) { return ToNumber<std::int32_t>(words[word]); };
+  const std::string_view pattern = words.empty() ? std::string_view() : words.front();
+  const std::size_t percent = std::min(pattern.find('%'), pattern.size());
+  const std::size_t letter =
+    std::min(pattern.find_first_not_of("0123456789", percent + 1), pattern.size());
+  const bool isPattern = letter < pattern.size() && letter - percent <= 3 &&
+    IsOneOf(pattern[letter], "diu") && pattern.find('%', letter) == pattern.npos &&
+    words.size() >= 3 && number(1) && number(2) && (words.size() == 3 || number(3));
+  const std::int64_t first = isPattern ? *number(1) : 0;
+  const std::int64_t span = isPattern ? *number(2) - first : 0;
+  // NRRD may have one more number, of dimensions in each file, which the sizes tell, too.
+  const std::int64_t step = isPattern && words.size() > 3 ? *number(3) : 1;
+  RefuseIf(!isPattern || step == 0 || (span != 0 && (span > 0) != (step > 0)), "'", Excerpt(value),
+    "' in its header is no pattern of names such as 'a_%03d.raw 1 40 1'");
+  const std::int64_t count = span / step + 1;
+  RefuseIf(count > mostFiles, "its header names ", count, " data files");
+  const int width = ToNumber<int>(pattern.substr(percent + 1, letter - percent - 1)).value_or(0);
+  std::vector<std::string> names;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    std::ostringstream name;
+    name << pattern.substr(0, percent) << std::internal
+         << std::setfill(pattern[percent + 1] == '0' ? '0' : ' ') << std::setw(width)
+         << first + i * step << pattern.substr(letter + 1);
+    names.push_back(name.str());
+  }
+  return names;
 }
+
+/** Null if there is none. */
+const std::string* FindIn(const std::map<std::string, std::string>& texts, const std::string& key)
+{
+  const auto found = texts.find(key);
+  return found == texts.end() ? nullptr : &found->second;
+}
+
+constexpr std::string_view BetweenNumbers = " \t\r\n\v\f(),";
 
 } // namespace
 
-std::string LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::vector<std::string> Words(const std::string& text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;)
-  {
-    words.push_back(word);
-  }
-  return words;
-}
-
-std::vector<double> ParseNumbers(std::string text)
+std::vector<double> ParseNumbers(const std::string& text)
 {
   std::vector<double> numbers;
-  for (const std::string& word : Words(WithoutBrackets(std::move(text))))
+  for (const std::string_view word : Words(text, BetweenNumbers))
   {
-    if (const std::optional<double> number = ParseNumber(word))
+    if (const std::optional<double> number = ToNumber<double>(word))
     {
       numbers.push_back(*number);
     }
   }
   return numbers;
+}
+
+ScalarType TypeNamed(const std::string& name, const char* field, const TypeNames& names)
+{
+  const std::optional<ScalarType> type = FindType(name, names);
+  RefuseIf(!type, "its header gives the ", field, " '", Excerpt(name),
+    "', which is not a type of single numbers");
+  return *type;
 }
 
 TextHeader::TextHeader(const InputFile& file)
@@ -103,14 +121,11 @@ TextHeader::TextHeader(const InputFile& file)
   while (at < text.size() && !hasEnded)
   {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    hasEnded = this->TakeLine(Trim(text.substr(at, end - at)));
+    hasEnded = this->TakeLine(std::string(Trim(std::string_view(text).substr(at, end - at))));
     at = end + 1;
   }
   this->Length = at;
-  if (!hasEnded && text.size() == MaximumLength)
-  {
-    throw FileError("its header does not end within 1 MiB");
-  }
+  RefuseIf(!hasEnded && text.size() == MaximumLength, "its header does not end within 1 MiB");
 }
 
 bool TextHeader::TakeLine(std::string line)
@@ -133,15 +148,13 @@ bool TextHeader::TakeLine(std::string line)
   const std::size_t separator = this->IsNRRD && ofNRRD != std::string::npos
     ? ofNRRD
     : line.find_first_of(this->IsNRRD ? ":" : "=:");
-  const std::string name = Trim(line.substr(0, separator));
+  const std::string name(Trim(line.substr(0, separator)));
   const bool isAssigned = separator != std::string::npos && line.compare(separator, 2, ":=") == 0;
   const bool isPair = this->IsNRRD && isAssigned;
-  if (separator == std::string::npos || (name.empty() && !isPair))
-  {
-    throw FileError("the line '" + Excerpt(line) + "' of its header is no field");
-  }
+  RefuseIf(separator == std::string::npos || (name.empty() && !isPair), "the line '", Excerpt(line),
+    "' of its header is no field");
   const std::string key = LowerCase(name);
-  std::string value = Trim(line.substr(separator + (isAssigned ? 2 : 1)));
+  std::string value(Trim(line.substr(separator + (isAssigned ? 2 : 1))));
   if (isPair)
   {
     this->Pairs.insert_or_assign(key, std::move(value));
@@ -152,23 +165,18 @@ bool TextHeader::TakeLine(std::string line)
   this->IsInList = isDataFile && !Words(value).empty() && Words(value).front() == "LIST";
   this->Spellings.emplace(key, name);
   const bool isNew = this->Fields.emplace(key, std::move(value)).second;
-  if (!isNew && key != "comment")
-  {
-    throw FileError("its header gives '" + Excerpt(name) + "' more than once");
-  }
+  RefuseIf(!isNew && key != "comment", "its header gives '", Excerpt(name), "' more than once");
   return isDataOfMetaImage && !this->IsInList; // which ends the header of MetaImage
 }
 
 const std::string* TextHeader::Find(const std::string& key) const
 {
-  const auto field = this->Fields.find(key);
-  return field == this->Fields.end() ? nullptr : &field->second;
+  return FindIn(this->Fields, key);
 }
 
 const std::string* TextHeader::FindPair(const std::string& key) const
 {
-  const auto pair = this->Pairs.find(key);
-  return pair == this->Pairs.end() ? nullptr : &pair->second;
+  return FindIn(this->Pairs, key);
 }
 
 const std::string* TextHeader::FindAny(std::initializer_list<const char*> keys) const
@@ -183,10 +191,16 @@ const std::string* TextHeader::FindAny(std::initializer_list<const char*> keys) 
   return nullptr;
 }
 
-const std::string& TextHeader::SpellingOf(std::initializer_list<const char*> keys) const
+std::string TextHeader::SpellingOf(std::initializer_list<const char*> keys) const
 {
-  return this->Spellings.at(
-    *std::find_if(keys.begin(), keys.end(), [this](const char* key) { return this->Find(key); }));
+  return Excerpt(this->Spellings.at(
+    *std::find_if(keys.begin(), keys.end(), [this](const char* key) { return this->Find(key); })));
+}
+
+std::string TextHeader::Shown(std::initializer_list<const char*> keys) const
+{
+  const std::string* value = this->FindAny(keys);
+  return value ? Excerpt(*value) : "";
 }
 
 std::string TextHeader::Word(
@@ -204,21 +218,11 @@ std::vector<double> TextHeader::Numbers(
   {
     return {};
   }
-  std::vector<double> numbers;
-  const std::vector<std::string> words = Words(WithoutBrackets(*value));
-  for (const std::string& word : words)
-  {
-    if (const std::optional<double> number = ParseNumber(word))
-    {
-      numbers.push_back(*number);
-    }
-  }
-  if (numbers.size() != count || words.size() != count)
-  {
-    throw FileError("its header gives '" + Excerpt(*value) + "' for '" +
-      Excerpt(this->SpellingOf(keys)) + "', where " + std::to_string(count) +
-      (count == 1 ? " number" : " numbers") + " must be: correct the header");
-  }
+  std::vector<double> numbers = ParseNumbers(*value);
+  const std::size_t words = Words(*value, BetweenNumbers).size();
+  RefuseIf(numbers.size() != count || words != count, "its header gives '", this->Shown(keys),
+    "' for '", this->SpellingOf(keys), "', where ", count, (count == 1 ? " number" : " numbers"),
+    " must be: correct the header");
   return numbers;
 }
 
@@ -229,11 +233,9 @@ std::vector<std::int64_t> TextHeader::Wholes(
   for (const double number : this->Numbers(keys, count))
   {
     constexpr double limit = 9e15;
-    if (!(std::abs(number) <= limit) || std::trunc(number) != number)
-    {
-      throw FileError("its header gives '" + Excerpt(*this->FindAny(keys)) + "' for '" +
-        Excerpt(this->SpellingOf(keys)) + "', where whole numbers must be: correct the header");
-    }
+    RefuseIf(!(std::abs(number) <= limit) || std::trunc(number) != number, "its header gives '",
+      this->Shown(keys), "' for '", this->SpellingOf(keys),
+      "', where whole numbers must be: correct the header");
     wholes.push_back(static_cast<std::int64_t>(number));
   }
   return wholes;

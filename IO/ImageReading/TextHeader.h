@@ -7,10 +7,14 @@
 #ifndef voxplex_io_TextHeader_h
 #define voxplex_io_TextHeader_h
 
+#include "ScalarImage.h"
+
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxplex::io
@@ -38,6 +42,9 @@ public:
 
   /** The first of these keys that is there, or null. */
   const std::string* FindAny(std::initializer_list<const char*> keys) const;
+
+  /** The value as messages show it; empty if there is no such field. */
+  std::string Shown(std::initializer_list<const char*> keys) const;
 
   /** The value in lower case; `missing` if there is no such field. */
   std::string Word(std::initializer_list<const char*> keys, const std::string& missing) const;
@@ -75,7 +82,7 @@ private:
   bool TakeLine(std::string line);
 
   /** The name of a field as the file writes it. */
-  const std::string& SpellingOf(std::initializer_list<const char*> keys) const;
+  std::string SpellingOf(std::initializer_list<const char*> keys) const;
 
   std::string Path;
   std::map<std::string, std::string> Fields;
@@ -87,13 +94,11 @@ private:
   bool IsInList = false;
 };
 
-std::string LowerCase(std::string text);
-
-/** What blanks separate. */
-std::vector<std::string> Words(const std::string& text);
-
 /** The numbers of a list; brackets and commas separate, words that are no numbers are left out. */
-std::vector<double> ParseNumbers(std::string text);
+std::vector<double> ParseNumbers(const std::string& text);
+
+/** @param field in which the name is, for the message. @throws FileError for other names */
+ScalarType TypeNamed(const std::string& name, const char* field, const TypeNames& names);
 
 } // namespace voxplex::io
 

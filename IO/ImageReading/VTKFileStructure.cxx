@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VTKFileStructure.h"
 
-#include "Excerpt.h"
+#include "Fields.h"
 #include "FileError.h"
+#include "ScalarImage.h"
+#include "Text.h"
 
+#include <vtkBase64Utilities.h>
 #include <vtk_expat.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -27,10 +28,7 @@ namespace voxplex::io
 namespace
 {
 
-[[noreturn]] void RefuseDamage(const std::string& reason)
-{
-  throw FileError("it is truncated or damaged: " + reason);
-}
+constexpr const char* Damaged = "it is truncated or damaged: ";
 
 /** Of a number. */
 struct Limits
@@ -39,31 +37,58 @@ struct Limits
   double Most = std::numeric_limits<double>::max();
 };
 
-template <typename T>
-Limits LimitsOf()
-{
-  return { static_cast<double>(std::numeric_limits<T>::lowest()),
-    static_cast<double>(std::numeric_limits<T>::max()) };
-}
-
 /** Of the numbers of an array; nothing for a type that VTK does not have. */
 std::optional<Limits> LimitsOfType(std::string_view type)
 {
-  struct Known
+  constexpr TypeNames names{ "|Int8|", "|UInt8|", "|Int16|", "|UInt16|", "|Int32|", "|UInt32|",
+    "|Int64|", "|UInt64|", "|Float32|", "|Float64|" };
+  if (type == "Bit")
   {
-    std::string_view Name;
-    Limits Numbers;
+    return Limits{ 0, 1 };
+  }
+  const std::optional<ScalarType> found = FindType(type, names);
+  const auto limits = [](auto zero)
+  {
+    using T = decltype(zero);
+    return std::is_integral_v<T> ? Limits{ static_cast<double>(std::numeric_limits<T>::lowest()),
+      static_cast<double>(std::numeric_limits<T>::max()) }
+                                 : Limits();
   };
-  const std::array<Known, 11> known{ { { "Int8", LimitsOf<std::int8_t>() },
-    { "UInt8", LimitsOf<std::uint8_t>() }, { "Int16", LimitsOf<std::int16_t>() },
-    { "UInt16", LimitsOf<std::uint16_t>() }, { "Int32", LimitsOf<std::int32_t>() },
-    { "UInt32", LimitsOf<std::uint32_t>() }, { "Int64", LimitsOf<std::int64_t>() },
-    { "UInt64", LimitsOf<std::uint64_t>() }, { "Float32", LimitsOf<double>() },
-    { "Float64", LimitsOf<double>() }, { "Bit", { 0, 1 } } } };
-  const auto found =
-    std::find_if(known.begin(), known.end(), [type](const Known& one) { return one.Name == type; });
-  return found == known.end() ? std::nullopt : std::optional(found->Numbers);
+  return found ? std::optional(Dispatch(*found, limits)) : std::nullopt;
 }
+
+bool IsBlank(char letter)
+{
+  return letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
+}
+
+constexpr std::size_t LettersOfCount = 12; // are enough for either size
+
+/** Those of arrays in base64, among blanks. */
+struct Letters
+{
+  std::string Beginning;
+  std::uint64_t Length = 0;
+  bool HasBlank = false; ///< after the first letter
+  bool IsInterrupted =
+    false; ///< by blanks or other letters, for which VTK takes numbers that it has
+
+  void Add(std::string_view text)
+  {
+    for (const char letter : text)
+    {
+      const bool isBase64 = (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') ||
+        (letter >= '0' && letter <= '9') || letter == '+' || letter == '/' || letter == '=';
+      if (IsBlank(letter))
+      {
+        this->HasBlank = this->Length > 0;
+        continue;
+      }
+      this->IsInterrupted = this->IsInterrupted || this->HasBlank || !isBase64;
+      this->Beginning.append(this->Length++ < LettersOfCount ? 1 : 0, letter);
+    }
+  }
+};
 
 /** What comes before the appended data. */
 struct Structure
@@ -80,68 +105,27 @@ struct Structure
   std::vector<std::uint64_t> Offsets; ///< of arrays in the appended data
   bool IsAppended = false;
   bool IsBase64 = false;
-  std::uint64_t AppendedTag = 0; ///< where its element begins
-  bool IsInFields = false;       ///< and not in data of points or cells
-  bool IsInline = false;         ///< inside an array in base64
-  std::string InlineBeginning;
-  std::uint64_t InlineLength = 0; ///< of the array in base64
-  bool IsInterrupted = false;     ///< what is in base64 has blanks or other letters within
-  bool HasBlank = false;          ///< after letters of the array
-  std::optional<Limits> OfText;   ///< inside an array of text: of its numbers
-  std::string Word;               ///< the last of them
+  std::uint64_t AppendedTag = 0;   ///< where its element begins
+  bool IsInFields = false;         ///< and not in data of points or cells
+  std::optional<Letters> OfBase64; ///< inside an array in base64
+  bool IsInterrupted = false;      ///< what is in base64 has blanks or other letters within
+  std::optional<Limits> OfText;    ///< inside an array of text: of its numbers
+  std::string Word;                ///< the last of them
   std::vector<std::array<std::uint64_t, 2>> Inline; ///< of each: the bytes that it claims, and has
 };
-
-std::uint64_t DecodeBase64(char letter)
-{
-  constexpr std::string_view letters =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::size_t value = letters.find(letter);
-  return value == letters.npos ? 0 : value;
-}
-
-/** The bytes of the first four letters, of the next four, ... */
-std::string DecodeWords(const std::string& letters)
-{
-  std::string decoded;
-  for (std::size_t i = 0; i + 4 <= letters.size(); i += 4)
-  {
-    std::uint64_t bits = 0;
-    for (std::size_t j = 0; j < 4; ++j)
-    {
-      bits = bits << 6 | DecodeBase64(letters[i + j]);
-    }
-    decoded +=
-      { static_cast<char>(bits >> 16), static_cast<char>(bits >> 8), static_cast<char>(bits) };
-  }
-  return decoded;
-}
-
-constexpr std::size_t LettersOfCount = 12; // are enough for either size
-
-bool IsBase64(char letter)
-{
-  return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') ||
-    (letter >= '0' && letter <= '9') || letter == '+' || letter == '/' || letter == '=';
-}
-
-bool IsBlank(char letter)
-{
-  return letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
-}
 
 /** The number of bytes that an array claims, of which these are the first. */
 std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structure& structure)
 {
-  std::string bytes = isBase64 ? DecodeWords(text) : text;
-  bytes.resize(structure.BytesOfCount);
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i)
+  std::string bytes = text;
+  bytes.resize(LettersOfCount, isBase64 ? 'A' : '\0');
+  if (isBase64)
   {
-    const char byte = bytes[structure.IsBigEndian ? i : bytes.size() - 1 - i];
-    count = count << 8 | static_cast<unsigned char>(byte);
+    auto* data = reinterpret_cast<unsigned char*>(bytes.data());
+    vtkBase64Utilities::DecodeSafely(data, LettersOfCount, data, LettersOfCount / 4 * 3);
   }
-  return count;
+  const Fields fields(bytes, structure.IsBigEndian);
+  return structure.BytesOfCount == 8 ? fields.Get<std::uint64_t>(0) : fields.Get<std::uint32_t>(0);
 }
 
 /** What is compressed begins with the number of blocks, and has a size for each; VTK notices itself if blocks are
@@ -149,12 +133,9 @@ std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structur
 void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
 {
   const std::uint64_t most = bytes - std::min<std::uint64_t>(bytes, structure.BytesOfCount);
-  if (count > (structure.IsCompressed ? most / structure.BytesOfCount : most))
-  {
-    RefuseDamage("an array claims " + std::to_string(count) +
-      (structure.IsCompressed ? " blocks" : " bytes") + ", and has " + std::to_string(bytes) +
-      " bytes");
-  }
+  RefuseIf(count > (structure.IsCompressed ? most / structure.BytesOfCount : most), Damaged,
+    "an array claims ", count, (structure.IsCompressed ? " blocks" : " bytes"), ", and has ", bytes,
+    " bytes");
 }
 
 Structure& At(void* data)
@@ -177,11 +158,10 @@ std::string Attribute(const char** attributes, std::string_view name)
 /** The same numbers with one blank between them. */
 std::string Normalize(const std::string& numbers)
 {
-  std::istringstream stream(numbers);
   std::string all;
-  for (std::string number; stream >> number;)
+  for (const std::string_view number : Words(numbers))
   {
-    all += (all.empty() ? "" : " ") + number;
+    all.append(all.empty() ? "" : " ").append(number);
   }
   return all;
 }
@@ -191,17 +171,15 @@ void CheckNumbers(Structure& structure, const char** attributes, const char* nam
   std::size_t count, Limits limits = {})
 {
   const std::string text = Attribute(attributes, name);
-  std::istringstream words(text);
-  std::size_t found = 0;
-  for (std::string word; words >> word; ++found)
-  {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = error == std::errc() && end == word.data() + word.size() &&
-      number >= limits.Least && number <= limits.Most;
-    found += isNumber ? 0 : count;
-  }
-  if (found != count && !text.empty())
+  const std::vector<std::string_view> words = Words(text);
+  const bool areNumbers = words.size() == count &&
+    std::all_of(words.begin(), words.end(),
+      [&limits](std::string_view word)
+      {
+        const std::optional<double> number = ToNumber<double>(word);
+        return number && *number >= limits.Least && *number <= limits.Most;
+      });
+  if (!areNumbers && !text.empty())
   {
     structure.Wrong = std::string(name) + "=\"" + Excerpt(text) + "\"";
   }
@@ -230,19 +208,16 @@ void StartArray(Structure& structure, const char** attributes)
   if (format == "appended")
   {
     const std::string offset = Attribute(attributes, "offset");
-    std::uint64_t value = 0;
-    if (std::from_chars(offset.data(), offset.data() + offset.size(), value).ec != std::errc())
+    const std::optional<std::uint64_t> value = ToNumber<std::uint64_t>(offset);
+    if (!value)
     {
       structure.Wrong = "offset=\"" + Excerpt(offset) + "\"";
     }
-    structure.Offsets.push_back(value);
+    structure.Offsets.push_back(value.value_or(0));
   }
   else if (format == "binary")
   {
-    structure.IsInline = true;
-    structure.InlineBeginning.clear();
-    structure.InlineLength = 0;
-    structure.HasBlank = false;
+    structure.OfBase64.emplace();
   }
 }
 
@@ -288,10 +263,8 @@ void StartElement(void* data, const char* elementName, const char** attributes)
 /** VTK would make another number of one that does not fit. What is no number it finds itself. */
 void CheckWord(Structure& structure)
 {
-  double number = 0.0;
-  const char* const begin = structure.Word.data();
-  if (std::from_chars(begin, begin + structure.Word.size(), number).ec == std::errc() &&
-    !(number >= structure.OfText->Least && number <= structure.OfText->Most))
+  const std::optional<double> number = ToNumber<double>(structure.Word);
+  if (number && !(*number >= structure.OfText->Least && *number <= structure.OfText->Most))
   {
     structure.Wrong = "the number " + Excerpt(structure.Word) + " in an array of a smaller type";
   }
@@ -301,20 +274,9 @@ void CheckWord(Structure& structure)
 void AddText(void* data, const char* text, int length)
 {
   Structure& structure = At(data);
-  const std::string_view letters(text, structure.IsInline ? static_cast<std::size_t>(length) : 0);
-  for (const char letter : letters)
+  if (structure.OfBase64)
   {
-    if (IsBlank(letter))
-    {
-      structure.HasBlank = structure.InlineLength > 0;
-      continue;
-    }
-    structure.IsInterrupted = structure.IsInterrupted || structure.HasBlank || !IsBase64(letter);
-    ++structure.InlineLength;
-    if (structure.InlineBeginning.size() < LettersOfCount)
-    {
-      structure.InlineBeginning += letter;
-    }
+    structure.OfBase64->Add({ text, static_cast<std::size_t>(length) });
   }
   for (const char letter :
     std::string_view(text, structure.OfText ? static_cast<std::size_t>(length) : 0))
@@ -333,12 +295,13 @@ void AddText(void* data, const char* text, int length)
 void EndElement(void* data, const char* /*name*/)
 {
   Structure& structure = At(data);
-  if (structure.IsInline)
+  if (const std::optional<Letters>& letters = structure.OfBase64)
   {
     structure.Inline.push_back(
-      { DecodeCount(structure.InlineBeginning, true, structure), structure.InlineLength / 4 * 3 });
+      { DecodeCount(letters->Beginning, true, structure), letters->Length / 4 * 3 });
+    structure.IsInterrupted = structure.IsInterrupted || letters->IsInterrupted;
+    structure.OfBase64.reset();
   }
-  structure.IsInline = false;
   if (structure.OfText)
   {
     CheckWord(structure);
@@ -376,12 +339,10 @@ Structure Parse(const InputFile& file)
           isLast) != XML_STATUS_OK &&
       !structure.IsAppended)
     {
-      if (structure.HasDocumentType)
-      {
-        throw FileError("it has a document type, which VTK's files have not: take that line out");
-      }
-      RefuseDamage(std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
-        std::to_string(XML_GetCurrentLineNumber(parser.get())));
+      RefuseIf(structure.HasDocumentType,
+        "it has a document type, which VTK's files have not: take that line out");
+      Refuse(Damaged, XML_ErrorString(XML_GetErrorCode(parser.get())), " in line ",
+        XML_GetCurrentLineNumber(parser.get()));
     }
   }
   return structure;
@@ -409,31 +370,20 @@ Range FindAppendedData(const InputFile& file, const Structure& structure)
   const std::uint64_t tail = file.Size() - std::min<std::uint64_t>(file.Size(), enough);
   const std::string end = ReadText(file, tail, enough);
   const std::size_t last = end.rfind("</AppendedData>");
-  if (mark == start.npos || last == end.npos || end.find("</VTKFile>", last) == end.npos)
-  {
-    RefuseDamage("its appended data do not end");
-  }
+  RefuseIf(mark == start.npos || last == end.npos || end.find("</VTKFile>", last) == end.npos,
+    Damaged, "its appended data do not end");
   return { structure.AppendedTag + mark + 1, tail + last };
 }
 
-/** VTK takes what it has for numbers where a letter is none of base64. */
 void CheckLetters(const InputFile& file, const Range& data, Structure& structure)
 {
   constexpr std::uint64_t most = 1 << 20;
-  bool hasBegun = false;
-  bool hasBlank = false;
+  Letters letters;
   for (std::uint64_t at = data.Begin; at < data.End && structure.IsBase64; at += most)
   {
-    const std::uint64_t length = std::min(most, data.End - at);
-    for (const char letter : ReadText(file, at, static_cast<std::size_t>(length)))
-    {
-      const bool isBlank = IsBlank(letter);
-      structure.IsInterrupted =
-        structure.IsInterrupted || (!isBlank && (hasBlank || !IsBase64(letter)));
-      hasBlank = isBlank && hasBegun;
-      hasBegun = hasBegun || !isBlank;
-    }
+    letters.Add(ReadText(file, at, static_cast<std::size_t>(std::min(most, data.End - at))));
   }
+  structure.IsInterrupted = structure.IsInterrupted || letters.IsInterrupted;
 }
 
 void CheckAppendedData(const InputFile& file, Structure& structure)
@@ -443,10 +393,7 @@ void CheckAppendedData(const InputFile& file, Structure& structure)
   const std::uint64_t length = data.End > data.Begin ? data.End - data.Begin : 0;
   for (const std::uint64_t offset : structure.Offsets)
   {
-    if (offset >= length)
-    {
-      RefuseDamage("an array begins beyond the end");
-    }
+    RefuseIf(offset >= length, Damaged, "an array begins beyond the end");
     const std::string first = ReadText(
       file, data.Begin + offset, structure.IsBase64 ? LettersOfCount : structure.BytesOfCount);
     CheckCount(DecodeCount(first, structure.IsBase64, structure),
@@ -458,35 +405,20 @@ void CheckAppendedData(const InputFile& file, Structure& structure)
 
 void CheckKindOfVTK(const std::string& kind, std::string_view wanted)
 {
-  if (kind.empty())
-  {
-    throw FileError("it is truncated or damaged: it does not say what it holds");
-  }
-  if (kind != wanted)
-  {
-    throw FileError("it holds " + Excerpt(kind) + "; a label image of VTK is " +
-      std::string(wanted) + ": sample it on a regular grid (vtkImageData) first");
-  }
+  RefuseIf(kind.empty(), "it is truncated or damaged: it does not say what it holds");
+  RefuseIf(kind != wanted, "it holds ", Excerpt(kind), "; a label image of VTK is ", wanted,
+    ": sample it on a regular grid (vtkImageData) first");
 }
 
 void CheckStructureOfVTI(const InputFile& file)
 {
   Structure structure = Parse(file);
   CheckKindOfVTK(structure.Kind, "ImageData");
-  if (!structure.Wrong.empty())
-  {
-    throw FileError("it has " + structure.Wrong + ", which cannot be: correct it");
-  }
-  if (structure.Extents.size() != 1)
-  {
-    throw FileError(
-      "it is stored in " + std::to_string(structure.Extents.size()) + " pieces: save it in one");
-  }
-  if (structure.Extents.front() != structure.WholeExtent)
-  {
-    RefuseDamage("it has the extent " + Excerpt(structure.WholeExtent) + ", and its piece " +
-      Excerpt(structure.Extents.front()));
-  }
+  RefuseIf(!structure.Wrong.empty(), "it has ", structure.Wrong, ", which cannot be: correct it");
+  RefuseIf(structure.Extents.size() != 1, "it is stored in ", structure.Extents.size(),
+    " pieces: save it in one");
+  RefuseIf(structure.Extents.front() != structure.WholeExtent, Damaged, "it has the extent ",
+    Excerpt(structure.WholeExtent), ", and its piece ", Excerpt(structure.Extents.front()));
   for (const auto& [count, bytes] : structure.Inline)
   {
     CheckCount(count, bytes, structure);
@@ -495,11 +427,9 @@ void CheckStructureOfVTI(const InputFile& file)
   {
     CheckAppendedData(file, structure);
   }
-  if (structure.IsInterrupted)
-  {
-    throw FileError("its data in base64 have line breaks or foreign letters within, which VTK does "
-                    "not read: save it in the encoding raw");
-  }
+  RefuseIf(structure.IsInterrupted,
+    "its data in base64 have line breaks or foreign letters within, which VTK does not read: save "
+    "it in the encoding raw");
 }
 
 } // namespace voxplex::io

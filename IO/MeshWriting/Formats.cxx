@@ -63,11 +63,8 @@ const Format& Require(const std::string& name, Content content, int dimension)
 {
   const std::string extension = ExtensionOf(name);
   const Format* format = Find(extension, content);
-  if (!format || !format->Has(dimension))
-  {
-    throw FileError(
-      "no format '" + extension + "' for this content; use " + ListExtensions(content, dimension));
-  }
+  RefuseIf(!format || !format->Has(dimension), "no format '", extension, "' for this content; use ",
+    ListExtensions(content, dimension));
   return *format;
 }
 

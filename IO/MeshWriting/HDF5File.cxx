@@ -68,28 +68,23 @@ std::mutex& LibraryMutex()
 
 [[noreturn]] void Fail()
 {
-  throw FileError("the HDF5 library reports an error");
+  Refuse("the HDF5 library reports an error");
 }
 
-void WriteDataset(hid_t file, const std::string& name, hid_t storedType, hid_t type,
-  const void* values, std::size_t size, std::size_t columns)
+/** As they are stored, and in memory. */
+std::array<hid_t, 2> TypesOf(double)
 {
-  const Quiet quiet;
-  const std::array<hsize_t, 2> dimensions{ size / columns, columns };
-  const int rank = columns == 1 ? 1 : 2;
-  const Handle space(H5Screate_simple(rank, dimensions.data(), nullptr), H5Sclose);
-  // Without the time, so that the same mesh gives the same file.
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  Handle dataset(
-    H5Dcreate2(file, name.c_str(), storedType, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-    H5Dclose);
-  const bool done = dataset >= 0 &&
-    (size == 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-  if (!done || !dataset.Close())
-  {
-    Fail();
-  }
+  return { H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE };
+}
+
+std::array<hid_t, 2> TypesOf(std::int64_t)
+{
+  return { H5T_STD_I64LE, H5T_NATIVE_INT64 };
+}
+
+std::array<hid_t, 2> TypesOf(std::int32_t)
+{
+  return { H5T_STD_I32LE, H5T_NATIVE_INT32 };
 }
 
 } // namespace
@@ -118,37 +113,31 @@ HDF5File::~HDF5File()
   }
 }
 
-void HDF5File::AddGroup(const std::string& name)
+template <typename T>
+void HDF5File::Write(const std::string& name, const std::vector<T>& values, std::size_t columns)
 {
   const Quiet quiet;
-  Handle group(
-    H5Gcreate2(this->File, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  if (!group.Close())
+  const auto [stored, type] = TypesOf(T());
+  const std::array<hsize_t, 2> dimensions{ values.size() / columns, columns };
+  const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, dimensions.data(), nullptr), H5Sclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, true);
+  // Without the time, so that the same mesh gives the same file.
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  Handle dataset(
+    H5Dcreate2(this->File, name.c_str(), stored, space, links, creation, H5P_DEFAULT), H5Dclose);
+  const bool done = dataset >= 0 &&
+    (values.empty() || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+  if (!done || !dataset.Close())
   {
     Fail();
   }
 }
 
-void HDF5File::Write(
-  const std::string& name, const std::vector<double>& values, std::size_t columns)
-{
-  WriteDataset(
-    this->File, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size(), columns);
-}
-
-void HDF5File::Write(
-  const std::string& name, const std::vector<std::int64_t>& values, std::size_t columns)
-{
-  WriteDataset(
-    this->File, name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), values.size(), columns);
-}
-
-void HDF5File::Write(
-  const std::string& name, const std::vector<std::int32_t>& values, std::size_t columns)
-{
-  WriteDataset(
-    this->File, name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), values.size(), columns);
-}
+template void HDF5File::Write(const std::string&, const std::vector<double>&, std::size_t);
+template void HDF5File::Write(const std::string&, const std::vector<std::int64_t>&, std::size_t);
+template void HDF5File::Write(const std::string&, const std::vector<std::int32_t>&, std::size_t);
 
 void HDF5File::Close(const std::string& path)
 {

@@ -34,20 +34,15 @@ public:
   HDF5File(const HDF5File&) = delete;
   HDF5File& operator=(const HDF5File&) = delete;
 
-  /** Creates the group "/name" for datasets "/name/...". @throws FileError */
-  void AddGroup(const std::string& name);
-
-  ///@{
   /**
-   * Writes a dataset of two dimensions, or of one if there is one column.
+   * Writes a dataset of two dimensions, or of one if there is one column. Groups are made where there are none.
    *
+   * @tparam T double, std::int64_t or std::int32_t
    * @param name with its group: "mesh/topology"
    * @throws FileError
    */
-  void Write(const std::string& name, const std::vector<double>& values, std::size_t columns);
-  void Write(const std::string& name, const std::vector<std::int64_t>& values, std::size_t columns);
-  void Write(const std::string& name, const std::vector<std::int32_t>& values, std::size_t columns);
-  ///@}
+  template <typename T>
+  void Write(const std::string& name, const std::vector<T>& values, std::size_t columns);
 
   /** Writes the file, in place of an existing one. @throws FileError */
   void Close(const std::string& path);

@@ -4,8 +4,11 @@
 
 #include "FileError.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -26,16 +29,32 @@ vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name)
 }
 
 /** vtkVariant keeps all 64 bits of a label, GetTuple() only 53. */
+std::int64_t AnyLabelAt(vtkDataArray* labels, vtkIdType cell, int component)
+{
+  return labels->GetVariantValue(cell * labels->GetNumberOfComponents() + component).ToTypeInt64();
+}
+
 std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component)
 {
-  const vtkIdType index = cell * labels->GetNumberOfComponents() + component;
-  const auto label = static_cast<std::int64_t>(labels->GetVariantValue(index).ToTypeInt64());
-  if (!std::in_range<std::int32_t>(label))
-  {
-    throw FileError("label " + std::to_string(label) +
-      " does not fit into this format, which has 32 bits for it; write a .vtu file");
-  }
+  const std::int64_t label = AnyLabelAt(labels, cell, component);
+  RefuseIf(!std::in_range<std::int32_t>(label), "label ", label,
+    " does not fit into this format, which has 32 bits for it; write a .vtu file");
   return label;
+}
+
+std::vector<SidedPair> SidedPairsOf(
+  vtkUnstructuredGrid* boundary, std::int64_t (*labelAt)(vtkDataArray*, vtkIdType, int))
+{
+  vtkDataArray* const labels = RequireArray(boundary->GetCellData(), "Labels");
+  vtkDataArray* const sides = boundary->GetCellData()->GetArray("Side");
+  std::vector<SidedPair> pairs;
+  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+  {
+    const double side = sides ? sides->GetComponent(cell, 0) : 0.0;
+    pairs.push_back({ side == 1.0 || side == 2.0 ? static_cast<int>(side) : 0,
+      { labelAt(labels, cell, 0), labelAt(labels, cell, 1) } });
+  }
+  return pairs;
 }
 
 std::map<LabelPair, std::int64_t> NumberPairs(

@@ -11,11 +11,13 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <vtkType.h>
 
 class vtkDataArray;
 class vtkDataSetAttributes;
+class vtkUnstructuredGrid;
 
 namespace voxplex::io
 {
@@ -24,6 +26,9 @@ using LabelPair = std::pair<std::int64_t, std::int64_t>; ///< larger label first
 
 /** An array that the filters promise; a program error if it is missing. */
 vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name);
+
+/** With all 64 bits. */
+std::int64_t AnyLabelAt(vtkDataArray* labels, vtkIdType cell, int component = 0);
 
 /** @throws FileError if the label does not fit into 31 bits */
 std::int64_t LabelAt(vtkDataArray* labels, vtkIdType cell, int component = 0);
@@ -40,6 +45,22 @@ std::map<LabelPair, std::int64_t> NumberPairs(
  * the time plane k, which are counted from 1; both labels are the same there.
  */
 using SidedPair = std::pair<int, LabelPair>;
+
+/** Of each cell of a boundary, by its arrays Labels and Side, which may be missing. @param labelAt of those above */
+std::vector<SidedPair> SidedPairsOf(
+  vtkUnstructuredGrid* boundary, std::int64_t (*labelAt)(vtkDataArray*, vtkIdType, int));
+
+/** The keys of a map. */
+template <typename TKey, typename TValue>
+std::set<TKey> KeysOf(const std::map<TKey, TValue>& map)
+{
+  std::set<TKey> keys;
+  for (const auto& [key, value] : map)
+  {
+    keys.insert(key);
+  }
+  return keys;
+}
 
 /**
  * A number for each pair of labels and side: those of NumberPairs() for lateral ones. Those at the

@@ -12,8 +12,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <set>
-
 namespace voxplex::io
 {
 MeshView::MeshView(const MeshData& mesh)
@@ -51,12 +49,7 @@ MeshView::MeshView(const MeshData& mesh)
 
   const std::int64_t largest =
     this->TetrahedraOfLabel.empty() ? 0 : this->TetrahedraOfLabel.rbegin()->first;
-  std::set<LabelPair> labelPairs;
-  for (const auto& [pair, cells] : this->TrianglesOfPair)
-  {
-    labelPairs.insert(pair);
-  }
-  this->PairNumber = NumberPairs(labelPairs, largest);
+  this->PairNumber = NumberPairs(KeysOf(this->TrianglesOfPair), largest);
 }
 
 vtkIdType MeshView::NumberOfPoints() const

@@ -37,6 +37,19 @@ public:
   vtkIdType NumberOfPoints() const;
   std::array<double, 3> Point(vtkIdType id) const;
 
+  ///@{
+  /** As SpaceTimeMeshView has them: elements are tetrahedra with labels, facets triangles with numbers of pairs. */
+  vtkIdType NumberOfElements() const { return static_cast<vtkIdType>(this->Tetrahedra.size()); }
+  std::array<vtkIdType, 4> Element(vtkIdType i) const { return this->Tetrahedra[At(i)]; }
+  std::int64_t LabelOf(vtkIdType i) const { return this->LabelOfTetrahedron[At(i)]; }
+  vtkIdType NumberOfFacets() const { return static_cast<vtkIdType>(this->Triangles.size()); }
+  std::array<vtkIdType, 3> Facet(vtkIdType i) const { return this->Triangles[At(i)]; }
+  std::int64_t NumberOf(vtkIdType i) const
+  {
+    return this->PairNumber.at(this->PairOfTriangle[At(i)]);
+  }
+  ///@}
+
   std::vector<std::array<vtkIdType, 4>> Tetrahedra; ///< vertices, in VTK's order
   std::vector<std::array<vtkIdType, 3>> Triangles;  ///< vertices, as ids of the tetrahedra's points
   std::vector<std::int64_t> LabelOfTetrahedron;
@@ -48,6 +61,8 @@ public:
   LabelTable Table;                             ///< names of labels, from the mesh's field data
 
 private:
+  static std::size_t At(vtkIdType i) { return static_cast<std::size_t>(i); }
+
   vtkPoints* Points;
 };
 

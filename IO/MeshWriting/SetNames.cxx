@@ -4,11 +4,10 @@
 
 #include "LabelTable.h"
 #include "MeshView.h"
+#include "Text.h"
 #include "TextFile.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
+#include <string>
 
 namespace voxplex::io
 {
@@ -40,42 +39,10 @@ bool FEBioAllows(char32_t c)
   return QuotedAllows(c) && std::u32string_view(U"&<>',:.@/").find(c) == std::u32string_view::npos;
 }
 
-struct Character
+/** Code points that Unicode gives to no character. */
+bool IsNoCharacter(char32_t c)
 {
-  char32_t Code;
-  std::size_t Length; ///< in bytes
-};
-
-constexpr char32_t Invalid = 0; // no format allows it
-
-/** The first character of UTF-8 text that is not empty; Invalid if it is not one of Unicode. */
-Character FirstOf(std::string_view text)
-{
-  constexpr std::array<char32_t, 5> smallest{ 0, 0, 0x80, 0x800, 0x10000 };
-  const auto first = static_cast<unsigned char>(text.front());
-  if (first < 0x80)
-  {
-    return { first, 1 };
-  }
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc0 || first > 0xf7 || text.size() < length)
-  {
-    return { Invalid, 1 };
-  }
-  char32_t code = first & (0x7fU >> length);
-  for (std::size_t i = 1; i < length; ++i)
-  {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if ((byte & 0xc0U) != 0x80)
-    {
-      return { Invalid, 1 };
-    }
-    code = (code << 6U) | (byte & 0x3fU);
-  }
-  const bool isSurrogate = code >= 0xd800 && code < 0xe000;
-  const bool isNoCharacter = (code & 0xfffeU) == 0xfffe || code > 0x10ffff;
-  const bool isOverlong = code < smallest[length];
-  return { isSurrogate || isNoCharacter || isOverlong ? Invalid : code, length };
+  return (c & 0xfffeU) == 0xfffe;
 }
 
 /** Without blanks at the ends; may be empty. */
@@ -86,7 +53,7 @@ std::string MakeLegal(std::string_view name, const NameRules& rules)
   while (!name.empty())
   {
     const auto [code, length] = FirstOf(name);
-    if (!rules.Allows(code))
+    if (IsNoCharacter(code) || !rules.Allows(code))
     {
       isReplacing = true;
     }
@@ -103,25 +70,6 @@ std::string MakeLegal(std::string_view name, const NameRules& rules)
   return lacksLetter ? "set_" + legal : legal;
 }
 
-/** The first bytes of a text, at most `size`, without part of a character at the end. */
-std::string_view Cut(std::string_view text, std::size_t size)
-{
-  const auto isInside = [&](std::size_t at)
-  { return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80; };
-  while (size > 0 && isInside(size))
-  {
-    --size;
-  }
-  return text.substr(0, size);
-}
-
-std::string LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 } // namespace
 
 const NameRules AbaqusNames{ AbaqusAllows, true, false, 80 };
@@ -129,33 +77,19 @@ const NameRules QuotedNames{ QuotedAllows, false, true, 127 };
 const NameRules FEBioNames{ FEBioAllows, false, true, 127 };
 
 SetNames::SetNames(const MeshView& view, const NameRules& rules)
-  : Rules(rules)
+  : SetNames(KeysOf(view.TetrahedraOfLabel), KeysOf(view.TrianglesOfPair), view.Table, rules)
 {
-  std::set<std::int64_t> labels;
-  std::set<LabelPair> pairs;
-  for (const auto& [label, cells] : view.TetrahedraOfLabel)
-  {
-    labels.insert(label);
-  }
-  for (const auto& [pair, cells] : view.TrianglesOfPair)
-  {
-    labels.insert({ pair.first, pair.second });
-    pairs.insert(pair);
-  }
-  labels.erase(0);
-  this->NameSets(labels, pairs, view.Table);
 }
 
-SetNames::SetNames(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
+SetNames::SetNames(std::set<std::int64_t> labels, const std::set<LabelPair>& pairs,
   const LabelTable& table, const NameRules& rules)
   : Rules(rules)
 {
-  this->NameSets(labels, pairs, table);
-}
-
-void SetNames::NameSets(
-  const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs, const LabelTable& table)
-{
+  for (const auto& [first, second] : pairs)
+  {
+    labels.insert({ first, second });
+  }
+  labels.erase(0);
   for (const std::int64_t label : labels)
   {
     const std::string suffix = "_" + std::to_string(label);

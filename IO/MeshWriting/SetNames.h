@@ -48,9 +48,9 @@ class SetNames
 {
 public:
   SetNames(const MeshView& view, const NameRules& rules);
-  /** Of these labels, without background, and these pairs. */
-  SetNames(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
-    const LabelTable& table, const NameRules& rules);
+  /** Of these pairs, and of these labels and those of the pairs but the background. */
+  SetNames(std::set<std::int64_t> labels, const std::set<LabelPair>& pairs, const LabelTable& table,
+    const NameRules& rules);
 
   /** Of a label that tetrahedra or triangles have. */
   const std::string& OfLabel(std::int64_t label) const { return this->Labels.at(label); }
@@ -62,9 +62,6 @@ public:
   std::string MakeUnique(const std::string& name, const std::string& suffix);
 
 private:
-  void NameSets(const std::set<std::int64_t>& labels, const std::set<LabelPair>& pairs,
-    const LabelTable& table);
-
   NameRules Rules;
   std::set<std::string> Taken; ///< in lower case if case does not matter
   std::map<std::int64_t, std::string> Labels;

@@ -13,12 +13,14 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 
 namespace voxplex::io
 {
 namespace
 {
+
+using FacetVertices = std::array<vtkIdType, 4>;
 
 template <std::size_t N>
 std::array<vtkIdType, N> Vertices(vtkUnstructuredGrid* grid, vtkIdType cell)
@@ -32,10 +34,10 @@ std::array<vtkIdType, N> Vertices(vtkUnstructuredGrid* grid, vtkIdType cell)
 }
 
 /** By points of the pentatopes. */
-std::vector<std::array<vtkIdType, 4>> TetrahedraOf(vtkUnstructuredGrid* boundary)
+std::vector<FacetVertices> TetrahedraOf(vtkUnstructuredGrid* boundary)
 {
   vtkDataArray* const ids = RequireArray(boundary->GetPointData(), "PointIds");
-  std::vector<std::array<vtkIdType, 4>> tetrahedra;
+  std::vector<FacetVertices> tetrahedra;
   for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
   {
     tetrahedra.push_back(Vertices<4>(boundary, cell));
@@ -45,22 +47,6 @@ std::vector<std::array<vtkIdType, 4>> TetrahedraOf(vtkUnstructuredGrid* boundary
     }
   }
   return tetrahedra;
-}
-
-std::vector<SidedPair> PairsOf(vtkUnstructuredGrid* boundary)
-{
-  vtkDataArray* const labels = RequireArray(boundary->GetCellData(), "Labels");
-  vtkDataArray* const sides = boundary->GetCellData()->GetArray("Side");
-  std::vector<SidedPair> pairs;
-  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
-  {
-    const double side = sides ? sides->GetComponent(cell, 0) : 0.0;
-    pairs.push_back({ side == 1.0 ? 1
-        : side == 2.0             ? 2
-                                  : 0,
-      { LabelAt(labels, cell, 0), LabelAt(labels, cell, 1) } });
-  }
-  return pairs;
 }
 
 /** The side of facets on a time plane. */
@@ -73,83 +59,32 @@ SidedPair PairOf(const PlaneFacet& facet)
 
 SpaceTimeMeshView::SpaceTimeMeshView(const SpaceTimeMeshData& mesh)
   : Slab(mesh.Slab)
-  , Pentatopes(mesh.Pentatopes)
-  , Times(RequireArray(mesh.Pentatopes->GetPointData(), "Time"))
-  , Labels(RequireArray(mesh.Pentatopes->GetCellData(), "Label"))
+  , Pentatopes(this->IsSlab() ? SlabOf(mesh.Pentatopes, mesh.Slab).Get() : mesh.Pentatopes)
+  , Times(RequireArray(this->Pentatopes->GetPointData(), "Time"))
+  , Labels(RequireArray(this->Pentatopes->GetCellData(), "Label"))
   , Planes(TimePlanesOf(mesh.Pentatopes))
 {
-  this->ChooseCells();
-  this->ChoosePoints();
-  this->GatherFacets(mesh);
-}
-
-void SpaceTimeMeshView::ChooseCells()
-{
-  this->Cells.resize(static_cast<std::size_t>(this->Pentatopes->GetNumberOfCells()));
-  std::iota(this->Cells.begin(), this->Cells.end(), 0);
-  if (this->IsSlab())
-  {
-    vtkDataArray* const slabs = RequireArray(this->Pentatopes->GetCellData(), "Slab");
-    std::erase_if(this->Cells,
-      [this, slabs](vtkIdType cell) { return slabs->GetComponent(cell, 0) != this->Slab; });
-  }
-}
-
-/** A whole mesh has all points, those that no pentatope uses, too. */
-void SpaceTimeMeshView::ChoosePoints()
-{
-  const vtkIdType all = this->Pentatopes->GetNumberOfPoints();
-  this->LocalId.assign(static_cast<std::size_t>(all), this->IsSlab() ? -1 : 0);
-  if (this->IsSlab())
-  {
-    for (const vtkIdType cell : this->Cells)
-    {
-      for (const vtkIdType id : Vertices<5>(this->Pentatopes, cell))
-      {
-        this->LocalId[static_cast<std::size_t>(id)] = 0;
-      }
-    }
-  }
-  for (vtkIdType id = 0; id < all; ++id)
-  {
-    vtkIdType& local = this->LocalId[static_cast<std::size_t>(id)];
-    if (local == 0)
-    {
-      local = this->NumberOfPoints();
-      this->Points.push_back(id);
-    }
-  }
-}
-
-/** Numbers pairs and sides of the whole mesh; keeps the facets of the slab. */
-void SpaceTimeMeshView::GatherFacets(const SpaceTimeMeshData& mesh)
-{
-  const std::vector<std::array<vtkIdType, 4>> tetrahedra = TetrahedraOf(mesh.Boundary);
-  const std::vector<SidedPair> pairs = PairsOf(mesh.Boundary);
+  const std::vector<FacetVertices> tetrahedra = TetrahedraOf(mesh.Boundary);
+  const std::vector<SidedPair> pairs = SidedPairsOf(mesh.Boundary, LabelAt);
   const std::vector<PlaneFacet> onPlanes = FindPlaneFacets(mesh.Pentatopes, tetrahedra);
-  std::int64_t largest = 0;
-  for (vtkIdType cell = 0; cell < this->Pentatopes->GetNumberOfCells(); ++cell)
-  {
-    largest = std::max(largest, LabelAt(this->Labels, cell));
-  }
-  std::set<SidedPair> all(pairs.begin(), pairs.end());
-  for (const PlaneFacet& facet : onPlanes)
-  {
-    all.insert(PairOf(facet));
-  }
-  this->PairNumber = NumberSidedPairs(all, largest);
+  this->NumberFacets(mesh.Pentatopes, pairs, onPlanes);
 
-  const auto add = [this](std::array<vtkIdType, 4> vertices, const SidedPair& pair)
+  std::vector<vtkIdType> local(static_cast<std::size_t>(mesh.Pentatopes->GetNumberOfPoints()), -1);
+  for (vtkIdType i = 0; i < this->NumberOfPoints(); ++i)
+  {
+    local[static_cast<std::size_t>(this->NumberInWhole(i))] = i;
+  }
+  const auto add = [&](FacetVertices vertices, const SidedPair& pair)
   {
     for (vtkIdType& vertex : vertices)
     {
-      vertex = this->LocalId[static_cast<std::size_t>(vertex)];
+      vertex = local[static_cast<std::size_t>(vertex)];
     }
     this->Facets.push_back({ vertices, this->PairNumber.at(pair) });
   };
   for (std::size_t k = 0; k < tetrahedra.size(); ++k)
   {
-    if (!this->IsSlab() || this->IsInSlab(tetrahedra[k]))
+    if (!this->IsSlab() || this->IsInSlab(tetrahedra[k], mesh.Pentatopes))
     {
       add(tetrahedra[k], pairs[k]);
     }
@@ -163,52 +98,76 @@ void SpaceTimeMeshView::GatherFacets(const SpaceTimeMeshData& mesh)
   }
 }
 
+void SpaceTimeMeshView::NumberFacets(vtkUnstructuredGrid* whole,
+  const std::vector<SidedPair>& pairs, const std::vector<PlaneFacet>& onPlanes)
+{
+  std::int64_t largest = 0;
+  vtkDataArray* const labels = whole->GetCellData()->GetArray("Label");
+  for (vtkIdType cell = 0; cell < whole->GetNumberOfCells(); ++cell)
+  {
+    largest = std::max(largest, LabelAt(labels, cell));
+  }
+  std::set<SidedPair> all(pairs.begin(), pairs.end());
+  std::transform(onPlanes.begin(), onPlanes.end(), std::inserter(all, all.end()), PairOf);
+  this->PairNumber = NumberSidedPairs(all, largest);
+}
+
 /** A facet on a plane, between two labels, is in both slabs. */
-bool SpaceTimeMeshView::IsInSlab(const std::array<vtkIdType, 4>& facet) const
+bool SpaceTimeMeshView::IsInSlab(const FacetVertices& facet, vtkUnstructuredGrid* whole) const
 {
   const auto slab = static_cast<std::size_t>(this->Slab);
+  vtkDataArray* const times = whole->GetPointData()->GetArray("Time");
   return std::all_of(facet.begin(), facet.end(),
     [&](vtkIdType id)
     {
-      const double time = this->Times->GetComponent(id, 0);
+      const double time = times->GetComponent(id, 0);
       return (slab == 0 || time >= this->Planes[slab - 1]) &&
         (slab >= this->Planes.size() || time <= this->Planes[slab]);
     });
 }
 
 //------------------------------------------------------------------------------------------------
+vtkIdType SpaceTimeMeshView::NumberOfPoints() const
+{
+  return this->Pentatopes->GetNumberOfPoints();
+}
+
 std::array<double, 4> SpaceTimeMeshView::Point(vtkIdType i) const
 {
-  const vtkIdType id = this->NumberInWhole(i);
   std::array<double, 4> x;
-  this->Pentatopes->GetPoint(id, x.data());
-  x[3] = this->Times->GetComponent(id, 0);
+  this->Pentatopes->GetPoint(i, x.data());
+  x[3] = this->Times->GetComponent(i, 0);
   return x;
 }
 
-std::array<vtkIdType, 5> SpaceTimeMeshView::Pentatope(vtkIdType i) const
+vtkIdType SpaceTimeMeshView::NumberInWhole(vtkIdType i) const
 {
-  std::array<vtkIdType, 5> vertices =
-    Vertices<5>(this->Pentatopes, this->Cells[static_cast<std::size_t>(i)]);
-  for (vtkIdType& vertex : vertices)
-  {
-    vertex = this->LocalId[static_cast<std::size_t>(vertex)];
-  }
-  return vertices;
+  vtkDataArray* const ids = this->Pentatopes->GetPointData()->GetGlobalIds();
+  return this->IsSlab() ? static_cast<vtkIdType>(ids->GetComponent(i, 0)) : i;
+}
+
+vtkIdType SpaceTimeMeshView::NumberOfElements() const
+{
+  return this->Pentatopes->GetNumberOfCells();
+}
+
+std::array<vtkIdType, 5> SpaceTimeMeshView::Element(vtkIdType i) const
+{
+  return Vertices<5>(this->Pentatopes, i);
 }
 
 std::int64_t SpaceTimeMeshView::LabelOf(vtkIdType i) const
 {
-  return LabelAt(this->Labels, this->Cells[static_cast<std::size_t>(i)]);
+  return LabelAt(this->Labels, i);
 }
 
 std::vector<vtkIdType> SpaceTimeMeshView::SlabsOfPentatopes() const
 {
   std::vector<vtkIdType> numbers;
   vtkDataArray* const slabs = this->Pentatopes->GetCellData()->GetArray("Slab");
-  for (std::size_t i = 0; !this->Planes.empty() && i < this->Cells.size(); ++i)
+  for (vtkIdType i = 0; !this->Planes.empty() && i < this->NumberOfElements(); ++i)
   {
-    numbers.push_back(static_cast<vtkIdType>(slabs->GetComponent(this->Cells[i], 0)));
+    numbers.push_back(static_cast<vtkIdType>(slabs->GetComponent(i, 0)));
   }
   return numbers;
 }
@@ -217,7 +176,7 @@ std::vector<std::array<vtkIdType, 2>> SpaceTimeMeshView::PeriodicPairs() const
 {
   std::vector<std::array<vtkIdType, 2>> pairs;
   vtkDataArray* const ids = this->Pentatopes->GetFieldData()->GetArray("PeriodicPairs");
-  for (vtkIdType k = 0; ids && !this->IsSlab() && k < ids->GetNumberOfTuples(); ++k)
+  for (vtkIdType k = 0; ids && k < ids->GetNumberOfTuples(); ++k)
   {
     pairs.push_back({ static_cast<vtkIdType>(ids->GetComponent(k, 0)),
       static_cast<vtkIdType>(ids->GetComponent(k, 1)) });

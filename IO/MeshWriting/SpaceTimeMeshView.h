@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include <vtkSmartPointer.h>
 #include <vtkType.h>
 
 class vtkDataArray;
@@ -27,11 +28,12 @@ namespace voxplex::io
 
 struct SpaceTimeMeshData;
 class TextFile;
+struct PlaneFacet;
 
 /**
- * @brief A mesh, or a slab of it. Points, pentatopes and tetrahedra are numbered from 0.
+ * @brief A mesh, or a slab of it. Points, elements (pentatopes) and facets (tetrahedra) are numbered from 0.
  *
- * Tetrahedra are those of the boundary, then the facets on time planes inside of labels. Numbers of pairs and sides
+ * Facets are those of the boundary, then the facets on time planes inside of labels. Numbers of pairs and sides
  * are those of the whole mesh, so a facet has the same number in the files of both slabs that share it.
  */
 class SpaceTimeMeshView
@@ -40,22 +42,26 @@ public:
   /** Keeps pointers into mesh. @throws FileError if a label does not fit into 31 bits */
   explicit SpaceTimeMeshView(const SpaceTimeMeshData& mesh);
 
-  vtkIdType NumberOfPoints() const { return static_cast<vtkIdType>(this->Points.size()); }
+  vtkIdType NumberOfPoints() const;
   std::array<double, 4> Point(vtkIdType i) const; ///< x, y, z, t
   /** Of a slab: the number of the point in the whole mesh. */
-  vtkIdType NumberInWhole(vtkIdType i) const { return this->Points[static_cast<std::size_t>(i)]; }
+  vtkIdType NumberInWhole(vtkIdType i) const;
   bool IsSlab() const { return this->Slab >= 0; }
 
-  vtkIdType NumberOfPentatopes() const { return static_cast<vtkIdType>(this->Cells.size()); }
-  std::array<vtkIdType, 5> Pentatope(vtkIdType i) const; ///< positively oriented in (x, y, z, t)
-  std::int64_t LabelOf(vtkIdType i) const;               ///< of pentatope i
+  vtkIdType NumberOfElements() const;
+  std::array<vtkIdType, 5> Element(vtkIdType i) const; ///< positively oriented in (x, y, z, t)
+  std::int64_t LabelOf(vtkIdType i) const;             ///< of element i
 
-  struct Tetrahedron
+  vtkIdType NumberOfFacets() const { return static_cast<vtkIdType>(this->Facets.size()); }
+  std::array<vtkIdType, 4> Facet(vtkIdType i) const
   {
-    std::array<vtkIdType, 4> Vertices;
-    std::int64_t Number; ///< of its pair of labels and its side
-  };
-  const std::vector<Tetrahedron>& Tetrahedra() const { return this->Facets; }
+    return this->Facets[static_cast<std::size_t>(i)].Vertices;
+  }
+  /** Of its pair of labels and its side. */
+  std::int64_t NumberOf(vtkIdType i) const
+  {
+    return this->Facets[static_cast<std::size_t>(i)].Number;
+  }
 
   /** The slab of each pentatope; empty if there are no time planes. */
   std::vector<vtkIdType> SlabsOfPentatopes() const;
@@ -69,20 +75,23 @@ public:
   void WritePairs(TextFile& file) const;
 
 private:
-  void ChooseCells();
-  void ChoosePoints();
-  void GatherFacets(const SpaceTimeMeshData& mesh);
-  bool IsInSlab(const std::array<vtkIdType, 4>& facet) const;
+  /** Pairs and sides of the whole mesh. */
+  void NumberFacets(vtkUnstructuredGrid* whole, const std::vector<SidedPair>& pairs,
+    const std::vector<PlaneFacet>& onPlanes);
+  bool IsInSlab(const std::array<vtkIdType, 4>& facet, vtkUnstructuredGrid* whole) const;
+
+  struct NumberedFacet
+  {
+    std::array<vtkIdType, 4> Vertices;
+    std::int64_t Number;
+  };
 
   const int Slab; ///< -1: all of the mesh
-  vtkUnstructuredGrid* const Pentatopes;
+  const vtkSmartPointer<vtkUnstructuredGrid> Pentatopes;
   vtkDataArray* const Times;
   vtkDataArray* const Labels;
   const std::vector<double> Planes;
-  std::vector<vtkIdType> Cells;   ///< ids in Pentatopes
-  std::vector<vtkIdType> Points;  ///< ids in Pentatopes
-  std::vector<vtkIdType> LocalId; ///< of each point of Pentatopes, or -1
-  std::vector<Tetrahedron> Facets;
+  std::vector<NumberedFacet> Facets;
   std::map<SidedPair, std::int64_t> PairNumber; ///< see NumberSidedPairs()
 };
 

@@ -4,18 +4,71 @@
 // and an element set for each label; for each pair of labels a surface of element faces, to put
 // loads on, and a set of nodes, to put boundary conditions on.
 
-#include "ElementFaces.h"
+#include "FileError.h"
 #include "MeshView.h"
 #include "SetNames.h"
 #include "TextFile.h"
 #include "Writers.h"
 
 #include <algorithm>
+#include <map>
 
 namespace voxplex::io
 {
 namespace
 {
+
+using Vertices = std::array<vtkIdType, 3>;
+
+Vertices Sorted(Vertices v)
+{
+  std::sort(v.begin(), v.end());
+  return v;
+}
+
+/** An element and its vertex, 0 to 3, that the face does not have. */
+struct ElementFace
+{
+  std::size_t Tetrahedron;
+  std::size_t OppositeVertex;
+};
+
+/**
+ * For each triangle the tetrahedron with the first, larger label of its pair. Its normal points out of that.
+ *
+ * @throws FileError: a triangle is no face of such a tetrahedron, so these are not the interfaces of this mesh
+ */
+std::vector<ElementFace> FindElementFaces(const MeshView& view)
+{
+  std::map<Vertices, std::size_t> triangles;
+  for (std::size_t i = 0; i < view.Triangles.size(); ++i)
+  {
+    triangles.emplace(Sorted(view.Triangles[i]), i);
+  }
+  constexpr std::size_t none = 4;
+  std::vector<ElementFace> faces(view.Triangles.size(), ElementFace{ 0, none });
+  for (std::size_t cell = 0; cell < view.Tetrahedra.size(); ++cell)
+  {
+    for (std::size_t vertex = 0; vertex < 4; ++vertex)
+    {
+      const auto& all = view.Tetrahedra[cell];
+      const auto found = triangles.find(
+        Sorted({ all[(vertex + 1) % 4], all[(vertex + 2) % 4], all[(vertex + 3) % 4] }));
+      if (found != triangles.end() &&
+        view.PairOfTriangle[found->second].first == view.LabelOfTetrahedron[cell])
+      {
+        faces[found->second] = { cell, vertex };
+      }
+    }
+  }
+  for (const ElementFace& face : faces)
+  {
+    RefuseIf(face.OppositeVertex == none,
+      "the interfaces are not those of this mesh: one of their triangles is no face of a "
+      "tetrahedron with its label");
+  }
+  return faces;
+}
 
 /** Data lines of a set hold at most 16 numbers. */
 void WriteSet(TextFile& file, const std::vector<vtkIdType>& ids)
@@ -45,7 +98,7 @@ std::vector<vtkIdType> NodesOf(const MeshView& view, const MeshView::CellIds& tr
 const char* NameOf(const ElementFace& face)
 {
   constexpr std::array names{ "S3", "S4", "S2", "S1" };
-  return names[static_cast<std::size_t>(face.OppositeVertex)];
+  return names[face.OppositeVertex];
 }
 
 void WriteHeading(

@@ -87,31 +87,23 @@ void WriteAttributeSet(TextFile& file, const std::string& name, std::int64_t att
   file << '"' << name << "\" 1 " << attribute << '\n';
 }
 
-void WriteElements(TextFile& file, const MeshView& view, const SetNames& names)
+template <typename TView>
+void WriteElements(TextFile& file, const TView& view, int geometry)
 {
-  file << "\ndimension\n3\n\nelements\n" << view.Tetrahedra.size() << '\n';
-  for (std::size_t i = 0; i < view.Tetrahedra.size(); ++i)
+  file << "\nelements\n" << view.NumberOfElements() << '\n';
+  for (vtkIdType i = 0; i < view.NumberOfElements(); ++i)
   {
-    WriteElement(file, view.LabelOfTetrahedron[i], Tetrahedron, view.Tetrahedra[i]);
-  }
-  file << "\nattribute_sets\n" << view.TetrahedraOfLabel.size() << '\n';
-  for (const auto& [label, cells] : view.TetrahedraOfLabel)
-  {
-    WriteAttributeSet(file, names.OfLabel(label), label);
+    WriteElement(file, view.LabelOf(i), geometry, view.Element(i));
   }
 }
 
-void WriteBoundary(TextFile& file, const MeshView& view, const SetNames& names)
+template <typename TView>
+void WriteBoundary(TextFile& file, const TView& view, int geometry)
 {
-  file << "\nboundary\n" << view.Triangles.size() << '\n';
-  for (std::size_t i = 0; i < view.Triangles.size(); ++i)
+  file << "\nboundary\n" << view.NumberOfFacets() << '\n';
+  for (vtkIdType i = 0; i < view.NumberOfFacets(); ++i)
   {
-    WriteElement(file, view.PairNumber.at(view.PairOfTriangle[i]), Triangle, view.Triangles[i]);
-  }
-  file << "\nbdr_attribute_sets\n" << view.PairNumber.size() << '\n';
-  for (const auto& [pair, number] : view.PairNumber)
-  {
-    WriteAttributeSet(file, names.OfPair(pair), number);
+    WriteElement(file, view.NumberOf(i), geometry, view.Facet(i));
   }
 }
 
@@ -127,8 +119,19 @@ void WriteMFEM(const MeshData& mesh, const std::string& path)
   WriteLabelNames(file, view, names, "#");
   file << "# Attributes of the boundary, labels on both sides:\n";
   WritePairNames(file, view, names, "#");
-  WriteElements(file, view, names);
-  WriteBoundary(file, view, names);
+  file << "\ndimension\n3\n";
+  WriteElements(file, view, Tetrahedron);
+  file << "\nattribute_sets\n" << view.TetrahedraOfLabel.size() << '\n';
+  for (const auto& [label, cells] : view.TetrahedraOfLabel)
+  {
+    WriteAttributeSet(file, names.OfLabel(label), label);
+  }
+  WriteBoundary(file, view, Triangle);
+  file << "\nbdr_attribute_sets\n" << view.PairNumber.size() << '\n';
+  for (const auto& [pair, number] : view.PairNumber)
+  {
+    WriteAttributeSet(file, names.OfPair(pair), number);
+  }
   WriteVertices(file, view);
   file << "\nmfem_mesh_end\n";
   file.Close();
@@ -143,16 +146,9 @@ void WriteSpaceTimeMFEM(const SpaceTimeMeshData& mesh, const std::string& path)
        << "# Attributes of elements are labels; those of the boundary, labels on both sides:\n";
   view.WritePairs(file);
 
-  file << "\ndimension\n4\n\nelements\n" << view.NumberOfPentatopes() << '\n';
-  for (vtkIdType cell = 0; cell < view.NumberOfPentatopes(); ++cell)
-  {
-    WriteElement(file, view.LabelOf(cell), Pentatope, view.Pentatope(cell));
-  }
-  file << "\nboundary\n" << view.Tetrahedra().size() << '\n';
-  for (const auto& [vertices, number] : view.Tetrahedra())
-  {
-    WriteElement(file, number, Tetrahedron, vertices);
-  }
+  file << "\ndimension\n4\n";
+  WriteElements(file, view, Pentatope);
+  WriteBoundary(file, view, Tetrahedron);
   WriteVertices(file, view);
   WriteSlabs(file, view);
   file.Close();

@@ -8,9 +8,9 @@
 #include "HDF5File.h"
 #include "MeshView.h"
 #include "SetNames.h"
+#include "Text.h"
 #include "TextFile.h"
 #include "Writers.h"
-#include "XMLText.h"
 
 #include <filesystem>
 
@@ -46,7 +46,6 @@ std::vector<std::int64_t> Flat(const std::vector<std::array<vtkIdType, N>>& cell
 void WriteNumbers(const MeshView& view, const std::string& path)
 {
   HDF5File file;
-  file.AddGroup("mesh");
   file.Write("mesh/geometry", Coordinates(view), 3);
   file.Write("mesh/topology", Flat(view.Tetrahedra), 4);
   file.Write("mesh/labels",
@@ -60,68 +59,47 @@ void WriteNumbers(const MeshView& view, const std::string& path)
     pairs.push_back(static_cast<std::int32_t>(pair.first));
     pairs.push_back(static_cast<std::int32_t>(pair.second));
   }
-  file.AddGroup("facets");
   file.Write("facets/topology", Flat(view.Triangles), 3);
   file.Write("facets/numbers", numbers, 1);
   file.Write("facets/labels", pairs, 2);
   file.Close(path);
 }
 
-/** The XML of the grids, in which an item is a dataset of the .h5 file. */
-class Description
+/** The shape and type of a dataset of the .h5 file. */
+struct Dataset
 {
-public:
-  Description(TextFile& file, const std::string& heavyName)
-    : File(file)
-    , HeavyName(EscapeForXML(heavyName))
-  {
-  }
-
-  void BeginGrid(const char* name) const
-  {
-    this->File << "    <Grid Name=\"" << name << "\" GridType=\"Uniform\">\n";
-  }
-  void EndGrid() const { this->File << "    </Grid>\n"; }
-
-  void WriteTopology(
-    const char* type, const char* dataset, std::size_t cells, std::size_t vertices) const
-  {
-    this->File << "      <Topology TopologyType=\"" << type << "\" NumberOfElements=\"" << cells
-               << "\" NodesPerElement=\"" << vertices << "\">\n";
-    this->WriteItem(dataset, "Int", 8, cells, vertices);
-    this->File << "      </Topology>\n";
-  }
-  void WriteGeometry(std::size_t points) const
-  {
-    this->File << "      <Geometry GeometryType=\"XYZ\">\n";
-    this->WriteItem("mesh/geometry", "Float", 8, points, 3);
-    this->File << "      </Geometry>\n";
-  }
-  void WriteAttribute(
-    const char* name, const char* dataset, std::size_t cells, std::size_t components) const
-  {
-    this->File << "      <Attribute Name=\"" << name << "\" AttributeType=\""
-               << (components == 1 ? "Scalar" : "Matrix") << "\" Center=\"Cell\">\n";
-    this->WriteItem(dataset, "Int", 4, cells, components);
-    this->File << "      </Attribute>\n";
-  }
-
-private:
-  void WriteItem(const char* dataset, const char* type, int precision, std::size_t rows,
-    std::size_t columns) const
-  {
-    this->File << "        <DataItem Dimensions=\"" << rows;
-    if (columns > 1)
-    {
-      this->File << ' ' << columns;
-    }
-    this->File << "\" NumberType=\"" << type << "\" Precision=\"" << precision
-               << "\" Format=\"HDF\">" << this->HeavyName << ":/" << dataset << "</DataItem>\n";
-  }
-
-  TextFile& File;
-  std::string HeavyName;
+  const char* Name;
+  std::size_t Rows;
+  std::size_t Columns;
+  const char* Type;
+  int Precision;
 };
+
+/** @param element with its attributes, which has the dataset inside */
+void WriteElement(
+  TextFile& file, const std::string& element, const std::string& heavyName, const Dataset& dataset)
+{
+  file << "      <" << element << ">\n        <DataItem Dimensions=\"" << dataset.Rows;
+  if (dataset.Columns > 1)
+  {
+    file << ' ' << dataset.Columns;
+  }
+  file << "\" NumberType=\"" << dataset.Type << "\" Precision=\"" << dataset.Precision
+       << "\" Format=\"HDF\">" << EscapeForXML(heavyName) << ":/" << dataset.Name
+       << "</DataItem>\n      </" << element.substr(0, element.find(' ')) << ">\n";
+}
+
+std::string Topology(const char* type, std::size_t cells, std::size_t vertices)
+{
+  return std::string("Topology TopologyType=\"") + type + "\" NumberOfElements=\"" +
+    std::to_string(cells) + "\" NodesPerElement=\"" + std::to_string(vertices) + "\"";
+}
+
+std::string Attribute(const char* name, const char* type)
+{
+  return std::string("Attribute Name=\"") + name + "\" AttributeType=\"" + type +
+    "\" Center=\"Cell\"";
+}
 
 /** Names and numbers as an object in JSON; names have no quotation marks and backslashes. */
 template <typename TNumbers, typename TNameOf>
@@ -160,10 +138,8 @@ void WriteXDMF(const MeshData& mesh, const std::string& path, const std::string&
   const std::string& heavyPath)
 {
   const std::string heavyFile = std::filesystem::path(heavyName).filename().string();
-  if (heavyFile.find(':') != std::string::npos)
-  {
-    throw FileError("XDMF has no way to refer to a file with ':' in its name; choose another name");
-  }
+  RefuseIf(heavyFile.find(':') != std::string::npos,
+    "XDMF has no way to refer to a file with ':' in its name; choose another name");
   const MeshView view(mesh);
   WriteNumbers(view, heavyPath);
 
@@ -176,18 +152,20 @@ void WriteXDMF(const MeshData& mesh, const std::string& path, const std::string&
   WriteInformation(file, "SPACE", mesh.Space);
   WriteNames(file, view);
 
-  const Description description(file, heavyFile);
-  description.BeginGrid("mesh");
-  description.WriteTopology("Tetrahedron", "mesh/topology", cells, 4);
-  description.WriteGeometry(points);
-  description.WriteAttribute("Label", "mesh/labels", cells, 1);
-  description.EndGrid();
-  description.BeginGrid("facets");
-  description.WriteTopology("Triangle", "facets/topology", triangles, 3);
-  description.WriteGeometry(points);
-  description.WriteAttribute("Number", "facets/numbers", triangles, 1);
-  description.WriteAttribute("Labels", "facets/labels", triangles, 2);
-  description.EndGrid();
+  const auto write = [&](const std::string& element, const Dataset& dataset)
+  { WriteElement(file, element, heavyFile, dataset); };
+  const std::string geometry = "Geometry GeometryType=\"XYZ\"";
+  const Dataset coordinates{ "mesh/geometry", points, 3, "Float", 8 };
+  file << "    <Grid Name=\"mesh\" GridType=\"Uniform\">\n";
+  write(Topology("Tetrahedron", cells, 4), { "mesh/topology", cells, 4, "Int", 8 });
+  write(geometry, coordinates);
+  write(Attribute("Label", "Scalar"), { "mesh/labels", cells, 1, "Int", 4 });
+  file << "    </Grid>\n    <Grid Name=\"facets\" GridType=\"Uniform\">\n";
+  write(Topology("Triangle", triangles, 3), { "facets/topology", triangles, 3, "Int", 8 });
+  write(geometry, coordinates);
+  write(Attribute("Number", "Scalar"), { "facets/numbers", triangles, 1, "Int", 4 });
+  write(Attribute("Labels", "Matrix"), { "facets/labels", triangles, 2, "Int", 4 });
+  file << "    </Grid>\n";
   file << "  </Domain>\n</Xdmf>\n";
   file.Close();
 }

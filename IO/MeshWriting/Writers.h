@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Writers.h
- * @brief One function a format; each is in a source file of its own name.
+ * @brief One function a format and dimension, in source files named after programs and formats.
  *
  * All of them write the file whole or throw FileError. Vertices and elements are numbered in the
  * order of the mesh's points and cells, from 0 in VTK's formats, MFEM's and XDMF and from 1 in the

@@ -15,18 +15,18 @@ namespace
 
 using Json = nlohmann::json;
 
-[[noreturn]] void Refuse(const char* what)
+void Require(bool isSound, const char* what)
 {
-  throw std::runtime_error(std::string("no sound answer: ") + what);
+  if (!isSound)
+  {
+    throw std::runtime_error(std::string("no sound answer: ") + what);
+  }
 }
 
 template <typename T, std::size_t N>
 std::array<T, N> Numbers(const Json& json)
 {
-  if (!json.is_array() || json.size() != N)
-  {
-    Refuse("another number of numbers");
-  }
+  Require(json.is_array() && json.size() == N, "another number of numbers");
   std::array<T, N> numbers;
   for (std::size_t i = 0; i < N; ++i)
   {
@@ -57,10 +57,7 @@ LabelTable ParseLabels(const Json& json)
   {
     const auto value = label.at(0).get<std::int64_t>();
     LabelTable::Entry entry{ label.at(1).get<std::string>(), std::nullopt };
-    if (value <= 0 || entry.Name.empty() || !IsUTF8(entry.Name))
-    {
-      Refuse("a label");
-    }
+    Require(value > 0 && !entry.Name.empty() && IsUTF8(entry.Name), "a label");
     if (label.size() > 2)
     {
       entry.Color = Numbers<double, 3>(label[2]);
@@ -75,10 +72,7 @@ ScalarImage ParseImage(const Json& json)
 {
   ScalarImage image;
   const int type = json.at("type").get<int>();
-  if (type < 0 || type > static_cast<int>(ScalarType::Float64))
-  {
-    Refuse("a type");
-  }
+  Require(type >= 0 && type <= static_cast<int>(ScalarType::Float64), "a type");
   image.Type = static_cast<ScalarType>(type);
   const auto sizes = Numbers<std::int64_t, 4>(json.at("sizes"));
   SetSizes(image, { sizes.begin(), sizes.end() });
@@ -94,16 +88,10 @@ ScalarImage ParseImage(const Json& json)
   image.Direction = direction;
   image.TimeOrigin = json.at("time").at(0).get<double>();
   image.TimeSpacing = json.at("time").at(1).get<double>();
-  if (!(image.TimeSpacing > 0))
-  {
-    Refuse("a time step");
-  }
+  Require(image.TimeSpacing > 0, "a time step");
   if (const auto times = json.at("times").get<std::vector<double>>(); !times.empty())
   {
-    if (times.size() != static_cast<std::size_t>(image.Frames))
-    {
-      Refuse("times");
-    }
+    Require(times.size() == static_cast<std::size_t>(image.Frames), "times");
     SetFrameTimes(image, times);
     image.Times = times;
   }
@@ -132,7 +120,8 @@ AnswerMessage ParseAnswer(std::string_view text, std::uint64_t memory)
   if (json.contains("error"))
   {
     message.Error = json["error"].get<std::string>();
-    return message.Error.empty() ? (Refuse("an error"), message) : message;
+    Require(!message.Error.empty(), "an error");
+    return message;
   }
   ScalarImage& image = message.Answer.Image;
   image = ParseImage(json);
@@ -141,10 +130,8 @@ AnswerMessage ParseAnswer(std::string_view text, std::uint64_t memory)
   message.Answer.Warnings = json.at("warnings").get<std::vector<std::string>>();
   const std::uint64_t bytes =
     image.NumberOfVoxels() * static_cast<std::uint64_t>(image.Frames) * SizeOf(image.Type);
-  if (message.Offset > memory || bytes > memory - message.Offset)
-  {
-    Refuse("voxels that are not there");
-  }
+  Require(
+    message.Offset <= memory && bytes <= memory - message.Offset, "voxels that are not there");
   return message;
 }
 

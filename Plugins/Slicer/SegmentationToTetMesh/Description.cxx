@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Description.h"
 
-#include "MeshWriting/XMLText.h"
 #include "MeshingParameters.h"
 #include "Parameters.h"
+#include "Text.h"
 
 #include <voxplexVersion.h>
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from .images import (FIRST_TIME, LARGER, ORIGIN, SPACING, TIME_STEP, affine, combinations, gzipped, raw, times, title,
                      voxels)
-from .rows import ANY, Fifo, Files, Image, Sound, refused, row
+from .rows import ANY, Files, Image, Sound, named, refused, row
 
 IMAGE_TYPES = {"i1": 7, "u1": 8, "i2": 15, "u2": 16, "u4": 31, "i4": 32, "f4": 64, "f8": 65}
 MAGIC = 0xEFFFE9B0, 0x2AE389B8
@@ -62,11 +62,7 @@ for value in (0, np.nan, np.inf, -1):
     if value not in (0, -1):
         refuse("origin %s" % value, "origin|position|finite|number", origin=(0, value, 0, 0))
 refuse("magic 1", "format|magic|not an image", magic=1)
-for other in ("i.nii", "i.nrrd", "i.vtk", "i.mrc", "i", "i.GIPL"):
-    equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-for beside in ("i.img", "i.hdr", "visu_pars"):
-    equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-          beside=beside: f.beside({beside: Fifo()}))
+named(equal, ("i.nii", "i.nrrd", "i.vtk", "i.mrc", "i", "i.GIPL"))
 
 _MORE = voxels("i2", shape=LARGER)
 SOUND = [Sound("GIPL", "raw", gipl(_MORE), Image(_MORE, affine()))]

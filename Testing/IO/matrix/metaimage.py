@@ -7,7 +7,7 @@ import numpy as np
 
 from .images import (AXES, FIRST_TIME, LARGER, ORDERS, ORIGIN, SPACING, TIME_STEP, TYPES, affine, combinations, raw,
                      text, times, title, voxels)
-from .rows import ANY, Fifo, Files, Folder, Image, Link, Sound, broken, refused, row
+from .rows import ANY, Fifo, Files, Image, Sound, broken, data_files, named, refused, row
 
 ELEMENTS = {"u1": ("MET_UCHAR",), "i1": ("MET_CHAR",), "u2": ("MET_USHORT",), "i2": ("MET_SHORT",),
             "u4": ("MET_UINT", "MET_ULONG"), "i4": ("MET_INT", "MET_LONG"), "u8": ("MET_ULONG_LONG",),
@@ -184,20 +184,7 @@ for data in ("data/i.raw", "./i.raw", "i dat.raw", "d/e/f/i.raw"):
     equal("data file %s" % data, file="i.mhd", data=data)
 equal("Local", wrap=lambda f: f.replaced(b"= LOCAL", b"= Local"), also=[broken()])
 equal("lower case local", wrap=lambda f: f.replaced(b"= LOCAL", b"= local"), also=[broken()])
-for name, data in (("absolute", "/etc/passwd"), ("in the folder above", "../out.raw"),
-                   ("by way of the folder above", "d/../../out.raw"), ("a device", "/dev/zero"), ("empty", "")):
-    refuse("data file %s" % name, "data ?file|name|" + (data or "data file"), file="in/i.mhd", data="i.raw",
-           wrap=lambda f, data=data: f.replaced(b"= i.raw", b"= " + data.encode()).beside({"out.raw": raw(I2)}))
-for name, part in (("is a FIFO", Fifo()), ("is a folder", Folder()), ("is a link to itself", Link("i.raw")),
-                   ("is a link to a device", Link("/dev/zero"))):
-    refuse("data file %s" % name, r"i\.raw", file="i.mhd", data="i.raw", wrap=lambda f,
-           part=part: f.with_data(part, "i.raw"))
-refuse("data file is missing", r"i\.raw", file="i.mhd", data="i.raw", is_broken=True,
-       wrap=lambda f: Files(f.main, {f.main: f.data()}))
-refuse("data file is a link that leads out", r"i\.raw", file="in/i.mhd", data="i.raw",
-       wrap=lambda f: f.with_data(Link("../out.raw"), "in/i.raw").beside({"out.raw": raw(I2)}))
-equal("data file is a link within", file="i.mhd", data="i.raw",
-      wrap=lambda f: f.with_data(Link("voxels.bin"), "i.raw").beside({"voxels.bin": raw(I2)}))
+data_files(equal, refuse, "= ", "i.raw", "i.mhd", raw(I2))
 
 # What is refused
 refuse("2D", "dimension|NDims|slice", wrap=lambda f: metaimage(
@@ -256,11 +243,8 @@ for words, name in ((b"1 2 x 4 ", "a word"), (b"1 2 3.5 ", "a fraction"), (b"700
     refuse("text with %s" % name, ".", form="text", is_broken=True,
            wrap=lambda f, words=words: f.with_data(f.data()[:f.header] + words + f.data()[f.header:]))
 
-for other in ("i.nii", "i.nrrd", "i.vtk", "i.mrc", "i", "i.dcm", "i.hdr", "i.MHA", "i.mhd"):
-    equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-for beside in ("i.img", "i.hdr", "visu_pars", "i.raw"):
-    equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-          beside=beside: f.beside({beside: Fifo()}))
+named(equal, ("i.nii", "i.nrrd", "i.vtk", "i.mrc", "i", "i.dcm", "i.hdr", "i.MHA", "i.mhd"),
+      ("i.img", "i.hdr", "visu_pars", "i.raw"))
 
 _MORE = voxels("i2", shape=LARGER)
 _HELD = Image(_MORE, affine())

@@ -6,7 +6,7 @@ import struct
 import numpy as np
 
 from .images import LARGER, ORDERS, ORIGIN, SPACING, affine, combinations, gzipped, raw, title, voxels
-from .rows import ANY, Fifo, Files, Image, Sound, refused, row
+from .rows import ANY, Files, Image, Sound, named, refused, row
 
 # Lengths are in Angstrom. A mesh has the numbers of the file; 1e-7 would make mm of them.
 ANGSTROM = 1.0
@@ -117,11 +117,7 @@ for sizes in ((5, 0, 3), (5, -4, 3), (-5, -4, 3), (0, 0, 0)):
     refuse("sizes %s" % (sizes,), "size|voxels|dimension", size=sizes)
 for sizes in ((2147483647,) * 3, (3000,) * 3, (5, 4, 4)):
     refuse("claims %s" % (sizes,), ".", size=sizes, m=(5, 4, 3), is_broken=True)
-for other in ("i.nii", "i.nrrd", "i.vtk", "i.rec", "i", "i.st"):
-    equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-for beside in ("i.img", "i.hdr", "visu_pars"):
-    equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-          beside=beside: f.beside({beside: Fifo()}))
+named(equal, ("i.nii", "i.nrrd", "i.vtk", "i.rec", "i", "i.st"))
 
 _MORE = voxels("i2", shape=LARGER)
 SOUND = [Sound("MRC", "raw", mrc(_MORE), Image(_MORE, WHERE, warns=WARNS)),

@@ -7,7 +7,7 @@ import numpy as np
 
 from .images import (AXES, FIRST_TIME, LARGER, ORDERS, ORIGIN, SPACING, TIME_STEP, TYPES, affine, combinations,
                      gzipped, raw, text, times, title, voxels)
-from .rows import ANY, Fifo, Files, Folder, Image, Link, Sound, broken, refused, row
+from .rows import ANY, Fifo, Files, Image, Sound, broken, data_files, named, refused, row
 
 SPELLINGS = {
     "i1": ("signed char", "int8", "int8_t"),
@@ -430,32 +430,13 @@ equal("data file of a header named .nrrd", file="i.nrrd", data="i.dat")
 equal("voxels in a header named .nhdr", file="i.nhdr")
 equal("datafile without a blank", file="i.nhdr", data="i.dat", wrap=lambda f: f.replaced(b"data file", b"datafile"))
 equal("an empty line after data file", file="i.nhdr", data="i.dat", wrap=lambda f: f.with_data(f.data() + b"\n"))
-for name, data in (("absolute", "/etc/passwd"), ("in the folder above", "../out.dat"),
-                   ("by way of the folder above", "d/../../out.dat"),
-                   ("a device", "/dev/zero"), ("standard input", "-"), ("empty", "")):
-    refuse("data file %s" % name, "data file|name|" + (data or "data file"), file="in/i.nhdr", data="i.dat",
-           wrap=lambda f, data=data: f.replaced(b": i.dat", b": " + data.encode()).beside({"out.dat": raw(I2)}))
-for name, part in (("is a FIFO", Fifo()), ("is a folder", Folder()), ("is a link to itself", Link("i.dat")),
-                   ("is a link to a device", Link("/dev/zero"))):
-    refuse("data file %s" % name, r"i\.dat", file="i.nhdr", data="i.dat", wrap=lambda f,
-           part=part: f.with_data(part, "i.dat"))
-refuse("data file is missing", r"i\.dat", file="i.nhdr", data="i.dat", is_broken=True,
-       wrap=lambda f: Files(f.main, {f.main: f.data()}))
-refuse("data file is a link that leads out", r"i\.dat", file="in/i.nhdr", data="i.dat",
-       wrap=lambda f: f.with_data(Link("../out.dat"), "in/i.dat").beside({"out.dat": raw(I2)}))
-refuse("data file in a folder that leads out", r"i\.dat", file="in/i.nhdr", data="d/i.dat",
-       wrap=lambda f: Files(f.main, {f.main: f.data(), "in/d": Link("../out"), "out/i.dat": raw(I2)}))
-equal("data file is a link within", file="i.nhdr", data="i.dat",
-      wrap=lambda f: f.with_data(Link("voxels.raw"), "i.dat").beside({"voxels.raw": raw(I2)}))
+data_files(equal, refuse, ": ", "i.dat", "i.nhdr", raw(I2), [("standard input", "-")])
 
 # The content decides
-for other in ("i.nii", "i.nii.gz", "i.mha", "i.vtk", "i.mrc", "i", "i.dcm", "i.hdr", "i.NRRD", "i.seg.nrrd"):
-    equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
 refuse("gzipped as a whole", "compressed by gzip.*unpack it",
        wrap=lambda f: f.with_data(gzipped(f.data())).renamed("i.nrrd.gz"))
-for beside in ("i.img", "i.hdr", "visu_pars", "i.raw"):
-    equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-          beside=beside: f.beside({beside: Fifo()}))
+named(equal, ("i.nii", "i.nii.gz", "i.mha", "i.vtk", "i.mrc", "i", "i.dcm", "i.hdr", "i.NRRD", "i.seg.nrrd"),
+      ("i.img", "i.hdr", "visu_pars", "i.raw"))
 
 _MORE, _MORE_FRAMES = voxels("i2", shape=LARGER), voxels("i2", frames=3, shape=LARGER)
 _HELD = Image(_MORE, affine())

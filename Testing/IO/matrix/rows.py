@@ -175,6 +175,34 @@ def row(format_name, name, files, *outcomes):
     return Row(format_name, name, files, outcomes)
 
 
+def named(equal, names, beside=("i.img", "i.hdr", "visu_pars")):
+    """Rows of a file under other names, and with FIFOs beside it. equal makes a row, and wrap changes its files."""
+    for name in names:
+        equal("named %s" % name, wrap=lambda f, name=name: f.renamed(name))
+    for name in beside:
+        equal("a FIFO named %s beside it" % name, wrap=lambda f, name=name: f.beside({name: Fifo()}))
+
+
+def data_files(equal, refuse, key, name, header, numbers, more=()):
+    """Rows of headers that name a data file. key: what is before its name; numbers: its bytes; more: names to refuse."""
+    words = re.escape(name)
+    for title, data in (("absolute", "/etc/passwd"), ("in the folder above", "../out.bin"),
+                        ("by way of the folder above", "d/../../out.bin"), ("a device", "/dev/zero"), *more, ("empty", "")):
+        refuse("data file %s" % title, "data ?file|name|" + (data or "data file"), file="in/" + header, data=name,
+               wrap=lambda f, data=data: f.replaced((key + name).encode(), (key + data).encode()).beside({"out.bin": numbers}))
+    for title, part in (("is a FIFO", Fifo()), ("is a folder", Folder()), ("is a link to itself", Link(name)),
+                        ("is a link to a device", Link("/dev/zero"))):
+        refuse("data file %s" % title, words, file=header, data=name, wrap=lambda f, part=part: f.with_data(part, name))
+    refuse("data file is missing", words, file=header, data=name, is_broken=True,
+           wrap=lambda f: Files(f.main, {f.main: f.data()}))
+    refuse("data file is a link that leads out", words, file="in/" + header, data=name,
+           wrap=lambda f: f.with_data(Link("../out.bin"), "in/" + name).beside({"out.bin": numbers}))
+    refuse("data file in a folder that leads out", words, file="in/" + header, data="d/" + name,
+           wrap=lambda f: Files(f.main, {f.main: f.data(), "in/d": Link("../out"), "out/" + name: numbers}))
+    equal("data file is a link within", file=header, data=name,
+          wrap=lambda f: f.with_data(Link("voxels.bin"), name).beside({"voxels.bin": numbers}))
+
+
 @dataclass(frozen=True)
 class Sound:
     """A file with more bytes of voxels than of header, to be damaged.

@@ -13,7 +13,7 @@ import zlib
 import numpy as np
 
 from .images import AXES, LARGER, ORDERS, ORIGIN, SPACING, TYPES, affine, combinations, raw, text, title, voxels
-from .rows import ANY, Fifo, Files, Image, Sound, refused, row
+from .rows import ANY, Files, Image, Sound, named, refused, row
 
 LEGACY_TYPES = {"u1": ("unsigned_char",), "i1": ("char", "signed_char"), "u2": ("unsigned_short",), "i2": ("short",),
                 "u4": ("unsigned_int",), "i4": ("int",), "u8": ("unsigned_long", "vtktypeuint64"),
@@ -211,11 +211,7 @@ refuse("neither ASCII nor BINARY", ".", is_broken=True, wrap=lambda f: f.replace
 for word in (b"x", b"3.5", b"70000"):
     refuse("text with %s" % word.decode(), ".", form="ASCII", is_broken=True, wrap=lambda f, word=word: f.replaced(
         text(I2).rstrip(), word + b" " + text(I2[1:]) + text(I2[0]).rpartition(b" ")[0]))
-for other in ("i.nii", "i.nrrd", "i.mrc", "i", "i.VTK", "i.vti"):
-    equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-for beside in ("i.img", "i.hdr", "visu_pars"):
-    equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-          beside=beside: f.beside({beside: Fifo()}))
+named(equal, ("i.nii", "i.nrrd", "i.mrc", "i", "i.VTK", "i.vti"))
 
 
 def xml_equal(name, image=IMAGE, also=(), wrap=lambda files: files, **options):
@@ -318,11 +314,7 @@ xml_refuse("nested elements", ".", is_broken=True, wrap=lambda f: f.replaced(b"<
 for word in (b"x", b"3.5", b"70000"):
     xml_refuse("text with %s" % word.decode(), ".", form="ascii", is_broken=True, wrap=lambda f, word=word: f.replaced(
         text(I2), word + b" " + text(I2[1:]) + text(I2[0]).rpartition(b" ")[0]))
-for other in ("i.nii", "i.nrrd", "i.xml", "i.vtk", "i", "i.VTI"):
-    xml_equal("named %s" % other, wrap=lambda f, other=other: f.renamed(other))
-for beside in ("i.img", "i.hdr", "visu_pars"):
-    xml_equal("a FIFO named %s beside it" % beside, wrap=lambda f,
-              beside=beside: f.beside({beside: Fifo()}))
+named(xml_equal, ("i.nii", "i.nrrd", "i.xml", "i.vtk", "i", "i.VTI"))
 
 _MORE = voxels("i2", shape=LARGER)
 _HELD = Image(_MORE, affine())
