@@ -283,45 +283,23 @@ void vtkSimplexMeshQuality::GetHausdorffPlace(double place[3]) const
   std::copy(p.begin(), p.end(), place);
 }
 
-double vtkSimplexMeshQuality::GetMinimumDihedralAngle() const
-{
-  return this->Private->Shapes().MinimumDihedralAngle;
-}
+// Getters whose figure has another name or type behind it.
+#define VOXPLEX_FIGURE(type, getter, figure)                                                       \
+  type vtkSimplexMeshQuality::Get##getter() const                                                  \
+  {                                                                                                \
+    return static_cast<type>(this->Private->figure);                                               \
+  }
 
-double vtkSimplexMeshQuality::GetMaximumDihedralAngle() const
-{
-  return this->Private->Shapes().MaximumDihedralAngle;
-}
-
-double vtkSimplexMeshQuality::GetMaximumRadiusEdgeRatio() const
-{
-  return this->Private->Shapes().MaximumRadiusEdgeRatio;
-}
-
-double vtkSimplexMeshQuality::GetMinimumPlanarAngle() const
-{
-  return this->Private->Shapes().MinimumFacetAngle;
-}
-
-vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdges() const
-{
-  return static_cast<vtkTypeInt64>(this->Private->Figures.Topology.NonManifoldEdges);
-}
-
-vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdgesAtJunctions() const
-{
-  return static_cast<vtkTypeInt64>(this->Private->Figures.Topology.NonManifoldEdgesAtJunctions);
-}
-
-double vtkSimplexMeshQuality::GetMinimumNormalizedVolume() const
-{
-  return this->Private->Shapes().MinimumNormalizedVolume;
-}
-
-double vtkSimplexMeshQuality::GetMeanNormalizedVolume() const
-{
-  return this->Private->Shapes().MeanNormalizedVolume;
-}
+VOXPLEX_FIGURE(double, MinimumDihedralAngle, Shapes().MinimumDihedralAngle)
+VOXPLEX_FIGURE(double, MaximumDihedralAngle, Shapes().MaximumDihedralAngle)
+VOXPLEX_FIGURE(double, MaximumRadiusEdgeRatio, Shapes().MaximumRadiusEdgeRatio)
+VOXPLEX_FIGURE(double, MinimumPlanarAngle, Shapes().MinimumFacetAngle)
+VOXPLEX_FIGURE(double, MinimumNormalizedVolume, Shapes().MinimumNormalizedVolume)
+VOXPLEX_FIGURE(double, MeanNormalizedVolume, Shapes().MeanNormalizedVolume)
+VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdges, Figures.Topology.NonManifoldEdges)
+VOXPLEX_FIGURE(
+  vtkTypeInt64, NonManifoldEdgesAtJunctions, Figures.Topology.NonManifoldEdgesAtJunctions)
+#undef VOXPLEX_FIGURE
 
 vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostLabels() const
 {
