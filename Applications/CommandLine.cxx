@@ -8,7 +8,8 @@
 #include "OutputFormats.h"
 #include "ParameterChecks.h"
 #include "SliceFiles.h"
-#include "Version.h"
+
+#include <voxplexVersion.h>
 
 #include <boost/program_options.hpp>
 
@@ -308,10 +309,24 @@ po::variables_map ParseOptions(
   return values;
 }
 
-/** The text of an option, or null. */
-const std::string* Given(const po::variables_map& values, const char* name)
+/** Sets the target to the value of an option, if the option is given. */
+template <typename Parser, typename Target>
+void Take(
+  const po::variables_map& values, const std::string& option, Parser&& parse, Target& target)
 {
-  return values.count(name) ? &values[name].as<std::string>() : nullptr;
+  if (values.count(option))
+  {
+    target = parse(option, values[option].as<std::string>());
+  }
+}
+
+std::string ParseName(const std::string& option, const std::string& text)
+{
+  if (text.empty())
+  {
+    throw UsageError("--" + option + ": the name is empty");
+  }
+  return text;
 }
 
 std::vector<std::string> AllGiven(const po::variables_map& values, const char* name)
@@ -349,48 +364,22 @@ void TakeValues(const po::variables_map& given, ParameterValues& values)
   }
 }
 
-/** What is said of the place of the image. */
-void TakePlace(const po::variables_map& values, ReadingOptions& reading)
+/** What is said of the file of the image. */
+void TakeReading(const po::variables_map& values, ReadingOptions& reading)
 {
-  if (const std::string* text = Given(values, "spacing"))
-  {
-    reading.Spacing = ParseSpacing("spacing", *text);
-  }
-  if (const std::string* text = Given(values, "origin"))
-  {
-    reading.Origin = ParseOrigin("origin", *text);
-  }
-  if (const std::string* text = Given(values, "direction"))
-  {
-    reading.Direction = ParseDirection("direction", *text);
-  }
+  Take(values, "series", ParseName, reading.Series);
+  Take(values, "label-table", ParseName, reading.LabelTable);
+  Take(values, "frame-times", ParseFrameTimes, reading.FrameTimes);
+  Take(values, "spacing", ParseSpacing, reading.Spacing);
+  Take(values, "origin", ParseOrigin, reading.Origin);
+  Take(values, "direction", ParseDirection, reading.Direction);
+  Take(values, "space", ParseSpace, reading.Space);
+  reading.DataFilesAnywhere = values.count("data-files-anywhere") > 0;
 }
 
-Parameters ToParameters(const po::variables_map& values)
+/** Labels, and sizes of labels and interfaces. */
+void TakeLists(const po::variables_map& values, Parameters& p)
 {
-  Parameters p;
-  const auto file = [&values](const char* name, std::string& target)
-  {
-    if (const std::string* text = Given(values, name))
-    {
-      if (text->empty())
-      {
-        throw UsageError("--" + std::string(name) + ": the name is empty");
-      }
-      target = *text;
-    }
-  };
-
-  file("input", p.Input);
-  file("series", p.Reading.Series);
-  file("output", p.Output);
-  file("plc", p.Interfaces);
-  file("stats", p.Statistics);
-  file("size-image", p.SizeImage);
-  file("label-table", p.Reading.LabelTable);
-  TakePlace(values, p.Reading);
-  p.Reading.DataFilesAnywhere = values.count("data-files-anywhere") > 0;
-  TakeValues(values, p.Values);
   for (const std::string& text : AllGiven(values, "interface-size"))
   {
     p.InterfaceSizeTexts.push_back(ParseInterfaceSize("interface-size", text));
@@ -398,10 +387,6 @@ Parameters ToParameters(const po::variables_map& values)
   for (const std::string& text : AllGiven(values, "label-size"))
   {
     p.LabelSizeTexts.push_back(ParseLabelSize("label-size", text));
-  }
-  if (const std::string* text = Given(values, "frame-times"))
-  {
-    p.Reading.FrameTimes = ParseFrameTimes("frame-times", *text);
   }
   p.LabelTexts = AllGiven(values, "labels");
   for (const std::string& text : p.LabelTexts)
@@ -411,30 +396,42 @@ Parameters ToParameters(const po::variables_map& values)
       ParseLabelNumber("labels", label);
     }
   }
-  if (const auto* text = Given(values, "space"))
+}
+
+Parameters ToParameters(const po::variables_map& values)
+{
+  Parameters p;
+  Take(values, "input", ParseName, p.Input);
+  Take(values, "output", ParseName, p.Output);
+  Take(values, "plc", ParseName, p.Interfaces);
+  Take(values, "stats", ParseName, p.Statistics);
+  Take(values, "size-image", ParseName, p.SizeImage);
+  TakeReading(values, p.Reading);
+  TakeValues(values, p.Values);
+  TakeLists(values, p);
+  const auto prefix = [](const char* example)
   {
-    p.Reading.Space = ParseSpace("space", *text);
-  }
-  if (const auto* text = Given(values, "slices"))
-  {
-    p.Slices = *text;
-    CheckFilePrefix("slices", *text, "heart_");
-  }
-  if (const auto* text = Given(values, "time-planes"))
-  {
-    p.TimePlanesAtFrames = *text == "frames";
-    p.TimePlanes =
-      p.TimePlanesAtFrames ? std::vector<double>() : ParseNumbers("time-planes", *text);
-  }
-  if (const auto* text = Given(values, "slabs"))
-  {
-    p.Slabs = *text;
-    CheckFilePrefix("slabs", *text, "slab_");
-  }
-  if (const auto* text = Given(values, "slice-count"))
-  {
-    p.SliceCount = ParseWhole("slice-count", *text, 2, 10000);
-  }
+    return [example](const std::string& option, const std::string& text)
+    {
+      CheckFilePrefix(option, text, example);
+      return text;
+    };
+  };
+  Take(values, "slices", prefix("heart_"), p.Slices);
+  Take(values, "slabs", prefix("slab_"), p.Slabs);
+  Take(
+    values, "slice-count",
+    [](const std::string& option, const std::string& text)
+    { return ParseWhole(option, text, 2, 10000); },
+    p.SliceCount);
+  Take(
+    values, "time-planes",
+    [&p](const std::string& option, const std::string& text)
+    {
+      p.TimePlanesAtFrames = text == "frames";
+      return p.TimePlanesAtFrames ? std::vector<double>() : ParseNumbers(option, text);
+    },
+    p.TimePlanes);
   p.Progress = values.count("progress") > 0;
   p.Hausdorff = values.count("hausdorff") > 0;
   p.Quality = p.Hausdorff || values.count("quality") > 0;
@@ -458,7 +455,7 @@ CommandLine ParseCommandLine(int argc, const char* const* argv)
   const po::variables_map values = ParseOptions(argc, argv, options);
   if (values.count("version"))
   {
-    return { std::nullopt, "voxplex " + std::string(Version) + "\n" };
+    return { std::nullopt, "voxplex " VOXPLEX_VERSION "\n" };
   }
   CommandLine commandLine{ ToParameters(values), "" };
   CheckTogether(*commandLine.Run);

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterParameters.h"
 
+#include "Errors.h"
+
+#include <vtkCallbackCommand.h>
 #include <vtkImageToPentatopeMeshFilter.h>
 #include <vtkImageToTetMeshFilter.h>
-
-#include <functional>
+#include <vtkNew.h>
+#include <vtkSegmentationReader.h>
 
 namespace voxplex::cli
 {
@@ -27,48 +30,19 @@ Setter To(void (F::*set)(T))
 const std::map<std::string, Setter, std::less<>>& Setters()
 {
   static const std::map<std::string, Setter, std::less<>> setters{
-    { "isovalue", To(&Filter::SetIsovalue) },
-    { "inside", To(&Filter::SetInside) },
-    { "inside-label", To(&Filter::SetInsideLabel) },
-    { "grey-smoothing", To(&Filter::SetIsosurfaceSmoothingSigma) },
-    { "delta", To(&Filter::SetDelta) },
-    { "elements", To(&Filter::SetNumberOfElements) },
-    { "grading", To(&Filter::SetGrading) },
-    { "size", To(&Filter::SetElementSize) },
-    { "optimise", To(&Filter::SetOptimise) },
-    { "smallest-component", To(&Filter::SetSmallestComponent) },
-    { "exact-components", To(&Filter::SetExactComponents) },
-    { "min-component-volume", To(&Tets::SetMinimumComponentVolume) },
-    { "feature-ratio", To(&Filter::SetFeatureRatio) },
-    { "largest-feature", To(&Filter::SetLargestFeature) },
-    { "gradation", To(&Filter::SetGradation) },
-    { "radius-edge", To(&Filter::SetRadiusEdgeRatio) },
-    { "facet-angle", To(&Tets::SetFacetAngle) },
-    { "smoothing", To(&Filter::SetSmoothingSigma) },
-    { "sliver-angle", To(&Tets::SetSliverAngle) },
-    { "optimise-seconds", To(&Tets::SetOptimisationTimeLimit) },
-    { "junctions", To(&Tets::SetSampleJunctions) },
-    { "interface-rounds", To(&Filter::SetInterfaceRounds) },
-    { "manifold", To(&Filter::SetManifold) },
-    { "time-scale", To(&Pentatopes::SetTimeScale) },
-    { "frame-steps", To(&Pentatopes::SetFrameSteps) },
-    { "fit", To(&Pentatopes::SetFitInterfaces) },
-    { "periodic", To(&Pentatopes::SetPeriodic) },
-    { "rule-order", To(&Pentatopes::SetRuleOrder) },
-    { "picking", To(&Pentatopes::SetPickingRegions) },
-    { "picks", To(&Pentatopes::SetNumberOfPicks) },
-    { "sliver-bound", To(&Pentatopes::SetSliverBound) },
-    { "seed", To(&Pentatopes::SetRandomSeed) },
-    { "fine-grained", To(&Pentatopes::SetFineGrained) },
-    { "threads", To(&Filter::SetNumberOfThreads) },
-    { "contention", To(&Filter::SetContentionManager) },
-    { "balance", To(&Filter::SetLoadBalancer) },
-    { "pin", To(&Filter::SetPinThreads) },
-    { "reproducible", To(&Filter::SetReproducible) },
-    { "memory-limit", To(&Filter::SetMemoryLimit) },
-    { "force", To(&Filter::SetForce) },
+#include "Setters.inc" // from the table
   };
   return setters;
+}
+
+void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
+{
+  auto* const filter = static_cast<vtkAlgorithm*>(caller);
+  const char* const step = filter->GetProgressText();
+  if (!(*static_cast<const ProgressFunction*>(clientData))(filter->GetProgress(), step ? step : ""))
+  {
+    filter->SetAbortExecute(1);
+  }
 }
 
 } // namespace
@@ -79,6 +53,47 @@ void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& v
   {
     Setters().at(name)(filter, value);
   }
+}
+
+void SetLabels(vtkImageToSimplexMeshFilter* filter, const LabelSelection& selection)
+{
+  for (const auto& [labels, size] : selection.InterfaceSizes)
+  {
+    filter->SetInterfaceSize(labels.first, labels.second, size);
+  }
+  for (const auto& [label, size] : selection.Sizes)
+  {
+    filter->SetLabelSize(label, size);
+  }
+  for (const std::int64_t label : selection.Labels)
+  {
+    filter->AddLabel(label);
+  }
+}
+
+std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface)
+{
+  reader->Update();
+  if (!reader->GetErrorMessage().empty())
+  {
+    throw RunError(InTermsOf(interface, reader->GetErrorMessage()));
+  }
+  std::vector<std::string> warnings;
+  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
+  {
+    warnings.push_back(InTermsOf(interface, reader->GetWarning(i)));
+  }
+  return warnings;
+}
+
+void Execute(vtkAlgorithm* filter, const ProgressFunction& progress)
+{
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(OnProgress);
+  observer->SetClientData(const_cast<ProgressFunction*>(&progress));
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  filter->Update();
+  filter->RemoveObserver(tag);
 }
 
 } // namespace voxplex::cli

@@ -1,18 +1,41 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-/** @file FilterParameters.h @brief From the values of parameters to the properties of the filters. */
+/** @file FilterParameters.h @brief How programs set and execute readers and filters. */
 #ifndef voxplex_cli_FilterParameters_h
 #define voxplex_cli_FilterParameters_h
 
+#include "LabelSelection.h"
 #include "MeshingParameters.h"
 
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
 class vtkImageToSimplexMeshFilter;
+class vtkSegmentationReader;
 
 namespace voxplex::cli
 {
 
-/** Sets what the values say, which are for images of the filter's dimension; lists of labels and sizes are left to the caller. */
+/** Sets what the values say, which are for images of the filter's dimension. */
 void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& values);
+
+/** Sets the labels, and the sizes of labels and interfaces. */
+void SetLabels(vtkImageToSimplexMeshFilter* filter, const LabelSelection& selection);
+
+/** Called now and then with the fraction done and the name of the step; returning false cancels. */
+using ProgressFunction = std::function<bool(double fraction, const std::string& step)>;
+
+/**
+ * Has a reader read its file.
+ * @return warnings in the terms of the interface
+ * @throws RunError
+ */
+std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface);
+
+/** Executes a filter. If `progress` cancels, its GetAborted() is true afterwards. */
+void Execute(vtkAlgorithm* filter, const ProgressFunction& progress);
 
 } // namespace voxplex::cli
 

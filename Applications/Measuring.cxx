@@ -3,11 +3,9 @@
 #include "Measuring.h"
 
 #include "Errors.h"
+#include "MeasuringFrames.h"
 #include "StatisticsText.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkSegmentationReader.h>
 #include <vtkSimplexMeshQuality.h>
 #include <vtkUnstructuredGrid.h>
@@ -21,16 +19,6 @@ namespace voxplex::cli
 {
 namespace
 {
-
-void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
-{
-  auto* const filter = static_cast<vtkSimplexMeshQuality*>(caller);
-  const auto& progress = *static_cast<const ProgressFunction*>(clientData);
-  if (!progress(filter->GetProgress(), "Measuring"))
-  {
-    filter->SetAbortExecute(1);
-  }
-}
 
 std::string Place(const ordered_json& place)
 {
@@ -51,9 +39,8 @@ std::string Distances(const char* name, const ordered_json& figures)
     direction("image_to_mesh") + "\n";
 }
 
-} // namespace
-
-vtkSmartPointer<vtkSimplexMeshQuality> MakeQualityFilter(
+/** What measures a mesh as `parameters` ask for. It has no input yet. */
+vtkSmartPointer<vtkSimplexMeshQuality> MakeFilter(
   const Parameters& parameters, const LabelSelection& selection)
 {
   auto filter = vtkSmartPointer<vtkSimplexMeshQuality>::New();
@@ -78,14 +65,34 @@ vtkSmartPointer<vtkSimplexMeshQuality> MakeQualityFilter(
   return filter;
 }
 
-ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunction& progress)
+/** Beside the image, or beside each of its frames. */
+void Connect(vtkSimplexMeshQuality* filter, const Parameters& parameters, const MeshingInput& input)
 {
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(OnProgress);
-  observer->SetClientData(const_cast<ProgressFunction*>(&progress));
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  filter->Update();
-  filter->RemoveObserver(tag);
+  const bool hasLabels = !parameters.Has("isovalue"); // grey values have none
+  if (hasLabels)
+  {
+    filter->SetImageConnection(input.Labels->GetOutputPort());
+  }
+  if (input.Dimension() == 4)
+  {
+    filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
+    for (int frame = 0; !hasLabels && frame < input.Labels->GetNumberOfFrames(); ++frame)
+    {
+      filter->AddFrameTime(input.Labels->GetTimeOfFrame(frame));
+    }
+  }
+}
+
+} // namespace
+
+ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
+  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
+{
+  const auto filter = MakeFilter(parameters, input.Selection);
+  filter->SetInputData(mesh);
+  Connect(filter, parameters, input);
+  Execute(filter,
+    [&progress](double fraction, const std::string&) { return progress(fraction, "Measuring"); });
   if (filter->GetAborted())
   {
     return nullptr;
@@ -97,18 +104,6 @@ ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunction& prog
   return ordered_json::parse(filter->ToJSON());
 }
 
-ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
-  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
-{
-  const auto filter = MakeQualityFilter(parameters, input.Selection);
-  filter->SetInputData(mesh);
-  if (!parameters.Has("isovalue")) // otherwise the image has no labels
-  {
-    filter->SetImageConnection(input.Labels->GetOutputPort());
-  }
-  return Execute(filter, progress);
-}
-
 void AddMeasurement(const ordered_json& measurement, ordered_json& report)
 {
   for (const auto& [label, figures] : measurement["labels"].items())
@@ -118,14 +113,25 @@ void AddMeasurement(const ordered_json& measurement, ordered_json& report)
       report["labels"][label].update(figures);
     }
   }
-  report["topology"] = measurement["topology"];
   const bool hasImage = measurement.contains("image");
+  if (measurement.contains("frames"))
+  {
+    report["worst_elements"] = measurement["worst_elements"];
+    report["image"] = measurement.value("image", ordered_json());
+    report["frames"] = measurement["frames"];
+    return;
+  }
+  report["topology"] = measurement["topology"];
   report["image"] = hasImage ? measurement["image"] : ordered_json();
   report["hausdorff"] = hasImage ? measurement["hausdorff"] : ordered_json::object();
 }
 
 std::string SummarizeMeasurement(const ordered_json& report)
 {
+  if (report.contains("frames"))
+  {
+    return SummarizeFrames(report);
+  }
   const ordered_json& quality = report["quality"];
   const ordered_json& topology = report["topology"];
   const ordered_json& image = report["image"];

@@ -14,25 +14,14 @@
 
 #include <string>
 
-class vtkSimplexMeshQuality;
 class vtkUnstructuredGrid;
 
 namespace voxplex::cli
 {
 
-/** What measures a mesh as `parameters` ask for. It has no input yet. */
-vtkSmartPointer<vtkSimplexMeshQuality> MakeQualityFilter(
-  const Parameters& parameters, const LabelSelection& selection);
-
 /**
- * Executes it.
- * @return its ToJSON(); null if progress stopped it
- * @throws RunError if the mesh cannot be measured
- */
-nlohmann::ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunction& progress);
-
-/**
- * Measures a mesh of tetrahedra as `parameters` ask for, against the image that it was made from.
+ * Measures a mesh as `parameters` ask for, beside the image that it was made from; one of pentatopes also by its
+ * cuts at the times of the frames.
  *
  * @param progress as for Mesh()
  * @return what vtkSimplexMeshQuality::ToJSON() says; null if progress stopped it
@@ -41,7 +30,10 @@ nlohmann::ordered_json Execute(vtkSimplexMeshQuality* filter, const ProgressFunc
 nlohmann::ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
   vtkUnstructuredGrid* mesh, const ProgressFunction& progress);
 
-/** Adds what was measured to the report: "topology", "image", "hausdorff", and more about "labels". */
+/**
+ * Adds what was measured to the report: "image", more about "labels", and "topology" and "hausdorff", or of pentatopes
+ * "worst_elements" and "frames".
+ */
 void AddMeasurement(const nlohmann::ordered_json& measurement, nlohmann::ordered_json& report);
 
 /** Lines for people, of a report to which a measurement was added. */

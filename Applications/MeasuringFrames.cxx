@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeasuringFrames.h"
 
-#include "Measuring.h"
 #include "StatisticsText.h"
-
-#include <vtkSegmentationReader.h>
-#include <vtkSimplexMeshQuality.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,38 +99,6 @@ std::vector<std::uint64_t> DihedralAngles(const ordered_json& frames)
 }
 
 } // namespace
-
-ordered_json MeasureFrames(const Parameters& parameters, const MeshingInput& input,
-  vtkUnstructuredGrid* mesh, const ProgressFunction& progress)
-{
-  const auto filter = MakeQualityFilter(parameters, input.Selection);
-  filter->SetInputData(mesh);
-  filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
-  if (!parameters.Has("isovalue"))
-  {
-    filter->SetImageConnection(input.Labels->GetOutputPort());
-    return Execute(filter, progress);
-  }
-  for (int frame = 0; frame < input.Labels->GetNumberOfFrames(); ++frame) // without labels
-  {
-    filter->AddFrameTime(input.Labels->GetTimeOfFrame(frame));
-  }
-  return Execute(filter, progress);
-}
-
-void AddFrames(const ordered_json& measurement, ordered_json& report)
-{
-  for (const auto& [label, figures] : measurement["labels"].items())
-  {
-    if (report["labels"].contains(label)) // lost ones are listed in "image"
-    {
-      report["labels"][label].update(figures);
-    }
-  }
-  report["worst_elements"] = measurement["worst_elements"];
-  report["image"] = measurement.value("image", ordered_json());
-  report["frames"] = measurement["frames"];
-}
 
 std::string SummarizeFrames(const ordered_json& report)
 {

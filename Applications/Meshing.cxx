@@ -5,17 +5,10 @@
 #include "Errors.h"
 #include "FilterParameters.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
 #include <vtkImageToPentatopeMeshFilter.h>
 #include <vtkImageToTetMeshFilter.h>
-#include <vtkNew.h>
 #include <vtkSegmentationReader.h>
-
-#include <array>
-#include <regex>
-#include <string_view>
-#include <utility>
 
 namespace voxplex::cli
 {
@@ -39,30 +32,9 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
       pentatopes->AddTimePlane(time);
     }
   }
-  for (const auto& [labels, size] : selection.InterfaceSizes)
-  {
-    filter->SetInterfaceSize(labels.first, labels.second, size);
-  }
-  for (const auto& [label, size] : selection.Sizes)
-  {
-    filter->SetLabelSize(label, size);
-  }
-  for (const std::int64_t label : selection.Labels)
-  {
-    filter->AddLabel(label);
-  }
+  SetLabels(filter, selection);
   filter->ComputeQualityOn();
-}
-
-void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
-{
-  auto* filter = static_cast<Filter*>(caller);
-  const auto& progress = *static_cast<const ProgressFunction*>(clientData);
-  const char* step = filter->GetProgressText();
-  if (!progress(filter->GetProgress(), step ? step : ""))
-  {
-    filter->SetAbortExecute(1);
-  }
+  filter->SetVocabulary(Filter::VOCABULARY_COMMAND_LINE);
 }
 
 } // namespace
@@ -70,38 +42,6 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 int MeshingInput::Dimension() const
 {
   return this->Labels->GetNumberOfFrames() > 1 ? 4 : 3;
-}
-
-std::string InTermsOfFlags(std::string message)
-{
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> terms{ {
-    { "SetLabelSize()", "--label-size" },
-    { "SetInterfaceSize()", "--interface-size" },
-    { "AddLabel()", "--labels" },
-    { "SetSeriesUID()", "--series" },
-    { "SetSpacing()", "--spacing" },
-    { "SetOrigin()", "--origin" },
-    { "SetDirection()", "--direction" },
-    { "SetDataFilesAnywhere()", "--data-files-anywhere" },
-    { "SetTimeScale()", "--time-scale" },
-    { "AddFrameTime()", "--frame-times" },
-    { "or force it", "or go on with --force" },
-    { "mesh an isosurface of it", "mesh an isosurface of it with --isovalue" },
-    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
-    { "Correct the labels to keep", "Correct --labels" },
-    { ", or choose the array that holds the segmentation", "" },
-    { " Choose the array that holds the segmentation.", "" },
-  } };
-  for (const auto& [theirs, ours] : terms)
-  {
-    const std::size_t at = message.find(theirs);
-    if (at != std::string::npos)
-    {
-      message.replace(at, theirs.size(), ours);
-    }
-  }
-  static const std::regex series("SetSeriesUID\\(\"([^\"]*)\"\\)");
-  return std::regex_replace(message, series, "--series $1");
 }
 
 vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
@@ -119,17 +59,10 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
     filter->SetElementSizeData(input.Sizes->GetOutput());
   }
 
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(OnProgress);
-  observer->SetClientData(const_cast<ProgressFunction*>(&progress));
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  filter->Update();
-  filter->RemoveObserver(tag);
-
+  Execute(filter, progress);
   if (!filter->GetErrorMessage().empty())
   {
-    throw RunError(
-      "cannot mesh '" + parameters.Input + "': " + InTermsOfFlags(filter->GetErrorMessage()));
+    throw RunError("cannot mesh '" + parameters.Input + "': " + filter->GetErrorMessage());
   }
   if (filter->GetAborted())
   {

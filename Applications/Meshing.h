@@ -7,13 +7,10 @@
 #ifndef voxplex_cli_Meshing_h
 #define voxplex_cli_Meshing_h
 
-#include "LabelSelection.h"
+#include "FilterParameters.h"
 #include "Parameters.h"
 
 #include <vtkSmartPointer.h>
-
-#include <functional>
-#include <string>
 
 class vtkImageToSimplexMeshFilter;
 class vtkSegmentationReader;
@@ -30,15 +27,6 @@ struct MeshingInput
 
   int Dimension() const; ///< 4 if there are several frames, else 3
 };
-
-/**
- * Brings a message of the readers or filters, which speak of their methods, to the terms of the user, who
- * has flags.
- */
-std::string InTermsOfFlags(std::string message);
-
-/** Called now and then with the fraction done and the name of the step; returning false cancels. */
-using ProgressFunction = std::function<bool(double fraction, const std::string& step)>;
 
 /**
  * Meshes an image in the space that the parameters ask for: with vtkImageToTetMeshFilter, or with

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OptionValues.h"
 
+#include "Base/NumberText.h"
 #include "Errors.h"
 
 #include <vtkMath.h>

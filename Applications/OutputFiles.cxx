@@ -7,14 +7,20 @@
 #include "WholeFiles.h"
 
 #include <vtkDataObject.h>
+#include <vtkImageToSimplexMeshFilter.h>
 #include <vtkNew.h>
 #include <vtkSimplexMeshWriter.h>
+#include <vtkUnstructuredGrid.h>
 
 namespace voxplex::cli
 {
 
 void AnnounceFile(io::WholeFiles& files, const std::string& path)
 {
+  if (path.empty())
+  {
+    return;
+  }
   const Interruption::Deferral deferral;
   files.Add(path);
   Interruption::AddTemporary(files.TemporaryPath(path));
@@ -22,6 +28,10 @@ void AnnounceFile(io::WholeFiles& files, const std::string& path)
 
 void AnnounceMesh(io::WholeFiles& files, const std::string& path)
 {
+  if (path.empty())
+  {
+    return;
+  }
   const std::string companion = vtkSimplexMeshWriter::CompanionOf(path);
   const Interruption::Deferral deferral;
   files.Add(path, companion);
@@ -35,6 +45,10 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path)
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   const std::string& path, const io::WholeFiles& files, int slab)
 {
+  if (path.empty())
+  {
+    return;
+  }
   vtkNew<vtkSimplexMeshWriter> writer;
   writer->SetInputData(0, mesh);
   if (interfaces)
@@ -54,6 +68,15 @@ void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   {
     throw RunError(writer->GetErrorMessage());
   }
+}
+
+void WriteMeshFiles(vtkImageToSimplexMeshFilter* filter, const std::string& mesh,
+  const std::string& interfaces, const io::WholeFiles& files)
+{
+  using Writer = vtkSimplexMeshWriter;
+  vtkDataObject* const boundary = filter->GetOutputDataObject(1);
+  WriteMeshFile(filter->GetOutput(), boundary, Writer::CONTENT_MESH, mesh, files);
+  WriteMeshFile(filter->GetOutput(), boundary, Writer::CONTENT_INTERFACES, interfaces, files);
 }
 
 void CommitFiles(io::WholeFiles& files)

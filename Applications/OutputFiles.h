@@ -12,6 +12,7 @@
 #include <string>
 
 class vtkDataObject;
+class vtkImageToSimplexMeshFilter;
 
 namespace voxplex::io
 {
@@ -20,6 +21,8 @@ class WholeFiles;
 
 namespace voxplex::cli
 {
+
+// An empty path stands for no file: nothing happens.
 
 /** Announces a file that is no mesh. @throws io::OutputError */
 void AnnounceFile(io::WholeFiles& files, const std::string& path);
@@ -37,6 +40,10 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path);
  */
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   const std::string& path, const io::WholeFiles& files, int slab = -1);
+
+/** Writes the mesh of a filter, and its interfaces. */
+void WriteMeshFiles(vtkImageToSimplexMeshFilter* filter, const std::string& mesh,
+  const std::string& interfaces, const io::WholeFiles& files);
 
 /** Moves all files to their places. @throws io::OutputError */
 void CommitFiles(io::WholeFiles& files);

@@ -82,7 +82,7 @@ std::string ListExtensions(OutputOption option, int dimension)
 void RequireFormat(OutputOption option, const std::string& path, std::optional<int> dimension)
 {
   const std::string extension = ExtensionOf(path);
-  if (Takes(option, path, dimension))
+  if (path.empty() || Takes(option, path, dimension))
   {
     return;
   }

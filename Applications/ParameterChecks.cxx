@@ -98,18 +98,9 @@ void CheckTogether(const Parameters& p)
   }
   CheckIsosurface(p);
   CheckDependent(p);
-  if (!p.Output.empty())
-  {
-    RequireFormat(OutputOption::Output, p.Output);
-  }
-  if (!p.Interfaces.empty())
-  {
-    RequireFormat(OutputOption::Interfaces, p.Interfaces);
-  }
-  if (!p.Statistics.empty())
-  {
-    RequireFormat(OutputOption::Statistics, p.Statistics);
-  }
+  RequireFormat(OutputOption::Output, p.Output);
+  RequireFormat(OutputOption::Interfaces, p.Interfaces);
+  RequireFormat(OutputOption::Statistics, p.Statistics);
   if (!HasNames(p))
   {
     SelectLabels(p, io::LabelTable());
@@ -130,14 +121,8 @@ void CheckDimension(const Parameters& p, int dimension)
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
   RefuseIf(dimension == 3 && !p.Slabs.empty(), "--slabs", why);
   RefuseIf(dimension == 3 && (p.TimePlanesAtFrames || !p.TimePlanes.empty()), "--time-planes", why);
-  if (!p.Output.empty())
-  {
-    RequireFormat(OutputOption::Output, p.Output, dimension);
-  }
-  if (!p.Interfaces.empty())
-  {
-    RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
-  }
+  RequireFormat(OutputOption::Output, p.Output, dimension);
+  RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
 }
 
 } // namespace voxplex::cli

@@ -3,9 +3,9 @@
 #include "StatisticsReport.h"
 
 #include "StatisticsText.h"
-#include "Version.h"
 #include "WholeFiles.h"
 
+#include <voxplexVersion.h>
 #include <vtkMeshingStatistics.h>
 
 #include <algorithm>
@@ -283,7 +283,7 @@ std::string DescribeBroken(const ordered_json& report)
 ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
   const LabelReport& labels, const InputOutputTimes& times)
 {
-  ordered_json report = { { "program", "voxplex" }, { "version", Version },
+  ordered_json report = { { "program", "voxplex" }, { "version", VOXPLEX_VERSION },
     { "parameters", DescribeParameters(parameters, labels.Selection) } };
   report.update(ordered_json::parse(statistics->ToJSON()));
   NameLabels(report, labels);

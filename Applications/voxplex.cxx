@@ -6,7 +6,6 @@
 #include "Errors.h"
 #include "Interruption.h"
 #include "Measuring.h"
-#include "MeasuringFrames.h"
 #include "Meshing.h"
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
@@ -72,30 +71,18 @@ private:
 /** So that nothing that is read is overwritten. */
 void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
 {
-  files.ForbidOverwriting(p.Input);
-  for (const std::string& path : { p.SizeImage, p.Reading.LabelTable })
+  for (const std::string& path : { p.Input, p.SizeImage, p.Reading.LabelTable })
   {
-    if (!path.empty())
-    {
-      files.ForbidOverwriting(path);
-    }
+    files.ForbidOverwriting(path);
   }
 }
 
 /** Announces all outputs but slices and slabs, so that what cannot be written is known before any work. */
 void Announce(io::WholeFiles& files, const Parameters& p)
 {
-  for (const std::string& path : { p.Output, p.Interfaces })
-  {
-    if (!path.empty())
-    {
-      AnnounceMesh(files, path);
-    }
-  }
-  if (!p.Statistics.empty())
-  {
-    AnnounceFile(files, p.Statistics);
-  }
+  AnnounceMesh(files, p.Output);
+  AnnounceMesh(files, p.Interfaces);
+  AnnounceFile(files, p.Statistics);
   ProtectInputs(files, p);
 }
 
@@ -169,7 +156,7 @@ void SetPlace(vtkSegmentationReader* reader, const ReadingOptions& options)
   }
 }
 
-vtkSmartPointer<vtkSegmentationReader> ReadImage(
+vtkSmartPointer<vtkSegmentationReader> ReadFile(
   const std::string& path, const ReadingOptions& options)
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
@@ -184,30 +171,20 @@ vtkSmartPointer<vtkSegmentationReader> ReadImage(
   reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
   reader->SetSpace(options.Space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS
                                                    : vtkSegmentationReader::SPACE_RAS);
-  reader->Update();
-  if (!reader->GetErrorMessage().empty())
-  {
-    throw RunError(InTermsOfFlags(reader->GetErrorMessage()));
-  }
-  std::vector<std::string> warnings;
-  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
-  {
-    warnings.push_back(InTermsOfFlags(reader->GetWarning(i)));
-  }
-  Warn(warnings);
+  Warn(ReadImage(reader, UserInterface::CommandLine));
   return reader;
 }
 
 MeshingInput Read(const Parameters& p)
 {
   MeshingInput input;
-  input.Labels = ReadImage(p.Input, p.Reading);
+  input.Labels = ReadFile(p.Input, p.Reading);
   if (!p.SizeImage.empty())
   {
     ReadingOptions options; // where the sizes lie their own file says
     options.Space = p.Reading.Space;
     options.DataFilesAnywhere = p.Reading.DataFilesAnywhere;
-    input.Sizes = ReadImage(p.SizeImage, options);
+    input.Sizes = ReadFile(p.SizeImage, options);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
       throw RunError("--size-image: '" + p.SizeImage +
@@ -256,29 +233,13 @@ nlohmann::ordered_json MeasureOrExit(
       bar.Show(fraction, text);
       return !Interruption::Requested();
     };
-    measurement = input.Dimension() == 4 ? MeasureFrames(p, input, mesh, progress)
-                                         : Measure(p, input, mesh, progress);
+    measurement = Measure(p, input, mesh, progress);
   }
   if (measurement.is_null() || Interruption::Requested())
   {
     Interruption::Exit();
   }
   return measurement;
-}
-
-/** Writes both results if their names were given. */
-void WriteMesh(
-  vtkImageToSimplexMeshFilter* filter, const Parameters& p, const io::WholeFiles& files)
-{
-  const auto write = [&](const std::string& path, int content)
-  {
-    if (!path.empty())
-    {
-      WriteMeshFile(filter->GetOutput(), filter->GetOutputDataObject(1), content, path, files);
-    }
-  };
-  write(p.Output, vtkSimplexMeshWriter::CONTENT_MESH);
-  write(p.Interfaces, vtkSimplexMeshWriter::CONTENT_INTERFACES);
 }
 
 void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::WholeFiles& files)
@@ -315,7 +276,7 @@ void Run(const Parameters& p)
   const auto filter = MeshOrExit(p, input);
 
   const Stopwatch writing;
-  WriteMesh(filter, p, files);
+  WriteMeshFiles(filter, p.Output, p.Interfaces, files);
   if (slices)
   {
     WriteSlices(filter->GetOutput(), *slices, files);
@@ -332,12 +293,7 @@ void Run(const Parameters& p)
     times);
   const auto measurement = MeasureOrExit(p, input, filter->GetOutput());
   std::string measured;
-  if (!measurement.is_null() && input.Dimension() == 4)
-  {
-    AddFrames(measurement, report);
-    measured = SummarizeFrames(report);
-  }
-  else if (!measurement.is_null())
+  if (!measurement.is_null())
   {
     AddMeasurement(measurement, report);
     measured = SummarizeMeasurement(report);

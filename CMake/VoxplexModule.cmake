@@ -1,7 +1,7 @@
 # Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it.
 #
-# The kernel's objects go into the module's library: nothing of the kernel is installed, neither a
-# library nor a header, and its symbols stay hidden.
+# The objects of the kernel and of the table of parameters go into the module's library: nothing of them is
+# installed, neither a library nor a header, and their symbols stay hidden.
 
 if (NOT COMMAND voxplex_skip) # the tests say through it what they leave out
   function (voxplex_skip what why)
@@ -12,9 +12,11 @@ endif ()
 find_package(Threads REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
-if (NOT TARGET VoxplexKernel)
-  add_subdirectory(Kernel)
-endif ()
+foreach (voxplex_part IN ITEMS Kernel Parameters)
+  if (NOT TARGET Voxplex${voxplex_part})
+    add_subdirectory(${voxplex_part})
+  endif ()
+endforeach ()
 
 vtk_module_add_module(VTK::Voxplex
   CLASSES
@@ -33,6 +35,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/HiddenVoxels.h
     Filters/Private/ImageLabels.h
     Filters/Private/LabelledMesh.h
+    Filters/Private/Lists.h
     Filters/Private/MeshOutput.h
     Filters/Private/MeshingFigures.h
     Filters/Private/MeshingJson.h
@@ -66,13 +69,15 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/SpaceTimeQuality.cxx
     Filters/Private/vtkFrameGatheringPipeline.cxx
     $<TARGET_OBJECTS:VoxplexExact>
-    $<TARGET_OBJECTS:VoxplexKernel>)
+    $<TARGET_OBJECTS:VoxplexKernel>
+    $<TARGET_OBJECTS:VoxplexParameters>)
 
 vtk_module_include(VTK::Voxplex
   PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/Filters>"
   PRIVATE
-    "${CMAKE_CURRENT_SOURCE_DIR}/Kernel") # and Filters/, for Private/
+    "${CMAKE_CURRENT_SOURCE_DIR}/Kernel"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Parameters") # and Filters/, for Private/
 
 # The kernel's headers want C++20; the module's own headers do not.
 vtk_module_compile_features(VTK::Voxplex

@@ -3,6 +3,7 @@
 #include "vtkImageToPentatopeMeshFilter.h"
 
 #include "Private/FrameSeries.h"
+#include "Private/Lists.h"
 #include "Private/PentatopeOutput.h"
 #include "Private/SimplexMeshRun.h"
 #include "Private/vtkFrameGatheringPipeline.h"
@@ -106,18 +107,12 @@ void vtkImageToPentatopeMeshFilter::AddFrameTime(double time)
 
 void vtkImageToPentatopeMeshFilter::ClearFrameTimes()
 {
-  if (!this->FrameTimes.empty())
-  {
-    this->FrameTimes.clear();
-    this->Modified();
-  }
+  voxplex::Clear(this, this->FrameTimes);
 }
 
 double vtkImageToPentatopeMeshFilter::GetFrameTime(int frame) const
 {
-  return frame >= 0 && frame < this->GetNumberOfFrameTimes()
-    ? this->FrameTimes[static_cast<std::size_t>(frame)]
-    : std::numeric_limits<double>::quiet_NaN();
+  return voxplex::ItemAt(this->FrameTimes, frame, std::numeric_limits<double>::quiet_NaN());
 }
 
 std::vector<double> vtkImageToPentatopeMeshFilter::ChooseTimes(
@@ -125,7 +120,7 @@ std::vector<double> vtkImageToPentatopeMeshFilter::ChooseTimes(
 {
   if (!this->FrameTimes.empty() && this->FrameTimes.size() != ofInput.size())
   {
-    throw InputError("AddFrameTime() gave " + std::to_string(this->FrameTimes.size()) +
+    throw InputError("{frame-times} gave " + std::to_string(this->FrameTimes.size()) +
       " times, but there are " + std::to_string(ofInput.size()) +
       " frames; give one time for each frame.");
   }
@@ -285,7 +280,7 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
     throw InputError("The array has " + std::to_string(frames) + " components of type " +
       input.Array->GetDataTypeAsString() +
       ", as colours (RGB, RGBA) have. If they are time frames, give "
-      "their times with AddFrameTime(); if they are colours, extract one component, or make labels "
+      "their times with {frame-times}; if they are colours, extract one component, or make labels "
       "of them.");
   }
   if (frames < 2)
@@ -321,22 +316,22 @@ double vtkImageToPentatopeMeshFilter::FindDefaultDelta(vtkInformationVector** in
 void vtkImageToPentatopeMeshFilter::CheckParameters() const
 {
   using voxplex::CheckRange;
+  using voxplex::CheckValue;
   constexpr double largest = std::numeric_limits<double>::max();
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   this->Superclass::CheckParameters();
-  CheckRange(this->TimeScale, smallest, largest, "TimeScale", "positive and finite");
+  CheckValue("time-scale", this->TimeScale);
   CheckRange(this->TimeOrigin, -largest, largest, "TimeOrigin", "finite");
   CheckRange(this->TimeSpacing, smallest, largest, "TimeSpacing", "positive and finite");
   CheckRange(this->PickingRadius, smallest, std::nextafter(1.0, 0.0), "PickingRadius",
     "above 0 and below 1");
-  CheckRange(
-    this->NumberOfPicks, 1, std::numeric_limits<int>::max(), "NumberOfPicks", "at least 1");
+  CheckValue("picks", this->NumberOfPicks);
+  // The table ends a little below 1.
   CheckRange(this->SliverBound, 0.0,
-    this->Force ? std::nextafter(1.0, 0.0) : voxplex::LargestSliverBound, "SliverBound",
-    this->Force
-      ? "at least 0 and below 1"
-      : "at least 0 and at most 0.03, because above it meshes can become very large; Force "
-        "goes up to 1");
+    this->Force ? std::nextafter(1.0, 0.0) : voxplex::LargestSliverBound, "{sliver-bound}",
+    this->Force ? "at least 0 and below 1"
+                : "at least 0 and at most 0.03, because above it meshes can become very large; "
+                  "{force} goes up to 1");
   CheckRange(this->SliverRadiusFactor, 1.0, largest, "SliverRadiusFactor", "at least 1 and finite");
 }
 
@@ -348,11 +343,7 @@ void vtkImageToPentatopeMeshFilter::AddTimePlane(double time)
 
 void vtkImageToPentatopeMeshFilter::RemoveAllTimePlanes()
 {
-  if (!this->TimePlanes.empty())
-  {
-    this->TimePlanes.clear();
-    this->Modified();
-  }
+  voxplex::Clear(this, this->TimePlanes);
 }
 
 int vtkImageToPentatopeMeshFilter::GetNumberOfTimePlanes() const
@@ -362,8 +353,7 @@ int vtkImageToPentatopeMeshFilter::GetNumberOfTimePlanes() const
 
 double vtkImageToPentatopeMeshFilter::GetTimePlane(int plane) const
 {
-  const bool exists = plane >= 0 && plane < this->GetNumberOfTimePlanes();
-  return exists ? this->TimePlanes[static_cast<std::size_t>(plane)] : 0.0;
+  return voxplex::ItemAt(this->TimePlanes, plane, 0.0);
 }
 
 namespace
@@ -457,20 +447,10 @@ void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeScale: " << this->TimeScale << "\n";
   os << indent << "TimeOrigin: " << this->TimeOrigin << "\n";
   os << indent << "TimeSpacing: " << this->TimeSpacing << "\n";
-  os << indent << "FrameTimes:";
-  for (const double time : this->FrameTimes)
-  {
-    os << ' ' << time;
-  }
-  os << (this->FrameTimes.empty() ? " (of the input)\n" : "\n");
+  voxplex::PrintList(os, indent, "FrameTimes", this->FrameTimes, " (of the input)");
   os << indent << "FrameSteps: " << this->FrameSteps << "\n";
   os << indent << "FitInterfaces: " << (this->FitInterfaces ? "On" : "Off") << "\n";
-  os << indent << "TimePlanes:";
-  for (const double time : this->TimePlanes)
-  {
-    os << " " << time;
-  }
-  os << "\n";
+  voxplex::PrintList(os, indent, "TimePlanes", this->TimePlanes, "");
   os << indent << "TimePlanesAtFrames: " << (this->TimePlanesAtFrames ? "On" : "Off") << "\n";
   os << indent << "Periodic: " << (this->Periodic ? "On" : "Off") << "\n";
   os << indent << "RuleOrder: " << this->GetRuleOrderAsString() << "\n";

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToSimplexMeshFilter.h"
 
+#include "MeshingParameters.h"
+#include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
 #include "Private/SimplexMeshRun.h"
 #include "Private/SmpThreads.h"
@@ -23,7 +25,11 @@
 namespace
 {
 
+using voxplex::Clear;
 using voxplex::InputError;
+using voxplex::ItemAt;
+using voxplex::ModifyIf;
+using voxplex::PrintList;
 
 // The class's constants are the kernel's: casts lead from one to the other.
 using Filter = vtkImageToSimplexMeshFilter;
@@ -35,6 +41,11 @@ static_assert(Filter::UNIFORM == static_cast<int>(voxplex::GradingMode::Uniform)
 static_assert(static_cast<std::int64_t>(Filter::ANY_LABEL) == voxplex::InterfaceSize::AnyLabel);
 static_assert(
   Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
+static_assert(
+  Filter::VOCABULARY_COMMAND_LINE == static_cast<int>(voxplex::UserInterface::CommandLine) &&
+  Filter::VOCABULARY_SLICER == static_cast<int>(voxplex::UserInterface::SlicerCommand) &&
+  Filter::VOCABULARY_PYTHON == static_cast<int>(voxplex::UserInterface::Python) &&
+  Filter::VOCABULARY_PARAVIEW == static_cast<int>(voxplex::UserInterface::ParaView));
 
 /** A size that was given as a number. */
 void CheckSize(double size, const std::string& what)
@@ -88,35 +99,22 @@ vtkImageToSimplexMeshFilter::~vtkImageToSimplexMeshFilter() = default;
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::SetLabelSize(vtkTypeInt64 label, double size)
 {
-  const auto found = this->Private->LabelSizes.find(label);
-  if (found == this->Private->LabelSizes.end() || found->second != size)
-  {
-    this->Private->LabelSizes[label] = size;
-    this->Modified();
-  }
+  voxplex::SetSize(this, this->Private->LabelSizes, label, size);
 }
 
 double vtkImageToSimplexMeshFilter::GetLabelSize(vtkTypeInt64 label) const
 {
-  const auto found = this->Private->LabelSizes.find(label);
-  return found == this->Private->LabelSizes.end() ? 0.0 : found->second;
+  return voxplex::SizeOf(this->Private->LabelSizes, label);
 }
 
 void vtkImageToSimplexMeshFilter::RemoveLabelSize(vtkTypeInt64 label)
 {
-  if (this->Private->LabelSizes.erase(label) > 0)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->LabelSizes.erase(label) > 0);
 }
 
 void vtkImageToSimplexMeshFilter::ClearLabelSizes()
 {
-  if (!this->Private->LabelSizes.empty())
-  {
-    this->Private->LabelSizes.clear();
-    this->Modified();
-  }
+  Clear(this, this->Private->LabelSizes);
 }
 
 int vtkImageToSimplexMeshFilter::GetNumberOfLabelSizes() const
@@ -126,45 +124,29 @@ int vtkImageToSimplexMeshFilter::GetNumberOfLabelSizes() const
 
 vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSizedLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfLabelSizes()
-    ? std::next(this->Private->LabelSizes.begin(), index)->first
-    : 0;
+  return ItemAt(this->Private->LabelSizes, index, {}).first;
 }
 
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::SetInterfaceSize(
   vtkTypeInt64 label, vtkTypeInt64 other, double size)
 {
-  const auto [place, isNew] =
-    this->Private->InterfaceSizes.try_emplace(InterfaceOf(label, other), size);
-  if (isNew || place->second != size)
-  {
-    place->second = size;
-    this->Modified();
-  }
+  voxplex::SetSize(this, this->Private->InterfaceSizes, InterfaceOf(label, other), size);
 }
 
 double vtkImageToSimplexMeshFilter::GetInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other) const
 {
-  const auto found = this->Private->InterfaceSizes.find(InterfaceOf(label, other));
-  return found == this->Private->InterfaceSizes.end() ? 0.0 : found->second;
+  return voxplex::SizeOf(this->Private->InterfaceSizes, InterfaceOf(label, other));
 }
 
 void vtkImageToSimplexMeshFilter::RemoveInterfaceSize(vtkTypeInt64 label, vtkTypeInt64 other)
 {
-  if (this->Private->InterfaceSizes.erase(InterfaceOf(label, other)) > 0)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->InterfaceSizes.erase(InterfaceOf(label, other)) > 0);
 }
 
 void vtkImageToSimplexMeshFilter::ClearInterfaceSizes()
 {
-  if (!this->Private->InterfaceSizes.empty())
-  {
-    this->Private->InterfaceSizes.clear();
-    this->Modified();
-  }
+  Clear(this, this->Private->InterfaceSizes);
 }
 
 int vtkImageToSimplexMeshFilter::GetNumberOfInterfaceSizes() const
@@ -174,39 +156,26 @@ int vtkImageToSimplexMeshFilter::GetNumberOfInterfaceSizes() const
 
 void vtkImageToSimplexMeshFilter::GetSizedInterface(int index, vtkTypeInt64 labels[2]) const
 {
-  labels[0] = labels[1] = ANY_LABEL;
-  if (index >= 0 && index < this->GetNumberOfInterfaceSizes())
-  {
-    const auto& interface = std::next(this->Private->InterfaceSizes.begin(), index)->first;
-    labels[0] = interface.first;
-    labels[1] = interface.second;
-  }
+  const auto interface =
+    ItemAt(this->Private->InterfaceSizes, index, { { ANY_LABEL, ANY_LABEL }, 0.0 }).first;
+  labels[0] = interface.first;
+  labels[1] = interface.second;
 }
 
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::AddLabel(vtkTypeInt64 label)
 {
-  if (this->Private->Labels.insert(label).second)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->Labels.insert(label).second);
 }
 
 void vtkImageToSimplexMeshFilter::RemoveLabel(vtkTypeInt64 label)
 {
-  if (this->Private->Labels.erase(label) > 0)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->Labels.erase(label) > 0);
 }
 
 void vtkImageToSimplexMeshFilter::RemoveAllLabels()
 {
-  if (!this->Private->Labels.empty())
-  {
-    this->Private->Labels.clear();
-    this->Modified();
-  }
+  Clear(this, this->Private->Labels);
 }
 
 int vtkImageToSimplexMeshFilter::GetNumberOfSelectedLabels() const
@@ -216,35 +185,23 @@ int vtkImageToSimplexMeshFilter::GetNumberOfSelectedLabels() const
 
 vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSelectedLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfSelectedLabels()
-    ? *std::next(this->Private->Labels.begin(), index)
-    : 0;
+  return ItemAt(this->Private->Labels, index, 0);
 }
 
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::ExcludeLabel(vtkTypeInt64 label)
 {
-  if (this->Private->ExcludedLabels.insert(label).second)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->ExcludedLabels.insert(label).second);
 }
 
 void vtkImageToSimplexMeshFilter::RemoveExcludedLabel(vtkTypeInt64 label)
 {
-  if (this->Private->ExcludedLabels.erase(label) > 0)
-  {
-    this->Modified();
-  }
+  ModifyIf(this, this->Private->ExcludedLabels.erase(label) > 0);
 }
 
 void vtkImageToSimplexMeshFilter::RemoveAllExcludedLabels()
 {
-  if (!this->Private->ExcludedLabels.empty())
-  {
-    this->Private->ExcludedLabels.clear();
-    this->Modified();
-  }
+  Clear(this, this->Private->ExcludedLabels);
 }
 
 int vtkImageToSimplexMeshFilter::GetNumberOfExcludedLabels() const
@@ -254,9 +211,7 @@ int vtkImageToSimplexMeshFilter::GetNumberOfExcludedLabels() const
 
 vtkTypeInt64 vtkImageToSimplexMeshFilter::GetExcludedLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfExcludedLabels()
-    ? *std::next(this->Private->ExcludedLabels.begin(), index)
-    : 0;
+  return ItemAt(this->Private->ExcludedLabels, index, 0);
 }
 
 //----------------------------------------------------------------------------------------------------
@@ -421,8 +376,9 @@ int vtkImageToSimplexMeshFilter::RequestData(
   }
   catch (const std::bad_alloc&)
   {
-    this->ErrorMessage = "There is not enough memory for this mesh; increase Delta, or mesh fewer "
-                         "labels.";
+    this->ErrorMessage =
+      "There is not enough memory for this mesh; increase {delta}, or mesh fewer "
+      "labels.";
   }
   catch (const std::exception& error)
   {
@@ -433,6 +389,7 @@ int vtkImageToSimplexMeshFilter::RequestData(
     this->ErrorMessage = "Meshing failed: the size function threw something that is not a "
                          "std::exception.";
   }
+  this->ErrorMessage = InTermsOf(this->Vocabulary, this->ErrorMessage);
   request->Remove(Pipeline::CONTINUE_EXECUTING());
   this->Aborted = this->Aborted && this->ErrorMessage.empty();
   if (this->ErrorMessage.empty() && !this->Aborted)
@@ -445,7 +402,7 @@ int vtkImageToSimplexMeshFilter::RequestData(
     for (const std::string& warning : voxplex::WarningsOf(this->Private->Statistics->Edit(),
            this->GetContentionManagerAsString(), this->ExactComponents))
     {
-      vtkWarningMacro(<< warning);
+      vtkWarningMacro(<< InTermsOf(this->Vocabulary, warning));
     }
     return 1;
   }
@@ -467,31 +424,23 @@ bool vtkImageToSimplexMeshFilter::Gather(vtkInformation*, vtkInformationVector**
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::CheckParameters() const
 {
-  using voxplex::CheckRange;
-  constexpr double largest = std::numeric_limits<double>::max();
-  CheckRange(
-    this->Delta, 0.0, largest, "Delta", "positive and finite, or 0 to derive it from the spacing");
-  CheckRange(
-    this->SmoothingSigma, 0.0, largest, "SmoothingSigma", "positive and finite, or 0 for none");
-  CheckRange(this->ElementSize, 0.0, largest, "ElementSize", "positive and finite, or 0 for none");
-  CheckRange(this->RadiusEdgeRatio, this->Force ? 1.0 : voxplex::SmallestRadiusEdgeRatio, largest,
-    "RadiusEdgeRatio",
-    this->Force ? "at least 1"
-                : "at least 1.93, because below meshes can become very large; Force goes down "
-                  "to 1");
+  using voxplex::CheckValue;
+  CheckValue("delta", this->Delta);
+  CheckValue("smoothing", this->SmoothingSigma);
+  CheckValue("size", this->ElementSize);
+  CheckValue("radius-edge", this->RadiusEdgeRatio, this->Force);
+  CheckValue("gradation", this->Gradation);
+  CheckValue("feature-ratio", this->FeatureRatio);
+  CheckValue("largest-feature", this->LargestFeature);
   for (const auto& [label, size] : this->Private->LabelSizes)
   {
     CheckSize(size, "The size of label " + std::to_string(label));
   }
-  CheckRange(this->Gradation, 0.0, largest, "Gradation", "positive and finite, or 0 for no limit");
-  constexpr double tiny = std::numeric_limits<double>::min();
-  CheckRange(this->FeatureRatio, tiny, largest, "FeatureRatio", "positive and finite");
-  CheckRange(this->LargestFeature, tiny, largest, "LargestFeature", "positive and finite");
   for (const auto& [interface, size] : this->Private->InterfaceSizes)
   {
     if (interface.second < ANY_LABEL || interface.first < 0 || interface.first == interface.second)
     {
-      throw InputError("SetInterfaceSize() takes two different labels, or a label and ANY_LABEL "
+      throw InputError("{interface-size} takes two different labels, or a label and ANY_LABEL "
                        "(-1); these are " +
         std::to_string(interface.first) + " and " + std::to_string(interface.second) + ".");
     }
@@ -499,9 +448,14 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   }
   if (this->NumberOfElements > 0 && this->Delta > 0.0 && !this->DeltaIsSuggestion)
   {
-    throw InputError("Both Delta and NumberOfElements are set; Delta is what meshing finds for a "
-                     "NumberOfElements: set one of the two to 0.");
+    throw InputError("Both {delta} and {elements} are set; {delta} is what meshing finds for "
+                     "{elements}: set one of the two to 0.");
   }
+}
+
+std::string vtkImageToSimplexMeshFilter::InTermsOf(int vocabulary, const std::string& message)
+{
+  return voxplex::InTermsOf(static_cast<voxplex::UserInterface>(vocabulary), message);
 }
 
 const char* vtkImageToSimplexMeshFilter::GetInputModeAsString() const
@@ -556,34 +510,17 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ExactComponents: " << this->ExactComponents << "\n";
   os << indent << "SmoothingSigma: " << this->SmoothingSigma << "\n";
   os << indent << "ElementSize: " << this->ElementSize << "\n";
-  os << indent << "LabelSizes:";
-  for (const auto& [label, size] : this->Private->LabelSizes)
-  {
-    os << " " << label << "=" << size;
-  }
-  os << (this->Private->LabelSizes.empty() ? " (none)\n" : "\n");
+  PrintList(os, indent, "LabelSizes", this->Private->LabelSizes, " (none)",
+    [](ostream& to, const auto& size) { to << size.first << '=' << size.second; });
   os << indent << "Gradation: " << this->Gradation << "\n";
   os << indent << "Grading: " << this->GetGradingAsString() << "\n";
   os << indent << "FeatureRatio: " << this->FeatureRatio << "\n";
   os << indent << "LargestFeature: " << this->LargestFeature << "\n";
-  os << indent << "InterfaceSizes:";
-  for (const auto& [interface, size] : this->Private->InterfaceSizes)
-  {
-    os << " " << interface.first << "," << interface.second << "=" << size;
-  }
-  os << (this->Private->InterfaceSizes.empty() ? " (none)\n" : "\n");
-  os << indent << "SelectedLabels:";
-  for (const std::int64_t label : this->Private->Labels)
-  {
-    os << " " << label;
-  }
-  os << (this->Private->Labels.empty() ? " (all)\n" : "\n");
-  os << indent << "ExcludedLabels:";
-  for (const std::int64_t label : this->Private->ExcludedLabels)
-  {
-    os << " " << label;
-  }
-  os << (this->Private->ExcludedLabels.empty() ? " (none)\n" : "\n");
+  PrintList(os, indent, "InterfaceSizes", this->Private->InterfaceSizes, " (none)",
+    [](ostream& to, const auto& size)
+    { to << size.first.first << ',' << size.first.second << '=' << size.second; });
+  PrintList(os, indent, "SelectedLabels", this->Private->Labels, " (all)");
+  PrintList(os, indent, "ExcludedLabels", this->Private->ExcludedLabels, " (none)");
   os << indent << "DefaultDelta: " << this->DefaultDelta << "\n";
   os << indent << "SizeFunction: " << (this->Private->SizeFunction ? "set" : "(none)") << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -593,6 +530,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Reproducible: " << (this->Reproducible ? "On" : "Off") << "\n";
   os << indent << "Force: " << (this->Force ? "On" : "Off") << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "Vocabulary: " << this->Vocabulary << "\n";
   os << indent << "ComputeQuality: " << (this->ComputeQuality ? "On" : "Off") << "\n";
   os << indent << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage)
      << "\n";

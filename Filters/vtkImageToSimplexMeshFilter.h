@@ -594,6 +594,28 @@ public:
   vtkBooleanMacro(ComputeQuality, bool);
   ///@}
 
+  /** Values of Vocabulary. */
+  enum Vocabularies
+  {
+    VOCABULARY_VTK = 0,
+    VOCABULARY_COMMAND_LINE = 1,
+    VOCABULARY_SLICER = 3,
+    VOCABULARY_PYTHON = 4,
+    VOCABULARY_PARAVIEW = 5
+  };
+
+  ///@{
+  /**
+   * In whose terms messages name parameters: with those of VTK (RadiusEdgeRatio), the default, or of a program
+   * that shows the messages to its users (--radius-edge, radius_edge, 'Radius-Edge Ratio').
+   */
+  vtkSetClampMacro(Vocabulary, int, VOCABULARY_VTK, VOCABULARY_PARAVIEW);
+  vtkGetMacro(Vocabulary, int);
+  ///@}
+
+  /** A message of vtkSegmentationReader, which names VTK's methods, in the terms of a vocabulary. */
+  static std::string InTermsOf(int vocabulary, const std::string& message);
+
   /** Statistics of the last execution. The filter owns the object and never replaces it. */
   vtkMeshingStatistics* GetStatistics() const;
 
@@ -686,6 +708,7 @@ protected:
   bool Force = false;
   vtkTypeUInt64 MemoryLimit = 0;
   bool ComputeQuality = false;
+  int Vocabulary = VOCABULARY_VTK;
 
 private:
   vtkImageToSimplexMeshFilter(const vtkImageToSimplexMeshFilter&) = delete;

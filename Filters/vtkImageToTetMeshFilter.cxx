@@ -15,7 +15,6 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -87,17 +86,10 @@ double vtkImageToTetMeshFilter::FindDefaultDelta(vtkInformationVector** inputVec
 void vtkImageToTetMeshFilter::CheckParameters() const
 {
   this->Superclass::CheckParameters();
-  voxplex::CheckRange(this->FacetAngle, 0.0, 30.0, "FacetAngle", "between 0 and 30 degrees");
-  voxplex::CheckRange(this->SliverAngle, 0.0, this->Force ? 59.0 : voxplex::LargestSliverAngle,
-    "SliverAngle",
-    this->Force
-      ? "between 0 and 59 degrees"
-      : "between 0 and 15 degrees, because above meshes can become very large; Force goes "
-        "on to 59");
-  voxplex::CheckRange(this->MinimumComponentVolume, 0.0, std::numeric_limits<double>::max(),
-    "MinimumComponentVolume", "positive and finite, or 0 for none");
-  voxplex::CheckRange(this->OptimisationTimeLimit, 0.0, std::numeric_limits<double>::max(),
-    "OptimisationTimeLimit", "a number of seconds, or 0 for none");
+  voxplex::CheckValue("facet-angle", this->FacetAngle);
+  voxplex::CheckValue("sliver-angle", this->SliverAngle, this->Force);
+  voxplex::CheckValue("min-component-volume", this->MinimumComponentVolume);
+  voxplex::CheckValue("optimise-seconds", this->OptimisationTimeLimit);
 }
 
 void vtkImageToTetMeshFilter::Mesh(

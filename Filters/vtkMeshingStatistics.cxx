@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshingStatistics.h"
 
+#include "Private/Lists.h"
 #include "Private/MeshingFigures.h"
 #include "Private/MeshingJson.h"
 
@@ -13,6 +14,7 @@
 #include <limits>
 
 using nlohmann::ordered_json;
+using voxplex::ItemAt;
 
 vtkStandardNewMacro(vtkMeshingStatistics);
 
@@ -73,54 +75,37 @@ VOXPLEX_FIGURE(double, OptimisationTime, Run.Times.Optimisation)
 VOXPLEX_FIGURE(bool, Optimised, Run.Optimisation.Ran)
 VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
 VOXPLEX_FIGURE(bool, SwitchedToLocal, Run.SwitchedToLocal)
+VOXPLEX_FIGURE(int, NumberOfRuns, Run.Runs.size())
 #undef VOXPLEX_FIGURE
 
 vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfLostLabels()
-    ? this->Values->LostLabels[static_cast<std::size_t>(index)]
-    : 0;
+  return ItemAt(this->Values->LostLabels, index, 0);
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetShrunkLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfShrunkLabels()
-    ? this->Values->ShrunkLabels[static_cast<std::size_t>(index)].Label
-    : 0;
+  return ItemAt(this->Values->ShrunkLabels, index, {}).Label;
 }
 
 double vtkMeshingStatistics::GetShrunkLabelFraction(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfShrunkLabels()
-    ? this->Values->ShrunkLabels[static_cast<std::size_t>(index)].Fraction
-    : 0.0;
+  return ItemAt(this->Values->ShrunkLabels, index, {}).Fraction;
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetLabel(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfLabels()
-    ? this->Values->Quality.Labels[static_cast<std::size_t>(index)].Label
-    : 0;
-}
-
-int vtkMeshingStatistics::GetNumberOfRuns() const
-{
-  return static_cast<int>(this->Values->Run.Runs.size());
+  return ItemAt(this->Values->Quality.Labels, index, {}).Label;
 }
 
 vtkTypeInt64 vtkMeshingStatistics::GetLabelElements(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfLabels()
-    ? static_cast<vtkTypeInt64>(
-        this->Values->Quality.Labels[static_cast<std::size_t>(index)].Elements)
-    : 0;
+  return static_cast<vtkTypeInt64>(ItemAt(this->Values->Quality.Labels, index, {}).Elements);
 }
 
 double vtkMeshingStatistics::GetLabelVolume(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfLabels()
-    ? this->Values->Quality.Labels[static_cast<std::size_t>(index)].Volume
-    : 0.0;
+  return ItemAt(this->Values->Quality.Labels, index, {}).Volume;
 }
 
 int vtkMeshingStatistics::GetNumberOfYieldingRegions() const

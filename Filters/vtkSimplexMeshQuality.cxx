@@ -3,8 +3,9 @@
 #include "vtkSimplexMeshQuality.h"
 
 #include "Base/Error.h"
-#include "Base/NumberText.h"
-#include "Domain/LabelField.h"
+#include "MeshingParameters.h"
+#include "Private/Lists.h"
+#include "Private/MeshingMessages.h"
 #include "Private/QualityJson.h"
 #include "Private/QualityRun.h"
 
@@ -73,19 +74,12 @@ vtkTable* vtkSimplexMeshQuality::GetHistograms()
 
 void vtkSimplexMeshQuality::AddLabel(vtkTypeInt64 label)
 {
-  if (this->Private->Labels.insert(label).second)
-  {
-    this->Modified();
-  }
+  voxplex::ModifyIf(this, this->Private->Labels.insert(label).second);
 }
 
 void vtkSimplexMeshQuality::RemoveAllLabels()
 {
-  if (!this->Private->Labels.empty())
-  {
-    this->Private->Labels.clear();
-    this->Modified();
-  }
+  voxplex::Clear(this, this->Private->Labels);
 }
 
 void vtkSimplexMeshQuality::AddFrameTime(double time)
@@ -96,11 +90,7 @@ void vtkSimplexMeshQuality::AddFrameTime(double time)
 
 void vtkSimplexMeshQuality::ClearFrameTimes()
 {
-  if (!this->Private->FrameTimes.empty())
-  {
-    this->Private->FrameTimes.clear();
-    this->Modified();
-  }
+  voxplex::Clear(this, this->Private->FrameTimes);
 }
 
 vtkTable* vtkSimplexMeshQuality::GetFrameTable()
@@ -180,7 +170,7 @@ int vtkSimplexMeshQuality::RequestData(
   }
   catch (const voxplex::Error& error)
   {
-    this->ErrorMessage = error.what();
+    this->ErrorMessage = voxplex::InTermsOf(voxplex::UserInterface::VTK, error.what());
   }
   catch (const std::bad_alloc&)
   {
@@ -209,17 +199,8 @@ int vtkSimplexMeshQuality::RequestData(
 
 void vtkSimplexMeshQuality::CheckParameters() const
 {
-  if (!(this->SmoothingSigma >= 0.0 &&
-        this->SmoothingSigma <= voxplex::LabelField<3>::MaximumSigma))
-  {
-    throw InputError("SmoothingSigma is " + std::to_string(this->SmoothingSigma) +
-      "; it must be between 0 and 5 voxels.");
-  }
-  if (!(this->TimeScale > 0.0 && std::isfinite(this->TimeScale)))
-  {
-    throw InputError(
-      "TimeScale is " + voxplex::NumberText(this->TimeScale) + "; it must be positive and finite.");
-  }
+  voxplex::CheckValue("smoothing", this->SmoothingSigma);
+  voxplex::CheckValue("time-scale", this->TimeScale);
   if (this->NumberOfThreads < 0)
   {
     throw InputError("NumberOfThreads is " + std::to_string(this->NumberOfThreads) +
@@ -302,45 +283,23 @@ void vtkSimplexMeshQuality::GetHausdorffPlace(double place[3]) const
   std::copy(p.begin(), p.end(), place);
 }
 
-double vtkSimplexMeshQuality::GetMinimumDihedralAngle() const
-{
-  return this->Private->Shapes().MinimumDihedralAngle;
-}
+// Getters whose figure has another name or type behind it.
+#define VOXPLEX_FIGURE(type, getter, figure)                                                       \
+  type vtkSimplexMeshQuality::Get##getter() const                                                  \
+  {                                                                                                \
+    return static_cast<type>(this->Private->figure);                                               \
+  }
 
-double vtkSimplexMeshQuality::GetMaximumDihedralAngle() const
-{
-  return this->Private->Shapes().MaximumDihedralAngle;
-}
-
-double vtkSimplexMeshQuality::GetMaximumRadiusEdgeRatio() const
-{
-  return this->Private->Shapes().MaximumRadiusEdgeRatio;
-}
-
-double vtkSimplexMeshQuality::GetMinimumPlanarAngle() const
-{
-  return this->Private->Shapes().MinimumFacetAngle;
-}
-
-vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdges() const
-{
-  return static_cast<vtkTypeInt64>(this->Private->Figures.Topology.NonManifoldEdges);
-}
-
-vtkTypeInt64 vtkSimplexMeshQuality::GetNonManifoldEdgesAtJunctions() const
-{
-  return static_cast<vtkTypeInt64>(this->Private->Figures.Topology.NonManifoldEdgesAtJunctions);
-}
-
-double vtkSimplexMeshQuality::GetMinimumNormalizedVolume() const
-{
-  return this->Private->Shapes().MinimumNormalizedVolume;
-}
-
-double vtkSimplexMeshQuality::GetMeanNormalizedVolume() const
-{
-  return this->Private->Shapes().MeanNormalizedVolume;
-}
+VOXPLEX_FIGURE(double, MinimumDihedralAngle, Shapes().MinimumDihedralAngle)
+VOXPLEX_FIGURE(double, MaximumDihedralAngle, Shapes().MaximumDihedralAngle)
+VOXPLEX_FIGURE(double, MaximumRadiusEdgeRatio, Shapes().MaximumRadiusEdgeRatio)
+VOXPLEX_FIGURE(double, MinimumPlanarAngle, Shapes().MinimumFacetAngle)
+VOXPLEX_FIGURE(double, MinimumNormalizedVolume, Shapes().MinimumNormalizedVolume)
+VOXPLEX_FIGURE(double, MeanNormalizedVolume, Shapes().MeanNormalizedVolume)
+VOXPLEX_FIGURE(vtkTypeInt64, NonManifoldEdges, Figures.Topology.NonManifoldEdges)
+VOXPLEX_FIGURE(
+  vtkTypeInt64, NonManifoldEdgesAtJunctions, Figures.Topology.NonManifoldEdgesAtJunctions)
+#undef VOXPLEX_FIGURE
 
 vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostLabels() const
 {

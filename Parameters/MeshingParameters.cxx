@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshingParameters.h"
 
+#include "Base/NumberText.h"
+
 #include <algorithm>
 #include <cctype>
-#include <sstream>
+#include <cmath>
+#include <regex>
 #include <stdexcept>
 
 namespace voxplex
@@ -47,39 +50,51 @@ std::string CamelCase(const std::string& name)
     : name.substr(0, dash) + Capitalised(CamelCase(name.substr(dash + 1)));
 }
 
+/** FacetAngle as "Facet Angle". */
+std::string Spaced(const std::string& name)
+{
+  std::string spaced;
+  for (const char c : name)
+  {
+    spaced += std::isupper(static_cast<unsigned char>(c)) && !spaced.empty() ? " " : "";
+    spaced += c;
+  }
+  return spaced;
+}
+
 std::string Joined(std::string name, char with)
 {
   std::replace(name.begin(), name.end(), '-', with);
   return name;
 }
 
-/** The name of a parameter in texts of the interface. */
-std::string Mention(UserInterface interface, const std::string& name)
+/** The name of a parameter in texts of the interface; that of VTK if the interface has none. */
+std::string Mention(UserInterface interface, const MeshingParameter& parameter)
 {
-  const MeshingParameter& parameter = FindParameter(name);
+  const std::string name = NameIn(interface, parameter);
+  if (name.empty())
+  {
+    return Mention(UserInterface::VTK, parameter);
+  }
+  const bool isList = parameter.Kind >= ParameterKind::Labels;
+  const bool isAdded =
+    parameter.Kind == ParameterKind::Labels || parameter.Kind == ParameterKind::Times;
   switch (interface)
   {
+    case UserInterface::VTK:
+      return isList ? (isAdded ? "Add" : "Set") + name + "()" : name;
     case UserInterface::CommandLine:
-      return "--" + NameIn(interface, parameter);
+    case UserInterface::SlicerCommand:
+      return "--" + name;
     case UserInterface::Slicer:
       return LabelOf(parameter);
-    default:
-      return NameIn(interface, parameter);
+    case UserInterface::Python:
+      return parameter.Kind == ParameterKind::Flag && !parameter.IsOnByDefault() ? name + "=True"
+                                                                                 : name;
+    case UserInterface::ParaView:
+      return "'" + name + "'";
   }
-}
-
-/** Replaces the names in braces. */
-std::string Resolve(UserInterface interface, const std::string& text)
-{
-  std::string resolved;
-  std::size_t end = 0;
-  for (std::size_t brace; (brace = text.find('{', end)) != std::string::npos;)
-  {
-    resolved += text.substr(end, brace - end);
-    end = text.find('}', brace) + 1;
-    resolved += Mention(interface, text.substr(brace + 1, end - brace - 2));
-  }
-  return resolved + text.substr(end);
+  return name;
 }
 
 /** The form in which lists are written. */
@@ -110,7 +125,8 @@ const char* FormOf(UserInterface interface, ParameterKind kind)
     {
       return interface == UserInterface::CommandLine ? form.CommandLine
         : interface == UserInterface::Slicer         ? form.Slicer
-                                                     : form.Python;
+        : interface == UserInterface::Python         ? form.Python
+                                                     : "";
     }
   }
   return "";
@@ -145,30 +161,30 @@ std::string ForceNote(UserInterface interface, const MeshingParameter& p)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::string beyond = BeyondLimit(p, p.ForceBelow ? -infinity : infinity);
-  return beyond.empty() ? "" : beyond + " only with " + Mention(interface, "force");
+  return beyond.empty() ? "" : beyond + " only with " + Mention(interface, FindParameter("force"));
 }
 
 /** Notes about the values, without those that the application itself shows. */
 std::vector<std::string> Notes(UserInterface interface, const MeshingParameter& p)
 {
-  const bool slicer = interface == UserInterface::Slicer;
+  const bool isPanel = interface == UserInterface::Slicer || interface == UserInterface::ParaView;
   const bool isOption = interface == UserInterface::CommandLine;
   const bool isSwitch = p.Kind == ParameterKind::Flag && (isOption || !p.IsOnByDefault());
   std::vector<std::string> notes{ FormOf(interface, p.Kind) };
-  if (!slicer && !isSwitch)
+  if (!isPanel && !isSwitch)
   {
     notes.push_back(DefaultNote(interface, p));
   }
-  if (!p.Zero.empty() && !isSwitch && (slicer || !p.IsOptional()))
+  if (!p.Zero.empty() && !isSwitch && (isPanel || !p.IsOptional()))
   {
     notes.push_back(ValueText(interface, p, false) + ": " + p.Zero);
   }
   notes.push_back(ForceNote(interface, p));
-  if (p.Dimension == 3 && !slicer)
+  if (p.Dimension == 3 && !isPanel)
   {
     notes.push_back("3D only");
   }
-  if (p.Dimension == 4 && !isOption) // options are under a headline
+  if (p.Dimension == 4 && !isOption && !isPanel) // options are under a headline
   {
     notes.push_back("space-time only");
   }
@@ -176,7 +192,102 @@ std::vector<std::string> Notes(UserInterface interface, const MeshingParameter& 
   return notes;
 }
 
+/** What messages name beside the parameters of the table. */
+struct Term
+{
+  const char* Name;
+  const char* In[6]; ///< by UserInterface; null: its users do not have it
+};
+
+constexpr Term Terms[] = {
+  { "isosurface",
+    { "SetInputModeToIsosurface()", "--isovalue", nullptr, "--isosurface and --isovalue",
+      "isovalue", "'Input Mode'" } },
+  { "array", { "SetInputArrayToProcess()", nullptr, nullptr, nullptr, nullptr, "'Label Array'" } },
+  // Of readers.
+  { "trust",
+    { ", or use SetDataFilesAnywhere() if you trust the header", nullptr, nullptr,
+      ", or save the image as one file" } },
+  { "anywhere",
+    { "SetDataFilesAnywhere()", "--data-files-anywhere", nullptr, nullptr,
+      "read_segmentation(..., data_files_anywhere=True)" } },
+  { "series", { "SetSeriesUID()", "--series", nullptr, nullptr, "series_uid" } },
+  { "spacing", { "SetSpacing()", "--spacing", nullptr, "3D Slicer's module Volumes", "spacing=" } },
+  { "origin", { "SetOrigin()", "--origin", nullptr, nullptr, "origin=" } },
+  { "direction", { "SetDirection()", "--direction", nullptr, nullptr, "direction=" } },
+  { "weight", { "SetTimeScale()", "--time-scale", nullptr, nullptr, "time_scale=" } },
+  { "times", { "AddFrameTime()", "--frame-times" } },
+};
+
+/** What an interface calls it; null if its users do not have it. */
+const char* NameIn(UserInterface interface, const Term& term)
+{
+  return term.In[static_cast<int>(interface)];
+}
+
+/** What stands for a name in braces, perhaps with a text behind a colon; nothing if it is no name. */
+std::optional<std::string> Resolved(UserInterface interface, const std::string& mark)
+{
+  const std::size_t colon = mark.find(':');
+  const std::string name = mark.substr(0, colon);
+  std::optional<std::string> mention;
+  for (const Term& term : Terms)
+  {
+    if (name == term.Name)
+    {
+      mention = NameIn(interface, term) ? NameIn(interface, term) : "";
+    }
+  }
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    if (name == parameter.Name)
+    {
+      const bool isConditional = colon != std::string::npos;
+      mention = isConditional ? NameIn(interface, parameter) : Mention(interface, parameter);
+    }
+  }
+  return !mention || mention->empty() || colon == std::string::npos ? mention
+                                                                    : mark.substr(colon + 1);
+}
+
+/** The methods that messages of readers name. */
+std::string WithoutMethods(UserInterface interface, std::string message)
+{
+  static const std::regex series("SetSeriesUID\\(\"([^\"]*)\"\\)");
+  message = std::regex_replace(message, series,
+    interface == UserInterface::CommandLine ? "--series $1"
+      : interface == UserInterface::Python  ? "series_uid=\"$1\""
+                                            : "$&");
+  for (const Term& term : Terms)
+  {
+    const std::string_view method = NameIn(UserInterface::VTK, term);
+    const char* const name = NameIn(interface, term);
+    const std::string_view ours = name ? name : method;
+    for (std::size_t at = 0; (at = message.find(method, at)) != std::string::npos;
+         at += ours.size())
+    {
+      message.replace(at, method.size(), ours);
+    }
+  }
+  return message;
+}
+
 } // namespace
+
+std::string InTermsOf(UserInterface interface, const std::string& message)
+{
+  std::string resolved;
+  std::size_t end = 0;
+  for (std::size_t brace; (brace = message.find('{', end)) != std::string::npos;)
+  {
+    const std::size_t close = std::min(message.find('}', brace), message.size());
+    const auto mark = Resolved(interface, message.substr(brace + 1, close - brace - 1));
+    resolved += message.substr(end, brace - end) + mark.value_or("{");
+    end = mark ? close + 1 : brace + 1;
+  }
+  resolved += message.substr(end);
+  return interface == UserInterface::VTK ? resolved : WithoutMethods(interface, resolved);
+}
 
 bool MeshingParameter::IsNumber() const
 {
@@ -198,9 +309,17 @@ const MeshingParameter& FindParameter(std::string_view name)
 
 std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
 {
-  const std::string& given = interface == UserInterface::CommandLine ? parameter.Option
-    : interface == UserInterface::Slicer                             ? parameter.Slicer
-                                                                     : parameter.Python;
+  if (interface == UserInterface::SlicerCommand)
+  {
+    std::string name = NameIn(UserInterface::Slicer, parameter);
+    std::transform(name.begin(), name.end(), name.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return name;
+  }
+  using P = MeshingParameter;
+  static constexpr std::string P::*columns[] = { &P::Property, &P::Option, &P::Slicer, &P::Slicer,
+    &P::Python, &P::Panel }; // by UserInterface
+  const std::string& given = parameter.*columns[static_cast<int>(interface)];
   if (interface == UserInterface::Slicer && parameter.Dimension == 4)
   {
     return "";
@@ -215,8 +334,12 @@ std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
       return (parameter.IsOnByDefault() ? "no-" : "") + parameter.Name;
     case UserInterface::Slicer:
       return CamelCase(parameter.Name);
-    default:
+    case UserInterface::Python:
       return Joined(parameter.Name, '_');
+    case UserInterface::ParaView:
+      return Spaced(PropertyOf(parameter));
+    default:
+      return PropertyOf(parameter);
   }
 }
 
@@ -232,7 +355,7 @@ std::string PropertyOf(const MeshingParameter& parameter)
 
 std::string Describe(UserInterface interface, const MeshingParameter& parameter)
 {
-  std::string text = Resolve(interface, parameter.Help);
+  std::string text = InTermsOf(interface, parameter.Help);
   if (interface == UserInterface::CommandLine && parameter.IsOnByDefault())
   {
     text = "do not " + text + (parameter.Zero.empty() ? "" : "; " + parameter.Zero);
@@ -245,6 +368,42 @@ std::string Describe(UserInterface interface, const MeshingParameter& parameter)
   }
   text += separator == "; " ? ")" : "";
   return interface == UserInterface::CommandLine ? text : Capitalised(text) + '.';
+}
+
+std::string FaultOf(const MeshingParameter& parameter, double value, bool force)
+{
+  const ParameterRange& range = parameter.Range;
+  const bool mayBeZero =
+    parameter.IsOptional() || (range.Low == 0.0 && !range.LowIsOutside && !parameter.Zero.empty());
+  const bool isInside = std::isfinite(value) && value <= range.High &&
+    (range.LowIsOutside ? value > range.Low : value >= range.Low);
+  const bool isBeyond = !force && !BeyondLimit(parameter, value).empty();
+  if ((isInside && !isBeyond) || (mayBeZero && value == 0.0))
+  {
+    return "";
+  }
+  const std::string low =
+    NumberText(isBeyond ? parameter.ForceBelow.value_or(range.Low) : range.Low);
+  const std::string high =
+    NumberText(isBeyond ? parameter.ForceAbove.value_or(range.High) : range.High);
+  const bool isBounded = std::isfinite(range.High);
+  const bool isPositive = range.Low == 0.0 && (range.LowIsOutside || mayBeZero);
+  std::string must = isBounded ? "between " + low + " and " + high
+    : isPositive               ? "positive and finite"
+    : std::isfinite(range.Low) ? "at least " + low
+                               : "finite";
+  if (mayBeZero && !isBounded)
+  {
+    must += ", or 0 (" + parameter.Zero + ")";
+  }
+  if (isBeyond)
+  {
+    must += std::string(", because ") + (parameter.ForceBelow ? "below" : "above") + " it " +
+      parameter.ForceWhy + "; {force} goes " +
+      (parameter.ForceBelow ? "down to " + NumberText(range.Low)
+                            : "up to " + NumberText(range.High));
+  }
+  return "{" + parameter.Name + "} is " + NumberText(value) + "; it must be " + must + ".";
 }
 
 std::string BeyondLimit(const MeshingParameter& parameter, double value)
@@ -264,13 +423,6 @@ const char* TitleOf(ParameterGroup group)
 const char* DescriptionOf(ParameterGroup group)
 {
   return GroupTexts[static_cast<int>(group)].Description;
-}
-
-std::string NumberText(double value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 } // namespace voxplex

@@ -4,11 +4,11 @@
  * @file MeshingParameters.h
  * @brief The table of the parameters of meshing.
  *
- * The command line, the module for 3D Slicer, the Python package and Documentation/Parameters.md
- * are made from it.
+ * The command line, the modules for 3D Slicer, the Python package, the panels of the ParaView plugin and
+ * Documentation/Parameters.md are made from it. Messages name parameters by their names in the table, and
+ * InTermsOf() brings them to the terms of an interface.
  *
- * The VTK filters and the ParaView plugin declare their parameters again. Testing/Parameters
- * compares them with the table.
+ * The VTK filters declare their parameters again. Testing/Parameters compares them with the table.
  */
 #ifndef voxplex_MeshingParameters_h
 #define voxplex_MeshingParameters_h
@@ -103,6 +103,7 @@ struct MeshingParameter
   std::string Option{};
   std::string Slicer{};
   std::string Python{};
+  std::string Panel{}; ///< the label in ParaView, made from Property
   static constexpr const char* None = "-";
   ///@}
 
@@ -119,9 +120,12 @@ struct MeshingParameter
 /** The interfaces in which parameters have names. */
 enum class UserInterface
 {
-  CommandLine, ///< facet-angle, no-optimise
-  Slicer,      ///< facetAngle
-  Python       ///< facet_angle
+  VTK,           ///< FacetAngle
+  CommandLine,   ///< facet-angle, no-optimise
+  Slicer,        ///< facetAngle
+  SlicerCommand, ///< facetangle: a flag of the module's executable
+  Python,        ///< facet_angle
+  ParaView       ///< Facet Angle
 };
 
 /** All parameters by groups, in the order in which users see them. */
@@ -140,10 +144,24 @@ std::string LabelOf(const MeshingParameter& parameter);
 std::string PropertyOf(const MeshingParameter& parameter);
 
 /**
- * The help, and in parentheses notes about the values. Slicer shows defaults itself. For the
- * command line the text is not a sentence.
+ * The help, and in parentheses notes about the values. Slicer and ParaView show defaults themselves. For
+ * the command line the text is not a sentence.
  */
 std::string Describe(UserInterface interface, const MeshingParameter& parameter);
+
+/**
+ * A message as users of the interface read it. `{facet-angle}` becomes the parameter's name there,
+ * `{isovalue:TEXT}` becomes TEXT if they have the parameter, and nothing otherwise. Beside the parameters of
+ * the table, there are `isosurface` (what makes a filter mesh one) and `array` (what chooses the array of
+ * labels). Messages of readers, which name methods of VTK, get the names that the interface has for these.
+ */
+std::string InTermsOf(UserInterface interface, const std::string& message);
+
+/**
+ * "{radius-edge} is 1.5; it must be at least 1.93, because ..." for InTermsOf() if the value is out of range, or
+ * needs Force and `force` is off; otherwise empty. 0 stands for no value where a value may be absent.
+ */
+std::string FaultOf(const MeshingParameter& parameter, double value, bool force);
 
 /** "below 1.93" or "above 15" if the value needs Force; otherwise empty. */
 std::string BeyondLimit(const MeshingParameter& parameter, double value);
@@ -151,9 +169,6 @@ std::string BeyondLimit(const MeshingParameter& parameter, double value);
 const char* TitleOf(ParameterGroup group);
 /** A sentence. */
 const char* DescriptionOf(ParameterGroup group);
-
-/** As short as possible: "9", "0.3". */
-std::string NumberText(double value);
 
 /**
  * Values by the names of the parameters. The value of a word is its position, that of a flag 0 or

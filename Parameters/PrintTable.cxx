@@ -1,95 +1,85 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-/** @file PrintTable.cxx @brief Prints the parameters of meshing as JSON, for the scripts and tests beside it. */
+/**
+ * @file PrintTable.cxx
+ * @brief Prints the parameters of meshing, for what is made from them or compared with them: as JSON for scripts,
+ * or, if the argument is "setters", as lines for Applications/FilterParameters.cxx.
+ */
 #include "MeshingParameters.h"
 
-#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include <iostream>
-#include <sstream>
+#include <string_view>
 
 namespace
 {
 
 using namespace voxplex;
+using nlohmann::ordered_json;
 
-/** Quotes a text for JSON. The texts of the table have no control characters. */
-std::string Quoted(const std::string& text)
+constexpr const char* Kinds[] = { "flag", "real", "whole", "bytes", "word", "labels", "label-sizes",
+  "interface-sizes", "image", "times" };
+
+/** Infinity is null, as JSON has none. */
+ordered_json Range(const ParameterRange& range)
 {
-  std::string quoted = "\"";
-  for (const char c : text)
+  return { range.Low, range.High };
+}
+
+ordered_json Describe(const MeshingParameter& p)
+{
+  ordered_json row = { { "name", p.Name }, { "group", TitleOf(p.Group) },
+    { "kind", Kinds[static_cast<int>(p.Kind)] }, { "property", PropertyOf(p) },
+    { "default", p.Default }, { "unit", p.Unit }, { "dimension", p.Dimension },
+    { "words", p.Words }, { "range", Range(p.Range) },
+    { "usual", Range(p.Usual.value_or(p.Range)) }, { "low_is_outside", p.Range.LowIsOutside },
+    { "force", nullptr } };
+  if (const auto limit = p.ForceBelow ? p.ForceBelow : p.ForceAbove)
   {
-    quoted += (c == '"' || c == '\\') ? std::string{ '\\', c } : std::string{ c };
+    row["force"] = *limit;
   }
-  return quoted + '"';
-}
-
-const char* NameOf(ParameterKind kind)
-{
-  constexpr const char* names[] = { "flag", "real", "whole", "bytes", "word", "labels",
-    "label-sizes", "interface-sizes", "image", "times" };
-  return names[static_cast<int>(kind)];
-}
-
-std::string Limit(double value)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return std::isfinite(value) ? text.str() : "null";
-}
-
-std::string RangeText(const ParameterRange& range)
-{
-  return "[" + Limit(range.Low) + ", " + Limit(range.High) + "]";
-}
-
-std::string List(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : ", ") + Quoted(word);
-  }
-  return "[" + text + "]";
-}
-
-void Print(const MeshingParameter& p)
-{
-  const auto text = [](const char* key, const std::string& value)
-  { std::cout << ", \"" << key << "\": " << Quoted(value); };
-  std::cout << "  {\"name\": " << Quoted(p.Name);
-  text("group", TitleOf(p.Group));
-  text("kind", NameOf(p.Kind));
-  text("property", PropertyOf(p));
-  text("default", p.Default);
-  text("unit", p.Unit);
-  std::cout << ", \"dimension\": " << p.Dimension << ", \"words\": " << List(p.Words)
-            << ", \"range\": " << RangeText(p.Range)
-            << ", \"usual\": " << RangeText(p.Usual.value_or(p.Range))
-            << ", \"low_is_outside\": " << (p.Range.LowIsOutside ? "true" : "false")
-            << ", \"force\": " << Limit(p.ForceBelow.value_or(p.ForceAbove.value_or(NAN)));
-  const std::pair<const char*, UserInterface> interfaces[] = { { "option",
-                                                                 UserInterface::CommandLine },
-    { "slicer", UserInterface::Slicer }, { "python", UserInterface::Python } };
+  constexpr std::pair<const char*, UserInterface> interfaces[] = {
+    { "option", UserInterface::CommandLine }, { "slicer", UserInterface::Slicer },
+    { "python", UserInterface::Python }, { "panel", UserInterface::ParaView }
+  };
   for (const auto& [key, interface] : interfaces)
   {
     const std::string name = NameIn(interface, p);
-    text(key, name);
-    text((std::string(key) + "_help").c_str(), name.empty() ? "" : Describe(interface, p));
+    row[key] = name;
+    row[key + std::string("_help")] = name.empty() ? "" : Describe(interface, p);
   }
-  std::cout << '}';
+  row["message"] = InTermsOf(UserInterface::VTK, "{" + p.Name + "}");
+  return row;
+}
+
+/** The method of the class that has it. Lists have others. */
+void PrintSetter(const MeshingParameter& p)
+{
+  constexpr const char* classes[] = { "Filter", "", "", "Tets", "Pentatopes" };
+  if (p.Kind < ParameterKind::Labels)
+  {
+    std::cout << "{ \"" << p.Name << "\", To(&" << classes[p.Dimension] << "::Set" << PropertyOf(p)
+              << ") },\n";
+  }
 }
 
 } // namespace
 
-int main()
+int main(int argc, char* argv[])
 {
-  const char* separator = "[\n";
+  if (argc > 1 && argv[1] == std::string_view("setters"))
+  {
+    for (const MeshingParameter& parameter : MeshingParameters())
+    {
+      PrintSetter(parameter);
+    }
+    return 0;
+  }
+  ordered_json table;
   for (const MeshingParameter& parameter : MeshingParameters())
   {
-    std::cout << separator;
-    Print(parameter);
-    separator = ",\n";
+    table.push_back(Describe(parameter));
   }
-  std::cout << "\n]\n";
+  std::cout << table.dump(1) << '\n';
 }

@@ -71,7 +71,8 @@ Parameters GreyValues()
         .Step = 0.1,
         .Zero = "off",
         .Option = None,
-        .Python = None }),
+        .Python = None,
+        .Panel = "Isosurface Smoothing" }),
   };
 }
 
@@ -97,10 +98,16 @@ Parameters Sampling()
       { .Property = "ElementSize", .Label = "Largest element", .Zero = "no bound" }),
     List(Kind::LabelSizes, "label-size", "LABEL=LENGTH",
       "upper bound of the elements' circumradii in single labels",
-      { .Label = "Largest element of labels", .Slicer = "labelSizes", .Python = "label_sizes" }),
+      { .Label = "Largest element of labels",
+        .Slicer = "labelSizes",
+        .Python = "label_sizes",
+        .Panel = "Label Table" }),
     List(Kind::Image, "size-image", "FILE",
       "image whose values are upper bounds of the elements' circumradii, 0 where there is no bound",
-      { .Property = "ElementSizeData", .Label = "Image of sizes", .Slicer = None }),
+      { .Property = "ElementSizeData",
+        .Label = "Image of sizes",
+        .Slicer = None,
+        .Panel = "Size Image" }),
   };
 }
 
@@ -108,7 +115,7 @@ Parameters Labels()
 {
   return {
     List(Kind::Labels, "labels", "LIST", "mesh these labels only; the others become background",
-      { .Property = "Label" }),
+      { .Property = "Label", .Panel = "Label Table" }),
   };
 }
 
@@ -145,7 +152,10 @@ Parameters Interfaces()
     List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
       "sampling distance of all interfaces of a label, or of the interface between two labels (0 "
       "is background), in place of delta; it may be smaller or larger",
-      { .Label = "Interface sizes", .Slicer = "interfaceSizes", .Python = "interface_sizes" }),
+      { .Label = "Interface sizes",
+        .Slicer = "interfaceSizes",
+        .Python = "interface_sizes",
+        .Panel = "Interface Table" }),
     Number(Kind::Real, "feature-ratio", 0, Positive, "1", "RATIO",
       "with {grading} lfs: sampling distance over local feature size where that gives more than "
       "delta",
@@ -169,13 +179,18 @@ Parameters Quality()
         .Usual = ParameterRange{ 1.0, 10.0 },
         .Step = 0.1,
         .ForceBelow = 1.93,
-        .ForceWhy = "meshes can become very large" }),
+        .ForceWhy = "meshes can become very large",
+        .Panel = "Radius-Edge Ratio" }),
     Number(Kind::Real, "facet-angle", 3, { 0.0, 30.0 }, "30", "DEGREES",
       "lower bound of the angles of triangles on the interfaces, in degrees", { .Step = 1.0 }),
     Number(Kind::Real, "smoothing", 0, Sigmas, "1", "VOXELS",
       "standard deviation of the smoothing of voxel stairs, in voxels; every voxel centre keeps "
       "its label",
-      { .Property = "SmoothingSigma", .Step = 0.1, .Zero = "off", .StandsFor = "grey-smoothing" }),
+      { .Property = "SmoothingSigma",
+        .Step = 0.1,
+        .Zero = "off",
+        .StandsFor = "grey-smoothing",
+        .Panel = "Smoothing" }),
     Number(Kind::Real, "sliver-angle", 3, { 0.0, 59.0 }, "9", "DEGREES",
       "a tetrahedron with a dihedral angle below this, or above 180 degrees minus this, is a "
       "sliver and is split; most slivers above 1 degree are left to optimisation",
@@ -211,7 +226,7 @@ Parameters SpaceTime()
     Number(Kind::Times, "frame-times", 4, {}, "", "LIST",
       "the times of the frames, in place of those of the image; they increase, and need not be "
       "equally spaced",
-      { .Property = "FrameTime", .Python = None }),
+      { .Property = "FrameTime", .Python = None, .Panel = "Times of Frames" }),
     Number(Kind::Whole, "frame-steps", 4, { 0.0, 8.0 }, "0", "NUMBER",
       "steps between two frames; labels are interpolated between them, so that fast motion is "
       "followed (1: no frames are added)",
@@ -231,7 +246,8 @@ Parameters SpaceTime()
       { .Property = "PickingRegions",
         .Label = "Fight slivers",
         .Zero = "faster, with flat elements",
-        .Python = "pick_slivers" }),
+        .Python = "pick_slivers",
+        .Panel = "Fight Slivers" }),
     Number(Kind::Whole, "picks", 4, { 1.0, LargestWhole }, "10", "NUMBER",
       "random points to try in a picking region",
       { .Property = "NumberOfPicks", .Label = "Number of picks", .Python = None }),
@@ -244,7 +260,7 @@ Parameters SpaceTime()
     Number(Kind::Whole, "seed", 4, { 0.0, LargestWhole }, "0", "NUMBER",
       "seed of the random points", { .Property = "RandomSeed", .Label = "Random seed" }),
     Flag("fine-grained", 4, "on", "let waiting threads help others to expand cavities",
-      { .Label = "Fine-grained", .Python = None }),
+      { .Label = "Fine-grained", .Python = None, .Panel = "Fine-Grained Help" }),
   };
 }
 
@@ -255,7 +271,7 @@ Parameters Running()
       "threads to use in every stage, refinement included; with 1, or with reproducible, the mesh "
       "is "
       "the same, bit for bit, in every run",
-      { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores" }),
+      { .Property = "NumberOfThreads", .Step = 1.0, .Zero = "all cores", .Panel = "Threads" }),
     Flag("reproducible", 0, "off", "make the same mesh, bit for bit, with any number of threads",
       { .Property = "Reproducible", .Label = "Reproducible" }),
     Word("contention", 0, "local", { "aggressive", "random", "global", "local" },
@@ -275,7 +291,8 @@ Parameters Running()
       "keep each thread on a core of its own; not while other programs use the cores",
       { .Property = "PinThreads", .Label = "Pin threads", .Slicer = None, .Python = None }),
     Number(Kind::Bytes, "memory-limit", 0, { 1.0, 1e18 }, "", "BYTES",
-      "refuse meshes estimated to need more", { .Zero = "the machine's memory", .Slicer = None }),
+      "refuse meshes estimated to need more",
+      { .Zero = "the machine's memory", .Slicer = None, .Panel = None }),
     Flag("force", 0, "off",
       "continue although the mesh is estimated not to fit into memory, the labels look like grey "
       "values, or the value of another parameter needs it"),

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
+#include "MeshingParameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,15 @@ void CheckRange(double value, double low, double high, const char* name, const c
   }
 }
 
+void CheckValue(const char* name, double value, bool force)
+{
+  const std::string fault = FaultOf(FindParameter(name), value, force);
+  if (!fault.empty())
+  {
+    throw InputError(fault);
+  }
+}
+
 std::string ListLabels(std::span<const std::int64_t> labels)
 {
   return ListSome(labels, [](std::int64_t label) { return std::to_string(label); });
@@ -127,13 +137,13 @@ std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures
   const MeshingStatistics& run = figures.Run;
   if (run.SizesRaisedTo > 0.0)
   {
-    warnings.push_back("Some element sizes are below a tenth of Delta and were raised to " +
-      NumberText(run.SizesRaisedTo) + "; use a smaller Delta for smaller elements.");
+    warnings.push_back("Some element sizes are below a tenth of {delta} and were raised to " +
+      NumberText(run.SizesRaisedTo) + "; use a smaller {delta} for smaller elements.");
   }
   if (!figures.LostLabels.empty())
   {
     warnings.push_back(
-      "The mesh lacks these labels of the image, which are too small for a Delta of " +
+      "The mesh lacks these labels of the image, which are too small for a {delta} of " +
       NumberText(run.Delta) + ": " + ListLabels(figures.LostLabels) + ".");
   }
   if (!figures.ShrunkLabels.empty())
@@ -144,11 +154,11 @@ std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures
         std::to_string(std::lround(100.0 * label.Fraction)) + " %)";
     };
     warnings.push_back("The mesh has less than half of the volume of these labels, which are "
-                       "thin for a Delta of " +
+                       "thin for a {delta} of " +
       NumberText(run.Delta) + ": " +
       ListSome(std::span<const ShrunkLabel>(figures.ShrunkLabels), describe) +
-      (exactComponents ? ". A smaller Delta keeps them."
-                       : ". ExactComponents or a smaller Delta keeps them."));
+      (exactComponents ? ". A smaller {delta} keeps them."
+                       : ". {exact-components} or a smaller {delta} keeps them."));
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {
@@ -172,30 +182,30 @@ std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures
       "Tetrahedra of these connected components of the image are in several pieces "
       "that no common faces connect: " +
       ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
-      (exactComponents ? ". A smaller Delta, or an image with smaller voxels, may connect them."
-                       : ". ExactComponents or a smaller Delta connects them."));
+      (exactComponents ? ". A smaller {delta}, or an image with smaller voxels, may connect them."
+                       : ". {exact-components} or a smaller {delta} connects them."));
   }
   warnOfLost(run.FrameComponents, "frames of the image");
   if (!run.Yielding.empty())
   {
     warnings.push_back("In " + Describe(run.Yielding) +
       " refinement took many times the work that it should need, and stopped improving shapes "
-      "there: elements and interface triangles may be out of bounds. A smaller Delta, or more "
-      "smoothing of the labels, helps where the image is rougher than Delta.");
+      "there: elements and interface triangles may be out of bounds. A smaller {delta}, or more "
+      "smoothing of the labels, helps where the image is rougher than {delta}.");
   }
   if (run.Planes.Refused > 0)
   {
     warnings.push_back(
       "Slabs asked each other for points on their time planes again and again, until the planes "
       "took none any more; slabs match, but elements beside planes may be out of bounds. "
-      "Thicker slabs or a smaller Delta help.");
+      "Thicker slabs or a smaller {delta} help.");
   }
   if (run.SwitchedToLocal)
   {
     warnings.push_back("The threads made no progress with the contention manager '" +
       contentionManager +
-      "', which cannot exclude a livelock, and the local one took over; use "
-      "SetContentionManagerToLocal().");
+      "', which cannot exclude a livelock, and the local one took over; set "
+      "{contention} to local.");
   }
   return warnings;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingMessages.h
- * @brief What the meshing filters refuse, and what they warn of.
+ * @brief What the meshing filters refuse, and what they warn of, for InTermsOf() (MeshingParameters.h).
  */
 #ifndef voxplex_MeshingMessages_h
 #define voxplex_MeshingMessages_h
@@ -19,6 +19,13 @@ namespace voxplex
 
 /** Throws InputError unless low <= value <= high; `must` says what it must be. */
 void CheckRange(double value, double low, double high, const char* name, const char* must);
+
+/**
+ * Throws InputError if the value is not in the range that the table of parameters has.
+ * @param name in the table
+ * @param force whether limits that Force lifts are lifted
+ */
+void CheckValue(const char* name, double value, bool force = false);
 
 /** At most 20 labels, separated by commas. */
 std::string ListLabels(std::span<const std::int64_t> labels);

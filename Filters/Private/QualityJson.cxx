@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/QualityJson.h"
 
+#include "Private/QualityTables.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -15,41 +16,6 @@ namespace voxplex
 {
 namespace
 {
-
-/** What there is to say of a label, from wherever. */
-struct LabelFigures
-{
-  LabelComparison Comparison;
-  LabelTopology Topology;
-  std::uint64_t Fragments = 0;
-};
-
-std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measurement)
-{
-  std::map<std::int64_t, LabelFigures> labels;
-  for (const LabelMeasure& measure : measurement.Quality.Labels)
-  {
-    LabelComparison& comparison = labels[measure.Label].Comparison;
-    comparison.Elements = measure.Elements;
-    comparison.Volume = measure.Volume;
-  }
-  for (const LabelTopology& topology : measurement.Topology.Labels)
-  {
-    labels[topology.Label].Topology = topology;
-  }
-  for (const auto& [label, number] : measurement.Fragments)
-  {
-    labels[label].Fragments = number;
-  }
-  if (measurement.Image)
-  {
-    for (const LabelComparison& comparison : measurement.Image->Labels)
-    {
-      labels[comparison.Label].Comparison = comparison;
-    }
-  }
-  return labels;
-}
 
 ordered_json LabelsToJson(const MeshMeasurement& measurement)
 {

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <vector>
 
 namespace voxplex
@@ -61,14 +60,32 @@ void AddBins(vtkTable* table, const char* name, const std::array<std::uint64_t, 
   AddColumn<vtkTypeInt64Array>(table, name, bins, [](std::uint64_t count) { return count; });
 }
 
-/** All that there is to say of a label. */
-struct LabelRow
-{
-  LabelComparison Comparison;
-  LabelTopology Topology;
-};
-
 } // namespace
+
+std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measurement)
+{
+  std::map<std::int64_t, LabelFigures> labels;
+  for (const LabelMeasure& measure : measurement.Quality.Labels)
+  {
+    labels[measure.Label].Comparison = { measure.Label, 0, 0.0, measure.Elements, measure.Volume };
+  }
+  for (const LabelTopology& topology : measurement.Topology.Labels)
+  {
+    labels[topology.Label].Topology = topology;
+  }
+  for (const auto& [label, number] : measurement.Fragments)
+  {
+    labels[label].Fragments = number;
+  }
+  if (measurement.Image)
+  {
+    for (const LabelComparison& comparison : measurement.Image->Labels)
+    {
+      labels[comparison.Label].Comparison = comparison;
+    }
+  }
+  return labels;
+}
 
 void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellData* cells)
 {
@@ -95,22 +112,7 @@ void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellDat
 
 void FillLabelTable(const MeshMeasurement& measurement, vtkTable* table)
 {
-  std::map<std::int64_t, LabelRow> rows;
-  for (const LabelMeasure& measure : measurement.Quality.Labels)
-  {
-    rows[measure.Label].Comparison = { measure.Label, 0, 0.0, measure.Elements, measure.Volume };
-  }
-  for (const LabelTopology& topology : measurement.Topology.Labels)
-  {
-    rows[topology.Label].Topology = topology;
-  }
-  if (measurement.Image)
-  {
-    for (const LabelComparison& comparison : measurement.Image->Labels)
-    {
-      rows[comparison.Label].Comparison = comparison;
-    }
-  }
+  const std::map<std::int64_t, LabelFigures> rows = CollectLabels(measurement);
   const auto count = [&](const char* name, auto&& valueOf)
   {
     AddColumn<vtkTypeInt64Array>(
@@ -121,19 +123,19 @@ void FillLabelTable(const MeshMeasurement& measurement, vtkTable* table)
     AddColumn<vtkDoubleArray>(
       table, name, rows, [&](const auto& row) { return valueOf(row.second); });
   };
-  count("Label", [](const LabelRow& row) { return row.Comparison.Label; });
-  count("Elements", [](const LabelRow& row) { return row.Comparison.Elements; });
-  number("Volume", [](const LabelRow& row) { return row.Comparison.Volume; });
-  count("BoundaryEdges", [](const LabelRow& row) { return row.Topology.BoundaryEdges; });
-  count("NonManifoldEdges", [](const LabelRow& row) { return row.Topology.NonManifoldEdges; });
+  count("Label", [](const LabelFigures& row) { return row.Comparison.Label; });
+  count("Elements", [](const LabelFigures& row) { return row.Comparison.Elements; });
+  number("Volume", [](const LabelFigures& row) { return row.Comparison.Volume; });
+  count("BoundaryEdges", [](const LabelFigures& row) { return row.Topology.BoundaryEdges; });
+  count("NonManifoldEdges", [](const LabelFigures& row) { return row.Topology.NonManifoldEdges; });
   count("NonManifoldEdgesAtJunctions",
-    [](const LabelRow& row) { return row.Topology.NonManifoldEdgesAtJunctions; });
+    [](const LabelFigures& row) { return row.Topology.NonManifoldEdgesAtJunctions; });
   if (measurement.Image)
   {
-    count("Voxels", [](const LabelRow& row) { return row.Comparison.Voxels; });
-    number("ImageVolume", [](const LabelRow& row) { return row.Comparison.ImageVolume; });
+    count("Voxels", [](const LabelFigures& row) { return row.Comparison.Voxels; });
+    number("ImageVolume", [](const LabelFigures& row) { return row.Comparison.ImageVolume; });
     number("VolumeError",
-      [](const LabelRow& row)
+      [](const LabelFigures& row)
       {
         const LabelComparison& label = row.Comparison;
         return (label.Volume - label.ImageVolume) / label.ImageVolume;

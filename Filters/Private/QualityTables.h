@@ -11,11 +11,25 @@
 #include "Private/SpaceTimeQuality.h"
 #include "Quality/MeshMeasurement.h"
 
+#include <cstdint>
+#include <map>
+
 class vtkCellData;
 class vtkTable;
 
 namespace voxplex
 {
+
+/** All that there is to say of a label. */
+struct LabelFigures
+{
+  LabelComparison Comparison;
+  LabelTopology Topology;
+  std::uint64_t Fragments = 0;
+};
+
+/** By the value of the label. */
+std::map<std::int64_t, LabelFigures> CollectLabels(const MeshMeasurement& measurement);
 
 /** Adds the arrays MinimumDihedralAngle, MaximumDihedralAngle, RadiusEdgeRatio and Volume. */
 void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellData* cells);

@@ -130,7 +130,7 @@ public:
     const voxplex::LabelSelection selection = this->SelectedLabels();
     if (!selection.Only.empty() || !selection.But.empty())
     {
-      throw voxplex::InputError("AddLabel() and ExcludeLabel() choose among the labels of a label "
+      throw voxplex::InputError("{labels} and ExcludeLabel() choose among the labels of a label "
                                 "image, but InputMode is isosurface; remove the labels.");
     }
     return { filter->Isovalue, static_cast<voxplex::IsosurfaceSide>(filter->Inside),
@@ -194,7 +194,7 @@ public:
     if (mesh.Simplices.empty())
     {
       throw voxplex::InputError(
-        "The mesh is empty, because every label is too small for a Delta of " +
+        "The mesh is empty, because every label is too small for a {delta} of " +
         voxplex::NumberText(figures.Run.Delta) + "; use a smaller one.");
     }
     if constexpr (D == 3)
@@ -232,7 +232,7 @@ private:
     {
       sized.push_back(label);
     }
-    voxplex::CheckSizedLabels(sized, "SetLabelSize()", selected, labels);
+    voxplex::CheckSizedLabels(sized, "{label-size}", selected, labels);
     sized.clear();
     for (const auto& [interface, size] : filter.InterfaceSizes)
     {
@@ -244,7 +244,7 @@ private:
         }
       }
     }
-    voxplex::CheckSizedLabels(sized, "SetInterfaceSize()", selected, labels);
+    voxplex::CheckSizedLabels(sized, "{interface-size}", selected, labels);
   }
 
   /** The fraction of the progress at the kernel's end; the rest is the copy into VTK data. */

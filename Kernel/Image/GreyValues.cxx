@@ -97,8 +97,10 @@ void CheckSegmented(const LabelImage<D>& image, unsigned threads, const std::sto
     throw InputError("The image's " + std::to_string(labels) + " labels look like grey values: " +
       std::to_string(std::lround(100.0 * pairs.ShareOfDifferent())) +
       " % of neighbouring voxels have different ones, so it is most likely a grey-value image. "
-      "Segment it first, or choose the array that holds the segmentation, or choose the labels to "
-      "mesh, or mesh an isosurface of it, or force it.");
+      "Segment it first{array:, or choose the array that holds the segmentation}, or choose the "
+      "labels "
+      "to mesh with {labels}, or mesh an isosurface of it with {isosurface}, or go on with "
+      "{force}.");
   }
 }
 

@@ -149,7 +149,7 @@ std::pair<const char*, const char*> Diagnose(T value)
   }
   const bool isNegative = std::is_signed_v<T> && !(value > T(0));
   return { isNegative ? "is negative" : "exceeds the largest label, 9223372036854775807",
-    "choose the labels to mesh, or set such voxels to 0" };
+    "choose the labels to mesh with {labels}, or set such voxels to 0" };
 }
 
 template <typename T, int D>
@@ -161,7 +161,8 @@ template <typename T, int D>
   s << "The value " << +value << " at index (" << Format(IndexAt(voxel, grid.Dimensions)) << ") "
     << wrong
     << "; labels are whole numbers from 0 (background). If these are grey values, as those of a "
-       "CT, segment the image first, or mesh an isosurface of it. If it is a segmentation, "
+       "CT, segment the image first, or mesh an isosurface of it with {isosurface}. If it is a "
+       "segmentation, "
     << remedy << ".";
   throw InputError(s.str());
 }
@@ -170,8 +171,9 @@ template <typename T, int D>
 {
   throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
     " distinct labels, which is more than a mesh can have; it is most likely a grey-value image. "
-    "Segment it first, or mesh an isosurface of it, or choose the array that holds the "
-    "segmentation, or choose the labels to mesh.");
+    "Segment it first, or mesh an isosurface of it with {isosurface}{array:, or choose the array "
+    "that "
+    "holds the segmentation}, or choose the labels to mesh with {labels}.");
 }
 
 /** A LabelSelection that can be asked quickly. */
@@ -229,7 +231,7 @@ void CheckSelected(const std::vector<std::int64_t>& selected,
     if (value == 0)
     {
       throw InputError("Label 0 was " + was +
-        ", but 0 is background, which is never meshed; remove it from the labels " + purpose + ".");
+        ", but 0 is background, which is never meshed; remove it from " + purpose + ".");
     }
     if (!std::binary_search(occurring.begin(), occurring.end(), value))
     {
@@ -237,7 +239,7 @@ void CheckSelected(const std::vector<std::int64_t>& selected,
         occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
       throw InputError("Label " + std::to_string(value) + " was " + was +
         ", but does not occur in the image; its labels are " + Format(shown) +
-        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct the labels " + purpose + ".");
+        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct " + purpose + ".");
     }
   }
 }
@@ -490,8 +492,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
       image.LabelCounts.push_back(count);
     }
   }
-  CheckSelected(choice.Only, occurring, "asked for", "to keep");
-  CheckSelected(choice.But, occurring, "excluded", "to exclude");
+  CheckSelected(choice.Only, occurring, "asked for", "{labels}, the labels to keep");
+  CheckSelected(choice.But, occurring, "excluded", "the labels to exclude");
   if (image.LabelValues.size() == 1)
   {
     if (!occurring.empty())
@@ -499,7 +501,7 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
       throw InputError("All labels of the image are excluded; correct the labels to exclude.");
     }
     throw InputError("The image has no foreground: all " + std::to_string(scalars.size()) +
-      " voxels are 0. Choose the array that holds the segmentation.");
+      " voxels are 0.{array: Choose the array that holds the segmentation.}");
   }
 
   // Second pass: writes the dense ids of the bounding box.

@@ -243,7 +243,7 @@ void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
     throw TooLargeError("the mesh is estimated to have " +
       NumberText(static_cast<double>(estimate.Elements), 3) + " elements and to need " +
       InUnits(bytes) + " of memory; " + InUnits(available) +
-      " are available; choose a larger delta or element size, or force it");
+      " are available; choose a larger delta or element size, or go on with {force}");
   }
 }
 

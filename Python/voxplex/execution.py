@@ -25,6 +25,8 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_STRING
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
+from .errors import MeshingCancelled, MeshingError
+
 Progress = Callable[[float], object]
 """Called with the fraction done, 0 to 1. False, or another value that is false except None, cancels."""
 
@@ -82,6 +84,15 @@ class Execution:
             previous(*self._interruption)
         if self._failure is not None:
             raise self._failure
+
+    def check(self, doing: str) -> None:
+        """After run(). Raises MeshingCancelled, or MeshingError with the reason that the filter gives."""
+        filter_: Any = self.algorithm
+        if filter_.GetAborted() or self.cancelled:
+            raise MeshingCancelled(f"{doing} was cancelled")
+        message = filter_.GetErrorMessage() or "\n".join(self.errors)
+        if message:
+            raise MeshingError(message)
 
     def _observe(self, subject: Any, event: str, kind: Any, act: Callable[[Any], object],
                  convert: Callable[[Any], Any] = lambda data: data) -> None:

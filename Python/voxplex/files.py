@@ -11,7 +11,6 @@ from __future__ import annotations
 import errno
 import math
 import os
-import re
 import warnings
 from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
 
@@ -24,6 +23,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from .errors import FileError, MeshingWarning
 from .execution import Execution
 from .images import _numbers
+from .vtkVoxplex import vtkImageToSimplexMeshFilter
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -36,12 +36,6 @@ except ModuleNotFoundError:
     HAVE_IO = False
 
 Path = Union[str, "os.PathLike[str]"]
-
-# The reader's messages speak of its methods.
-_TERMS = {"SetSeriesUID()": "series_uid", "SetSpacing()": "spacing=", "SetOrigin()": "origin=",
-          "SetDirection()": "direction=", "SetDataFilesAnywhere()": "read_segmentation(..., data_files_anywhere=True)",
-          "SetTimeScale()": "time_scale="}
-_SERIES = re.compile(r'SetSeriesUID\(("[^"]*")\)')
 
 
 def read_segmentation(path: Path, *, frame: Optional[int] = None, space: Literal["LPS", "RAS"] = "LPS",
@@ -190,10 +184,8 @@ def _execute(reader: vtkAlgorithm, update: Any) -> None:
 
 
 def _in_terms_of_arguments(message: str) -> str:
-    message = _SERIES.sub(r"series_uid=\1", message)
-    for theirs, ours in _TERMS.items():
-        message = message.replace(theirs, ours)
-    return message
+    filters = vtkImageToSimplexMeshFilter
+    return str(filters.InTermsOf(filters.VOCABULARY_PYTHON, message))
 
 
 def _issue(texts: List[str]) -> None:

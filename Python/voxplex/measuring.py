@@ -13,14 +13,12 @@ from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import VTK_POLY_VERTEX, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from .errors import FileError, MeshingCancelled, MeshingError
+from .errors import FileError
 from .execution import Execution, Progress
-from .names import label_value
+from .files import Path
+from .names import Label, label_value
 from .sources import Image, Source
 from .vtkVoxplex import vtkSimplexMeshQuality
-
-Label = Union[int, str]
-Path = Union[str, "os.PathLike[str]"]
 
 
 def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = None, *,
@@ -115,11 +113,7 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
             getattr(measurer, "Set" + name)(value)
     execution = Execution(measurer, progress)
     execution.run(measurer.Update)
-    if measurer.GetAborted() or execution.cancelled:
-        raise MeshingCancelled("measuring was cancelled")
-    message = measurer.GetErrorMessage() or "\n".join(execution.errors)
-    if message:
-        raise MeshingError(message)
+    execution.check("measuring")
     figures: Dict[str, Any] = json.loads(measurer.ToJSON())
     return figures
 

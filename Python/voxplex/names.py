@@ -14,6 +14,9 @@ from typing import Dict, List, Mapping, Union
 from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkIntArray, vtkLongLongArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
+Label = Union[int, str]
+"""A label's value, or its name where the image carries names."""
+
 _VALUES = "LabelValues"
 _NAMES = "LabelNames"
 _COLORS = "LabelColors"
@@ -64,7 +67,7 @@ def set_label_names(data: vtkDataObject, names: Mapping[int, str]) -> None:
     fields.AddArray(strings)
 
 
-def label_value(label: Union[int, str], names: Mapping[int, str]) -> int:
+def label_value(label: Label, names: Mapping[int, str]) -> int:
     """The value of a label that is given by its value or its name.
 
     Raises ValueError for a name that none or several labels have, and for a number that is not whole.

@@ -13,12 +13,11 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from .files import segmentation_reader
+from .files import Path, segmentation_reader
 from .frames import FrameSource, frame_times
 from .images import image_from_array, images_from_array
 from .names import label_names
 
-Path = Union[str, "os.PathLike[str]"]
 Image = Union[vtkImageData, vtkAlgorithm, NDArray[Any], Path, Sequence[vtkImageData]]
 SizeImage = Union[vtkImageData, NDArray[Any]]
 

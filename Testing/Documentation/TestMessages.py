@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Looks for the messages of Documentation/Troubleshooting.md in the sources: TestMessages.py SOURCE_FOLDER
+"""Looks for the messages of Documentation/Troubleshooting.md in the sources: TestMessages.py SOURCE_FOLDER PROGRAM
+
+PROGRAM prints the table of parameters, whose names stand in braces in the sources and as those of VTK on the page.
 
 Messages are in backticks in the first column of the tables. An ellipsis stands for what the program fills in.
 """
 
+import json
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -32,8 +36,10 @@ def messages(page):
         yield from re.findall(r"`([^`]+)`", row)
 
 
-def main(root):
+def main(root, program):
     corpus = "\n".join(texts(root))
+    for parameter in json.loads(subprocess.run([program], check=True, capture_output=True, text=True).stdout):
+        corpus = corpus.replace("{%s}" % parameter["name"], parameter["message"])
     found = list(messages(root / "Documentation" / "Troubleshooting.md"))
     missing = [f"{message!r}: no source has {part.strip()!r}" for message in found for part in message.split("…")
                if part.strip() and part.strip() not in corpus]
@@ -44,4 +50,4 @@ def main(root):
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), sys.argv[2]))

@@ -3,7 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is written again elsewhere, against the table: ParaView's properties, the setters of the programs, the
 documentation."""
+import os
 import re
+import subprocess
 import sys
 import unittest
 from xml.etree import ElementTree
@@ -14,18 +16,16 @@ from table import BY_PROPERTY, SOURCE, TABLE, default_of
 
 sys.path.append(str(SOURCE / "Parameters"))
 from write_documentation import page  # noqa: E402
+from write_paraview import write  # noqa: E402
 
 XML = SOURCE / "Plugins" / "ParaView" / "XML"
 # Of ParaView itself, or about its input.
-OF_PARAVIEW = {"DeltaIsSuggestion", "InputMode", "InterfaceTable", "LabelTable"}
+OF_PARAVIEW = {"DeltaIsSuggestion", "InputMode", "InterfaceTable", "LabelTable", "Vocabulary"}
 
 
 def properties(name):
-    """The properties of a proxy with numbers, by name; those that both proxies have are files of their own."""
-    text = (XML / f"{name}.xml.in").read_text()
-    for part in re.findall(r"@VOXPLEX_(\w+)@", text):
-        text = text.replace(f"@VOXPLEX_{part}@", (XML / "Common" / f"{part}.xml.in").read_text())
-    root = ElementTree.fromstring(text)
+    """The properties of a proxy with numbers, by name."""
+    root = ElementTree.fromstring(write(TABLE, XML / f"{name}.xml.in", XML / "Properties.xml.in"))
     return {p.get("name"): p for kind in ("Int", "Double") for p in root.iter(kind + "VectorProperty")
             if p.get("command", "").startswith("Set") and p.get("name") not in OF_PARAVIEW}
 
@@ -75,9 +75,9 @@ class ParaView(unittest.TestCase):
 
 class Setters(unittest.TestCase):
     def test_every_parameter_reaches_its_property(self):
-        """By the text of the source: C++ cannot find a method by its name."""
+        """The compiler finds out whether the filter has the method."""
         dimensions = {"Filter": 0, "Tets": 3, "Pentatopes": 4}
-        text = (SOURCE / "Applications" / "FilterParameters.cxx").read_text()
+        text = subprocess.run([os.environ["VOXPLEX_PARAMETERS"], "setters"], check=True, capture_output=True, text=True).stdout
         found = re.findall(r'\{ "([\w-]+)", To\(&(\w+)::Set(\w+)\) \}', text)
         self.assertEqual({name: (prop, dimensions[kind]) for name, kind, prop in found},
                          {p["name"]: (p["property"], p["dimension"]) for p in BY_PROPERTY.values()})

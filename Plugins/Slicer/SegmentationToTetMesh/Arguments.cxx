@@ -7,12 +7,11 @@
 #include "OptionValues.h"
 #include "Parameters.h"
 
-#include <vtkImageToTetMeshFilter.h>
-
 #include <boost/program_options.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -28,21 +27,12 @@ using cli::UsageError;
 /** Collects the arguments without flags. */
 constexpr const char* Places = "places";
 
-const char* ValueName(Kind kind)
+const char* ValueName(const Parameter& parameter)
 {
-  switch (kind)
-  {
-    case Kind::Image:
-    case Kind::Geometry:
-    case Kind::Table:
-      return "FILE";
-    case Kind::Double:
-      return "NUMBER";
-    case Kind::Integer:
-      return "WHOLE";
-    default:
-      return "TEXT";
-  }
+  return !parameter.NodeType.empty() ? "FILE"
+    : parameter.Type == "double"     ? "NUMBER"
+    : parameter.Type == "integer"    ? "WHOLE"
+                                     : "TEXT";
 }
 
 /** The value of a flag may be empty: applications give empty lists so. */
@@ -58,7 +48,7 @@ void AddOption(po::options_description& options, const Parameter& parameter)
   {
     text += (i == 0 ? " One of: " : ", ") + parameter.Elements[i];
   }
-  if (parameter.Type == Kind::Boolean)
+  if (parameter.IsFlag())
   {
     options.add_options()(names.c_str(), text.c_str());
     return;
@@ -68,7 +58,7 @@ void AddOption(po::options_description& options, const Parameter& parameter)
     text += " (default " + parameter.Default + ")";
   }
   options.add_options()(
-    names.c_str(), po::value<std::string>()->value_name(ValueName(parameter.Type)), text.c_str());
+    names.c_str(), po::value<std::string>()->value_name(ValueName(parameter)), text.c_str());
 }
 
 po::options_description StandardOptions()
@@ -113,16 +103,8 @@ po::options_description DeclareOptions()
 std::vector<const Parameter*> PlacedParameters()
 {
   std::vector<const Parameter*> placed;
-  for (const ParameterGroup& group : ParameterGroups())
-  {
-    for (const Parameter& parameter : group.Parameters)
-    {
-      if (parameter.Index >= 0)
-      {
-        placed.push_back(&parameter);
-      }
-    }
-  }
+  std::copy_if(AllParameters().begin(), AllParameters().end(), std::back_inserter(placed),
+    [](const Parameter* parameter) { return parameter->Index >= 0; });
   std::sort(placed.begin(), placed.end(),
     [](const Parameter* a, const Parameter* b) { return a->Index < b->Index; });
   return placed;
@@ -152,33 +134,18 @@ po::variables_map Parse(int argc, const char* const* argv)
   return values;
 }
 
-std::map<std::string, std::string> Defaults()
+/** Those with flags, given or default. */
+std::map<std::string, std::string> ValuesOf(const po::variables_map& given)
 {
   std::map<std::string, std::string> values;
-  for (const ParameterGroup& group : ParameterGroups())
+  for (const Parameter* parameter : AllParameters())
   {
-    for (const Parameter& parameter : group.Parameters)
-    {
-      values[parameter.Name] = parameter.Default;
-    }
+    const bool isGiven = !parameter->LongFlag.empty() && given.count(parameter->LongFlag);
+    values[parameter->Name] = !isGiven ? parameter->Default
+      : parameter->IsFlag()            ? "true"
+                                       : given[parameter->LongFlag].as<std::string>();
   }
   return values;
-}
-
-/** Takes over those with flags. */
-void TakeFlags(const po::variables_map& given, std::map<std::string, std::string>& values)
-{
-  for (const ParameterGroup& group : ParameterGroups())
-  {
-    for (const Parameter& parameter : group.Parameters)
-    {
-      if (!parameter.LongFlag.empty() && given.count(parameter.LongFlag))
-      {
-        values[parameter.Name] =
-          parameter.Type == Kind::Boolean ? "true" : given[parameter.LongFlag].as<std::string>();
-      }
-    }
-  }
 }
 
 void TakePlaces(const po::variables_map& given, std::map<std::string, std::string>& values)
@@ -246,22 +213,6 @@ std::int64_t LabelNumber(const std::string& option, const std::string& text)
   return *number;
 }
 
-/** The parameter of a name, and how the user calls it. */
-const Parameter& Find(const std::string& name)
-{
-  for (const ParameterGroup& group : ParameterGroups())
-  {
-    for (const Parameter& parameter : group.Parameters)
-    {
-      if (parameter.Name == name)
-      {
-        return parameter;
-      }
-    }
-  }
-  throw std::logic_error("there is no parameter '" + name + "'");
-}
-
 /** What applications may give: within their slider, or 0 where no value need be given. */
 ParameterRange RangeOf(const Parameter& parameter)
 {
@@ -290,7 +241,6 @@ void Take(const Parameter& parameter, const std::string& text, ParameterValues& 
 } // namespace
 
 Arguments::Arguments(int argc, const char* const* argv)
-  : Values(Defaults())
 {
   const po::variables_map given = Parse(argc, argv);
   this->Wanted = RequestOf(given);
@@ -298,7 +248,7 @@ Arguments::Arguments(int argc, const char* const* argv)
   {
     return;
   }
-  TakeFlags(given, this->Values);
+  this->Values = ValuesOf(given);
   TakePlaces(given, this->Values);
   this->Echo = given.count("echo") > 0;
   if (given.count("returnparameterfile"))
@@ -315,23 +265,18 @@ Arguments::Arguments(int argc, const char* const* argv)
 /** Each value as its kind, so that mistakes are known before any work. */
 void Arguments::Check() const
 {
-  for (const ParameterGroup& group : ParameterGroups())
+  for (const Parameter* parameter : AllParameters())
   {
-    for (const Parameter& parameter : group.Parameters)
+    const auto& elements = parameter->Elements;
+    const std::string& text = this->Text(parameter->Name);
+    if (!elements.empty() && std::find(elements.begin(), elements.end(), text) == elements.end())
     {
-      const auto& elements = parameter.Elements;
-      const std::string& text = this->Text(parameter.Name);
-      if (!elements.empty() && std::find(elements.begin(), elements.end(), text) == elements.end())
-      {
-        throw UsageError("--" + parameter.LongFlag + ": " + cli::Quoted(text) + " is not one of " +
-          elements.front() + ", " + elements.back());
-      }
+      throw UsageError("--" + parameter->LongFlag + ": " + cli::Quoted(text) + " is not one of " +
+        elements.front() + ", " + elements.back());
     }
   }
   const ParameterValues values = this->MeshingValues();
-  this->Labels("labels");
-  this->LabelSizes("labelSizes");
-  this->InterfaceSizes("interfaceSizes");
+  this->Selection();
   if (values.at("delta") > 0.0 && values.at("elements") > 0.0)
   {
     throw UsageError("--delta and --elements do not go together: delta is what is solved for; "
@@ -347,14 +292,11 @@ const std::string& Arguments::Text(const std::string& name) const
 ParameterValues Arguments::MeshingValues() const
 {
   ParameterValues values;
-  for (const ParameterGroup& group : ParameterGroups())
+  for (const Parameter* parameter : AllParameters())
   {
-    for (const Parameter& parameter : group.Parameters)
+    if (parameter->Source)
     {
-      if (parameter.Source)
-      {
-        Take(parameter, this->Text(parameter.Name), values);
-      }
+      Take(*parameter, this->Text(parameter->Name), values);
     }
   }
   return values;
@@ -365,58 +307,40 @@ bool Arguments::IsSet(const std::string& name) const
   return this->Text(name) == "true";
 }
 
-std::vector<std::int64_t> Arguments::Labels(const std::string& name) const
+cli::LabelSelection Arguments::Selection() const
 {
-  std::vector<std::int64_t> labels;
-  for (const std::string& text : Items(this->Text(name)))
+  cli::LabelSelection selection;
+  for (const std::string& text : Items(this->Text("labels")))
   {
-    labels.push_back(LabelNumber(Find(name).LongFlag, text));
+    selection.Labels.push_back(LabelNumber("labels", text));
   }
-  return labels;
-}
-
-std::map<std::int64_t, double> Arguments::LabelSizes(const std::string& name) const
-{
-  const std::string& option = Find(name).LongFlag;
-  std::map<std::int64_t, double> sizes;
-  for (const std::string& text : Items(this->Text(name)))
+  for (const std::string& text : Items(this->Text("labelSizes")))
   {
-    const cli::LabelSizeText parsed = cli::ParseLabelSize(option, text);
-    if (!sizes.emplace(LabelNumber(option, parsed.Label), parsed.Size).second)
+    const cli::LabelSizeText parsed = cli::ParseLabelSize("labelsizes", text);
+    if (!selection.Sizes.emplace(LabelNumber("labelsizes", parsed.Label), parsed.Size).second)
     {
-      throw UsageError("--" + option + ": label " + parsed.Label + " is given twice");
+      throw UsageError("--labelsizes: label " + parsed.Label + " is given twice");
     }
   }
-  return sizes;
-}
-
-std::map<std::pair<std::int64_t, std::int64_t>, double> Arguments::InterfaceSizes(
-  const std::string& name) const
-{
-  const std::string& option = Find(name).LongFlag;
-  std::map<std::pair<std::int64_t, std::int64_t>, double> sizes;
-  for (const std::string& text : Items(this->Text(name)))
+  for (const std::string& text : Items(this->Text("interfaceSizes")))
   {
-    const cli::InterfaceSizeText parsed = cli::ParseInterfaceSize(option, text);
+    const cli::InterfaceSizeText parsed = cli::ParseInterfaceSize("interfacesizes", text);
     const std::size_t colon = parsed.Labels.find(':');
-    const auto label = [&option](const std::string& number) -> std::int64_t
-    { return number == "0" ? 0 : LabelNumber(option, number); };
+    const auto label = [](const std::string& number) -> std::int64_t
+    { return number == "0" ? 0 : LabelNumber("interfacesizes", number); };
     const std::int64_t first = label(parsed.Labels.substr(0, colon));
-    std::int64_t other = vtkImageToTetMeshFilter::ANY_LABEL;
-    if (colon != std::string::npos)
-    {
-      other = label(parsed.Labels.substr(colon + 1));
-    }
+    const std::int64_t other = colon == std::string::npos ? cli::LabelSelection::AnyLabel
+                                                          : label(parsed.Labels.substr(colon + 1));
     if (first == other)
     {
-      throw UsageError("--" + option + ": a label has no interface with itself: " + text);
+      throw UsageError("--interfacesizes: a label has no interface with itself: " + text);
     }
-    if (!sizes.emplace(std::minmax(first, other), parsed.Size).second)
+    if (!selection.InterfaceSizes.emplace(std::minmax(first, other), parsed.Size).second)
     {
-      throw UsageError("--" + option + ": " + parsed.Labels + " is given twice");
+      throw UsageError("--interfacesizes: " + parsed.Labels + " is given twice");
     }
   }
-  return sizes;
+  return selection;
 }
 
 std::string HelpText()

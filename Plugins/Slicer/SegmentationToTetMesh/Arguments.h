@@ -8,13 +8,11 @@
 #ifndef voxplex_slicer_Arguments_h
 #define voxplex_slicer_Arguments_h
 
+#include "LabelSelection.h"
 #include "MeshingParameters.h"
 
-#include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace voxplex::slicer
 {
@@ -50,13 +48,10 @@ public:
   ///@{
   /** The value of a parameter, given or default. */
   const std::string& Text(const std::string& name) const;
-  bool IsSet(const std::string& name) const;                       ///< of a flag without value
-  std::vector<std::int64_t> Labels(const std::string& name) const; ///< empty, or 1,2,5
-  std::map<std::int64_t, double> LabelSizes(const std::string& name) const;
-  /** By both labels, the smaller first: that of vtkImageToSimplexMeshFilter::ANY_LABEL, where all are meant. */
-  std::map<std::pair<std::int64_t, std::int64_t>, double> InterfaceSizes(
-    const std::string& name) const;
+  bool IsSet(const std::string& name) const; ///< of a flag without value
   ///@}
+
+  cli::LabelSelection Selection() const;
 
   /** Those of the table, apart from lists. */
   ParameterValues MeshingValues() const;

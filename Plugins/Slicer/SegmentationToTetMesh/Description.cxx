@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Description.h"
 
+#include "Base/NumberText.h"
 #include "MeshingParameters.h"
 #include "Parameters.h"
 #include "Text.h"
@@ -9,7 +10,6 @@
 #include <voxplexVersion.h>
 
 #include <sstream>
-#include <stdexcept>
 
 namespace voxplex::slicer
 {
@@ -21,34 +21,6 @@ const char* const ModuleSummary =
 
 namespace
 {
-
-const char* TagOf(Kind kind)
-{
-  switch (kind)
-  {
-    case Kind::Image:
-      return "image";
-    case Kind::Geometry:
-      return "geometry";
-    case Kind::Table:
-      return "table";
-    case Kind::Double:
-      return "double";
-    case Kind::Integer:
-      return "integer";
-    case Kind::Boolean:
-      return "boolean";
-    case Kind::String:
-      return "string";
-    case Kind::StringEnumeration:
-      return "string-enumeration";
-    case Kind::StringVector:
-      return "string-vector";
-    case Kind::IntegerVector:
-      return "integer-vector";
-  }
-  throw std::logic_error("unknown kind of parameter");
-}
 
 class Writer
 {
@@ -86,8 +58,7 @@ std::string Attribute(const char* name, const std::string& value)
 
 void Write(Writer& xml, const Parameter& parameter)
 {
-  const char* tag = TagOf(parameter.Type);
-  xml.Open(tag,
+  xml.Open(parameter.Type,
     Attribute("type", parameter.NodeType) + Attribute("fileExtensions", parameter.FileExtensions));
   xml.Element("name", parameter.Name);
   if (parameter.Flag)
@@ -99,9 +70,9 @@ void Write(Writer& xml, const Parameter& parameter)
     xml.Element("longflag", "--" + parameter.LongFlag);
   }
   xml.Element("label", parameter.Label);
-  if (parameter.Direction != Channel::None)
+  if (!parameter.Channel.empty())
   {
-    xml.Element("channel", parameter.Direction == Channel::Input ? "input" : "output");
+    xml.Element("channel", parameter.Channel);
   }
   if (parameter.Index >= 0)
   {
@@ -124,7 +95,7 @@ void Write(Writer& xml, const Parameter& parameter)
     xml.Element("step", NumberText(parameter.Limits->Step));
     xml.Close("constraints");
   }
-  xml.Close(tag);
+  xml.Close(parameter.Type);
 }
 
 } // namespace

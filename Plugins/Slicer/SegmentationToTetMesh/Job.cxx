@@ -23,10 +23,7 @@
 #include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <array>
 #include <optional>
-#include <string_view>
-#include <utility>
 
 namespace voxplex::slicer
 {
@@ -55,56 +52,18 @@ void Silence(vtkAlgorithm* algorithm)
   Silence(algorithm->GetExecutive());
 }
 
-/** The messages of the reader and of the filter speak of their methods; the user has flags, or 3D Slicer. */
-std::string InTermsOfFlags(std::string message)
-{
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> terms{ {
-    { "SetSpacing()", "3D Slicer's module Volumes" },
-    { ", or use SetDataFilesAnywhere() if you trust the header",
-      ", or save the image as one file" },
-    { "SetLabelSize()", "--labelsizes" },
-    { "SetInterfaceSize()", "--interfacesizes" },
-    { "AddLabel()", "--labels" },
-    { "or force it", "or go on with --force" },
-    { "mesh an isosurface of it", "mesh an isosurface of it with --isosurface and --isovalue" },
-    { "choose the labels to mesh", "choose the labels to mesh with --labels" },
-    { "Correct the labels to keep", "Correct --labels" },
-    { "RadiusEdgeRatio is", "--radiusedge is" },
-    { "Force goes down", "--force goes down" },
-    { "SliverAngle is", "--sliverangle is" },
-    { "Force goes on", "--force goes on" },
-  } };
-  for (const auto& [theirs, ours] : terms)
-  {
-    const std::size_t at = message.find(theirs);
-    if (at != std::string::npos)
-    {
-      message.replace(at, theirs.size(), ours);
-    }
-  }
-  return message;
-}
-
 vtkSmartPointer<vtkSegmentationReader> Read(const Arguments& arguments)
 {
   const std::string& path = arguments.Text("inputLabels");
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
   Silence(reader.Get());
   reader->SetFileName(path.c_str());
-  if (const std::string& table = arguments.Text("colorTable"); !table.empty())
-  {
-    reader->SetLabelTableFileName(table.c_str());
-  }
+  reader->SetLabelTableFileName(arguments.Text("colorTable").c_str());
   reader->SetSpace(arguments.Text("space") == "RAS" ? vtkSegmentationReader::SPACE_RAS
                                                     : vtkSegmentationReader::SPACE_LPS);
-  reader->Update();
-  if (!reader->GetErrorMessage().empty())
+  for (const std::string& warning : cli::ReadImage(reader, UserInterface::SlicerCommand))
   {
-    throw cli::RunError(InTermsOfFlags(reader->GetErrorMessage()));
-  }
-  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
-  {
-    Warn(InTermsOfFlags(reader->GetWarning(i)));
+    Warn(warning);
   }
   if (reader->GetNumberOfFrames() != 1)
   {
@@ -119,41 +78,17 @@ void Configure(vtkImageToTetMeshFilter* filter, const Arguments& arguments)
   cli::SetParameters(filter, arguments.MeshingValues());
   filter->SetInputMode(arguments.IsSet("isosurface") ? vtkImageToTetMeshFilter::INPUT_ISOSURFACE
                                                      : vtkImageToTetMeshFilter::INPUT_LABELS);
-  for (const auto& [labels, size] : arguments.InterfaceSizes("interfaceSizes"))
-  {
-    filter->SetInterfaceSize(labels.first, labels.second, size);
-  }
-  for (const auto& [label, size] : arguments.LabelSizes("labelSizes"))
-  {
-    filter->SetLabelSize(label, size);
-  }
-  for (const std::int64_t label : arguments.Labels("labels"))
-  {
-    filter->AddLabel(label);
-  }
+  cli::SetLabels(filter, arguments.Selection());
   filter->ComputeQualityOn();
-}
-
-/** Of the filter that meshes, and of that which measures. */
-void OnProgress(vtkObject* caller, unsigned long, void* report, void*)
-{
-  auto* filter = static_cast<vtkAlgorithm*>(caller);
-  if (!static_cast<ProgressReport*>(report)->Show(filter->GetProgress()))
-  {
-    filter->SetAbortExecute(1);
-  }
+  filter->SetVocabulary(vtkImageToTetMeshFilter::VOCABULARY_SLICER);
 }
 
 /** Executes with progress, as long as the application does not want it to stop. */
-void Update(vtkAlgorithm* filter, ProgressReport& report)
+void Execute(vtkAlgorithm* filter, ProgressReport& report)
 {
   Silence(filter);
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(OnProgress);
-  observer->SetClientData(&report);
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  filter->Update();
-  filter->RemoveObserver(tag);
+  cli::Execute(
+    filter, [&report](double fraction, const std::string&) { return report.Show(fraction); });
 }
 
 vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
@@ -162,11 +97,11 @@ vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
   const auto filter = vtkSmartPointer<vtkImageToTetMeshFilter>::New();
   filter->SetInputConnection(labels);
   Configure(filter, arguments);
-  Update(filter, report);
+  Execute(filter, report);
   if (!filter->GetErrorMessage().empty())
   {
-    throw cli::RunError("cannot mesh '" + arguments.Text("inputLabels") +
-      "': " + InTermsOfFlags(filter->GetErrorMessage()));
+    throw cli::RunError(
+      "cannot mesh '" + arguments.Text("inputLabels") + "': " + filter->GetErrorMessage());
   }
   return filter;
 }
@@ -188,13 +123,13 @@ std::optional<Comparison> Compare(const Arguments& arguments, vtkAlgorithmOutput
   vtkNew<vtkSimplexMeshQuality> filter;
   filter->SetInputData(mesh);
   filter->SetImageConnection(labels);
-  for (const std::int64_t label : arguments.Labels("labels"))
+  for (const std::int64_t label : arguments.Selection().Labels)
   {
     filter->AddLabel(label);
   }
   filter->SetSmoothDistances(false);
   filter->SetNumberOfThreads(static_cast<int>(arguments.MeshingValues().at("threads")));
-  Update(filter, report);
+  Execute(filter, report);
   if (!filter->GetErrorMessage().empty())
   {
     throw cli::RunError("cannot measure the mesh: " + filter->GetErrorMessage());
@@ -203,29 +138,12 @@ std::optional<Comparison> Compare(const Arguments& arguments, vtkAlgorithmOutput
   return filter->GetAborted() ? std::nullopt : std::optional(CompareWithImage(filter));
 }
 
-void WriteMesh(vtkImageToTetMeshFilter* filter, int content, const std::string& path,
-  const io::WholeFiles& files)
-{
-  if (!path.empty())
-  {
-    cli::WriteMeshFile(filter->GetOutput(), filter->GetInterfaces(), content, path, files);
-  }
-}
-
 /** Announces all outputs, so that what cannot be written is known before any work. */
 void Announce(io::WholeFiles& files, const Arguments& arguments)
 {
-  for (const std::string& path : { arguments.Text("outputMesh"), arguments.Text("outputSurfaces") })
-  {
-    if (!path.empty())
-    {
-      cli::AnnounceMesh(files, path);
-    }
-  }
-  if (!arguments.ReturnFile.empty())
-  {
-    cli::AnnounceFile(files, arguments.ReturnFile);
-  }
+  cli::AnnounceMesh(files, arguments.Text("outputMesh"));
+  cli::AnnounceMesh(files, arguments.Text("outputSurfaces"));
+  cli::AnnounceFile(files, arguments.ReturnFile);
   files.ForbidOverwriting(arguments.Text("inputLabels"));
 }
 
@@ -260,8 +178,7 @@ void RunJob(const Arguments& arguments)
   const auto comparison = Compare(arguments, reader->GetOutputPort(), filter->GetOutput(), report);
 
   report.Start(Writing);
-  WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_MESH, meshPath, files);
-  WriteMesh(filter, vtkSimplexMeshWriter::CONTENT_INTERFACES, surfacesPath, files);
+  cli::WriteMeshFiles(filter, meshPath, surfacesPath, files);
   WriteResults(filter->GetStatistics(), comparison, arguments.ReturnFile, files);
   report.Finish();
   cli::CommitFiles(files);

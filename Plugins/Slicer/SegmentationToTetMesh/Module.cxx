@@ -49,14 +49,11 @@ void PrintLogo()
 void PrintValues(const Arguments& arguments)
 {
   std::cout << "Command Line Arguments\n";
-  for (const ParameterGroup& group : ParameterGroups())
+  for (const Parameter* parameter : AllParameters())
   {
-    for (const Parameter& parameter : group.Parameters)
+    if (!parameter->IsReturned())
     {
-      if (!parameter.IsReturned())
-      {
-        std::cout << "    " << parameter.Name << ": " << arguments.Text(parameter.Name) << '\n';
-      }
+      std::cout << "    " << parameter->Name << ": " << arguments.Text(parameter->Name) << '\n';
     }
   }
   std::cout << std::flush;

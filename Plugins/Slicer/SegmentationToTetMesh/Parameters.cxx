@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parameters.h"
 
-#include <algorithm>
-#include <cctype>
-#include <iterator>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 
 namespace voxplex::slicer
 {
@@ -18,41 +16,41 @@ ParameterGroup Files()
   return { .Label = "Input and output",
     .Description = "The label map, and the mesh that is made of it",
     .Parameters = {
-      { .Type = Kind::Image,
+      { .Type = "image",
         .Name = "inputLabels",
         .Label = "Label map or volume",
         .Description =
           "The segmentation: one whole number a voxel, 0 is background; or, if Isosurface "
           "is on, a volume of grey values. Origin, spacing and axes are honoured.",
         .Index = 0,
-        .Direction = Channel::Input,
+        .Channel = "input",
         .NodeType = "any",
         .FileExtensions = ".nrrd" },
-      { .Type = Kind::Table,
+      { .Type = "table",
         .Name = "colorTable",
         .Label = "Colour table",
         .Description =
           "Names and colours of the labels, for the mesh. Optional: the names in a .seg.nrrd "
           "file are used without.",
         .LongFlag = "colortable",
-        .Direction = Channel::Input,
+        .Channel = "input",
         .NodeType = "color",
         .FileExtensions = ".ctbl" },
-      { .Type = Kind::Geometry,
+      { .Type = "geometry",
         .Name = "outputMesh",
         .Label = "Mesh",
         .Description = "The tetrahedra, with the label of each in the cell array Label.",
         .Index = 1,
-        .Direction = Channel::Output,
+        .Channel = "output",
         .NodeType = "model",
         .FileExtensions = ".vtu" },
-      { .Type = Kind::Geometry,
+      { .Type = "geometry",
         .Name = "outputSurfaces",
         .Label = "Interfaces",
         .Description = "The triangles between labels, and between labels and background, with both "
                        "labels of each in the cell array Labels. Optional.",
         .LongFlag = "surfaces",
-        .Direction = Channel::Output,
+        .Channel = "output",
         .NodeType = "model",
         .FileExtensions = ".vtp" },
     } };
@@ -65,14 +63,14 @@ std::vector<Parameter> OwnParameters(voxplex::ParameterGroup group)
   switch (group)
   {
     case Group::GreyValues:
-      return { { .Type = Kind::Boolean,
+      return { { .Type = "boolean",
         .Name = "isosurface",
         .Label = "Isosurface",
         .Description = "The input has grey values, not labels.",
         .LongFlag = "isosurface",
         .Default = "false" } };
     case Group::Shapes:
-      return { { .Type = Kind::Boolean,
+      return { { .Type = "boolean",
         .Name = "quality",
         .Label = "Compare with the label map",
         .Description =
@@ -81,7 +79,7 @@ std::vector<Parameter> OwnParameters(voxplex::ParameterGroup group)
         .LongFlag = "quality",
         .Default = "false" } };
     case Group::Labels:
-      return { { .Type = Kind::StringEnumeration,
+      return { { .Type = "string-enumeration",
         .Name = "space",
         .Label = "Coordinates",
         .Description = "Coordinates in the files: LPS is that of DICOM and of Slicer's files, RAS "
@@ -100,23 +98,23 @@ bool IsOnOff(const MeshingParameter& parameter)
   return parameter.Kind == ParameterKind::Flag && parameter.IsOnByDefault();
 }
 
-Kind KindOf(const MeshingParameter& parameter)
+const char* TypeOf(const MeshingParameter& parameter)
 {
   switch (parameter.Kind)
   {
     case ParameterKind::Flag:
-      return IsOnOff(parameter) ? Kind::StringEnumeration : Kind::Boolean;
+      return IsOnOff(parameter) ? "string-enumeration" : "boolean";
     case ParameterKind::Word:
-      return Kind::StringEnumeration;
+      return "string-enumeration";
     case ParameterKind::Real:
-      return Kind::Double;
+      return "double";
     case ParameterKind::Whole:
-      return Kind::Integer;
+      return "integer";
     case ParameterKind::Labels:
-      return Kind::IntegerVector;
+      return "integer-vector";
     case ParameterKind::LabelSizes:
     case ParameterKind::InterfaceSizes:
-      return Kind::StringVector;
+      return "string-vector";
     default:
       throw std::logic_error("the module cannot have the parameter " + parameter.Name);
   }
@@ -125,22 +123,21 @@ Kind KindOf(const MeshingParameter& parameter)
 /** Applications always have a value: 0 where none is given, and flags of their own have the default false. */
 std::string DefaultOf(const MeshingParameter& parameter)
 {
-  return KindOf(parameter) == Kind::Boolean          ? "false"
-    : parameter.IsOptional() && parameter.IsNumber() ? "0"
-                                                     : parameter.Default;
+  return TypeOf(parameter) == std::string_view("boolean") ? "false"
+    : parameter.IsOptional() && parameter.IsNumber()      ? "0"
+                                                          : parameter.Default;
 }
 
 Parameter FromTable(const MeshingParameter& parameter)
 {
-  Parameter made{ .Type = KindOf(parameter),
+  Parameter made{ .Type = TypeOf(parameter),
     .Name = NameIn(UserInterface::Slicer, parameter),
     .Label = LabelOf(parameter),
     .Description = Describe(UserInterface::Slicer, parameter),
+    .LongFlag = NameIn(UserInterface::SlicerCommand, parameter),
     .Default = DefaultOf(parameter),
     .Elements = IsOnOff(parameter) ? std::vector<std::string>{ "on", "off" } : parameter.Words,
     .Source = &parameter };
-  std::transform(made.Name.begin(), made.Name.end(), std::back_inserter(made.LongFlag),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::map<std::string, char> flags{ { "delta", 'd' }, { "smoothing", 's' },
     { "threads", 't' } };
   if (const auto flag = flags.find(parameter.Name); flag != flags.end())
@@ -176,14 +173,14 @@ ParameterGroup FromTable(voxplex::ParameterGroup group)
 }
 
 /** Something that the module returns. */
-Parameter Returned(Kind type, const char* name, const char* label, const char* description)
+Parameter Returned(const char* type, const char* name, const char* label, const char* description)
 {
   return { .Type = type,
     .Name = name,
     .Label = label,
     .Description = description,
-    .Direction = Channel::Output,
-    .Default = type == Kind::String ? "" : "0" };
+    .Channel = "output",
+    .Default = type == std::string_view("string") ? "" : "0" };
 }
 
 ParameterGroup Results()
@@ -191,27 +188,27 @@ ParameterGroup Results()
   return { .Label = "Results",
     .Description = "What is known about the mesh afterwards.",
     .Parameters = {
-      Returned(Kind::Integer, "numberOfTetrahedra", "Tetrahedra", "How many there are."),
-      Returned(Kind::Double, "usedDelta", "Delta used", "The sampling distance that was used."),
-      Returned(Kind::String, "missingLabels", "Labels without elements",
+      Returned("integer", "numberOfTetrahedra", "Tetrahedra", "How many there are."),
+      Returned("double", "usedDelta", "Delta used", "The sampling distance that was used."),
+      Returned("string", "missingLabels", "Labels without elements",
         "Labels of the image that the mesh lacks, because they are too small for delta."),
-      Returned(Kind::Integer, "missingComponents", "Components without elements",
+      Returned("integer", "missingComponents", "Components without elements",
         "Number of connected components that should have elements but have none."),
-      Returned(Kind::Double, "smallestDihedralAngle", "Smallest dihedral angle",
+      Returned("double", "smallestDihedralAngle", "Smallest dihedral angle",
         "Of all tetrahedra, in degrees."),
-      Returned(Kind::Double, "largestDihedralAngle", "Largest dihedral angle",
+      Returned("double", "largestDihedralAngle", "Largest dihedral angle",
         "Of all tetrahedra, in degrees."),
-      Returned(Kind::Double, "largestRadiusEdge", "Largest radius-edge ratio",
+      Returned("double", "largestRadiusEdge", "Largest radius-edge ratio",
         "Circumradius over shortest edge, of all tetrahedra."),
-      Returned(Kind::Double, "smallestFacetAngle", "Smallest angle of triangles",
+      Returned("double", "smallestFacetAngle", "Smallest angle of triangles",
         "Of those on the interfaces, in degrees."),
-      Returned(Kind::Double, "hausdorffDistance", "Hausdorff distance",
+      Returned("double", "hausdorffDistance", "Hausdorff distance",
         "From the faces between voxels of different labels to the interfaces and back, if the mesh "
         "was compared with the label map."),
-      Returned(Kind::Integer, "nonManifoldEdges", "Non-manifold edges",
+      Returned("integer", "nonManifoldEdges", "Non-manifold edges",
         "Edges of the boundary of a label that not exactly two of its triangles share, if the mesh "
         "was compared."),
-      Returned(Kind::Double, "volumeError", "Error of volumes",
+      Returned("double", "volumeError", "Error of volumes",
         "Of the label that has the largest, as a fraction of its volume, if the mesh was "
         "compared."),
     } };
@@ -234,6 +231,23 @@ const std::vector<ParameterGroup>& ParameterGroups()
     return all;
   }();
   return groups;
+}
+
+const std::vector<const Parameter*>& AllParameters()
+{
+  static const std::vector<const Parameter*> all = []
+  {
+    std::vector<const Parameter*> pointers;
+    for (const ParameterGroup& group : ParameterGroups())
+    {
+      for (const Parameter& parameter : group.Parameters)
+      {
+        pointers.push_back(&parameter);
+      }
+    }
+    return pointers;
+  }();
+  return all;
 }
 
 } // namespace voxplex::slicer

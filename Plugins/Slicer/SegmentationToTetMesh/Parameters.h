@@ -17,28 +17,6 @@
 namespace voxplex::slicer
 {
 
-/** The elements of the Slicer Execution Model that are used here. */
-enum class Kind
-{
-  Image,
-  Geometry,
-  Table,
-  Double,
-  Integer,
-  Boolean, ///< a flag without value
-  String,
-  StringEnumeration,
-  StringVector, ///< separated by commas
-  IntegerVector
-};
-
-enum class Channel
-{
-  None,
-  Input,
-  Output
-};
-
 /** Numbers outside are refused; applications make a slider of it. */
 struct Constraints
 {
@@ -49,7 +27,7 @@ struct Constraints
 
 struct Parameter
 {
-  Kind Type = Kind::String;
+  std::string Type = "string"; ///< its element in the Slicer Execution Model
   std::string Name{}; ///< a letter, then letters and digits; what applications' scripts call it
   std::string Label{};
   std::string Description{};
@@ -63,7 +41,7 @@ struct Parameter
   char Flag = '\0';
   int Index = -1;
 
-  Channel Direction = Channel::None;
+  std::string Channel{}; ///< input, output or none
   std::string Default{};
   std::optional<Constraints> Limits{};
   std::vector<std::string> Elements{};      ///< of an enumeration
@@ -71,9 +49,10 @@ struct Parameter
   std::string FileExtensions{};             ///< of these; the application takes the first
   const MeshingParameter* Source = nullptr; ///< null: the module's own
 
+  bool IsFlag() const { return this->Type == "boolean"; } ///< which has no value
   bool IsReturned() const
   {
-    return this->Direction == Channel::Output && this->LongFlag.empty() && this->Index < 0;
+    return this->Channel == "output" && this->LongFlag.empty() && this->Index < 0;
   }
 };
 
@@ -87,6 +66,9 @@ struct ParameterGroup
 
 /** In the order in which applications show them. */
 const std::vector<ParameterGroup>& ParameterGroups();
+
+/** Those of all groups. */
+const std::vector<const Parameter*>& AllParameters();
 
 } // namespace voxplex::slicer
 

@@ -212,8 +212,9 @@ TEST(GreyValues, AreRefusedByTheMesherUnlessForced)
   {
     const std::string message = error.what();
     EXPECT_NE(message.find("200 labels look like grey values"), std::string::npos) << message;
-    EXPECT_NE(message.find("mesh an isosurface of it"), std::string::npos) << message;
-    EXPECT_NE(message.find("or force it"), std::string::npos) << message;
+    EXPECT_NE(message.find("mesh an isosurface of it with {isosurface}"), std::string::npos)
+      << message;
+    EXPECT_NE(message.find("or go on with {force}"), std::string::npos) << message;
   }
   options.Limits.Force = true;
   ImageMesher<3> mesher(options);

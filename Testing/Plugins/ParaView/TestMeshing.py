@@ -4,6 +4,8 @@
 from voxplex_testing import *
 
 from paraview.simple import MeshQuality, XMLImageDataReader
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
 
 FILTERS = ("VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice", "VoxplexSimplexMeshQuality")
 
@@ -196,6 +198,21 @@ def test_arrays():
     check_equal(labels_of(mesher), {5})
 
 
+def test_messages():
+    """Errors name properties by their labels."""
+    reader = XMLImageDataReader(FileName=[write_image(make_image(two_balls), "messages.vti")])
+    mesher = MeshSegmentationTetrahedralize(Input=reader, RadiusEdgeRatio=1.5)
+    messages = []
+
+    @calldata_type(VTK_STRING)
+    def note(_caller, _event, text):
+        messages.append(text)
+
+    mesher.SMProxy.GetClientSideObject().AddObserver("ErrorEvent", note)
+    mesher.UpdatePipeline()
+    check("'Radius-Edge Ratio' is 1.5; it must be at least 1.93" in "".join(messages), messages)
+
+
 def main():
     load_plugin(namespace=globals())
     test_documentation()
@@ -204,6 +221,7 @@ def main():
     test_isosurface()
     test_default_delta()
     test_arrays()
+    test_messages()
     test_atlas()
     test_place_of_a_file()
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The module's panel. All that it knows is in the parameter node, so that scenes keep it."""
+from dataclasses import fields
+
 import ctk
 import qt
 import slicer
@@ -8,7 +10,7 @@ import vtk
 from slicer.ScriptedLoadableModule import ScriptedLoadableModuleWidget
 from slicer.util import VTKObservationMixin
 
-from VoxplexMesherLib.Logic import MeshingError, Phase, parseSize
+from VoxplexMesherLib.Logic import MeshingError, Phase, Settings, parseSize
 from VoxplexMesherLib.ModuleLogic import VoxplexMesherLogic
 from VoxplexMesherLib.Scene import isVolume
 
@@ -17,12 +19,11 @@ NAME, MESH, SIZE = range(3)
 SEGMENT_ID = qt.Qt.UserRole
 LARGEST_WHOLE = 2147483647
 # Settings by the kind of widget that shows them, which is called after the setting.
-SPIN_BOXES = ("delta", "elements", "size", "smallestComponent", "gradation", "featureRatio", "largestFeature", "smoothing",
-              "interfaceRounds", "radiusEdge", "facetAngle", "sliverAngle", "optimiseSeconds", "minimumVolume", "isovalue",
-              "greySmoothing", "threads")
-COMBO_BOXES = ("grading", "inside")
-SWITCHES = ("optimise", "junctions")  # check boxes of settings that are on or off
-FLAGS = ("exactComponents", "quality", "reproducible", "force")  # check boxes of settings that are true or false
+DEFAULTS = {field.name: field.default for field in fields(Settings)}
+SPIN_BOXES = [name for name, default in DEFAULTS.items() if type(default) in (int, float)]
+COMBO_BOXES = ["grading", "inside"]
+SWITCHES = [name for name, default in DEFAULTS.items() if default in ("on", "off")]  # check boxes
+FLAGS = [name for name, default in DEFAULTS.items() if type(default) is bool]  # check boxes of true or false
 
 
 class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
@@ -101,61 +102,52 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def buildIsosurface(self):
         form = self.addSection("Isosurface")
-        self.isovalueSpinBox = self.makeSpinBox(-1e9, 1e9, 1.0, 3, "", "The value of the isosurface; it must lie within the range "
-                                                "of the volume")
-        self.insideComboBox = self.makeComboBox({"above": "above the isovalue", "below": "below the isovalue"},
-                                                "On which side of the isosurface the object lies")
-        self.greySmoothingSpinBox = self.makeSpinBox(0.0, 5.0, 0.1, 2, "off", "How far grey values are smoothed against noise, in "
-                                                     "voxels")
-        form.addRow("Isovalue:", self.isovalueSpinBox)
-        form.addRow("Inside:", self.insideComboBox)
-        form.addRow("Smoothing (voxels):", self.greySmoothingSpinBox)
+        self.addSpinBox(form, "isovalue", "Isovalue:", -1e9, 1e9, 1.0, 3, "",
+                        "The value of the isosurface; it must lie within the range of the volume")
+        self.addComboBox(form, "inside", "Inside:", {"above": "above the isovalue", "below": "below the isovalue"},
+                         "On which side of the isosurface the object lies")
+        self.addSpinBox(form, "greySmoothing", "Smoothing (voxels):", 0.0, 5.0, 0.1, 2, "off",
+                        "How far grey values are smoothed against noise, in voxels")
 
     def buildSampling(self):
         form = self.addSection("Sampling distance and element sizes")
-        self.deltaSpinBox = self.makeSpinBox(0.0, 1000.0, 0.1, 3, "from the spacing", "Sampling distance of the "
-                                             "interfaces: the edges of their triangles are about one to two times as long")
-        self.elementsSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 10000, "from delta", "The number of tetrahedra, to within a tenth. "
-                                                     "Delta is then found by trying, which takes two or three times as long")
-        self.gradingComboBox = self.makeComboBox(
-            {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"}, "The second samples interfaces by their local "
-            "feature size, the distance to the medial axis: about half the thickness of a thin part. Delta is then the shortest "
-            "sampling distance")
-        self.sizeSpinBox = self.makeSpinBox(0.0, 1000.0, 0.5, 3, "no bound",
-                                            "Upper bound of the circumradii of all elements")
-        form.addRow("Delta (mm):", self.deltaSpinBox)
-        form.addRow("Number of elements:", self.elementsSpinBox)
-        form.addRow("Grading:", self.gradingComboBox)
-        form.addRow("Largest element (mm):", self.sizeSpinBox)
+        self.addSpinBox(form, "delta", "Delta (mm):", 0.0, 1000.0, 0.1, 3, "from the spacing",
+                        "Sampling distance of the interfaces: the edges of their triangles are about one to two times as long")
+        self.addWholeSpinBox(form, "elements", "Number of elements:", LARGEST_WHOLE, 10000, "from delta",
+                             "The number of tetrahedra, to within a tenth. Delta is then found by trying, which takes two or three "
+                             "times as long")
+        self.addComboBox(form, "grading", "Grading:", {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"},
+                         "The second samples interfaces by their local feature size, the distance to the medial axis: about "
+                         "half the thickness of a thin part. Delta is then the shortest sampling distance")
+        self.addSpinBox(form, "size", "Largest element (mm):", 0.0, 1000.0, 0.5, 3, "no bound",
+                        "Upper bound of the circumradii of all elements")
 
     def buildShapes(self):
         form = self.addSection("Shapes and small objects")
-        self.optimiseCheckBox = self.makeCheckBox("Improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few "
-                                                  "exceptions, radius-edge ratios up to 2.5")
-        self.smallestComponentSpinBox = self.makeWholeSpinBox(LARGEST_WHOLE, 1, "no guarantee", "Connected components of a segment "
-                                                              "with at least this number of voxels, and its largest one, get "
-                                                              "tetrahedra for every delta")
-        self.exactComponentsCheckBox = self.makeCheckBox("Sample these components as finely as their thickness requires, for every "
-                                                         "delta, and as it takes to connect their tetrahedra through faces. Otherwise those that are thin compared with delta have few tetrahedra")
-        self.qualityCheckBox = self.makeCheckBox("Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
-                                                 "non-manifold edges. The log has the figures")
-        form.addRow("Optimise:", self.optimiseCheckBox)
-        form.addRow("Smallest component (voxels):", self.smallestComponentSpinBox)
-        form.addRow("Exact for every delta:", self.exactComponentsCheckBox)
-        form.addRow("Compare with the segments:", self.qualityCheckBox)
+        self.addCheckBox(form, "optimise", "Optimise:",
+                         "Improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few exceptions, "
+                         "radius-edge ratios up to 2.5")
+        self.addWholeSpinBox(form, "smallestComponent", "Smallest component (voxels):", LARGEST_WHOLE, 1, "no guarantee",
+                             "Connected components of a segment with at least this number of voxels, and its largest one, get "
+                             "tetrahedra for every delta")
+        self.addCheckBox(form, "exactComponents", "Exact for every delta:",
+                         "Sample these components as finely as their thickness requires, for every delta, and as it takes to "
+                         "connect their tetrahedra through faces. Otherwise those that are thin compared with delta have few "
+                         "tetrahedra")
+        self.addCheckBox(form, "quality", "Compare with the segments:",
+                         "Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, non-manifold "
+                         "edges. The log has the figures")
 
     def buildAdvanced(self):
         form = self.addSection("Advanced", collapsed=True)
         self.buildInterfaces(form)
         self.buildBounds(form)
-        self.threadsSpinBox = self.makeWholeSpinBox(4096, 1, "all cores", "With 1, or with Reproducible, the mesh is the same in every run")
-        self.reproducibleCheckBox = self.makeCheckBox("Make the same mesh with any number of threads")
-        self.forceCheckBox = self.makeCheckBox("Go on although the mesh is estimated not to fit into memory, the labels look "
-                                               "like grey values, the radius-edge ratio is too low, or the sliver angle too "
-                                               "large")
-        form.addRow("Threads:", self.threadsSpinBox)
-        form.addRow("Reproducible:", self.reproducibleCheckBox)
-        form.addRow("Force:", self.forceCheckBox)
+        self.addWholeSpinBox(form, "threads", "Threads:", 4096, 1, "all cores",
+                             "With 1, or with Reproducible, the mesh is the same in every run")
+        self.addCheckBox(form, "reproducible", "Reproducible:", "Make the same mesh with any number of threads")
+        self.addCheckBox(form, "force", "Force:",
+                         "Go on although the mesh is estimated not to fit into memory, the labels look like grey values, the "
+                         "radius-edge ratio is too low, or the sliver angle too large")
 
     def buildInterfaces(self, form):
         """How interfaces are sampled."""
@@ -164,74 +156,66 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.interfaceSizesLineEdit.setToolTip("In place of delta for all interfaces of a segment, or for the interface between two, "
                                                "in millimetres")
         self.interfaceSizesLineEdit.connect("editingFinished()", self.updateParameterNodeFromGUI)
-        self.gradationSpinBox = self.makeSpinBox(0.0, 10.0, 0.1, 2, "no limit", "How much sizes, and interface sizes, may change over a "
-                                                 "millimetre")
-        self.featureRatioSpinBox = self.makeSpinBox(0.1, 4.0, 0.1, 2, "", "With grading: sampling distance over local feature size "
-                                                    "where that gives more than delta")
-        self.largestFeatureSpinBox = self.makeSpinBox(1.0, 100.0, 1.0, 1, "", "With grading: upper bound of the local feature size, in "
-                                                      "voxels")
-        self.smoothingSpinBox = self.makeSpinBox(0.0, 5.0, 0.1, 2, "off", "How far voxel stairs are smoothed, in voxels")
-        self.junctionsCheckBox = self.makeCheckBox("Sample the curves where three segments meet before all else, so that edges "
-                                                   "follow them")
-        self.interfaceRoundsSpinBox = self.makeWholeSpinBox(100, 1, "never", "How often, at most, to refine again where interfaces are "
-                                                            "farther than 1.5 delta from the mesh, or are not manifold")
         form.addRow("Interface sizes (mm):", self.interfaceSizesLineEdit)
-        form.addRow("Gradation:", self.gradationSpinBox)
-        form.addRow("Feature ratio:", self.featureRatioSpinBox)
-        form.addRow("Largest feature (voxels):", self.largestFeatureSpinBox)
-        form.addRow("Smoothing (voxels):", self.smoothingSpinBox)
-        form.addRow("Sample junctions:", self.junctionsCheckBox)
-        form.addRow("Interface rounds:", self.interfaceRoundsSpinBox)
+        self.addSpinBox(form, "gradation", "Gradation:", 0.0, 10.0, 0.1, 2, "no limit",
+                        "How much sizes, and interface sizes, may change over a millimetre")
+        self.addSpinBox(form, "featureRatio", "Feature ratio:", 0.1, 4.0, 0.1, 2, "",
+                        "With grading: sampling distance over local feature size where that gives more than delta")
+        self.addSpinBox(form, "largestFeature", "Largest feature (voxels):", 1.0, 100.0, 1.0, 1, "",
+                        "With grading: upper bound of the local feature size, in voxels")
+        self.addSpinBox(form, "smoothing", "Smoothing (voxels):", 0.0, 5.0, 0.1, 2, "off",
+                        "How far voxel stairs are smoothed, in voxels")
+        self.addCheckBox(form, "junctions", "Sample junctions:",
+                         "Sample the curves where three segments meet before all else, so that edges follow them")
+        self.addWholeSpinBox(form, "interfaceRounds", "Interface rounds:", 100, 1, "never",
+                             "How often, at most, to refine again where interfaces are farther than 1.5 delta from the mesh, or "
+                             "are not manifold")
 
     def buildBounds(self, form):
         """What is asked of elements, and what is left out."""
-        self.radiusEdgeSpinBox = self.makeSpinBox(1.0, 10.0, 0.1, 3, "", "Upper bound of circumradius over shortest edge; "
-                                                  "below 1.93 only with Force")
-        self.facetAngleSpinBox = self.makeSpinBox(0.0, 30.0, 1.0, 1, "", "Lower bound of the angles of triangles on the "
-                                                  "interfaces, in degrees")
-        self.sliverAngleSpinBox = self.makeSpinBox(0.0, 59.0, 1.0, 1, "slivers stay", "Tetrahedra with a dihedral angle below this, or "
-                                                   "above 180 minus this, are split, in degrees; above 15 only with Force")
-        self.optimiseSecondsSpinBox = self.makeSpinBox(0.0, 1e6, 10.0, 1, "no limit", "Stop optimising after this time")
-        self.minimumVolumeSpinBox = self.makeSpinBox(0.0, 1e9, 1.0, 3, "none is left out", "Connected components with less volume, such "
-                                                     "as specks, get the label around them")
-        form.addRow("Radius-edge ratio:", self.radiusEdgeSpinBox)
-        form.addRow("Facet angle:", self.facetAngleSpinBox)
-        form.addRow("Sliver angle:", self.sliverAngleSpinBox)
-        form.addRow("Time for optimising (s):", self.optimiseSecondsSpinBox)
-        form.addRow("Smallest volume (mm³):", self.minimumVolumeSpinBox)
+        self.addSpinBox(form, "radiusEdge", "Radius-edge ratio:", 1.0, 10.0, 0.1, 3, "",
+                        "Upper bound of circumradius over shortest edge; below 1.93 only with Force")
+        self.addSpinBox(form, "facetAngle", "Facet angle:", 0.0, 30.0, 1.0, 1, "",
+                        "Lower bound of the angles of triangles on the interfaces, in degrees")
+        self.addSpinBox(form, "sliverAngle", "Sliver angle:", 0.0, 59.0, 1.0, 1, "slivers stay",
+                        "Tetrahedra with a dihedral angle below this, or above 180 minus this, are split, in degrees; above "
+                        "15 only with Force")
+        self.addSpinBox(form, "optimiseSeconds", "Time for optimising (s):", 0.0, 1e6, 10.0, 1, "no limit",
+                        "Stop optimising after this time")
+        self.addSpinBox(form, "minimumVolume", "Smallest volume (mm³):", 0.0, 1e9, 1.0, 3, "none is left out",
+                        "Connected components with less volume, such as specks, get the label around them")
 
-    def makeSpinBox(self, low, high, step, decimals, textOfLow, toolTip):
+    def addSpinBox(self, form, name, label, low, high, step, decimals, textOfLow, toolTip):
         box = qt.QDoubleSpinBox()
         box.decimals = decimals
         box.setRange(low, high)
         box.singleStep = step
         box.specialValueText = textOfLow
-        box.setToolTip(toolTip)
-        box.connect("valueChanged(double)", self.updateParameterNodeFromGUI)
-        return box
+        self.addBox(form, name + "SpinBox", label, box, "valueChanged(double)", toolTip)
 
-    def makeWholeSpinBox(self, high, step, textOfZero, toolTip):
+    def addWholeSpinBox(self, form, name, label, high, step, textOfZero, toolTip):
         box = qt.QSpinBox()
         box.setRange(0, high)
         box.singleStep = step
         box.specialValueText = textOfZero
-        box.setToolTip(toolTip)
-        box.connect("valueChanged(int)", self.updateParameterNodeFromGUI)
-        return box
+        self.addBox(form, name + "SpinBox", label, box, "valueChanged(int)", toolTip)
 
-    def makeComboBox(self, textsOfValues, toolTip):
+    def addComboBox(self, form, name, label, textsOfValues, toolTip):
         box = qt.QComboBox()
         for value, text in textsOfValues.items():
             box.addItem(text, value)
-        box.setToolTip(toolTip)
-        box.connect("currentIndexChanged(int)", self.updateParameterNodeFromGUI)
-        return box
+        self.addBox(form, name + "ComboBox", label, box, "currentIndexChanged(int)", toolTip)
 
-    def makeCheckBox(self, toolTip):
+    def addCheckBox(self, form, name, label, toolTip):
         box = qt.QCheckBox()
+        self.addBox(form, name + "CheckBox", label, box, "toggled(bool)", toolTip)
+
+    def addBox(self, form, name, label, box, signal, toolTip):
+        """A row of the form; the box becomes an attribute of the panel."""
         box.setToolTip(toolTip)
-        box.connect("toggled(bool)", self.updateParameterNodeFromGUI)
-        return box
+        box.connect(signal, self.updateParameterNodeFromGUI)
+        setattr(self, name, box)
+        form.addRow(label, box)
 
     def buildRun(self):
         self.applyButton = qt.QPushButton("Apply")
