@@ -90,10 +90,16 @@ public:
     statistics = std::move(best);
     if (!search.Found())
     {
-      this->ThrowNotFound(search);
+      this->ThrowNotFound(search, search.Best().Elements);
     }
     FinishMesh<D>(this->Run, nearest);
     mesh = std::move(nearest.Mesh);
+    const auto elements = static_cast<double>(mesh.Simplices.size());
+    const auto wanted = static_cast<double>(this->Run.Options.Sampling.Elements);
+    if (std::abs(elements / wanted - 1.0) > DeltaSearch::Tolerance)
+    {
+      this->ThrowNotFound(search, mesh.Simplices.size()); // optimisation left another part of them
+    }
     for (MeshingRun& run : statistics.Runs)
     {
       run.Elements = run.Delta == statistics.Delta ? mesh.Simplices.size() : run.Elements;
@@ -131,21 +137,21 @@ private:
   std::uint64_t ExpectedElements(const SimplexMesh<D>& mesh) const
   {
     const auto elements = static_cast<double>(mesh.Simplices.size());
-    return static_cast<std::uint64_t>(
-      this->Run.Options.Optimisation.Run ? elements * ElementsLeftByOptimisation<D> : elements);
+    return static_cast<std::uint64_t>(std::llround(
+      this->Run.Options.Optimisation.Run ? elements * ElementsLeftByOptimisation<D> : elements));
   }
 
-  [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
+  /** @param elements of the nearest mesh */
+  [[noreturn]] void ThrowNotFound(const DeltaSearch& search, std::uint64_t elements) const
   {
     const bool isCoarse =
       this->Run.Options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize &&
-      search.Best().Elements < this->Run.Options.Sampling.Elements;
+      elements < this->Run.Options.Sampling.Elements;
     throw InputError("no delta makes a mesh of " +
       std::to_string(this->Run.Options.Sampling.Elements) + " elements within " +
       NumberText(100.0 * DeltaSearch::Tolerance) + " %: the nearest of " +
-      std::to_string(search.Runs().size()) + " meshes has " +
-      std::to_string(search.Best().Elements) + ", with a delta of " +
-      NumberText(search.Best().Delta) +
+      std::to_string(search.Runs().size()) + " meshes has " + std::to_string(elements) +
+      ", with a delta of " + NumberText(search.Best().Delta) +
       (isCoarse
           ? "; grading by the local feature size keeps interfaces coarse with every delta: ask "
             "for fewer, or for a smaller ratio of the sampling distance to the local feature size"
