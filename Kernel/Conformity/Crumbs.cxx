@@ -3,8 +3,7 @@
 #include "Conformity/Crumbs.h"
 
 #include "Conformity/ChangeRules.h"
-#include "Conformity/ChangeStamps.h"
-#include "Conformity/Recollection.h"
+#include "Conformity/OrderedChanges.h"
 #include "Delaunay/VertexStar.h"
 #include "Geometry/SimplexQuality.h"
 #include "Parallel/ParallelCollect.h"
@@ -17,7 +16,6 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -289,138 +287,6 @@ private:
   const repair::ChangeRules<3> Rules;
 };
 
-//------------------------------------------------------------------------------------------------
-/**
- * Gives one crumb after the other another label. Before, threads look at each as if there were no
- * other. A change is looked for again if something around the crumb is not as the thread had it. So
- * the result is that of one thread.
- */
-class CrumbTeam
-{
-public:
-  /** All must outlive this object. @param crumbs in their order */
-  CrumbTeam(const Triangulation<3>& triangulation, SimplexLabels& labels,
-    const ManifoldRepairOptions<3>& options, const std::vector<Fragment>& crumbs, unsigned threads,
-    const std::stop_token& stop)
-    : Mesh(triangulation)
-    , Labels(labels)
-    , Before(labels)
-    , Options(options)
-    , Crumbs(crumbs)
-    , Threads(NumberOfThreads(threads))
-    , Stop(stop)
-  {
-    for (const Fragment& crumb : crumbs)
-    {
-      this->Simplices.insert(this->Simplices.end(), crumb.begin(), crumb.end());
-    }
-    std::sort(this->Simplices.begin(), this->Simplices.end());
-  }
-
-  /**
-   * @param memory of an earlier call, or null
-   * @param found receives what is found, except what has changed
-   * @return the simplices that have another label, ascending
-   */
-  std::vector<SimplexId> Relabel(const CrumbMemory* memory, CrumbMemory& found)
-  {
-    if (memory)
-    {
-      this->Recall(*memory);
-    }
-    std::vector<Shared> proposals = this->ProposeForEach();
-    const CrumbRepair finder(
-      this->Mesh, this->Labels, this->Before, this->Options, this->Simplices);
-    repair::ChangeStamps changes(this->Mesh.VertexIdEnd());
-    std::vector<SimplexId> changed;
-    found.Records.resize(this->Crumbs.size());
-    for (std::size_t k = 0; k < this->Crumbs.size(); ++k)
-    {
-      ThrowIfStopped(this->Stop);
-      Shared proposal = this->Find(k);
-      if (!proposal)
-      {
-        proposal = proposals[k] && !changes.AnyAfter(proposals[k]->Seen, 0)
-          ? proposals[k]
-          : std::make_shared<const repair::Proposal>(finder.Propose(this->Crumbs[k]));
-        if (this->Recalled)
-        {
-          this->Recalled->Compare(k, OnlyPass, *proposal);
-        }
-      }
-      for (const SimplexId s : proposal->Best ? proposal->Best->Cells : Fragment())
-      {
-        this->Labels[s] = proposal->Best->Label;
-        changes.Set(this->Mesh.GetSimplex(s).V, 1);
-        changed.push_back(s);
-      }
-      found.Records[k].Of = this->Crumbs[k];
-      found.Records[k].Found.Add(OnlyPass, proposal);
-    }
-    found.Simplices = std::move(this->Simplices);
-    std::sort(changed.begin(), changed.end());
-    return changed;
-  }
-
-private:
-  using Shared = repair::ProposalHistory::Shared;
-  static constexpr std::uint32_t OnlyPass = 1;
-
-  void Recall(const CrumbMemory& memory)
-  {
-    this->Recalled.emplace(this->Mesh, memory.Changed, memory.Records, this->Crumbs,
-      [](const Fragment& crumb) -> const Fragment& { return crumb; });
-    // Areas beside simplices of crumbs do not count.
-    std::vector<SimplexId> other;
-    std::set_symmetric_difference(memory.Simplices.begin(), memory.Simplices.end(),
-      this->Simplices.begin(), this->Simplices.end(), std::back_inserter(other));
-    this->Recalled->Mark(other);
-  }
-
-  /** What an earlier call has found for a crumb, if it is right; otherwise null. */
-  Shared Find(std::size_t k) const
-  {
-    return this->Recalled ? this->Recalled->Find(k, OnlyPass) : nullptr;
-  }
-
-  /** Finds a change for each crumb of which none is known. Nothing with one thread. */
-  std::vector<Shared> ProposeForEach() const
-  {
-    constexpr std::size_t Grain = 32; // near each other, so that stars are found once
-    std::vector<Shared> proposals(this->Crumbs.size());
-    if (this->Threads > 1)
-    {
-      ParallelFor(
-        0, this->Crumbs.size(), Grain, this->Threads,
-        [&](std::size_t first, std::size_t last)
-        {
-          const CrumbRepair finder(
-            this->Mesh, this->Labels, this->Before, this->Options, this->Simplices);
-          for (std::size_t k = first; k < last; ++k)
-          {
-            if (!this->Find(k))
-            {
-              proposals[k] =
-                std::make_shared<const repair::Proposal>(finder.Propose(this->Crumbs[k]));
-            }
-          }
-        },
-        this->Stop);
-    }
-    return proposals;
-  }
-
-  const Triangulation<3>& Mesh;
-  SimplexLabels& Labels;
-  const SimplexLabels Before; ///< before any change
-  const ManifoldRepairOptions<3>& Options;
-  const std::vector<Fragment>& Crumbs;
-  const unsigned Threads;
-  const std::stop_token& Stop;
-  std::vector<SimplexId> Simplices;                ///< of all crumbs, ascending
-  std::optional<repair::Recollection<3>> Recalled; ///< none: nothing is known
-};
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -444,15 +310,14 @@ std::vector<SimplexId> FindSmallFragments(const Triangulation<3>& triangulation,
     stop);
 }
 
-std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulation,
-  const SimplexLabels& labels, const std::vector<SimplexId>& before,
-  const std::vector<SimplexId>& added, unsigned threads, const std::stop_token& stop)
+std::vector<SimplexId> FindSmallFragmentsAt(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, const std::vector<SimplexId>& changed, unsigned threads,
+  const std::stop_token& stop)
 {
   const CrumbFinder finder(triangulation, labels);
-  // Fragments that have changed have a new simplex, or one beside it.
   constexpr std::size_t Grain = 256;
   std::vector<SimplexId> small = ParallelCollect<SimplexId>(
-    added.size(), Grain, threads,
+    changed.size(), Grain, threads,
     [&](std::size_t first, std::size_t end, std::vector<SimplexId>& found)
     {
       const auto look = [&](SimplexId s)
@@ -466,8 +331,8 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
       };
       for (std::size_t k = first; k < end; ++k)
       {
-        look(added[k]);
-        for (const SimplexId n : triangulation.GetSimplex(added[k]).N)
+        look(changed[k]);
+        for (const SimplexId n : triangulation.GetSimplex(changed[k]).N)
         {
           if (n != None)
           {
@@ -477,8 +342,6 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
       }
     },
     stop);
-  std::copy_if(before.begin(), before.end(), std::back_inserter(small),
-    [&](SimplexId s) { return finder.IsSmall(s); });
   std::sort(small.begin(), small.end());
   small.erase(std::unique(small.begin(), small.end()), small.end());
   return small;
@@ -487,22 +350,25 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
 //------------------------------------------------------------------------------------------------
 std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
   const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
-  const std::stop_token& stop, CrumbMemory* memory)
+  const std::stop_token& stop)
 {
   const std::vector<Fragment> crumbs =
     FindCrumbs(CrumbFinder(triangulation, labels), small, threads, stop);
-  CrumbMemory found;
-  std::vector<SimplexId> changed;
-  if (!crumbs.empty())
+  if (crumbs.empty())
   {
-    CrumbTeam team(triangulation, labels, options, crumbs, threads, stop);
-    changed = team.Relabel(memory && !memory->Records.empty() ? memory : nullptr, found);
+    return {};
   }
-  if (memory)
+  std::vector<SimplexId> simplices; // of all crumbs, ascending
+  for (const Fragment& crumb : crumbs)
   {
-    *memory = std::move(found);
+    simplices.insert(simplices.end(), crumb.begin(), crumb.end());
   }
-  return changed;
+  std::sort(simplices.begin(), simplices.end());
+  const SimplexLabels before = labels;
+  repair::OrderedChanges<3> changes(triangulation, labels, crumbs.size(), threads, stop);
+  changes.Pass([&] { return CrumbRepair(triangulation, labels, before, options, simplices); },
+    [&](const CrumbRepair& finder, std::size_t k) { return finder.Propose(crumbs[k]); });
+  return changes.TakeChanged();
 }
 
 } // namespace voxplex

@@ -16,8 +16,6 @@
 namespace voxplex
 {
 
-struct CrumbMemory;
-
 /**
  * Finds the tetrahedra of small fragments, where a search for crumbs may begin. A fragment is a
  * maximal set of tetrahedra of one label that are connected through faces. It is small if it has at
@@ -30,16 +28,12 @@ std::vector<SimplexId> FindSmallFragments(const Triangulation<3>& triangulation,
   const SimplexLabels& labels, unsigned threads, const std::stop_token& stop);
 
 /**
- * Finds them after the triangulation was refined. All simplices that were there before have the
- * labels that they had.
- *
- * Takes time linear in the sizes of the lists.
- * @param before the result for the triangulation before
- * @param added the simplices that were not there before
+ * Finds those of fragments that have one of some simplices, or one beside it. Takes time linear in
+ * their number.
  */
-std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulation,
-  const SimplexLabels& labels, const std::vector<SimplexId>& before,
-  const std::vector<SimplexId>& added, unsigned threads, const std::stop_token& stop);
+std::vector<SimplexId> FindSmallFragmentsAt(const Triangulation<3>& triangulation,
+  const SimplexLabels& labels, const std::vector<SimplexId>& changed, unsigned threads,
+  const std::stop_token& stop);
 
 /**
  * @brief Gives crumbs the label beside them, so that the elements of a label hang together.
@@ -65,14 +59,12 @@ std::vector<SimplexId> UpdateSmallFragments(const Triangulation<3>& triangulatio
  * @param small the result of FindSmallFragments() for these labels
  * @param options of the repair that comes next
  * @param threads 0 means all cores
- * @param memory of an earlier call; receives what this one finds. The result does not depend on it.
- * Null: nothing is kept
  * @return the simplices whose label was changed, ascending
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
   const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
-  const std::stop_token& stop, CrumbMemory* memory = nullptr);
+  const std::stop_token& stop);
 
 } // namespace voxplex
 

@@ -4,15 +4,12 @@
 
 #include "Base/UninitialisedVector.h"
 #include "Conformity/Crumbs.h"
+#include "Conformity/RepairNeighbourhood.h"
 #include "Delaunay/VertexStar.h"
 #include "Parallel/ParallelCollect.h"
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -21,6 +18,8 @@ namespace voxplex
 
 namespace
 {
+
+constexpr std::size_t Grain = 8192;
 
 /** Vertices of these simplices that are inside of a label. */
 template <int D>
@@ -35,10 +34,10 @@ std::vector<Point<D>> VerticesWithin(const Triangulation<D>& triangulation,
     return !AnyInStar(triangulation, v, incident,
       [&, label = labels[incident]](SimplexId s) { return labels[s] != label; });
   };
-  constexpr std::size_t Grain = 256;
+  constexpr std::size_t VerticesAtOnce = 256;
   UninitialisedVector<std::uint8_t> areWithin(vertices.size());
   ParallelFor(
-    0, vertices.size(), Grain, threads,
+    0, vertices.size(), VerticesAtOnce, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t k = first; k < last; ++k)
@@ -79,13 +78,12 @@ Point<D> CentroidOf(const Triangulation<D>& triangulation,
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-ManifoldLabeller<D>::ManifoldLabeller(const Triangulation<D>& triangulation,
+ManifoldLabeller<D>::ManifoldLabeller(Triangulation<D>& triangulation,
   const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop)
   : Source(triangulation)
   , Options(options)
   , Threads(threads)
   , Stop(stop)
-  , Seen(triangulation)
 {
 }
 
@@ -96,147 +94,120 @@ SimplexLabels ManifoldLabeller<D>::MakePlain() const
 }
 
 template <int D>
-void ManifoldLabeller<D>::Forget()
-{
-  this->Seen.Forget();
-  this->Small = std::vector<SimplexId>();
-  this->Crumbs = {};
-  this->Ridges = std::vector<InterfaceRidge<D>>();
-  this->Relabelled = {};
-  this->Repaired = {};
-}
-
-template <int D>
 ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
 {
+  // If there are more new simplices, it takes less time to look at all of them.
+  constexpr std::size_t Share = 32;
   ManifoldLabels<D> made;
-  made.Labels = this->MakePlain();
-  const bool isFirst = this->Seen.IsEmpty();
-  const Some added = isFirst ? std::nullopt : this->FindNew();
-  std::vector<SimplexId> relabelled;
+  std::vector<SimplexId> changed = this->TakeLabels(made.Labels);
+  const bool areFew = changed.size() <= this->Source.SimplexIdEnd() / Share;
   if constexpr (D == 3)
   {
-    this->Small = added && this->AreFew(*added)
-      ? UpdateSmallFragments(
-          this->Source, made.Labels, this->Small, *added, this->Threads, this->Stop)
+    const std::vector<SimplexId> small = areFew
+      ? FindSmallFragmentsAt(this->Source, made.Labels, changed, this->Threads, this->Stop)
       : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
-    if (added)
-    {
-      this->Relabelled.Changed = VerticesOf(this->Source, *added);
-    }
-    else
-    {
-      this->Relabelled = {};
-    }
-    relabelled = RelabelCrumbs(this->Source, made.Labels, this->Small, this->Options, this->Threads,
-      this->Stop, &this->Relabelled);
+    const std::vector<SimplexId> relabelled =
+      RelabelCrumbs(this->Source, made.Labels, small, this->Options, this->Threads, this->Stop);
+    changed.insert(changed.end(), relabelled.begin(), relabelled.end());
   }
-  const Some changed = this->FindChanged(made.Labels, added, relabelled);
-  this->FindRidges(made.Labels, changed);
-  if (isFirst) // not before the lists of facets, which need most memory, are gone
-  {
-    this->FindNew();
-  }
-  ManifoldRepairResult<D> result = RepairManifold<D>(this->Source, made.Labels, this->Ridges,
-    this->Options, this->Threads, this->Stop, &this->Repaired);
-  statistics.NonManifoldRepaired = this->Ridges.size() - result.Left.size();
+  const std::vector<InterfaceRidge<D>> ridges = areFew
+    ? FindNonManifoldRidgesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop)
+    : FindNonManifoldRidges<D>(this->Source, made.Labels, this->Threads, this->Stop);
+  ManifoldRepairResult<D> result =
+    RepairManifold<D>(this->Source, made.Labels, ridges, this->Options, this->Threads, this->Stop);
+  statistics.NonManifoldRepaired += ridges.size() - result.Left.size();
   statistics.NonManifoldLeft = result.Left.size();
   made.NonManifold = std::move(result.Left);
   for (const InterfaceRidge<D>& ridge : made.NonManifold)
   {
     made.Places.push_back({ CentroidOf(this->Source, ridge.Vertices), ridge.IsJunction });
   }
-  relabelled.insert(relabelled.end(), result.Relabelled.begin(), result.Relabelled.end());
-  made.Gone = VerticesWithin(this->Source, made.Labels, relabelled, this->Threads, this->Stop);
+  made.Gone = VerticesWithin(
+    this->Source, made.Labels, this->FindRelabelled(made.Labels), this->Threads, this->Stop);
+  this->KeepLabels(made.Labels, made.NonManifold);
   return made;
 }
 
-/** The simplices that are new since the last call. */
+/**
+ * Makes the labels that simplices were given, or have at their circumcentres. Returns those that are not
+ * examined.
+ */
 template <int D>
-auto ManifoldLabeller<D>::FindNew() -> Some
+auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 {
-  this->Seen.MakeRoom();
-  constexpr std::size_t Grain = 8192;
-  constexpr std::size_t Share = 4;
-  const std::size_t most = this->Source.SimplexIdEnd() / Share;
-  std::atomic<std::size_t> number{ 0 };
-  std::vector<SimplexId> all = ParallelCollect<SimplexId>(
-    this->Source.SimplexIdEnd(), Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, std::vector<SimplexId>& found)
+  const std::size_t ids = this->Source.SimplexIdEnd();
+  labels.resize(ids);
+  return ParallelCollect<SimplexId>(
+    ids, Grain, this->Threads,
+    [&](std::size_t first, std::size_t last, Simplices& fresh)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (this->Seen.See(s))
+        labels[s] = 0;
+        if (!this->Source.IsAlive(s))
+        {
+          continue;
+        }
+        const SimplexState& state = this->Source.State(s);
+        if (state.Examined)
+        {
+          labels[s] = state.Given;
+          continue;
+        }
+        labels[s] = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
+        fresh.push_back(s);
+      }
+    },
+    this->Stop);
+}
+
+/** The simplices that have another label than that at their circumcentre. */
+template <int D>
+auto ManifoldLabeller<D>::FindRelabelled(const SimplexLabels& labels) const -> Simplices
+{
+  return ParallelCollect<SimplexId>(
+    labels.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last, Simplices& found)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+      {
+        if (this->Source.IsAlive(s) &&
+          labels[s] != LabelAtCentre(this->Source, *this->Options.Surfaces, s))
         {
           found.push_back(s);
         }
       }
-      if (number.fetch_add(found.size(), std::memory_order_relaxed) + found.size() > most)
+    },
+    this->Stop);
+}
+
+template <int D>
+void ManifoldLabeller<D>::KeepLabels(
+  const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left)
+{
+  ParallelFor(
+    0, labels.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        found = {};
+        if (this->Source.IsAlive(s))
+        {
+          SimplexState& state = this->Source.State(s);
+          state.Given = labels[s];
+          state.Examined = true;
+        }
       }
     },
     this->Stop);
-  return number.load() > most ? std::nullopt : Some(std::move(all));
-}
-
-/**
- * The simplices that are new, or have another label than in the last call.
- * @param added the new simplices
- * @param crumbs those that have another label than that at their circumcentre, ascending
- */
-template <int D>
-auto ManifoldLabeller<D>::FindChanged(
-  const SimplexLabels& labels, Some added, const std::vector<SimplexId>& crumbs) -> Some
-{
-  std::vector<std::pair<SimplexId, LabelId>> now;
-  now.reserve(crumbs.size());
-  for (const SimplexId s : crumbs)
+  const repair::Neighbourhood<D> near(this->Source, labels, labels);
+  for (const InterfaceRidge<D>& ridge : left)
   {
-    now.push_back({ s, labels[s] });
-  }
-  if (added)
-  {
-    std::vector<std::pair<SimplexId, LabelId>> other;
-    std::set_symmetric_difference(
-      this->Crumbs.begin(), this->Crumbs.end(), now.begin(), now.end(), std::back_inserter(other));
-    for (const auto& [s, label] : other)
+    for (const SimplexId s : near.StarOf(ridge.Vertices))
     {
-      if (this->Source.IsAlive(s))
-      {
-        added->push_back(s);
-      }
+      this->Source.State(s).Examined = false;
     }
   }
-  this->Crumbs = std::move(now);
-  return added;
-}
-
-/** Finds the ridges that are not manifold with these labels. */
-template <int D>
-void ManifoldLabeller<D>::FindRidges(const SimplexLabels& labels, const Some& changed)
-{
-  const std::span<const LabelId> now(labels);
-  this->Ridges = changed && this->AreFew(*changed)
-    ? UpdateNonManifoldRidges<D>(
-        this->Source, now, this->Ridges, *changed, this->Threads, this->Stop)
-    : FindNonManifoldRidges<D>(this->Source, now, this->Threads, this->Stop);
-  if (changed)
-  {
-    this->Repaired.Changed = VerticesOf(this->Source, *changed);
-  }
-  else
-  {
-    this->Repaired = {};
-  }
-}
-
-/** Whether it takes less time to look around these than to look at all simplices. */
-template <int D>
-bool ManifoldLabeller<D>::AreFew(const std::vector<SimplexId>& simplices) const
-{
-  constexpr std::size_t Share = 32;
-  return simplices.size() <= this->Source.SimplexIdEnd() / Share;
 }
 
 template class ManifoldLabeller<3>;

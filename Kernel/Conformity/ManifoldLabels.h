@@ -11,13 +11,10 @@
 #include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/ManifoldRepair.h"
-#include "Conformity/RepairMemory.h"
-#include "Conformity/SeenSimplices.h"
 #include "Mesh/SimplexLabels.h"
 
-#include <optional>
+#include <cstddef>
 #include <stop_token>
-#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -39,9 +36,9 @@ struct ManifoldLabels
  * Each simplex gets the label at its circumcentre. Then RelabelCrumbs() (3D) and RepairManifold() give
  * some of them another label.
  *
- * After further refinement, the labels can be made again. The result is that of a new object, but
- * defects are looked for and repaired only where simplices are new. For this, two bytes for each
- * simplex id are kept, and some hundred for each defect.
+ * A simplex keeps the label that it was given as long as it lives (SimplexState::Given). After further
+ * refinement, defects are looked for at the simplices that are not Examined: those that are new,
+ * and those around defects that nothing has mended.
  *
  * Not thread safe; uses threads of its own.
  */
@@ -50,47 +47,36 @@ class ManifoldLabeller
 {
 public:
   /**
-   * @param triangulation must outlive this object
+   * @param triangulation its simplices get their labels; must outlive this object
    * @param options of the repair. Surfaces must not be null.
    * @param threads 0 means all cores; results do not depend on it
    */
-  ManifoldLabeller(const Triangulation<D>& triangulation, const ManifoldRepairOptions<D>& options,
+  ManifoldLabeller(Triangulation<D>& triangulation, const ManifoldRepairOptions<D>& options,
     unsigned threads, const std::stop_token& stop);
 
   /**
    * No thread may change the triangulation during the call. Takes time linear in the number of
    * simplices, if few are repaired.
-   * @param statistics receives the numbers of ridges that were repaired and are left
-   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   * @param statistics counts the ridges that were repaired, and receives the number of those left
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc. Then the next call
+   *   looks at the same simplices again.
    */
   ManifoldLabels<D> Make(InterfaceStatistics& statistics);
 
   /** The labels at the circumcentres: no crumb and no ridge is looked for. */
   SimplexLabels MakePlain() const;
 
-  /** Frees all memory. */
-  void Forget();
-
 private:
-  /** Some simplices, or none: so many that what is known of others is of no use. */
-  using Some = std::optional<std::vector<SimplexId>>;
+  using Simplices = std::vector<SimplexId>;
 
-  Some FindNew();
-  Some FindChanged(const SimplexLabels& labels, Some added, const std::vector<SimplexId>& crumbs);
-  void FindRidges(const SimplexLabels& labels, const Some& changed);
-  bool AreFew(const std::vector<SimplexId>& simplices) const;
+  Simplices TakeLabels(SimplexLabels& labels) const;
+  Simplices FindRelabelled(const SimplexLabels& labels) const;
+  void KeepLabels(const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left);
 
-  const Triangulation<D>& Source;
+  Triangulation<D>& Source;
   const ManifoldRepairOptions<D> Options;
   const unsigned Threads;
   const std::stop_token Stop;
-  SeenSimplices<D> Seen;        ///< at the last call
-  std::vector<SimplexId> Small; ///< FindSmallFragments() then (3D)
-  /** Simplices that RelabelCrumbs() gave another label then, and this label; ascending. */
-  std::vector<std::pair<SimplexId, LabelId>> Crumbs;
-  std::vector<InterfaceRidge<D>> Ridges; ///< FindNonManifoldRidges() then
-  CrumbMemory Relabelled;                ///< then (3D)
-  RepairMemory<D> Repaired;              ///< then
 };
 
 extern template class ManifoldLabeller<3>;

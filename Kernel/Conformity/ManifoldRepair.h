@@ -21,9 +21,6 @@
 namespace voxplex
 {
 
-template <int D>
-struct RepairMemory;
-
 /** Constraints on changes of an interface. */
 template <int D>
 struct ManifoldRepairOptions
@@ -66,23 +63,21 @@ struct ManifoldRepairResult
  *
  * @param labels by simplex id; some are changed
  * @param ridges the result of FindNonManifoldRidges() for these labels
- * @param threads used; 0 means all cores. With several, labels are copied for each of up to 8 threads
- * @param memory of an earlier call; receives what this one finds. The result does not depend on it.
- * Null: nothing is kept
+ * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
   std::span<LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
   const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
-  const std::stop_token& stop = {}, RepairMemory<D>* memory = nullptr);
+  const std::stop_token& stop = {});
 
 extern template ManifoldRepairResult<3> RepairManifold<3>(const Triangulation<3>&,
   std::span<LabelId>, const std::vector<InterfaceRidge<3>>&, const ManifoldRepairOptions<3>&,
-  unsigned, const std::stop_token&, RepairMemory<3>*);
+  unsigned, const std::stop_token&);
 extern template ManifoldRepairResult<4> RepairManifold<4>(const Triangulation<4>&,
   std::span<LabelId>, const std::vector<InterfaceRidge<4>>&, const ManifoldRepairOptions<4>&,
-  unsigned, const std::stop_token&, RepairMemory<4>*);
+  unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

@@ -54,19 +54,6 @@ public:
     }
   }
 
-  /** Appends a ridge if it is there and bad. */
-  void FindAgain(const repair::Ridge<D>& ridge, std::vector<InterfaceRidge<D>>& found) const
-  {
-    if (this->Source.GetVertex(ridge[0]).Alive)
-    {
-      const std::vector<SimplexId> star = this->Near.StarOf(ridge);
-      if (!star.empty())
-      {
-        this->Add(ridge, star.front(), found);
-      }
-    }
-  }
-
 private:
   void Add(const repair::Ridge<D>& ridge, SimplexId s, std::vector<InterfaceRidge<D>>& found) const
   {
@@ -151,50 +138,22 @@ std::vector<InterfaceRidge<D>> FindNonManifoldRidges(const Triangulation<D>& tri
 }
 
 template <int D>
-std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& triangulation,
-  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& before,
-  const std::vector<SimplexId>& changed, unsigned threads, const std::stop_token& stop)
+std::vector<InterfaceRidge<D>> FindNonManifoldRidgesOf(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, const std::vector<SimplexId>& simplices, unsigned threads,
+  const std::stop_token& stop)
 {
-  // A ridge that has become bad, or was bad and has another ring, has a changed simplex.
   constexpr std::size_t Grain = 256;
   std::vector<InterfaceRidge<D>> ridges = ParallelCollect<InterfaceRidge<D>>(
-    changed.size(), Grain, threads,
+    simplices.size(), Grain, threads,
     [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& found)
     {
       const RidgeFinder<D> finder(triangulation, labels);
       for (std::size_t k = first; k < last; ++k)
       {
-        finder.Find(changed[k], found);
+        finder.Find(simplices[k], found);
       }
     },
     stop);
-  const std::vector<VertexId> vertices = VerticesOf(triangulation, changed);
-  const auto mayHaveChanged = [&](const repair::Ridge<D>& ridge)
-  {
-    return std::all_of(ridge.begin(), ridge.end(),
-      [&](VertexId v)
-      {
-        return !triangulation.GetVertex(v).Alive ||
-          std::binary_search(vertices.begin(), vertices.end(), v);
-      });
-  };
-  const std::vector<InterfaceRidge<D>> again = ParallelCollect<InterfaceRidge<D>>(
-    before.size(), Grain, threads,
-    [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& found)
-    {
-      const RidgeFinder<D> finder(triangulation, labels);
-      for (std::size_t k = first; k < last; ++k)
-      {
-        if (!mayHaveChanged(before[k].Vertices))
-        {
-          found.push_back(before[k]);
-          continue;
-        }
-        finder.FindAgain(before[k].Vertices, found);
-      }
-    },
-    stop);
-  ridges.insert(ridges.end(), again.begin(), again.end());
   std::sort(ridges.begin(), ridges.end(),
     [](const auto& a, const auto& b) { return a.Vertices < b.Vertices; });
   ridges.erase(std::unique(ridges.begin(), ridges.end(),
@@ -209,11 +168,9 @@ template std::vector<InterfaceRidge<3>> FindNonManifoldRidges<3>(
   const Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
 template std::vector<InterfaceRidge<4>> FindNonManifoldRidges<4>(
   const Triangulation<4>&, std::span<const LabelId>, unsigned, const std::stop_token&);
-template std::vector<InterfaceRidge<3>> UpdateNonManifoldRidges<3>(const Triangulation<3>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::vector<SimplexId>&,
-  unsigned, const std::stop_token&);
-template std::vector<InterfaceRidge<4>> UpdateNonManifoldRidges<4>(const Triangulation<4>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::vector<SimplexId>&,
-  unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<3>> FindNonManifoldRidgesOf<3>(const Triangulation<3>&,
+  std::span<const LabelId>, const std::vector<SimplexId>&, unsigned, const std::stop_token&);
+template std::vector<InterfaceRidge<4>> FindNonManifoldRidgesOf<4>(const Triangulation<4>&,
+  std::span<const LabelId>, const std::vector<SimplexId>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

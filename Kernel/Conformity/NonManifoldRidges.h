@@ -56,27 +56,22 @@ std::vector<InterfaceRidge<D>> FindNonManifoldRidges(const Triangulation<D>& tri
   std::span<const LabelId> labels, unsigned threads = 1, const std::stop_token& stop = {});
 
 /**
- * Finds them after the triangulation was refined, or labels were changed. Takes time linear in the
- * sizes of the lists. For the rest, see FindNonManifoldRidges().
- *
- * @param before the result for the triangulation and the labels before
- * @param changed the simplices that were not there before, or had another label
+ * Finds those of some living simplices. Takes time linear in their number. For the rest, see
+ * FindNonManifoldRidges().
  */
 template <int D>
-std::vector<InterfaceRidge<D>> UpdateNonManifoldRidges(const Triangulation<D>& triangulation,
-  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& before,
-  const std::vector<SimplexId>& changed, unsigned threads = 1, const std::stop_token& stop = {});
+std::vector<InterfaceRidge<D>> FindNonManifoldRidgesOf(const Triangulation<D>& triangulation,
+  std::span<const LabelId> labels, const std::vector<SimplexId>& simplices, unsigned threads = 1,
+  const std::stop_token& stop = {});
 
 extern template std::vector<InterfaceRidge<3>> FindNonManifoldRidges<3>(
   const Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
 extern template std::vector<InterfaceRidge<4>> FindNonManifoldRidges<4>(
   const Triangulation<4>&, std::span<const LabelId>, unsigned, const std::stop_token&);
-extern template std::vector<InterfaceRidge<3>> UpdateNonManifoldRidges<3>(const Triangulation<3>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::vector<SimplexId>&,
-  unsigned, const std::stop_token&);
-extern template std::vector<InterfaceRidge<4>> UpdateNonManifoldRidges<4>(const Triangulation<4>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::vector<SimplexId>&,
-  unsigned, const std::stop_token&);
+extern template std::vector<InterfaceRidge<3>> FindNonManifoldRidgesOf<3>(const Triangulation<3>&,
+  std::span<const LabelId>, const std::vector<SimplexId>&, unsigned, const std::stop_token&);
+extern template std::vector<InterfaceRidge<4>> FindNonManifoldRidgesOf<4>(const Triangulation<4>&,
+  std::span<const LabelId>, const std::vector<SimplexId>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

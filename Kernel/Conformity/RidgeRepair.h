@@ -8,7 +8,7 @@
 #define voxplex_RidgeRepair_h
 
 #include "Conformity/ChangeRules.h"
-#include "Conformity/RepairMemory.h"
+#include "Conformity/OrderedChanges.h"
 #include "Geometry/SimplexQuality.h"
 
 #include <algorithm>

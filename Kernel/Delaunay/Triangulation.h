@@ -666,6 +666,7 @@ inline void Triangulation<D>::Kill(Worker& worker, SimplexId s)
   state.Label = 0;
   state.Labelled = false;
   state.NearSurface = false;
+  state.Examined = false;
   worker.FreeSimplices.Push(s);
 }
 

@@ -52,7 +52,7 @@ std::function<bool(SimplexId)> KeepsItsLabel(
 //------------------------------------------------------------------------------------------------
 template <int D>
 Inspection<D>::Inspection(
-  const RunEnvironment<D>& run, const RefinementStage<D>& stage, LocalDelta<D>& local)
+  const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local)
   : Run(run)
   , Source(stage.Mesh())
   , Interfaces({ stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
@@ -107,7 +107,6 @@ template <int D>
 void Inspection<D>::Finish()
 {
   this->Interfaces.Finish();
-  this->Labeller.Forget();
 }
 
 //------------------------------------------------------------------------------------------------

@@ -54,7 +54,7 @@ class Inspection
 {
 public:
   /** All references must outlive this object. */
-  Inspection(const RunEnvironment<D>& run, const RefinementStage<D>& stage, LocalDelta<D>& local);
+  Inspection(const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local);
 
   /** Points for thin components, to be inserted before refinement. */
   std::vector<FeatureSeed<D>> TakeSeeds();

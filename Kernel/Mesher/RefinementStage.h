@@ -62,6 +62,8 @@ public:
 
   /** The result of Refine(). The reference stays valid; ids may be others after each Refine(). */
   virtual const Triangulation<D>& Mesh() const = 0;
+  /** The same, for states of simplices. Only the stage itself changes points and simplices. */
+  virtual Triangulation<D>& Mesh() = 0;
   virtual const SizingField<D>& Sizing() const = 0;
   /** Call this after bounds were added to the local ones. */
   virtual void FollowLocalBounds() = 0;
@@ -108,6 +110,7 @@ public:
     return RefineContext(this->Run, this->Context, seeds, start, this->Vertices, progress);
   }
   const Triangulation<D>& Mesh() const override { return this->Context.Mesh; }
+  Triangulation<D>& Mesh() override { return this->Context.Mesh; }
   const SizingField<D>& Sizing() const override { return this->Context.Sizing; }
   void FollowLocalBounds() override { this->Context.Sizing.FollowLocalBounds(); }
   void Finish() override

@@ -53,6 +53,7 @@ public:
   bool Refine(const std::vector<FeatureSeed<4>>& seeds, RefinementStart start,
     RunProgress& progress) override;
   const Triangulation<4>& Mesh() const override { return this->Whole; }
+  Triangulation<4>& Mesh() override { return this->Whole; }
   const SizingField<4>& Sizing() const override { return this->WholeSizing; }
   void FollowLocalBounds() override;
   std::span<const std::array<VertexId, 2>> Twins() const override { return this->Pairs; }
