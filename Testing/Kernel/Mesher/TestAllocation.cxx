@@ -13,6 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -93,6 +97,22 @@ void operator delete[](void* p, const std::nothrow_t&) noexcept { Release(p); }
 void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept { Release(p); }
 void operator delete[](void* p, std::align_val_t, const std::nothrow_t&) noexcept { Release(p); }
 // clang-format on
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/** For the kernel's AllocatePages(). The C library's own calls do not come here. */
+extern "C" void* mmap(
+  void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept
+{
+  Allocations.fetch_add(1, std::memory_order_relaxed);
+  AllocatedBytes.fetch_add(size, std::memory_order_relaxed);
+  if (!Spared && Countdown.load(std::memory_order_relaxed) != Never &&
+    Countdown.fetch_sub(1, std::memory_order_relaxed) == 1)
+  {
+    return MAP_FAILED;
+  }
+  return reinterpret_cast<void*>(syscall(SYS_mmap, at, size, protection, flags, file, offset));
+}
+#endif
 
 namespace voxplex
 {
