@@ -55,13 +55,23 @@ std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
     }
     const std::vector<std::uint32_t> witnesses =
       FindFirstWitnesses<D>(set.All, this->Image, elements, set.Guarded, threads, stop);
-    for (std::size_t c = 0; c < all.size(); ++c)
+    set.IsBeside.assign(all.size(), false);
+    for (std::uint32_t c = 0; c < all.size(); ++c)
     {
       set.Guarded[c] = witnesses[c] != None;
       if (set.Guarded[c])
       {
         holders.resize(elements.Size());
         holders[witnesses[c]] = 1;
+        Corners corners;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+        {
+          corners[i] = &elements.PointOf(witnesses[c], i);
+        }
+        bool isIn = false;
+        set.Voxels.ForEachOf(
+          corners, [&](const auto& voxel) { isIn = isIn || set.All.At(voxel) == c; });
+        set.IsBeside[c] = !isIn;
       }
     }
   }
@@ -75,17 +85,25 @@ bool ComponentGuard<D>::Keeps(LabelId label, const Corners& before, std::span<co
 {
   for (const Set& set : this->Sets)
   {
+    const auto guardedAt = [&](const auto& voxel)
+    {
+      const std::uint32_t c = set.All.At(voxel);
+      return c != None && set.Guarded[c] && set.All.All()[c].Label == label ? c : None;
+    };
+    // An element may be beside many components. If it is in one, it holds no other, unless nothing is in
+    // that other one.
     const auto componentsOf = [&](const Corners& element)
     {
       std::vector<std::uint32_t> found;
       set.Voxels.ForEachOf(element,
         [&](const auto& centre)
         {
+          const std::uint32_t own = guardedAt(centre);
           set.Voxels.ForEachAround(centre,
             [&](const auto& voxel)
             {
-              const std::uint32_t c = set.All.At(voxel);
-              if (c != None && set.Guarded[c] && set.All.All()[c].Label == label &&
+              const std::uint32_t c = guardedAt(voxel);
+              if (c != None && (own == None || c == own || set.IsBeside[c]) &&
                 std::find(found.begin(), found.end(), c) == found.end())
               {
                 found.push_back(c);

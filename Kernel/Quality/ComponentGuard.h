@@ -53,7 +53,7 @@ public:
    */
   void Add(const Components<D>& components, std::vector<bool> wanted)
   {
-    this->Sets.push_back({ components, std::move(wanted), {}, { components, this->Image } });
+    this->Sets.push_back({ components, std::move(wanted), {}, {}, { components, this->Image } });
   }
 
   /**
@@ -79,7 +79,7 @@ public:
   LabelId LabelOf(std::int64_t value) const { return LabelIdOf(value, this->Image); }
 
   /**
-   * Whether new elements hold all guarded components near which an old one is.
+   * Whether new elements hold all guarded components that an old one may hold.
    * @param label of them all; 0 is held by nothing
    * @param areHolders of the new elements; receives 1 for those that are the next holders
    */
@@ -99,6 +99,7 @@ private:
     const Components<D>& All;
     std::vector<bool> Wanted;
     std::vector<bool> Guarded;
+    std::vector<bool> IsBeside; ///< whether the first holder has its centroid beside it, not in it
     ElementVoxels<D> Voxels;
   };
 
