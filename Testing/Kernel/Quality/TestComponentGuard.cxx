@@ -5,6 +5,7 @@
 #include "MeshChecks.h"
 #include "Mesher/ImageMesher.h"
 #include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/PentatopeComplex.h"
 #include "Phantoms.h"
 #include "Quality/ComponentGuard.h"
 #include "Quality/LostComponents.h"
@@ -216,4 +217,49 @@ TEST(ComponentGuard, FramesHaveTheirOwn)
   const auto between = at(1.5, 0.2);
   EXPECT_TRUE(guard.Keeps(label, PointersTo<4>(before), PointersTo<4>(reaches)));
   EXPECT_FALSE(guard.Keeps(label, PointersTo<4>(before), PointersTo<4>(between)));
+}
+
+//------------------------------------------------------------------------------------------------
+// Flips and insertions of pentatopes ask before they replace a holder.
+TEST(ComponentGuard, PentatopesAreHandedOver)
+{
+  std::vector<std::uint8_t> scalars(9 * 9 * 9 * 9, 0);
+  scalars[4 + 9 * (4 + 9 * (4 + 9 * 4))] = 1; // one voxel
+  const auto image = LabelImage<4>::FromScalars<std::uint8_t>(
+    scalars, GridGeometry<4>::Orthogonal({ 9, 9, 9, 9 }, { 1.0, 1.0, 1.0, 1.0 }));
+  const ImageDomain<4> domain(image, 1.0);
+  const Components<4> components(image);
+  const Point<4> centre = image.Grid().ToFrame({ 4.0, 4.0, 4.0, 4.0 });
+  SimplexMesh<4> mesh; // two pentatopes in the voxel and far away, and the points of others
+  std::vector<PentatopeComplex::Vertices> corners;
+  for (const double by : { 0.0, 3.0, 1.2, 2.5 })
+  {
+    const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+    corners.push_back({ first, first + 1, first + 2, first + 3, first + 4 });
+    for (Point<4> p : Around<4>(centre, 0.1))
+    {
+      p[0] += by;
+      mesh.Points.push_back(p);
+    }
+  }
+  mesh.Simplices = { corners[0], corners[1] };
+  mesh.Labels = { 1, 1 };
+
+  ComponentGuard<4> guard(image);
+  guard.Add(components, { true });
+  PentatopeBounds bounds;
+  bounds.Guard = &guard;
+  PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+  EXPECT_TRUE(complex.IsHolder(0));
+  EXPECT_FALSE(complex.IsHolder(1));
+  const std::array<std::uint32_t, 1> holder = { 0 };
+  const std::array<std::uint32_t, 1> other = { 1 };
+  const std::array<PentatopeComplex::Vertices, 1> far = { corners[3] };
+  const std::array<PentatopeComplex::Vertices, 2> both = { corners[3], corners[2] };
+  EXPECT_TRUE(complex.HandOver(other, far));
+  EXPECT_FALSE(complex.HandOver(holder, far));
+  EXPECT_TRUE(complex.IsHolder(0)) << "nothing has changed";
+  ASSERT_TRUE(complex.HandOver(holder, both)); // the first takes its place, the second is appended
+  EXPECT_FALSE(complex.IsHolder(0));
+  EXPECT_TRUE(complex.IsHolder(2));
 }
