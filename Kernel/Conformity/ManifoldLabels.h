@@ -13,7 +13,6 @@
 #include "Conformity/ManifoldRepair.h"
 #include "Mesh/SimplexLabels.h"
 
-#include <cstddef>
 #include <stop_token>
 #include <vector>
 

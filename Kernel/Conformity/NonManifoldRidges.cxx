@@ -5,7 +5,6 @@
 #include "Base/UninitialisedVector.h"
 #include "Conformity/ChangeRules.h"
 #include "Conformity/RepairNeighbourhood.h"
-#include "Delaunay/VertexStar.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelCollect.h"
 
