@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares meshes of a digital ball, and of grey-value images of the same ball, with the exact
-// sphere, for several values of smoothing and delta. Prints the tables of
-// Documentation/Algorithm.md.
+// sphere, for several values of smoothing and delta. Benchmarks/Notebook.md has figures of it.
 #include "Mesher/ImageMesher.h"
 
 #include "../Testing/Kernel/Support/MeshChecks.h"

@@ -59,9 +59,22 @@ struct SpindleContext
  * and capqs keep their label. Where the triangulation ends at the ridge, as on the flat ends in
  * time, what lies beyond counts as background that cannot be cut.
  *
- * Each spindle removes one non-manifold ridge and makes no new one (Documentation/Algorithm.md, "Why
- * no edge is left that is not manifold", has the proof). Each simplex keeps pieces with its own
- * label, so no element is lost. New vertices lie at one of a few fixed positions in their facet or
+ * **Each spindle removes one non-manifold ridge and makes no new one,** with any labels. Let sigma be
+ * the ridge, L the label of the spindle, and tau a facet of sigma (3D: a or b). The simplices that
+ * are cut fill one arc around sigma, with those in between that have L already. Where a cut simplex
+ * is beside one with L, their facet gets no new vertex; between two such it is cut by a vertex inside.
+ * - Around sigma: the arc is chosen so that each label has one run.
+ * - Around old ridges: those with r and s lie in pieces that keep their label. Around tau r a piece
+ *   of L is added only if there is no new vertex on the facet of sigma and r. Then it is beside the
+ *   simplex with L, whose run grows, and a piece of the old label follows.
+ * - Around new ridges: around tau p are pieces of L, then of the label of one simplex, then of that
+ *   of the other. If one of the two is not cut, it lies on both sides of the facet as one run. The
+ *   other new ridges are inside of a simplex or between two. Each label has one run there.
+ * New vertices lie inside of facets and simplices, so no spindle cuts another one's ridge, and there
+ * are as many spindles as ridges.
+ *
+ * Each simplex keeps pieces with its own label, so no element is lost. It is cut at most once for each
+ * of its ridges. New vertices lie at one of a few fixed positions in their facet or
  * simplex, so the shapes of the simplices bound the shapes of the pieces. Of all possible cuts, the
  * one with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
  * image cuts the object is taken only if there is no other.

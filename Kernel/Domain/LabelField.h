@@ -38,7 +38,7 @@ namespace voxplex
  * sigma voxels along each axis. It is a separable form of 2G - G*G and, like it, hardly moves
  * curved interfaces, but it needs one separable pass, not two. Its second moment is slightly below
  * 0, which compensates for the remaining shrinkage and for the chords of the mesh.
- * Documentation/Algorithm.md has the measured accuracy.
+ * Benchmarks/Notebook.md has the measured accuracy.
  *
  * **Border.** Where a 3D image cuts the object (LabelImage::ReachesBorder), labels continue
  * unchanged for the smoothing. Beyond the outer faces of the outermost voxels there is background

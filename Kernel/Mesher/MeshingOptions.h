@@ -21,7 +21,7 @@
 namespace voxplex
 {
 
-/** See SamplingOptions::Gradation and Documentation/Algorithm.md. */
+/** See SamplingOptions::Gradation; Benchmarks/Notebook.md tells why. */
 inline constexpr double DefaultGradation = 0.3;
 
 /** How far apart points are. Lengths are in the unit of the image's spacing. */
@@ -140,7 +140,7 @@ inline constexpr double OptimisedNormalizedVolume = 0.05;
  */
 inline constexpr double SmallestRadiusEdgeRatio = 1.93;
 
-/** The default delta, from the (hyper)volume of a voxel: see Documentation/Algorithm.md. */
+/** The default delta: twice the edge of a (hyper)cube with the (hyper)volume of a voxel. */
 template <int D>
 double DefaultDelta(double voxelVolume);
 

@@ -39,8 +39,12 @@
  * (SlabRefinement). For R3, R4, R5 and the size rule this label counts, not that of c(s). The dual edges of its
  * facets lead from the centre of its facet on the plane to c(s), and on.
  *
- * **Slivers** are pentatopes here. No face has a smaller normalized volume than its pentatope
- * (Algorithm.md), so a pentatope that is no sliver has none among its faces.
+ * **Slivers** are pentatopes here. No face has a smaller normalized volume than its pentatope, so a
+ * pentatope that is no sliver has none among its faces. Proof: let R be the circumradius of the
+ * pentatope, x R that of a facet, and f the facet's normalized volume. The height above the facet is
+ * at most R (1 + sqrt(1 - x^2)). So the pentatope has at most f g(x) / g(sqrt(15) / 4), with g(x) =
+ * x^3 (1 + sqrt(1 - x^2)). g is largest at sqrt(15) / 4, the value of the regular pentatope. The same
+ * holds from tetrahedra to triangles, with x^2 in place of x^3.
  *
  * **Termination** for every input, as in Rules3D. Feature vertices stay, and none is inserted
  * nearer than the spacing floor to another, so R1 and R5 fire finitely often. Between two of them

@@ -120,7 +120,7 @@ TEST(SimplexQuality, RegularPentatope)
   EXPECT_NEAR(std::abs(SignedVolume<4>(v.data())), std::sqrt(5.0) / 24.0, 1e-14);
 }
 
-// So a pentatope that is no sliver has no sliver among its facets (Algorithm.md).
+// So a pentatope that is no sliver has no sliver among its facets (Rules4D.h).
 TEST(SimplexQuality, NoFacetHasASmallerNormalizedVolumeThanItsPentatope)
 {
   std::mt19937 random(1);
