@@ -13,9 +13,9 @@ import sys
 LARGEST_WHOLE = 2**31 - 1
 HEAD = """# Parameters of meshing
 
-All parameters, and their names in the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in VTK.
-VTK's methods have Set or Get before the name; ParaView's properties have the name itself. Lengths are in the unit of the image.
-This page is made from the table in `Parameters/Table.cxx`.
+The names of all parameters in the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in VTK, whose
+methods have Set or Get before them; ParaView's properties have VTK's names. [Reference.md](Reference.md) says what each does, and so do
+`voxplex --help`, `help(voxplex.mesh)` and ParaView's tooltips. A script makes this page from the table in `Parameters/Table.cxx`.
 """
 
 
@@ -35,15 +35,15 @@ def limits(p):
 
 def row(p):
     names = [f"`{name}`" if name else "" for name in (p["option"] and "--" + p["option"], p["python"], p["slicer"], p["property"])]
-    help_text = p["option_help"] or p["slicer_help"]
-    return "| " + " | ".join([*names, p["default"], limits(p), help_text]) + " |"
+    values = limits(p) + ("; 3D only" if p["dimension"] == 3 else "")
+    return "| " + " | ".join([*names, p["default"], values]) + " |"
 
 
 def page(table):
     lines = [HEAD]
     for group, parameters in itertools.groupby(table, lambda p: p["group"]):
-        lines += [f"## {group}", "", "| option | Python | Slicer | VTK | default | values | what it does |",
-                  "| --- | --- | --- | --- | --- | --- | --- |", *map(row, parameters), ""]
+        lines += [f"## {group}", "", "| option | Python | Slicer | VTK | default | values |",
+                  "| --- | --- | --- | --- | --- | --- |", *map(row, parameters), ""]
     return "\n".join(lines)
 
 
