@@ -51,14 +51,11 @@ class Atlas:
         """Name of the figure, and how to print it for one mesh."""
         return [
             ("tetrahedra", lambda f: count(f["elements"])),
-            ("interface facets", lambda f: count(f["interface_facets"])),
             ("labels lost", lambda f: f"{len(f['image']['lost_labels'])} of {self.labels()}"),
             ("components of 8 voxels and more lost",
              lambda f: f"{len(f['image']['lost_components'])} of {f['image']['components']}"),
             ("Hausdorff distance to the faces of voxels, mm", lambda f: number(f["hausdorff"]["voxels"]["distance"])),
             ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["image_to_mesh"])),
-            ("Hausdorff distance to the smooth interface, mm",
-             lambda f: number(f["hausdorff"]["smooth"]["distance"])),
             ("volumes of labels, error, %", lambda f: number(100 * f["image"]["label_volume_error"])),
             ("radius-edge ratio, largest", lambda f: number(f["quality"]["max_radius_edge"], 4)),
             ("dihedral angle, smallest", lambda f: number(f["quality"]["min_dihedral"])),
@@ -211,8 +208,7 @@ have one thread. Times are medians of {repeat}, and rates of {pairs} pairs, in t
 - **Voxplex** is `voxplex` without optimisation, **optimised** with it; other options have their defaults.
 - **CGAL** is `make_mesh_3` of CGAL 5.5 with facet angle 30 degrees, radius-edge ratio 2, a size tuned to as many tetrahedra, and no
   perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
-- Distances are to the interfaces of the image: the centres of faces between voxels of different labels, or the smooth interface,
-  which Voxplex meshes and CGAL does not. A non-manifold edge counts once for each label.
+- Distances are to the faces between voxels of different labels. A non-manifold edge counts once for each label.
 
 Asked of every mesh, and met unless *missed* is said: no label and no component of 8 voxels lost; a Hausdorff distance of at most 1.5
 delta; facet angles from 30 degrees on off junctions, and 20 at them; manifold off junctions; radius-edge ratio below 2, optimised 2.5;
