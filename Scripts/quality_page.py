@@ -202,24 +202,19 @@ def _log_ratio(a, b):
 INTRODUCTION = """\
 # Quality of the meshes
 
-`Scripts/measure-quality` makes this page. Figures are those of `voxplex.quality()` ([Reference.md](Reference.md#quality)). All runs
-have one thread. Times are medians of {repeat}, and rates of {pairs} pairs, in turns on {machine}. Compare them only with each other.
+`Scripts/measure-quality` makes this page; `build/quality/log.txt` has its commands. Figures are those of
+`voxplex.quality()` ([Reference.md](Reference.md#quality)). All runs have one thread. Times are medians of {repeat}, and
+rates of {pairs} pairs, in turns on
+{machine}. Compare them only with each other.
 
 - **Voxplex** is `voxplex` without optimisation, **optimised** with it; other options have their defaults.
-- **CGAL** is `make_mesh_3` of CGAL 5.5 with facet angle 30 degrees, radius-edge ratio 2, a size tuned to as many tetrahedra, and no
-  perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
+- **CGAL** is `make_mesh_3` of CGAL 5.5 with facet angle 30 degrees, radius-edge ratio 2, a size tuned to as many
+  tetrahedra, and no perturbation and exudation. **perturb + exude** is the same mesh after both, without limit of time.
 - Distances are to the faces between voxels of different labels. A non-manifold edge counts once for each label.
 
-Asked of every mesh, and met unless *missed* is said: no label and no component of 8 voxels lost; a Hausdorff distance of at most 1.5
-delta; facet angles from 30 degrees on off junctions, and 20 at them; manifold off junctions; radius-edge ratio below 2, optimised 2.5;
-dihedral angles of 4.6 to 171 degrees, optimised 18 to 150.
-"""
-COMMANDS = """\
-Meshes of the last table, whose phantoms the script makes, and those of the first atlas; the second has the same:
-
-```sh
-voxplex --input INPUT --delta DELTA --grading uniform --threads 1 --no-optimise --hausdorff --stats grading.json
-voxplex --input INPUT --delta DELTA --grading lfs --feature-ratio RATIO --threads 1 --no-optimise --hausdorff --stats grading.json
+Asked of every mesh, and met unless *missed* is said: no label and no component of 8 voxels lost; a Hausdorff distance of
+at most 1.5 delta; facet angles from 30 degrees on off junctions, and 20 at them; manifold off junctions; radius-edge
+ratio below 2, optimised 2.5; dihedral angles of 4.6 to 171 degrees, optimised 18 to 150.
 """
 
 
@@ -234,7 +229,4 @@ def make_page(results):
     for name in results["missing"]:
         parts.append(f"{name}\n")
     parts += ["## Grading at equal distance\n", grading_section(results["grading"])]
-    first = next(iter(results["atlases"]))
-    commands = [command for command in results["commands"] if f" {first}-" in command]
-    parts += ["## Commands\n", COMMANDS + "\n".join(commands) + "\n```\n"]
     return "\n".join(parts)
