@@ -51,17 +51,15 @@ class Atlas:
         """Name of the figure, and how to print it for one mesh."""
         return [
             ("tetrahedra", lambda f: count(f["elements"])),
-            ("labels lost", lambda f: f"{len(f['image']['lost_labels'])} of {self.labels()}"),
-            ("components of 8 voxels and more lost",
-             lambda f: f"{len(f['image']['lost_components'])} of {f['image']['components']}"),
+            ("labels, components of 8 voxels and more lost", lambda f: "{} of {}, {} of {}".format(
+                len(f["image"]["lost_labels"]), self.labels(), len(f["image"]["lost_components"]), f["image"]["components"])),
             ("Hausdorff distance to the faces of voxels, mm", lambda f: number(f["hausdorff"]["voxels"]["distance"])),
             ("- from the image: largest, 99 %, mean", lambda f: _three(f["hausdorff"]["voxels"]["image_to_mesh"])),
             ("volumes of labels, error, %", lambda f: number(100 * f["image"]["label_volume_error"])),
             ("radius-edge ratio, largest", lambda f: number(f["quality"]["max_radius_edge"], 4)),
-            ("dihedral angle, smallest", lambda f: number(f["quality"]["min_dihedral"])),
-            ("dihedral angle, largest", lambda f: number(f["quality"]["max_dihedral"])),
-            ("facet angle off junctions, smallest", lambda f: number(f["quality"]["min_planar_off_junctions"])),
-            ("facet angle at junctions, smallest", lambda f: number(f["quality"]["min_planar_at_junctions"])),
+            ("dihedral angles, degrees", lambda f: _range(f["quality"])),
+            ("facet angle off and at junctions, smallest", lambda f: "{}, {}".format(
+                number(f["quality"]["min_planar_off_junctions"]), number(f["quality"]["min_planar_at_junctions"]))),
             ("facets with an angle below 30 degrees, off and at junctions", lambda f: "{} + {}".format(
                 count(off_junctions(f["quality"])), count(f["quality"]["facet_angle_violations_at_junctions"]))),
             ("non-manifold edges (by label), off and at junctions", lambda f: "{} + {}".format(
@@ -75,9 +73,8 @@ class Atlas:
     def measured(self):
         columns = [(key, name) for key, name in COLUMNS if key in self.figures]
         rows = [[name] + [show(self.figures[key]) for key, _ in columns] for name, show in self.rows()]
-        rows.append(["made in, s"] + [number(self.seconds(key)[0]) for key, _ in columns])
-        rows.append(["optimised in, s"] + [number(self.seconds(key)[1]) if "optimised" in key else "-"
-                                           for key, _ in columns])
+        rows.append(["made and optimised in, s"] +
+                    [" + ".join(map(number, self.seconds(key)[:2 if "optimised" in key else 1])) for key, _ in columns])
         return table([""] + [name for _, name in columns], rows)
 
     def criteria(self):
