@@ -5,7 +5,6 @@
 
 PROGRAM prints the table as JSON.
 """
-import itertools
 import json
 import subprocess
 import sys
@@ -13,9 +12,12 @@ import sys
 LARGEST_WHOLE = 2**31 - 1
 HEAD = """# Parameters of meshing
 
-All parameters, and their names in the program `voxplex`, in Python (`voxplex.mesh()`), in 3D Slicer (the CLI module) and in VTK.
-VTK's methods have Set or Get before the name; ParaView's properties have the name itself. Lengths are in the unit of the image.
-This page is made from the table in `Parameters/Table.cxx`.
+Their names in the program `voxplex`, in Python (`voxplex.mesh()`), 3D Slicer (the CLI module) and VTK, whose methods
+have Set or Get before them; ParaView's properties have VTK's names. [Reference.md](Reference.md) says what each does. A
+script makes this page from the table in `Parameters/Table.cxx`.
+
+| option | Python | Slicer | VTK | default | values |
+| --- | --- | --- | --- | --- | --- |
 """
 
 
@@ -35,16 +37,14 @@ def limits(p):
 
 def row(p):
     names = [f"`{name}`" if name else "" for name in (p["option"] and "--" + p["option"], p["python"], p["slicer"], p["property"])]
-    help_text = p["option_help"] or p["slicer_help"]
-    return "| " + " | ".join([*names, p["default"], limits(p), help_text]) + " |"
+    values = [limits(p)] if limits(p) else []
+    if p["dimension"]:
+        values.append("%dD only" % p["dimension"])
+    return "| " + " | ".join([*names, p["default"], "; ".join(values)]) + " |"
 
 
 def page(table):
-    lines = [HEAD]
-    for group, parameters in itertools.groupby(table, lambda p: p["group"]):
-        lines += [f"## {group}", "", "| option | Python | Slicer | VTK | default | values | what it does |",
-                  "| --- | --- | --- | --- | --- | --- | --- |", *map(row, parameters), ""]
-    return "\n".join(lines)
+    return HEAD + "".join(row(p) + "\n" for p in table)
 
 
 def read_table(program):
