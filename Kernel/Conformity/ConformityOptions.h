@@ -56,7 +56,8 @@ struct InterfaceOptions
   bool Manifold = true;
   /**
    * Move vertices of interfaces so that facets lie on the interfaces on average, and volumes are
-   * right (FitInterfaces); 4D only. The mesh is then no longer exactly Delaunay.
+   * right (FitInterfaces). The mesh is then no longer exactly Delaunay. In 3D only if the mesh is
+   * optimised.
    */
   bool Fit = true;
 };

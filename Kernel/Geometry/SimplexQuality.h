@@ -120,15 +120,22 @@ inline double RadiusEdgeRatio(const Point<D>* const* v)
 /**
  * Volume divided by the volume of the regular simplex with the same circumradius (tau-hat in
  * chapter 4 of the thesis, here for any D): 1 for the regular simplex, 0 for a flat one.
+ * @param volume SignedVolume(v)
  * @param radius2 Circumradius2(v)
  */
 template <int D>
-inline double NormalizedVolume(const Point<D>* const* v, double radius2)
+inline double NormalizedVolume(double volume, double radius2)
 {
   // Regular simplex inscribed in the unit sphere: volume sqrt(D + 1) / D! ((D + 1) / D)^(D/2).
   const double regular = D == 3 ? 8.0 / (9.0 * std::numbers::sqrt3) : 25.0 * std::sqrt(5.0) / 384.0;
   const double radiusPower = D == 3 ? radius2 * std::sqrt(radius2) : radius2 * radius2;
-  return std::abs(SignedVolume<D>(v)) / (regular * radiusPower);
+  return std::abs(volume) / (regular * radiusPower);
+}
+
+template <int D>
+inline double NormalizedVolume(const Point<D>* const* v, double radius2)
+{
+  return NormalizedVolume<D>(SignedVolume<D>(v), radius2);
 }
 
 template <int D>

@@ -81,27 +81,37 @@ void ListLostComponents(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh
 }
 
 /** The sizes that users give; null if they give none. */
-std::unique_ptr<const SizingField<4>> SizesOf(const RunEnvironment<4>& run)
+template <int D>
+std::unique_ptr<const SizingField<D>> SizesOf(const RunEnvironment<D>& run)
 {
   if (!run.Prepared.Size)
   {
     return nullptr;
   }
   const double delta = run.Statistics.Delta;
-  return std::make_unique<const SizingField<4>>(*run.Prepared.Surfaces,
-    SizingSources<4>{
+  return std::make_unique<const SizingField<D>>(*run.Prepared.Surfaces,
+    SizingSources<D>{
       { delta }, nullptr, nullptr, run.Prepared.Size.get(), SpacingFloorFraction * delta });
 }
 
 //------------------------------------------------------------------------------------------------
-FittedPositions Fit(const RunEnvironment<4>& run, const RefinementStage<4>& stage,
-  const ManifoldLabels<4>& labels, const SizingField<4>* sizes)
+template <int D>
+FittedPositions<D> Fit(const RunEnvironment<D>& run, const RefinementStage<D>& stage,
+  const ManifoldLabels<D>& labels, const SizingField<D>* sizes)
 {
-  ComponentGuard<4> guard = GuardOf(run);
-  const FitBounds bounds{ run.Options.SpaceTime.Slivers.VolumeBound,
-    run.Options.Shape.RadiusEdgeRatio, sizes, run.Prepared.OfDomain(), run.Prepared.Planes,
-    stage.Twins(), &guard };
-  return FitInterfaces(stage.Mesh(), *run.Prepared.Surfaces, labels.Labels, bounds,
+  ComponentGuard<D> guard = GuardOf(run);
+  FitBounds<D> bounds{ .Image = run.Prepared.OfDomain(), .Planes = run.Prepared.Planes };
+  if (D == 4)
+  {
+    bounds.NormalizedVolume = run.Options.SpaceTime.Slivers.VolumeBound;
+    bounds.RadiusEdgeRatio = run.Options.Shape.RadiusEdgeRatio;
+  }
+  bounds.FacetAngle = run.Options.Shape.FacetAngle;
+  bounds.Sizing = sizes;
+  bounds.Twins = stage.Twins();
+  bounds.Volumes = run.Prepared.Volumes;
+  bounds.Guard = &guard;
+  return FitInterfaces<D>(stage.Mesh(), *run.Prepared.Surfaces, labels.Labels, bounds,
     run.Options.Team.Threads, run.Stop);
 }
 
@@ -198,15 +208,12 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   const unsigned threads = run.Options.Team.Threads;
   UninitialisedVector<Point<D>> positions; // empty: those of the triangulation
   SpindleContext<D> context;
-  std::unique_ptr<const SizingField<4>> sizes;
-  if constexpr (D == 4)
+  const std::unique_ptr<const SizingField<D>> sizes = SizesOf(run);
+  context.Sizing = sizes.get();
+  // In 3D shapes are left to optimisation.
+  if (run.Options.Interfaces.Fit && (D == 4 || run.Options.Optimisation.Run))
   {
-    sizes = SizesOf(run);
-    context.Sizing = sizes.get();
-    if (run.Options.Interfaces.Fit)
-    {
-      positions = Fit(run, stage, labels, context.Sizing).Positions;
-    }
+    positions = Fit(run, stage, labels, context.Sizing).Positions;
   }
   context.Positions = positions;
   context.Keeps = KeepsItsLabel(run, source);
@@ -218,10 +225,10 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
     stage.Finish(); // in 4D it is asked which pentatopes are around the mesh
   }
   UninitialisedVector<std::uint32_t> numbers;
-  ExtractMesh<D>(source, surfaces, labels.Labels, mesh.Mesh, threads, run.Stop, positions,
-    D == 4 ? &numbers : nullptr, opened.Parts.Pieces.size());
-  Subdivide<D>(source, surfaces, opened.Parts, mesh.Mesh, threads, run.Stop,
-    { positions, D == 4 ? &numbers : nullptr });
+  ExtractMesh<D>(source, surfaces, labels.Labels, mesh.Mesh, threads, run.Stop, positions, &numbers,
+    opened.Parts.Pieces.size());
+  Subdivide<D>(
+    source, surfaces, opened.Parts, mesh.Mesh, threads, run.Stop, { positions, &numbers });
   if constexpr (D == 4)
   {
     MakeTwins(run, stage, numbers, mesh.Mesh);

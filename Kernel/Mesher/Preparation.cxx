@@ -161,7 +161,7 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
 {
   PreparedImage<D> prepared{ image, nullptr, nullptr, nullptr, std::nullopt, std::nullopt,
-    std::nullopt, nullptr, {} };
+    std::nullopt, nullptr, {}, {} };
   if (isosurface)
   {
     if (options.Planes.Periodic)
@@ -185,6 +185,11 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
                     prepared.OfDomain(), options.SmoothingSigma, options.Team.Threads, stop),
       options, prepared, statistics, stop);
     statistics.Times.LabelField += seconds;
+    for (std::size_t label = 0; D == 3 && label < image.Counts().size(); ++label)
+    {
+      prepared.Volumes.push_back(
+        static_cast<double>(image.Counts()[label]) * image.Grid().VoxelVolume());
+    }
   }
   prepared.Planes = FindPlanes(options, image, *prepared.Surfaces);
   if (options.LooksAfterComponents())

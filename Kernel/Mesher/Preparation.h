@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 namespace voxplex
 {
@@ -39,6 +40,8 @@ struct PreparedImage
   std::optional<Components<D>> OfFrames;       ///< those of each frame; empty as before, and in 3D
   std::shared_ptr<const SizeFunction<D>> Size; ///< with gradation; may be null
   TimePlanes Planes = {};                      ///< none in 3D
+  /** The volume of each label id's voxels, which the mesh is to have; empty for isosurfaces, and in 4D. */
+  std::vector<double> Volumes = {};
 
   /** The image that the domain is made from. Its surface voxels are Sites. */
   const LabelImage<D>& OfDomain() const { return this->WithSteps ? *this->WithSteps : this->Image; }

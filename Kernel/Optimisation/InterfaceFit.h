@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceFit.h
- * @brief Moves the vertices of space-time interfaces so that volumes are right.
+ * @brief Moves the vertices of interfaces so that volumes are right.
  */
 #ifndef voxplex_InterfaceFit_h
 #define voxplex_InterfaceFit_h
@@ -18,37 +18,43 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stop_token>
 
 namespace voxplex
 {
 
-/** Shapes that FitInterfaces() keeps. An element that is worse already gets no worse. */
+/** What FitInterfaces() keeps. An element that violates a bound already gets no worse. */
+template <int D>
 struct FitBounds
 {
-  double NormalizedVolume = 0.01; ///< at least
-  double RadiusEdgeRatio = 2.0;   ///< at most
-  const SizingField<4>* Sizing;   ///< circumradii are below its element sizes; may be null
-  /**
-   * No vertex moves by more than half a voxel along an axis, or by more than a voxel out of the
-   * bounding box.
-   */
-  const LabelImage<4>& Image;
-  const TimePlanes& Planes; ///< their vertices stay on them
+  /** No vertex moves further along an axis, or out of its bounding box, than MoveLimits allows. */
+  const LabelImage<D>& Image;
+  const TimePlanes& Planes;      ///< their vertices stay on them; 4D only
+  double NormalizedVolume = 0.0; ///< at least
+  double RadiusEdgeRatio = std::numeric_limits<double>::infinity(); ///< at most
+  double FacetAngle = 0.0; ///< smallest planar angle of interface triangles, in degrees; 3D only
+  const SizingField<D>* Sizing = nullptr; ///< circumradii are below its element sizes; may be null
   /**
    * Pairs of vertices that make the same steps, with the first and the last time of a periodic mesh;
    * ascending by the first.
    */
   std::span<const std::array<VertexId, 2>> Twins = {};
+  /**
+   * The volume that each label id is to have. In 3D only; all labels must be inside of the box.
+   * Empty: what the distances from the interfaces give.
+   */
+  std::span<const double> Volumes = {};
   /** No step that would lose one of its components is made. Null: all are. */
-  ComponentGuard<4>* Guard = nullptr;
+  ComponentGuard<D>* Guard = nullptr;
 };
 
 /** The result of FitInterfaces(). */
+template <int D>
 struct FittedPositions
 {
-  UninitialisedVector<Point<4>> Positions; ///< of each vertex id of the triangulation
+  UninitialisedVector<Point<D>> Positions; ///< of each vertex id of the triangulation
   std::uint64_t Vertices = 0;              ///< vertices of interfaces
 };
 
@@ -59,21 +65,23 @@ struct FittedPositions
  * All vertices of a facet lie on the interface, so the facet is a chord: where the interface is convex,
  * its label loses volume. The loss grows with the square of delta, and with each dimension. Let
  * h(f) be the distance, along the normal n(f), from the centroid of a facet f to the interface. If
- * the interface is a quadric, its mean distance from the chord is 4/5 h(f). So the displacements
- * d(v) of the four vertices should satisfy
+ * the interface is a quadric, its mean distance from the chord is D / (D + 1) h(f). So the
+ * displacements d(v) of the D vertices should satisfy
  *
- *     1/4 sum n(f) . d(v) = 4/5 h(f)    for each facet f,
+ *     1/D sum n(f) . d(v) = D / (D + 1) h(f) + o    for each facet f,
  *
  * in the least-squares sense, weighted by the volumes of the facets. A few Jacobi steps, which
  * begin with d = 0, solve this well enough: d remains smooth. Where interfaces meet, the
- * displacement of a vertex serves the facets of all of them.
+ * displacement of a vertex serves the facets of all of them. The offset o is the same for all facets
+ * between two labels. It is found before each step, so that labels gain the volumes that they are to
+ * gain (InterfaceOffsets).
  *
- * Free vertices stay. Vertices on flat ends and time planes stay on them. Twins are one vertex with
- * the facets of both. The steps of the vertices of a simplex, inside or outside of the object, are
- * halved, twice, then dropped, where it would be turned over or violate a bound, or a component
- * would be lost. So the moved triangulation is a triangulation of the same box. There are three
- * rounds. In the second and third, targets h(f) are larger by what the rounds before have missed,
- * so that other vertices make up for those that had to stay.
+ * Free vertices stay. Vertices on the faces where the image cuts the object, on flat ends and on time
+ * planes stay on them. Twins are one vertex with the facets of both. The steps of the vertices of a
+ * simplex, inside or outside of the object, are halved, then dropped, where it would lose nine tenths
+ * of its volume or violate a bound, or a component would be lost. So the moved triangulation is a
+ * triangulation of the same box. There are two rounds, in 4D three: from the second on, other vertices
+ * make up for those that had to stay.
  *
  * O(n) time for n simplices, and one search for an interface for each facet. The result does not
  * depend on the number of threads. No thread may change the triangulation meanwhile.
@@ -82,9 +90,15 @@ struct FittedPositions
  * @param threads 0 means all cores
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-FittedPositions FitInterfaces(const Triangulation<4>& triangulation, const Domain<4>& surfaces,
-  const SimplexLabels& labels, const FitBounds& bounds, unsigned threads = 1,
+template <int D>
+FittedPositions<D> FitInterfaces(const Triangulation<D>& triangulation, const Domain<D>& surfaces,
+  const SimplexLabels& labels, const FitBounds<D>& bounds, unsigned threads = 1,
   const std::stop_token& stop = {});
+
+extern template FittedPositions<3> FitInterfaces<3>(const Triangulation<3>&, const Domain<3>&,
+  const SimplexLabels&, const FitBounds<3>&, unsigned, const std::stop_token&);
+extern template FittedPositions<4> FitInterfaces<4>(const Triangulation<4>&, const Domain<4>&,
+  const SimplexLabels&, const FitBounds<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

@@ -78,7 +78,7 @@ std::uint32_t Mix(std::uint32_t x)
 class Optimiser
 {
 public:
-  Optimiser(PentatopeComplex& complex, const MoveLimits& limits, const SimplexMesh<4>& mesh,
+  Optimiser(PentatopeComplex& complex, const MoveLimits<4>& limits, const SimplexMesh<4>& mesh,
     const PentatopeBounds& bounds, unsigned threads, const std::stop_token& stop)
     : Complex(complex)
     , Limits(limits)
@@ -511,7 +511,7 @@ private:
   }
 
   PentatopeComplex& Complex;
-  const MoveLimits& Limits;
+  const MoveLimits<4>& Limits;
   const SimplexMesh<4>& Original;
   const PentatopeBounds& Bounds;
   const unsigned Threads;
@@ -530,7 +530,7 @@ PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings&
   const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
   unsigned threads, const std::stop_token& stop)
 {
-  const MoveLimits limits(image, surfaces, bounds.Planes);
+  const MoveLimits<4> limits(image, surfaces, bounds.Planes);
   PentatopeComplex complex(mesh, outside, image, surfaces, bounds, threads, stop);
   const PentatopeStatistics done = Optimiser(complex, limits, mesh, bounds, threads, stop).Run();
   complex.CopyTo(mesh);

@@ -35,7 +35,7 @@ class PentatopeSmoother
 public:
   /** @param originals the points before any were moved */
   PentatopeSmoother(
-    PentatopeComplex& complex, const MoveLimits& limits, std::span<const Point<4>> originals)
+    PentatopeComplex& complex, const MoveLimits<4>& limits, std::span<const Point<4>> originals)
     : Target(complex)
     , Limits(limits)
     , Originals(originals)
@@ -75,7 +75,7 @@ private:
   void Finish() const;
 
   PentatopeComplex& Target;
-  const MoveLimits& Limits;
+  const MoveLimits<4>& Limits;
   const std::span<const Point<4>> Originals;
   PentatopeStar Star;
   std::vector<double> Tried; ///< qualities at the tried point

@@ -30,6 +30,8 @@ constexpr double Enough = 1.02;
 constexpr double LeastGainOfInsertion = 1.1;
 /** The largest number of tetrahedra of a cavity that grows. */
 constexpr std::size_t LargestCavity = 32;
+/** The largest distance of a vertex from its interface, in edges. */
+constexpr double FarthestHeight = 0.5;
 /** The distance from an interface point at which labels are looked up, in shortest edges. */
 constexpr double Beside = 0.05;
 
@@ -84,7 +86,7 @@ bool Smoother::Improve(std::uint32_t v)
   {
     this->Bound = Constraint::Surface;
     this->GatherFan();
-    if (!this->FanIsDisk())
+    if (!this->FanIsDisk() || !this->FindHeight())
     {
       return false;
     }
@@ -347,6 +349,32 @@ bool Smoother::FanIsDisk()
   return at == this->Fan[0].First;
 }
 
+/**
+ * Finds how high the vertex, where it was before it was moved off, is above the interface of its two
+ * labels, along the normal. False if the interface is not near.
+ */
+bool Smoother::FindHeight()
+{
+  const TetrahedralComplex& mesh = this->Target.Mesh();
+  const auto known = this->Anchors.find(this->Star.Vertex);
+  const Point<3>& p = known == this->Anchors.end() ? mesh.Points[this->Star.Vertex] : known->second;
+  const LabelId label = this->Image.Label(p);
+  const std::int64_t value = this->Image.LabelValue(label);
+  const bool isBehind = value == mesh.LabelValues[this->Sides[0]];
+  if (!isBehind && value != mesh.LabelValues[this->Sides[1]])
+  {
+    return false;
+  }
+  const double reach = FarthestHeight * Distance(p, mesh.Points[this->Fan[0].First]);
+  Point<3> z;
+  if (!this->Image.FirstCrossing(p, label, Along(p, isBehind ? reach : -reach, this->Normal), z))
+  {
+    return false;
+  }
+  this->Height = Dot(Subtract(p, z), this->Normal);
+  return true;
+}
+
 //------------------------------------------------------------------------------------------------
 /** Ascends in the star and moves its vertex. False if the vertex does not move. */
 bool Smoother::AscendInStar(Point<3>& p)
@@ -522,22 +550,36 @@ bool Smoother::Constrain(Point<3>& p, double length) const
 }
 
 /**
- * Projects a point to the interface of the vertex's two labels. False if the closest interface is
- * another one, or if the point is on another face where the image cuts the object.
+ * Projects a point to where the vertex is as far from the interface of its two labels as before. False
+ * if the closest interface is another one, or if the point is on another face where the image cuts
+ * the object.
  */
 bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
   const unsigned faces = mesh.BorderFacesOf(this->Star.Vertex);
-  if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), p) ||
-    Distance2(raw, p) > length * length ||
-    (faces != 0 && this->Image.Border()->FacesAt(p) != faces))
+  Point<3> z;
+  if (!this->Image.ClosestSurfacePoint(raw, this->Image.Label(raw), z) ||
+    (faces != 0 && this->Image.Border()->FacesAt(z) != faces))
+  {
+    return false;
+  }
+  p = Along(z, this->Height, this->Normal);
+  if (const ImageBorder<3>* border = this->Image.Border())
+  {
+    p = border->MoveOnto(p, faces);
+    if (!border->IsWithin(p))
+    {
+      return false;
+    }
+  }
+  if (Distance2(raw, p) > length * length)
   {
     return false;
   }
   const double beside = Beside * this->ShortestEdge;
   const auto valueAt = [&](double offset)
-  { return this->Image.LabelValue(this->Image.Label(Along(p, offset, this->Normal))); };
+  { return this->Image.LabelValue(this->Image.Label(Along(z, offset, this->Normal))); };
   return valueAt(-beside) == mesh.LabelValues[this->Sides[0]] &&
     valueAt(beside) == mesh.LabelValues[this->Sides[1]];
 }

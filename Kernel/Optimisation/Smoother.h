@@ -48,8 +48,8 @@ struct SmoothingStatistics
  * all active functions grow at least as fast as its squared length. A line search follows. A step
  * is taken only if the smallest score grows.
  *
- * A vertex on a surface of two labels moves along the tangent plane and then to the closest point
- * of the interface. It does not move if that point is not between its two labels, if a planar angle
+ * A vertex on a surface of two labels moves along the tangent plane and then to the distance from
+ * the interface that it had before (FitInterfaces). It does not move if that point is not between its two labels, if a planar angle
  * of an interface triangle would violate its bound, or if a triangle would turn by more than 60
  * degrees.
  *
@@ -127,6 +127,7 @@ private:
   bool FillCavity(std::uint32_t v, Point<3> p, std::span<const std::uint32_t> cells);
   void GatherFan();
   bool FanIsDisk();
+  bool FindHeight();
   bool Ascend(Point<3>& p);
   bool AscendInStar(Point<3>& p);
   double ScoreAt(const Point<3>& p, double floor);
@@ -150,6 +151,7 @@ private:
   Constraint Bound = Constraint::Free;
   std::vector<FanFacet> Fan;
   Point<3> Normal{};                  ///< of length 1
+  double Height = 0.0;                ///< of the vertex above the interface, along the normal
   TetrahedralComplex::Label Sides[2]; ///< labels behind and in front of the normal
   double ShortestEdge = 0.0;
   Point<3> Anchor{};

@@ -137,6 +137,8 @@ template std::vector<std::uint8_t> ComponentGuard<3>::FindHolders(
   const MeshElements<3>&, unsigned, const std::stop_token&);
 template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
   const MeshElements<4>&, unsigned, const std::stop_token&);
+template std::vector<std::uint8_t> ComponentGuard<3>::FindHolders(
+  const LabelledTriangulation<3>&, unsigned, const std::stop_token&);
 template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
   const LabelledTriangulation<4>&, unsigned, const std::stop_token&);
 

@@ -283,6 +283,8 @@ template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, con
   const MeshElements<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
   const MeshElements<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, const LabelImage<3>&,
+  const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
   const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 
