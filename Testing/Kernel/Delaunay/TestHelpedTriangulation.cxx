@@ -179,8 +179,7 @@ bool InsertAndCompare(
   }
   team.DismissHelpers();
   ExpectIdentical(helped, alone);
-  ExpectSound(helped);
-  EXPECT_TRUE(LockedVertices(helped).empty());
+  ExpectSoundAndUnlocked(helped);
   const PredicateStatistics expected = sequential.GetPredicateStatistics();
   const PredicateStatistics actual = team.Predicates();
   EXPECT_EQ(actual.StaticFailures, expected.StaticFailures) << "each of these tests was made once";
@@ -204,16 +203,7 @@ template <int D>
 void InsertAndCompareEverything(int points, int cells)
 {
   std::mt19937 random(D);
-  std::uniform_real_distribution<double> real(0.0, 10.0);
-  const auto anywhere = [&]()
-  {
-    Point<D> p;
-    for (double& x : p)
-    {
-      x = real(random);
-    }
-    return p;
-  };
+  const auto anywhere = [&]() { return RandomPoints<D>(1, 10.0, random).front(); };
   // Ties and points on the box, which have facets without neighbours in their cavities.
   std::uniform_int_distribution<int> node(0, cells);
   const auto lattice = [&]()
@@ -234,56 +224,6 @@ void InsertAndCompareEverything(int points, int cells)
   }
 }
 
-/** A 4-ball of label 1 around the origin: exact answers. */
-class HyperBall final : public Domain<4>
-{
-public:
-  static constexpr double R = 5.0;
-
-  Box<4> Bounds() const override { return { { -R, -R, -R, -R }, { R, R, R, R } }; }
-  LabelId Label(const Point<4>& p) const override { return SquaredNorm(p) < R * R ? 1 : 0; }
-  std::int64_t LabelValue(LabelId id) const override { return id; }
-  double DistanceBound(const Point<4>& p) const override
-  {
-    return std::abs(std::sqrt(SquaredNorm(p)) - R);
-  }
-  bool ClosestSurfacePoint(const Point<4>& p, LabelId, Point<4>& z) const override
-  {
-    const double norm = std::sqrt(SquaredNorm(p));
-    z = norm > 0.0 ? p : Point<4>{ R, 0.0, 0.0, 0.0 };
-    for (double& x : z)
-    {
-      x *= R / (norm > 0.0 ? norm : R);
-    }
-    return true;
-  }
-  bool NearSurfacePoint(const Point<4>& p, LabelId label, Point<4>& z, double& error) const override
-  {
-    error = 0.0;
-    return this->ClosestSurfacePoint(p, label, z);
-  }
-  bool FirstCrossing(
-    const Point<4>& a, LabelId label, const Point<4>& b, Point<4>& z) const override
-  {
-    if (this->Label(b) == label)
-    {
-      return false;
-    }
-    double inA = 0.0;
-    double inB = 1.0;
-    for (int bisection = 0; bisection < 60; ++bisection)
-    {
-      const double middle = 0.5 * (inA + inB);
-      for (std::size_t i = 0; i < 4; ++i)
-      {
-        z[i] = a[i] + middle * (b[i] - a[i]);
-      }
-      (this->Label(z) == label ? inA : inB) = middle;
-    }
-    return true;
-  }
-};
-
 /** A storm at a sharing. */
 template <int D>
 void HelpedStorm(const std::vector<Point<D>>& points, double size, unsigned threads)
@@ -295,19 +235,14 @@ void HelpedStorm(const std::vector<Point<D>>& points, double size, unsigned thre
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(HelpedInsertion, SameTriangulation3D)
+TEST(HelpedInsertion, SameTriangulation)
 {
-  const Watchdog watchdog("helped insertion, 3D");
+  const Watchdog watchdog("helped insertion");
   InsertAndCompareEverything<3>(600, 9);
-}
-
-TEST(HelpedInsertion, SameTriangulation4D)
-{
-  const Watchdog watchdog("helped insertion, 4D");
   InsertAndCompareEverything<4>(300, 4);
 }
 
-TEST(HelpedInsertion, Storm3D)
+TEST(HelpedInsertion, Storms)
 {
   std::mt19937 random(11);
   for (const unsigned threads : { 2u, 4u, 8u })
@@ -316,14 +251,6 @@ TEST(HelpedInsertion, Storm3D)
     HelpedStorm<3>(
       WithoutCorners<3>(LatticePoints<3>(1000 / Fraction, 18, 0.277, random), 18 * 0.277),
       18 * 0.277, threads);
-  }
-}
-
-TEST(HelpedInsertion, Storm4D)
-{
-  std::mt19937 random(12);
-  for (const unsigned threads : { 2u, 4u, 8u })
-  {
     HelpedStorm<4>(RandomPoints<4>(600 / Fraction, 10.0, random), 10.0, threads);
     HelpedStorm<4>(
       WithoutCorners<4>(LatticePoints<4>(600 / Fraction, 5, 1.0, random), 5.0), 5.0, threads);
@@ -357,9 +284,7 @@ TEST(FineGrainedRefinement, NoRuleAppliesAfterwards)
           voxplex::testing::NameOf(contention) + ", delta " + std::to_string(delta);
         SCOPED_TRACE(name);
         const Watchdog watchdog(name);
-        RefinementSettings<3> settings;
-        settings.Sizing.Base = { delta };
-        RefinementContext<3> context(ball, settings, Around(ball, delta), 1000);
+        RefinementContext<3> context(ball, SettingsFor<3>(delta), Around(ball, delta), 1000);
         TeamOptions team;
         team.Threads = threads;
         team.Contention = contention;
@@ -379,20 +304,17 @@ TEST(FineGrainedRefinement, NoRuleAppliesAfterwards)
 
 TEST(FineGrainedRefinement, FourBall)
 {
-  const HyperBall ball;
+  const BallDomainOf<4> ball(5.0);
   for (const unsigned threads : { 2u, 4u })
   {
     const Watchdog watchdog("4-ball, " + std::to_string(threads) + " threads");
-    RefinementSettings<4> settings;
-    settings.Sizing.Base = { 2.5 };
-    RefinementContext<4> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
+    RefinementContext<4> context(ball, SettingsFor<4>(2.5), Around(ball, 2.5), 1000);
     TeamOptions team;
     team.Threads = threads;
     team.FineGrained = true;
     Refiner<Rules4D> refiner(context, team);
     ASSERT_TRUE(refiner.Run(nullptr));
-    ExpectSound(context.Mesh);
-    EXPECT_TRUE(LockedVertices(context.Mesh).empty());
+    ExpectSoundAndUnlocked(context.Mesh);
     EXPECT_GT(refiner.GetRuleStatistics().Created, 1000u);
     std::uint64_t helped = 0;
     double helping = 0.0;
@@ -411,9 +333,7 @@ TEST(FineGrainedRefinement, FourBall)
 TEST(FineGrainedRefinement, NobodyHelpsUnlessAsked)
 {
   const BallDomain ball(5.0);
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { 0.8 };
-  RefinementContext<3> context(ball, settings, Around(ball, 0.8), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(0.8), Around(ball, 0.8), 1000);
   TeamOptions team;
   team.Threads = 4;
   Refiner<Rules3D> refiner(context, team);
@@ -432,9 +352,7 @@ TEST(FineGrainedRefinement, StopsWhenAsked)
   const BallDomain ball(5.0);
   for (int most = 1; most < 20; most += 3)
   {
-    RefinementSettings<3> settings;
-    settings.Sizing.Base = { 0.3 };
-    RefinementContext<3> context(ball, settings, Around(ball, 0.3), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(0.3), Around(ball, 0.3), 1000);
     TeamOptions team;
     team.Threads = 6;
     team.FineGrained = true;

@@ -3,6 +3,7 @@
 // The union of triangulations of boxes with common faces.
 #include "Delaunay/Triangulation.h"
 #include "Geometry/SimplexQuality.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +16,12 @@ using namespace voxplex;
 namespace
 {
 
-/** Inserts points; those with `onFace` in the plane t = time. */
 void Fill(Triangulation<4>& mesh, const std::vector<Point<4>>& points)
 {
   Triangulation<4>::Worker worker(mesh);
   for (const Point<4>& p : points)
   {
-    const SimplexId s = mesh.FindConflict(worker, p, mesh.FirstAlive());
-    ASSERT_NE(s, None);
-    ASSERT_EQ(mesh.Insert(worker, p, VertexKind::Free, s), InsertionOutcome::Inserted);
+    ASSERT_EQ(checks::Insert(mesh, worker, p), InsertionOutcome::Inserted);
   }
 }
 

@@ -136,13 +136,9 @@ void CompareWithExactSearch()
   EXPECT_GT(found, 200);
 }
 
-TEST(LinkCoordinates, GuessTheApex3D)
+TEST(LinkCoordinates, GuessTheApex)
 {
   CompareWithExactSearch<3>();
-}
-
-TEST(LinkCoordinates, GuessTheApex4D)
-{
   CompareWithExactSearch<4>();
 }
 

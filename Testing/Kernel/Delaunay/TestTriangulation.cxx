@@ -3,7 +3,6 @@
 // Triangulation<D> against a brute-force oracle after every insertion and removal.
 #include "Delaunay/Triangulation.h"
 #include "TriangulationChecks.h"
-#include "TriangulationVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -80,39 +79,20 @@ void InsertAndRemove(std::vector<Point<D>> points, double size, unsigned seed)
 
 } // namespace
 
-TEST(Triangulation, RandomPoints3D)
+TEST(Triangulation, RandomPoints)
 {
   std::mt19937 random(1);
   InsertAndRemove<3>(RandomPoints<3>(60, 10.0, random), 10.0, 1);
-}
-
-TEST(Triangulation, LatticePoints3D)
-{
-  std::mt19937 random(2);
-  InsertAndRemove<3>(LatticePoints<3>(70, 4, 2.5, random), 10.0, 2);
-}
-
-TEST(Triangulation, LatticeWithNonDyadicSpacing3D)
-{
-  std::mt19937 random(3);
-  InsertAndRemove<3>(LatticePoints<3>(50, 3, 0.277, random), 3 * 0.277, 3);
-}
-
-TEST(Triangulation, FullLattice3D)
-{
-  std::mt19937 random(4);
-  InsertAndRemove<3>(LatticePoints<3>(64, 3, 1.0, random), 3.0, 4);
-}
-
-TEST(Triangulation, RandomPoints4D)
-{
-  std::mt19937 random(5);
   InsertAndRemove<4>(RandomPoints<4>(25, 10.0, random), 10.0, 5);
 }
 
-TEST(Triangulation, LatticePoints4D)
+// Also of a spacing that is no sum of a few powers of two, and of a lattice in which no point is missing.
+TEST(Triangulation, LatticePoints)
 {
-  std::mt19937 random(6);
+  std::mt19937 random(2);
+  InsertAndRemove<3>(LatticePoints<3>(70, 4, 2.5, random), 10.0, 2);
+  InsertAndRemove<3>(LatticePoints<3>(50, 3, 0.277, random), 3 * 0.277, 3);
+  InsertAndRemove<3>(LatticePoints<3>(64, 3, 1.0, random), 3.0, 4);
   InsertAndRemove<4>(LatticePoints<4>(30, 2, 1.0, random), 2.0, 6);
 }
 
@@ -195,7 +175,6 @@ TEST(Triangulation, ManyPointsAndReuse)
   {
     ASSERT_EQ(t.Remove(worker, vertices[i]), RemovalOutcome::Removed);
   }
-  const std::vector<std::string> complaints = checks::Verify(t);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  ExpectSound(t);
   EXPECT_EQ(t.SimplexIdEnd(), end) << "removal should live on what it frees";
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Domain/ImageDomain.h"
 #include "Parallel/CycleClock.h"
 #include "Parallel/ParallelFor.h"
@@ -18,37 +19,48 @@ using namespace voxplex;
 namespace
 {
 
+template <int D>
+double SmallestDimension(const GridGeometry<D>& grid)
+{
+  return static_cast<double>(*std::min_element(grid.Dimensions.begin(), grid.Dimensions.end()));
+}
+
+/** A point at these shares of a grid's extent, in voxels. */
+template <int D>
+Point<D> Between(const GridGeometry<D>& grid, double low, double high, std::mt19937& random)
+{
+  Point<D> p;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    p[a] = std::uniform_real_distribution<double>(low, high)(random) *
+      static_cast<double>(grid.Dimensions[a]);
+  }
+  return p;
+}
+
+/** The centre of a voxel, in voxels. */
+template <int D>
+Point<D> PointAt(std::size_t voxel, const GridGeometry<D>& grid)
+{
+  const auto index = IndexAt(voxel, grid.Dimensions);
+  Point<D> p;
+  std::copy(index.begin(), index.end(), p.begin());
+  return p;
+}
+
 /** Overlapping balls of labels 1 ... balls; the later wins. */
 template <int D>
 LabelImage<D> Balls(const GridGeometry<D>& grid, int balls, std::mt19937& random)
 {
-  std::size_t voxels = 1;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxels *= static_cast<std::size_t>(grid.Dimensions[a]);
-    smallest = std::min(smallest, static_cast<double>(grid.Dimensions[a]));
-  }
-  std::vector<short> scalars(voxels, 0);
+  std::vector<short> scalars(CountCells(grid.Dimensions), 0);
   for (int b = 1; b <= balls; ++b)
   {
-    Point<D> centre;
-    for (std::size_t a = 0; a < D; ++a)
+    const Point<D> centre = Between(grid, 0.2, 0.8, random);
+    const double radius =
+      std::uniform_real_distribution<double>(0.1, 0.35)(random) * SmallestDimension(grid);
+    for (std::size_t i = 0; i < scalars.size(); ++i)
     {
-      centre[a] = std::uniform_real_distribution<double>(0.2, 0.8)(random) *
-        static_cast<double>(grid.Dimensions[a]);
-    }
-    const double radius = std::uniform_real_distribution<double>(0.1, 0.35)(random) * smallest;
-    for (std::size_t i = 0; i < voxels; ++i)
-    {
-      std::size_t rest = i;
-      Point<D> p;
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        p[a] = static_cast<double>(rest % static_cast<std::size_t>(grid.Dimensions[a]));
-        rest /= static_cast<std::size_t>(grid.Dimensions[a]);
-      }
-      if (Distance(p, centre) <= radius)
+      if (Distance(PointAt(i, grid), centre) <= radius)
       {
         scalars[i] = static_cast<short>(b);
       }
@@ -326,34 +338,17 @@ std::vector<float> Blobs(const GridGeometry<D>& grid, std::mt19937& random)
     double Width;
     double Height;
   };
-  double smallest = std::numeric_limits<double>::infinity();
-  std::size_t voxels = 1;
-  for (const std::int64_t n : grid.Dimensions)
-  {
-    smallest = std::min(smallest, static_cast<double>(n));
-    voxels *= static_cast<std::size_t>(n);
-  }
   std::vector<Blob> blobs(6);
   for (std::size_t b = 0; b < blobs.size(); ++b)
   {
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      blobs[b].Centre[a] = std::uniform_real_distribution<>(0.1, 0.9)(random) *
-        static_cast<double>(grid.Dimensions[a]);
-    }
-    blobs[b].Width = std::uniform_real_distribution<>(0.1, 0.25)(random) * smallest;
+    blobs[b].Centre = Between(grid, 0.1, 0.9, random);
+    blobs[b].Width = std::uniform_real_distribution<>(0.1, 0.25)(random) * SmallestDimension(grid);
     blobs[b].Height = b % 3 == 2 ? -1.0 : 1.0;
   }
-  std::vector<float> values(voxels);
-  for (std::size_t i = 0; i < voxels; ++i)
+  std::vector<float> values(CountCells(grid.Dimensions));
+  for (std::size_t i = 0; i < values.size(); ++i)
   {
-    std::size_t rest = i;
-    Point<D> p;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      p[a] = static_cast<double>(rest % static_cast<std::size_t>(grid.Dimensions[a]));
-      rest /= static_cast<std::size_t>(grid.Dimensions[a]);
-    }
+    const Point<D> p = PointAt(i, grid);
     double value = std::uniform_real_distribution<>(-0.02, 0.02)(random);
     for (const Blob& blob : blobs)
     {
@@ -443,23 +438,21 @@ TEST(ImageDomain, SitesAreTheVoxelsBesideAnotherLabel)
   const LabelImage<3> image = Balls<3>(Grids<3>()[1], 3, random);
   const ImageDomain<3> domain(image, 1.0, 3);
   const auto& n = domain.GetLabelField().LatticeDimensions();
-  const auto id = [&](std::int64_t x, std::int64_t y, std::int64_t z)
-  {
-    const auto& c = image.CropDimensions();
-    const bool inside = x > 0 && y > 0 && z > 0 && x <= c[0] && y <= c[1] && z <= c[2];
-    return inside ? image.Ids()[static_cast<std::size_t>(x - 1 + c[0] * (y - 1 + c[1] * (z - 1)))]
-                  : LabelId{ 0 };
-  };
-  for (std::int64_t z = 0; z < n[2]; ++z)
-    for (std::int64_t y = 0; y < n[1]; ++y)
-      for (std::int64_t x = 0; x < n[0]; ++x)
+  ForEachIndex<3>({ 0, 0, 0 }, { n[0] - 1, n[1] - 1, n[2] - 1 },
+    [&](const GridGeometry<3>::Index& v)
+    {
+      bool site = false;
+      for (std::size_t a = 0; a < 3; ++a)
       {
-        const LabelId own = id(x, y, z);
-        const bool site = own != id(x - 1, y, z) || own != id(x + 1, y, z) ||
-          own != id(x, y - 1, z) || own != id(x, y + 1, z) || own != id(x, y, z - 1) ||
-          own != id(x, y, z + 1);
-        ASSERT_EQ(domain.GetSites().Test({ x, y, z }), site) << x << " " << y << " " << z;
+        for (const int step : { -1, 1 })
+        {
+          GridGeometry<3>::Index beside = v;
+          beside[a] += step;
+          site = site || image.AtLattice(beside) != image.AtLattice(v);
+        }
       }
+      ASSERT_EQ(domain.GetSites().Test(v), site) << v[0] << " " << v[1] << " " << v[2];
+    });
 }
 
 TEST(ImageDomain, BoundsAndValues)

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces of grey-value images: which voxels are inside, and where the surface is between them.
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Domain/ScalarField.h"
 #include "Image/DropComponents.h"
 #include "Image/IsosurfaceImage.h"
+#include "MeshRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -43,38 +45,12 @@ GridGeometry<3> SkewedGrid()
 }
 
 template <int D>
-typename GridGeometry<D>::Index IndexOf(std::size_t voxel, const GridGeometry<D>& grid)
-{
-  typename GridGeometry<D>::Index index;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    index[a] = static_cast<std::int64_t>(voxel % static_cast<std::size_t>(grid.Dimensions[a]));
-    voxel /= static_cast<std::size_t>(grid.Dimensions[a]);
-  }
-  return index;
-}
-
-template <int D>
 Point<D> CentreOf(std::size_t voxel, const GridGeometry<D>& grid)
 {
-  const auto index = IndexOf(voxel, grid);
+  const auto index = IndexAt(voxel, grid.Dimensions);
   Point<D> x;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    x[a] = static_cast<double>(index[a]);
-  }
+  std::copy(index.begin(), index.end(), x.begin());
   return grid.ToFrame(x);
-}
-
-template <int D>
-std::size_t Voxels(const GridGeometry<D>& grid)
-{
-  std::size_t voxels = 1;
-  for (const std::int64_t n : grid.Dimensions)
-  {
-    voxels *= static_cast<std::size_t>(n);
-  }
-  return voxels;
 }
 
 /** A value for each voxel of a grid, from its index. */
@@ -83,9 +59,9 @@ std::vector<T> Fill(const GridGeometry<D>& grid,
   const std::function<double(const typename GridGeometry<D>::Index&)>& value)
 {
   std::vector<T> values;
-  for (std::size_t v = 0; v < Voxels(grid); ++v)
+  for (std::size_t v = 0; v < CountCells(grid.Dimensions); ++v)
   {
-    values.push_back(static_cast<T>(value(IndexOf(v, grid))));
+    values.push_back(static_cast<T>(value(IndexAt(v, grid.Dimensions))));
   }
   return values;
 }
@@ -94,16 +70,15 @@ std::vector<T> Fill(const GridGeometry<D>& grid,
 template <int D>
 std::vector<double> Noise(const GridGeometry<D>& grid, std::mt19937& random)
 {
-  std::vector<double> values(Voxels(grid));
+  std::vector<double> values(CountCells(grid.Dimensions));
   for (std::size_t v = 0; v < values.size(); ++v)
   {
-    auto index = IndexOf(v, grid);
-    std::size_t first = 0;
-    for (std::size_t a = D; a-- > 0;)
+    auto block = IndexAt(v, grid.Dimensions);
+    for (std::int64_t& i : block)
     {
-      first = first * static_cast<std::size_t>(grid.Dimensions[a]) +
-        static_cast<std::size_t>(index[a] / 2 * 2);
+      i -= i % 2;
     }
+    const std::size_t first = OffsetOf(block, grid.Dimensions);
     values[v] = first < v ? values[first] + std::uniform_real_distribution<>(-0.2, 0.2)(random)
                           : std::uniform_real_distribution<>(-1.0, 1.0)(random);
   }
@@ -123,18 +98,10 @@ IsosurfaceImage<D> Make(
   std::vector<T>&& values, const GridGeometry<D>& grid, const Isosurface& surface = {}) = delete;
 
 template <typename T, int D>
-std::string MessageOf(
+std::string RefusalOf(
   const std::vector<T>& values, const GridGeometry<D>& grid, const Isosurface& surface)
 {
-  try
-  {
-    Make(values, grid, surface);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return checks::MessageOf([&] { Make(values, grid, surface); });
 }
 
 template <int D>
@@ -667,33 +634,33 @@ TEST(IsosurfaceImage, SaysWhatIsWrong)
 {
   const auto grid = UnitGrid<3>(4);
   const auto ramp = Fill(grid, [](const auto& i) { return static_cast<double>(i[0]) - 1.0; });
-  EXPECT_EQ(MessageOf(ramp, grid, { 2.5 }),
+  EXPECT_EQ(RefusalOf(ramp, grid, { 2.5 }),
     "The isovalue 2.5 is outside of the image's range, which is from -1 to 2. Choose an isovalue "
     "in between.");
-  EXPECT_NE(MessageOf(ramp, grid, { -1.5 }).find("from -1 to 2"), std::string::npos);
+  EXPECT_NE(RefusalOf(ramp, grid, { -1.5 }).find("from -1 to 2"), std::string::npos);
   EXPECT_NE(
-    MessageOf(ramp, grid, { 2.5, IsosurfaceSide::Below }).find("from -1 to 2"), std::string::npos);
-  EXPECT_EQ(MessageOf(ramp, grid, { 2.0 }), ""); // the largest value has an inside
-  EXPECT_EQ(MessageOf(ramp, grid, { -1.0, IsosurfaceSide::Below }), "");
-  EXPECT_NE(MessageOf(ramp, grid, { 2.0, IsosurfaceSide::Above, 1, 2.0 }).find("after smoothing"),
+    RefusalOf(ramp, grid, { 2.5, IsosurfaceSide::Below }).find("from -1 to 2"), std::string::npos);
+  EXPECT_EQ(RefusalOf(ramp, grid, { 2.0 }), ""); // the largest value has an inside
+  EXPECT_EQ(RefusalOf(ramp, grid, { -1.0, IsosurfaceSide::Below }), "");
+  EXPECT_NE(RefusalOf(ramp, grid, { 2.0, IsosurfaceSide::Above, 1, 2.0 }).find("after smoothing"),
     std::string::npos);
-  EXPECT_NE(MessageOf(ramp, grid, { NaN }).find("must be finite"), std::string::npos);
-  EXPECT_NE(MessageOf(ramp, grid, { Infinity }).find("must be finite"), std::string::npos);
+  EXPECT_NE(RefusalOf(ramp, grid, { NaN }).find("must be finite"), std::string::npos);
+  EXPECT_NE(RefusalOf(ramp, grid, { Infinity }).find("must be finite"), std::string::npos);
   EXPECT_NE(
-    MessageOf(ramp, grid, { 0.0, IsosurfaceSide::Above, 0 }).find("label of the inside is 0"),
+    RefusalOf(ramp, grid, { 0.0, IsosurfaceSide::Above, 0 }).find("label of the inside is 0"),
     std::string::npos);
   for (const double sigma : { -1.0, 5.5, NaN })
   {
-    EXPECT_NE(MessageOf(ramp, grid, { 0.0, IsosurfaceSide::Above, 1, sigma }).find("between 0"),
+    EXPECT_NE(RefusalOf(ramp, grid, { 0.0, IsosurfaceSide::Above, 1, sigma }).find("between 0"),
       std::string::npos);
   }
   const auto nothing = Fill(grid, [](const auto&) { return NaN; });
-  EXPECT_NE(MessageOf(nothing, grid, { 0.0 }).find("are NaN"), std::string::npos);
+  EXPECT_NE(RefusalOf(nothing, grid, { 0.0 }).find("are NaN"), std::string::npos);
   auto flat = grid;
   flat.Dimensions[1] = 1;
-  EXPECT_NE(MessageOf(ramp, flat, { 0.0 }).find("1 voxel(s) along axis 1"), std::string::npos);
+  EXPECT_NE(RefusalOf(ramp, flat, { 0.0 }).find("1 voxel(s) along axis 1"), std::string::npos);
   auto larger = grid;
   larger.Dimensions[1] = 5;
-  EXPECT_NE(MessageOf(ramp, larger, { 0.0, IsosurfaceSide::Above, 1, 1.0 }).find("64 scalars"),
+  EXPECT_NE(RefusalOf(ramp, larger, { 0.0, IsosurfaceSide::Above, 1, 1.0 }).find("64 scalars"),
     std::string::npos);
 }

@@ -20,25 +20,16 @@ using Index = GridGeometry<3>::Index;
 /** Label 2 in a block of label 1, in as many voxels along each axis as given, around the middle. */
 LabelImage<3> Inclusion(const std::array<double, 3>& size, const Point<3>& spacing)
 {
-  std::vector<std::uint8_t> voxels;
-  for (int k = 0; k < 30; ++k)
-  {
-    for (int j = 0; j < 30; ++j)
+  return phantoms::Make(GridGeometry<3>::Orthogonal({ 30, 30, 30 }, spacing),
+    [&](const Point<3>& p) -> std::int16_t
     {
-      for (int i = 0; i < 30; ++i)
+      bool isIn = true;
+      for (std::size_t a = 0; a < 3; ++a)
       {
-        const std::array<int, 3> at{ i, j, k };
-        bool isIn = true;
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          isIn &= std::abs(at[a] - 15) < 0.5 * size[a];
-        }
-        voxels.push_back(isIn ? 2 : 1);
+        isIn &= std::abs(p[a] / spacing[a] - 15.0) < 0.5 * size[a];
       }
-    }
-  }
-  return LabelImage<3>::FromScalars<std::uint8_t>(
-    voxels, GridGeometry<3>::Orthogonal({ 30, 30, 30 }, spacing));
+      return isIn ? 2 : 1;
+    });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/GridIndex.h"
 #include "Image/BitMask.h"
 #include "Parallel/ParallelFor.h"
 
@@ -21,9 +22,8 @@ TEST(BitMask, ClearsRuns)
   for (const unsigned threads : { 1u, 4u })
   {
     BitMask<3> mask(n);
-    std::vector<bool> expected(1200);
-    const auto place = [&](const Index& p)
-    { return static_cast<std::size_t>(p[0] + n[0] * (p[1] + n[1] * p[2])); };
+    std::vector<bool> expected(CountCells(n));
+    const auto place = [&](const Index& p) { return OffsetOf(p, n); };
     struct Run
     {
       Index First;
@@ -37,18 +37,12 @@ TEST(BitMask, ClearsRuns)
       const std::int64_t first = any(n[0]);
       runs.push_back({ { first, any(n[1]), any(n[2]) }, std::min(first + any(9), n[0] - 1) });
     }
-    for (Index p{}; p[2] < n[2]; ++p[2])
+    for (std::size_t k = 0; k < expected.size(); ++k)
     {
-      for (p[1] = 0; p[1] < n[1]; ++p[1])
+      if (random() % 8 != 0)
       {
-        for (p[0] = 0; p[0] < n[0]; ++p[0])
-        {
-          if (random() % 8 != 0)
-          {
-            mask.Set(p);
-            expected[place(p)] = true;
-          }
-        }
+        mask.Set(IndexAt(k, n));
+        expected[k] = true;
       }
     }
     for (const Run& run : runs)
@@ -66,15 +60,9 @@ TEST(BitMask, ClearsRuns)
           mask.ClearRun(runs[k].First, runs[k].Last);
         }
       });
-    for (Index p{}; p[2] < n[2]; ++p[2])
+    for (std::size_t k = 0; k < expected.size(); ++k)
     {
-      for (p[1] = 0; p[1] < n[1]; ++p[1])
-      {
-        for (p[0] = 0; p[0] < n[0]; ++p[0])
-        {
-          ASSERT_EQ(mask.Test(p), expected[place(p)]) << p[0] << " " << p[1] << " " << p[2];
-        }
-      }
+      ASSERT_EQ(mask.Test(IndexAt(k, n)), expected[k]) << k;
     }
     EXPECT_GT(std::count(expected.begin(), expected.end(), true), 300);
   }
@@ -101,14 +89,8 @@ TEST(BitMask, ThreadsSetEachBitOnce)
       }
     });
   EXPECT_EQ(set, 65 * 3 * 2);
-  for (Index p{}; p[2] < n[2]; ++p[2])
+  for (std::size_t k = 0; k < CountCells(n); ++k)
   {
-    for (p[1] = 0; p[1] < n[1]; ++p[1])
-    {
-      for (p[0] = 0; p[0] < n[0]; ++p[0])
-      {
-        ASSERT_EQ(mask.Test(p), p[0] < 65) << p[0] << " " << p[1] << " " << p[2];
-      }
-    }
+    ASSERT_EQ(mask.Test(IndexAt(k, n)), k % 70 < 65) << k;
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search for faces near to points finds what a look at each face finds.
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Image/FacesNear.h"
 #include "Image/SurfaceVoxels.h"
 #include "InterfaceChecks.h"
@@ -48,8 +49,7 @@ LabelImage<3> Columns(const GridGeometry<3>& grid, unsigned seed)
   std::mt19937 random(seed);
   std::vector<std::uint8_t> scalars;
   std::uint8_t label = 1;
-  const auto voxels = grid.Dimensions[0] * grid.Dimensions[1] * grid.Dimensions[2];
-  for (std::int64_t k = 0; k < voxels; ++k)
+  for (std::size_t k = 0; k < CountCells(grid.Dimensions); ++k)
   {
     label = random() % 20 == 0 ? static_cast<std::uint8_t>(random() % 3) : label;
     scalars.push_back(label);

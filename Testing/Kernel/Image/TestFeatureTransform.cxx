@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Image/FeatureTransform.h"
 
 #include <gtest/gtest.h>
@@ -24,17 +25,12 @@ struct Sites
     : Mask(dimensions)
   {
     std::bernoulli_distribution coin(density);
-    Index i{};
-    for (std::size_t a = 0; a < D;)
+    for (std::size_t k = 0; k < CountCells(dimensions); ++k)
     {
       if (coin(random))
       {
-        this->Mask.Set(i);
-        this->List.push_back(i);
-      }
-      for (a = 0; a < D && ++i[a] == dimensions[a]; ++a)
-      {
-        i[a] = 0;
+        this->List.push_back(IndexAt(k, dimensions));
+        this->Mask.Set(this->List.back());
       }
     }
   }

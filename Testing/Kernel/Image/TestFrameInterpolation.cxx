@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames between frames: what they keep, volumes, motion, several labels, objects that appear.
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Image/FrameInterpolation.h"
 #include "SpaceTimeCases.h"
 
@@ -28,16 +29,8 @@ LabelId IdAt(const LabelImage<4>& image, Index voxel)
 template <typename Function>
 void ForVoxels(const GridGeometry<4>& grid, std::int64_t frame, Function&& function)
 {
-  for (std::int64_t k = 0; k < grid.Dimensions[2]; ++k)
-  {
-    for (std::int64_t j = 0; j < grid.Dimensions[1]; ++j)
-    {
-      for (std::int64_t i = 0; i < grid.Dimensions[0]; ++i)
-      {
-        function(Index{ i, j, k, frame });
-      }
-    }
-  }
+  const auto& n = grid.Dimensions;
+  ForEachIndex<4>({ 0, 0, 0, frame }, { n[0] - 1, n[1] - 1, n[2] - 1, frame }, function);
 }
 
 std::vector<std::int64_t> CountsIn(const LabelImage<4>& image, std::int64_t frame)
@@ -112,8 +105,7 @@ TEST(FrameInterpolation, FollowsABall)
       {
         const Point<3> p = { static_cast<double>(v[0]), static_cast<double>(v[1]),
           static_cast<double>(v[2]) };
-        const bool inside =
-          Distance(p, { 11.5 + static_cast<double>(step), 11.5, 11.5 }) < 7.0;
+        const bool inside = Distance(p, { 11.5 + static_cast<double>(step), 11.5, 11.5 }) < 7.0;
         wrong += inside != (IdAt(fine, v) != 0);
         jumps += inside != (IdAt(image, { v[0], v[1], v[2], step < 2 ? 0 : 1 }) != 0);
       });
@@ -147,8 +139,9 @@ TEST(FrameInterpolation, ObjectsThatAppear)
 {
   const LabelImage<4> image =
     ImageOf({ GridGeometry<4>::Orthogonal({ 12, 12, 12, 5 }, { 1.0, 1.0, 1.0, 1.0 }),
-      [](const Point<4>& p) -> std::uint8_t
-      { return p[3] == 2.0 && Distance(p, { 5.5, 5.5, 5.5, 2.0 }) < 4.0; } });
+      [](const Point<4>& p) -> std::uint8_t {
+        return p[3] == 2.0 && Distance(p, { 5.5, 5.5, 5.5, 2.0 }) < 4.0;
+      } });
   const LabelImage<4> fine = InterpolateFrames(image, 3);
   EXPECT_EQ(fine.CropOrigin()[3], 4);
   EXPECT_EQ(fine.CropDimensions()[3], 5);
@@ -174,13 +167,10 @@ TEST(FrameInterpolation, CanBeStopped)
 TEST(FrameInterpolation, FastMotionKeepsItsHypervolume)
 {
   const LabelImage<4> image = ImageOf(phantoms::WithTimeScale(phantoms::FastBall(9), 4.0));
-  MeshingOptions<4> options;
-  options.Sampling.Delta = 2.0;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_EQ(mesher.Statistics().FrameSteps, 4u);
+  MeshingStatistics statistics;
+  const SimplexMesh<4> mesh = MeshOf(image, WithDelta<4>(2.0), &statistics);
+  EXPECT_EQ(statistics.FrameSteps, 4u);
   const double expected = Hypervolumes(image)[1];
   EXPECT_NEAR(Volumes(mesh)[1], expected, 0.01 * expected);
-  EXPECT_TRUE(Complaints(mesh).empty());
+  ExpectSound(mesh);
 }

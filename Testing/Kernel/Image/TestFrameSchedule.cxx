@@ -74,15 +74,7 @@ std::size_t KeptFrames(const FrameSchedule& schedule)
 
 std::string ErrorOf(const Times& times, std::int64_t most = MostScheduledFrames)
 {
-  try
-  {
-    ScheduleFrames(times, most);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return MessageOf([&] { ScheduleFrames(times, most); });
 }
 
 } // namespace

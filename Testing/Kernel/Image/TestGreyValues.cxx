@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grey values that were taken for labels are refused, and no segmentation is.
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "Image/GreyValues.h"
+#include "MeshRuns.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
 
@@ -24,14 +26,9 @@ template <int D>
 LabelImage<D> Noise(const typename GridGeometry<D>::Index& dimensions, int labels, int lowest = 1)
 {
   std::mt19937 random(7);
-  std::size_t voxels = 1;
   Point<D> spacing;
   spacing.fill(1.0);
-  for (const std::int64_t n : dimensions)
-  {
-    voxels *= static_cast<std::size_t>(n);
-  }
-  std::vector<std::int16_t> scalars(voxels);
+  std::vector<std::int16_t> scalars(CountCells(dimensions));
   for (std::int16_t& s : scalars)
   {
     s = static_cast<std::int16_t>(
@@ -106,16 +103,9 @@ template <int D>
 void ExpectPairs(const LabelImage<D>& image)
 {
   NeighbourPairs expected;
-  typename GridGeometry<D>::Index voxel{};
   for (std::size_t at = 0; at < image.Ids().size(); ++at)
   {
-    std::size_t rest = at;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const auto n = static_cast<std::size_t>(image.CropDimensions()[a]);
-      voxel[a] = static_cast<std::int64_t>(rest % n);
-      rest /= n;
-    }
+    const auto voxel = IndexAt(at, image.CropDimensions());
     for (std::size_t a = 0; a < D; ++a)
     {
       auto next = voxel;
@@ -200,22 +190,13 @@ TEST(GreyValues, SegmentationsAreNot)
 TEST(GreyValues, AreRefusedByTheMesherUnlessForced)
 {
   const LabelImage<3> image = Noise<3>({ 30, 30, 30 }, 200);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 20.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(20.0);
   SimplexMesh<3> mesh;
-  try
-  {
-    ImageMesher<3>(options).Run(image, mesh);
-    ADD_FAILURE() << "not refused";
-  }
-  catch (const InputError& error)
-  {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("200 labels look like grey values"), std::string::npos) << message;
-    EXPECT_NE(message.find("mesh an isosurface of it with {isosurface}"), std::string::npos)
-      << message;
-    EXPECT_NE(message.find("or go on with {force}"), std::string::npos) << message;
-  }
+  const std::string message = checks::MessageOf([&] { ImageMesher<3>(options).Run(image, mesh); });
+  EXPECT_NE(message.find("200 labels look like grey values"), std::string::npos) << message;
+  EXPECT_NE(message.find("mesh an isosurface of it with {isosurface}"), std::string::npos)
+    << message;
+  EXPECT_NE(message.find("or go on with {force}"), std::string::npos) << message;
   options.Limits.Force = true;
   ImageMesher<3> mesher(options);
   mesher.Progress = [](double) { return false; };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Label field and domain of a space-time image near its first and last frame and beyond them, where the
 // object goes on unchanged if it is cut there.
+#include "Base/GridIndex.h"
 #include "Domain/ImageDomain.h"
 #include "SpaceTimeCases.h"
 
@@ -220,21 +221,11 @@ TEST(SpaceTimeImage, EveryVoxelKeepsItsLabel)
 {
   for (const Cut& cut : Borders)
   {
-    const GridGeometry<4> grid = Grid(true);
-    const LabelImage<4> image = MovingBalls(grid, cut.First, cut.Last);
+    const LabelImage<4> image = MovingBalls(Grid(true), cut.First, cut.Last);
     const ImageDomain<4> domain(image, 1.0);
-    const auto& n = image.CropDimensions();
     for (std::size_t i = 0; i < image.Ids().size(); ++i)
     {
-      std::size_t rest = i;
-      Point<4> index;
-      for (std::size_t a = 0; a < 4; ++a)
-      {
-        index[a] = static_cast<double>(image.CropOrigin()[a]) +
-          static_cast<double>(rest % static_cast<std::size_t>(n[a]));
-        rest /= static_cast<std::size_t>(n[a]);
-      }
-      ASSERT_EQ(domain.Label(grid.ToFrame(index)), image.Ids()[i]);
+      ASSERT_EQ(domain.Label(image.CentreOf(IndexAt(i, image.CropDimensions()))), image.Ids()[i]);
     }
   }
 }

@@ -7,7 +7,7 @@
 #include "Junctions/JunctionGraph.h"
 #include "Junctions/JunctionSeeds.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 
 #include <gtest/gtest.h>
@@ -494,15 +494,13 @@ struct AxisFigures
 
 AxisFigures MeshAxis(bool sample)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 2.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(2.0);
   options.Interfaces.SampleJunctions = sample;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(Sectors(), mesh), MeshingOutcome::Done);
-  EXPECT_TRUE(checks::Complaints(mesh).empty());
-  EXPECT_EQ(mesher.Statistics().Interfaces.Corners, sample ? 2u : 0u);
-  EXPECT_EQ(mesher.Statistics().Interfaces.JunctionSeeds > 0, sample);
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh = checks::MeshOf(Sectors(), options, &statistics);
+  checks::ExpectSound(mesh);
+  EXPECT_EQ(statistics.Interfaces.Corners, sample ? 2u : 0u);
+  EXPECT_EQ(statistics.Interfaces.JunctionSeeds > 0, sample);
   AxisFigures figures;
   std::map<std::uint32_t, int> degrees;
   for (const auto& edge : JunctionEdges(mesh))

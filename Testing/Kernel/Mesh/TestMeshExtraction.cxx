@@ -249,13 +249,9 @@ void ExpectTheDefinition(std::size_t points, double margin)
 } // namespace
 
 // Enough for several chunks of every loop.
-TEST(MeshExtraction, IsTheDefinitionForAnyNumberOfThreads3D)
+TEST(MeshExtraction, IsTheDefinitionForAnyNumberOfThreads)
 {
   ExpectTheDefinition<3>(20000, 0.1);
-}
-
-TEST(MeshExtraction, IsTheDefinitionForAnyNumberOfThreads4D)
-{
   ExpectTheDefinition<4>(1500, 0.05);
 }
 
@@ -276,8 +272,7 @@ TEST(MeshExtraction, IsConforming)
   SimplexMesh<3> mesh;
   ExtractMesh<3>(*triangulation, TwoLabels<3>(0.1), mesh, 3);
   EXPECT_GT(mesh.Simplices.size(), 5000u);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(mesh);
 }
 
 TEST(MeshExtraction, ThreadsWorkAtOnce)

@@ -91,9 +91,7 @@ TEST(SliceTetrahedra, WedgesAndPyramids)
 TEST(SliceTetrahedra, SlicesOfAMesh)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 1.0));
-  ImageMesher<4> mesher(SpaceTimeOptions(3.0));
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  const SimplexMesh<4> mesh = MeshOf(image, SpaceTimeOptions(3.0));
   std::vector<double> points;
   std::vector<double> times;
   std::vector<long long> offsets = { 0 };
@@ -161,9 +159,7 @@ TEST(SpaceTimeTopology, PentatopesThatMeet)
 TEST(SpaceTimeTopology, Meshes)
 {
   const LabelImage<4> image = ImageOf(phantoms::MergingBalls(9));
-  ImageMesher<4> mesher(SpaceTimeOptions(3.0));
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  const SimplexMesh<4> mesh = MeshOf(image, SpaceTimeOptions(3.0));
   const SpaceTimeTopology topology = MeasureTopology(mesh);
   EXPECT_EQ(topology.InterfaceFacets, mesh.Facets.size());
   EXPECT_EQ(topology.FacetsOfThreeElements, 0u);

@@ -6,7 +6,7 @@
 #include "Delaunay/Triangulation.h"
 #include "Mesh/MeshExtraction.h"
 #include "Mesh/TimeSlice.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "TimeSliceChecks.h"
 
 #include <gtest/gtest.h>
@@ -226,15 +226,7 @@ void ExpectBoxAt(const Mesh& mesh, const Mesh& boundary, double size, std::vecto
 
 std::string MessageOf(const Mesh& mesh)
 {
-  try
-  {
-    const TimeSlicer slicer(mesh.View());
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return checks::MessageOf([&] { const TimeSlicer slicer(mesh.View()); });
 }
 
 } // namespace
@@ -349,11 +341,8 @@ TEST(TimeSlice, MeshOfAnImage)
 {
   const phantoms::SpaceTimePhantom balls = phantoms::MergingBalls();
   const std::vector<std::uint8_t> scalars = balls.Scalars();
-  MeshingOptions<4> options;
-  options.Sampling.Delta = 2.5;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> simplices;
-  mesher.Run(LabelImage<4>::FromScalars<std::uint8_t>(scalars, balls.Grid), simplices);
+  const SimplexMesh<4> simplices =
+    MeshOf(LabelImage<4>::FromScalars<std::uint8_t>(scalars, balls.Grid), WithDelta<4>(2.5));
   Mesh mesh;
   Mesh boundary;
   Copy(simplices, mesh, boundary);

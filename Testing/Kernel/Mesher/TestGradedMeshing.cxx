@@ -4,14 +4,15 @@
 #include "Base/Error.h"
 #include "Image/Components.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Refinement/FeatureGrid.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules3D.h"
 #include "RefinementChecks.h"
+#include "Sanitizers.h"
 #include "Sizing/GradedDelta.h"
-#include "TriangulationVerifier.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +24,7 @@
 #include <random>
 
 using namespace voxplex;
-using checks::Around;
-using checks::BallDomain;
+using namespace voxplex::checks;
 
 namespace
 {
@@ -49,74 +49,21 @@ LabelImage<3> SmallAndLarge()
 
 MeshingOptions<3> Graded(double delta, double ratio = 1.0)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = WithDelta<3>(delta);
   options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
   options.Sampling.Grading.Ratio = ratio;
   return options;
 }
 
-SimplexMesh<3> Mesh(const LabelImage<3>& image, const MeshingOptions<3>& options,
-  MeshingStatistics* statistics = nullptr)
-{
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  if (statistics)
-  {
-    *statistics = mesher.Statistics();
-  }
-  return mesh;
-}
-
 /** Interface vertices nearer than a distance to a point. */
 std::size_t FeaturesNear(const SimplexMesh<3>& mesh, const Point<3>& p, double distance)
 {
-  std::set<std::uint32_t> vertices;
-  for (const auto& f : mesh.Facets)
-  {
-    vertices.insert(f.begin(), f.end());
-  }
+  const std::set<std::uint32_t> vertices = VerticesOfInterfaces(mesh);
   return static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(),
     [&](std::uint32_t v) { return Distance(mesh.Points[v], p) < distance; }));
 }
 
-void ExpectKeepsTheRules(const SimplexMesh<3>& mesh)
-{
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  ASSERT_TRUE(complaints.empty()) << complaints.front();
-  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
-  {
-    ASSERT_LT(checks::RadiusEdge(mesh, t), 2.0 + 1e-9);
-  }
-  for (const auto& f : mesh.Facets)
-  {
-    ASSERT_GE(checks::SmallestAngle(mesh, f), 30.0 - 1e-6);
-  }
-}
-
 } // namespace
-
-TEST(FeatureGrid, FindsVerticesFartherThanItsRadius)
-{
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> x(-3.0, 3.0);
-  FeatureGrid<3> grid({ -4.0, -4.0, -4.0 }, 0.2, 100);
-  std::vector<Point<3>> points;
-  for (int k = 0; k < 60; ++k)
-  {
-    points.push_back({ x(random), x(random), x(random) });
-    grid.Add(points.back());
-  }
-  for (int k = 0; k < 3000; ++k)
-  {
-    const Point<3> p = { x(random), x(random), x(random) };
-    const double distance = 0.1 + 1.7 * (x(random) + 3.0) / 6.0;
-    const bool expected = std::any_of(
-      points.begin(), points.end(), [&](const Point<3>& q) { return Distance(p, q) < distance; });
-    ASSERT_EQ(grid.AnyWithin(p, distance), expected) << distance;
-  }
-}
 
 // Vertices that crowd together are in lists of fine cells, which serve short queries.
 TEST(FeatureGrid, FindsVerticesAtAllDistances)
@@ -163,8 +110,7 @@ TEST(GradedMeshing, NoRuleAppliesAfterwards)
   graded.Grade(0.25, 1, {});
   for (const unsigned threads : { 1u, 4u })
   {
-    RefinementSettings<3> settings;
-    settings.Sizing.Base = { 2.0 };
+    RefinementSettings<3> settings = SettingsFor<3>(2.0);
     settings.Sizing.Base.Graded = &graded;
     RefinementContext<3> context(ball, settings, Around(ball, settings.Sizing.Base.Delta), 1000);
     EXPECT_DOUBLE_EQ(context.Sizing.SpacingFloor(), SpacingFloorFraction * 0.4);
@@ -173,10 +119,9 @@ TEST(GradedMeshing, NoRuleAppliesAfterwards)
     team.Threads = threads;
     Refiner<Rules3D> refiner(context, team);
     ASSERT_TRUE(refiner.Run(nullptr));
-    const std::vector<std::string> complaints = checks::Verify(context.Mesh);
-    ASSERT_TRUE(complaints.empty()) << complaints.front();
-    checks::ExpectNoRuleApplies(context, ball);
-    const SimplexMesh<3> mesh = checks::ExtractSphere(context, ball);
+    ExpectSound(context.Mesh);
+    ExpectNoRuleApplies(context, ball);
+    const SimplexMesh<3> mesh = ExtractSphere(context, ball);
     EXPECT_GT(
       FeaturesNear(mesh, { -5.0, 0.0, 0.0 }, 1.5), 3 * FeaturesNear(mesh, { 5.0, 0.0, 0.0 }, 1.5));
   }
@@ -185,12 +130,10 @@ TEST(GradedMeshing, NoRuleAppliesAfterwards)
 TEST(GradedMeshing, IsFineWhereTheShapeIs)
 {
   const LabelImage<3> image = SmallAndLarge();
-  MeshingOptions<3> uniform;
-  uniform.Sampling.Delta = 1.5;
-  const SimplexMesh<3> plain = Mesh(image, uniform);
+  const SimplexMesh<3> plain = MeshOf(image, WithDelta<3>(1.5));
   MeshingStatistics statistics;
-  const SimplexMesh<3> mesh = Mesh(image, Graded(1.5, 0.5), &statistics);
-  ExpectKeepsTheRules(mesh);
+  const SimplexMesh<3> mesh = MeshOf(image, Graded(1.5, 0.5), &statistics);
+  ExpectGood(mesh);
   EXPECT_EQ(statistics.Delta, 1.5);
   EXPECT_GT(statistics.LargestDelta, 4.0);
   EXPECT_LE(statistics.LargestDelta, 6.0 + 1e-6) << "ratio x lambda";
@@ -210,14 +153,15 @@ TEST(GradedMeshing, IsFineWhereTheShapeIs)
 // A start that is too coarse costs more elements in the end than a finer one. There must be none.
 TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   for (const LabelImage<3>& image : { phantoms::Ball(16.0), phantoms::Torus(22.0, 10.0) })
   {
     MeshingStatistics statistics;
-    const std::size_t plain = Mesh(image, Graded(2.0, 0.6)).Simplices.size();
+    const std::size_t plain = MeshOf(image, Graded(2.0, 0.6)).Simplices.size();
     MeshingOptions<3> coarse = Graded(2.0, 2.0);
-    const std::size_t ratio = Mesh(image, coarse, &statistics).Simplices.size();
+    const std::size_t ratio = MeshOf(image, coarse, &statistics).Simplices.size();
     coarse.Sampling.Grading.Lambda = 100.0;
-    const std::size_t lambda = Mesh(image, coarse).Simplices.size();
+    const std::size_t lambda = MeshOf(image, coarse).Simplices.size();
     EXPECT_LT(statistics.Interfaces.Seeds, 100u);
     EXPECT_LT(ratio, plain + plain / 5);
     EXPECT_LT(lambda, plain + plain / 5);
@@ -227,22 +171,21 @@ TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
 // R6 spares free vertices that serve finer interfaces; otherwise R2 puts them back again and again.
 TEST(GradedMeshing, RulesDoNotUndoEachOther)
 {
+  VOXPLEX_NOT_WITH_SANITIZERS();
   const auto created = [](const MeshingOptions<3>& options)
   {
     MeshingStatistics statistics;
-    const SimplexMesh<3> mesh = Mesh(SmallAndLarge(), options, &statistics);
+    const SimplexMesh<3> mesh = MeshOf(SmallAndLarge(), options, &statistics);
     return static_cast<double>(statistics.Rules.Created) /
       static_cast<double>(mesh.Simplices.size());
   };
-  MeshingOptions<3> uniform;
-  uniform.Sampling.Delta = 0.8;
-  EXPECT_LT(created(Graded(0.8, 1.0)), 2.5 * created(uniform));
+  EXPECT_LT(created(Graded(0.8, 1.0)), 2.5 * created(WithDelta<3>(0.8)));
 }
 
 TEST(GradedMeshing, EstimateFollows)
 {
   MeshingStatistics statistics;
-  const SimplexMesh<3> mesh = Mesh(SmallAndLarge(), Graded(1.0), &statistics);
+  const SimplexMesh<3> mesh = MeshOf(SmallAndLarge(), Graded(1.0), &statistics);
   const double ratio =
     static_cast<double>(statistics.EstimatedElements) / static_cast<double>(mesh.Simplices.size());
   EXPECT_GT(ratio, 0.5);
@@ -269,7 +212,7 @@ TEST(GradedMeshing, LosesNoLabelAndNoComponent)
     MeshingOptions<3> options = Graded(2.0, 2.0);
     options.Team.Threads = threads;
     MeshingStatistics statistics;
-    const SimplexMesh<3> mesh = Mesh(image, options, &statistics);
+    const SimplexMesh<3> mesh = MeshOf(image, options, &statistics);
     EXPECT_TRUE(statistics.Components.Lost.empty());
     EXPECT_EQ(statistics.Components.Found, 4u);
     const Components<3> components(image);
@@ -307,38 +250,27 @@ TEST(GradedMeshing, OfImagesWithHardlyAnyInterface)
     const LabelImage<3> image = phantoms::Make(phantoms::Cube(2),
       [free](const Point<3>& p) -> std::int16_t
       { return free == 1 && p[0] + p[1] + p[2] == 0.0 ? 0 : 1; });
-    const SimplexMesh<3> mesh = Mesh(image, Graded(4.6));
-    const std::vector<std::string> complaints = checks::Complaints(mesh);
-    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    const SimplexMesh<3> mesh = MeshOf(image, Graded(4.6));
+    ExpectSound(mesh);
     EXPECT_FALSE(mesh.Simplices.empty());
   }
-}
-
-TEST(GradedMeshing, IsReproducible)
-{
-  const LabelImage<3> image = SmallAndLarge();
-  const SimplexMesh<3> first = Mesh(image, Graded(2.0));
-  const SimplexMesh<3> second = Mesh(image, Graded(2.0));
-  EXPECT_EQ(first.Points, second.Points);
-  EXPECT_EQ(first.Simplices, second.Simplices);
 }
 
 TEST(GradedMeshing, UniformIsAsBefore)
 {
   const LabelImage<3> image = SmallAndLarge();
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 2.0;
+  MeshingOptions<3> options = WithDelta<3>(2.0);
   MeshingStatistics statistics;
-  const SimplexMesh<3> plain = Mesh(image, options, &statistics);
+  const SimplexMesh<3> plain = MeshOf(image, options, &statistics);
   EXPECT_EQ(statistics.LargestDelta, 2.0);
   EXPECT_EQ(statistics.GradingSamples, 0u);
   options.Sampling.Grading.Ratio = 3.0;
   options.Sampling.Grading.Lambda = 1.0;
-  EXPECT_EQ(Mesh(image, options).Points, plain.Points);
+  EXPECT_EQ(MeshOf(image, options).Points, plain.Points);
   // If lambda allows nothing above delta, grading changes nothing.
   options = Graded(2.0, 1.0);
   options.Sampling.Grading.Lambda = 1.0;
-  EXPECT_EQ(Mesh(image, options).Points, plain.Points);
+  EXPECT_EQ(MeshOf(image, options).Points, plain.Points);
 }
 
 TEST(GradedMeshing, RefusesWrongOptions)
@@ -373,9 +305,8 @@ TEST(GradedMeshing, OfImagesThatAreSmallBesideDelta)
     for (const double delta : { 4.0, 26.0, 500.0 })
     {
       MeshingStatistics statistics;
-      const SimplexMesh<3> mesh = Mesh(image, Graded(delta), &statistics);
-      const std::vector<std::string> complaints = checks::Complaints(mesh);
-      ASSERT_TRUE(complaints.empty()) << complaints.front();
+      const SimplexMesh<3> mesh = MeshOf(image, Graded(delta), &statistics);
+      ExpectSound(mesh);
       EXPECT_LE(statistics.GradingSamples, 12u);
     }
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grey-value series: a moving ball whose values are signed distances, against the true ball.
 #include "Image/FrameInterpolation.h"
+#include "Phantoms.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>
@@ -39,24 +40,7 @@ GridGeometry<4> Grid()
 
 std::vector<float> Values()
 {
-  const GridGeometry<4> grid = Grid();
-  std::vector<float> values;
-  std::array<std::int64_t, 4> v{};
-  for (v[3] = 0; v[3] < grid.Dimensions[3]; ++v[3])
-  {
-    for (v[2] = 0; v[2] < grid.Dimensions[2]; ++v[2])
-    {
-      for (v[1] = 0; v[1] < grid.Dimensions[1]; ++v[1])
-      {
-        for (v[0] = 0; v[0] < grid.Dimensions[0]; ++v[0])
-        {
-          values.push_back(static_cast<float>(Depth({ static_cast<double>(v[0]),
-            static_cast<double>(v[1]), static_cast<double>(v[2]), static_cast<double>(v[3]) })));
-        }
-      }
-    }
-  }
-  return values;
+  return phantoms::Sample<float>(Grid(), Depth);
 }
 
 double BallVolume(double radius)
@@ -67,16 +51,14 @@ double BallVolume(double radius)
 /** The ball's mesh; vertices of lateral facets lie on the isosurface only if it is not fitted. */
 SimplexMesh<4> MeshOf(const IsosurfaceImage<4>& image, bool fit)
 {
-  MeshingOptions<4> options;
-  options.Sampling.Delta = 2.0;
+  MeshingOptions<4> options = WithDelta<4>(2.0);
   options.Interfaces.Fit = fit;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_TRUE(Complaints(mesh).empty());
-  EXPECT_EQ(mesher.Statistics().FrameSteps, 1u);
-  EXPECT_EQ(mesher.Statistics().FrameComponents.Found, static_cast<std::size_t>(Frames));
-  EXPECT_TRUE(mesher.Statistics().FrameComponents.Lost.empty());
+  MeshingStatistics statistics;
+  SimplexMesh<4> mesh = checks::MeshOf(image, options, &statistics);
+  ExpectSound(mesh);
+  EXPECT_EQ(statistics.FrameSteps, 1u);
+  EXPECT_EQ(statistics.FrameComponents.Found, static_cast<std::size_t>(Frames));
+  EXPECT_TRUE(statistics.FrameComponents.Lost.empty());
   EXPECT_EQ(TimeSpan(mesh), std::pair(0.0, Frames - 1.0));
   return mesh;
 }
@@ -135,11 +117,8 @@ TEST(MovingIsosurface, IsBetterThanItsSegmentation)
   {
     labels.push_back(value >= 0.0f);
   }
-  MeshingOptions<4> options = SpaceTimeOptions(2.0);
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(LabelImage<4>::FromScalars<std::uint8_t>(labels, Grid()), mesh),
-    MeshingOutcome::Done);
+  const SimplexMesh<4> mesh =
+    checks::MeshOf(LabelImage<4>::FromScalars<std::uint8_t>(labels, Grid()), SpaceTimeOptions(2.0));
   EXPECT_GT(LargestDistance(mesh), 3.0 * LargestDistance(MeshOf(image, false)));
 }
 

@@ -5,7 +5,7 @@
 #include "Base/Error.h"
 #include "CallableSize.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Sanitizers.h"
 #include "ThreadTesting.h"
@@ -24,6 +24,7 @@
 #include <vector>
 
 using namespace voxplex;
+using namespace voxplex::checks;
 using voxplex::testing::OthersStandStill;
 using voxplex::testing::Soon;
 using voxplex::testing::Watchdog;
@@ -85,25 +86,9 @@ std::vector<Case> Cases()
 
 MeshingOptions<3> Options(double delta, unsigned threads)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = WithDelta<3>(delta);
   options.Team.Threads = threads;
   return options;
-}
-
-void ExpectGood(const SimplexMesh<3>& mesh, double smallestAngle)
-{
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  ASSERT_TRUE(complaints.empty()) << complaints.front();
-  ASSERT_FALSE(mesh.Simplices.empty());
-  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
-  {
-    ASSERT_LT(checks::RadiusEdge(mesh, t), 2.0 + 1e-9);
-  }
-  for (const auto& f : mesh.Facets)
-  {
-    ASSERT_GE(checks::SmallestAngle(mesh, f), smallestAngle - 1e-6);
-  }
 }
 
 } // namespace
@@ -120,12 +105,10 @@ TEST(ParallelMeshing, AnyNumberOfThreadsMakesAsGoodAMesh)
     {
       const Watchdog watchdog(c.Name + ", threads: " + std::to_string(threads));
       SCOPED_TRACE(std::to_string(threads) + " threads");
-      ImageMesher<3> mesher(Options(c.Delta, threads));
-      SimplexMesh<3> mesh;
-      ASSERT_EQ(mesher.Run(c.Image, mesh), MeshingOutcome::Done);
+      MeshingStatistics statistics;
+      const SimplexMesh<3> mesh = MeshOf(c.Image, Options(c.Delta, threads), &statistics);
       ExpectGood(mesh, c.SmallestAngle);
-      const std::map<std::int64_t, double> volumes = checks::Volumes(mesh);
-      const MeshingStatistics& statistics = mesher.Statistics();
+      const std::map<std::int64_t, double> volumes = Volumes(mesh);
       EXPECT_EQ(statistics.Threads.size(), threads);
       std::uint64_t insertions = 0;
       for (const ThreadStatistics& thread : statistics.Threads)
@@ -175,14 +158,12 @@ TEST(ParallelMeshing, SizesAreRespected)
       return label == 7 ? 1.0 : p[2] < c ? 1.3 : 2.5;
     };
     options.Sampling.Size = std::make_shared<CallableSize>(size);
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    ExpectGood(mesh, 30.0);
+    const SimplexMesh<3> mesh = MeshOf(image, options);
+    ExpectGood(mesh);
     EXPECT_EQ(unknown, 0);
     for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
     {
-      ASSERT_LT(checks::Circumradius(mesh, t), mesh.Labels[t] == 7 ? 1.0 + 1e-9 : 2.5 + 1e-9);
+      ASSERT_LT(Circumradius(mesh, t), mesh.Labels[t] == 7 ? 1.0 + 1e-9 : 2.5 + 1e-9);
     }
   }
 }
@@ -201,7 +182,7 @@ TEST(ParallelMeshing, OneThreadIsReproducible)
     mesher.Run(image, second);
     mesher.Run(image, second); // an instance may be used again
     EXPECT_FALSE(first.Points.empty());
-    checks::ExpectSame(first, second);
+    ExpectSame(first, second);
   }
 }
 
@@ -213,10 +194,7 @@ TEST(ParallelMeshing, AllCoresAndPinnedThreads)
   {
     MeshingOptions<3> options = Options(1.2, threads);
     options.Team.Pin = true;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    ExpectGood(mesh, 30.0);
+    ExpectGood(MeshOf(image, options));
   }
 }
 
@@ -228,14 +206,7 @@ TEST(ParallelMeshing, MeshersDoNotDisturbEachOther)
   std::vector<std::jthread> running;
   for (int k = 0; k < 3; ++k)
   {
-    running.emplace_back(
-      [&]
-      {
-        ImageMesher<3> mesher(Options(1.0, 4));
-        SimplexMesh<3> mesh;
-        EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-        ExpectGood(mesh, 30.0);
-      });
+    running.emplace_back([&] { ExpectGood(MeshOf(image, Options(1.0, 4))); });
   }
 }
 
@@ -244,24 +215,27 @@ TEST(ParallelMeshing, ProgressIsReportedByTheCallerAndNeverFalls)
 {
   const Watchdog watchdog("progress");
   const LabelImage<3> image = phantoms::NestedBalls(Sanitized ? 9.0 : 14.0);
-  ImageMesher<3> mesher(Options(0.6, 8));
   const std::thread::id caller = std::this_thread::get_id();
-  double last = 0.0;
-  int calls = 0;
-  mesher.Progress = [&](double fraction)
+  for (const unsigned threads : { 1u, 8u })
   {
-    EXPECT_EQ(std::this_thread::get_id(), caller);
-    EXPECT_GE(fraction, last);
-    EXPECT_LE(fraction, 1.0);
-    last = fraction;
-    ++calls;
-    return true;
-  };
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_EQ(last, 1.0);
-  EXPECT_GT(calls, 3);
-  EXPECT_FALSE(mesh.Simplices.empty());
+    ImageMesher<3> mesher(Options(0.6, threads));
+    double last = 0.0;
+    int calls = 0;
+    mesher.Progress = [&](double fraction)
+    {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      EXPECT_GE(fraction, last);
+      EXPECT_LE(fraction, 1.0);
+      last = fraction;
+      ++calls;
+      return true;
+    };
+    SimplexMesh<3> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    EXPECT_EQ(last, 1.0);
+    EXPECT_GT(calls, 3);
+    EXPECT_FALSE(mesh.Simplices.empty());
+  }
 }
 
 TEST(ParallelMeshing, CancelledAtAnyMoment)
@@ -274,7 +248,7 @@ TEST(ParallelMeshing, CancelledAtAnyMoment)
     const std::string name = "cancelled at call " + std::to_string(most);
     SCOPED_TRACE(name);
     const Watchdog watchdog(name);
-    MeshingOptions<3> options = Options(0.3, 8);
+    MeshingOptions<3> options = Options(0.3, k % 6 == 5 ? 1 : 8);
     options.Team.Contention = static_cast<ContentionPolicy>(k % 4);
     options.Team.Balance = static_cast<BalancePolicy>(k / 4 % 2);
     options.Team.RemoveEagerly = k % 3 == 0;
@@ -334,7 +308,7 @@ TEST(ParallelMeshing, WhatTheProgressCallbackThrowsLeavesRun)
   const LabelImage<3> image = phantoms::NestedBalls(15.0);
   for (const int most : { 0, 3, 8 })
   {
-    ImageMesher<3> mesher(Options(0.3, 8));
+    ImageMesher<3> mesher(Options(0.3, most == 3 ? 1 : 8));
     int calls = 0;
     mesher.Progress = [&](double)
     {
@@ -373,11 +347,9 @@ TEST(ParallelMeshing, TheSwitchToTheLocalManagerIsReported)
           }
           return 1.0;
         });
-      ImageMesher<3> mesher(options);
-      SimplexMesh<3> mesh;
-      ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-      ExpectGood(mesh, 0.0);
-      switched = mesher.Statistics().SwitchedToLocal;
+      MeshingStatistics statistics;
+      ExpectGood(MeshOf(image, options, &statistics), 0.0);
+      switched = statistics.SwitchedToLocal;
     }
     EXPECT_TRUE(switched) << ContentionPolicyNames[static_cast<std::size_t>(contention)];
   }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Space-time meshes that conform to time planes, and periodic ones.
 #include "Base/Error.h"
+#include "Base/GridIndex.h"
 #include "CallableSize.h"
+#include "Phantoms.h"
 #include "Sanitizers.h"
 #include "SlabChecks.h"
 #include "SpaceTimeCases.h"
@@ -29,26 +31,24 @@ struct Result
   MeshingStatistics Statistics;
 };
 
-Result MeshOf(const LabelImage<4>& image, const MeshingOptions<4>& options)
+template <template <int> class Image>
+Result RunOf(const Image<4>& image, const MeshingOptions<4>& options)
 {
-  ImageMesher<4> mesher(options);
   Result result;
-  EXPECT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
-  result.Statistics = mesher.Statistics();
+  result.Mesh = checks::MeshOf(image, options, &result.Statistics);
   return result;
 }
 
+using Voxel = GridGeometry<4>::Index;
+
 /** Background, except some voxels with the labels 1, 2 and so on in turn, at most `labels`. */
-LabelImage<4> ImageOfVoxels(const GridGeometry<4>& grid,
-  const std::vector<std::array<std::int64_t, 4>>& voxels, std::uint8_t labels)
+LabelImage<4> ImageOfVoxels(
+  const GridGeometry<4>& grid, const std::vector<Voxel>& voxels, std::size_t labels)
 {
-  const auto& n = grid.Dimensions;
-  std::vector<std::uint8_t> values(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]), 0);
+  std::vector<std::uint8_t> values(CountCells(grid.Dimensions), 0);
   for (std::size_t k = 0; k < voxels.size(); ++k)
   {
-    const auto& v = voxels[k];
-    const std::int64_t at = v[0] + n[0] * (v[1] + n[1] * (v[2] + n[2] * v[3]));
-    values[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(k % labels + 1);
+    values[OffsetOf(voxels[k], grid.Dimensions)] = static_cast<std::uint8_t>(k % labels + 1);
   }
   return LabelImage<4>::FromScalars<std::uint8_t>(values, grid);
 }
@@ -56,8 +56,7 @@ LabelImage<4> ImageOfVoxels(const GridGeometry<4>& grid,
 /** Everything on that users get. */
 MeshingOptions<4> WithPlanes(double delta, std::vector<double> times, unsigned threads = 1)
 {
-  MeshingOptions<4> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<4> options = WithDelta<4>(delta);
   options.Optimisation.Run = true;
   options.Team.Threads = threads;
   options.Planes.Times = std::move(times);
@@ -69,8 +68,7 @@ void ExpectSlabs(const Result& result, double first, double last)
   const SimplexMesh<4>& mesh = result.Mesh;
   const std::vector<double>& times = result.Statistics.Planes.Times;
   ASSERT_EQ(mesh.Slabs.size(), mesh.Simplices.size());
-  const std::vector<std::string> complaints = Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  ExpectSound(mesh);
   std::size_t pentatopes = 0;
   for (std::uint32_t slab = 0; slab <= times.size(); ++slab)
   {
@@ -137,7 +135,7 @@ TEST(TimePlanes, SlabsMatchOnPlanes)
       MeshingOptions<4> options = WithPlanes(2.0, { 11.0, 5.3, 0.0, 8.0, 16.0, 8.0 }, threads);
       options.Optimisation.Run = !isRaw;
       options.Interfaces.Fit = !isRaw;
-      const Result result = MeshOf(image, options);
+      const Result result = RunOf(image, options);
       EXPECT_EQ(result.Statistics.Planes.Times, (std::vector<double>{ 5.3, 8.0, 11.0 }));
       EXPECT_TRUE(result.Mesh.Twins.empty());
       ExpectSlabs(result, 0.0, 16.0);
@@ -153,8 +151,8 @@ TEST(TimePlanes, VolumesAndShapesAreThoseOfAMeshWithoutPlanes)
 {
   VOXPLEX_NOT_WITH_SANITIZERS();
   const LabelImage<4> image = ImageOf(phantoms::MergingBalls());
-  const Result with = MeshOf(image, WithPlanes(2.0, { 4.0, 8.0, 12.0 }));
-  const Result without = MeshOf(image, WithPlanes(2.0, {}));
+  const Result with = RunOf(image, WithPlanes(2.0, { 4.0, 8.0, 12.0 }));
+  const Result without = RunOf(image, WithPlanes(2.0, {}));
   ExpectSlabs(with, 0.0, 16.0);
   EXPECT_TRUE(without.Mesh.Slabs.empty());
   const auto expected = Hypervolumes(image);
@@ -191,7 +189,7 @@ TEST(TimePlanes, EveryFrameOfAFastBall)
   {
     frames.push_back(static_cast<double>(k) * image.Grid().IndexToFrame[3][3]);
   }
-  const Result result = MeshOf(image, WithPlanes(0.9 * frames[1], frames));
+  const Result result = RunOf(image, WithPlanes(0.9 * frames[1], frames));
   EXPECT_EQ(result.Statistics.Planes.Times.size(), frames.size() - 2);
   ExpectSlabs(result, frames.front(), frames.back());
 }
@@ -212,7 +210,7 @@ TEST(TimePlanes, ClosedPlanesRefusePointsAndMatch)
       MeshingOptions<4> options = WithPlanes(2.0, { 3.0, 5.5, 8.0, 11.0 });
       options.Planes.Periodic = isPeriodic;
       options.Planes.OpenRounds = rounds;
-      const Result result = MeshOf(image, options);
+      const Result result = RunOf(image, options);
       const TimePlaneStatistics& planes = result.Statistics.Planes;
       ExpectSlabs(result, 0.0, 16.0);
       EXPECT_LE(planes.Rounds, rounds + 2);
@@ -241,7 +239,7 @@ TEST(TimePlanes, PentatopesBesidePlanesKeepTheBoundsOfTheLabelThatTheyGet)
   options.Interfaces.Manifold = false;
   options.SpaceTime.Slivers.Fight = false;
   options.Sampling.InterfaceSizes = { { 1, 0, 2.0 } };
-  const Result result = MeshOf(image, options);
+  const Result result = RunOf(image, options);
   EXPECT_GT(result.Statistics.Planes.Relabelled, 0u);
   for (std::size_t s = 0; s < result.Mesh.Simplices.size(); ++s)
   {
@@ -279,11 +277,9 @@ TEST(TimePlanes, FacetsOfPentatopesBesidePlanesAreSampled)
   options.Components.Smallest = 0;
   options.SpaceTime.Slivers.Fight = false;
   options.SpaceTime.Order = RuleOrder::SurfaceFirst;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_GT(mesher.Statistics().Planes.Relabelled, 0u);
-  for (const Point<4>& p : mesh.Points)
+  const Result result = RunOf(image, options);
+  EXPECT_GT(result.Statistics.Planes.Relabelled, 0u);
+  for (const Point<4>& p : result.Mesh.Points)
   {
     EXPECT_TRUE(
       p[0] > -1.0 && p[0] < 3.0 && p[1] > -1.0 && p[1] < 2.0 && p[2] > -1.0 && p[2] < 2.0);
@@ -307,7 +303,7 @@ TEST(TimePlanes, AFlatSlabAtTheBeginningTakesFewPoints)
   options.SmoothingSigma = 0.4229;
   options.Shape.RadiusEdgeRatio = 2.28;
   options.SpaceTime.Slivers.Fight = false;
-  const Result result = MeshOf(image, options);
+  const Result result = RunOf(image, options);
   EXPECT_FALSE(result.Mesh.Simplices.empty());
   EXPECT_LT(result.Statistics.Rules.Insertions(), 3000u);
   EXPECT_TRUE(result.Statistics.Yielding.empty());
@@ -329,7 +325,7 @@ TEST(TimePlanes, PointsNextToAFaceOfTheBoxAreMovedOntoIt)
     [](const Point<4>&, std::int64_t) { return 45.419866406846104; });
   options.Shape.RadiusEdgeRatio = 3.632;
   options.Interfaces.Fit = false;
-  const Result result = MeshOf(image, options);
+  const Result result = RunOf(image, options);
   EXPECT_FALSE(result.Mesh.Simplices.empty());
   EXPECT_LT(result.Statistics.Rules.Insertions(), 1000u);
   EXPECT_TRUE(result.Statistics.Yielding.empty());
@@ -354,7 +350,7 @@ TEST(TimePlanes, FeaturePointsOnPlanesAreExactlyThere)
   options.Sampling.Size =
     std::make_shared<CallableSizeOf<4>>([](const Point<4>& p, std::int64_t label)
       { return label == 2 ? 3.7737989278716904 + 0.44577933495228039 * std::abs(p[0]) : 0.0; });
-  const Result result = MeshOf(LabelImage<4>::FromScalars<std::uint8_t>(values, grid), options);
+  const Result result = RunOf(LabelImage<4>::FromScalars<std::uint8_t>(values, grid), options);
   ASSERT_FALSE(result.Mesh.Simplices.empty());
   for (const Point<4>& p : result.Mesh.Points)
   {
@@ -382,7 +378,7 @@ TEST(TimePlanes, BothEndsOfAPeriodAreCongruent)
       MeshingOptions<4> options = WithPlanes(
         2.0, hasPlanes ? std::vector<double>{ 5.0, 9.5 } : std::vector<double>(), threads);
       options.Planes.Periodic = true;
-      const Result result = MeshOf(image, options);
+      const Result result = RunOf(image, options);
       EXPECT_EQ(result.Statistics.Planes.Times,
         (hasPlanes ? std::vector<double>{ 5.0, 9.5 } : std::vector<double>{ 8.0 }));
       ExpectSlabs(result, 0.0, 16.0);
@@ -419,8 +415,8 @@ TEST(TimePlanes, OneThreadGivesTheSameMeshAgain)
   const LabelImage<4> image = ImageOf(PulsatingBalls(17, 1.0));
   MeshingOptions<4> options = WithPlanes(2.5, { 8.0 });
   options.Planes.Periodic = true;
-  const Result first = MeshOf(image, options);
-  const Result second = MeshOf(image, options);
+  const Result first = RunOf(image, options);
+  const Result second = RunOf(image, options);
   EXPECT_TRUE(first.Mesh.Points == second.Mesh.Points);
   EXPECT_TRUE(first.Mesh.Simplices == second.Mesh.Simplices);
   EXPECT_TRUE(first.Mesh.Twins == second.Mesh.Twins);
@@ -432,28 +428,15 @@ namespace
 /** Values of a ball that moves around a circle once, in 17 frames; the last is the first one. */
 std::vector<float> CirclingBall(const GridGeometry<4>& grid)
 {
-  std::vector<float> values;
-  std::array<std::int64_t, 4> v{};
-  for (v[3] = 0; v[3] < grid.Dimensions[3]; ++v[3])
-  {
-    const double phase = 2.0 * std::numbers::pi *
-      static_cast<double>(v[3] % (grid.Dimensions[3] - 1)) /
-      static_cast<double>(grid.Dimensions[3] - 1);
-    const Point<3> centre = { 12.0 + 2.5 * std::cos(phase), 12.0 + 2.5 * std::sin(phase), 12.0 };
-    for (v[2] = 0; v[2] < grid.Dimensions[2]; ++v[2])
+  const double last = static_cast<double>(grid.Dimensions[3] - 1);
+  return phantoms::Sample<float>(grid,
+    [last](const Point<4>& p)
     {
-      for (v[1] = 0; v[1] < grid.Dimensions[1]; ++v[1])
-      {
-        for (v[0] = 0; v[0] < grid.Dimensions[0]; ++v[0])
-        {
-          const Point<3> x = { static_cast<double>(v[0]), static_cast<double>(v[1]),
-            static_cast<double>(v[2]) };
-          values.push_back(static_cast<float>(7.0 - Distance(x, centre)));
-        }
-      }
-    }
-  }
-  return values;
+      const double phase = 2.0 * std::numbers::pi * std::fmod(p[3], last) / last;
+      return 7.0 -
+        std::hypot(
+          p[0] - 12.0 - 2.5 * std::cos(phase), p[1] - 12.0 - 2.5 * std::sin(phase), p[2] - 12.0);
+    });
 }
 
 } // namespace
@@ -471,10 +454,7 @@ TEST(TimePlanes, IsosurfacesHavePeriods)
     surface.SmoothingSigma = sigma;
     surface.PeriodicInTime = true;
     const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
-    ImageMesher<4> mesher(options);
-    Result result;
-    ASSERT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
-    result.Statistics = mesher.Statistics();
+    const Result result = RunOf(image, options);
     ExpectSlabs(result, 0.0, 16.0);
     ExpectPeriod(result, 0.0, 16.0);
     const double expected = 16.0 * 4.0 / 3.0 * std::numbers::pi * 343.0;
@@ -484,19 +464,15 @@ TEST(TimePlanes, IsosurfacesHavePeriods)
 
   const auto refusal = [&](bool isPeriodic)
   {
-    try
-    {
-      Isosurface surface;
-      surface.PeriodicInTime = isPeriodic;
-      const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
-      SimplexMesh<4> mesh;
-      ImageMesher<4>(options).Run(image, mesh);
-    }
-    catch (const InputError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return MessageOf(
+      [&]
+      {
+        Isosurface surface;
+        surface.PeriodicInTime = isPeriodic;
+        const auto image = IsosurfaceImage<4>::FromScalars<float>(values, grid, surface);
+        SimplexMesh<4> mesh;
+        ImageMesher<4>(options).Run(image, mesh);
+      });
   };
   EXPECT_NE(refusal(false).find("an image that was made to be periodic"), std::string::npos);
   values[(24 * 25 + 3) * 25 + 2] += 1.0f;
@@ -538,15 +514,7 @@ TEST(TimePlanes, RefusesWhatCannotBe)
   const auto messageOf = [](const LabelImage<4>& of, const MeshingOptions<4>& options)
   {
     SimplexMesh<4> mesh;
-    try
-    {
-      ImageMesher<4>(options).Run(of, mesh);
-    }
-    catch (const InputError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return MessageOf([&] { ImageMesher<4>(options).Run(of, mesh); });
   };
   const auto expect = [&](const MeshingOptions<4>& options, const std::string& part)
   {
@@ -581,16 +549,10 @@ TEST(TimePlanes, TheUnionOfSlabsCountsInTheMemoryThatIsEstimated)
   {
     MeshingOptions<4> options = from;
     options.Limits.Memory = limit;
+    ImageMesher<4> mesher(options);
+    mesher.Progress = [](double fraction) { return fraction < 0.25; }; // after the estimate
     SimplexMesh<4> mesh;
-    try
-    {
-      ImageMesher<4>(options).Run(image, mesh);
-      return false;
-    }
-    catch (const TooLargeError&)
-    {
-      return true;
-    }
+    return MessageOf<TooLargeError>([&] { mesher.Run(image, mesh); }) != "";
   };
   std::uint64_t enough = 1u << 20; // for a mesh without planes, and just so
   while (isRefused(WithPlanes(2.5, {}), enough))

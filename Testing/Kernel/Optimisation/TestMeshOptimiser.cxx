@@ -4,7 +4,7 @@
 #include "Base/Error.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/Patch.h"
 #include "Optimisation/Smoother.h"
@@ -30,13 +30,9 @@ constexpr double Sigma = 1.0;
 
 SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = checks::WithDelta<3>(delta);
   options.SmoothingSigma = Sigma;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  return mesh;
+  return checks::MeshOf(image, options);
 }
 
 /** Cells of random seeds in a ball: surfaces of many labels, junction curves, and corners. */
@@ -134,11 +130,7 @@ bool IsNearInterface(const Domain<3>& domain, const Point<3>& p, double distance
 std::size_t VerticesOffInterfaces(const SimplexMesh<3>& mesh, const SimplexMesh<3>& before,
   const Domain<3>& domain, double tolerance)
 {
-  std::set<std::uint32_t> vertices;
-  for (const auto& f : mesh.Facets)
-  {
-    vertices.insert(f.begin(), f.end());
-  }
+  const std::set<std::uint32_t> vertices = checks::VerticesOfInterfaces(mesh);
   return static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(),
     [&](std::uint32_t v)
     {
@@ -214,12 +206,6 @@ double SmallestFacetAngle(const SimplexMesh<3>& mesh)
   return smallest;
 }
 
-bool AreEqual(const SimplexMesh<3>& a, const SimplexMesh<3>& b)
-{
-  return a.Points == b.Points && a.Simplices == b.Simplices && a.Labels == b.Labels &&
-    a.Facets == b.Facets && a.FacetLabels == b.FacetLabels;
-}
-
 class OptimisedPhantom : public testing::TestWithParam<Phantom>
 {
 protected:
@@ -247,8 +233,7 @@ protected:
 TEST_P(OptimisedPhantom, IsValid)
 {
   ASSERT_GT(this->Statistics.Before.Poor, 0u) << "nothing to test";
-  const std::vector<std::string> complaints = checks::Complaints(this->After);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(this->After);
 }
 
 TEST_P(OptimisedPhantom, HasGoodShapes)
@@ -302,12 +287,10 @@ TEST_P(OptimisedPhantom, KeepsLabelsAndTheirVolumes)
     double area = 0.0;
     for (std::size_t k = 0; k < this->Before.Facets.size(); ++k)
     {
-      const auto& f = this->Before.Facets[k];
-      const Point<3> normal =
-        checks::Cross(Subtract(this->Before.Points[f[1]], this->Before.Points[f[0]]),
-          Subtract(this->Before.Points[f[2]], this->Before.Points[f[0]]));
       const auto& labels = this->Before.FacetLabels[k];
-      area += labels[0] == label || labels[1] == label ? 0.5 * std::sqrt(Dot(normal, normal)) : 0.0;
+      area += labels[0] == label || labels[1] == label
+        ? checks::AreaOf(this->Before, this->Before.Facets[k])
+        : 0.0;
     }
     EXPECT_NEAR(after.at(label), volume, 0.01 * area) << "label " << label;
   }
@@ -354,7 +337,7 @@ TEST_P(OptimisedPhantom, DoesNotChangeWhatHasNothingPoor)
   kept.Shape.RadiusEdgeRatio = shapes.LargestRadiusEdgeRatio + 0.01;
   SimplexMesh<3> again = this->After;
   const OptimisationStatistics statistics = OptimiseMesh(again, this->Domain, kept);
-  EXPECT_TRUE(AreEqual(again, this->After));
+  checks::ExpectSame(again, this->After);
   EXPECT_EQ(statistics.Before.Poor, 0u);
   EXPECT_EQ(statistics.Passes, 0u);
 
@@ -385,8 +368,7 @@ TEST_P(OptimisedPhantom, WorstShapeNeverGetsWorse)
   const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, options);
   EXPECT_GT(worst(statistics.After), worst(statistics.Before));
   EXPECT_LT(statistics.After.Poor, statistics.Before.Poor);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(mesh);
   EXPECT_EQ(Pieces(mesh), Pieces(this->Before));
   EXPECT_LE(NonManifoldEdges(mesh), NonManifoldEdges(this->Before));
   EXPECT_EQ(
@@ -440,7 +422,7 @@ TEST(MeshOptimiser, ResultDoesNotDependOnThreads)
   SimplexMesh<3> four = before;
   const OptimisationStatistics statistics = OptimiseMesh(one, domain, options, 1);
   OptimiseMesh(four, domain, options, 4);
-  EXPECT_TRUE(AreEqual(one, four));
+  checks::ExpectSame(one, four);
   // Each kind of operation had work.
   EXPECT_GT(statistics.Flips.EdgeRemovals, 0u);
   EXPECT_GT(statistics.Flips.InterfaceFlips, 0u);
@@ -450,8 +432,7 @@ TEST(MeshOptimiser, ResultDoesNotDependOnThreads)
   EXPECT_GT(statistics.Smoothing.Insertions, 0u);
   EXPECT_GE(statistics.After.SmallestDihedralAngle, 12.0);
   EXPECT_LE(statistics.After.LargestDihedralAngle, 160.0);
-  const std::vector<std::string> complaints = checks::Complaints(four);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(four);
 }
 
 TEST(MeshOptimiser, GivesUpWhenAskedTo)
@@ -463,7 +444,7 @@ TEST(MeshOptimiser, GivesUpWhenAskedTo)
   std::stop_source stop;
   stop.request_stop();
   EXPECT_THROW(OptimiseMesh(mesh, domain, {}, 1, stop.get_token()), Cancelled);
-  EXPECT_TRUE(AreEqual(mesh, before));
+  checks::ExpectSame(mesh, before);
 }
 
 TEST(MeshOptimiser, IsCancelledWhileItWorks)
@@ -517,7 +498,7 @@ TEST(MeshOptimiser, IsCancelledWhileItWorks)
   EXPECT_THROW(OptimiseMesh(mesh, stopping, options, 1, stopping.Stop.get_token()), Cancelled);
   EXPECT_GE(stopping.Calls, 100);
   EXPECT_LT(stopping.Calls, calls / 2);
-  EXPECT_TRUE(AreEqual(mesh, before));
+  checks::ExpectSame(mesh, before);
 }
 
 TEST(MeshOptimiser, KeepsToTheTimeLimit)
@@ -531,7 +512,7 @@ TEST(MeshOptimiser, KeepsToTheTimeLimit)
   EXPECT_TRUE(statistics.OutOfTime);
   EXPECT_EQ(statistics.Flips.EdgeRemovals, 0u);
   EXPECT_EQ(statistics.After.Poor, statistics.Before.Poor);
-  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  checks::ExpectSound(mesh);
   options.Seconds = 1e6;
   const OptimisationStatistics more = OptimiseMesh(mesh, domain, options);
   EXPECT_FALSE(more.OutOfTime);

@@ -4,7 +4,7 @@
 #include "BallDomain.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Optimisation/Flips.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/MeshOptimiser.h"
@@ -60,19 +60,8 @@ OptimisationStatistics Optimise(SimplexMesh<3>& mesh, const OptimisationOptions&
 {
   const checks::BallDomain domain(100.0);
   const OptimisationStatistics statistics = OptimiseMesh(mesh, domain, options);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(mesh);
   return statistics;
-}
-
-double Volume(const SimplexMesh<3>& mesh)
-{
-  double volume = 0.0;
-  for (const auto& [label, part] : checks::Volumes(mesh))
-  {
-    volume += part;
-  }
-  return volume;
 }
 
 /**
@@ -284,7 +273,7 @@ TEST(Patch, RefusesWhatItHasNoRoomFor)
   EXPECT_TRUE(patch.Replace(old, std::span(two).first(1)));
   SimplexMesh<3> same;
   complex.Write(same);
-  EXPECT_TRUE(checks::Complaints(same).empty());
+  checks::ExpectSound(same);
 }
 
 TEST(TetrahedralComplex, TellsKindsOfVertices)
@@ -307,12 +296,9 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
 {
   const LabelImage<3> image = phantoms::CutCells(7, 240, 4, 0); // of three labels and of background
   const ImageDomain<3> domain(image, 1.0);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.2;
+  MeshingOptions<3> options = checks::WithDelta<3>(1.2);
   options.Shape.Slivers.Angle = 0.0; // leaves many to relabelling
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  const SimplexMesh<3> mesh = checks::MeshOf(image, options);
   const ShapeScore score(30.0, 130.0, 2.0); // most can be better
   TetrahedralComplex complex(mesh, score, 1, {});
   complex.FindBorderFaces(domain);
@@ -340,7 +326,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
 
   SimplexMesh<3> after;
   TetrahedralComplex(complex).Write(after);
-  EXPECT_TRUE(checks::Complaints(after).empty());
+  checks::ExpectSound(after);
   TetrahedralComplex fresh(after, score, 1, {});
   fresh.FindBorderFaces(domain);
   std::vector<bool> isUsed(complex.Points.size());
@@ -386,14 +372,14 @@ TEST(Flips, RemoveAnEdge)
 {
   // Three tetrahedra with angles of 120 degrees at their common edge; two without it have 104.
   SimplexMesh<3> three = Ring(3, 0.5, { 1, 1, 1 });
-  const double volume = Volume(three);
+  const double volume = checks::WholeVolume(three);
   OptimisationOptions options;
   options.SmallestDihedralAngle = 25.0;
   options.LargestDihedralAngle = 115.0;
   OptimisationStatistics statistics = Optimise(three, options);
   EXPECT_EQ(statistics.Flips.EdgeRemovals, 1u);
   EXPECT_EQ(three.Simplices.size(), 2u);
-  EXPECT_NEAR(Volume(three), volume, 1e-12);
+  EXPECT_NEAR(checks::WholeVolume(three), volume, 1e-12);
 }
 
 TEST(Flips, TurnAFacetIntoAnEdge)
@@ -404,14 +390,14 @@ TEST(Flips, TurnAFacetIntoAnEdge)
     MeshOf({ { 1, 0, 0 }, { -0.5, std::sqrt(0.75), 0 }, { -0.5, -std::sqrt(0.75), 0 },
              { 0.0, 0, h / 6 }, { 0.0, 0, -h / 6 } },
       { { 0, 1, 2, 3 }, { 1, 0, 2, 4 } }, { 1, 1 });
-  const double volume = Volume(mesh);
+  const double volume = checks::WholeVolume(mesh);
   OptimisationOptions options;
   options.SmallestDihedralAngle = 50.0;
   options.LargestDihedralAngle = 125.0;
   const OptimisationStatistics statistics = Optimise(mesh, options);
   EXPECT_EQ(statistics.Flips.FacetFlips, 1u);
   EXPECT_EQ(mesh.Simplices.size(), 3u);
-  EXPECT_NEAR(Volume(mesh), volume, 1e-12);
+  EXPECT_NEAR(checks::WholeVolume(mesh), volume, 1e-12);
 }
 
 TEST(Flips, FillNoBackground)
@@ -422,13 +408,13 @@ TEST(Flips, FillNoBackground)
   };
   SimplexMesh<3> mesh = MeshOf({ { 0, 0, -2 }, { 0, 0, 2 }, at(0), at(100), at(200) },
     { { 0, 1, 2, 3 }, { 0, 1, 3, 4 } }, { 1, 1 });
-  const double volume = Volume(mesh);
+  const double volume = checks::WholeVolume(mesh);
   OptimisationOptions options;
   options.LargestDihedralAngle = 110.0;
   const OptimisationStatistics statistics = Optimise(mesh, options);
   EXPECT_GT(statistics.Before.Poor, 0u);
   EXPECT_EQ(statistics.Flips.InterfaceFlips, 0u);
-  EXPECT_NEAR(Volume(mesh), volume, 0.01 * volume);
+  EXPECT_NEAR(checks::WholeVolume(mesh), volume, 0.01 * volume);
 }
 
 // Two labels touch in a quadrilateral, which each of them cuts along another diagonal. Were one of them flipped, both
@@ -485,12 +471,12 @@ TEST(Flips, KeepTheLastTetrahedronOfALabel)
 TEST(Flips, DropNothingThatIsNotFlat)
 {
   SimplexMesh<3> mesh = Ring(3, 0.3, { 1, 1, 1 });
-  const double volume = Volume(mesh);
+  const double volume = checks::WholeVolume(mesh);
   OptimisationOptions options; // which these tetrahedra cannot keep
   options.SmallestDihedralAngle = 25.0;
   options.LargestDihedralAngle = 115.0;
   Optimise(mesh, options);
-  EXPECT_NEAR(Volume(mesh), volume, 1e-12);
+  EXPECT_NEAR(checks::WholeVolume(mesh), volume, 1e-12);
 }
 
 TEST(Flips, LeaveJunctionsAlone)
@@ -564,8 +550,7 @@ bool InsertInside(SimplexMesh<3>& mesh, const OptimisationOptions& options)
   const bool isInserted = smoother.InsertInside(0);
   EXPECT_EQ(smoother.Counts().Insertions, isInserted ? 1u : 0u);
   complex.Write(mesh);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  checks::ExpectSound(mesh);
   return isInserted;
 }
 
@@ -575,13 +560,13 @@ TEST(Smoother, InsertsAVertexInACavityThatGrows)
 {
   // Around a long edge, circumradii are too large beside the edges of the hexagon. The cavity grows to the whole ring.
   SimplexMesh<3> ring = Ring(6, 3.0, { 1, 1, 1, 1, 1, 1 });
-  const double volume = Volume(ring);
+  const double volume = checks::WholeVolume(ring);
   const OptimisationOptions options;
   const double ratio = MeasureQuality<3>(ring, 2.5, 30.0, 1).MaximumRadiusEdgeRatio;
   ASSERT_GT(ratio, options.Shape.RadiusEdgeRatio);
   EXPECT_TRUE(InsertInside(ring, options));
   EXPECT_EQ(ring.Simplices.size(), 12u);
-  EXPECT_NEAR(Volume(ring), volume, 1e-12);
+  EXPECT_NEAR(checks::WholeVolume(ring), volume, 1e-12);
   EXPECT_LT(MeasureQuality<3>(ring, 2.5, 30.0, 1).MaximumRadiusEdgeRatio, ratio);
 }
 

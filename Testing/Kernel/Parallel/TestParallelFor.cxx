@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -72,15 +73,17 @@ TEST(ChunkShares, ThreadsTakeEachChunkOnce)
 //------------------------------------------------------------------------------------------------
 TEST(ParallelFor, CoversTheRangeOnce)
 {
-  for (const unsigned threads : { 1u, 2u, 5u, 16u })
+  constexpr std::size_t largest = std::numeric_limits<std::size_t>::max();
+  for (const unsigned threads : { 0u, 1u, 2u, 5u, 16u })
   {
-    for (const std::size_t grain : { 1u, 7u, 1000u })
+    for (const std::size_t grain :
+      { std::size_t{ 0 }, std::size_t{ 1 }, std::size_t{ 7 }, largest })
     {
       std::vector<std::atomic<int>> times(100);
       ParallelFor(3, times.size(), grain, threads,
         [&](std::size_t first, std::size_t last)
         {
-          EXPECT_EQ((first - 3) % grain, 0u);
+          EXPECT_TRUE(grain == 0 || (first - 3) % grain == 0);
           for (std::size_t i = first; i < last; ++i)
           {
             ++times[i];

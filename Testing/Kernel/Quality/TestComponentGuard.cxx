@@ -3,7 +3,7 @@
 // Changes of a mesh lose no component that is guarded.
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/PentatopeComplex.h"
 #include "Phantoms.h"
@@ -49,14 +49,10 @@ LabelImage<3> Noise(unsigned seed)
 
 SimplexMesh<3> Unoptimised(const LabelImage<3>& image, double delta)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = checks::WithDelta<3>(delta);
   options.Components.Smallest = 4;
   options.Optimisation.Run = false;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  return mesh;
+  return checks::MeshOf(image, options);
 }
 
 /** A small simplex around a point. */
@@ -118,16 +114,12 @@ TEST(ComponentGuard, OptimisationLosesNothing)
       const OptimisationStatistics with = OptimiseMesh(mesh, domain, options, 2);
       EXPECT_EQ(lostIn(mesh), lostIn(before));
       EXPECT_LE(with.After.Poor, without.After.Poor + without.Before.Poor / 50);
-      const std::vector<std::string> complaints = checks::Complaints(mesh);
-      EXPECT_TRUE(complaints.empty()) << complaints.front();
+      checks::ExpectSound(mesh);
 
       // Whatever the number of threads.
       SimplexMesh<3> again = before;
       OptimiseMesh(again, domain, options, 5);
-      EXPECT_EQ(again.Simplices.size(), mesh.Simplices.size());
-      EXPECT_TRUE(std::equal(mesh.Points.begin(), mesh.Points.end(), again.Points.begin()));
-      EXPECT_TRUE(
-        std::equal(mesh.Simplices.begin(), mesh.Simplices.end(), again.Simplices.begin()));
+      checks::ExpectSame(again, mesh);
     }
   }
   EXPECT_GT(lostWithout, 3u);

@@ -3,7 +3,7 @@
 /** Interfaces of meshes made by hand: found again, their junctions and non-manifold edges counted. */
 #include "CubeMeshes.h"
 #include "Mesh/FindInterfaces.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Quality/InterfaceTopology.h"
 
@@ -47,11 +47,8 @@ TEST(FindInterfaces, AgreesWithExtraction)
 {
   for (const bool three : { true, false })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 3.0;
-    SimplexMesh<3> mesh;
-    ImageMesher<3>(options).Run(
-      three ? phantoms::NestedBalls(12) : phantoms::TouchingLabels(12), mesh);
+    SimplexMesh<3> mesh = checks::MeshOf(
+      three ? phantoms::NestedBalls(12) : phantoms::TouchingLabels(12), checks::WithDelta<3>(3.0));
     ASSERT_GT(mesh.Facets.size(), 100U);
     const auto expected = FacetMap(mesh);
     EXPECT_EQ(FindInterfaces(mesh, 1), 0U);
@@ -159,10 +156,8 @@ TEST(InterfaceTopology, CubesThatTouchInAnEdge)
 
 TEST(InterfaceTopology, DoesNotDependOnThreads)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.5;
-  SimplexMesh<3> mesh;
-  ImageMesher<3>(options).Run(phantoms::TouchingLabels(20), mesh);
+  const SimplexMesh<3> mesh =
+    checks::MeshOf(phantoms::TouchingLabels(20), checks::WithDelta<3>(1.5));
   const InterfaceTopology one = MeasureTopology(mesh, 1);
   const InterfaceTopology three = MeasureTopology(mesh, 3);
   EXPECT_GT(one.JunctionEdges, 20U);

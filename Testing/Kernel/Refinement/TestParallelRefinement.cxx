@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <new>
 #include <numeric>
 #include <random>
@@ -27,10 +28,7 @@
 #include <vector>
 
 using namespace voxplex;
-using checks::Around;
-using checks::BallDomain;
-using checks::ExpectNoRuleApplies;
-using checks::ExpectSoundAndUnlocked;
+using namespace voxplex::checks;
 using voxplex::testing::Watchdog;
 
 namespace
@@ -40,95 +38,51 @@ struct Custom : std::exception
 {
 };
 
-/** A ball whose n-th query fails. Queries of all threads are counted. */
-template <typename Exception>
-class FailingBall final : public BallDomain
+/** A ball that calls a function before it answers. */
+class WatchedBall final : public BallDomain
 {
 public:
-  explicit FailingBall(double radius, long failing)
+  WatchedBall(double radius, std::function<void()> beforeAnswers)
     : BallDomain(radius)
-    , Failing(failing)
+    , BeforeAnswers(std::move(beforeAnswers))
   {
   }
   LabelId Label(const Point<3>& p) const override
   {
-    this->Count();
+    this->BeforeAnswers();
     return this->BallDomain::Label(p);
   }
   double DistanceBound(const Point<3>& p) const override
   {
-    this->Count();
+    this->BeforeAnswers();
     return this->BallDomain::DistanceBound(p);
   }
+  /** NearSurfacePoint() asks here, too. */
   bool ClosestSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z) const override
   {
-    this->Count();
+    this->BeforeAnswers();
     return this->BallDomain::ClosestSurfacePoint(p, label, z);
   }
   bool FirstCrossing(
     const Point<3>& a, LabelId label, const Point<3>& b, Point<3>& z) const override
   {
-    this->Count();
-    return this->BallDomain::FirstCrossing(a, label, b, z);
-  }
-  long Queries() const { return this->Counter; }
-
-private:
-  void Count() const
-  {
-    if (++this->Counter == this->Failing)
-    {
-      throw Exception();
-    }
-  }
-  mutable std::atomic<long> Counter{ 0 };
-  const long Failing;
-};
-
-/** A ball that often lets other threads run in the midst of an operation, so that threads meet. */
-class JitteryBall final : public BallDomain
-{
-public:
-  using BallDomain::BallDomain;
-  LabelId Label(const Point<3>& p) const override
-  {
-    MayYield();
-    return this->BallDomain::Label(p);
-  }
-  double DistanceBound(const Point<3>& p) const override
-  {
-    MayYield();
-    return this->BallDomain::DistanceBound(p);
-  }
-  bool NearSurfacePoint(const Point<3>& p, LabelId label, Point<3>& z, double& error) const override
-  {
-    MayYield();
-    return this->BallDomain::NearSurfacePoint(p, label, z, error);
-  }
-  bool FirstCrossing(
-    const Point<3>& a, LabelId label, const Point<3>& b, Point<3>& z) const override
-  {
-    MayYield();
+    this->BeforeAnswers();
     return this->BallDomain::FirstCrossing(a, label, b, z);
   }
 
 private:
-  static void MayYield()
-  {
-    static std::atomic<unsigned> seeds{ 0 };
-    thread_local std::minstd_rand random(++seeds);
-    if (random() % 128 == 0)
-    {
-      std::this_thread::yield();
-    }
-  }
+  const std::function<void()> BeforeAnswers;
 };
 
-RefinementSettings<3> Settings(double delta)
+/** Often lets other threads run, for a domain that is asked in the midst of an operation: so threads meet. */
+void MayYield()
 {
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { delta };
-  return settings;
+  static std::atomic<unsigned> seeds{ 0 };
+  thread_local std::minstd_rand random(++seeds);
+  if (random() % 128 == 0)
+  {
+    std::this_thread::yield();
+  }
 }
 
 TeamOptions Team(unsigned threads, ContentionPolicy contention = ContentionPolicy::Local,
@@ -228,7 +182,7 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
   const auto [threads, contention, balance] = GetParam();
   const Watchdog watchdog(Name(GetParam()));
   const BallDomain smooth(5.0);
-  const JitteryBall jittery(5.0);
+  const WatchedBall jittery(5.0, MayYield);
   std::uint64_t rollbacks = 0;
   unsigned run = 0;
   for (const double delta : { 1.7, 1.0, Sanitized ? 0.9 : 0.6 })
@@ -236,7 +190,7 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
     for (const BallDomain* ball : { &smooth, static_cast<const BallDomain*>(&jittery) })
     {
       SCOPED_TRACE("delta " + std::to_string(delta));
-      RefinementContext<3> context(*ball, Settings(delta), Around(*ball, delta), 1000);
+      RefinementContext<3> context(*ball, SettingsFor<3>(delta), Around(*ball, delta), 1000);
       TeamOptions team = Team(threads, contention, balance);
       team.RemoveEagerly = (run + run / 2) % 2 == 1;
       team.SeedsPerThread = run % 3 == 1 ? 128 : 0;
@@ -247,20 +201,14 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
       ExpectSoundAndUnlocked(context.Mesh);
       ExpectNoRuleApplies(context, smooth);
       ExpectConsistentStatistics(context, refiner, threads, clock);
-      checks::ExtractSphere(context, smooth);
+      ExtractSphere(context, smooth);
       EXPECT_GT(refiner.GetSecondsToSeed(), 0.0);
       EXPECT_LT(refiner.GetSecondsToSeed(), clock.Seconds());
       for (const ThreadStatistics& thread : refiner.GetThreadStatistics())
       {
         rollbacks += thread.Rollbacks;
       }
-      // One thread finds nothing left to do.
-      Refiner<Rules3D> again(context);
-      ASSERT_TRUE(again.Run(nullptr));
-      for (const std::uint64_t fired : again.GetRuleStatistics().Fired)
-      {
-        EXPECT_EQ(fired, 0u);
-      }
+      ExpectNothingLeft<Rules3D>(context);
     }
   }
   EXPECT_GT(rollbacks, 0u) << "the threads never met: the test tests nothing";
@@ -272,17 +220,17 @@ TEST_P(ParallelRefinement, FreeVerticesNearFeatureVerticesAreRemoved)
 {
   const auto [threads, contention, balance] = GetParam();
   const Watchdog watchdog(Name(GetParam()));
-  const JitteryBall ball(5.0);
+  const WatchedBall ball(5.0, MayYield);
   const double delta = 1.0;
   for (const unsigned number : { 1u, threads })
   {
-    RefinementContext<3> context(ball, Settings(delta), Around(ball, delta), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(delta), Around(ball, delta), 1000);
     std::set<Point<3>> crowd;
     {
       Triangulation<3>::Worker worker(context.Mesh);
       std::mt19937 random(threads);
-      SimplexId hint = checks::AnyAlive(context.Mesh);
-      for (Point<3> p : checks::RandomPoints<3>(2000, 11.0, random))
+      SimplexId hint = AnyAlive(context.Mesh);
+      for (Point<3> p : RandomPoints<3>(2000, 11.0, random))
       {
         p = Subtract(p, { 5.5, 5.5, 5.5 });
         if (std::abs(BallDomain::Norm(p) - ball.R) < 0.5 * delta)
@@ -316,8 +264,7 @@ TEST_P(ParallelRefinement, FreeVerticesNearFeatureVerticesAreRemoved)
 
 INSTANTIATE_TEST_SUITE_P(Policies, ParallelRefinement,
   ::testing::Combine(::testing::Values(2u, 4u, 8u),
-    ::testing::Values(ContentionPolicy::Aggressive, ContentionPolicy::Random,
-      ContentionPolicy::Global, ContentionPolicy::Local),
+    ::testing::ValuesIn(voxplex::testing::AllPolicies),
     ::testing::Values(BalancePolicy::Random, BalancePolicy::Hierarchical)),
   [](const auto& policies) { return Name(policies.param); });
 
@@ -325,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, ParallelRefinement,
 TEST(ParallelRefinementOfOne, SynchronisedThread)
 {
   const BallDomain ball(5.0);
-  RefinementContext<3> context(ball, Settings(0.8), Around(ball, 0.8), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(0.8), Around(ball, 0.8), 1000);
   TeamOptions team = Team(1);
   team.Synchronise = true;
   Refiner<Rules3D> refiner(context, team);
@@ -334,7 +281,7 @@ TEST(ParallelRefinementOfOne, SynchronisedThread)
   ExpectSoundAndUnlocked(context.Mesh);
   ExpectNoRuleApplies(context, ball);
   ExpectConsistentStatistics(context, refiner, 1, clock);
-  checks::ExtractSphere(context, ball);
+  ExtractSphere(context, ball);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Rollbacks, 0u);
   EXPECT_EQ(refiner.GetThreadStatistics()[0].Waits, 0u);
   EXPECT_FALSE(refiner.SwitchedToLocal());
@@ -343,7 +290,7 @@ TEST(ParallelRefinementOfOne, SynchronisedThread)
 TEST(ParallelRefinementOfOne, StatisticsOfOneThread)
 {
   const BallDomain ball(5.0);
-  RefinementContext<3> context(ball, Settings(1.0), Around(ball, 1.0), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(1.0), Around(ball, 1.0), 1000);
   Refiner<Rules3D> refiner(context);
   const CycleClock clock;
   ASSERT_TRUE(refiner.Run(nullptr));
@@ -359,7 +306,7 @@ TEST(ParallelRefinementOfMany, ThirtyTwoThreadsOnAnObjectSmallerThanDelta)
   const BallDomain ball(1.0);
   for (const double delta : { 4.0, 0.5 })
   {
-    RefinementContext<3> context(ball, Settings(delta), Around(ball, delta), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(delta), Around(ball, delta), 1000);
     Refiner<Rules3D> refiner(context, Team(32));
     const CycleClock clock;
     ASSERT_TRUE(refiner.Run(nullptr));
@@ -375,10 +322,9 @@ TEST(ParallelRefinementStop, StopsWhenAsked)
   const BallDomain ball(5.0);
   for (const int most : { 1, 5, 20 })
   {
-    for (const ContentionPolicy contention : { ContentionPolicy::Aggressive,
-           ContentionPolicy::Random, ContentionPolicy::Global, ContentionPolicy::Local })
+    for (const ContentionPolicy contention : voxplex::testing::AllPolicies)
     {
-      RefinementContext<3> context(ball, Settings(0.3), Around(ball, 0.3), 1000);
+      RefinementContext<3> context(ball, SettingsFor<3>(0.3), Around(ball, 0.3), 1000);
       Refiner<Rules3D> refiner(context, Team(8, contention));
       std::atomic<int> calls{ 0 };
       EXPECT_FALSE(refiner.Run([&](std::uint64_t) { return ++calls < most; }));
@@ -394,7 +340,7 @@ TEST(ParallelRefinementErrors, WhatTheMonitorThrowsLeavesRun)
   const BallDomain ball(5.0);
   for (const unsigned threads : { 1u, 2u, 8u })
   {
-    RefinementContext<3> context(ball, Settings(0.4), Around(ball, 0.4), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
     Refiner<Rules3D> refiner(context, Team(threads));
     std::atomic<int> calls{ 0 };
     EXPECT_THROW(refiner.Run(
@@ -414,33 +360,41 @@ template <typename Exception>
 void ExpectDomainErrorsLeaveRun()
 {
   const double delta = 1.0;
-  long queries = 0;
+  std::atomic<long> queries{ 0 }; // of all threads
+  long failing = -1;
+  const WatchedBall ball(5.0,
+    [&]
+    {
+      if (++queries == failing)
+      {
+        throw Exception();
+      }
+    });
   {
-    const FailingBall<Exception> ball(5.0, -1);
-    RefinementContext<3> context(ball, Settings(delta), Around(ball, delta), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(delta), Around(ball, delta), 1000);
     Refiner<Rules3D>(context).Run(nullptr);
-    queries = ball.Queries();
   }
+  const long all = queries;
   constexpr long Moments = Sanitized ? 10 : 40;
   for (const unsigned threads : { 1u, 2u, 3u, 4u, 8u })
   {
     for (long k = 0; k <= Moments; ++k)
     {
       // Up to where each run surely comes; the first few queries are made before threads start.
-      const long n = k < 4 ? k + 1 : queries / 2 * k / Moments;
+      failing = k < 4 ? k + 1 : all / 2 * k / Moments;
+      queries = 0;
       const std::string name =
-        std::to_string(threads) + " threads, failure at query " + std::to_string(n);
+        std::to_string(threads) + " threads, failure at query " + std::to_string(failing);
       SCOPED_TRACE(name);
       const Watchdog watchdog(name);
-      const FailingBall<Exception> ball(5.0, n);
-      RefinementContext<3> context(ball, Settings(delta), Around(ball, delta), 1000);
+      RefinementContext<3> context(ball, SettingsFor<3>(delta), Around(ball, delta), 1000);
       TeamOptions team =
         Team(threads, static_cast<ContentionPolicy>(k % 4), static_cast<BalancePolicy>(k / 4 % 2));
       team.Synchronise = k % 3 == 0;
       team.RemoveEagerly = k % 5 < 2;
       Refiner<Rules3D> refiner(context, team);
       EXPECT_THROW(refiner.Run(nullptr), Exception);
-      EXPECT_GE(ball.Queries(), n);
+      EXPECT_GE(queries, failing);
     }
   }
 }

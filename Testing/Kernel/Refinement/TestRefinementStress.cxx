@@ -4,7 +4,7 @@
 // may hang, and every mesh must be sound.
 #include "Base/Error.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Sanitizers.h"
 #include "ThreadTesting.h"
@@ -18,6 +18,7 @@
 #include <tuple>
 
 using namespace voxplex;
+using namespace voxplex::checks;
 using voxplex::testing::Watchdog;
 
 namespace
@@ -26,8 +27,8 @@ namespace
 /** The aggressive manager takes many times as long where there are more threads than cores. */
 int NumberOfImages(ContentionPolicy contention)
 {
-  const int withSanitizers = contention == ContentionPolicy::Aggressive ? 2 : 4;
-  return Sanitized ? withSanitizers : 150;
+  const int several = contention == ContentionPolicy::Aggressive ? 2 : 4;
+  return Sanitized ? several : 40 * several;
 }
 
 using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
@@ -35,7 +36,7 @@ using Policies = std::tuple<ContentionPolicy, BalancePolicy>;
 std::string Name(const Policies& policies)
 {
   const auto [contention, balance] = policies;
-  return std::string(ContentionPolicyNames[static_cast<std::size_t>(contention)]) + "_" +
+  return voxplex::testing::NameOf(contention) + "_" +
     std::string(BalancePolicyNames[static_cast<std::size_t>(balance)]);
 }
 
@@ -84,21 +85,16 @@ TEST_P(RefinementStress, TinyRandomImages)
     const Watchdog watchdog(name);
     std::mt19937 random(static_cast<unsigned>(seed));
     const LabelImage<3> image = RandomImage(random);
-    MeshingOptions<3> options;
+    MeshingOptions<3> options =
+      WithDelta<3>(std::uniform_real_distribution<double>(0.25, 2.0)(random));
     options.Team.Threads = 8;
     options.Team.Contention = contention;
     options.Team.Balance = balance;
-    options.Sampling.Delta = std::uniform_real_distribution<double>(0.25, 2.0)(random);
     options.SmoothingSigma = seed % 3 == 0 ? 0.0 : 1.0;
     options.Team.RemoveEagerly = seed % 4 == 1;
     options.Team.SeedsPerThread = seed % 4 < 2 ? 128 : 0;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    const std::vector<std::string> complaints = checks::Complaints(mesh);
-    ASSERT_TRUE(complaints.empty()) << complaints.front();
-
-    const MeshingStatistics& statistics = mesher.Statistics();
+    MeshingStatistics statistics;
+    ExpectSound(MeshOf(image, options, &statistics));
     EXPECT_EQ(statistics.Contention, contention);
     EXPECT_EQ(statistics.Balance, balance);
     ASSERT_EQ(statistics.Threads.size(), 8u);
@@ -122,7 +118,6 @@ TEST_P(RefinementStress, TinyRandomImages)
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, RefinementStress,
-  ::testing::Combine(::testing::Values(ContentionPolicy::Aggressive, ContentionPolicy::Random,
-                       ContentionPolicy::Global, ContentionPolicy::Local),
+  ::testing::Combine(::testing::ValuesIn(voxplex::testing::AllPolicies),
     ::testing::Values(BalancePolicy::Random, BalancePolicy::Hierarchical)),
   [](const auto& policies) { return Name(policies.param); });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Refinement/RegionalWork.h"
 #include "Refinement/Rules3D.h"
@@ -17,6 +17,7 @@
 #include <vector>
 
 using namespace voxplex;
+using namespace voxplex::checks;
 
 namespace
 {
@@ -108,8 +109,7 @@ TEST(RegionalWork, RulesGiveWayStepByStep)
 // Bounds that no mesh can keep: without a limit refinement goes on until there is no room for points any more.
 TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 2.0;
+  MeshingOptions<3> options = WithDelta<3>(2.0);
   options.Shape.Slivers.Angle = 40.0;
   options.Limits.Force = true;
   for (const unsigned threads : { 1u, 4u })
@@ -119,32 +119,24 @@ TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
       continue;
     }
     options.Team.Threads = threads;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(phantoms::Ball(8.0), mesh), MeshingOutcome::Done);
-    const MeshingStatistics& statistics = mesher.Statistics();
+    MeshingStatistics statistics;
+    ExpectSound(MeshOf(phantoms::Ball(8.0), options, &statistics));
     EXPECT_GE(statistics.Rules.LargestRegionalWork, Rules3D::WorkLimit);
     EXPECT_LE(statistics.Rules.LargestRegionalWork, 4 * Rules3D::WorkLimit + MostSampled);
     ASSERT_FALSE(statistics.Yielding.empty());
     EXPECT_TRUE(std::any_of(statistics.Yielding.begin(), statistics.Yielding.end(),
       [](const YieldingReport& region) { return region.Step == 1; }));
     EXPECT_EQ(statistics.Yielding.front().Voxel.size(), 3u);
-    const std::vector<std::string> wrong = checks::Complaints(mesh);
-    EXPECT_TRUE(wrong.empty()) << wrong.front();
   }
 }
 
 TEST(RegionalWork, IsModestOnPhantoms)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.5;
-  options.Team.Threads = 1;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(phantoms::NestedBalls(9.0), mesh), MeshingOutcome::Done);
-  EXPECT_GT(mesher.Statistics().Rules.LargestRegionalWork, 0u);
-  EXPECT_LT(mesher.Statistics().Rules.LargestRegionalWork, Rules3D::WorkLimit / 2);
-  EXPECT_TRUE(mesher.Statistics().Yielding.empty());
+  MeshingStatistics statistics;
+  MeshOf(phantoms::NestedBalls(9.0), WithDelta<3>(1.5), &statistics);
+  EXPECT_GT(statistics.Rules.LargestRegionalWork, 0u);
+  EXPECT_LT(statistics.Rules.LargestRegionalWork, Rules3D::WorkLimit / 2);
+  EXPECT_TRUE(statistics.Yielding.empty());
 }
 
 /** Two frames so near to each other that all circumcentres lie far beyond them. */
@@ -154,20 +146,16 @@ TEST(RegionalWork, IsCountedWherePointsAreMovedTo)
   LabelImage<4> image = LabelImage<4>::FromScalars<std::uint8_t>(
     std::vector<std::uint8_t>{ 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1 },
     GridGeometry<4>::Orthogonal({ 2, 2, 2, 2 }, { space, space, space, 0.20051644901783508 }));
-  MeshingOptions<4> options = checks::SpaceTimeOptions(0.72);
+  MeshingOptions<4> options = SpaceTimeOptions(0.72);
   options.SmoothingSigma = 2.5803734861743171;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_LT(mesher.Statistics().Rules.Insertions(), 10000u);
-  const std::vector<std::string> wrong = checks::Complaints(mesh);
-  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  MeshingStatistics statistics;
+  ExpectSound(MeshOf(image, options, &statistics));
+  EXPECT_LT(statistics.Rules.Insertions(), 10000u);
 }
 
 TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
 {
-  MeshingOptions<4> options;
-  options.Sampling.Delta = 2.0;
+  MeshingOptions<4> options = WithDelta<4>(2.0);
   options.SpaceTime.Slivers.VolumeBound = 0.3;
   options.Limits.Force = true;
   for (const unsigned threads : { 1u, 3u })
@@ -177,15 +165,11 @@ TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
       continue;
     }
     options.Team.Threads = threads;
-    ImageMesher<4> mesher(options);
-    SimplexMesh<4> mesh;
-    ASSERT_EQ(mesher.Run(checks::ImageOf(phantoms::FourBall(4.0)), mesh), MeshingOutcome::Done);
-    const MeshingStatistics& statistics = mesher.Statistics();
+    MeshingStatistics statistics;
+    ExpectSound(MeshOf(ImageOf(phantoms::FourBall(4.0)), options, &statistics));
     EXPECT_GE(statistics.Rules.LargestRegionalWork, Rules4D::WorkLimit);
     EXPECT_LE(statistics.Rules.LargestRegionalWork, 4 * Rules4D::WorkLimit + MostSampled);
     ASSERT_FALSE(statistics.Yielding.empty());
     EXPECT_EQ(statistics.Yielding.front().Voxel.size(), 4u);
-    const std::vector<std::string> wrong = checks::Complaints(mesh);
-    EXPECT_TRUE(wrong.empty()) << wrong.front();
   }
 }

@@ -14,20 +14,10 @@
 #include <vector>
 
 using namespace voxplex;
-using checks::Around;
-using checks::BallDomain;
-using checks::ExpectSound;
-using checks::ExpectSoundAndUnlocked;
+using namespace voxplex::checks;
 
 namespace
 {
-
-RefinementSettings<3> Settings()
-{
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { 1.0 };
-  return settings;
-}
 
 /** Two workers on a half-refined ball; a rule of the first meets vertices that the second owns. */
 class RulesInContention : public ::testing::Test
@@ -35,7 +25,7 @@ class RulesInContention : public ::testing::Test
 protected:
   RulesInContention()
     : Ball(5.0)
-    , Context(this->Ball, Settings(), Around(this->Ball, 1.0), 1000)
+    , Context(this->Ball, SettingsFor<3>(1.0), Around(this->Ball, 1.0), 1000)
     , One(this->Context, 1)
     , Two(this->Context, 2)
     , Rules(this->Context, this->One)
@@ -316,7 +306,7 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
 TEST(EagerRemoval, DeadSimplicesLeaveTheListsOfTheSocket)
 {
   const BallDomain ball(5.0);
-  RefinementContext<3> context(ball, Settings(), Around(ball, 1.0), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(1.0), Around(ball, 1.0), 1000);
   Triangulation<3>& mesh = context.Mesh;
   EagerRemoval eager;
   RefinementWorker<3> near(context);
@@ -333,11 +323,11 @@ TEST(EagerRemoval, DeadSimplicesLeaveTheListsOfTheSocket)
   }
   const auto insert = [&](const Point<3>& p)
   {
-    const SimplexId seed = mesh.FindConflict(near.Kernel, p, checks::AnyAlive(mesh));
+    const SimplexId seed = mesh.FindConflict(near.Kernel, p, AnyAlive(mesh));
     ASSERT_EQ(mesh.Insert(near.Kernel, p, VertexKind::Free, seed), InsertionOutcome::Inserted);
   };
   std::mt19937 random(1);
-  for (const Point<3>& p : checks::RandomPoints<3>(50, 5.0, random))
+  for (const Point<3>& p : RandomPoints<3>(50, 5.0, random))
   {
     insert(p);
   }

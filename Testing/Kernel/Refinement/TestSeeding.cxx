@@ -22,9 +22,7 @@
 #include <vector>
 
 using namespace voxplex;
-using checks::Around;
-using checks::BallDomainOf;
-using checks::ExpectSoundAndUnlocked;
+using namespace voxplex::checks;
 using voxplex::testing::Watchdog;
 
 namespace
@@ -86,9 +84,7 @@ unsigned SeedBall(double delta, unsigned threads, std::size_t& inserted)
 {
   constexpr int D = Rules::Dimension;
   const BallDomainOf<D> ball(5.0);
-  RefinementSettings<D> settings;
-  settings.Sizing.Base = { delta };
-  RefinementContext<D> context(ball, settings, Around(ball, delta), 1000);
+  RefinementContext<D> context(ball, SettingsFor<D>(delta), Around(ball, delta), 1000);
   const std::vector<FeatureSeed<D>> seeds = SampleInterfaces(context, 0.5 * delta, delta, 1);
   const Workers<D> workers = MakeWorkers(context, threads);
   SlowRules<Rules>::Contended = 0;
@@ -142,15 +138,10 @@ void SeedBalls(double delta)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(Seeding, WorkersInsertSideBySide3D)
+TEST(Seeding, WorkersInsertSideBySide)
 {
-  const Watchdog watchdog("3D");
+  const Watchdog watchdog("side by side");
   SeedBalls<Rules3D>(0.4);
-}
-
-TEST(Seeding, WorkersInsertSideBySide4D)
-{
-  const Watchdog watchdog("4D");
   SeedBalls<Rules4D>(1.6);
 }
 
@@ -158,16 +149,14 @@ TEST(Seeding, WorkersInsertSideBySide4D)
 TEST(Seeding, SharedPointsComeFirst)
 {
   const BallDomainOf<3> ball(5.0);
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { 0.4 };
   for (const bool onlyShared : { true, false })
   {
-    RefinementContext<3> context(ball, settings, Around(ball, 0.4), 1000);
+    RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
     std::vector<FeatureSeed<3>> seeds =
       onlyShared ? std::vector<FeatureSeed<3>>() : SampleInterfaces(context, 0.2, 0.4, 1);
     const std::size_t others = seeds.size();
     std::mt19937 random(1);
-    for (const Point<3>& p : checks::RandomPoints<3>(500, 4.0, random))
+    for (const Point<3>& p : RandomPoints<3>(500, 4.0, random))
     {
       seeds.push_back({ p, 0.4, true, VertexKind::Shared });
     }
@@ -184,9 +173,7 @@ TEST(Seeding, SharedPointsComeFirst)
 TEST(Seeding, LivingSimplicesAreOrderedForAnyNumberOfThreads)
 {
   const BallDomainOf<3> ball(5.0);
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { 0.4 };
-  RefinementContext<3> context(ball, settings, Around(ball, 0.4), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
   InsertSeeds<Rules3D>(context, MakeWorkers(context, 1), SampleInterfaces(context, 0.2, 0.4, 1));
   const std::vector<SimplexId> byOne = LivingAlongCurve(context.Mesh, 1);
   std::vector<SimplexId> sorted = byOne;

@@ -10,7 +10,7 @@
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
 #include "SpaceTimeCases.h"
-#include "TriangulationVerifier.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -46,19 +46,6 @@ double SmallestNormalizedVolume(const SimplexMesh<4>& mesh)
   return smallest;
 }
 
-/** Every voxel has one of the labels 1, 2 and so on, by chance. */
-LabelImage<4> Noise(const std::array<std::int64_t, 4>& n, unsigned labels)
-{
-  std::vector<std::uint8_t> values(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]));
-  std::mt19937 random(1);
-  for (std::uint8_t& value : values)
-  {
-    value = static_cast<std::uint8_t>(random() % labels + 1);
-  }
-  return LabelImage<4>::FromScalars<std::uint8_t>(
-    values, GridGeometry<4>::Orthogonal(n, { 0.5, 0.5, 2.0, 6.0 }));
-}
-
 /** Shows where points that must keep off the faces of the box are inserted. */
 class Placing : public Rules4D
 {
@@ -77,12 +64,11 @@ SimplexMesh<4> MeshWithPicking(const LabelImage<4>& image, double delta, std::ui
   options.SpaceTime.Order = order;
   options.SpaceTime.Slivers.Fight = true;
   options.SpaceTime.Slivers.Seed = seed;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  MeshingStatistics statistics;
+  SimplexMesh<4> mesh = MeshOf(image, options, &statistics);
   if (threads == 1) // with more, the mesh varies, and a small one may have none by chance
   {
-    EXPECT_GT(mesher.Statistics().Rules.SliversFound, 0u);
+    EXPECT_GT(statistics.Rules.SliversFound, 0u);
   }
   return mesh;
 }
@@ -105,8 +91,7 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
     {
       SCOPED_TRACE(std::string(order == RuleOrder::SurfaceFirst ? "surface" : "radius-edge") +
         " first" + (sf ? ", with sizes" : ""));
-      RefinementSettings<4> settings;
-      settings.Sizing.Base = { 1.4 };
+      RefinementSettings<4> settings = SettingsFor<4>(1.4);
       settings.Sizing.Size = sf;
       settings.SpaceTime.Order = order;
       settings.SpaceTime.Slivers.Fight = false;
@@ -119,26 +104,18 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
       EXPECT_GT(rules.Fired[0], 0u);
       EXPECT_GT(rules.Fired[1], 0u);
       EXPECT_EQ(rules.FiredBySize > 0, sf != nullptr);
-      const std::vector<std::string> complaints = checks::Verify(context.Mesh);
-      ASSERT_TRUE(complaints.empty()) << complaints.front();
+      ExpectSound(context.Mesh);
       ExpectNoRuleApplies<4>(context, ball);
 
-      Refiner<Rules4D> again(context);
-      ASSERT_TRUE(again.Run(nullptr));
-      EXPECT_EQ(again.GetRuleStatistics().Insertions(), 0u) << "again, something happens";
-
+      ExpectNothingLeft<Rules4D>(context);
       SimplexMesh<4> mesh;
       ExtractMesh<4>(context.Mesh, ball, mesh);
-      const std::vector<std::string> wrong = Complaints(mesh);
-      ASSERT_TRUE(wrong.empty()) << wrong.front();
+      ExpectSound(mesh);
       const ManifoldDefects defects = FindManifoldDefects(mesh);
       EXPECT_EQ(defects.Triangles + defects.Vertices, 0u);
-      for (const auto& f : mesh.Facets)
+      for (const std::uint32_t v : VerticesOfInterfaces(mesh))
       {
-        for (const std::uint32_t v : f)
-        {
-          EXPECT_NEAR(BallDomainOf<4>::Norm(mesh.Points[v]), ball.R, 1e-9);
-        }
+        EXPECT_NEAR(BallDomainOf<4>::Norm(mesh.Points[v]), ball.R, 1e-9);
       }
       const double volume = 0.5 * std::pow(std::numbers::pi, 2) * std::pow(ball.R, 4);
       EXPECT_NEAR(Volumes(mesh)[5], volume, 0.15 * volume); // chords
@@ -149,10 +126,8 @@ TEST(SpaceTimeRefinement, NoRuleAppliesAfterwards)
 TEST(SpaceTimeRefinement, PointsGoToTheNearestPlaceInTheBox)
 {
   const BallDomainOf<4> ball(5.0);
-  RefinementSettings<4> settings;
-  settings.Sizing.Base = { 1.4 };
   const Box<4> box = Around(ball, 1.4);
-  RefinementContext<4> context(ball, settings, box, 1000);
+  RefinementContext<4> context(ball, SettingsFor<4>(1.4), box, 1000);
   RefinementWorker<4> worker(context);
   const Placing place(context, worker);
   const Point<4> inside = { 1.0, 2.0, -3.0, 0.5 };
@@ -169,8 +144,7 @@ TEST(SpaceTimeRefinement, PointsGoToTheNearestPlaceInTheBox)
 TEST(SpaceTimeRefinement, SliversWaitWhereTheyArePutOff)
 {
   const BallDomainOf<4> ball(3.0);
-  RefinementSettings<4> settings;
-  settings.Sizing.Base = { 1.4 };
+  RefinementSettings<4> settings = SettingsFor<4>(1.4);
   settings.SpaceTime.Slivers.Fight = true;
   settings.SpaceTime.Slivers.VolumeBound = 0.3; // which not all pentatopes reach
   const Box<4> box = Around(ball, 1.4);
@@ -222,9 +196,7 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
     options.SpaceTime.Slivers.Fight = true;
     options.Optimisation.Run = false;
     options.Interfaces.Manifold = false; // would put vertices beside interfaces
-    ImageMesher<4> mesher(options);
-    SimplexMesh<4> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    const SimplexMesh<4> mesh = MeshOf(image, options);
     EXPECT_GT(LateralFacets(mesh, domain).size(), 1000u);
     EXPECT_EQ(CountFacetsOffInterface(mesh, domain), 0u);
     for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
@@ -237,7 +209,10 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
 // Large picking regions of facets let R3 and R5 answer each other, with many times the points.
 TEST(SpaceTimeRefinement, LargePickingRegionsTakeFewPoints)
 {
-  const LabelImage<4> image = Noise({ 5, 6, 6, 3 }, 4);
+  const auto grid = GridGeometry<4>::Orthogonal({ 5, 6, 6, 3 }, { 0.5, 0.5, 2.0, 6.0 });
+  std::mt19937 random(1);
+  const LabelImage<4> image =
+    ImageOf({ grid, [&](const Point<4>&) { return static_cast<std::uint8_t>(random() % 4 + 1); } });
   std::array<std::uint64_t, 2> insertions{};
   for (std::size_t k = 0; k < 2; ++k)
   {
@@ -248,11 +223,10 @@ TEST(SpaceTimeRefinement, LargePickingRegionsTakeFewPoints)
     options.SpaceTime.Slivers.VolumeBound = 0.028;
     options.SpaceTime.Slivers.PickingRadius = k == 0 ? 0.5 : 0.9;
     options.Optimisation.Run = false;
-    ImageMesher<4> mesher(options);
-    SimplexMesh<4> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    insertions[k] = mesher.Statistics().Rules.Insertions();
-    EXPECT_TRUE(mesher.Statistics().Yielding.empty());
+    MeshingStatistics statistics;
+    MeshOf(image, options, &statistics);
+    insertions[k] = statistics.Rules.Insertions();
+    EXPECT_TRUE(statistics.Yielding.empty());
   }
   EXPECT_LT(insertions[1], 2 * insertions[0]);
 }

@@ -8,7 +8,7 @@
 #include "Refinement/Tiles/TiledRefiner.h"
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
-#include "TriangulationVerifier.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,7 @@ template <typename Rules, int D = Rules::Dimension>
 Result<D> Refine(double radius, double delta, unsigned threads)
 {
   const BallDomainOf<D> ball(radius);
-  RefinementSettings<D> settings;
-  settings.Sizing.Base = { delta };
+  RefinementSettings<D> settings = SettingsFor<D>(delta);
   settings.Shape.Slivers.Angle = 9.0;
   RefinementContext<D> context(ball, settings, Around(ball, delta), 1000);
   TeamOptions team = TeamOptions::Default<D>();
@@ -46,8 +45,7 @@ Result<D> Refine(double radius, double delta, unsigned threads)
   // In 4D one thread may insert all and the others help in its loops, if they wake up in time.
   EXPECT_TRUE(D == 4 || refiner.GetNumberOfTiles() > 4) << "the threads had nothing to do";
 
-  const std::vector<std::string> complaints = checks::Verify(context.Mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
+  ExpectSound(context.Mesh);
   Result<D> result;
   for (VertexId v = 0; v < context.Mesh.VertexIdEnd(); ++v)
   {
@@ -64,52 +62,38 @@ Result<D> Refine(double radius, double delta, unsigned threads)
     }
   }
   result.Evaluated = refiner.GetRuleStatistics().Evaluated;
-
-  Refiner<Rules> again(context);
-  EXPECT_TRUE(again.Run(nullptr));
-  for (const std::uint64_t fired : again.GetRuleStatistics().Fired)
-  {
-    EXPECT_EQ(fired, 0u);
-  }
+  ExpectNothingLeft<Rules>(context);
   return result;
+}
+
+template <typename Rules>
+void CompareThreads(double radius, double delta, const std::vector<unsigned>& numbers)
+{
+  const auto one = Refine<Rules>(radius, delta, 1);
+  EXPECT_GT(one.Simplices.size(), 5000u);
+  for (const unsigned threads : numbers)
+  {
+    const auto several = Refine<Rules>(radius, delta, threads);
+    EXPECT_TRUE(several.Positions == one.Positions) << threads;
+    EXPECT_TRUE(several.Simplices == one.Simplices) << threads;
+    EXPECT_EQ(several.Evaluated, one.Evaluated) << threads;
+  }
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(TiledRefinement, DoesNotDependOnThreads3D)
+TEST(TiledRefinement, DoesNotDependOnThreads)
 {
-  const Result<3> one = Refine<Rules3D>(20.0, 1.0, 1);
-  EXPECT_GT(one.Simplices.size(), 20000u);
-  for (const unsigned threads : { 2u, 3u, 8u })
-  {
-    const Result<3> several = Refine<Rules3D>(20.0, 1.0, threads);
-    EXPECT_TRUE(several.Positions == one.Positions) << threads;
-    EXPECT_TRUE(several.Simplices == one.Simplices) << threads;
-    EXPECT_EQ(several.Evaluated, one.Evaluated) << threads;
-  }
-}
-
-TEST(TiledRefinement, DoesNotDependOnThreads4D)
-{
-  const double radius = Sanitized ? 8.0 : 12.0;
-  const Result<4> one = Refine<Rules4D>(radius, 2.0, 1);
-  EXPECT_GT(one.Simplices.size(), 5000u);
-  for (const unsigned threads : { 2u, 5u })
-  {
-    const Result<4> several = Refine<Rules4D>(radius, 2.0, threads);
-    EXPECT_TRUE(several.Positions == one.Positions) << threads;
-    EXPECT_TRUE(several.Simplices == one.Simplices) << threads;
-    EXPECT_EQ(several.Evaluated, one.Evaluated) << threads;
-  }
+  CompareThreads<Rules3D>(20.0, 1.0, { 2, 3, 8 });
+  CompareThreads<Rules4D>(Sanitized ? 8.0 : 12.0, 2.0, { 2, 5 });
 }
 
 // Without tiles side by side ids are not replaced in the end. They come from the first worker, so it must do all.
 TEST(TiledRefinement, OneTileIsTheFirstWorkers)
 {
   const BallDomainOf<4> ball(3.0);
-  RefinementSettings<4> settings;
-  settings.Sizing.Base = { 2.0 };
+  const RefinementSettings<4> settings = SettingsFor<4>(2.0);
   TeamOptions team = TeamOptions::Default<4>();
   team.Threads = 8;
   for (int run = 0; run < (Sanitized ? 20 : 200); ++run)
@@ -130,9 +114,7 @@ TEST(TiledRefinement, OneTileIsTheFirstWorkers)
 TEST(TiledRefinement, StopsWhenItIsAskedTo)
 {
   const BallDomain ball(20.0);
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { 0.8 };
-  RefinementContext<3> context(ball, settings, Around(ball, 0.8), 1000);
+  RefinementContext<3> context(ball, SettingsFor<3>(0.8), Around(ball, 0.8), 1000);
   TeamOptions team;
   team.Threads = 3;
   TiledRefiner<Rules3D> refiner(context, team);

@@ -7,7 +7,7 @@
 #include "BallDomain.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "Phantoms.h"
 #include "Quality/InterfaceEdges.h"
 #include "Sizing/Grading/PointBounds.h"
@@ -99,20 +99,12 @@ inline LabelImage<3> Blobs(unsigned seed)
 inline SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, unsigned rounds,
   MeshingStatistics* statistics = nullptr, unsigned threads = 1)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = WithDelta<3>(delta);
   options.Interfaces.Rounds = rounds;
   options.Interfaces.Manifold = rounds > 0; // without rounds nothing is repaired
   options.Team.Threads = threads;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  const std::vector<std::string> complaints = Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
-  if (statistics)
-  {
-    *statistics = mesher.Statistics();
-  }
+  SimplexMesh<3> mesh = MeshOf(image, options, statistics);
+  ExpectSound(mesh);
   return mesh;
 }
 

@@ -118,6 +118,18 @@ std::map<std::int64_t, double> Volumes(const SimplexMesh<D>& mesh)
   return volumes;
 }
 
+/** Of all labels together. */
+template <int D>
+double WholeVolume(const SimplexMesh<D>& mesh)
+{
+  double whole = 0.0;
+  for (const auto& [label, volume] : Volumes(mesh))
+  {
+    whole += volume;
+  }
+  return whole;
+}
+
 /** By Cramer's rule: the centre is as far from the first point as from each other one. */
 template <int D>
 double Circumradius(const SimplexMesh<D>& mesh, std::size_t t)
@@ -174,6 +186,31 @@ inline double SmallestAngle(const SimplexMesh<3>& mesh, const std::array<std::ui
   return smallest;
 }
 
+/** Right-hand, and twice as long as the facet's area. */
+inline Point<3> NormalOf(const SimplexMesh<3>& mesh, const std::array<std::uint32_t, 3>& f)
+{
+  return Cross(
+    Subtract(mesh.Points[f[1]], mesh.Points[f[0]]), Subtract(mesh.Points[f[2]], mesh.Points[f[0]]));
+}
+
+inline double AreaOf(const SimplexMesh<3>& mesh, const std::array<std::uint32_t, 3>& f)
+{
+  const Point<3> normal = NormalOf(mesh, f);
+  return 0.5 * std::sqrt(Dot(normal, normal));
+}
+
+/** Those of the interface facets. */
+template <int D>
+std::set<std::uint32_t> VerticesOfInterfaces(const SimplexMesh<D>& mesh)
+{
+  std::set<std::uint32_t> vertices;
+  for (const auto& f : mesh.Facets)
+  {
+    vertices.insert(f.begin(), f.end());
+  }
+  return vertices;
+}
+
 /** Whether a simplex has the first label of a facet, which is the one behind it. */
 template <int D>
 bool IsFirstLabel(const SimplexMesh<D>& mesh, std::size_t facet, std::size_t t)
@@ -186,8 +223,7 @@ inline bool IsBehind(const SimplexMesh<3>& mesh, std::size_t facet, std::size_t 
 {
   const auto& f = mesh.Facets[facet];
   const Point<3>& origin = mesh.Points[f[0]];
-  const Point<3> normal =
-    Cross(Subtract(mesh.Points[f[1]], origin), Subtract(mesh.Points[f[2]], origin));
+  const Point<3> normal = NormalOf(mesh, f);
   double side = 0.0; // the facet's own vertices add nothing
   for (const std::uint32_t v : mesh.Simplices[t])
   {
@@ -331,6 +367,28 @@ std::vector<std::string> Complaints(const SimplexMesh<D>& mesh)
     }
   }
   return complaints;
+}
+
+template <int D>
+void ExpectSound(const SimplexMesh<D>& mesh)
+{
+  const std::vector<std::string> complaints = Complaints(mesh);
+  EXPECT_TRUE(complaints.empty()) << complaints.front();
+}
+
+/** What holds of every mesh with default options. Facets at junctions may have smaller angles. */
+inline void ExpectGood(const SimplexMesh<3>& mesh, double smallestAngle = 30.0)
+{
+  ExpectSound(mesh);
+  ASSERT_FALSE(mesh.Simplices.empty());
+  for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+  {
+    ASSERT_LT(RadiusEdge(mesh, t), 2.0 + 1e-9);
+  }
+  for (const auto& f : mesh.Facets)
+  {
+    ASSERT_GE(SmallestAngle(mesh, f), smallestAngle - 1e-6);
+  }
 }
 
 } // namespace voxplex::checks

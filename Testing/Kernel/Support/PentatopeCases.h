@@ -28,10 +28,8 @@ struct Result
 inline Result Mesh(const LabelImage<4>& image, MeshingOptions<4> options, bool optimise)
 {
   options.Optimisation.Run = optimise;
-  ImageMesher<4> mesher(options);
   Result result;
-  EXPECT_EQ(mesher.Run(image, result.Mesh), MeshingOutcome::Done);
-  result.Statistics = mesher.Statistics();
+  result.Mesh = MeshOf(image, options, &result.Statistics);
   return result;
 }
 

@@ -4,8 +4,10 @@
 #ifndef voxplex_Phantoms_h
 #define voxplex_Phantoms_h
 
+#include "Base/GridIndex.h"
 #include "Image/LabelImage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,24 +18,27 @@
 namespace voxplex::phantoms
 {
 
+/** The value that a function gives the centre of each voxel. */
+template <typename T, int D, typename Function>
+std::vector<T> Sample(const GridGeometry<D>& grid, Function&& value)
+{
+  std::vector<T> values(CountCells(grid.Dimensions));
+  for (std::size_t k = 0; k < values.size(); ++k)
+  {
+    const auto index = IndexAt(k, grid.Dimensions);
+    Point<D> at;
+    std::copy(index.begin(), index.end(), at.begin());
+    values[k] = static_cast<T>(value(grid.ToFrame(at)));
+  }
+  return values;
+}
+
 /** A label image whose voxels have the label that a function gives their centre. */
 inline LabelImage<3> Make(const GridGeometry<3>& grid,
   const std::function<std::int16_t(const Point<3>&)>& label, const LabelSelection& selection = {})
 {
-  const auto& n = grid.Dimensions;
-  std::vector<std::int16_t> scalars;
-  for (std::int64_t k = 0; k < n[2]; ++k)
-  {
-    for (std::int64_t j = 0; j < n[1]; ++j)
-    {
-      for (std::int64_t i = 0; i < n[0]; ++i)
-      {
-        scalars.push_back(label(grid.ToFrame(
-          { static_cast<double>(i), static_cast<double>(j), static_cast<double>(k) })));
-      }
-    }
-  }
-  return LabelImage<3>::FromScalars<std::int16_t>(scalars, grid, selection);
+  return LabelImage<3>::FromScalars<std::int16_t>(
+    Sample<std::int16_t>(grid, label), grid, selection);
 }
 
 inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)

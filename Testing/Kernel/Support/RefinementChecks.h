@@ -36,13 +36,19 @@ Box<D> Around(const Domain<D>& domain, double delta)
   return box;
 }
 
+template <int D>
+RefinementSettings<D> SettingsFor(double delta)
+{
+  RefinementSettings<D> settings;
+  settings.Sizing.Base = { delta };
+  return settings;
+}
+
 /** A refined triangulation of a domain. */
 inline std::unique_ptr<RefinementContext<3>> Refined(const Domain<3>& domain, double delta)
 {
-  RefinementSettings<3> settings;
-  settings.Sizing.Base = { delta };
-  auto context =
-    std::make_unique<RefinementContext<3>>(domain, settings, Around(domain, delta), 1000);
+  auto context = std::make_unique<RefinementContext<3>>(
+    domain, SettingsFor<3>(delta), Around(domain, delta), 1000);
   Refiner<Rules3D> refiner(*context);
   EXPECT_TRUE(refiner.Run(nullptr));
   return context;
@@ -53,15 +59,22 @@ inline SimplexMesh<3> ExtractSphere(const RefinementContext<3>& context, const B
 {
   SimplexMesh<3> mesh;
   ExtractMesh<3>(context.Mesh, ball, mesh);
-  const std::vector<std::string> complaints = Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
-  std::set<std::uint32_t> vertices;
-  for (const auto& f : mesh.Facets)
-  {
-    vertices.insert(f.begin(), f.end());
-  }
-  EXPECT_EQ(2 * vertices.size() - 4, mesh.Facets.size()) << "Euler characteristic of a sphere";
+  ExpectSound(mesh);
+  EXPECT_EQ(2 * VerticesOfInterfaces(mesh).size() - 4, mesh.Facets.size())
+    << "Euler characteristic of a sphere";
   return mesh;
+}
+
+/** To refine once more inserts nothing. */
+template <typename Rules, int D = Rules::Dimension>
+void ExpectNothingLeft(RefinementContext<D>& context)
+{
+  Refiner<Rules> again(context);
+  ASSERT_TRUE(again.Run(nullptr));
+  for (const std::uint64_t fired : again.GetRuleStatistics().Fired)
+  {
+    EXPECT_EQ(fired, 0u);
+  }
 }
 
 /** Checks every rule of the thesis' section 3.1 (3D) or 4.2 (4D, without slivers), stated anew, on

@@ -5,7 +5,7 @@
 #ifndef voxplex_SlabChecks_h
 #define voxplex_SlabChecks_h
 
-#include "Mesh/SimplexMesh.h"
+#include "MeshChecks.h"
 
 #include <algorithm>
 #include <array>
@@ -61,24 +61,6 @@ inline std::multiset<FlatFacet> FacetsAt(const SimplexMesh<4>& mesh, double time
   return facets;
 }
 
-/** The determinant of the edges from point 0, by cofactors. */
-inline double Determinant(const std::array<Point<4>, 5>& p)
-{
-  double m[4][4];
-  for (std::size_t r = 0; r < 4; ++r)
-  {
-    for (std::size_t c = 0; c < 4; ++c)
-    {
-      m[r][c] = p[r + 1][c] - p[0][c];
-    }
-  }
-  const auto minor2 = [&](std::size_t r, std::size_t s, std::size_t a, std::size_t b)
-  { return m[r][a] * m[s][b] - m[r][b] * m[s][a]; };
-  return minor2(0, 1, 0, 1) * minor2(2, 3, 2, 3) - minor2(0, 1, 0, 2) * minor2(2, 3, 1, 3) +
-    minor2(0, 1, 0, 3) * minor2(2, 3, 1, 2) + minor2(0, 1, 1, 2) * minor2(2, 3, 0, 3) -
-    minor2(0, 1, 1, 3) * minor2(2, 3, 0, 2) + minor2(0, 1, 2, 3) * minor2(2, 3, 0, 1);
-}
-
 /** Slab k of a mesh, and what is wrong with it as a mesh of its own. */
 struct SlabReport
 {
@@ -110,16 +92,14 @@ inline SlabReport CheckSlab(
     }
     ++report.Pentatopes;
     const auto& simplex = mesh.Simplices[s];
-    std::array<Point<4>, 5> points;
-    for (std::size_t k = 0; k < 5; ++k)
+    for (const std::uint32_t v : simplex)
     {
-      points[k] = mesh.Points[simplex[k]];
-      if (points[k][3] < first || points[k][3] > last)
+      if (mesh.Points[v][3] < first || mesh.Points[v][3] > last)
       {
         complain(s, "leaves its slab");
       }
     }
-    const double volume = Determinant(points) / 24.0;
+    const double volume = Volume(mesh, s);
     report.Hypervolume += volume;
     if (!(volume > 0.0))
     {

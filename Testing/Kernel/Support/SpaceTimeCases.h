@@ -6,7 +6,7 @@
 
 #include "../../Phantoms/SpaceTimePhantoms.h"
 #include "Domain/ImageDomain.h"
-#include "Mesher/ImageMesher.h"
+#include "MeshRuns.h"
 #include "SpaceTimeChecks.h"
 
 #include <gtest/gtest.h>
@@ -56,8 +56,7 @@ inline LabelImage<4> ImageOf(const phantoms::SpaceTimePhantom& phantom)
 /** Picking regions are off: they have tests of their own. */
 inline MeshingOptions<4> SpaceTimeOptions(double delta, unsigned threads = 1)
 {
-  MeshingOptions<4> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<4> options = WithDelta<4>(delta);
   options.Team.Threads = threads;
   options.SpaceTime.Slivers.Fight = false;
   // So that vertices are on interfaces, which are those of the image itself.
@@ -78,8 +77,7 @@ struct Tolerances
 inline void ExpectGood(
   const SimplexMesh<4>& mesh, const LabelImage<4>& image, const Tolerances& tolerances = {})
 {
-  const std::vector<std::string> complaints = Complaints(mesh);
-  ASSERT_TRUE(complaints.empty()) << complaints.front();
+  ExpectSound(mesh);
   ASSERT_FALSE(mesh.Simplices.empty());
   EXPECT_EQ(Volumes(mesh).size(), static_cast<std::size_t>(image.NumberOfLabels()));
   for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)

@@ -431,8 +431,7 @@ template <int D>
 void ExpectTriangulationOf(const Triangulation<D>& t, const std::vector<Point<D>>& points,
   double size, OnBox onBox = OnBox::Stays)
 {
-  ExpectSound(t);
-  EXPECT_TRUE(LockedVertices(t).empty());
+  ExpectSoundAndUnlocked(t);
   Triangulation<D> sequential(UnitBox<D>(size));
   typename Triangulation<D>::Worker worker(sequential);
   SimplexId hint = AnyAlive(sequential);
