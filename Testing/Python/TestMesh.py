@@ -10,7 +10,6 @@ import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
@@ -575,15 +574,6 @@ class Refusals(unittest.TestCase):
         with self.assertWarnsRegex(voxplex.MeshingWarning, "^Some element sizes are below") as caught:
             voxplex.mesh(brick(), 2.0, label_sizes={5: 0.01})
         self.assertEqual(caught.filename, __file__)
-
-
-class Threads(unittest.TestCase):
-    def test_default_is_the_setting_of_vtk(self):
-        before = vtkSMPTools.GetEstimatedNumberOfThreads()
-        self.addCleanup(vtkSMPTools.Initialize, before)
-        vtkSMPTools.Initialize(1)
-        _, _, statistics = voxplex.mesh(brick(), 2.0, full_output=True)
-        self.assertEqual(statistics["threads"], 1)
 
 
 if __name__ == "__main__":
