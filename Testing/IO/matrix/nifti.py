@@ -209,6 +209,8 @@ for code in (1, 2, 3, 4, 5):
 equal("neither", I2)
 equal("neither, 4D", FOUR)
 equal("neither, with an unused qform and sform", I2, **{**OBLIQUE, "qform_code": 0, "sform_code": 0})
+equal("neither, with an unused qform and sform of NaN", I2, **{
+    **OBLIQUE, "qform_code": 0, "sform_code": 0, "quatern": (np.nan,) * 3, "srow": (np.nan,) * 12})
 equal("sform of code -1, and qform", I2, warns=ANY, **{**OBLIQUE, "sform_code": -1, "srow": (9,) * 12})
 equal("sform far from qform", I2, MUST_WARN_BOTH, **{**qform(AXES["oblique"]), **sform(AXES["oblique"], ORIGIN + 100)})
 equal("sform turned against qform", I2, MUST_WARN_BOTH, **{**qform(AXES["identity"]), **sform(AXES["oblique"])})

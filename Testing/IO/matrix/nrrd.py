@@ -416,6 +416,8 @@ ROWS += [
         broken("s2.dat")),
     row("NRRD", "LIST with a FIFO", pieces(I2, LIST, SLICES).with_data(Fifo(), "s2.dat"),
         refused("s2.dat")),
+    *(row("NRRD", "files elsewhere: " + names.split("\n")[0], pieces(I2, names, SLICES), refused("folder of the header"))
+      for names in ("LIST\n/etc/passwd\ns2.dat\ns3.dat", "/var/a%d.dat 1 3 1")),
     row("NRRD", "LIST and nothing else", pieces(I2, "LIST", SLICES), broken("data file|LIST|list")),
 ]
 for pattern in ("%s%n.dat 1 3 1", "s%d.dat 1 3 0", "s%d.dat 3 1 1", "s%d.dat 1 1000000000 1", "s%d%d.dat 1 3 1",
