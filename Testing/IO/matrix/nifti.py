@@ -281,6 +281,7 @@ for value in (np.nan, np.inf):
                                                            "quatern": (0, value, 0)})
     refuse("sform of %s" % value, "sform|srow|finite|number", srow=(value, *range(11)))
     refuse("step of time of %s" % value, "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, value))
+    refuse("first time of %s" % value, "toffset", array=FOUR, toffset=value)
 refuse("negative step of time", "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, -1))
 refuse("quaternion longer than 1", "qform|quatern|position or orientation", **{**qform(AXES["identity"]), "sform_code": 0,
                                                        "quatern": (1, 1, 1)})

@@ -282,6 +282,8 @@ for place in (0, 1, 2, 3):
     equal("a list as axis %d" % place, FRAMES, array=np.moveaxis(FOUR, 0, 3 - place), **frame_list(place))
     equal("a list of one as axis %d" % place, IMAGE, array=np.expand_dims(I2, 3 - place), **frame_list(place, frames=1))
 equal("a list without index values", Image(FOUR, affine(), (0, 1, 2)), **{**frame_list(), "keys": ()})
+equal("a list with a vector of NaN", Image(FOUR, affine(), (0, 1, 2)), **{
+    **frame_list(), "keys": (), "space_directions": directions(AXES["identity"], "(nan,nan,nan)")})
 equal("a list with spacings beside it", Image(FOUR, affine(), (0, 0.5, 1), warns=ANY), [refused("spacing")],
       **{**frame_list(), "keys": ()}, spacings="nan nan nan 0.5")
 equal("index values not equally spaced", Image(FOUR, affine(), (1, 2, 5)),
