@@ -222,21 +222,6 @@ class Options(ProgramTestCase):
         self.assertGreater(edges[1], 0)
         self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
 
-    def test_manifold_in_space_time(self):
-        frames = np.random.RandomState(2).randint(0, 3, (5, 5, 5, 7)).astype(np.uint8)
-        images.write_space_time_nrrd(self.input, frames, images.Geometry())
-        figures = []
-        for arguments in ((), ("--no-manifold",)):
-            done = self.call("--input", self.input, "--threads", 1, "--delta", 1.6, "--smoothing", 0,
-                             "--stats", "statistics.json", *arguments)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            report = json.loads((self.folder / "statistics.json").read_text())
-            self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
-            figures.append(report["interfaces"])
-        self.assertEqual(figures[0]["nonmanifold_edges_left"], 0)
-        self.assertGreater(figures[0]["nonmanifold_edges_repaired"], 0)
-        self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
-
     def test_relative_and_absolute_names(self):
         (self.folder / "sub").mkdir()
         self.mesh("--input", "two.nrrd", "--delta", 3, "--output", "sub/mesh.vtu",
@@ -435,18 +420,17 @@ class Statistics(ProgramTestCase):
 
 
 class Threads(ProgramTestCase):
-    MANAGERS = ("aggressive", "random", "global", "local")
-    BALANCERS = ("rws", "hws")
+    """That meshes are as good as those of one thread is tested with the filter."""
 
     def setUp(self):
         super().setUp()
-        self.array = images.two_labels()
-        self.input = images.write_nrrd(self.folder / "two.nrrd", self.array)
+        self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
 
     def report(self, *arguments):
         """Aggressive and random managers may livelock; a warning then tells that local took over."""
-        done = self.call("--input", self.input, "--delta", 0.6, "--output", "mesh.vtu", "--stats", "s.json", *arguments)
+        done = self.call("--input", self.input, "--delta", 0.6, "--stats", "s.json", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotRegex(done.stdout, "rollback")  # they are the business of --stats
         report = json.loads((self.folder / "s.json").read_text())
         if report["switched_to_local"] and report["contention"] in ("aggressive", "random"):
             self.assertRegex(done.stderr, r"^voxplex: warning: .* --contention %s \([\d,]+ rollbacks\), and local "
@@ -456,103 +440,32 @@ class Threads(ProgramTestCase):
             self.assertIs(report["switched_to_local"], False)
         return report
 
-    def check_threads(self, report, threads):
-        """The figures of threads agree with each other and with the rest of the report."""
-        self.assertEqual(report["threads"], threads)
-        refinement = report["time"]["refinement"]
-        self.assertGreaterEqual(report["seeding_seconds"], 0.0)
-        self.assertLessEqual(report["seeding_seconds"], refinement)
-        entries = report["thread_statistics"]
-        self.assertEqual(len(entries), threads)
-        for entry in entries:
+    def test_policies(self):
+        for manager, balancer, pin in (("aggressive", "rws", True), ("random", "hws", False), ("Global", "RWS", False),
+                                       ("local", "hws", True)):
+            with self.subTest(manager=manager):
+                report = self.report("--threads", 4, "--contention", manager, "--balance", balancer, *["--pin"] * pin)
+                self.assertEqual((report["contention"], report["balance"]), (manager.lower(), balancer.lower()))
+                parameters = report["parameters"]
+                self.assertEqual((parameters["contention"], parameters["balance"], parameters["pin"]),
+                                 (manager.lower(), balancer.lower(), pin))
+
+    def test_figures(self):
+        report = self.report("--threads", 3)
+        self.assertEqual((report["contention"], report["balance"], report["threads"]), ("local", "hws", 3))
+        parameters = report["parameters"]
+        self.assertEqual((parameters["contention"], parameters["balance"], parameters["pin"]), (None, None, False))
+        self.assertLessEqual(report["seeding_seconds"], report["time"]["refinement"])
+        self.assertEqual(len(report["thread_statistics"]), 3)
+        for entry in report["thread_statistics"]:
             self.assertEqual(set(entry), {
                 "insertions", "removals", "rollbacks", "waits", "contention_seconds", "load_balance_seconds",
                 "rollback_seconds", "received", "received_elements", "helped_loops", "helped_iterations",
                 "helping_seconds"})
             self.assertEqual(len(entry["received"]), 3)
-            for count in [*entry["received"], *(entry[name] for name in (
-                    "insertions", "removals", "rollbacks", "waits", "received_elements"))]:
-                self.assertIsInstance(count, int)
-                self.assertGreaterEqual(count, 0)
-            self.assertLessEqual(entry["waits"], entry["rollbacks"])
-            self.assertGreaterEqual(entry["received_elements"], sum(entry["received"]))
-            lost = [entry[name] for name in ("contention_seconds", "load_balance_seconds", "rollback_seconds")]
-            self.assertGreaterEqual(min(lost), 0.0)
-            self.assertLessEqual(sum(lost), 1.05 * refinement + 0.01)  # another clock
-        rules = report["rules"]
-        self.assertEqual(sum(entry["insertions"] for entry in entries),
-                         sum(rules[rule] for rule in ("R1", "R2", "R3", "R4", "R5", "R7_split", "R7_sampled")))
-        self.assertEqual(sum(entry["removals"] for entry in entries), rules["R6"])
-
-    def check_mesh(self, report, like):
-        """The bounds that hold for one thread, and hardly another mesh."""
-        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
-        self.assertEqual(set(mesh.labels), {3, 7})
-        self.assertGreater(mesh.volumes().min(), 0.0)
-        self.assertEqual(report["elements"], len(mesh.cells))
-        quality = report["quality"]
-        self.assertLessEqual(quality["max_radius_edge"], 2.5)
-        self.assertEqual(quality["radius_edge_violations"], 0)
-        self.assertEqual(quality["inverted_elements"], 0)
-        self.assertEqual(report["lost_labels"], [])
-        self.assertAlmostEqual(report["elements"] / like["elements"], 1.0, delta=0.15)
-        for label, figures in report["labels"].items():
-            self.assertAlmostEqual(figures["volume"] / like["labels"][label]["volume"], 1.0, delta=0.03)
-
-    def test_numbers(self):
-        one = self.report("--threads", 1)
-        self.check_threads(one, 1)
-        self.check_mesh(one, one)
-        entry = one["thread_statistics"][0]
-        self.assertEqual((entry["rollbacks"], entry["waits"], entry["received_elements"]), (0, 0, 0))
-        self.assertEqual((entry["helped_loops"], entry["helped_iterations"]), (0, 0))
-        for threads in (2, 4, 16):
-            with self.subTest(threads):
-                report = self.report("--threads", threads)
-                self.check_threads(report, threads)
-                self.check_mesh(report, one)
-
-    def test_every_manager_and_balancer(self):
-        one = self.report("--threads", 1)
-        for manager in self.MANAGERS:
-            for balancer in self.BALANCERS:
-                with self.subTest(manager=manager, balancer=balancer):
-                    report = self.report("--threads", 4, "--contention", manager, "--balance", balancer)
-                    self.assertEqual((report["contention"], report["balance"]), (manager, balancer))
-                    self.assertEqual(report["parameters"]["contention"], manager)
-                    self.assertEqual(report["parameters"]["balance"], balancer)
-                    self.check_threads(report, 4)
-                    self.check_mesh(report, one)
-
-    def test_defaults(self):
-        report = self.report("--threads", 4)
-        self.assertEqual((report["contention"], report["balance"]), ("local", "hws"))
-        self.assertIsNone(report["parameters"]["contention"])
-        self.assertIsNone(report["parameters"]["balance"])
-        self.assertIs(report["parameters"]["pin"], False)
 
     def test_all_cores(self):
-        report = self.report("--threads", 0)
-        self.assertGreaterEqual(report["threads"], 1)
-        self.check_threads(report, report["threads"])
-
-    def test_pin(self):
-        one = self.report("--threads", 1)
-        report = self.report("--threads", 4, "--pin")
-        self.assertIs(report["parameters"]["pin"], True)
-        self.check_threads(report, 4)
-        self.check_mesh(report, one)
-
-    def test_any_case(self):
-        report = self.report("--contention", "Global", "--balance", "RWS")
-        self.assertEqual((report["contention"], report["balance"]), ("global", "rws"))
-
-    def test_one_thread_has_nobody_to_contend_with(self):
-        meshes = set()
-        for arguments in ([], ["--contention", "aggressive", "--balance", "rws", "--pin"]):
-            self.mesh("--input", self.input, "--delta", 0.8, "--threads", 1, "--output", "m.mesh", *arguments)
-            meshes.add((self.folder / "m.mesh").read_bytes())
-        self.assertEqual(len(meshes), 1)
+        self.assertGreaterEqual(self.report("--threads", 0)["threads"], 1)
 
     def test_reproducible(self):
         meshes = set()
@@ -560,11 +473,6 @@ class Threads(ProgramTestCase):
             self.mesh("--input", self.input, "--delta", 0.6, "--threads", threads, "--reproducible", "--output", "m.mesh")
             meshes.add((self.folder / "m.mesh").read_bytes())
         self.assertEqual(len(meshes), 1)
-
-    def test_quiet_about_rollbacks(self):
-        """They are the business of --stats, unless something is wrong."""
-        done = self.mesh("--input", self.input, "--delta", 0.6, "--threads", 8)
-        self.assertNotRegex(done.stdout, "rollback")
 
 
 class Talk(ProgramTestCase):
