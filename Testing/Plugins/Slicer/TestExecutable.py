@@ -2,7 +2,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The module as a process of its own, which is how Slicer prefers to run it."""
-import os
 import re
 import signal
 import subprocess
@@ -75,59 +74,6 @@ class Runs(ModuleTestCase):
             for name in ("mesh.vtk", "s.vtk"):
                 header = (self.folder / name).read_bytes().split(b"\n")[1]
                 self.assertIn(b"SPACE=" + space.encode(), header)
-
-    @unittest.skipUnless(os.environ.get("VOXPLEX_HAVE_PYTHON"), "the Python package was not built")
-    def test_every_parameter_arrives(self):
-        """Each alone makes the mesh that the filter makes with it, and another one than without."""
-        import voxplex
-        self.array[2, 2, 2] = 3  # a speck, far from everything else
-        self.array[12, 12, 12] = 9  # one voxel beside an interface
-        images.write_nrrd(self.input, self.array)
-        any_label = voxplex.vtkImageToTetMeshFilter.ANY_LABEL
-        plain = self.cells("--delta", 2), self.cells("--delta", 1)
-        for arguments, setters in (
-                (("-d", 1.5), {"Delta": 1.5}), (("--delta", 1.5), {"Delta": 1.5}),
-                (("--elements", 9000), {"NumberOfElements": 9000}),
-                (("--size", 1.5), {"Delta": 2, "ElementSize": 1.5}),
-                (("--smoothing", 0.5), {"Delta": 2, "SmoothingSigma": 0.5}),
-                (("--radiusedge", 1.9, "--force"), {"Delta": 1, "RadiusEdgeRatio": 1.9, "Force": True}),
-                (("--facetangle", 20), {"Delta": 1, "FacetAngle": 20}),
-                (("--sliverangle", 0, "--optimise", "off"), {"Delta": 1, "SliverAngle": 0, "Optimise": False}),
-                (("--optimise", "off"), {"Delta": 1, "Optimise": False}),
-                (("--grading", "lfs"), {"Delta": 1, "Grading": 1}),
-                (("--grading", "lfs", "--featureratio", 0.4), {"Delta": 1, "Grading": 1, "FeatureRatio": 0.4}),
-                (("--grading", "lfs", "--largestfeature", 1), {"Delta": 1, "Grading": 1, "LargestFeature": 1}),
-                (("--junctions", "off"), {"Delta": 2, "SampleJunctions": False}),
-                (("--interfacerounds", 0), {"Delta": 2, "InterfaceRounds": 0}),
-                (("--smallestcomponent", 0, "--interfacerounds", 0),
-                 {"Delta": 2, "SmallestComponent": 0, "InterfaceRounds": 0}),
-                (("--minimumvolume", 2), {"Delta": 2, "MinimumComponentVolume": 2}),
-                (("--labelsizes", "3=1.5"), {"Delta": 2, "LabelSize": [(3, 1.5)]}),
-                (("--labelsizes", "3=1.5, 7=1.5"), {"Delta": 2, "LabelSize": [(3, 1.5), (7, 1.5)]}),
-                (("--interfacesizes", "3:7=1, 0=2", "--gradation", 0.5),
-                 {"Delta": 2, "InterfaceSize": [(3, 7, 1), (0, any_label, 2)], "Gradation": 0.5})):
-            with self.subTest(arguments):
-                mesher = voxplex.vtkImageToTetMeshFilter()
-                mesher.SetInputData(voxplex.image_from_array(self.array))
-                mesher.SetNumberOfThreads(1)
-                for name, values in setters.items():
-                    for value in values if isinstance(values, list) else [(values,)]:
-                        getattr(mesher, "Set" + name)(*value)
-                mesher.Update()
-                delta = () if {"-d", "--delta", "--elements"} & set(arguments) else ("--delta", setters["Delta"])
-                found = self.cells(*arguments, *delta)
-                np.testing.assert_array_equal(found, voxplex.tets(mesher.GetOutput()))
-                self.assertFalse(any(np.array_equal(found, cells) for cells in plain))
-
-    def cells(self, *arguments):
-        done = self.call("--threads", 1, *arguments, self.input, "mesh.vtu")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return meshfiles.read_tetrahedra(self.folder / "mesh.vtu").cells
-
-    def test_labels(self):
-        self.assertEqual(set(self.mesh("--labels", "7").labels), {7})
-        # As slicer.cli.run() writes the list [3, 7].
-        self.assertEqual(set(self.mesh("--labels", "3, 7").labels), {3, 7})
 
     def names_and_colours(self, path):
         data = meshfiles._read(vtkXMLUnstructuredGridReader(), str(path))
