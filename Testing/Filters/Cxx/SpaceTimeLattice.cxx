@@ -39,46 +39,9 @@ using Facet = std::array<vtkIdType, 4>;
 
 constexpr int N = 3; // points of the grid along each axis; times are 0, 1, 2
 
-double Determinant(std::array<std::array<double, 4>, 4> m)
-{
-  double product = 1.0;
-  for (std::size_t k = 0; k < 4; ++k)
-  {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < 4; ++i)
-    {
-      pivot = std::abs(m[i][k]) > std::abs(m[pivot][k]) ? i : pivot;
-    }
-    product *= pivot == k ? m[pivot][k] : -m[pivot][k];
-    std::swap(m[k], m[pivot]);
-    for (std::size_t i = k + 1; i < 4; ++i)
-    {
-      const double factor = m[i][k] / m[k][k];
-      for (std::size_t j = k; j < 4; ++j)
-      {
-        m[i][j] -= factor * m[k][j];
-      }
-    }
-  }
-  return product;
-}
-
 std::array<double, 4> LatticePoint(vtkIdType id)
 {
   return { double(id % N), double(id / N % N), double(id / N / N % N), double(id / N / N / N) };
-}
-
-double Orientation(const Pentatope& p)
-{
-  std::array<std::array<double, 4>, 4> rows;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    for (std::size_t j = 0; j < 4; ++j)
-    {
-      rows[i][j] = LatticePoint(p[i + 1])[j] - LatticePoint(p[0])[j];
-    }
-  }
-  return Determinant(rows);
 }
 
 /** Kuhn's subdivision of the lattice; positive. */
@@ -101,7 +64,9 @@ std::vector<Pentatope> LatticePentatopes()
       {
         ids[k + 1] = ids[k] + steps[order[k]];
       }
-      if (Orientation(ids) < 0.0)
+      Simplex<4> corners;
+      std::transform(ids.begin(), ids.end(), corners.begin(), LatticePoint);
+      if (Volume<4>(corners) < 0.0)
       {
         std::swap(ids[0], ids[1]);
       }
@@ -227,12 +192,12 @@ std::map<int, double> Volumes(vtkUnstructuredGrid* slice)
     cell->Triangulate(0, ids, points);
     for (vtkIdType i = 0; i + 3 < points->GetNumberOfPoints(); i += 4)
     {
-      std::array<Vector, 4> t;
+      Simplex<3> t;
       for (vtkIdType k = 0; k < 4; ++k)
       {
         points->GetPoint(i + k, t[static_cast<std::size_t>(k)].data());
       }
-      const double volume = Volume(t[0], t[1], t[2], t[3]);
+      const double volume = Volume<3>(t);
       CHECK(volume > 0.0, c, cell->GetClassName(), volume);
       volumes[labels ? static_cast<int>(labels->GetComponent(c, 0)) : 0] += volume;
     }

@@ -60,7 +60,7 @@ void TestAxes()
 {
   const auto reference = MakePentatopeFilter(MakeIndexed({}, EqualTimes(12)));
   reference->Update();
-  CheckPentatopeMesh(reference);
+  CheckMesh(reference);
   const Pentatopes expected = ReadPentatopes(reference->GetOutput());
 
   const double a = std::cos(0.3);
@@ -82,7 +82,7 @@ void TestAxes()
     const auto filter = MakePentatopeFilter(MakeIndexed(placement, times));
     filter->SetTimeScale(timeScale);
     filter->Update();
-    CheckPentatopeMesh(filter);
+    CheckMesh(filter);
     const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
     if (!CHECK(mesh.Points.size() == expected.Points.size()) ||
       !CHECK(mesh.Cells.size() == expected.Cells.size()))
@@ -133,7 +133,7 @@ void TestTimeScale()
     filter->SetDelta(1.6);
     filter->Update();
   }
-  CheckPentatopeMesh(scaled);
+  CheckMesh(scaled);
   CHECK(scaled->GetOutput()->GetNumberOfCells() < plain->GetOutput()->GetNumberOfCells());
 }
 
@@ -146,11 +146,11 @@ void TestSkewedAxes()
   const auto filter = MakePentatopeFilter(MakeIndexed(placement, EqualTimes(12, 0.9), 4.8));
   filter->SetDelta(0.9);
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   const double pi = vtkMath::Pi();
   const double voxel = 0.8 * 1.0 * 1.5 * std::sqrt(1 - 0.09) * 0.9;
   const double truth = 0.5 * pi * pi * std::pow(4.8, 4) * voxel;
-  const double found = ReadPentatopes(filter->GetOutput()).HypervolumeOf();
+  const double found = ReadPentatopes(filter->GetOutput()).VolumeOf();
   CHECK(std::abs(found / truth - 1.0) < 0.1, found, truth);
 }
 
@@ -166,13 +166,13 @@ void TestBall()
   filter->SetSmoothingSigma(0.5);
   filter->SetDelta(1.4);
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
   const double truth = 0.5 * vtkMath::Pi() * vtkMath::Pi() * std::pow(radius, 4);
-  const double found = mesh.HypervolumeOf();
+  const double found = mesh.VolumeOf();
   CHECK(std::abs(found / truth - 1.0) < 0.06, found, truth);
-  CHECK(std::abs(mesh.HypervolumeOf(3) / mesh.HypervolumeOf(7) - 1.0) < 0.03, mesh.HypervolumeOf(3),
-    mesh.HypervolumeOf(7));
+  CHECK(std::abs(mesh.VolumeOf(3) / mesh.VolumeOf(7) - 1.0) < 0.03, mesh.VolumeOf(3),
+    mesh.VolumeOf(7));
   // It ends where the ball does, within a voxel.
   double first = VTK_DOUBLE_MAX;
   double last = -VTK_DOUBLE_MAX;
@@ -204,7 +204,7 @@ void TestFlatEnds()
     filter->SetSmoothingSigma(0.5);
     filter->SetDelta(0.8);
     filter->Update();
-    CheckPentatopeMesh(filter);
+    CheckMesh(filter);
     double range[2];
     filter->GetOutput()->GetPointData()->GetArray("Time")->GetRange(range);
     CHECK(range[0] == times.front() && range[1] == times.back(), range[0], range[1], timeScale);
@@ -212,7 +212,7 @@ void TestFlatEnds()
     const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
     const double area = 4.0 / 3.0 * vtkMath::Pi() * std::pow(4.2, 3);
     const double truth = area * (times.back() - times.front());
-    CHECK(std::abs(mesh.HypervolumeOf() / truth - 1.0) < 0.08, mesh.HypervolumeOf(), truth);
+    CHECK(std::abs(mesh.VolumeOf() / truth - 1.0) < 0.08, mesh.VolumeOf(), truth);
 
     // The flat ends: boundary tetrahedra at the two times fill the ball.
     vtkUnstructuredGrid* boundary = filter->GetBoundary();
@@ -232,7 +232,7 @@ void TestFlatEnds()
           flat = flat && time->GetComponent(ids[i], 0) == end;
           boundary->GetPoint(ids[i], corners[i].data());
         }
-        volume += flat ? std::abs(Volume(corners[0], corners[1], corners[2], corners[3])) : 0.0;
+        volume += flat ? std::abs(Volume<3>({ corners[0], corners[1], corners[2], corners[3] })) : 0.0;
       }
       CHECK(std::abs(volume / area - 1.0) < 0.08, end, volume, area);
     }

@@ -61,8 +61,8 @@ void TestBall()
   const auto times = EqualTimes(Frames);
   const auto series = FromSeries(times, Depth, VTK_DOUBLE);
   series->Update();
-  CheckPentatopeMesh(series);
-  const double ratio = ReadPentatopes(series->GetOutput()).HypervolumeOf(1) / Hypervolume();
+  CheckMesh(series);
+  const double ratio = ReadPentatopes(series->GetOutput()).VolumeOf(1) / Hypervolume();
   CHECK(std::abs(ratio - 1.0) < 0.04, ratio);
   vtkMeshingStatistics* statistics = series->GetStatistics();
   CHECK(statistics->GetFigure("/isosurface/value") == 0.0);
@@ -70,11 +70,11 @@ void TestBall()
 
   const auto components = FromComponents(times, Depth, VTK_DOUBLE);
   components->Update();
-  CHECK(SamePentatopeMesh(series, components));
+  CHECK(SameMesh(series, components));
   const auto floats = FromSeries(times, Depth, VTK_FLOAT); // values are rounded
   floats->Update();
-  CheckPentatopeMesh(floats);
-  const double same = ReadPentatopes(floats->GetOutput()).HypervolumeOf(1) / Hypervolume();
+  CheckMesh(floats);
+  const double same = ReadPentatopes(floats->GetOutput()).VolumeOf(1) / Hypervolume();
   CHECK(std::abs(same - 1.0) < 0.04, same);
 }
 
@@ -87,14 +87,14 @@ void TestTypes()
   const auto reference = FromSeries(times, value, VTK_DOUBLE);
   reference->SetIsovalue(60.25);
   reference->Update();
-  CheckPentatopeMesh(reference);
+  CheckMesh(reference);
   for (const int type :
     { VTK_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT, VTK_LONG_LONG, VTK_FLOAT })
   {
     const auto filter = FromSeries(times, value, type);
     filter->SetIsovalue(60.25);
     filter->Update();
-    CHECK(SamePentatopeMesh(reference, filter), type);
+    CHECK(SameMesh(reference, filter), type);
   }
 }
 
@@ -112,8 +112,8 @@ void TestMixedTypes()
   const auto filter = AsIsosurface(MakePentatopeFilter(source));
   filter->SetIsovalue(16777217.0);
   filter->Update();
-  CheckPentatopeMesh(filter);
-  const double ratio = ReadPentatopes(filter->GetOutput()).HypervolumeOf(1) / Hypervolume();
+  CheckMesh(filter);
+  const double ratio = ReadPentatopes(filter->GetOutput()).VolumeOf(1) / Hypervolume();
   CHECK(std::abs(ratio - 1.0) < 0.05, ratio);
 }
 
@@ -123,12 +123,12 @@ void TestUnequalTimes()
   const MovingLabel linear = [](const Vector& x, double t) { return Depth(x, 0.0) + 0.25 * t; };
   const auto whole = FromSeries(EqualTimes(Frames), linear, VTK_DOUBLE);
   whole->Update();
-  CheckPentatopeMesh(whole);
+  CheckMesh(whole);
   const auto some = FromSeries({ 0, 1, 2, 4, 5 }, linear, VTK_DOUBLE);
   some->Update();
-  CheckPentatopeMesh(some);
-  const double ratio = ReadPentatopes(some->GetOutput()).HypervolumeOf() /
-    ReadPentatopes(whole->GetOutput()).HypervolumeOf();
+  CheckMesh(some);
+  const double ratio = ReadPentatopes(some->GetOutput()).VolumeOf() /
+    ReadPentatopes(whole->GetOutput()).VolumeOf();
   CHECK(std::abs(ratio - 1.0) < 1e-3, ratio);
 }
 
@@ -139,10 +139,10 @@ void TestSideAndLabel()
   filter->SetInsideToBelow();
   filter->SetInsideLabel(12);
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
   CHECK(std::all_of(mesh.Labels.begin(), mesh.Labels.end(), [](long long l) { return l == 12; }));
-  CHECK(std::abs(mesh.HypervolumeOf(12) / Hypervolume() - 1.0) < 0.04);
+  CHECK(std::abs(mesh.VolumeOf(12) / Hypervolume() - 1.0) < 0.04);
 }
 
 void TestErrors()
@@ -156,7 +156,7 @@ void TestErrors()
   filter->AddLabel(1);
   ExpectError("labels", filter, { "InputMode is isosurface", "remove the labels" },
     [&] { filter->RemoveAllLabels(); });
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
 }
 
 } // namespace

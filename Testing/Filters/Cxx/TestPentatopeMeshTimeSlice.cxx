@@ -497,7 +497,7 @@ void TestBoundary()
       }
       for (std::size_t i = 2; i < x.size(); ++i)
       {
-        const double volume = Volume({ 0, 0, 0 }, x[0], x[i - 1], x[i]);
+        const double volume = Volume<3>({ Vector{}, x[0], x[i - 1], x[i] });
         volumes[static_cast<int>(labels->GetComponent(c, 0))] += volume;
         volumes[static_cast<int>(labels->GetComponent(c, 1))] -= volume;
       }

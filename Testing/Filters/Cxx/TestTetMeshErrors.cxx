@@ -13,7 +13,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 using namespace testing;
@@ -129,45 +128,19 @@ void TestGeometry()
   ExpectImageError("NaN direction", flat, { "direction", "finite" });
 }
 
+/** Numbers out of range: Parameters.Filters. */
 void TestParameters()
 {
   const auto filter = MakeFilter(MakeTwoLabels(6.0));
-  for (const double bad : { -1.0, vtkMath::Nan(), vtkMath::Inf() })
+  for (const double bad : { 0.0, -1.0, vtkMath::Nan(), vtkMath::Inf() })
   {
-    filter->SetDelta(bad);
-    ExpectError("delta", filter, { "Delta" }, [&] { filter->SetDelta(2.0); });
-    filter->SetSmoothingSigma(bad);
-    ExpectError("sigma", filter, { "SmoothingSigma" }, [&] { filter->SetSmoothingSigma(1.0); });
-    filter->SetElementSize(bad);
-    ExpectError("size", filter, { "ElementSize" }, [&] { filter->SetElementSize(0.0); });
-    filter->SetRadiusEdgeRatio(bad);
-    ExpectError("ratio", filter, { "RadiusEdgeRatio" }, [&] { filter->SetRadiusEdgeRatio(2.0); });
-    filter->SetFeatureRatio(bad);
-    ExpectError("feature ratio", filter, { "FeatureRatio" }, [&] { filter->SetFeatureRatio(1.0); });
-    filter->SetLargestFeature(bad);
-    ExpectError(
-      "largest feature", filter, { "LargestFeature" }, [&] { filter->SetLargestFeature(12.0); });
-    filter->SetFacetAngle(bad);
-    ExpectError("angle", filter, { "FacetAngle" }, [&] { filter->SetFacetAngle(30.0); });
-    filter->SetLabelSize(1, bad);
-    ExpectError("label size", filter, { "label 1" }, [&] { filter->ClearLabelSizes(); });
+    filter->SetLabelSize(2, bad);
+    ExpectError("label size", filter, { "label 2" }, [&] { filter->ClearLabelSizes(); });
   }
-  filter->SetLabelSize(2, 0.0);
-  ExpectError("label size 0", filter, { "label 2" }, [&] { filter->RemoveLabelSize(2); });
-  filter->SetFacetAngle(31.0);
-  ExpectError(
-    "angle above 30", filter, { "FacetAngle", "30" }, [&] { filter->SetFacetAngle(20.0); });
-
   filter->SetRadiusEdgeRatio(1.8);
   ExpectError("unproved ratio", filter, { "1.93", "Force" }, [&] { filter->ForceOn(); });
-  filter->SetRadiusEdgeRatio(0.5);
-  ExpectError("impossible ratio", filter, { "RadiusEdgeRatio" },
-    [&]
-    {
-      filter->SetRadiusEdgeRatio(2.0);
-      filter->ForceOff();
-    });
-
+  filter->SetRadiusEdgeRatio(2.0);
+  filter->ForceOff();
   filter->SetLabelSize(9, 1.0);
   ExpectError("unknown label", filter, { "label 9", "1, 2" }, [&] { filter->ClearLabelSizes(); });
   filter->AddLabel(1);
@@ -193,8 +166,7 @@ void TestParameters()
 void TestInterfacesAndNumbers()
 {
   const auto filter = MakeFilter(MakeBall(8.0));
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const double wrong : { 0.0, -1.0, infinity, vtkMath::Nan() })
+  for (const double wrong : { 0.0, -1.0, vtkMath::Inf(), vtkMath::Nan() })
   {
     filter->SetInterfaceSize(1, 0, wrong);
     ExpectError("interface size", filter, { "labels 1 and 0", "positive and finite" },
@@ -211,11 +183,6 @@ void TestInterfacesAndNumbers()
     filter->SetInterfaceSize(1, label, 1.0);
     ExpectError("no interface", filter, { "two different labels", "1 and" },
       [&] { filter->ClearInterfaceSizes(); });
-  }
-  for (const double wrong : { -0.1, infinity, vtkMath::Nan() })
-  {
-    filter->SetGradation(wrong);
-    ExpectError("gradation", filter, { "Gradation" }, [&] { filter->SetGradation(0.3); });
   }
   filter->SetDelta(2.0);
   filter->SetNumberOfElements(5000);

@@ -40,50 +40,6 @@ vtkSmartPointer<Filter> MakeParallel(int threads, double delta = 0.8)
   return filter;
 }
 
-void TestProperties()
-{
-  vtkNew<Filter> filter;
-  CHECK(filter->GetNumberOfThreads() == 0);
-  CHECK(filter->GetContentionManager() == Filter::CONTENTION_LOCAL);
-  CHECK(filter->GetLoadBalancer() == Filter::HIERARCHICAL_WORK_STEALING);
-  CHECK(!filter->GetPinThreads());
-
-  const auto expectManager = [&filter](int value, const std::string& name)
-  {
-    CHECK(filter->GetContentionManager() == value, name, filter->GetContentionManager());
-    CHECK(filter->GetContentionManagerAsString() == name, filter->GetContentionManagerAsString());
-  };
-  filter->SetContentionManagerToAggressive();
-  expectManager(Filter::CONTENTION_AGGRESSIVE, "aggressive");
-  filter->SetContentionManagerToRandom();
-  expectManager(Filter::CONTENTION_RANDOM, "random");
-  filter->SetContentionManagerToGlobal();
-  expectManager(Filter::CONTENTION_GLOBAL, "global");
-  filter->SetContentionManagerToLocal();
-  expectManager(Filter::CONTENTION_LOCAL, "local");
-  filter->SetContentionManager(-1);
-  expectManager(Filter::CONTENTION_AGGRESSIVE, "aggressive");
-  filter->SetContentionManager(99);
-  expectManager(Filter::CONTENTION_LOCAL, "local");
-
-  const auto expectBalancer = [&filter](int value, const std::string& name)
-  {
-    CHECK(filter->GetLoadBalancer() == value, name, filter->GetLoadBalancer());
-    CHECK(filter->GetLoadBalancerAsString() == name, filter->GetLoadBalancerAsString());
-  };
-  filter->SetLoadBalancerToRandomWorkStealing();
-  expectBalancer(Filter::RANDOM_WORK_STEALING, "rws");
-  filter->SetLoadBalancerToHierarchicalWorkStealing();
-  expectBalancer(Filter::HIERARCHICAL_WORK_STEALING, "hws");
-  filter->SetLoadBalancer(-1);
-  expectBalancer(Filter::RANDOM_WORK_STEALING, "rws");
-  filter->SetLoadBalancer(2);
-  expectBalancer(Filter::HIERARCHICAL_WORK_STEALING, "hws");
-
-  filter->SetNumberOfThreads(-3);
-  CHECK(filter->GetNumberOfThreads() == 0);
-}
-
 /** The figures of threads agree with each other and with the rest. */
 void CheckThreads(vtkMeshingStatistics* statistics, int threads)
 {
@@ -396,7 +352,6 @@ void TestEvents(int threads)
 
 int TestTetMeshThreads(int, char*[])
 {
-  TestProperties();
   TestEveryPolicy();
   TestNumbers();
   TestPinning();

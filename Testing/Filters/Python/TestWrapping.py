@@ -235,6 +235,9 @@ class Names(unittest.TestCase):
                 getattr(mesher, "Set%sTo%s" % (prop, method))()
                 self.assertEqual(getattr(mesher, "Get" + prop)(), value)
                 self.assertEqual(getattr(mesher, "Get%sAsString" % prop)(), text)
+            for outside, nearest in ((-1, 0), (99, len(choices) - 1)):
+                getattr(mesher, "Set" + prop)(outside)
+                self.assertEqual(getattr(mesher, "Get" + prop)(), nearest)
 
     def test_mistakes(self):
         for kind in (voxplex.vtkImageToTetMeshFilter, voxplex.vtkImageToPentatopeMeshFilter):
