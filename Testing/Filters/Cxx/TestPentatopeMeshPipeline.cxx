@@ -20,6 +20,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 using namespace testing;
@@ -280,6 +281,19 @@ void TestThreads()
   }
 }
 
+void TestThrowingFunction()
+{
+  for (const int threads : { 1, 4 })
+  {
+    const auto filter = MakePentatopeFilter();
+    filter->SetNumberOfThreads(threads);
+    filter->SetSizeFunction([](const double*, vtkTypeInt64) -> double
+      { throw std::runtime_error("the user's own words"); });
+    ExpectError(
+      "exception", filter, { "the user's own words" }, [&] { filter->SetSizeFunction(nullptr); });
+  }
+}
+
 void TestStatistics()
 {
   const auto filter = MakePentatopeFilter();
@@ -409,6 +423,7 @@ int TestPentatopeMeshPipeline(int, char*[])
   TestAbort(true, 0.0, 0);
   TestAbort(true, 0.11, 0);
   TestThreads();
+  TestThrowingFunction();
   TestStatistics();
   TestFieldData();
   TestPrintSelf();

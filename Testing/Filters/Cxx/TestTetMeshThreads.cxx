@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -348,6 +349,21 @@ void TestEvents(int threads)
   CHECK(listener.FromOtherThreads == 0, threads, listener.FromOtherThreads);
 }
 
+void TestThrowingFunction()
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    const auto filter = MakeParallel(threads, 2.0);
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double
+      { throw std::runtime_error("the user's own words"); });
+    ExpectError(
+      "exception", filter, { "the user's own words" }, [&] { filter->SetSizeFunction(nullptr); });
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double { throw 42; });
+    ExpectError(
+      "odd exception", filter, { "size function" }, [&] { filter->SetSizeFunction(nullptr); });
+  }
+}
+
 } // namespace
 
 int TestTetMeshThreads(int, char*[])
@@ -356,6 +372,7 @@ int TestTetMeshThreads(int, char*[])
   TestNumbers();
   TestPinning();
   TestInstances();
+  TestThrowingFunction();
   TestEvents(1);
   TestEvents(8);
   return Result();

@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLY_VERTEX, VTK_
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 import voxplex
-from TestWrapping import errors_of
+from filter_testing import add_array as add, errors_of
 
 N = 3  # points along each axis
 LATTICE = numpy.array(list(itertools.product(range(N), repeat=4)), dtype=float)[:, ::-1]  # x, y, z, time
@@ -37,13 +37,6 @@ LABELS = numpy.where(LATTICE[CELLS, 0].max(axis=1) < 1.5, 1, 2).astype(numpy.int
 
 def linear(points, time):
     return 1 + points @ (1, -2, 3) + 5 * time
-
-
-def add(data, name, values):
-    array = numpy_to_vtk(values, deep=True)
-    array.SetName(name)
-    data.AddArray(array)
-    return array
 
 
 def grid_of(points, cells, kind):

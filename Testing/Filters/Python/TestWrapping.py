@@ -8,15 +8,13 @@ import unittest
 
 import numpy
 from vtkmodules.util.misc import calldata_type
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_STRING
+from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkCommonCore import vtkSMPTools
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkImplicitPolyDataDistance
 
 import voxplex
+from filter_testing import Series, errors_of
 
 N = 24
 K, J, I = numpy.mgrid[:N, :N, :N] - 0.5 * (N - 1)
@@ -32,45 +30,6 @@ def make_filter(array, **placement):
     mesher.SetInputData(voxplex.image_from_array(array, **placement))
     mesher.SetNumberOfThreads(1)
     return mesher
-
-
-def errors_of(algorithm):
-    """A list that the texts of the algorithm's error events go into."""
-    messages = []
-
-    @calldata_type(VTK_STRING)
-    def keep(_caller, _event, text):
-        messages.append(text)
-
-    algorithm.AddObserver("ErrorEvent", keep)
-    algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
-    return messages
-
-
-class Beating(VTKPythonAlgorithmBase):
-    """A temporal source in Python: a ball that grows."""
-    TIMES = (2.0, 2.5, 3.0, 3.5)
-
-    def __init__(self):
-        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
-        self.asked = []
-
-    def RequestInformation(self, _request, _inputs, outputs):
-        info = outputs.GetInformationObject(0)
-        info.Set(Pipeline.WHOLE_EXTENT(), (0, 11) * 3, 6)
-        info.Set(Pipeline.TIME_STEPS(), self.TIMES, len(self.TIMES))
-        info.Set(Pipeline.TIME_RANGE(), (self.TIMES[0], self.TIMES[-1]), 2)
-        return 1
-
-    def RequestData(self, _request, _inputs, outputs):
-        time = outputs.GetInformationObject(0).Get(Pipeline.UPDATE_TIME_STEP())
-        self.asked.append(time)
-        k, j, i = numpy.mgrid[:12, :12, :12] - 5.5
-        frame = voxplex.image_from_array((i * i + j * j + k * k < (1.5 + time) ** 2).astype(numpy.uint8))
-        output = vtkImageData.GetData(outputs)
-        output.ShallowCopy(frame)
-        output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
-        return 1
 
 
 class Tetrahedra(unittest.TestCase):
@@ -194,7 +153,10 @@ class Tetrahedra(unittest.TestCase):
 class SpaceTime(unittest.TestCase):
     def test_series_from_python(self):
         """The mesh is made once, however many of its slices are asked for."""
-        source = Beating()
+        k, j, i = numpy.mgrid[:12, :12, :12] - 5.5
+        times = [2.0, 2.5, 3.0, 3.5]
+        source = Series([voxplex.image_from_array((i * i + j * j + k * k < (1.5 + time) ** 2).astype(numpy.uint8))
+                         for time in times], times)
         mesher = voxplex.vtkImageToPentatopeMeshFilter()
         mesher.SetInputConnection(source.GetOutputPort())
         mesher.SetTimeScale(4.0)
@@ -207,9 +169,8 @@ class SpaceTime(unittest.TestCase):
             slicer.UpdateTimeStep(time)
             sizes.append(slicer.GetOutput().GetLength())
         self.assertEqual(sizes, sorted(set(sizes)))
-        self.assertEqual(source.asked, list(source.TIMES))
-        times = vtk_to_numpy(mesher.GetOutput().GetPointData().GetArray("Time"))
-        self.assertEqual((times.min(), times.max()), (2.0, 3.5))
+        self.assertEqual(source.asked, times)
+        self.assertEqual(mesher.GetOutput().GetPointData().GetArray("Time").GetRange(), (2.0, 3.5))
 
 
 class Names(unittest.TestCase):
