@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a space-time mesh lies: axes, origin, times; its hypervolume; its ends in time.
+// Where a space-time mesh lies: axes, origin, times; its hypervolume; its ends in time; where it asks for sizes.
 #include "PentatopeTesting.h"
 
 #include "vtkDataArray.h"
@@ -12,6 +12,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 using namespace testing;
@@ -239,6 +240,65 @@ void TestFlatEnds()
   }
 }
 
+/** The function gets physical coordinates, the time in the input's unit, and the label there. */
+void TestSizeFunctionArguments()
+{
+  Placement placement = SmallPlacement();
+  placement.Origin = { 100, 200, 300 };
+  placement.Direction = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  // Voxel (i, j, k) lies at (100 - j, 200 + i, 300 + k), frame l at 40 + 0.5 l.
+  const Event centre = { 94.5, 205.5, 305.5, 42.75 };
+  std::vector<double> times;
+  for (int k = 0; k < 12; ++k)
+  {
+    times.push_back(40.0 + 0.5 * k);
+  }
+  const auto label = [&](const Vector& x, double t)
+  {
+    const Vector scaled = { 5.5 + x[0] - centre[0], 5.5 + x[1] - centre[1],
+      5.5 + x[2] - centre[2] };
+    return TwoLabelBall(Centre, 4.2)(scaled, 5.5 + 2.0 * (t - centre[3]));
+  };
+  const auto filter = MakePentatopeFilter(MakeSeries(placement, times, label));
+  filter->SetTimeScale(2.0);
+  filter->SetDelta(1.5);
+  std::atomic<int> calls{ 0 };
+  std::atomic<int> wrong{ 0 };
+  filter->SetSizeFunction(
+    [&](const double* x, vtkTypeInt64 value)
+    {
+      ++calls;
+      const double space = std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
+      const double distance = std::hypot(space, 2.0 * (x[3] - centre[3]));
+      const bool nearMiddle = std::abs(x[0] - centre[0]) < 1.0;
+      const bool good = distance < 5.5 && (nearMiddle || value == (x[0] < centre[0] ? 3 : 7));
+      wrong += good ? 0 : 1;
+      return 2.0;
+    });
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(calls > 100, calls);
+  CHECK(wrong == 0, wrong, calls);
+}
+
+void TestConstantSizeFunction()
+{
+  const auto filter = MakePentatopeFilter();
+  filter->SetDelta(3.0);
+  filter->SetSizeFunction([](const double*, vtkTypeInt64) { return 1.8; });
+  const auto number = MakePentatopeFilter();
+  number->SetDelta(3.0);
+  number->SetElementSize(1.8);
+  filter->Update();
+  number->Update();
+  CHECK(SameMesh(filter, number));
+  filter->SetSizeFunction(nullptr);
+  number->SetElementSize(0.0);
+  filter->Update();
+  number->Update();
+  CHECK(SameMesh(filter, number));
+}
+
 } // namespace
 
 int TestPentatopeMeshGeometry(int, char*[])
@@ -248,5 +308,7 @@ int TestPentatopeMeshGeometry(int, char*[])
   TestSkewedAxes();
   TestBall();
   TestFlatEnds();
+  TestSizeFunctionArguments();
+  TestConstantSizeFunction();
   return Result();
 }

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 
 import voxplex
-from filter_testing import FilterTestCase, Series, add_array, components, errors_of
+from filter_testing import TIMES, FilterTestCase, add_array, components, errors_of, four_ball, pentatopes, series, tets
 
 N = 24
 K, J, I = numpy.mgrid[:N, :N, :N]
@@ -27,13 +27,6 @@ def ball(radius=6.0):
 
 def two_labels():
     return voxplex.image_from_array(numpy.where(RADII < 6, numpy.where(I < 12, 1, 2), 0).astype(numpy.uint8))
-
-
-def tets(image):
-    mesher = voxplex.vtkImageToTetMeshFilter()
-    mesher.SetInputData(image)
-    mesher.SetNumberOfThreads(1)
-    return mesher
 
 
 def choose(mesher, name):
@@ -199,36 +192,9 @@ class Parameters(FilterTestCase):
         self.expect_error(mesher, ("NaN",), lambda: mesher.SetInputData(image))
 
 
-FRAMES = 12
-TIMES = [float(time) for time in range(FRAMES)]
-
-
-def four_ball(radius=4.2):
-    """Label 3 on the left, 7 on the right; [time, k, j, i], 12 voxels along each."""
-    t, k, j, i = numpy.mgrid[:12, :12, :12, :12] - 5.5
-    inside = numpy.sqrt(t * t + k * k + j * j + i * i) < radius
-    return numpy.where(inside, numpy.where(i < 0, 3, 7), 0).astype(numpy.uint8)
-
-
-def series(array=None, times=TIMES):
-    array = four_ball() if array is None else array
-    return Series((voxplex.image_from_array(frame) for frame in array), times)
-
-
-def pentatopes(source):
-    mesher = voxplex.vtkImageToPentatopeMeshFilter()
-    if isinstance(source, vtkImageData):
-        mesher.SetInputData(source)
-    else:
-        mesher.SetInputConnection(source.GetOutputPort())
-    mesher.SetNumberOfThreads(1)
-    mesher.PickingRegionsOff()
-    return mesher
-
-
 class SpaceTime(FilterTestCase):
     def setUp(self):
-        self.good = series()
+        self.good = series(four_ball())
 
     def expect_series_error(self, words, source):
         mesher = pentatopes(source)
@@ -248,7 +214,7 @@ class SpaceTime(FilterTestCase):
                 ([0, 2, 1, 3], ("must increase", "frame 1 has time 2", "frame 2 has time 1")),
                 ([0, 1, 1.0001, 3], ("frames 1 and 2", "1 and 1.0001", "too near each other", "more than 1000")),
                 ([0, NAN, 2, 3], ("frame 1", "nan", "finite")), ([0, 1, 2, INFINITY], ("frame 3", "finite"))):
-            self.expect_series_error(words, series(times=times))
+            self.expect_series_error(words, series(four_ball(), times))
         # The rounding of a file's header is no gap.
         rounded = pentatopes(series(four_ball()[4:8], [0, 0.333333, 0.666667, 1]))
         rounded.SetTimeScale(3.0)
@@ -278,11 +244,11 @@ class SpaceTime(FilterTestCase):
                 (4, ("image of frame 4 (time 4)", "SetInputArrayToProcess"),
                  lambda image: image.GetPointData().Initialize()),
                 (6, ("image of frame 6 (time 6)", "2 components", "time steps"), set_components)):
-            source = series()
+            source = series(four_ball())
             change(source.frames[number])
             self.expect_series_error(words, source)
         # What is within rounding is the same.
-        source = series()
+        source = series(four_ball())
         source.frames[3].SetOrigin(1e-6, 0, 0)
         source.frames[3].SetSpacing(1, 1 + 1e-6, 1)
         self.cells(pentatopes(source))
@@ -364,7 +330,7 @@ class SpaceTime(FilterTestCase):
     def test_failing_input(self):
         """Nothing comes out, and the next execution starts afresh."""
         for failing in (1, 5, 11):
-            source = series()
+            source = series(four_ball())
             source.frames[failing] = None
             source.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
             mesher = pentatopes(source)

@@ -72,6 +72,39 @@ def components(frames):
     return image
 
 
+def tets(image):
+    mesher = voxplex.vtkImageToTetMeshFilter()
+    mesher.SetInputData(image)
+    mesher.SetNumberOfThreads(1)
+    return mesher
+
+
+TIMES = [float(time) for time in range(12)]
+
+
+def four_ball(radius=4.2):
+    """Label 3 on the left, 7 on the right; [time, k, j, i], 12 voxels along each."""
+    t, k, j, i = numpy.mgrid[:12, :12, :12, :12] - 5.5
+    inside = numpy.sqrt(t * t + k * k + j * j + i * i) < radius
+    return numpy.where(inside, numpy.where(i < 0, 3, 7), 0).astype(numpy.uint8)
+
+
+def series(array, times=TIMES, image_of=voxplex.image_from_array):
+    return Series(map(image_of, array), times)
+
+
+def pentatopes(source):
+    """Of components or of a series; without picking."""
+    mesher = voxplex.vtkImageToPentatopeMeshFilter()
+    if isinstance(source, vtkImageData):
+        mesher.SetInputData(source)
+    else:
+        mesher.SetInputConnection(source.GetOutputPort())
+    mesher.SetNumberOfThreads(1)
+    mesher.PickingRegionsOff()
+    return mesher
+
+
 class FilterTestCase(unittest.TestCase):
     def is_empty(self, mesher):
         outputs = [mesher.GetOutputDataObject(port) for port in range(mesher.GetNumberOfOutputPorts())]
