@@ -59,7 +59,7 @@ class Tetrahedra(IsosurfaceTestCase):
         self.assertEqual([figure("/isosurface/value"), figure("/isosurface/range/0"), figure("/isosurface/range/1")],
                          [0, values.min(), values.max()])
         self.assertIn('"isosurface":{"value":0.0,"inside":"above","range":[-', mesher.GetStatistics().ToJSON())
-        mesher.SetDelta(1.5)
+        mesher.SetDelta(1.2)
         smaller = self.volume(self.made(mesher, 2.0)) / (VOLUME * 6 ** 3)
         self.assertTrue(0.93 < smaller < 1.01, smaller)
         self.assertIn('"isosurface":null', voxplex.vtkImageToTetMeshFilter().GetStatistics().ToJSON())
