@@ -21,26 +21,18 @@ class Options(ProgramTestCase):
         self.input = images.write_nrrd(self.folder / "two.nrrd", self.array)
 
     def test_chosen_labels_count_first(self):
-        """Negative voxels and thousands of other labels are background then; rounding errors are none."""
-        n = self.array.size
-        others = np.arange(n, dtype=np.int32).reshape(self.array.shape) % 9000 + 100
-        for background in (-others, others, np.full(self.array.shape, -1024)):
-            values = np.where(self.array == 0, background, self.array)
-            for kind in (np.int32, np.float32):
-                images.write_nrrd(self.folder / "chosen.nrrd", (values.astype(kind) * kind(1 + 1e-7)).astype(kind))
-                report = self.statistics("--input", "chosen.nrrd", "--labels", "3,7", "--delta", 2)
-                self.assertEqual(set(report["labels"]), {"3", "7"})
+        """Negative voxels are background then."""
+        images.write_nrrd(self.folder / "chosen.nrrd", np.where(self.array == 0, -1024, self.array).astype(np.int32))
+        report = self.statistics("--input", "chosen.nrrd", "--labels", "3,7", "--delta", 2)
+        self.assertEqual(set(report["labels"]), {"3", "7"})
         self.assert_refused(1, "-1024.* is negative.*with --isovalue.*choose the labels to mesh with --labels",
                             "--input", "chosen.nrrd")
 
     def test_thousands_of_grains(self):
-        grains = np.arange(1, 14**3 + 1, dtype=np.uint16).reshape(14, 14, 14)
+        """That regions of voxels are no grey values: Python.Mesh."""
         coarse = ("--delta", 6, "--no-optimise", "--no-manifold", "--smallest-component", 0)
-        images.write_nrrd(self.input, grains.repeat(3, 0).repeat(3, 1).repeat(3, 2))
-        done = self.call("--input", self.input, "--output", "mesh.vtu", *coarse)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stderr, "not in the mesh")
-        images.write_nrrd(self.input, np.random.default_rng(1).permutation(grains.reshape(-1)).reshape(14, 14, 14))
+        grey = np.random.default_rng(1).permutation(np.arange(1, 14**3 + 1, dtype=np.uint16))
+        images.write_nrrd(self.input, grey.reshape(14, 14, 14))
         self.assert_refused(1, "2744 labels look like grey values.*with --labels.*or go on with --force",
                             "--input", self.input, *coarse)
         done = self.call("--input", self.input, "--output", "mesh.vtu", "--force", *coarse)

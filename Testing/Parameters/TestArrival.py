@@ -6,6 +6,7 @@ one than without."""
 import os
 import subprocess
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
@@ -29,16 +30,17 @@ TETRAHEDRA = (
     {"Grading": "lfs", "Delta": 1}, {"FeatureRatio": 0.4, "Grading": "lfs", "Delta": 1},
     {"LargestFeature": 1, "Grading": "lfs", "Delta": 1}, {"SampleJunctions": False}, {"InterfaceRounds": 0},
     {"SmallestComponent": 0, "InterfaceRounds": 0}, {"MinimumComponentVolume": 100}, {"ExactComponents": True})
+ISOSURFACES = tuple({**row, "Isovalue": 2} for row in (
+    {"InsideLabel": 4}, {"Inside": "below"}, {"IsosurfaceSmoothingSigma": 1.5}, {"ElementSize": 1.5}))
 NOISE = ({"Manifold": False, "Delta": 3, "SmoothingSigma": 0, "InterfaceRounds": 0},)
 PENTATOPES = (
     {"Delta": 1.8}, {"TimeScale": 3}, {"FrameSteps": 3}, {"FitInterfaces": False}, {"Periodic": True}, {"Label": (6,)},
     {"Grading": "lfs", "Delta": 1.5}, {"FeatureRatio": 0.2, "Grading": "lfs", "Delta": 1.5},
     {"PickingRegions": False, "Delta": 1.5}, {"RuleOrder": "surface", "Delta": 1.5}, {"SliverBound": 0.02, "Force": True},
     {"NumberOfPicks": 1, "SliverBound": 0.02, "Force": True}, {"RandomSeed": 5, "SliverBound": 0.02, "Force": True})
-# What changes no mesh of one thread, and what other tests give: of isosurfaces, images of sizes and times of frames.
+# What changes no mesh of one thread, and what other tests give: images of sizes and times of frames.
 ELSEWHERE = {"OptimisationTimeLimit", "NumberOfThreads", "Reproducible", "FineGrained", "ContentionManager",
-             "LoadBalancer", "PinThreads", "MemoryLimit", "Isovalue", "Inside", "InsideLabel", "IsosurfaceSmoothingSigma",
-             "ElementSizeData", "FrameTime"}
+             "LoadBalancer", "PinThreads", "MemoryLimit", "ElementSizeData", "FrameTime"}
 
 
 def text_of(values, between):
@@ -49,7 +51,7 @@ def text_of(values, between):
 
 def for_program(name, value):
     parameter = BY_PROPERTY[name]
-    option = "--" + parameter["option"]
+    option = "--" + (parameter["option"] or "smoothing")
     if parameter["kind"] == "flag":
         return [option] if value == (parameter["default"] == "off") else []
     if name == "Label":
@@ -69,6 +71,8 @@ def for_module(name, value):
         return [flag, "on" if value else "off"] if parameter["default"] == "on" else [flag] * value
     if name == "Label":
         return [flag, ", ".join(map(str, value))]
+    if name == "Isovalue":
+        return ["--isosurface", flag, str(value)]
     if name in ("LabelSize", "InterfaceSize"):
         return [flag, ", ".join(text_of(values, ":") for values in value)]
     return [flag, str(value)]
@@ -76,7 +80,7 @@ def for_module(name, value):
 
 def for_python(name, value):
     """None where mesh() has no such argument."""
-    key = BY_PROPERTY[name]["python"]
+    key = "smoothing" if name == "IsosurfaceSmoothingSigma" else BY_PROPERTY[name]["python"]
     if name in ("LabelSize", "InterfaceSize"):
         value = {values[0] if len(values) == 2 or values[1] == ANY else values[:2]: values[-1] for values in value}
     return {key: value} if key else None
@@ -99,6 +103,7 @@ class Arrival(unittest.TestCase):
             image.GetPointData().SetScalars(numpy_to_vtk(array.reshape(len(array), -1).T.copy(), deep=True))
         mesher.SetInputData(image)
         mesher.SetNumberOfThreads(1)
+        mesher.SetInputMode("Isovalue" in properties)
         for name, value in properties.items():
             words = BY_PROPERTY[name]["words"]
             for values in value if isinstance(value, tuple) else [words.index(value) if words else value]:
@@ -134,6 +139,19 @@ class Arrival(unittest.TestCase):
         array[12, 12, 12] = 9  # one voxel beside an interface
         self.check(array, 3, TETRAHEDRA, voxplex.tets, meshfiles.read_tetrahedra)
 
+    def test_isosurfaces(self):
+        distance = numpy.linalg.norm(numpy.mgrid[:20, :20, :20] - 9.5, axis=0)
+        array = (8 - distance + numpy.random.RandomState(1).uniform(-0.5, 0.5, distance.shape)).astype(numpy.float32)
+
+        def numbers(mesh):
+            return numpy.column_stack((voxplex.tets(mesh), voxplex.labels(mesh)))
+
+        def read(path):
+            mesh = meshfiles.read_tetrahedra(path)
+            return types.SimpleNamespace(cells=numpy.column_stack((mesh.cells, mesh.labels)))
+
+        self.check(array, 3, ISOSURFACES, numbers, read)
+
     def test_noise(self):
         array = numpy.random.RandomState(1).randint(0, 3, (24, 24, 24)).astype(numpy.uint8)
         self.check(array, 3, NOISE, voxplex.tets, meshfiles.read_tetrahedra)
@@ -144,7 +162,7 @@ class Arrival(unittest.TestCase):
         self.check(array, 4, PENTATOPES, voxplex.pentatopes, meshfiles.read_pentatopes)
 
     def test_all_are_there(self):
-        given = {name for row in TETRAHEDRA + NOISE + PENTATOPES for name in row}
+        given = {name for row in TETRAHEDRA + ISOSURFACES + NOISE + PENTATOPES for name in row}
         self.assertEqual(given | ELSEWHERE, set(BY_PROPERTY))
 
 

@@ -51,22 +51,6 @@ class Isosurfaces(unittest.TestCase):
         self.assertLess(abs(radii - 8.0).max(), 0.06)
         self.assertEqual(statistics["isosurface"]["inside"], "above")
 
-    def test_below_and_label(self):
-        above = voxplex.mesh(self.depth(), 1.5, isovalue=0.5, threads=1)
-        below = voxplex.mesh(-self.depth(), 1.5, isovalue=-0.5, inside="below", inside_label=9, threads=1)
-        self.assertTrue(numpy.array_equal(voxplex.points(above), voxplex.points(below)))
-        self.assertEqual(set(voxplex.labels(below)), {9})
-
-    def test_smoothing_is_of_grey_values(self):
-        noisy = self.depth() + numpy.random.default_rng(1).uniform(-0.5, 0.5, (24, 24, 24)).astype(numpy.float32)
-
-        def error(**arguments):
-            _, interfaces, _ = voxplex.mesh(noisy, 1.5, isovalue=0.0, threads=1, full_output=True, **arguments)
-            return abs(numpy.linalg.norm(voxplex.points(interfaces) - 11.5, axis=1) - 8.0).mean()
-
-        self.assertEqual(error(), error(smoothing=0.0))
-        self.assertLess(error(smoothing=1.5), 0.6 * error())
-
     def test_refused(self):
         with self.assertRaisesRegex(ValueError, "only with isovalue"):
             voxplex.mesh(ball(), inside="below")
