@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mesh lies where the image lies: formats of images, axes, spaces."""
+"""The mesh lies where the image lies: axes, spaces, what the user says of them."""
 import numpy as np
 
 import images
@@ -32,46 +32,10 @@ class BallTestCase(ProgramTestCase):
 
 
 class Geometry(BallTestCase):
-    def test_same_image_in_every_format(self):
-        """NRRD, MetaImage (both LPS), NIfTI (RAS) and DICOM give one mesh."""
-        array = images.ball(20, 6.5, center=(8, 9, 10), dtype=np.uint16)
-        geometry = images.Geometry((-30, 12.5, 4), (1.0, 1.25, 1.5), rotation(30))
-        (self.folder / "series").mkdir()
-        images.write_dicom_series(self.folder / "series", array, geometry)
-        paths = [
-            images.write_nrrd(self.folder / "ball.nrrd", array, geometry),
-            images.write_metaimage(self.folder / "ball.mha", array, geometry),
-            images.write_nifti(self.folder / "ball.nii", array, geometry),
-            images.write_nifti(self.folder / "ball.nii.gz", array, geometry),
-            self.folder / "series",
-        ]
-        meshes = [self.mesh_of(path) for path in paths]
-        self.check_ball(meshes[0], array, geometry)
-        for path, mesh in zip(paths[1:], meshes[1:]):
-            with self.subTest(path):
-                # Headers hold single precision or few digits, so meshes may differ in details.
-                self.check_ball(mesh, array, geometry)
-                self.assertAlmostEqual(mesh.volumes().sum() / meshes[0].volumes().sum(), 1.0, delta=0.01)
-        np.testing.assert_array_equal(meshes[2].points, meshes[3].points)
-
-    def test_scalar_types(self):
-        expected = None
-        for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
-            with self.subTest(code):
-                path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(16, 5.0, dtype=np.dtype(code)))
-                mesh = self.mesh_of(path)
-                expected = mesh if expected is None else expected
-                np.testing.assert_array_equal(mesh.points, expected.points)
-                np.testing.assert_array_equal(mesh.cells, expected.cells)
-
-    def test_left_handed_axes(self):
-        array = images.ball(18, 6.0, center=(7, 8, 9))
-        geometry = images.Geometry((100, 0, 0), (1.0, 1.0, 1.2), np.diag([-1.0, 1.0, 1.0]))
-        self.check_ball(self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array, geometry)), array, geometry)
-
     def test_skewed_axes(self):
+        """Left-handed ones, too."""
         array = images.ball(18, 6.0, center=(7, 8, 9))
-        skew = np.array([[1.0, 0.3, 0.0], [0.0, 1.0, 0.2], [0.0, 0.0, 1.0]])
+        skew = np.array([[-1.0, 0.3, 0.0], [0.0, 1.0, 0.2], [0.0, 0.0, 1.0]])
         skew /= np.linalg.norm(skew, axis=0)
         geometry = images.Geometry((1, 2, 3), (1.0, 1.1, 1.2), skew)
         self.check_ball(self.mesh_of(images.write_nrrd(self.folder / "i.nrrd", array, geometry)), array, geometry)
@@ -121,13 +85,6 @@ class GivenPlace(BallTestCase):
             self.assertEqual(mesh.space, space.upper())
             self.check_ball(mesh, self.array, self.PLACE)
 
-    def test_one(self):
-        for name, delta, place in (("--spacing", 1, images.Geometry((1, 2, 3), self.PLACE.spacing)),
-                                   ("--origin", 3, images.Geometry(self.PLACE.origin, (3.0, 3.0, 3.0))),
-                                   ("--direction", 3, images.Geometry((1, 2, 3), (3.0, 3.0, 3.0), self.PLACE.direction))):
-            with self.subTest(name):
-                self.check_ball(self.mesh_of(self.path, *self.given(name), delta=delta), self.array, place)
-
     def test_statistics(self):
         arguments = ("--input", self.path, "--delta", 2)
         given = self.statistics(*arguments, *self.given(*self.options), "--data-files-anywhere")["parameters"]
@@ -172,19 +129,6 @@ class Series(ProgramTestCase):
         self.assertFalse((self.folder / "mesh.vtu").exists())
         self.mesh("--input", "series", "--series", self.second, "--delta", 2, "--output", "mesh.vtu")
         self.assertEqual(set(meshfiles.read_tetrahedra(self.folder / "mesh.vtu").labels), {9})
-
-    def test_unknown_series(self):
-        done = self.call("--input", "series", "--series", "1.9")
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, "no DICOM series '1.9'")
-
-    def test_missing_slice(self):
-        sorted(self.series.iterdir())[6].unlink()
-        self.assert_refused(1, "slices are missing", "--input", "series", "--output", "mesh.vtu")
-
-    def test_folder_without_dicom(self):
-        (self.folder / "empty").mkdir()
-        self.assert_refused(1, "'empty'.*no DICOM", "--input", "empty", "--output", "mesh.vtu")
 
 
 if __name__ == "__main__":

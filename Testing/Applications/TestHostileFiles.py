@@ -39,12 +39,6 @@ class HostileTestCase(ProgramTestCase):
         self.assertLess(len(done.stderr), 500)
         self.assertNotIn("memory", done.stderr)
 
-    def accept(self, *arguments, warning=".*"):
-        """Small images lose volume, of which there is a warning, too."""
-        done = self.call(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stderr, warning)
-
     def refuse_one_slice(self, path):
         done = self.call("--input", path, "--output", "mesh.vtu")
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -68,11 +62,6 @@ class HostileTestCase(ProgramTestCase):
         path.write_bytes(path.read_bytes().split(b"\n\n")[0] + b"\n")
         return name
 
-    def metaimage_header(self, name, data_file):
-        path = Path(images.write_metaimage(self.folder / name, images.ball(4, 1.5), header_lines={"ElementDataFile": "@"}))
-        path.write_bytes(path.read_bytes().split(b"@")[0] + data_file.encode() + b"\n")
-        return name
-
     def nifti(self, name, **fields):
         """fields: offsets in the header, with formats and values."""
         data = bytearray(Path(images.write_nifti(self.folder / "plain.nii", images.ball(4, 1.5))).read_bytes())
@@ -85,99 +74,40 @@ class HostileTestCase(ProgramTestCase):
 class Sizes(HostileTestCase):
     """Headers that claim more than the file can hold."""
 
-    def test_nrrd(self):
-        for encoding in ("raw", "gzip", "ascii", "hex"):
-            with self.subTest(encoding):
-                images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5),
-                                  header_lines={"sizes": "3000 3000 3000", "encoding": encoding})
-                self.refuse(CLAIM % ("i.nrrd", "'i.nrrd'"), "i.nrrd")
-        images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5), header_lines={"encoding": "bzip2"})
-        self.refuse("in the encoding 'bzip2'; those that are read are raw, gzip, text and hex", "i.nrrd")
-        images.write_nrrd(self.folder / "i.nrrd", images.ball(4, 1.5), header_lines={"sizes": "4294967296 " * 3})
-        self.refuse("its header claims 4294967296 x 4294967296 x 4294967296 voxels", "i.nrrd")
-
-    def test_detached_nrrd(self):
-        self.write("i.raw", bytes(64))
-        self.refuse(CLAIM % ("i.nhdr", "'i.raw'"), self.nrrd_header("i.nhdr", sizes="3000 3000 3000", data_file="i.raw"))
-
-    def test_metaimage(self):
-        for header in ({}, {"CompressedData": "True"}, {"BinaryData": "False"}):
-            with self.subTest(header):
-                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5),
-                                       header_lines={"DimSize": "3000 3000 3000", **header})
-                self.refuse(CLAIM % ("i.mha", "'i.mha'"), "i.mha")
-
-    def test_frames(self):
-        images.write_metaimage(self.folder / "i.mha", images.moving_balls(2, 8, 2.5),
-                               header_lines={"DimSize": "8 8 8 100000000"})
-        self.refuse(CLAIM % ("i.mha", "'i.mha'"), "i.mha")
-        images.write_sequence(self.folder / "i.nrrd", images.moving_balls(2, 8, 2.5),
-                              header_lines={"sizes": "100000000 8 8 8"})
-        self.refuse(CLAIM % ("i.nrrd", "'i.nrrd'"), "i.nrrd")
-
-    def test_nifti(self):
+    def test_claims(self):
+        ball, moving = images.ball(4, 1.5), images.moving_balls(2, 8, 2.5)
+        for write, name, array, lines in (
+                *((images.write_nrrd, "i.nrrd", ball, {"sizes": "3000 3000 3000", "encoding": encoding})
+                  for encoding in ("raw", "gzip", "ascii", "hex")),
+                *((images.write_metaimage, "i.mha", ball, {"DimSize": "3000 3000 3000", **more})
+                  for more in ({}, {"CompressedData": "True"}, {"BinaryData": "False"})),
+                (images.write_metaimage, "i.mha", moving, {"DimSize": "8 8 8 100000000"}),
+                (images.write_sequence, "i.nrrd", moving, {"sizes": "100000000 8 8 8"})):
+            with self.subTest(name, lines=lines):
+                write(self.folder / name, array, header_lines=lines)
+                self.refuse(CLAIM % (name, "'%s'" % name), name)
         for name in ("i.nii", "i.nii.gz"):
             self.refuse(CLAIM % (name, "'%s'" % name), self.nifti(name, _42=("3h", 32767, 32767, 32767)))
-        self.refuse("it has 7 dimensions", self.nifti("i.nii", _40=("8h", 7, *[32767] * 7)))
-        for offset in (-1, 0, 348, float("nan"), 1e30):
-            self.refuse("its header says that voxels begin at byte", self.nifti("i.nii", _108=("f", offset)))
-        self.refuse("16 bits a voxel .bitpix., and its datatype 2 has 8", self.nifti("i.nii", _72=("h", 16)))
 
-    def test_placement_of_nifti(self):
-        nan = float("nan")
-        for fields in ({"_252": ("h", 1), "_254": ("h", 0), "_256": ("f", nan)}, {"_252": ("h", 1), "_254": ("h", 0), "_276": ("f", nan)},
-                       {"_254": ("h", 1), "_280": ("f", float("inf"))}, {"_254": ("h", 1), "_324": ("f", nan)},
-                       {"_254": ("h", 1), "_280": ("f", 1e30)}):
-            with self.subTest(fields):
-                self.refuse("its position or orientation in space is not finite, or far too large", self.nifti("i.nii", **fields))
-        self.nifti("i.nii", _252=("h", 0), _254=("h", 0), _256=("f", nan), _324=("f", nan))
-        self.accept("--input", "i.nii", "--delta", 1, "--output", "mesh.vtu", warning="does not say where the image lies")
-
-    def test_nifti_of_two_files(self):
+    def test_claims_of_two_files(self):
+        self.write("i.raw", bytes(64))
+        self.refuse(CLAIM % ("i.nhdr", "'i.raw'"), self.nrrd_header("i.nhdr", sizes="3000 3000 3000", data_file="i.raw"))
         self.nifti("i.hdr", _42=("3h", 3000, 3000, 3000), _344=("4s", b"ni1\0"))
         self.write("i.img", bytes(64))
-        self.refuse(CLAIM % ("i.hdr", "'i.img'"), "i.hdr")
-        self.refuse(CLAIM % ("i.img", "'i.img'"), "i.img")
-        self.nifti("i.hdr", _40=("h", 9), _344=("4s", b"ni1\0"))
-        self.refuse("9 dimensions", "i.img")
+        for name in ("i.hdr", "i.img"):
+            self.refuse(CLAIM % (name, "'i.img'"), name)
 
-    def test_vtk(self):
-        """Which readers may take for zeros where it ends too soon."""
+    def test_claims_of_other_formats(self):
         head = ("# vtk DataFile Version 3.0\nlabels\n%s\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3000 3000 3000\n"
                 "SPACING 1 1 1\nORIGIN 0 0 0\nPOINT_DATA 27000000000\nSCALARS labels %s 1\nLOOKUP_TABLE default\n")
         for encoding, scalars in (("BINARY", "unsigned_char"), ("ASCII", "short"), ("binary", "double")):
             with self.subTest(encoding):
                 self.refuse("truncated or damaged",
                             self.write("i.vtk", (head % (encoding, scalars)).encode() + b"1 " * 32))
-
-    def test_end_in_the_header(self):
-        self.refuse("cannot read 'i.vtk': ",
-                    self.write("i.vtk", b"# vtk DataFile Version 3.0\nlabels\nBINARY\nDATASET STRUCTURED_POINTS\nDIM"))
-        self.refuse("cannot read 'i.vtk': ", self.write("i.vtk", b"# vtk DataFile\nlabels"))
-
-    def test_gipl(self):
         head = bytearray(256)
         struct.pack_into(">5H4f", head, 0, 60000, 60000, 1000, 1, 8, 1, 1, 1, 1)
         struct.pack_into(">I", head, 252, 719555000)
         self.refuse(CLAIM % ("i.gipl", "'i.gipl'"), self.write("i.gipl", bytes(head) + bytes(64)))
-
-    def test_dicom(self):
-        """Claims of the header, and of elements."""
-        path = images.write_dicom_series(self.folder, images.ball(4, 1.5))[0]
-        plain = path.read_bytes()
-        rows = plain.index(struct.pack("<2H", 0x28, 0x10)) + 8
-        path.write_bytes(plain[:rows] + b"\xff\xff" + plain[rows + 2:rows + 10] + b"\xff\xff" + plain[rows + 12:])
-        self.refuse("truncated|damaged", path.name)
-        frames = images._element(0x28, 8, "IS", "1000000000")
-        path.write_bytes(plain[:rows - 8] + frames + plain[rows - 8:])
-        self.refuse("truncated|damaged|frames", path.name)
-        pixels = plain.rindex(struct.pack("<2H", 0x7FE0, 0x10))
-        for group, number, representation in ((0x7FE0, 0x10, b"OW"), (0x29, 0x1010, b"OB"), (0x40, 0xA730, b"SQ")):
-            with self.subTest(representation):
-                path.write_bytes(plain[:pixels] + struct.pack("<2H2sHI", group, number, representation, 0, 0xFFFFFFF0) + b"abc")
-                self.survive(path.name)
-        spacing = plain.index(struct.pack("<2H", 0x28, 0x30)) + 4
-        self.survive(self.write(path.name, plain[:spacing] + b"DW" + plain[spacing + 2:]))
 
     def test_dicom_grammar(self):
         """GDCM reads what breaks it by other rules, in which other bytes are lengths, or ends its process."""
@@ -288,38 +218,6 @@ class Sizes(HostileTestCase):
         path.write_bytes(header.ljust(128, b"\0") + path.read_bytes()[128:])
         self.refuse_one_slice(path.name)
 
-    def change_metaimage(self, old, new):
-        data = Path(images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5))).read_bytes()
-        self.assertIn(old, data)
-        return self.write("i.mha", data.replace(old, new))
-
-    def test_lines_of_metaimage(self):
-        for old, new, message in (
-                (b"NDims =", b"NDims", "not an image|the line 'NDims 3' of its header is no field"),
-                (b"DimSize = 4 4 4", b"DimSize = 4 4", "gives '4 4' for 'DimSize', where 3 numbers must be"),
-                (b"DimSize = 4 4 4", b"DimSize = 4 4 x", "gives '4 4 x' for 'DimSize'"),
-                (b"DimSize = 4 4 4", b"DimSize = 4 4 4 4", "gives '4 4 4 4' for 'DimSize'"),
-                (b"ElementType", b"= a\nElementType", "the line '= a' of its header is no field"),
-                (b"DimSize", b"Dims", "does not give DimSize")):
-            with self.subTest(new=new[:40]):
-                self.refuse(message, self.change_metaimage(old, new))
-        self.change_metaimage(
-            b"ElementType", b"Comment = " + b"a" * 5000 + b"\r\n \nMy Field: b = c\n" + b"a" * 5000 + b" = b\nColor = 1 1\nElementType")
-        self.accept("--input", "i.mha", "--delta", 1, "--output", "mesh.vtu")
-        # Names and order are not checked letter by letter.
-        self.change_metaimage(b"NDims = 3", b"elementspacing: 1 1 1\nNDims = 3\n")
-        self.refuse("gives 'ElementSpacing' more than once", "i.mha")
-
-    def test_repeated_fields_of_metaimage(self):
-        for key, value in (("NDims", "0"), ("DimSize", "4 4 400"), ("CompressedData", "False")):
-            with self.subTest(key):
-                lines = b"%s = 3 3 3\n%s = %s\n" % (key.encode(), key.encode(), value.encode())
-                self.refuse("gives '%s' more than once" % key, self.change_metaimage(b"ElementType", lines + b"ElementType"))
-
-    def test_no_voxels(self):
-        images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"DimSize": "0 4 4"})
-        self.refuse("its header claims 0 x 4 x 4 voxels", "i.mha")
-
     def test_large_and_sound(self):
         """What compresses best is no hostile size."""
         zeros = np.zeros((160, 160, 160), np.uint8)
@@ -329,22 +227,8 @@ class Sizes(HostileTestCase):
                 self.assertLess(path.stat().st_size * 200, zeros.size)
                 self.assert_refused(1, "no foreground", "--input", name, "--output", "mesh.vtu")
 
-    def test_text(self):
-        """Numbers in text hold at most half a voxel a byte."""
-        ball = images.ball(12, 4.0)
-        head = Path(images.write_nrrd(self.folder / "i.nrrd", ball, header_lines={"encoding": "ascii"})).read_bytes()
-        text = " ".join(map(str, ball.ravel())).encode()
-        self.write("i.nrrd", head.split(b"\n\n")[0] + b"\n\n" + text)
-        self.accept("--input", "i.nrrd", "--delta", 3, "--output", "mesh.vtu")
-
 
 class Headers(HostileTestCase):
-    def test_dimensions_of_metaimage(self):
-        for number in ("100000", "0", "-3", "many"):
-            with self.subTest(number):
-                images.write_metaimage(self.folder / "i.mha", images.ball(4, 1.5), header_lines={"NDims": number})
-                self.refuse("its header gives '?%s'? (dimensions|for 'NDims')" % number, "i.mha")
-
     def test_endless_headers(self):
         self.refuse("its header does not end within 1 MiB", self.write("i.nrrd", b"NRRD0004\n" + b"# comment\n" * (1 << 17)))
         self.refuse("its header does not end within 1 MiB",
@@ -372,87 +256,6 @@ class Headers(HostileTestCase):
             "space": None, "space directions": None, "space origin": None, "spacings": "0 1 1\x1b[2J"})
         self.refuse(r"its header gives '0 1 1\?\[2J' for 'spacings'", "i.nrrd")
 
-    def test_spacings_and_directions(self):
-        for name, fields, pattern in (
-                ("i.nrrd", {"space directions": "(0,0,0) (0,1,0) (0,0,1)"}, "spacing|singular|independent"),
-                ("i.nrrd", {"space origin": "(nan,0,0)"}, "position")):
-            with self.subTest(fields):
-                images.write_nrrd(self.folder / name, images.ball(8, 2.5), header_lines=fields)
-                self.refuse(pattern, name)
-        for fields, pattern in (({"TransformMatrix": "0 0 0 0 0 0 0 0 0"}, "spacing"), ({"Offset": "inf 0 0"}, "position"),
-                                ({"TransformMatrix": "nan 0 0 0 1 0 0 0 1"}, "position or orientation")):
-            with self.subTest(fields):
-                images.write_metaimage(self.folder / "i.mha", images.ball(8, 2.5), header_lines=fields)
-                self.refuse(pattern, "i.mha")
-
-
-class DataFiles(HostileTestCase):
-    """A header from a stranger may name any file of the user's."""
-
-    def refuse_data_file(self, pattern, data_file):
-        for name, write in (("i.nhdr", lambda name: self.nrrd_header(name, data_file=data_file)),
-                            ("i.mhd", lambda name: self.metaimage_header(name, data_file))):
-            with self.subTest(name=name, data_file=data_file):
-                self.refuse(pattern, write(name))
-
-    def test_missing(self):
-        self.refuse_data_file("its data file 'none.raw' does not exist", "none.raw")
-        self.refuse_data_file("its data file 'none.raw' does not exist", "LIST\nnone.raw")
-        self.refuse_data_file("its data file 'none_001.raw' does not exist", "none_%03d.raw 1 4 1")
-
-    def test_special_files(self):
-        os.mkfifo(self.folder / "fifo.raw")
-        (self.folder / "folder.raw").mkdir()
-        for data_file in ("fifo.raw", "folder.raw"):
-            self.refuse_data_file("is not a regular file", data_file)
-
-    def test_other_folders(self):
-        """Whatever the way there is."""
-        (self.folder / "below").mkdir()
-        self.write("below/own.raw", bytes(64))
-        (self.folder / "link.raw").symlink_to("/etc/passwd")
-        (self.folder / "up").symlink_to("..")
-        for data_file in ("/dev/zero", "/dev/stdin", "/etc/passwd", "../x.raw", "below/../../x.raw", "link.raw", "up/x.raw",
-                          "LIST\n/etc/passwd", "/var/a%d.raw 1 4 1"):
-            self.refuse_data_file("is not in the folder of the header or below.*--data-files-anywhere", data_file)
-        self.assert_refused(1, "no foreground", "--input", self.nrrd_header("i.nhdr", data_file="below/own.raw"),
-                            "--output", "mesh.vtu")
-
-    def test_patterns(self):
-        for pattern in ("%s%s%s%n%d.raw 1 4 1", "%0999999999d.raw 1 4 1", "a%d%n.raw 1 4 1",
-                        "a%d.raw 1 4 0", "a%d.raw 4 1 1", "a%d.raw"):
-            self.refuse_data_file("is no pattern of names such as", pattern)
-        self.refuse_data_file("names 1000000000 data files", "a%d.raw 1 1000000000 1")
-        self.refuse_data_file("its data file '%n.raw 1 4 1' does not exist", "%n.raw 1 4 1")
-        name = self.metaimage_header("i.mhd", "%S%s%d.raw")
-        path = self.folder / name
-        path.write_bytes(path.read_bytes().replace(b"ElementDataFile", b"\n \n  ElementDataFile"))
-        self.refuse("is no pattern of names such as", name)  # also after empty lines, which MetaImage skips
-
-    def test_lists_of_metaimage(self):
-        ball = images.ball(4, 1.5)
-        for k in range(4):
-            self.write("a%d.raw" % k, ball[k].tobytes())
-        names = "\n".join("a%d.raw" % k for k in range(4))
-        for data_file, message in (
-                ("LISTS\n" + names, "its data file 'LISTS' does not exist"),
-                ("LIST\na0.raw\na1.raw\na2.raw", "its header names 3 data files, which cannot hold 4 x 4 x 4 voxels"),
-                ("a%d.raw 0 2 1", "its header names 3 data files, which cannot hold 4 x 4 x 4 voxels"),
-                ("a%d.raw 3 0 1", "is no pattern of names")):
-            with self.subTest(data_file):
-                self.refuse(message, self.metaimage_header("i.mhd", data_file))
-        for data_file in ("LIST\n" + names, "LIST 2\n" + names + "\n\n", "a%d.raw 0 3 1", "a%d.raw 0 3"):
-            self.accept("--input", self.metaimage_header("i.mhd", data_file), "--delta", 0.5, "--output", "mesh.vtu")
-
-    def test_sound_ones(self):
-        ball = images.ball(8, 2.8)
-        for k in range(8):
-            self.write("slice_%03d.raw" % k, ball[k].tobytes())
-        for data_file in ("slice_%03d.raw 0 7 1", "LIST\n" + "\n".join("slice_%03d.raw" % k for k in range(8))):
-            fields = {"sizes": "8 8 8", "data_file": data_file}
-            with self.subTest(data_file):
-                self.accept("--input", self.nrrd_header("i.nhdr", **fields), "--delta", 1, "--output", "mesh.vtu")
-
 
 class Files(HostileTestCase):
     def test_special_files(self):
@@ -470,36 +273,6 @@ class Files(HostileTestCase):
         done = self.call("--input", "i.nrrd", **options)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, "^voxplex: cannot read 'i.nrrd': Permission denied\n$")
-
-    def test_label_tables(self):
-        images.write_nrrd(self.folder / "i.nrrd", images.ball(12, 4.0))
-        os.mkfifo(self.folder / "fifo.txt")
-        (self.folder / "folder.txt").mkdir()
-        with open(self.folder / "large.txt", "wb") as file:
-            file.truncate((16 << 20) + 1)
-        for name, text, pattern in (
-                ("a.txt", b"", "it lists no labels"),
-                ("a.txt", b"\0" * 100, "it is no text file"),
-                ("a.txt", b"x" * 1000000, "line 1: 'x+...' is not a label"),
-                ("a.txt", b"1 " + b"\xff" * 1000, "line 1: the name is not in UTF-8"),
-                ("a.txt", b"\x1b[2J a\n", r"line 1: '\?\[2J' is not a label"),
-                ("a.txt", b"9223372036854775808 a\n", "line 1: '9223372036854775808' is not a label"),
-                ("a.txt", b"1" * 100000 + b" a\n", "line 1: '1+...' is not a label"),
-                ("a.txt", b'1,"a', "line 1: a quotation mark is not closed"),
-                ("a.txt", b"1," + b'"' * 100001, "line 1: a quotation mark is not closed"),
-                ("a.txt", b"1,a" + b"," * 1000000, "line 1: it has 1000002 fields"),
-                ("a.txt", b"1,a,2,3,1e999\n", "line 1: '1e999' is not a part of a colour"),
-                ("fifo.txt", None, "it is not a regular file"),
-                ("folder.txt", None, "it is not a regular file"),
-                ("large.txt", None, "it is larger than 16 MiB"),
-                ("none.txt", None, "there is no such file")):
-            with self.subTest(name=name, text=text and text[:20]):
-                if text is not None:
-                    self.write(name, text)
-                done = self.assert_refused(1, "cannot read the label table '%s': %s" % (name, pattern), "--input",
-                                           "i.nrrd", "--label-table", name, "--output", "m.vtu",
-                                           preexec_fn=limit_memory, timeout=60)
-                self.assertLess(len(done.stderr), 500)
 
 
 if __name__ == "__main__":

@@ -20,54 +20,24 @@ class Options(ProgramTestCase):
         self.array = images.two_labels()
         self.input = images.write_nrrd(self.folder / "two.nrrd", self.array)
 
-    def elements_of_labels(self, *arguments):
-        report = self.statistics("--input", self.input, "--threads", 1, *arguments)
-        return {int(label): figures["elements"] for label, figures in report["labels"].items()}
-
-    def test_subset_of_labels(self):
-        self.mesh("--input", self.input, "--labels", "7", "--smoothing", 0, "--delta", 1, "--output", "mesh.vtu", "--plc", "i.vtp")
-        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
-        self.assertEqual(set(mesh.labels), {7})
-        self.assertAlmostEqual(mesh.volumes().sum() / (self.array == 7).sum(), 1.0, delta=0.05)
-        surface = meshfiles.read_triangles(self.folder / "i.vtp")
-        self.assertEqual({tuple(pair) for pair in surface.labels}, {(7, 0)})
-
     def test_chosen_labels_count_first(self):
-        """Negative voxels and thousands of other labels are background then; rounding errors are none."""
-        n = self.array.size
-        others = np.arange(n, dtype=np.int32).reshape(self.array.shape) % 9000 + 100
-        for background in (-others, others, np.full(self.array.shape, -1024)):
-            values = np.where(self.array == 0, background, self.array)
-            for kind in (np.int32, np.float32):
-                images.write_nrrd(self.folder / "chosen.nrrd", (values.astype(kind) * kind(1 + 1e-7)).astype(kind))
-                report = self.statistics("--input", "chosen.nrrd", "--labels", "3,7", "--delta", 2)
-                self.assertEqual(set(report["labels"]), {"3", "7"})
+        """Negative voxels are background then."""
+        images.write_nrrd(self.folder / "chosen.nrrd", np.where(self.array == 0, -1024, self.array).astype(np.int32))
+        report = self.statistics("--input", "chosen.nrrd", "--labels", "3,7", "--delta", 2)
+        self.assertEqual(set(report["labels"]), {"3", "7"})
         self.assert_refused(1, "-1024.* is negative.*with --isovalue.*choose the labels to mesh with --labels",
                             "--input", "chosen.nrrd")
 
     def test_thousands_of_grains(self):
-        grains = np.arange(1, 14**3 + 1, dtype=np.uint16).reshape(14, 14, 14)
+        """That regions of voxels are no grey values: Python.Mesh."""
         coarse = ("--delta", 6, "--no-optimise", "--no-manifold", "--smallest-component", 0)
-        images.write_nrrd(self.input, grains.repeat(3, 0).repeat(3, 1).repeat(3, 2))
-        done = self.call("--input", self.input, "--output", "mesh.vtu", *coarse)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stderr, "not in the mesh")
-        images.write_nrrd(self.input, np.random.default_rng(1).permutation(grains.reshape(-1)).reshape(14, 14, 14))
+        grey = np.random.default_rng(1).permutation(np.arange(1, 14**3 + 1, dtype=np.uint16))
+        images.write_nrrd(self.input, grey.reshape(14, 14, 14))
         self.assert_refused(1, "2744 labels look like grey values.*with --labels.*or go on with --force",
                             "--input", self.input, *coarse)
         done = self.call("--input", self.input, "--output", "mesh.vtu", "--force", *coarse)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stderr, "not in the mesh")
-
-    def test_delta_controls_density(self):
-        coarse = sum(self.elements_of_labels("--delta", 4).values())
-        fine = sum(self.elements_of_labels("--delta", 2).values())
-        self.assertGreater(fine, 2 * coarse)
-
-    def test_size(self):
-        free = sum(self.elements_of_labels("--delta", 4).values())
-        bound = sum(self.elements_of_labels("--delta", 4, "--size", 1.5).values())
-        self.assertGreater(bound, 2 * free)
 
     def test_sizes_below_the_floor_are_announced(self):
         done = self.call("--input", self.input, "--delta", 8, "--size", 0.01, "--stats", "s.json")
@@ -106,26 +76,6 @@ class Options(ProgramTestCase):
         self.assertEqual(json.loads((self.folder / "s.json").read_text())["lost_labels"], [5])
         self.assertEqual(self.statistics("--input", self.input, "--delta", 4)["lost_labels"], [])
 
-    def facets(self, *arguments):
-        # Points along a fine rim would make the facets beside it smaller.
-        self.mesh("--input", self.input, "--threads", 1, "--no-junctions", *arguments, "--plc", "i.vtp")
-        labels = [tuple(pair) for pair in meshfiles.read_triangles(self.folder / "i.vtp").labels]
-        return {pair: labels.count(pair) for pair in set(labels)}
-
-    def test_sizes_of_interfaces(self):
-        plain = self.facets("--delta", 2)
-        pair = self.facets("--delta", 2, "--interface-size", "3,7=1", "--gradation", 0)
-        self.assertGreater(pair[7, 3], 3 * plain[7, 3])
-        self.assertLess(pair[7, 0], 2 * plain[7, 0])
-        self.assertEqual(pair, self.facets("--delta", 2, "--interface-size", "7,3=1", "--gradation", 0))
-        background = self.facets("--delta", 2, "--interface-size", "0=4")
-        self.assertLess(background[7, 0], 0.7 * plain[7, 0])
-        self.assertLess(background[3, 0], 0.7 * plain[3, 0])
-        pair_first = self.facets("--delta", 2, "--interface-size", "0=4", "--interface-size", "3,0=1")
-        self.assertGreater(pair_first[3, 0], 3 * plain[3, 0])
-        graded = self.facets("--delta", 2, "--interface-size", "3,7=1", "--gradation", 0.1)
-        self.assertGreater(graded[7, 0], 1.2 * pair[7, 0])
-
     def test_number_of_elements(self):
         for threads in 1, 4:
             report = self.statistics("--input", self.input, "--elements", 30000, "--threads", threads)
@@ -143,24 +93,6 @@ class Options(ProgramTestCase):
                             "--input", self.input, "--size", 0.8, "--elements", 3000, "--output", "m.vtu")
         self.assertFalse((self.folder / "m.vtu").exists())
 
-    def test_size_of_a_label(self):
-        free = self.elements_of_labels("--delta", 4)
-        bound = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2")
-        self.assertGreater(bound[3], 2 * free[3])
-        # Label 7 only grows towards the common interface.
-        self.assertGreater(bound[3], 2 * bound[7])
-        both = self.elements_of_labels("--delta", 4, "--label-size", "3=1.2", "--label-size", "7=1.2")
-        self.assertGreater(both[7], 1.5 * bound[7])
-
-    def test_size_image(self):
-        sizes = np.zeros(self.array.shape, dtype=np.float32)
-        sizes[:, :, 12:] = 1.2
-        images.write_nrrd(self.folder / "sizes.nrrd", sizes)
-        self.mesh("--input", self.input, "--delta", 4, "--size-image", "sizes.nrrd", "--output", "mesh.vtu")
-        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
-        right = (mesh.points[mesh.cells].mean(axis=1)[:, 0] > 12).sum()
-        self.assertGreater(right, 2 * (len(mesh.cells) - right))
-
     def test_size_image_in_ras(self):
         """The image of sizes turns with the labels."""
         sizes = np.zeros(self.array.shape, dtype=np.float32)
@@ -171,14 +103,6 @@ class Options(ProgramTestCase):
         mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
         right = (mesh.points[mesh.cells].mean(axis=1)[:, 0] < -12).sum()
         self.assertGreater(right, 2 * (len(mesh.cells) - right))
-
-    def test_smoothing(self):
-        areas = []
-        for sigma in (0, 1):
-            self.mesh("--input", self.input, "--delta", 1.5, "--smoothing", sigma, "--plc", "i.vtp")
-            areas.append(meshfiles.read_triangles(self.folder / "i.vtp").areas().sum())
-        # Stairs have more area than what they stand for.
-        self.assertGreater(areas[0], areas[1])
 
     def test_one_thread_is_reproducible(self):
         for name in ("a.mesh", "b.mesh"):
@@ -220,21 +144,6 @@ class Options(ProgramTestCase):
         self.assertGreater(figures[0]["nonmanifold_edges_opened"], 0)
         self.assertGreater(figures[0]["nonmanifold_edges_repaired"], figures[0]["nonmanifold_edges_opened"])
         self.assertGreater(edges[1], 0)
-        self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
-
-    def test_manifold_in_space_time(self):
-        frames = np.random.RandomState(2).randint(0, 3, (5, 5, 5, 7)).astype(np.uint8)
-        images.write_space_time_nrrd(self.input, frames, images.Geometry())
-        figures = []
-        for arguments in ((), ("--no-manifold",)):
-            done = self.call("--input", self.input, "--threads", 1, "--delta", 1.6, "--smoothing", 0,
-                             "--stats", "statistics.json", *arguments)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            report = json.loads((self.folder / "statistics.json").read_text())
-            self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
-            figures.append(report["interfaces"])
-        self.assertEqual(figures[0]["nonmanifold_edges_left"], 0)
-        self.assertGreater(figures[0]["nonmanifold_edges_repaired"], 0)
         self.assertEqual(figures[1]["nonmanifold_edges_repaired"], 0)
 
     def test_relative_and_absolute_names(self):
@@ -343,21 +252,15 @@ class Quality(ProgramTestCase):
 
 
 class Grading(ProgramTestCase):
-    def test_options_reach_the_mesher(self):
+    def test_figures(self):
         path = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
-        reports = [self.statistics("--input", path, "--delta", 1, "--threads", 1, *arguments) for arguments in (
-            (), ("--grading", "uniform"), ("--grading", "lfs"), ("--grading", "lfs", "--feature-ratio", 0.4),
-            ("--grading", "lfs", "--largest-feature", 1))]
-        counts = [report["elements"] for report in reports]
-        self.assertEqual(counts[0], counts[1])
-        self.assertEqual([report["grading"]["samples"] > 0 for report in reports], [False, False, True, True, True])
-        self.assertLess(counts[2], 0.8 * counts[0])
-        self.assertGreater(counts[3], 1.1 * counts[2])
-        self.assertGreater(counts[4], 1.1 * counts[2])
-        self.assertEqual([reports[k]["parameters"]["grading"] for k in (0, 1, 2)], [None, "uniform", "lfs"])
-        self.assertEqual(reports[3]["parameters"]["feature_ratio"], 0.4)
-        self.assertEqual(reports[4]["parameters"]["largest_feature"], 1)
-        self.assertGreater(reports[2]["time"]["grading"], 0.0)
+        plain, graded = (self.statistics("--input", path, "--delta", 1, *arguments) for arguments in (
+            (), ("--grading", "lfs", "--feature-ratio", 0.4, "--largest-feature", 9)))
+        self.assertEqual((plain["grading"]["samples"], plain["parameters"]["grading"]), (0, None))
+        self.assertGreater(graded["grading"]["samples"], 0)
+        self.assertGreater(graded["time"]["grading"], 0.0)
+        parameters = graded["parameters"]
+        self.assertEqual([parameters[key] for key in ("grading", "feature_ratio", "largest_feature")], ["lfs", 0.4, 9])
 
 
 class Statistics(ProgramTestCase):
@@ -435,18 +338,17 @@ class Statistics(ProgramTestCase):
 
 
 class Threads(ProgramTestCase):
-    MANAGERS = ("aggressive", "random", "global", "local")
-    BALANCERS = ("rws", "hws")
+    """That meshes are as good as those of one thread is tested with the filter."""
 
     def setUp(self):
         super().setUp()
-        self.array = images.two_labels()
-        self.input = images.write_nrrd(self.folder / "two.nrrd", self.array)
+        self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
 
     def report(self, *arguments):
         """Aggressive and random managers may livelock; a warning then tells that local took over."""
-        done = self.call("--input", self.input, "--delta", 0.6, "--output", "mesh.vtu", "--stats", "s.json", *arguments)
+        done = self.call("--input", self.input, "--delta", 0.6, "--stats", "s.json", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotRegex(done.stdout, "rollback")  # they are the business of --stats
         report = json.loads((self.folder / "s.json").read_text())
         if report["switched_to_local"] and report["contention"] in ("aggressive", "random"):
             self.assertRegex(done.stderr, r"^voxplex: warning: .* --contention %s \([\d,]+ rollbacks\), and local "
@@ -456,103 +358,32 @@ class Threads(ProgramTestCase):
             self.assertIs(report["switched_to_local"], False)
         return report
 
-    def check_threads(self, report, threads):
-        """The figures of threads agree with each other and with the rest of the report."""
-        self.assertEqual(report["threads"], threads)
-        refinement = report["time"]["refinement"]
-        self.assertGreaterEqual(report["seeding_seconds"], 0.0)
-        self.assertLessEqual(report["seeding_seconds"], refinement)
-        entries = report["thread_statistics"]
-        self.assertEqual(len(entries), threads)
-        for entry in entries:
+    def test_policies(self):
+        for manager, balancer, pin in (("aggressive", "rws", True), ("random", "hws", False), ("Global", "RWS", False),
+                                       ("local", "hws", True)):
+            with self.subTest(manager=manager):
+                report = self.report("--threads", 4, "--contention", manager, "--balance", balancer, *["--pin"] * pin)
+                self.assertEqual((report["contention"], report["balance"]), (manager.lower(), balancer.lower()))
+                parameters = report["parameters"]
+                self.assertEqual((parameters["contention"], parameters["balance"], parameters["pin"]),
+                                 (manager.lower(), balancer.lower(), pin))
+
+    def test_figures(self):
+        report = self.report("--threads", 3)
+        self.assertEqual((report["contention"], report["balance"], report["threads"]), ("local", "hws", 3))
+        parameters = report["parameters"]
+        self.assertEqual((parameters["contention"], parameters["balance"], parameters["pin"]), (None, None, False))
+        self.assertLessEqual(report["seeding_seconds"], report["time"]["refinement"])
+        self.assertEqual(len(report["thread_statistics"]), 3)
+        for entry in report["thread_statistics"]:
             self.assertEqual(set(entry), {
                 "insertions", "removals", "rollbacks", "waits", "contention_seconds", "load_balance_seconds",
                 "rollback_seconds", "received", "received_elements", "helped_loops", "helped_iterations",
                 "helping_seconds"})
             self.assertEqual(len(entry["received"]), 3)
-            for count in [*entry["received"], *(entry[name] for name in (
-                    "insertions", "removals", "rollbacks", "waits", "received_elements"))]:
-                self.assertIsInstance(count, int)
-                self.assertGreaterEqual(count, 0)
-            self.assertLessEqual(entry["waits"], entry["rollbacks"])
-            self.assertGreaterEqual(entry["received_elements"], sum(entry["received"]))
-            lost = [entry[name] for name in ("contention_seconds", "load_balance_seconds", "rollback_seconds")]
-            self.assertGreaterEqual(min(lost), 0.0)
-            self.assertLessEqual(sum(lost), 1.05 * refinement + 0.01)  # another clock
-        rules = report["rules"]
-        self.assertEqual(sum(entry["insertions"] for entry in entries),
-                         sum(rules[rule] for rule in ("R1", "R2", "R3", "R4", "R5", "R7_split", "R7_sampled")))
-        self.assertEqual(sum(entry["removals"] for entry in entries), rules["R6"])
-
-    def check_mesh(self, report, like):
-        """The bounds that hold for one thread, and hardly another mesh."""
-        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
-        self.assertEqual(set(mesh.labels), {3, 7})
-        self.assertGreater(mesh.volumes().min(), 0.0)
-        self.assertEqual(report["elements"], len(mesh.cells))
-        quality = report["quality"]
-        self.assertLessEqual(quality["max_radius_edge"], 2.5)
-        self.assertEqual(quality["radius_edge_violations"], 0)
-        self.assertEqual(quality["inverted_elements"], 0)
-        self.assertEqual(report["lost_labels"], [])
-        self.assertAlmostEqual(report["elements"] / like["elements"], 1.0, delta=0.15)
-        for label, figures in report["labels"].items():
-            self.assertAlmostEqual(figures["volume"] / like["labels"][label]["volume"], 1.0, delta=0.03)
-
-    def test_numbers(self):
-        one = self.report("--threads", 1)
-        self.check_threads(one, 1)
-        self.check_mesh(one, one)
-        entry = one["thread_statistics"][0]
-        self.assertEqual((entry["rollbacks"], entry["waits"], entry["received_elements"]), (0, 0, 0))
-        self.assertEqual((entry["helped_loops"], entry["helped_iterations"]), (0, 0))
-        for threads in (2, 4, 16):
-            with self.subTest(threads):
-                report = self.report("--threads", threads)
-                self.check_threads(report, threads)
-                self.check_mesh(report, one)
-
-    def test_every_manager_and_balancer(self):
-        one = self.report("--threads", 1)
-        for manager in self.MANAGERS:
-            for balancer in self.BALANCERS:
-                with self.subTest(manager=manager, balancer=balancer):
-                    report = self.report("--threads", 4, "--contention", manager, "--balance", balancer)
-                    self.assertEqual((report["contention"], report["balance"]), (manager, balancer))
-                    self.assertEqual(report["parameters"]["contention"], manager)
-                    self.assertEqual(report["parameters"]["balance"], balancer)
-                    self.check_threads(report, 4)
-                    self.check_mesh(report, one)
-
-    def test_defaults(self):
-        report = self.report("--threads", 4)
-        self.assertEqual((report["contention"], report["balance"]), ("local", "hws"))
-        self.assertIsNone(report["parameters"]["contention"])
-        self.assertIsNone(report["parameters"]["balance"])
-        self.assertIs(report["parameters"]["pin"], False)
 
     def test_all_cores(self):
-        report = self.report("--threads", 0)
-        self.assertGreaterEqual(report["threads"], 1)
-        self.check_threads(report, report["threads"])
-
-    def test_pin(self):
-        one = self.report("--threads", 1)
-        report = self.report("--threads", 4, "--pin")
-        self.assertIs(report["parameters"]["pin"], True)
-        self.check_threads(report, 4)
-        self.check_mesh(report, one)
-
-    def test_any_case(self):
-        report = self.report("--contention", "Global", "--balance", "RWS")
-        self.assertEqual((report["contention"], report["balance"]), ("global", "rws"))
-
-    def test_one_thread_has_nobody_to_contend_with(self):
-        meshes = set()
-        for arguments in ([], ["--contention", "aggressive", "--balance", "rws", "--pin"]):
-            self.mesh("--input", self.input, "--delta", 0.8, "--threads", 1, "--output", "m.mesh", *arguments)
-            meshes.add((self.folder / "m.mesh").read_bytes())
-        self.assertEqual(len(meshes), 1)
+        self.assertGreaterEqual(self.report("--threads", 0)["threads"], 1)
 
     def test_reproducible(self):
         meshes = set()
@@ -560,11 +391,6 @@ class Threads(ProgramTestCase):
             self.mesh("--input", self.input, "--delta", 0.6, "--threads", threads, "--reproducible", "--output", "m.mesh")
             meshes.add((self.folder / "m.mesh").read_bytes())
         self.assertEqual(len(meshes), 1)
-
-    def test_quiet_about_rollbacks(self):
-        """They are the business of --stats, unless something is wrong."""
-        done = self.mesh("--input", self.input, "--delta", 0.6, "--threads", 8)
-        self.assertNotRegex(done.stdout, "rollback")
 
 
 class Talk(ProgramTestCase):

@@ -91,6 +91,7 @@ class ReadByMeshio(LabelledMeshTestCase):
 
     def test_gmsh(self):
         mesh = meshio.read(self.write("mesh.msh"))
+        self.assertIn(b"SPACE=LPS\n", (self.folder / "mesh.msh").read_bytes())
         # The reader numbers points by blocks of nodes.
         order = np.lexsort(mesh.points.T)
         np.testing.assert_array_equal(mesh.points[order], self.points[np.lexsort(self.points.T)])

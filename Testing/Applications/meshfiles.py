@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads every format that the program writes. VTK's by VTK's readers, the others by hand."""
+"""Reads the formats that the program writes: VTK's by VTK's readers, others by hand. Those that other programs read in
+tests of their own are not among them."""
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,8 +15,16 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 
+class Labelled:
+    """What has labels, and volumes()."""
+
+    def volume_of_label(self):
+        volumes = self.volumes()
+        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
+
+
 @dataclass
-class Tetrahedra:
+class Tetrahedra(Labelled):
     points: np.ndarray
     cells: np.ndarray
     labels: np.ndarray
@@ -31,10 +40,6 @@ class Tetrahedra:
     def volumes(self):
         a, b, c, d = (self.points[self.cells[:, i]] for i in range(4))
         return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
-
-    def volume_of_label(self):
-        volumes = self.volumes()
-        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
 
 
 @dataclass
@@ -55,7 +60,7 @@ class Triangles:
 
 
 @dataclass
-class Pentatopes:
+class Pentatopes(Labelled):
     points: np.ndarray  # x, y, z, t
     cells: np.ndarray
     labels: np.ndarray
@@ -65,6 +70,7 @@ class Pentatopes:
     names: dict = field(default_factory=dict)
     sides: dict = field(default_factory=dict)  # of references: "", "initial", "final", "plane 1" ...
     planes: list = field(default_factory=list)  # their times
+    times: list = field(default_factory=list)  # of a slab's ends
     slabs: np.ndarray = None  # of the pentatopes
     pairs: np.ndarray = None  # of points
     numbers: np.ndarray = None  # of a slab's points in the whole mesh
@@ -72,10 +78,6 @@ class Pentatopes:
     def volumes(self):
         corners = self.points[self.cells]
         return np.linalg.det(corners[:, 1:] - corners[:, :1]) / 24.0
-
-    def volume_of_label(self):
-        volumes = self.volumes()
-        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
 
 
 @dataclass
@@ -93,7 +95,7 @@ class Boundary:
 
 
 @dataclass
-class Slice:
+class Slice(Labelled):
     """Tetrahedra, wedges and pyramids, as a list of the ids of each cell."""
     points: np.ndarray
     cells: list
@@ -111,10 +113,6 @@ class Slice:
             volumes.append(sum(abs(np.linalg.det(corners[list(part[1:])] - corners[part[0]])) / 6.0
                                for part in parts[len(cell)]))
         return np.array(volumes)
-
-    def volume_of_label(self):
-        volumes = self.volumes()
-        return {int(label): float(volumes[self.labels == label].sum()) for label in np.unique(self.labels)}
 
 
 def texts_of(data, name):
@@ -149,8 +147,6 @@ def read_tetrahedra(path):
         return _from_grid(_read(vtkUnstructuredGridReader(), path))
     if path.endswith(".mesh"):
         return _read_medit(path)
-    if path.endswith(".msh"):
-        return _read_gmsh(path)
     if path.endswith(".inp"):
         return _read_abaqus(path)
     if path.endswith(".mfem"):
@@ -185,8 +181,12 @@ def _require_type(grid, kind):
 def _pentatopes_from_grid(grid):
     _require_type(grid, 2)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 5)
+    planes, times, pairs = (grid.GetFieldData().GetArray(name) for name in ("TimePlanes", "SlabTimes", "PeriodicPairs"))
+    slabs, numbers = grid.GetCellData().GetArray("Slab"), grid.GetPointData().GetGlobalIds()
     return Pentatopes(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Label")),
-                      _space(grid))
+                      _space(grid), planes=vtk_to_numpy(planes).tolist() if planes else [],
+                      times=vtk_to_numpy(times).tolist() if times else [], slabs=slabs and vtk_to_numpy(slabs),
+                      pairs=pairs and vtk_to_numpy(pairs), numbers=numbers and vtk_to_numpy(numbers))
 
 
 def read_boundary(path):
@@ -404,88 +404,13 @@ def _read_medit(path):
                       triangles[:, :3] - 1, triangles[:, 3], names, label_names)
 
 
-def _read_gmsh(path):
-    """Element i of the file's numbering becomes row i - 1; the order of blocks does not matter."""
-    with open(path) as file:
-        text = file.read()
-    sections = {}
-    lines = text.split("\n")
-    at = 0
-    while at < len(lines):
-        if lines[at].startswith("$"):
-            name = lines[at][1:]
-            end = lines.index("$End" + name, at)
-            sections[name] = lines[at + 1:end]
-            at = end
-        at += 1
-    if sections["MeshFormat"] != ["4.1 0 8"]:
-        raise AssertionError(sections["MeshFormat"])
-    names = {}
-    for line in sections["PhysicalNames"][1:]:
-        dimension, tag, name = line.split(" ", 2)
-        names[(int(dimension), int(tag))] = re.fullmatch('"([^"]*)"', name)[1]
-    physical = _gmsh_entities(sections["Entities"])
-
-    nodes = sections["Nodes"]
-    blocks, count, low, high = (int(word) for word in nodes[0].split())
-    points = np.full((count, 3), np.nan)
-    at = 1
-    for _ in range(blocks):
-        size = int(nodes[at].split()[3])
-        tags = np.array(nodes[at + 1:at + 1 + size], dtype=int)
-        coordinates = np.array([line.split() for line in nodes[at + 1 + size:at + 1 + 2 * size]], dtype=float)
-        points[tags - 1] = coordinates
-        at += 1 + 2 * size
-    if at != len(nodes) or (low, high) != (1, count) or np.isnan(points).any():
-        raise AssertionError("nodes")
-
-    elements = sections["Elements"]
-    blocks, count, low, high = (int(word) for word in elements[0].split())
-    found = {2: {}, 3: {}}
-    at = 1
-    for _ in range(blocks):
-        dimension, entity, kind, size = (int(word) for word in elements[at].split())
-        if kind != {2: 2, 3: 4}[dimension]:
-            raise AssertionError("element type %d" % kind)
-        for line in elements[at + 1:at + 1 + size]:
-            tag, *vertices = (int(word) for word in line.split())
-            found[dimension][tag] = (vertices, physical[(dimension, entity)])
-        at += 1 + size
-    tags = sorted(found[3]) + sorted(found[2])
-    if at != len(elements) or tags != list(range(1, count + 1)) or (low, high) != (1, count):
-        raise AssertionError("elements")
-    columns = {}
-    for dimension in (2, 3):
-        rows = [found[dimension][tag] for tag in sorted(found[dimension])]
-        columns[dimension] = (np.array([row[0] for row in rows]) - 1, np.array([row[1] for row in rows]))
-    space = text.split("SPACE=")[1].split("\n")[0]
-    pairs = _pairs_of_comments(lines, "")
-    return Tetrahedra(points, *columns[3], space, *columns[2],
-                      {pairs[tag]: name for (dimension, tag), name in names.items() if dimension == 2},
-                      {tag: name for (dimension, tag), name in names.items() if dimension == 3})
-
-
-def _gmsh_entities(lines):
-    """The physical group of each (dimension, entity); checks that bounding surfaces exist."""
-    points, curves, surfaces, volumes = (int(word) for word in lines[0].split())
-    if points or curves:
-        raise AssertionError("unexpected entities")
-    physical = {}
-    for n, line in enumerate(lines[1:]):
-        words = line.split()
-        dimension = 2 if n < surfaces else 3
-        tag, groups, group = int(words[0]), int(words[7]), int(words[8])
-        if groups != 1:
-            raise AssertionError("one physical group a entity")
-        physical[(dimension, tag)] = group
-        for boundary in words[10:]:
-            if (dimension - 1, abs(int(boundary))) not in physical:
-                raise AssertionError("boundary %s of entity %d" % (boundary, tag))
-        if len(words) != 10 + int(words[9]):
-            raise AssertionError("entity %d" % tag)
-    if len(lines) != 1 + surfaces + volumes:
-        raise AssertionError("number of entities")
-    return physical
+def gmsh_names(path):
+    """The names of labels and of pairs of labels. Meshes are read by Gmsh itself."""
+    text = Path(path).read_text()
+    pairs = _pairs_of_comments(text.split("\n"), "")
+    found = re.findall(r'^([23]) (\d+) "([^"]*)"$', text, re.MULTILINE)
+    return ({int(tag): name for dimension, tag, name in found if dimension == "3"},
+            {pairs[int(tag)]: name for dimension, tag, name in found if dimension == "2"})
 
 
 # Nodes of the faces of C3D4, in the order in which their normals point outwards.

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Names and colours of labels: text tables of all kinds, and the segments of 3D Slicer's files."""
+import os
 import unittest
 from pathlib import Path
 
@@ -124,16 +125,25 @@ class Errors(TableTestCase):
             (b"1 \xc0\xaf\n", "line 1: the name is not in UTF-8"),
             (b"1 \xed\xa0\x80\n", "line 1: the name is not in UTF-8"),
             (b"1 a\xe2\x82\n", "line 1: the name is not in UTF-8"),
+            # Long texts are quoted by their beginnings, and nothing that a terminal would obey.
+            ("x" * 1000000, r"line 1: 'x+\.\.\.' is not a label"),
+            ("1" * 100000 + " a\n", r"line 1: '1+\.\.\.' is not a label"),
+            ("\x1b[2J a\n", r"line 1: '\?\[2J' is not a label"),
+            ("1," + '"' * 100001, "line 1: a quotation mark is not closed"),
+            ("1,a" + "," * 1000000, "line 1: it has 1000002 fields"),
+            ("1,a,2,3,1e999\n", "line 1: '1e999' is not a part of a colour"),
         ):
-            with self.subTest(text):
-                self.refuse(pattern, text)
+            with self.subTest(text[:40]):
+                self.refuse(pattern + ".{0,300}$", text)
 
     def test_no_table(self):
         self.refuse("it is no text file", Path(self.image).read_bytes() + b"\0")
         self.refuse("it lists no labels", "# nothing\n0 background\n")
         self.refuse("it lists no labels", "")
         self.refused("there is no such file", self.image, LabelTableFileName=str(self.folder / "none"))
-        self.refused("it is not a regular file", self.image, LabelTableFileName=str(self.folder))
+        os.mkfifo(self.folder / "fifo")
+        for name in (self.folder, self.folder / "fifo"):
+            self.refused("it is not a regular file", self.image, LabelTableFileName=str(name))
 
     def test_too_large(self):
         self.refuse("it is larger than 16 MiB", b"1 a\n" * (5 << 20))

@@ -50,14 +50,6 @@ class Reading(FolderTestCase):
                     for index in ((0, 0, 0), (9, 1, 4)):
                         np.testing.assert_allclose(position(image, index), OBLIQUE.physical(index) * flip, atol=1e-5)
 
-    def test_types(self):
-        for dtype in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
-            with self.subTest(dtype):
-                array = images.two_labels(8, 3.0).astype(dtype)
-                image = self.read(images.write_nrrd(self.folder / "i.nrrd", array))
-                self.assertEqual(voxels(image).dtype, array.dtype)
-                np.testing.assert_array_equal(voxels(image), array)
-
     def test_information_before_data(self):
         reader = voxplex.vtkSegmentationReader()
         reader.SetFileName(Path(images.write_nrrd(self.folder / "i.nrrd", images.ball(9, 3.0), OBLIQUE)))
@@ -77,16 +69,6 @@ class Reading(FolderTestCase):
         del reader
         gc.collect()
         np.testing.assert_array_equal(vtk_to_numpy(labels).reshape(array.shape), array)
-
-    def test_series(self):
-        folder = self.folder / "series"
-        folder.mkdir()
-        uids = "1.2.826.0.1.3680043.2.1125.1.1", "1.2.826.0.1.3680043.2.1125.1.2"
-        for uid, label in zip(uids, (4, 9)):
-            images.write_dicom_series(folder, images.ball(12, 4.0, label=label, dtype=np.uint16), series=uid)
-        self.assertEqual(voxels(self.read(folder, SeriesUID=uids[1])).max(), 9)
-        self.refused('2 DICOM series; choose one with\n  SetSeriesUID\\("%s' % uids[0].replace(".", r"\."), folder)
-        self.refused("no DICOM series '7'", folder, SeriesUID="7")
 
 
 class Placing(FolderTestCase):
@@ -221,42 +203,11 @@ class Errors(FolderTestCase):
         self.refused("^no file name is set$", None)
         self.refused("^no file name is set$", "")
 
-    def test_damage(self):
-        rng = np.random.default_rng(17)
-        array = rng.integers(0, 3, (12, 12, 12)).astype(np.uint16)
-        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
-                            (images.write_nifti, "i.nii"), (images.write_nifti, "i.nii.gz")):
-            whole = Path(write(self.folder / name, array)).read_bytes()
-            for part in (0.3, 0.9):
-                with self.subTest(name=name, part=part):
-                    (self.folder / name).write_bytes(whole[:int(len(whole) * part)])
-                    self.refused("truncated|damaged", self.folder / name)
-
-    def test_noise(self):
-        """Every header gives an image or an error, and the process lives on."""
-        rng = np.random.default_rng(11)
-        array = images.ball(8, 3.0)
-        for write, name in ((images.write_nrrd, "i.nrrd"), (images.write_metaimage, "i.mha"),
-                            (images.write_nifti, "i.nii")):
-            whole = Path(write(self.folder / name, array)).read_bytes()
-            for _ in range(40):
-                damaged = bytearray(whole)
-                for at in rng.integers(0, min(340, len(whole)), 3):
-                    damaged[at] = rng.integers(32, 127)
-                (self.folder / name).write_bytes(damaged)
-                reader = self.reader(self.folder / name)
-                empty = reader.GetOutput().GetNumberOfPoints() == 0
-                self.assertEqual(empty, reader.GetErrorMessage() != "", damaged)
-
     def test_pictures(self):
         """No library for pictures sees them."""
         magic = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
         (self.folder / "i.png").write_bytes(magic + np.random.default_rng(5).bytes(1000))
         self.refused("it is a picture of one slice", self.folder / "i.png")
-
-    def test_components(self):
-        self.refused("3 components", images.write_nrrd(
-            self.folder / "i.nrrd", np.stack([images.ball(8, 3.0)] * 3, axis=-1), components=True))
 
     def test_recovery(self):
         """An error leaves nothing of the image before, and the next image nothing of the error."""

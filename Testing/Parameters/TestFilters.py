@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The properties of the VTK filters against the table: defaults, ranges, the places of words, what needs Force."""
 import math
+import re
 import unittest
 
 import numpy
@@ -19,8 +20,8 @@ ANY_SEED = "RandomSeed"  # negative, too
 ANY_THREADS = "NumberOfThreads"  # more than 4096 is a slip of the keyboard
 
 
-def is_accepted(parameter, value, force):
-    """Whether the filter takes the value and begins to work with it."""
+def message_about(parameter, value, force):
+    """None if the filter takes the value and begins to work with it."""
     labels = numpy.zeros((8, 8, 8), dtype=numpy.uint8)
     labels[2:6, 2:6, 2:6] = 1
     mesher = make_filter(parameter)
@@ -29,17 +30,30 @@ def is_accepted(parameter, value, force):
         image.GetPointData().SetScalars(numpy_to_vtk(numpy.repeat(labels.reshape(-1, 1), 2, axis=1), deep=True))
     mesher.SetInputData(image)
     mesher.SetForce(force)
-    if parameter["property"] in ("InsideLabel", "IsosurfaceSmoothingSigma"):
+    if parameter["property"] in ("Isovalue", "InsideLabel", "IsosurfaceSmoothingSigma"):
         mesher.SetInputModeToIsosurface()
         mesher.SetIsovalue(0.03)  # smoothing leaves little
     getattr(mesher, "Set" + parameter["property"])(int(value) if parameter["kind"] == "whole" else value)
-    if getattr(mesher, "Get" + parameter["property"])() != value:
-        return False  # clamped
+    if str(float(getattr(mesher, "Get" + parameter["property"])())) != str(float(value)):
+        return parameter["property"] + " was clamped"
     mesher.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(caller.GetProgress() > 0.3))
     mesher.AddObserver("ErrorEvent", lambda caller, event: None)
     mesher.GetExecutive().AddObserver("ErrorEvent", lambda caller, event: None)
     mesher.Update()
-    return not mesher.GetErrorMessage()
+    return mesher.GetErrorMessage()
+
+
+def is_accepted(*arguments):
+    return not message_about(*arguments)
+
+
+def other_value(parameter):
+    """One that is allowed, and not the default."""
+    default = default_of(parameter)
+    if parameter["words"] or parameter["kind"] == "flag":
+        return 1 - default
+    low, high = parameter["range"]
+    return next(value for value in (1, 2, 0.02) if value != default and (low or 0) <= value <= (high or math.inf))
 
 
 class Filters(unittest.TestCase):
@@ -58,6 +72,25 @@ class Filters(unittest.TestCase):
                 if high is not None and high < LARGEST_WHOLE and parameter["property"] != ANY_THREADS:
                     self.assertFalse(is_accepted(parameter, high + step, True))
                     self.assertTrue(is_accepted(parameter, high, True))
+
+    def test_not_finite(self):
+        for parameter in (p for p in BY_PROPERTY.values() if p["kind"] == "real"):
+            for value in (math.nan, math.inf, -math.inf):
+                with self.subTest(parameter["name"], value=value):
+                    about = "isovalue|smoothing of grey values" if "Iso" in parameter["property"] else parameter["property"]
+                    self.assertRegex(message_about(parameter, value, True), about)
+
+    def test_changes(self):
+        """Another value makes the filter execute again; the same one does not. It is printed."""
+        for parameter in BY_PROPERTY.values():
+            with self.subTest(parameter["name"]):
+                mesher, value, printed = make_filter(parameter), other_value(parameter), set()
+                for is_other in (True, False):
+                    printed.update(re.findall(rf"\b{parameter['property']}: .*", str(mesher)))
+                    before = mesher.GetMTime()
+                    getattr(mesher, "Set" + parameter["property"])(value)
+                    self.assertEqual(mesher.GetMTime() > before, is_other)
+                self.assertEqual(len(printed), 2, printed)
 
     def test_no_value(self):
         """0 where a value need not be given; less than that is nothing."""

@@ -9,18 +9,15 @@
 #include "ImagePhantoms.h"
 #include "SpaceTimePhantoms.h"
 
-#include <itkImage.h>
-#include <itkImageFileWriter.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+#include <fstream>
 #include <functional>
+#include <iomanip>
+#include <iostream>
 #include <map>
-#include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <variant>
 
@@ -30,9 +27,9 @@ using namespace voxplex::phantoms;
 namespace
 {
 
-constexpr const char* Usage = R"(usage: voxplexPhantom NAME FILE [options]
+constexpr const char* Usage = R"(usage: voxplexPhantom NAME FILE.nrrd [option]
 
-Writes a label image in the format that FILE's name asks for (.nrrd, .nhdr).
+Writes a label image.
 
 names, with the axes x, y and z (the thesis' table 2.2, millimetres):
   ball               label 1, 416^3 voxels
@@ -53,176 +50,110 @@ names, with the axes x, y, z and time:
                                        first and last frame
 )";
 
-struct Arguments
-{
-  std::string Name;
-  std::string File;
-  std::map<std::string, double> Options;
-};
-
-/** A number, all of the text. */
-double ParseNumber(const std::string& option, const std::string& text)
-{
-  std::istringstream stream(text);
-  double number = 0.0;
-  if (!(stream >> number) || !stream.eof() || !std::isfinite(number))
-  {
-    throw std::invalid_argument(option + " needs a number, not \"" + text + "\"");
-  }
-  return number;
-}
-
-Arguments ParseArguments(int argc, char** argv)
-{
-  const std::set<std::string> known = { "--radius", "--coarsening", "--frames" };
-  Arguments arguments;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (argument.rfind("--", 0) == 0)
-    {
-      if (known.count(argument) == 0)
-      {
-        throw std::invalid_argument("unknown option " + argument);
-      }
-      if (++i == argc)
-      {
-        throw std::invalid_argument(argument + " needs a value");
-      }
-      arguments.Options[argument] = ParseNumber(argument, argv[i]);
-    }
-    else if (arguments.Name.empty())
-    {
-      arguments.Name = argument;
-    }
-    else if (arguments.File.empty())
-    {
-      arguments.File = argument;
-    }
-    else
-    {
-      throw std::invalid_argument(
-        "one name and one file are needed; what is \"" + argument + "\"?");
-    }
-  }
-  if (arguments.File.empty())
-  {
-    throw std::invalid_argument("the name of a phantom and a file are needed");
-  }
-  return arguments;
-}
-
-/** Takes an option out of the list; the default if it is not there. */
-double Take(Arguments& arguments, const std::string& option, double defaultValue, double smallest,
-  double largest)
-{
-  const auto found = arguments.Options.find(option);
-  const double value = found == arguments.Options.end() ? defaultValue : found->second;
-  arguments.Options.erase(option);
-  if (!(value >= smallest && value <= largest))
-  {
-    std::ostringstream message;
-    message << option << " must be between " << smallest << " and " << largest;
-    throw std::invalid_argument(message.str());
-  }
-  return value;
-}
-
-std::int64_t TakeCount(Arguments& arguments, const std::string& option, std::int64_t defaultValue,
-  std::int64_t smallest, std::int64_t largest)
-{
-  const double value = Take(arguments, option, static_cast<double>(defaultValue),
-    static_cast<double>(smallest), static_cast<double>(largest));
-  if (value != std::floor(value))
-  {
-    throw std::invalid_argument(option + " must be a whole number");
-  }
-  return static_cast<std::int64_t>(value);
-}
-
 using Phantom = std::variant<ImagePhantom, SpaceTimePhantom>;
 
-Phantom MakePhantom(Arguments arguments)
+struct Kind
 {
-  const auto coarsening = [&](std::int64_t largest)
-  { return TakeCount(arguments, "--coarsening", 1, 1, largest); };
-  const auto frames = [&](std::int64_t usual)
-  { return TakeCount(arguments, "--frames", usual, 2, 1000); };
-  const std::map<std::string, std::function<Phantom()>> phantoms = {
-    { "ball", [&] { return SingleBall(coarsening(40)); } },
-    { "embedded-balls", [&] { return EmbeddedBalls(coarsening(40)); } },
-    { "torus", [&] { return Torus(coarsening(8)); } },
-    { "four-ball", [&] { return FourBall(Take(arguments, "--radius", 12.0, 1.0, 60.0)); } },
-    { "beating-ventricle", [&] { return BeatingVentricle(coarsening(11)); } },
-    { "merging-balls", [&] { return MergingBalls(frames(17)); } },
-    { "rotating-sheet", [&] { return RotatingSheet(frames(15)); } },
-    { "opening-tube", [&] { return OpeningTube(frames(15)); } },
-    { "fast-ball", [&] { return FastBall(frames(17)); } },
-  };
-  const auto found = phantoms.find(arguments.Name);
-  if (found == phantoms.end())
-  {
-    throw std::invalid_argument("no such phantom: " + arguments.Name);
-  }
-  Phantom phantom = found->second();
-  if (!arguments.Options.empty())
-  {
-    throw std::invalid_argument(
-      arguments.Options.begin()->first + " is no option of " + arguments.Name);
-  }
-  return phantom;
+  std::string Option;
+  double Usual, Least, Most;
+  std::function<Phantom(double)> Make;
+};
+
+template <typename Function>
+std::function<Phantom(double)> Whole(Function make)
+{
+  return [make](double n) -> Phantom { return make(static_cast<std::int64_t>(n)); };
 }
 
-template <typename PhantomType>
-void Write(const PhantomType& phantom, const std::string& fileName)
-{
-  constexpr auto Dimension = static_cast<unsigned>(decltype(phantom.Grid.Dimensions)().size());
-  using Image = itk::Image<std::uint8_t, Dimension>;
-  const std::vector<std::uint8_t> scalars = phantom.Scalars();
-  typename Image::SizeType size;
-  typename Image::SpacingType spacing;
-  for (unsigned axis = 0; axis < Dimension; ++axis)
-  {
-    size[axis] = static_cast<itk::SizeValueType>(phantom.Grid.Dimensions[axis]);
-    spacing[axis] = phantom.Grid.Spacing(static_cast<int>(axis));
-  }
-  const typename Image::Pointer image = Image::New();
-  image->SetRegions(size);
-  image->SetSpacing(spacing);
-  image->Allocate();
-  std::copy(scalars.begin(), scalars.end(), image->GetBufferPointer());
+const std::map<std::string, Kind> Kinds = {
+  { "ball", { "--coarsening", 1, 1, 40, Whole(SingleBall) } },
+  { "embedded-balls", { "--coarsening", 1, 1, 40, Whole(EmbeddedBalls) } },
+  { "torus", { "--coarsening", 1, 1, 8, Whole(Torus) } },
+  { "four-ball", { "--radius", 12, 1, 60, [](double radius) { return FourBall(radius); } } },
+  { "beating-ventricle", { "--coarsening", 1, 1, 11, Whole(BeatingVentricle) } },
+  { "merging-balls", { "--frames", 17, 2, 1000, Whole(MergingBalls) } },
+  { "rotating-sheet", { "--frames", 15, 2, 1000, Whole(RotatingSheet) } },
+  { "opening-tube", { "--frames", 15, 2, 1000, Whole(OpeningTube) } },
+  { "fast-ball", { "--frames", 17, 2, 1000, Whole(FastBall) } },
+};
 
-  const auto writer = itk::ImageFileWriter<Image>::New();
-  writer->SetFileName(fileName);
-  writer->SetInput(image);
-  writer->UseCompressionOn();
-  writer->Update();
+template <typename PhantomType>
+void Write(const PhantomType& phantom, std::ostream& file)
+{
+  const auto& sizes = phantom.Grid.Dimensions;
+  const std::size_t dimension = sizes.size();
+  file << "NRRD0004\ntype: uint8\ndimension: " << dimension << "\n"
+       << (dimension == 3 ? "space: left-posterior-superior" : "space dimension: 4") << "\nsizes:";
+  for (const auto size : sizes)
+  {
+    file << ' ' << size;
+  }
+  file << std::setprecision(17) << "\nspace directions:";
+  for (std::size_t axis = 0; axis < dimension; ++axis)
+  {
+    for (std::size_t i = 0; i < dimension; ++i)
+    {
+      file << (i == 0 ? " (" : ",")
+           << (i == axis ? phantom.Grid.Spacing(static_cast<int>(axis)) : 0.0);
+    }
+    file << ')';
+  }
+  file << "\nspace origin: " << (dimension == 3 ? "(0,0,0)" : "(0,0,0,0)") << "\nencoding: raw\n\n";
+  const std::vector<std::uint8_t> scalars = phantom.Scalars();
+  file.write(
+    reinterpret_cast<const char*>(scalars.data()), static_cast<std::streamsize>(scalars.size()));
+}
+
+int Refuse(const std::string& why)
+{
+  std::fprintf(stderr, "error: %s\n\n%s", why.c_str(), Usage);
+  return 2;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  std::string file;
-  Phantom phantom;
-  try
+  if (argc < 3)
   {
-    Arguments arguments = ParseArguments(argc, argv);
-    file = arguments.File;
-    phantom = MakePhantom(std::move(arguments));
+    return Refuse("the name of a phantom and a file are needed");
   }
-  catch (const std::invalid_argument& error)
+  const std::string name = argv[1];
+  const std::string path = argv[2];
+  const auto kind = Kinds.find(name);
+  if (kind == Kinds.end())
   {
-    std::fprintf(stderr, "error: %s\n\n%s", error.what(), Usage);
-    return 2;
+    return Refuse("no such phantom: " + name);
   }
-  try
+  if (path.size() < 5 || path.compare(path.size() - 5, 5, ".nrrd") != 0)
   {
-    std::visit([&](const auto& shape) { Write(shape, file); }, phantom);
+    return Refuse("the name of the file must end with .nrrd: " + path);
   }
-  catch (const std::exception& error)
+  const auto& [option, usual, least, most, make] = kind->second;
+  double number = usual;
+  if (argc > 3)
   {
-    std::fprintf(stderr, "error: cannot write %s: %s\n", file.c_str(), error.what());
+    if (argv[3] != option || argc != 5)
+    {
+      return Refuse(argv[3] + (" is no option of " + name) + ", or not followed by one number");
+    }
+    char* end = nullptr;
+    number = std::strtod(argv[4], &end);
+    const bool isWhole = option != "--radius";
+    if (*end != '\0' || !(number >= least && number <= most) ||
+      (isWhole && number != std::floor(number)))
+    {
+      std::ostringstream why;
+      why << option << " must be a " << (isWhole ? "whole " : "") << "number between " << least
+          << " and " << most << ", not " << argv[4];
+      return Refuse(why.str());
+    }
+  }
+  std::ofstream file(path, std::ios::binary);
+  std::visit([&](const auto& phantom) { Write(phantom, file); }, make(number));
+  if (!file.flush())
+  {
+    std::fprintf(stderr, "error: cannot write %s\n", path.c_str());
     return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;

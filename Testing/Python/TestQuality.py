@@ -66,15 +66,6 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(figures["volume_error"], figures["volume"] / voxels - 1)
             self.assertLess(abs(figures["volume_error"]), 0.2)
 
-    def test_histograms(self):
-        quality = self.figures["quality"]
-        self.assertEqual(sum(quality["dihedral_histogram"]), 6 * self.figures["elements"])
-        self.assertEqual(sum(quality["radius_edge_histogram"]), self.figures["elements"])
-        self.assertEqual(sum(quality["planar_histogram"]), 3 * self.figures["interface_facets"])
-        used = numpy.nonzero(quality["dihedral_histogram"])[0]
-        self.assertEqual(used[0], int(quality["min_dihedral"] // 2))
-        self.assertEqual(used[-1], int(quality["max_dihedral"] // 2))
-
     def test_distances_to_voxels(self):
         """By brute force, except inside of triangles. For these see the comparison with VTK's filter below."""
         centres = face_centres(self.labels)
@@ -156,31 +147,21 @@ class Figures(unittest.TestCase):
         self.assertGreater(excess.min(), -1e-9)
         self.assertLess(numpy.median(excess), 1e-9)
 
-    def test_without_distances_and_without_image(self):
-        figures = voxplex.quality(self.mesh, self.labels, hausdorff=False)
-        self.assertEqual(figures["hausdorff"], {})
-        self.assertEqual(figures["image"]["lost_labels"], [])
+    def test_arguments(self):
         figures = voxplex.quality(self.mesh)
         self.assertNotIn("image", figures)
         self.assertEqual(figures["quality"], self.figures["quality"])
-
-    def test_what_is_lost(self):
         labels = self.labels.copy()
         labels[0:2, 0:2, 0:2] = 7
         figures = voxplex.quality(self.mesh, labels, hausdorff=False)
-        self.assertEqual(figures["image"]["lost_labels"], [7])
-        self.assertEqual(figures["image"]["lost_components"], [{"label": 7, "voxels": 8, "voxel": [0, 0, 0]}])
-        self.assertEqual(figures["labels"]["7"]["elements"], 0)
-        other = labels.copy()
-        other[-2:, -2:, -2:] = 1  # not the largest of its label
-        lost = [{"label": 7, "voxels": 8, "voxel": [0, 0, 0]}]
-        figures = voxplex.quality(self.mesh, other, hausdorff=False, smallest_component=9)
-        self.assertEqual(figures["image"]["lost_components"], lost)
-        figures = voxplex.quality(self.mesh, other, hausdorff=False)
-        self.assertEqual([c["label"] for c in figures["image"]["lost_components"]], [7, 1])
+        self.assertEqual((figures["hausdorff"], figures["image"]["lost_labels"]), ({}, [7]))
         figures = voxplex.quality(self.mesh, labels, labels=[1, 2])
         self.assertEqual(figures["image"]["lost_labels"], [])
         self.assertEqual(figures["hausdorff"], self.figures["hausdorff"])
+        labels[-2:, -2:, -2:] = 1  # not the largest of its label
+        for options, lost in ((dict(), [7, 1]), (dict(smallest_component=9), [7])):
+            figures = voxplex.quality(self.mesh, labels, hausdorff=False, **options)
+            self.assertEqual([component["label"] for component in figures["image"]["lost_components"]], lost)
         labels[labels == 2] = 1
         figures = voxplex.quality(self.mesh, labels, hausdorff=False)
         self.assertEqual(figures["image"]["extra_labels"], [2])

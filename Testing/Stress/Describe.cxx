@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Describes a case in words, and as a command line of the program voxplex.
+#include "CaseOptions.h"
 #include "Findings.h"
 #include "StressCase.h"
 
@@ -13,6 +14,40 @@ namespace voxplex::stress
 namespace
 {
 
+std::string TextOf(ContentionPolicy policy)
+{
+  return std::string(ContentionPolicyNames[std::size_t(policy)]);
+}
+
+std::string TextOf(BalancePolicy policy)
+{
+  return std::string(BalancePolicyNames[std::size_t(policy)]);
+}
+
+std::string TextOf(GradingMode mode)
+{
+  return mode == GradingMode::LocalFeatureSize ? "lfs" : "uniform";
+}
+
+std::string TextOf(RuleOrder order)
+{
+  return order == RuleOrder::SurfaceFirst ? "surface" : "radius-edge";
+}
+
+template <typename T>
+  requires std::is_arithmetic_v<T>
+std::string TextOf(T value)
+{
+  if constexpr (std::is_integral_v<T>)
+  {
+    return std::to_string(value);
+  }
+  else
+  {
+    return Text(value, 17);
+  }
+}
+
 /** Flags of the program, and the options for which it has no flag. */
 class CommandWriter
 {
@@ -22,118 +57,36 @@ public:
   {
   }
 
-  /** Adds a flag if the value is not the default. */
+  /** Adds a flag, or what there is no flag for, if the value is not the default. */
   template <typename T>
-  void Flag(const std::string& flag, T value, T usual)
+  void Flag(const std::string& name, T value, T usual)
   {
-    if (value != usual)
+    if (name.substr(0, 2) != "--")
     {
-      this->Text << ' ' << flag << ' ' << Exactly(value);
+      if (value != usual)
+      {
+        this->Missing.push_back(name + " " + TextOf(value));
+      }
+    }
+    else if constexpr (std::is_same_v<T, bool>)
+    {
+      this->Word(name, value == (name.substr(0, 4) != "--no"));
+    }
+    else
+    {
+      this->Word(name + ' ' + TextOf(value), value != usual);
     }
   }
-  void Word(const std::string& words) { this->Text << ' ' << words; }
-  void Word(const std::string& words, bool given)
+  void Word(const std::string& words, bool given = true)
   {
-    if (given)
-    {
-      this->Word(words);
-    }
-  }
-  template <typename T>
-  void Unavailable(const std::string& name, T value, T usual)
-  {
-    if (value != usual)
-    {
-      this->Missing.push_back(name + " " + Exactly(value));
-    }
+    this->Text << (given ? " " + words : "");
   }
   std::string Result() const { return this->Text.str(); }
 
 private:
-  template <typename T>
-  static std::string Exactly(T value)
-  {
-    if constexpr (std::is_integral_v<T>)
-    {
-      return std::to_string(value);
-    }
-    else
-    {
-      return stress::Text(value, 17);
-    }
-  }
-
   std::ostringstream Text;
   std::vector<std::string>& Missing;
 };
-
-template <int D>
-void WriteCheckFlags(const MeshingOptions<D>& options, CommandWriter& to)
-{
-  const MeshingOptions<D> usual;
-  to.Flag("--smallest-component", options.Components.Smallest, usual.Components.Smallest);
-  to.Word("--exact-components", options.Components.Exact);
-  to.Flag("--interface-rounds", options.Interfaces.Rounds, usual.Interfaces.Rounds);
-}
-
-void WriteGrading(const GradingOptions& grading, CommandWriter& to)
-{
-  const GradingOptions usual;
-  if (grading.Mode == GradingMode::LocalFeatureSize)
-  {
-    to.Word("--grading lfs");
-    to.Flag("--feature-ratio", grading.Ratio, usual.Ratio);
-    to.Flag("--largest-feature", grading.Lambda, usual.Lambda);
-  }
-}
-
-void WriteSpaceFlags(const MeshingOptions<3>& options, CommandWriter& to)
-{
-  const MeshingOptions<3> usual;
-  to.Flag("--facet-angle", options.Shape.FacetAngle, usual.Shape.FacetAngle);
-  to.Flag("--sliver-angle", options.Shape.Slivers.Angle, usual.Shape.Slivers.Angle);
-  WriteCheckFlags(options, to);
-  to.Word("--no-manifold", !options.Interfaces.Manifold);
-  to.Word("--no-junctions", !options.Interfaces.SampleJunctions);
-  to.Word("--no-optimise", !options.Optimisation.Run);
-  to.Flag("--optimise-seconds", options.Optimisation.Seconds, usual.Optimisation.Seconds);
-  WriteGrading(options.Sampling.Grading, to);
-  to.Flag("--elements", options.Sampling.Elements, usual.Sampling.Elements);
-  to.Unavailable("Shape.Slivers.PickingRadius", options.Shape.Slivers.PickingRadius,
-    usual.Shape.Slivers.PickingRadius);
-  to.Unavailable("Shape.Slivers.Picks", options.Shape.Slivers.Picks, usual.Shape.Slivers.Picks);
-  to.Unavailable("Shape.Slivers.Seed", options.Shape.Slivers.Seed, usual.Shape.Slivers.Seed);
-}
-
-void WriteSpaceTimeFlags(const StressCase<4>& of, CommandWriter& to)
-{
-  const MeshingOptions<4>& options = of.Options;
-  const MeshingOptions<4> usual;
-  to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
-  std::string times;
-  for (const double time : options.Planes.Times)
-  {
-    times += (times.empty() ? "" : ",") + Text(time / of.Image.Axes[3][3], 17);
-  }
-  to.Word("--time-planes " + times, !times.empty());
-  to.Word("--periodic", options.Planes.Periodic);
-  WriteCheckFlags(options, to);
-  to.Flag("--frame-steps", options.FrameSteps, usual.FrameSteps);
-  to.Word("--no-fit", !options.Interfaces.Fit);
-  WriteGrading(options.Sampling.Grading, to);
-  to.Word("--no-manifold", !options.Interfaces.Manifold);
-  to.Word("--no-optimise", !options.Optimisation.Run);
-  to.Word("--rule-order surface", options.SpaceTime.Order == RuleOrder::SurfaceFirst);
-  to.Word("--no-picking", !options.SpaceTime.Slivers.Fight);
-  to.Flag("--picks", options.SpaceTime.Slivers.Picks, usual.SpaceTime.Slivers.Picks);
-  to.Flag(
-    "--sliver-bound", options.SpaceTime.Slivers.VolumeBound, usual.SpaceTime.Slivers.VolumeBound);
-  to.Flag("--seed", options.SpaceTime.Slivers.Seed, usual.SpaceTime.Slivers.Seed);
-  to.Unavailable("Slivers.PickingRadius", options.SpaceTime.Slivers.PickingRadius,
-    usual.SpaceTime.Slivers.PickingRadius);
-  to.Unavailable("Slivers.RadiusFactor", options.SpaceTime.Slivers.RadiusFactor,
-    usual.SpaceTime.Slivers.RadiusFactor);
-}
 
 template <int D>
 void WriteSizes(const StressCase<D>& of, CommandWriter& to)
@@ -151,26 +104,8 @@ void WriteSizes(const StressCase<D>& of, CommandWriter& to)
   }
   if (of.Size.IsGiven())
   {
-    to.Unavailable("sizes that grow along the first axis by", of.Size.Slope, 0.0);
+    to.Flag("sizes that grow along the first axis by", of.Size.Slope, 0.0);
   }
-}
-
-template <int D>
-void WriteThreads(const MeshingOptions<D>& options, CommandWriter& to)
-{
-  const MeshingOptions<D> usual;
-  to.Word("--threads " + std::to_string(options.Team.Threads));
-  to.Word(
-    "--contention " + std::string(ContentionPolicyNames[std::size_t(options.Team.Contention)]),
-    options.Team.Contention != usual.Team.Contention);
-  to.Word("--balance " + std::string(BalancePolicyNames[std::size_t(options.Team.Balance)]),
-    options.Team.Balance != usual.Team.Balance);
-  to.Word("--reproducible", options.Team.Reproducible);
-  to.Word("--pin", options.Team.Pin);
-  to.Word("--no-fine-grained", D == 4 && !options.Team.FineGrained);
-  to.Unavailable("Synchronise", options.Team.Synchronise, usual.Team.Synchronise);
-  to.Unavailable("RemoveEagerly", options.Team.RemoveEagerly, usual.Team.RemoveEagerly);
-  to.Unavailable("SeedsPerThread", options.Team.SeedsPerThread, usual.Team.SeedsPerThread);
 }
 
 } // namespace
@@ -195,19 +130,21 @@ std::string ShellCommand(
     smoothing = of.Image.Surface->SmoothingSigma;
   }
   to.Flag("--smoothing", smoothing, usualSmoothing);
-  to.Flag("--radius-edge", options.Shape.RadiusEdgeRatio, usual.Shape.RadiusEdgeRatio);
-  to.Word("--force", options.Limits.Force);
-  to.Flag("--gradation", options.Sampling.Gradation, usual.Sampling.Gradation);
   WriteSizes(of, to);
-  if constexpr (D == 3)
+  if constexpr (D == 4)
   {
-    WriteSpaceFlags(options, to);
+    to.Flag("--time-scale", of.Image.Axes[3][3], 1.0);
+    std::string times;
+    for (const double time : options.Planes.Times)
+    {
+      times += (times.empty() ? "" : ",") + Text(time / of.Image.Axes[3][3], 17);
+    }
+    to.Word("--time-planes " + times, !times.empty());
   }
-  else
-  {
-    WriteSpaceTimeFlags(of, to);
-  }
-  WriteThreads(options, to);
+  to.Word("--threads " + std::to_string(options.Team.Threads));
+  const StressCase<D> other;
+  VisitOptions(of,
+    [&](const char* name, auto member, auto...) { to.Flag(name, member(of), member(other)); });
   return "voxplex --input " + file + to.Result();
 }
 

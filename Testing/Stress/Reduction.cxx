@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reduction.h"
 
+#include "CaseOptions.h"
 #include "RandomImages.h"
 #include "Workers.h"
 
@@ -119,23 +120,22 @@ private:
   }
 
   /** Tries to set a member. If it has the value already, nothing is tried. */
-  template <typename T>
-  bool TryToSet(T& (*member)(StressCase<D>&), const T& value)
+  template <typename Member, typename T>
+  bool TryToSet(Member member, const T& value)
   {
-    return !(member(this->Best) == value) &&
-      this->Try([&](StressCase<D>& c) { member(c) = value; });
+    const auto to = static_cast<std::decay_t<decltype(member(this->Best))>>(value);
+    return !(member(this->Best) == to) && this->Try([&](StressCase<D>& c) { member(c) = to; });
   }
 
   /** Tries the value that leaves a stage out, then the default. */
-  template <typename T>
-  bool TryToSet(T& (*member)(StressCase<D>&), const T& without, const T& usual)
+  template <typename Member, typename T, typename U>
+  bool TryToSet(Member member, const T& usual, const U& without)
   {
-    return !(member(this->Best) == without) &&
+    return !(member(this->Best) == static_cast<T>(without)) &&
       (this->TryToSet(member, without) || this->TryToSet(member, usual));
   }
 
   bool ResetOptions();
-  bool ResetOptionsOfDimension();
   bool LeaveOutPlanes();
   bool Crop();
   bool CropTo(std::size_t axis, std::int64_t first, std::int64_t count);
@@ -152,95 +152,26 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-// A pointer to a function that returns one member of a case.
-#define VOXPLEX_MEMBER(path) (+[](StressCase<D>& c) -> decltype(auto) { return (c.path); })
-
 template <int D>
 bool Reducer<D>::ResetOptions()
 {
-  const MeshingOptions<D> usual;
-  bool changed = this->TryToSet(VOXPLEX_MEMBER(Options.Team.Threads), 1u);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Twice), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Contention), usual.Team.Contention);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Balance), usual.Team.Balance);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Reproducible), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Pin), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.Synchronise), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.RemoveEagerly), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.FineGrained), usual.Team.FineGrained);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Team.SeedsPerThread), usual.Team.SeedsPerThread);
-  changed |=
-    this->TryToSet(VOXPLEX_MEMBER(Options.Shape.RadiusEdgeRatio), usual.Shape.RadiusEdgeRatio);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Limits.Force), false);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SmoothingSigma), 0.0, usual.SmoothingSigma);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Gradation), usual.Sampling.Gradation);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Everywhere), 0.0);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.OfLabel), 0.0);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Size.Slope), 0.0);
+  const StressCase<D> usual;
+  bool changed = this->TryToSet([](auto& c) -> auto& { return c.Options.Team.Threads; }, 1);
+  changed |= this->TryToSet([](auto& c) -> auto& { return c.Twice; }, false);
+  changed |= this->TryToSet([](auto& c) -> auto& { return c.Options.SmoothingSigma; },
+    usual.Options.SmoothingSigma, 0.0);
+  changed |= this->TryToSet([](auto& c) -> auto& { return c.Size.Everywhere; }, 0.0);
+  changed |= this->TryToSet([](auto& c) -> auto& { return c.Size.OfLabel; }, 0.0);
+  changed |= this->TryToSet([](auto& c) -> auto& { return c.Size.Slope; }, 0.0);
   while (!this->Best.Options.Sampling.InterfaceSizes.empty() &&
     this->Try([](StressCase<D>& c) { c.Options.Sampling.InterfaceSizes.pop_back(); }))
   {
     changed = true;
   }
-  return this->ResetOptionsOfDimension() || changed;
+  VisitOptions(this->Best, [&](const char*, auto member, auto... without)
+    { changed |= this->TryToSet(member, member(usual), without...); });
+  return this->LeaveOutPlanes() || changed;
 }
-
-template <int D>
-bool Reducer<D>::ResetOptionsOfDimension()
-{
-  const MeshingOptions<D> usual;
-  bool changed = false;
-  changed |= this->TryToSet(
-    VOXPLEX_MEMBER(Options.Components.Smallest), std::int64_t{ 0 }, usual.Components.Smallest);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Components.Exact), usual.Components.Exact);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Rounds), 0u, usual.Interfaces.Rounds);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.FrameSteps), 1u, usual.FrameSteps);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Fit), false, usual.Interfaces.Fit);
-  changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Run), false);
-  changed |=
-    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Mode), usual.Sampling.Grading.Mode);
-  changed |=
-    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Ratio), usual.Sampling.Grading.Ratio);
-  changed |=
-    this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Grading.Lambda), usual.Sampling.Grading.Lambda);
-  if constexpr (D == 3)
-  {
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Optimisation.Seconds), 0.0);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Shape.FacetAngle), usual.Shape.FacetAngle);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Angle), 0.0, usual.Shape.Slivers.Angle);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Seed), usual.Shape.Slivers.Seed);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.Shape.Slivers.Picks), usual.Shape.Slivers.Picks);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.Shape.Slivers.PickingRadius), usual.Shape.Slivers.PickingRadius);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.Interfaces.SampleJunctions), false, usual.Interfaces.SampleJunctions);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Sampling.Elements), usual.Sampling.Elements);
-  }
-  else
-  {
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Planes.Periodic), false);
-    changed |= this->LeaveOutPlanes();
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.Interfaces.Manifold), true);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Fight), false);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Order), usual.SpaceTime.Order);
-    changed |=
-      this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Seed), usual.SpaceTime.Slivers.Seed);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.Picks), usual.SpaceTime.Slivers.Picks);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.VolumeBound), usual.SpaceTime.Slivers.VolumeBound);
-    changed |= this->TryToSet(
-      VOXPLEX_MEMBER(Options.SpaceTime.Slivers.RadiusFactor), usual.SpaceTime.Slivers.RadiusFactor);
-    changed |= this->TryToSet(VOXPLEX_MEMBER(Options.SpaceTime.Slivers.PickingRadius),
-      usual.SpaceTime.Slivers.PickingRadius);
-  }
-  return changed;
-}
-
-#undef VOXPLEX_MEMBER
 
 //------------------------------------------------------------------------------------------------
 /** Leaves out time planes one by one. */

@@ -7,11 +7,12 @@
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
+#include "vtkImageToPentatopeMeshFilter.h"
 #include "vtkMeshingStatistics.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,284 +181,344 @@ vtkSmartPointer<vtkCommand> Observe(
 }
 
 //----------------------------------------------------------------------------------------------------
-namespace
+template <std::size_t D>
+double Volume(const Simplex<D>& simplex)
 {
-
-Vector Minus(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-Vector Cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-} // namespace
-
-double Volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
-{
-  return Dot(Cross(Minus(b, a), Minus(c, a)), Minus(d, a)) / 6.0;
-}
-
-Circumball CircumballOf(const std::array<Vector, 4>& t)
-{
-  const Vector u = Minus(t[1], t[0]);
-  const Vector v = Minus(t[2], t[0]);
-  const Vector w = Minus(t[3], t[0]);
-  const Vector vw = Cross(v, w);
-  const Vector wu = Cross(w, u);
-  const Vector uv = Cross(u, v);
-  const double scale = 0.5 / Dot(u, vw);
-  Vector offset;
-  for (std::size_t i = 0; i < 3; ++i)
+  std::array<std::array<double, D>, D> m;
+  double volume = 1.0;
+  for (std::size_t i = 0; i < D; ++i)
   {
-    offset[i] = scale * (Dot(u, u) * vw[i] + Dot(v, v) * wu[i] + Dot(w, w) * uv[i]);
+    for (std::size_t j = 0; j < D; ++j)
+    {
+      m[i][j] = simplex[i + 1][j] - simplex[0][j];
+    }
+    volume /= static_cast<double>(i + 1);
   }
-  return { { t[0][0] + offset[0], t[0][1] + offset[1], t[0][2] + offset[2] },
-    std::sqrt(Dot(offset, offset)) };
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    std::size_t pivot = k;
+    for (std::size_t i = k; i < D; ++i)
+    {
+      pivot = std::abs(m[i][k]) > std::abs(m[pivot][k]) ? i : pivot;
+    }
+    volume *= pivot == k ? m[k][k] : -m[pivot][k];
+    if (volume == 0.0)
+    {
+      return 0.0;
+    }
+    std::swap(m[k], m[pivot]);
+    for (std::size_t i = k + 1; i < D; ++i)
+    {
+      const double factor = m[i][k] / m[k][k];
+      for (std::size_t j = k; j < D; ++j)
+      {
+        m[i][j] -= factor * m[k][j];
+      }
+    }
+  }
+  return volume;
 }
+template double Volume<3>(const Simplex<3>&);
+template double Volume<4>(const Simplex<4>&);
 
 //----------------------------------------------------------------------------------------------------
-std::array<Vector, 4> Tetrahedra::Corners(std::size_t cell) const
+template <std::size_t D>
+Simplex<D> Simplices<D>::Corners(std::size_t cell) const
 {
-  const auto& c = this->Cells[cell];
-  const auto at = [this](vtkIdType id) { return this->Points[static_cast<std::size_t>(id)]; };
-  return { at(c[0]), at(c[1]), at(c[2]), at(c[3]) };
+  Simplex<D> corners;
+  for (std::size_t i = 0; i <= D; ++i)
+  {
+    corners[i] = this->Points[static_cast<std::size_t>(this->Cells[cell][i])];
+  }
+  return corners;
 }
 
-double Tetrahedra::VolumeOf(long long label) const
+template <std::size_t D>
+double Simplices<D>::VolumeOf(long long label) const
 {
   double sum = 0.0;
   for (std::size_t c = 0; c < this->Cells.size(); ++c)
   {
-    if (label == 0 || this->Labels[c] == label)
-    {
-      const auto t = this->Corners(c);
-      sum += Volume(t[0], t[1], t[2], t[3]);
-    }
+    sum += label == 0 || this->Labels[c] == label ? Volume<D>(this->Corners(c)) : 0.0;
   }
   return sum;
 }
 
-Vector Tetrahedra::Centroid() const
+template <std::size_t D>
+std::array<double, D> Simplices<D>::Centroid() const
 {
-  Vector sum = { 0, 0, 0 };
+  std::array<double, D> centroid = {};
+  const double all = this->VolumeOf();
   for (std::size_t c = 0; c < this->Cells.size(); ++c)
   {
-    const auto t = this->Corners(c);
-    const double volume = Volume(t[0], t[1], t[2], t[3]);
-    for (std::size_t i = 0; i < 3; ++i)
+    const Simplex<D> corners = this->Corners(c);
+    for (const auto& corner : corners)
     {
-      sum[i] += volume * (t[0][i] + t[1][i] + t[2][i] + t[3][i]) / 4.0;
+      for (std::size_t i = 0; i < D; ++i)
+      {
+        centroid[i] += Volume<D>(corners) / all * corner[i] / (D + 1);
+      }
     }
   }
-  const double all = this->VolumeOf();
-  return { sum[0] / all, sum[1] / all, sum[2] / all };
+  return centroid;
+}
+template struct Simplices<3>;
+template struct Simplices<4>;
+
+namespace
+{
+
+template <std::size_t N>
+using Ids = std::array<vtkIdType, N>;
+
+template <std::size_t N>
+Ids<N> Sorted(Ids<N> ids)
+{
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
-Tetrahedra Read(vtkUnstructuredGrid* grid)
+template <std::size_t N>
+Ids<N - 1> Without(const Ids<N>& ids, std::size_t left)
 {
-  Tetrahedra mesh;
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  Ids<N - 1> rest;
+  std::copy(ids.begin() + left + 1, ids.end(), std::copy_n(ids.begin(), left, rest.begin()));
+  return rest;
+}
+
+template <std::size_t D>
+std::vector<std::array<double, D>> ReadPoints(vtkPointSet* mesh)
+{
+  std::vector<std::array<double, D>> points(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
+  vtkDataArray* times = mesh->GetPointData()->GetArray("Time");
+  if (D == 4 &&
+    (!CHECK(times != nullptr) || !CHECK(times->GetDataType() == VTK_DOUBLE) ||
+      !CHECK(times->GetNumberOfComponents() == 1) ||
+      !CHECK(times->GetNumberOfTuples() == mesh->GetNumberOfPoints())))
   {
-    Vector x;
-    grid->GetPoint(p, x.data());
-    mesh.Points.push_back(x);
+    return points;
   }
-  vtkDataArray* labels = grid->GetCellData()->GetArray("Label");
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  for (std::size_t p = 0; p < points.size(); ++p)
   {
-    if (!CHECK(grid->GetCellType(c) == VTK_TETRA, c))
+    mesh->GetPoint(static_cast<vtkIdType>(p), points[p].data());
+    if constexpr (D == 4)
     {
-      return mesh;
+      points[p][3] = times->GetComponent(static_cast<vtkIdType>(p), 0);
     }
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCellPoints(c, count, ids);
-    mesh.Cells.push_back({ ids[0], ids[1], ids[2], ids[3] });
+  }
+  return points;
+}
+
+/** Cells that must all be of this type and have so many points. */
+template <std::size_t N>
+std::vector<Ids<N>> ReadCells(vtkPointSet* mesh, int type)
+{
+  std::vector<Ids<N>> cells;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+  {
+    mesh->GetCellPoints(c, ids);
+    if (!CHECK(mesh->GetCellType(c) == type && ids->GetNumberOfIds() == N, c))
+    {
+      break;
+    }
+    std::copy(ids->begin(), ids->end(), cells.emplace_back().begin());
+  }
+  return cells;
+}
+
+template <std::size_t D>
+Simplices<D> ReadMesh(vtkUnstructuredGrid* grid)
+{
+  Simplices<D> mesh;
+  mesh.Points = ReadPoints<D>(grid);
+  mesh.Cells = ReadCells<D + 1>(grid, D == 4 ? VTK_POLY_VERTEX : VTK_TETRA);
+  vtkDataArray* labels = grid->GetCellData()->GetArray("Label");
+  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
+  {
     mesh.Labels.push_back(
-      labels ? static_cast<long long>(std::llround(labels->GetComponent(c, 0))) : 0);
+      labels ? std::llround(labels->GetComponent(static_cast<vtkIdType>(c), 0)) : 0);
   }
   return mesh;
 }
 
+} // namespace
+
+Tetrahedra Read(vtkUnstructuredGrid* grid)
+{
+  return ReadMesh<3>(grid);
+}
+
+Pentatopes ReadPentatopes(vtkUnstructuredGrid* grid)
+{
+  return ReadMesh<4>(grid);
+}
+
 //----------------------------------------------------------------------------------------------------
 namespace
 {
 
-using Face = std::array<vtkIdType, 3>;
-
-struct Side
+bool HasComponents(vtkDataArray* array, int components, vtkPointSet* mesh)
 {
-  long long Label;
-  vtkIdType Opposite; ///< the vertex of the tetrahedron that is not on the face
-};
-
-Face Sorted(Face face)
-{
-  std::sort(face.begin(), face.end());
-  return face;
+  return CHECK(array != nullptr) && CHECK(array->GetNumberOfComponents() == components) &&
+    CHECK(array->GetNumberOfTuples() == mesh->GetNumberOfCells());
 }
 
-std::map<Face, std::vector<Side>> FacesOf(const Tetrahedra& mesh)
-{
-  std::map<Face, std::vector<Side>> faces;
-  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
-  {
-    const auto& v = mesh.Cells[c];
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const Face face = Sorted({ v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4] });
-      faces[face].push_back({ mesh.Labels[c], v[i] });
-    }
-  }
-  return faces;
-}
-
-void CheckArrays(vtkUnstructuredGrid* grid, vtkPolyData* interfaces)
-{
-  vtkDataArray* label = grid->GetCellData()->GetArray("Label");
-  if (CHECK(label != nullptr))
-  {
-    CHECK(label->GetNumberOfComponents() == 1);
-    CHECK(label->GetNumberOfTuples() == grid->GetNumberOfCells());
-    CHECK(grid->GetCellData()->GetScalars() == label);
-  }
-  vtkDataArray* labels = interfaces->GetCellData()->GetArray("Labels");
-  if (CHECK(labels != nullptr))
-  {
-    CHECK(labels->GetNumberOfComponents() == 2);
-    CHECK(labels->GetNumberOfTuples() == interfaces->GetNumberOfCells());
-    CHECK(label == nullptr || labels->GetDataType() == label->GetDataType());
-  }
-  CHECK(grid->GetPoints()->GetDataType() == VTK_DOUBLE);
-  CHECK(interfaces->GetPoints()->GetDataType() == VTK_DOUBLE);
-}
-
-void CheckPoints(const Tetrahedra& mesh)
+template <std::size_t D>
+void CheckCells(const Simplices<D>& mesh)
 {
   std::vector<char> used(mesh.Points.size(), 0);
-  for (const auto& cell : mesh.Cells)
+  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
   {
-    for (const vtkIdType id : cell)
+    const double volume = Volume<D>(mesh.Corners(c));
+    CHECK(volume > 0.0, c, volume);
+    CHECK(mesh.Labels[c] != 0, c);
+    for (const vtkIdType id : mesh.Cells[c])
     {
       used[static_cast<std::size_t>(id)] = 1;
     }
   }
-  CHECK(std::find(used.begin(), used.end(), 0) == used.end());
-  CHECK(std::set<Vector>(mesh.Points.begin(), mesh.Points.end()).size() == mesh.Points.size());
+  CHECK(std::count(used.begin(), used.end(), 0) == 0);
+  const std::set points(mesh.Points.begin(), mesh.Points.end());
+  CHECK(points.size() == mesh.Points.size());
 }
 
-/** Returns the face in the volume mesh's points. */
-Face CheckInterfaceCell(
-  vtkPolyData* interfaces, vtkDataArray* pointIds, vtkIdType cell, const Tetrahedra& mesh)
+/** The boundary's cells in the mesh's points; checks that these are the same points, and all used. */
+template <std::size_t D>
+std::vector<Ids<D>> ReadBoundary(vtkPointSet* boundary, const Simplices<D>& mesh)
 {
-  vtkIdType count = 0;
-  const vtkIdType* ids = nullptr;
-  interfaces->GetCellPoints(cell, count, ids);
-  Face face = { -1, -1, -1 };
-  if (!CHECK(count == 3, cell))
+  vtkDataArray* pointIds = boundary->GetPointData()->GetArray("PointIds");
+  if (!CHECK(pointIds != nullptr) || !CHECK(pointIds->GetDataType() == VTK_ID_TYPE))
   {
-    return face;
+    return {};
   }
-  for (std::size_t i = 0; i < 3; ++i)
+  const auto meshId = [pointIds](vtkIdType p)
+  { return static_cast<vtkIdType>(pointIds->GetComponent(p, 0)); };
+  const auto points = ReadPoints<D>(boundary);
+  for (std::size_t p = 0; p < points.size(); ++p)
   {
-    face[i] = static_cast<vtkIdType>(pointIds->GetComponent(ids[i], 0));
-    Vector x;
-    interfaces->GetPoint(ids[i], x.data());
-    CHECK(x == mesh.Points[static_cast<std::size_t>(face[i])], cell, i);
+    const vtkIdType id = meshId(static_cast<vtkIdType>(p));
+    CHECK(points[p] == mesh.Points[static_cast<std::size_t>(id)], p);
   }
-  return face;
+  auto facets = ReadCells<D>(boundary, D == 4 ? VTK_TETRA : VTK_TRIANGLE);
+  std::set<vtkIdType> used;
+  for (Ids<D>& facet : facets)
+  {
+    used.insert(facet.begin(), facet.end());
+    std::transform(facet.begin(), facet.end(), facet.begin(), meshId);
+  }
+  CHECK(used.size() == points.size());
+  return facets;
 }
 
-void CheckInterfaces(vtkPolyData* interfaces, const Tetrahedra& mesh)
+template <std::size_t D>
+void CheckBoundary(vtkPointSet* boundary, vtkDataArray* labels, const Simplices<D>& mesh)
 {
-  const auto faces = FacesOf(mesh);
+  struct Side
+  {
+    long long Label;
+    vtkIdType Opposite; ///< the vertex of the simplex that is not on the facet
+  };
+  std::map<Ids<D>, std::vector<Side>> sidesOf;
+  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
+  {
+    for (std::size_t i = 0; i <= D; ++i)
+    {
+      sidesOf[Sorted(Without(mesh.Cells[c], i))].push_back({ mesh.Labels[c], mesh.Cells[c][i] });
+    }
+  }
   std::size_t expected = 0;
-  for (const auto& [face, sides] : faces)
+  for (const auto& [facet, sides] : sidesOf)
   {
-    CHECK(sides.size() <= 2, "a face of more than two tetrahedra");
+    CHECK(sides.size() <= 2, "a facet of more than two simplices");
     expected += sides.size() == 1 || sides[0].Label != sides[1].Label ? 1 : 0;
   }
-  CHECK(static_cast<std::size_t>(interfaces->GetNumberOfCells()) == expected,
-    interfaces->GetNumberOfCells(), expected);
+  const auto facets = ReadBoundary<D>(boundary, mesh);
+  CHECK(facets.size() == expected, facets.size(), expected);
 
-  vtkDataArray* pointIds = interfaces->GetPointData()->GetArray("PointIds");
-  vtkDataArray* labels = interfaces->GetCellData()->GetArray("Labels");
-  if (!CHECK(pointIds != nullptr) || labels == nullptr)
+  std::set<Ids<D>> seen;
+  std::map<std::pair<long long, Ids<D - 1>>, int> ridges; // around each label
+  for (std::size_t c = 0; c < facets.size(); ++c)
   {
-    return;
-  }
-  std::set<Face> seen;
-  std::set<vtkIdType> used;
-  for (vtkIdType c = 0; c < interfaces->GetNumberOfCells(); ++c)
-  {
-    const Face face = CheckInterfaceCell(interfaces, pointIds, c, mesh);
-    used.insert(face.begin(), face.end());
-    CHECK(seen.insert(Sorted(face)).second, c);
-    const auto found = faces.find(Sorted(face));
-    if (!CHECK(found != faces.end(), c))
+    const auto cell = static_cast<vtkIdType>(c);
+    const long long first = std::llround(labels->GetComponent(cell, 0));
+    const long long second = std::llround(labels->GetComponent(cell, 1));
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      ++ridges[{ first, Sorted(Without(facets[c], i)) }];
+      ++ridges[{ second, Sorted(Without(facets[c], i)) }];
+    }
+    CHECK(seen.insert(Sorted(facets[c])).second, c);
+    const auto found = sidesOf.find(Sorted(facets[c]));
+    if (!CHECK(found != sidesOf.end(), c))
     {
       continue;
     }
-    const auto first = static_cast<long long>(labels->GetComponent(c, 0));
-    const auto second = static_cast<long long>(labels->GetComponent(c, 1));
     const std::vector<Side>& sides = found->second;
     const long long other = sides.size() == 2 ? std::min(sides[0].Label, sides[1].Label) : 0;
     const Side& inner = sides.size() == 2 && sides[1].Label == first ? sides[1] : sides[0];
     CHECK(first > second && inner.Label == first && second == other, c, first, second);
-    const auto at = [&mesh](vtkIdType id) { return mesh.Points[static_cast<std::size_t>(id)]; };
-    CHECK(Volume(at(face[0]), at(face[1]), at(face[2]), at(inner.Opposite)) < 0.0,
-      "the normal must point out of the first label", c);
+    Simplex<D> corners = { mesh.Points[static_cast<std::size_t>(inner.Opposite)] };
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      corners[i + 1] = mesh.Points[static_cast<std::size_t>(facets[c][i])];
+    }
+    CHECK(Volume<D>(corners) > 0.0, "the normal must point out of the first label", c);
   }
-  CHECK(static_cast<vtkIdType>(used.size()) == interfaces->GetNumberOfPoints());
+  CHECK(std::all_of(
+    ridges.begin(), ridges.end(), [](const auto& ridge) { return ridge.second % 2 == 0; }));
+}
+
+template <std::size_t D>
+void CheckOutputs(vtkUnstructuredGrid* grid, vtkPointSet* boundary)
+{
+  vtkDataArray* label = grid->GetCellData()->GetArray("Label");
+  vtkDataArray* labels = boundary->GetCellData()->GetArray("Labels");
+  if (!CHECK(grid->GetNumberOfCells() > 0) || !HasComponents(label, 1, grid) ||
+    !HasComponents(labels, 2, boundary))
+  {
+    return;
+  }
+  CHECK(grid->GetCellData()->GetScalars() == label);
+  CHECK(labels->GetDataType() == label->GetDataType());
+  CHECK(grid->GetPoints()->GetDataType() == VTK_DOUBLE);
+  CHECK(boundary->GetPoints()->GetDataType() == VTK_DOUBLE);
+  const Simplices<D> mesh = ReadMesh<D>(grid);
+  CheckCells<D>(mesh);
+  CheckBoundary<D>(boundary, labels, mesh);
 }
 
 } // namespace
 
-void CheckMesh(vtkImageToTetMeshFilter* filter)
+void CheckMesh(vtkImageToSimplexMeshFilter* filter)
 {
   CHECK(filter->GetErrorMessage().empty(), filter->GetErrorMessage());
-  vtkUnstructuredGrid* grid = filter->GetOutput();
-  vtkPolyData* interfaces = filter->GetInterfaces();
-  if (!CHECK(grid->GetNumberOfCells() > 0))
-  {
-    return;
-  }
-  CheckArrays(grid, interfaces);
-  const Tetrahedra mesh = Read(grid);
-  double smallest = VTK_DOUBLE_MAX;
-  for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
-  {
-    const auto t = mesh.Corners(c);
-    smallest = std::min(smallest, Volume(t[0], t[1], t[2], t[3]));
-  }
-  CHECK(smallest > 0.0, smallest);
-  CHECK(std::count(mesh.Labels.begin(), mesh.Labels.end(), 0) == 0);
-  CheckPoints(mesh);
-  CheckInterfaces(interfaces, mesh);
+  const auto check =
+    vtkImageToPentatopeMeshFilter::SafeDownCast(filter) ? CheckOutputs<4> : CheckOutputs<3>;
+  check(filter->GetOutput(), vtkPointSet::SafeDownCast(filter->GetOutputDataObject(1)));
 }
 
 //----------------------------------------------------------------------------------------------------
 namespace
 {
 
+/** Numbers that two meshes of the same bits have in common. */
+std::vector<vtkDataArray*> ArraysOf(vtkPointSet* mesh)
+{
+  auto* const grid = vtkUnstructuredGrid::SafeDownCast(mesh);
+  auto* const cells = grid ? grid->GetCells() : vtkPolyData::SafeDownCast(mesh)->GetPolys();
+  vtkCellData* data = mesh->GetCellData();
+  return { mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr,
+    cells->GetConnectivityArray(), data->GetArray("Label"), data->GetArray("Labels"),
+    mesh->GetPointData()->GetArray("Time") };
+}
+
 bool SameArray(vtkDataArray* a, vtkDataArray* b)
 {
-  if (a == nullptr || b == nullptr)
-  {
-    return a == b;
-  }
-  if (a->GetNumberOfTuples() != b->GetNumberOfTuples() ||
+  if (a == nullptr || b == nullptr || a->GetNumberOfTuples() != b->GetNumberOfTuples() ||
     a->GetNumberOfComponents() != b->GetNumberOfComponents())
   {
-    return false;
+    return a == b;
   }
   for (vtkIdType t = 0; t < a->GetNumberOfTuples(); ++t)
   {
@@ -472,25 +533,19 @@ bool SameArray(vtkDataArray* a, vtkDataArray* b)
   return true;
 }
 
-vtkDataArray* Coordinates(vtkPointSet* mesh)
-{
-  return mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr;
-}
-
 } // namespace
 
-bool SameMesh(vtkUnstructuredGrid* a, vtkUnstructuredGrid* b)
+bool SameMesh(vtkPointSet* a, vtkPointSet* b)
 {
-  return SameArray(Coordinates(a), Coordinates(b)) &&
-    SameArray(a->GetCells()->GetConnectivityArray(), b->GetCells()->GetConnectivityArray()) &&
-    SameArray(a->GetCellData()->GetArray("Label"), b->GetCellData()->GetArray("Label"));
+  const auto first = ArraysOf(a);
+  return std::equal(first.begin(), first.end(), ArraysOf(b).begin(), SameArray);
 }
 
-bool SameMesh(vtkPolyData* a, vtkPolyData* b)
+bool SameMesh(vtkImageToSimplexMeshFilter* a, vtkImageToSimplexMeshFilter* b)
 {
-  return SameArray(Coordinates(a), Coordinates(b)) &&
-    SameArray(a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
-    SameArray(a->GetCellData()->GetArray("Labels"), b->GetCellData()->GetArray("Labels"));
+  const auto output = [](vtkAlgorithm* filter, int port)
+  { return vtkPointSet::SafeDownCast(filter->GetOutputDataObject(port)); };
+  return SameMesh(output(a, 0), output(b, 0)) && SameMesh(output(a, 1), output(b, 1));
 }
 
 bool Empty(vtkImageToSimplexMeshFilter* filter)

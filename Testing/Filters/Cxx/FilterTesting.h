@@ -10,8 +10,10 @@
 
 #include "vtkCommand.h"
 #include "vtkImageToTetMeshFilter.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <array>
 #include <functional>
@@ -20,8 +22,6 @@
 #include <vector>
 
 class vtkImageData;
-class vtkPolyData;
-class vtkUnstructuredGrid;
 
 namespace testing
 {
@@ -101,40 +101,42 @@ void ExpectError(const char* name, vtkImageToSimplexMeshFilter* filter,
 vtkSmartPointer<vtkCommand> Observe(
   vtkAlgorithm* filter, std::function<void(vtkAlgorithm*, double)> function);
 
-double Volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
+template <std::size_t D>
+using Simplex = std::array<std::array<double, D>, D + 1>;
 
-struct Circumball
-{
-  Vector Centre;
-  double Radius;
-};
-Circumball CircumballOf(const std::array<Vector, 4>& tetrahedron);
+/** Signed; positive for a simplex in positive order. */
+template <std::size_t D>
+double Volume(const Simplex<D>& simplex);
 
-/** The mesh of a vtkUnstructuredGrid in plain arrays. */
-struct Tetrahedra
+/** The mesh of a vtkUnstructuredGrid in plain arrays; the last of four coordinates is the time. */
+template <std::size_t D>
+struct Simplices
 {
-  std::vector<Vector> Points;
-  std::vector<std::array<vtkIdType, 4>> Cells;
+  std::vector<std::array<double, D>> Points;
+  std::vector<std::array<vtkIdType, D + 1>> Cells;
   std::vector<long long> Labels;
 
-  std::array<Vector, 4> Corners(std::size_t cell) const;
+  Simplex<D> Corners(std::size_t cell) const;
   /** Sum of the volumes of one label, or of all for label 0. */
   double VolumeOf(long long label = 0) const;
   /** Centroid of everything. */
-  Vector Centroid() const;
+  std::array<double, D> Centroid() const;
 };
+using Tetrahedra = Simplices<3>;
+using Pentatopes = Simplices<4>;
 Tetrahedra Read(vtkUnstructuredGrid* grid);
+Pentatopes ReadPentatopes(vtkUnstructuredGrid* grid);
 
 /**
- * Checks all that holds for every mesh: array names and types, positive tetrahedra, no unused or
- * double point, conforming, the interfaces exactly the faces between labels, each with its labels,
- * its normal out of the first label, and its points those of the volume mesh.
+ * Checks all that holds for every mesh: array names, cell and array types, positive simplices, no unused or
+ * double point, conforming, the second output exactly the facets between labels, each with its labels, its
+ * order, which puts the normal outside of the first label, and its points, and closed around each label.
  */
-void CheckMesh(vtkImageToTetMeshFilter* filter);
+void CheckMesh(vtkImageToSimplexMeshFilter* filter);
 
-/** Whether two meshes are the same in every bit. */
-bool SameMesh(vtkUnstructuredGrid* a, vtkUnstructuredGrid* b);
-bool SameMesh(vtkPolyData* a, vtkPolyData* b);
+/** Whether two meshes, or both outputs of two filters, are the same in every bit. */
+bool SameMesh(vtkPointSet* a, vtkPointSet* b);
+bool SameMesh(vtkImageToSimplexMeshFilter* a, vtkImageToSimplexMeshFilter* b);
 
 /** Whether both outputs are empty. */
 bool Empty(vtkImageToSimplexMeshFilter* filter);

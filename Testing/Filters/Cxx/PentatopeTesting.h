@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PentatopeTesting.h
- * @brief What the tests of space-time meshes share: time series, mesh invariants.
+ * @brief What the tests of space-time meshes share: time series.
  */
 #ifndef PentatopeTesting_h
 #define PentatopeTesting_h
@@ -60,32 +60,6 @@ MovingLabel TwoLabelBall(const Event& centre, double radius);
 /** One thread, no picking, on the small placement's TwoLabelBall over 12 frames. */
 vtkSmartPointer<vtkImageToPentatopeMeshFilter> MakePentatopeFilter();
 vtkSmartPointer<vtkImageToPentatopeMeshFilter> MakePentatopeFilter(vtkAlgorithm* source);
-
-/** Signed; positive for a pentatope in positive order. */
-double Hypervolume(const std::array<Event, 5>& pentatope);
-
-/** A pentatope grid in plain arrays. */
-struct Pentatopes
-{
-  std::vector<Event> Points;
-  std::vector<std::array<vtkIdType, 5>> Cells;
-  std::vector<long long> Labels;
-
-  std::array<Event, 5> Corners(std::size_t cell) const;
-  /** Sum of one label, or of all for label 0. */
-  double HypervolumeOf(long long label = 0) const;
-};
-Pentatopes ReadPentatopes(vtkUnstructuredGrid* grid);
-
-/**
- * Checks all that holds for every mesh: arrays and cell types, positive order, no unused or double
- * point, conforming, the boundary exactly the facets between labels, each with its labels, its order
- * and its points, and closed around each label.
- */
-void CheckPentatopeMesh(vtkImageToPentatopeMeshFilter* filter);
-
-/** Whether both outputs are the same in every bit. */
-bool SamePentatopeMesh(vtkImageToPentatopeMeshFilter* a, vtkImageToPentatopeMeshFilter* b);
 
 } // namespace testing
 

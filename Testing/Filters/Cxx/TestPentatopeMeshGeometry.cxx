@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a space-time mesh lies: axes, origin, times; its hypervolume; its ends in time.
+// Where a space-time mesh lies: axes, origin, times; its hypervolume; its ends in time; where it asks for sizes.
 #include "PentatopeTesting.h"
 
 #include "vtkDataArray.h"
@@ -12,6 +12,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 using namespace testing;
@@ -60,7 +61,7 @@ void TestAxes()
 {
   const auto reference = MakePentatopeFilter(MakeIndexed({}, EqualTimes(12)));
   reference->Update();
-  CheckPentatopeMesh(reference);
+  CheckMesh(reference);
   const Pentatopes expected = ReadPentatopes(reference->GetOutput());
 
   const double a = std::cos(0.3);
@@ -82,7 +83,7 @@ void TestAxes()
     const auto filter = MakePentatopeFilter(MakeIndexed(placement, times));
     filter->SetTimeScale(timeScale);
     filter->Update();
-    CheckPentatopeMesh(filter);
+    CheckMesh(filter);
     const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
     if (!CHECK(mesh.Points.size() == expected.Points.size()) ||
       !CHECK(mesh.Cells.size() == expected.Cells.size()))
@@ -133,7 +134,7 @@ void TestTimeScale()
     filter->SetDelta(1.6);
     filter->Update();
   }
-  CheckPentatopeMesh(scaled);
+  CheckMesh(scaled);
   CHECK(scaled->GetOutput()->GetNumberOfCells() < plain->GetOutput()->GetNumberOfCells());
 }
 
@@ -146,11 +147,11 @@ void TestSkewedAxes()
   const auto filter = MakePentatopeFilter(MakeIndexed(placement, EqualTimes(12, 0.9), 4.8));
   filter->SetDelta(0.9);
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   const double pi = vtkMath::Pi();
   const double voxel = 0.8 * 1.0 * 1.5 * std::sqrt(1 - 0.09) * 0.9;
   const double truth = 0.5 * pi * pi * std::pow(4.8, 4) * voxel;
-  const double found = ReadPentatopes(filter->GetOutput()).HypervolumeOf();
+  const double found = ReadPentatopes(filter->GetOutput()).VolumeOf();
   CHECK(std::abs(found / truth - 1.0) < 0.1, found, truth);
 }
 
@@ -166,13 +167,13 @@ void TestBall()
   filter->SetSmoothingSigma(0.5);
   filter->SetDelta(1.4);
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
   const double truth = 0.5 * vtkMath::Pi() * vtkMath::Pi() * std::pow(radius, 4);
-  const double found = mesh.HypervolumeOf();
+  const double found = mesh.VolumeOf();
   CHECK(std::abs(found / truth - 1.0) < 0.06, found, truth);
-  CHECK(std::abs(mesh.HypervolumeOf(3) / mesh.HypervolumeOf(7) - 1.0) < 0.03, mesh.HypervolumeOf(3),
-    mesh.HypervolumeOf(7));
+  CHECK(std::abs(mesh.VolumeOf(3) / mesh.VolumeOf(7) - 1.0) < 0.03, mesh.VolumeOf(3),
+    mesh.VolumeOf(7));
   // It ends where the ball does, within a voxel.
   double first = VTK_DOUBLE_MAX;
   double last = -VTK_DOUBLE_MAX;
@@ -204,7 +205,7 @@ void TestFlatEnds()
     filter->SetSmoothingSigma(0.5);
     filter->SetDelta(0.8);
     filter->Update();
-    CheckPentatopeMesh(filter);
+    CheckMesh(filter);
     double range[2];
     filter->GetOutput()->GetPointData()->GetArray("Time")->GetRange(range);
     CHECK(range[0] == times.front() && range[1] == times.back(), range[0], range[1], timeScale);
@@ -212,7 +213,7 @@ void TestFlatEnds()
     const Pentatopes mesh = ReadPentatopes(filter->GetOutput());
     const double area = 4.0 / 3.0 * vtkMath::Pi() * std::pow(4.2, 3);
     const double truth = area * (times.back() - times.front());
-    CHECK(std::abs(mesh.HypervolumeOf() / truth - 1.0) < 0.08, mesh.HypervolumeOf(), truth);
+    CHECK(std::abs(mesh.VolumeOf() / truth - 1.0) < 0.08, mesh.VolumeOf(), truth);
 
     // The flat ends: boundary tetrahedra at the two times fill the ball.
     vtkUnstructuredGrid* boundary = filter->GetBoundary();
@@ -232,11 +233,70 @@ void TestFlatEnds()
           flat = flat && time->GetComponent(ids[i], 0) == end;
           boundary->GetPoint(ids[i], corners[i].data());
         }
-        volume += flat ? std::abs(Volume(corners[0], corners[1], corners[2], corners[3])) : 0.0;
+        volume += flat ? std::abs(Volume<3>({ corners[0], corners[1], corners[2], corners[3] })) : 0.0;
       }
       CHECK(std::abs(volume / area - 1.0) < 0.08, end, volume, area);
     }
   }
+}
+
+/** The function gets physical coordinates, the time in the input's unit, and the label there. */
+void TestSizeFunctionArguments()
+{
+  Placement placement = SmallPlacement();
+  placement.Origin = { 100, 200, 300 };
+  placement.Direction = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  // Voxel (i, j, k) lies at (100 - j, 200 + i, 300 + k), frame l at 40 + 0.5 l.
+  const Event centre = { 94.5, 205.5, 305.5, 42.75 };
+  std::vector<double> times;
+  for (int k = 0; k < 12; ++k)
+  {
+    times.push_back(40.0 + 0.5 * k);
+  }
+  const auto label = [&](const Vector& x, double t)
+  {
+    const Vector scaled = { 5.5 + x[0] - centre[0], 5.5 + x[1] - centre[1],
+      5.5 + x[2] - centre[2] };
+    return TwoLabelBall(Centre, 4.2)(scaled, 5.5 + 2.0 * (t - centre[3]));
+  };
+  const auto filter = MakePentatopeFilter(MakeSeries(placement, times, label));
+  filter->SetTimeScale(2.0);
+  filter->SetDelta(1.5);
+  std::atomic<int> calls{ 0 };
+  std::atomic<int> wrong{ 0 };
+  filter->SetSizeFunction(
+    [&](const double* x, vtkTypeInt64 value)
+    {
+      ++calls;
+      const double space = std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
+      const double distance = std::hypot(space, 2.0 * (x[3] - centre[3]));
+      const bool nearMiddle = std::abs(x[0] - centre[0]) < 1.0;
+      const bool good = distance < 5.5 && (nearMiddle || value == (x[0] < centre[0] ? 3 : 7));
+      wrong += good ? 0 : 1;
+      return 2.0;
+    });
+  filter->Update();
+  CheckMesh(filter);
+  CHECK(calls > 100, calls);
+  CHECK(wrong == 0, wrong, calls);
+}
+
+void TestConstantSizeFunction()
+{
+  const auto filter = MakePentatopeFilter();
+  filter->SetDelta(3.0);
+  filter->SetSizeFunction([](const double*, vtkTypeInt64) { return 1.8; });
+  const auto number = MakePentatopeFilter();
+  number->SetDelta(3.0);
+  number->SetElementSize(1.8);
+  filter->Update();
+  number->Update();
+  CHECK(SameMesh(filter, number));
+  filter->SetSizeFunction(nullptr);
+  number->SetElementSize(0.0);
+  filter->Update();
+  number->Update();
+  CHECK(SameMesh(filter, number));
 }
 
 } // namespace
@@ -248,5 +308,7 @@ int TestPentatopeMeshGeometry(int, char*[])
   TestSkewedAxes();
   TestBall();
   TestFlatEnds();
+  TestSizeFunctionArguments();
+  TestConstantSizeFunction();
   return Result();
 }

@@ -43,7 +43,7 @@ void TestSlabs()
   filter->AddTimePlane(101.2);
   filter->PeriodicOn();
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   vtkUnstructuredGrid* const grid = filter->GetOutput();
   vtkDataArray* const planes = grid->GetFieldData()->GetArray("TimePlanes");
   CHECK(planes && planes->GetNumberOfTuples() == 2, "two planes");
@@ -79,7 +79,7 @@ void TestSlabs()
   filter->RemoveAllTimePlanes();
   filter->PeriodicOff();
   filter->Update();
-  CheckPentatopeMesh(filter);
+  CheckMesh(filter);
   CHECK(!filter->GetOutput()->GetCellData()->GetArray("Slab") &&
       !filter->GetOutput()->GetFieldData()->GetArray("TimePlanes") &&
       !filter->GetOutput()->GetFieldData()->GetArray("PeriodicPairs"),

@@ -66,6 +66,7 @@ void TestDefaultDelta()
   CHECK(filter->GetDefaultDelta() == 0.0);
 }
 
+/** Of single numbers: Parameters.Filters. */
 void TestExecutions()
 {
   const auto image = MakeTwoLabels(6.0);
@@ -96,10 +97,6 @@ void TestExecutions()
   sphere->SetRadius(1.0);
   sphere->SetCenter(-50, 0, 0);
   expectExecution("Delta", [&] { filter->SetDelta(2.5); });
-  expectExecution("RadiusEdgeRatio", [&] { filter->SetRadiusEdgeRatio(2.1); });
-  expectExecution("FacetAngle", [&] { filter->SetFacetAngle(25); });
-  expectExecution("SmoothingSigma", [&] { filter->SetSmoothingSigma(0.5); });
-  expectExecution("ElementSize", [&] { filter->SetElementSize(5); });
   expectExecution("LabelSize", [&] { filter->SetLabelSize(1, 4.0); });
   expectExecution("LabelSize again", [&] { filter->SetLabelSize(1, 4.5); });
   expectExecution("RemoveLabelSize", [&] { filter->RemoveLabelSize(1); });
@@ -115,22 +112,11 @@ void TestExecutions()
     [&] { filter->SetSizeFunction([](const double[3], vtkTypeInt64) { return 5.0; }); });
   expectExecution("ElementSizeData",
     [&] { filter->SetElementSizeData(MakeImage({}, [](const Vector&) { return 6.0; })); });
-  expectExecution("Force", [&] { filter->ForceOn(); });
-  expectExecution("MemoryLimit", [&] { filter->SetMemoryLimit(1ull << 40); });
   expectExecution("ComputeQuality", [&] { filter->ComputeQualityOn(); });
-  expectExecution("NumberOfThreads", [&] { filter->SetNumberOfThreads(2); });
-  expectExecution("ContentionManager", [&] { filter->SetContentionManagerToGlobal(); });
-  expectExecution("LoadBalancer", [&] { filter->SetLoadBalancerToRandomWorkStealing(); });
-  expectExecution("PinThreads", [&] { filter->PinThreadsOn(); });
-  expectExecution("Reproducible", [&] { filter->ReproducibleOn(); });
   expectExecution("the image", [&] { image->Modified(); });
 
   executions = 0;
   filter->SetDelta(2.5);
-  filter->SetContentionManagerToGlobal();
-  filter->SetLoadBalancerToRandomWorkStealing();
-  filter->PinThreadsOn();
-  filter->ReproducibleOn();
   filter->SetLabelSize(7, 1.0);
   filter->RemoveLabelSize(7);
   filter->RemoveLabel(99);
@@ -190,21 +176,16 @@ void TestPrintSelf()
   filter->Print(before);
   CHECK(before.str().find("LabelSizes: (none)") != std::string::npos);
   CHECK(before.str().find("SelectedLabels: (all)") != std::string::npos);
-  filter->SetDelta(1.25);
   filter->SetLabelSize(1, 3.5);
   filter->AddLabel(1);
   filter->SetSizeImplicitFunction(sphere);
-  filter->SetMemoryLimit(123456789012ull);
   filter->Update();
   std::ostringstream text;
   filter->Print(text);
   for (const char* line :
-    { "Delta: 1.25", "RadiusEdgeRatio: 2", "Grading: uniform", "FeatureRatio: 1",
-      "LargestFeature: 12", "FacetAngle: 30", "SmoothingSigma: 1", "ElementSize: 0",
-      "LabelSizes: 1=3.5", "SelectedLabels: 1", "SizeImplicitFunction:", "SizeFunction: (none)",
-      "NumberOfThreads: 1", "ContentionManager: local", "LoadBalancer: hws", "PinThreads: Off",
-      "Reproducible: Off", "Force: Off", "MemoryLimit: 123456789012", "ComputeQuality: Off",
-      "ErrorMessage: (none)", "Aborted: No", "Statistics:", "NumberOfElements:" })
+    { "LabelSizes: 1=3.5", "SelectedLabels: 1", "SizeImplicitFunction:", "SizeFunction: (none)",
+      "ComputeQuality: Off", "ErrorMessage: (none)", "Aborted: No", "Statistics:",
+      "NumberOfElements:" })
   {
     CHECK(text.str().find(line) != std::string::npos, line);
   }

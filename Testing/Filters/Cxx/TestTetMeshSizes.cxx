@@ -9,6 +9,7 @@
 #include "vtkNew.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
+#include "vtkTetra.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -58,8 +59,11 @@ void CheckSizes(vtkImageToTetMeshFilter* filter, const char* name, const Bound& 
   double worst = 0.0;
   for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
   {
-    const Circumball ball = CircumballOf(mesh.Corners(c));
-    worst = std::max(worst, ball.Radius / bound(ball.Centre, mesh.Labels[c]));
+    Simplex<3> t = mesh.Corners(c);
+    Vector centre;
+    const double square =
+      vtkTetra::Circumsphere(t[0].data(), t[1].data(), t[2].data(), t[3].data(), centre.data());
+    worst = std::max(worst, std::sqrt(square) / bound(centre, mesh.Labels[c]));
   }
   CHECK(worst <= 1.0 + 1e-6, name, worst);
 }

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,50 +39,6 @@ vtkSmartPointer<Filter> MakeParallel(int threads, double delta = 0.8)
   filter->SetNumberOfThreads(threads);
   filter->ComputeQualityOn();
   return filter;
-}
-
-void TestProperties()
-{
-  vtkNew<Filter> filter;
-  CHECK(filter->GetNumberOfThreads() == 0);
-  CHECK(filter->GetContentionManager() == Filter::CONTENTION_LOCAL);
-  CHECK(filter->GetLoadBalancer() == Filter::HIERARCHICAL_WORK_STEALING);
-  CHECK(!filter->GetPinThreads());
-
-  const auto expectManager = [&filter](int value, const std::string& name)
-  {
-    CHECK(filter->GetContentionManager() == value, name, filter->GetContentionManager());
-    CHECK(filter->GetContentionManagerAsString() == name, filter->GetContentionManagerAsString());
-  };
-  filter->SetContentionManagerToAggressive();
-  expectManager(Filter::CONTENTION_AGGRESSIVE, "aggressive");
-  filter->SetContentionManagerToRandom();
-  expectManager(Filter::CONTENTION_RANDOM, "random");
-  filter->SetContentionManagerToGlobal();
-  expectManager(Filter::CONTENTION_GLOBAL, "global");
-  filter->SetContentionManagerToLocal();
-  expectManager(Filter::CONTENTION_LOCAL, "local");
-  filter->SetContentionManager(-1);
-  expectManager(Filter::CONTENTION_AGGRESSIVE, "aggressive");
-  filter->SetContentionManager(99);
-  expectManager(Filter::CONTENTION_LOCAL, "local");
-
-  const auto expectBalancer = [&filter](int value, const std::string& name)
-  {
-    CHECK(filter->GetLoadBalancer() == value, name, filter->GetLoadBalancer());
-    CHECK(filter->GetLoadBalancerAsString() == name, filter->GetLoadBalancerAsString());
-  };
-  filter->SetLoadBalancerToRandomWorkStealing();
-  expectBalancer(Filter::RANDOM_WORK_STEALING, "rws");
-  filter->SetLoadBalancerToHierarchicalWorkStealing();
-  expectBalancer(Filter::HIERARCHICAL_WORK_STEALING, "hws");
-  filter->SetLoadBalancer(-1);
-  expectBalancer(Filter::RANDOM_WORK_STEALING, "rws");
-  filter->SetLoadBalancer(2);
-  expectBalancer(Filter::HIERARCHICAL_WORK_STEALING, "hws");
-
-  filter->SetNumberOfThreads(-3);
-  CHECK(filter->GetNumberOfThreads() == 0);
 }
 
 /** The figures of threads agree with each other and with the rest. */
@@ -392,15 +349,30 @@ void TestEvents(int threads)
   CHECK(listener.FromOtherThreads == 0, threads, listener.FromOtherThreads);
 }
 
+void TestThrowingFunction()
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    const auto filter = MakeParallel(threads, 2.0);
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double
+      { throw std::runtime_error("the user's own words"); });
+    ExpectError(
+      "exception", filter, { "the user's own words" }, [&] { filter->SetSizeFunction(nullptr); });
+    filter->SetSizeFunction([](const double[3], vtkTypeInt64) -> double { throw 42; });
+    ExpectError(
+      "odd exception", filter, { "size function" }, [&] { filter->SetSizeFunction(nullptr); });
+  }
+}
+
 } // namespace
 
 int TestTetMeshThreads(int, char*[])
 {
-  TestProperties();
   TestEveryPolicy();
   TestNumbers();
   TestPinning();
   TestInstances();
+  TestThrowingFunction();
   TestEvents(1);
   TestEvents(8);
   return Result();

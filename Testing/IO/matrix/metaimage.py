@@ -173,6 +173,8 @@ ROWS += [
     row("MetaImage", "LIST with a short file", pieces(I2, LIST, SLICES).with_data(b"x", "s2.raw"), broken("s2.raw")),
     row("MetaImage", "LIST with a FIFO", pieces(I2, LIST, SLICES).with_data(Fifo(), "s2.raw"),
         refused("s2.raw")),
+    *(row("MetaImage", "files elsewhere: " + names.split("\n")[0], pieces(I2, names, SLICES), refused("folder of the header"))
+      for names in ("LIST\n/etc/passwd\ns2.raw\ns3.raw", "/var/a%d.raw 1 3 1")),
     row("MetaImage", "LIST and nothing else", pieces(I2, "LIST", SLICES), broken("data file|LIST|list")),
 ]
 for pattern in ("%s%n.raw 1 3 1", "s%d.raw 1 3 0", "s%d.raw 3 1 1", "s%d.raw 1 1000000000 1", "s%d%d.raw 1 3 1",

@@ -209,6 +209,8 @@ for code in (1, 2, 3, 4, 5):
 equal("neither", I2)
 equal("neither, 4D", FOUR)
 equal("neither, with an unused qform and sform", I2, **{**OBLIQUE, "qform_code": 0, "sform_code": 0})
+equal("neither, with an unused qform and sform of NaN", I2, **{
+    **OBLIQUE, "qform_code": 0, "sform_code": 0, "quatern": (np.nan,) * 3, "srow": (np.nan,) * 12})
 equal("sform of code -1, and qform", I2, warns=ANY, **{**OBLIQUE, "sform_code": -1, "srow": (9,) * 12})
 equal("sform far from qform", I2, MUST_WARN_BOTH, **{**qform(AXES["oblique"]), **sform(AXES["oblique"], ORIGIN + 100)})
 equal("sform turned against qform", I2, MUST_WARN_BOTH, **{**qform(AXES["identity"]), **sform(AXES["oblique"])})
@@ -279,6 +281,7 @@ for value in (np.nan, np.inf):
                                                            "quatern": (0, value, 0)})
     refuse("sform of %s" % value, "sform|srow|finite|number", srow=(value, *range(11)))
     refuse("step of time of %s" % value, "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, value))
+    refuse("first time of %s" % value, "toffset", array=FOUR, toffset=value)
 refuse("negative step of time", "time|pixdim", array=FOUR, pixdim=(1, 1, 1, 1, -1))
 refuse("quaternion longer than 1", "qform|quatern|position or orientation", **{**qform(AXES["identity"]), "sform_code": 0,
                                                        "quatern": (1, 1, 1)})

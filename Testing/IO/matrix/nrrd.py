@@ -282,6 +282,8 @@ for place in (0, 1, 2, 3):
     equal("a list as axis %d" % place, FRAMES, array=np.moveaxis(FOUR, 0, 3 - place), **frame_list(place))
     equal("a list of one as axis %d" % place, IMAGE, array=np.expand_dims(I2, 3 - place), **frame_list(place, frames=1))
 equal("a list without index values", Image(FOUR, affine(), (0, 1, 2)), **{**frame_list(), "keys": ()})
+equal("a list with a vector of NaN", Image(FOUR, affine(), (0, 1, 2)), **{
+    **frame_list(), "keys": (), "space_directions": directions(AXES["identity"], "(nan,nan,nan)")})
 equal("a list with spacings beside it", Image(FOUR, affine(), (0, 0.5, 1), warns=ANY), [refused("spacing")],
       **{**frame_list(), "keys": ()}, spacings="nan nan nan 0.5")
 equal("index values not equally spaced", Image(FOUR, affine(), (1, 2, 5)),
@@ -416,6 +418,8 @@ ROWS += [
         broken("s2.dat")),
     row("NRRD", "LIST with a FIFO", pieces(I2, LIST, SLICES).with_data(Fifo(), "s2.dat"),
         refused("s2.dat")),
+    *(row("NRRD", "files elsewhere: " + names.split("\n")[0], pieces(I2, names, SLICES), refused("folder of the header"))
+      for names in ("LIST\n/etc/passwd\ns2.dat\ns3.dat", "/var/a%d.dat 1 3 1")),
     row("NRRD", "LIST and nothing else", pieces(I2, "LIST", SLICES), broken("data file|LIST|list")),
 ]
 for pattern in ("%s%n.dat 1 3 1", "s%d.dat 1 3 0", "s%d.dat 3 1 1", "s%d.dat 1 1000000000 1", "s%d%d.dat 1 3 1",

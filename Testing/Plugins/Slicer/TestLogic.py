@@ -11,7 +11,6 @@ from dataclasses import fields, replace
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader

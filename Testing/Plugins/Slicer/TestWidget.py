@@ -276,67 +276,25 @@ class Runs(PanelTestCase):
         self.assertTrue(colors.isUser)
         self.assertEqual(colors.references, 1)
 
-    def test_progress_is_shown(self):
-        self.choose_segmentation(size=48)
-        self.widget.deltaSpinBox.value = 0.8
-        shown = []
-        show = self.widget.showState
-
-        def record(state):
-            show(state)
-            shown.append(self.widget.progressBar.value)
-        self.widget.logic.onChange = record
-        self.assertEqual(self.apply().phase, Phase.COMPLETED)
-        self.assertEqual(shown, sorted(shown))
-        self.assertGreater(len(set(shown)), 4)
-
     def test_choices_and_settings_arrive(self):
         self.choose_segmentation()
         self.item(0, MESH).setCheckState(qt.Qt.Unchecked)
         self.item(1, SIZE).setText("1.5")
         self.widget.radiusEdgeSpinBox.value = 1.9
         self.widget.forceCheckBox.checked = True
+        self.widget.gradingComboBox.currentIndex = 1
+        self.widget.optimiseCheckBox.checked = False
+        self.widget.interfaceSizesLineEdit.type("Muscle : background = 1.5")
         self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
         command = slicer.cli.commands[-1]
-        self.assertEqual(command[command.index("--labelsizes") + 1], "1=1.5")
-        self.assertEqual(command[command.index("--radiusedge") + 1], "1.9")
+        for flag, value in (("--labelsizes", "1=1.5"), ("--radiusedge", "1.9"), ("--grading", "lfs"), ("--optimise", "off"),
+                            ("--interfacesizes", "1:0=1.5")):
+            self.assertEqual(command[command.index(flag) + 1], value)
         self.assertIn("--force", command)
         figures, = measureLabels(self.mesh_node().GetMesh())
         self.assertEqual(figures.label, 1)
         self.assertAlmostEqual(figures.volume / (self.array == 7).sum(), 1.0, delta=0.08)
         self.assertRegex(self.log()[2], "^  Muscle: ")
-
-    def test_options_arrive(self):
-        """Each where it belongs: more elements or fewer, other shapes, a longer log."""
-        self.choose_segmentation(size=32)
-        w = self.widget
-        w.threadsSpinBox.value = 1
-
-        def count():
-            self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
-            return self.mesh_node().GetMesh().GetNumberOfCells()
-        w.deltaSpinBox.value = 1.0
-        plain = count()
-        w.gradingComboBox.currentIndex = 1
-        graded = count()
-        self.assertLess(graded, 0.8 * plain)
-        w.featureRatioSpinBox.value = 0.4
-        self.assertGreater(count(), 1.1 * graded)
-        w.gradingComboBox.currentIndex = 0
-        w.interfaceSizesLineEdit.type("Bone : Muscle = 0.5; Muscle : background = 1.5")
-        self.assertNotEqual(count(), plain)
-        self.assertEqual(self.option("--interfacesizes"), "1:2=0.5,2:0=1.5")
-        w.interfaceSizesLineEdit.type("")
-        w.optimiseCheckBox.checked = False
-        count()
-        self.assertLess(self.dihedral_angles()[0], 14)
-        w.elementsSpinBox.value = 12000
-        self.assertLess(abs(count() / 12000 - 1), 0.1)
-        self.assertEqual(self.option("--delta"), "0")
-
-    def option(self, flag):
-        command = slicer.cli.commands[-1]
-        return command[command.index(flag) + 1]
 
     def dihedral_angles(self):
         """As the log has them."""
@@ -355,24 +313,6 @@ class Runs(PanelTestCase):
                                    r"[\d.]+ %$", self.log()[-1]).groups()
         self.assertTrue(0.2 < float(distance) < 3.0, distance)
         self.assertEqual(edges, "0")
-
-    def test_small_components(self):
-        segmentation = self.choose_segmentation().GetSegmentation()
-        speck = np.zeros_like(segmentation.segments["a"].voxels)
-        n = len(speck) // 2
-        speck[n, n, n] = True  # beside an interface
-        segmentation.add("c", "Speck", (0, 0, 1), speck)
-        self.widget.deltaSpinBox.value = 3.0
-        lost, found = "\n  Speck: none; it is too small for this delta", "\n  Speck: [1-9]"
-        self.widget.smallestComponentSpinBox.value = 0
-        self.apply()
-        self.assertRegex("\n".join(self.log()), lost)
-        self.widget.smallestComponentSpinBox.value = 8  # but a segment's largest one counts at any size
-        self.apply()
-        self.assertRegex("\n".join(self.log()), found)
-        self.widget.minimumVolumeSpinBox.value = 2.0  # a voxel has 1
-        self.apply()
-        self.assertRegex("\n".join(self.log()), lost)
 
     def test_isosurface(self):
         """A ball of radius 8 in a volume; its mesh has the volume's name."""
@@ -476,16 +416,6 @@ class Runs(PanelTestCase):
         self.assertIsNone(self.mesh_node().GetMesh())
         self.assertTrue(self.widget.applyButton.enabled)
         self.assertEqual(slicer.mrmlScene.names("vtkMRMLLabelMapVolumeNode"), [])
-
-    def test_oblique_axes(self):
-        """The mesh lies where the label map lies."""
-        turned = images.Geometry(origin=(50.0, -10.0, 3.0), spacing=(1.0, 2.0, 0.5),
-                                 direction=np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]))
-        slicer.labelmapGeometry = turned
-        self.choose_segmentation()
-        self.apply()
-        bounds = np.array(self.mesh_node().GetMesh().GetBounds()).reshape(3, 2)
-        np.testing.assert_allclose(bounds.mean(axis=1), turned.physical(np.full(3, 11.5)), atol=1.0)
 
     def test_self_test_of_the_module(self):
         """What Slicer's developer mode runs."""
