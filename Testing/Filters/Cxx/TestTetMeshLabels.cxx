@@ -202,11 +202,14 @@ void TestShrunkLabels()
       std::string::npos);
   CHECK(errors->FromFilter.back().find("in several pieces that no common faces connect: ") !=
     std::string::npos);
+  CHECK(filter->GetNumberOfWarnings() == 2 &&
+    filter->GetWarning(0).find("The mesh has less than half of the volume") == 0);
+  CHECK(filter->GetWarning(2).empty() && filter->GetWarning(-1).empty());
   CHECK(statistics->GetShrunkLabel(1) == 0 && statistics->GetShrunkLabelFraction(-1) == 0.0);
 
   filter->ExactComponentsOn();
   filter->Update();
-  CHECK(statistics->GetNumberOfShrunkLabels() == 0);
+  CHECK(statistics->GetNumberOfShrunkLabels() == 0 && filter->GetNumberOfWarnings() == 0);
   CHECK(statistics->ToJSON().find("\"shrunk_labels\":[]") != std::string::npos);
   CHECK(statistics->ToJSON().find("\"broken_components\":[]") != std::string::npos);
   CHECK(errors->FromFilter.size() == 2);
