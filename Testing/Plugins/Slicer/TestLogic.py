@@ -269,7 +269,7 @@ class Runs(ModuleTestCase):
         images.write_nrrd(self.folder / "labels.nrrd", self.array)
         self.logic.start(SEGMENTS, Settings(delta=3.0, smallestComponent=0))
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)
-        self.assertTrue(any("the mesh lacks labels" in line for line in self.lines), self.lines)
+        self.assertTrue(any("The mesh lacks these labels" in line for line in self.lines), self.lines)
         self.assertIn("  Muscle, left: none; it is too small for this delta",
                       describeMesh(self.logic.runner.mesh(), SEGMENTS))
 
