@@ -456,9 +456,9 @@ TEST(ImageMesher, StatisticsSayWhatTheMeshHasAndLacks)
   const LabelImage<3> image = phantoms::Make(phantoms::Cube(32),
     [](const Point<3>& p) -> std::int16_t
     {
-      const bool isBall = Distance2(p, { 14.0, 14.0, 14.0 }) < 100.0;
-      const bool isSpeck = Distance2(p, { 28.0, 28.0, 28.0 }) < 1.5;
-      const bool isVoxel = Distance2(p, { 2.0, 28.0, 2.0 }) < 0.5;
+      const bool isBall = Distance2(p, Point<3>{ 14.0, 14.0, 14.0 }) < 100.0;
+      const bool isSpeck = Distance2(p, Point<3>{ 28.0, 28.0, 28.0 }) < 1.5;
+      const bool isVoxel = Distance2(p, Point<3>{ 2.0, 28.0, 2.0 }) < 0.5;
       return static_cast<std::int16_t>(isBall || isSpeck ? 3 : isVoxel ? 7 : 0);
     });
   MeshingOptions<3> options;
