@@ -7,7 +7,7 @@
 #include "OptionValues.h"
 #include "OutputFormats.h"
 #include "ParameterChecks.h"
-#include "SliceFiles.h"
+#include "SpaceTimeFiles.h"
 
 #include <voxplexVersion.h>
 

@@ -86,6 +86,16 @@ std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface 
   return warnings;
 }
 
+std::vector<std::string> WarningsOf(const vtkImageToSimplexMeshFilter* filter)
+{
+  std::vector<std::string> warnings;
+  for (int i = 0; i < filter->GetNumberOfWarnings(); ++i)
+  {
+    warnings.push_back(filter->GetWarning(i));
+  }
+  return warnings;
+}
+
 void Execute(vtkAlgorithm* filter, const ProgressFunction& progress)
 {
   vtkNew<vtkCallbackCommand> observer;

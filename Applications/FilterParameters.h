@@ -34,6 +34,9 @@ using ProgressFunction = std::function<bool(double fraction, const std::string& 
  */
 std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface);
 
+/** How the mesh that a filter has made differs from what was asked for. */
+std::vector<std::string> WarningsOf(const vtkImageToSimplexMeshFilter* filter);
+
 /** Executes a filter. If `progress` cancels, its GetAborted() is true afterwards. */
 void Execute(vtkAlgorithm* filter, const ProgressFunction& progress);
 

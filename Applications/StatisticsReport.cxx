@@ -209,75 +209,6 @@ std::string SummarizeDropped(const ordered_json& components)
     (components.size() == 1 ? " component" : " components") + " (voxels: " + text + "). ";
 }
 
-/** Where refinement gave way: the first few places, and how many there are. */
-std::string DescribeYielding(const ordered_json& regions)
-{
-  constexpr int most = 3;
-  std::string places;
-  int count = 0;
-  for (const ordered_json& region : regions)
-  {
-    if (region["step"] == 1 && ++count <= most)
-    {
-      places += (places.empty() ? "" : ", ") + region["voxel"].dump();
-    }
-  }
-  return "in " + std::to_string(count) + (count == 1 ? " region" : " regions") +
-    " refinement took many times the work that it should need, and stopped improving shapes there: "
-    "at " +
-    (count == 1 ? "voxel " : "voxels ") + places + (count > most ? ", ..." : "") +
-    "; a smaller --delta helps where the image is rougher than delta";
-}
-
-/** Labels of which the mesh has too little: the worst ones, and how many there are. */
-std::string DescribeShrunk(const ordered_json& report)
-{
-  constexpr std::size_t most = 5;
-  std::vector<ordered_json> labels = report["shrunk_labels"];
-  std::stable_sort(labels.begin(), labels.end(),
-    [](const ordered_json& a, const ordered_json& b)
-    { return a["fraction"].get<double>() < b["fraction"].get<double>(); });
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, labels.size()); ++i)
-  {
-    const ordered_json& name = labels[i]["name"];
-    text += (i ? ", " : "") + labels[i]["label"].dump() + " (" +
-      (name.is_null() ? "" : name.get<std::string>() + ", ") +
-      Rounded(100.0 * labels[i]["fraction"].get<double>(), 0) + " %)";
-  }
-  const bool exact = report["parameters"]["exact_components"].get<bool>();
-  return "the mesh has less than half of the volume of " + std::to_string(labels.size()) +
-    (labels.size() == 1 ? " label, which is" : " labels, which are") +
-    " thin for this delta: " + text + (labels.size() > most ? ", ..." : "") + "; " +
-    (exact ? "a smaller --delta keeps " : "--exact-components or a smaller --delta keeps ") +
-    (labels.size() == 1 ? "it" : "them");
-}
-
-/** Components that are in pieces: those of the most pieces, and how many there are. */
-std::string DescribeBroken(const ordered_json& report)
-{
-  constexpr std::size_t most = 5;
-  std::vector<ordered_json> components = report["broken_components"];
-  std::stable_sort(components.begin(), components.end(),
-    [](const ordered_json& a, const ordered_json& b)
-    { return a["fragments"].get<std::uint64_t>() > b["fragments"].get<std::uint64_t>(); });
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, components.size()); ++i)
-  {
-    text += (i ? ", " : "") + std::string("label ") + components[i]["label"].dump() + " at voxel " +
-      components[i]["voxel"].dump() + " in " + components[i]["fragments"].dump() + " pieces";
-  }
-  const bool exact = report["parameters"]["exact_components"].get<bool>();
-  return std::to_string(components.size()) +
-    (components.size() == 1 ? " connected component of the image is"
-                            : " connected components of the image are") +
-    " in pieces that no common faces connect: " + text + (components.size() > most ? ", ..." : "") +
-    "; " +
-    (exact ? "a smaller --delta, or an image with smaller voxels, may connect "
-           : "--exact-components or a smaller --delta connects ") +
-    (components.size() == 1 ? "it" : "them");
-}
-
 } // namespace
 
 ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& parameters,
@@ -302,59 +233,6 @@ void WriteReport(const ordered_json& report, const std::string& path, const io::
   files.WriteText(path,
     [&report](io::TextFile& file)
     { file << report.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n'; });
-}
-
-std::vector<std::string> Warnings(const ordered_json& report)
-{
-  std::vector<std::string> warnings;
-  const ordered_json& lost = report["lost_labels"];
-  if (!lost.empty())
-  {
-    std::string labels;
-    for (std::size_t i = 0; i < lost.size(); ++i)
-    {
-      const ordered_json& name = report["lost_label_names"][i];
-      labels += (labels.empty() ? "" : ", ") + lost[i].dump() +
-        (name.is_null() ? "" : " (" + name.get<std::string>() + ")");
-    }
-    warnings.push_back("too small for this delta and not in the mesh: label" +
-      std::string(lost.size() == 1 ? " " : "s ") + labels + "; use a smaller --delta to keep " +
-      (lost.size() == 1 ? "it" : "them"));
-  }
-  if (!report["shrunk_labels"].empty())
-  {
-    warnings.push_back(DescribeShrunk(report));
-  }
-  if (!report["broken_components"].empty())
-  {
-    warnings.push_back(DescribeBroken(report));
-  }
-  for (const ordered_json& component : report["lost_components"])
-  {
-    warnings.push_back("not in the mesh: the connected component of " + component["voxels"].dump() +
-      " voxels of label " + component["label"].dump() + " at voxel " + component["voxel"].dump());
-  }
-  if (report["sizes_raised_to"].get<double>() > 0.0)
-  {
-    warnings.push_back("some element sizes are below a tenth of delta and were raised to " +
-      Significant(report["sizes_raised_to"]) + "; use a smaller --delta for smaller elements");
-  }
-  if (!report["yielding_regions"].empty())
-  {
-    warnings.push_back(DescribeYielding(report["yielding_regions"]));
-  }
-  if (report["switched_to_local"].get<bool>())
-  {
-    std::int64_t rollbacks = 0;
-    for (const ordered_json& thread : report["thread_statistics"])
-    {
-      rollbacks += thread["rollbacks"].get<std::int64_t>();
-    }
-    warnings.push_back("the threads made no progress with --contention " +
-      report["contention"].get<std::string>() + " (" + Grouped(rollbacks) +
-      " rollbacks), and local took over; leave --contention out");
-  }
-  return warnings;
 }
 
 std::string Summarize(const ordered_json& report)

@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
-#include <vector>
 
 class vtkMeshingStatistics;
 
@@ -51,9 +50,6 @@ nlohmann::ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parame
 /** @throws io::OutputError */
 void WriteReport(
   const nlohmann::ordered_json& report, const std::string& path, const io::WholeFiles& files);
-
-/** How the mesh or the run deviates from what was asked for, from a report: one line each. */
-std::vector<std::string> Warnings(const nlohmann::ordered_json& report);
 
 /** One paragraph for people, from a report. */
 std::string Summarize(const nlohmann::ordered_json& report);

@@ -11,8 +11,7 @@
 #include "ParameterChecks.h"
 #include "ProcessMemory.h"
 #include "ProgressBar.h"
-#include "SlabFiles.h"
-#include "SliceFiles.h"
+#include "SpaceTimeFiles.h"
 #include "StatisticsReport.h"
 #include "WholeFiles.h"
 
@@ -195,51 +194,26 @@ MeshingInput Read(const Parameters& p)
   return input;
 }
 
-vtkSmartPointer<vtkImageToSimplexMeshFilter> MeshOrExit(
-  const Parameters& p, const MeshingInput& input)
+/** The result of work(progress), which is null if that was cancelled; then the program ends. */
+template <typename Work>
+auto CompleteOrExit(const Parameters& p, Work&& work)
 {
-  vtkSmartPointer<vtkImageToSimplexMeshFilter> filter;
+  decltype(work(ProgressFunction())) result;
   {
     const Interruption::CancellableStep step;
     ProgressBar bar(p.Progress);
-    filter = Mesh(p, input,
+    result = work(
       [&bar](double fraction, const std::string& text)
       {
         bar.Show(fraction, text);
         return !Interruption::Requested();
       });
   }
-  if (!filter || Interruption::Requested())
+  if (result == nullptr || Interruption::Requested())
   {
     Interruption::Exit();
   }
-  return filter;
-}
-
-/** Null if it was not asked for. */
-nlohmann::ordered_json MeasureOrExit(
-  const Parameters& p, const MeshingInput& input, vtkUnstructuredGrid* mesh)
-{
-  if (!p.Quality)
-  {
-    return nullptr;
-  }
-  nlohmann::ordered_json measurement;
-  {
-    const Interruption::CancellableStep step;
-    ProgressBar bar(p.Progress);
-    const auto progress = [&bar](double fraction, const std::string& text)
-    {
-      bar.Show(fraction, text);
-      return !Interruption::Requested();
-    };
-    measurement = Measure(p, input, mesh, progress);
-  }
-  if (measurement.is_null() || Interruption::Requested())
-  {
-    Interruption::Exit();
-  }
-  return measurement;
+  return result;
 }
 
 void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::WholeFiles& files)
@@ -273,7 +247,8 @@ void Run(const Parameters& p)
   const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input.Labels);
   const std::optional<SlabFiles> slabs = AnnounceSlabs(files, p);
 
-  const auto filter = MeshOrExit(p, input);
+  const auto filter =
+    CompleteOrExit(p, [&](const ProgressFunction& progress) { return Mesh(p, input, progress); });
 
   const Stopwatch writing;
   WriteMeshFiles(filter, p.Output, p.Interfaces, files);
@@ -291,10 +266,12 @@ void Run(const Parameters& p)
     LabelReport{
       input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
     times);
-  const auto measurement = MeasureOrExit(p, input, filter->GetOutput());
   std::string measured;
-  if (!measurement.is_null())
+  if (p.Quality)
   {
+    const auto measurement = CompleteOrExit(p,
+      [&](const ProgressFunction& progress)
+      { return Measure(p, input, filter->GetOutput(), progress); });
     AddMeasurement(measurement, report);
     measured = SummarizeMeasurement(report);
   }
@@ -303,7 +280,7 @@ void Run(const Parameters& p)
     WriteReport(report, p.Statistics, files);
   }
   CommitFiles(files);
-  Warn(Warnings(report));
+  Warn(WarningsOf(filter));
   std::cout << Summarize(report) << measured << std::flush;
 }
 

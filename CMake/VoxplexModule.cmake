@@ -29,34 +29,23 @@ vtk_module_add_module(VTK::Voxplex
   PRIVATE_HEADERS
     Filters/Private/ChosenArray.h
     Filters/Private/ElementSizes.h
+    Filters/Private/Execution.h
+    Filters/Private/FiguresJson.h
     Filters/Private/FrameGathering.h
-    Filters/Private/FrameSeries.h
-    Filters/Private/ImageFrame.h
     Filters/Private/HiddenVoxels.h
-    Filters/Private/ImageLabels.h
     Filters/Private/LabelledMesh.h
     Filters/Private/Lists.h
     Filters/Private/MeshOutput.h
-    Filters/Private/MeshingFigures.h
-    Filters/Private/MeshingJson.h
     Filters/Private/MeshingMessages.h
     Filters/Private/OutputArrays.h
-    Filters/Private/PentatopeOutput.h
-    Filters/Private/QualityJson.h
     Filters/Private/QualityRun.h
     Filters/Private/QualityTables.h
     Filters/Private/SimplexMeshRun.h
     Filters/Private/SmpThreads.h
-    Filters/Private/SpaceTimeFrame.h
-    Filters/Private/SpaceTimeQuality.h
-    Filters/Private/vtkFrameGatheringPipeline.h
   SOURCES
     Filters/Private/ChosenArray.cxx
     Filters/Private/ElementSizes.cxx
-    Filters/Private/FrameSeries.cxx
-    Filters/Private/ImageFrame.cxx
     Filters/Private/HiddenVoxels.cxx
-    Filters/Private/ImageLabels.cxx
     Filters/Private/LabelledMesh.cxx
     Filters/Private/MeshOutput.cxx
     Filters/Private/MeshingJson.cxx
@@ -66,8 +55,6 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/QualityRun.cxx
     Filters/Private/QualityTables.cxx
     Filters/Private/SmpThreads.cxx
-    Filters/Private/SpaceTimeQuality.cxx
-    Filters/Private/vtkFrameGatheringPipeline.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<TARGET_OBJECTS:VoxplexKernel>
     $<TARGET_OBJECTS:VoxplexParameters>)

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToPentatopeMeshFilter.h"
 
-#include "Private/FrameSeries.h"
+#include "Private/FrameGathering.h"
 #include "Private/Lists.h"
-#include "Private/PentatopeOutput.h"
+#include "Private/MeshOutput.h"
 #include "Private/SimplexMeshRun.h"
-#include "Private/vtkFrameGatheringPipeline.h"
 
+#include "vtkCompositeDataPipeline.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
@@ -33,6 +33,15 @@ namespace
 
 using voxplex::InputError;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/** VTK's executive with what FrameGathering mends. */
+class vtkFrameGatheringPipeline : public voxplex::FrameGathering<vtkCompositeDataPipeline>
+{
+public:
+  static vtkFrameGatheringPipeline* New();
+  vtkTypeMacro(vtkFrameGatheringPipeline, vtkCompositeDataPipeline);
+};
+vtkStandardNewMacro(vtkFrameGatheringPipeline);
 
 /** The fraction of the progress that belongs to gathering time steps. */
 constexpr double GatheringProgress = 0.1;
@@ -247,16 +256,17 @@ bool vtkImageToPentatopeMeshFilter::Gather(
   }
   if (series.NumberOfFramesAdded() == 0)
   {
-    series.Start(this->ChooseTimes(times), ContentOf(this->InputMode), this->Private->Selection());
+    series.Start(
+      this->ChooseTimes(times), this->InputMode == INPUT_LABELS, this->Private->Selection());
   }
   int association = 0;
   vtkAbstractArray* const scalars =
     this->GetInputAbstractArrayToProcess(0, inputVector, association);
-  series.Add(
+  voxplex::AddFrame(
     voxplex::ChooseScalars(vtkImageData::GetData(inputVector[0]), scalars, association,
       ContentOf(this->InputMode), "image of " + series.NameOf(series.NumberOfFramesAdded()),
       " The frames are the time steps of the input."),
-    0, this->GetThreads());
+    0, this->GetThreads(), series);
   this->Gathered->Seconds += copying.Seconds();
   this->UpdateProgress(GatheringProgress *
     (static_cast<double>(series.NumberOfFramesAdded()) /
@@ -295,10 +305,10 @@ void vtkImageToPentatopeMeshFilter::GatherComponents(
     times[static_cast<std::size_t>(k)] = this->TimeOrigin + k * this->TimeSpacing;
   }
   this->Gathered->Series.Start(
-    this->ChooseTimes(times), ContentOf(this->InputMode), this->Private->Selection());
+    this->ChooseTimes(times), this->InputMode == INPUT_LABELS, this->Private->Selection());
   for (int k = 0; k < frames && !this->StopRequested(); ++k)
   {
-    this->Gathered->Series.Add(input, k, this->GetThreads());
+    voxplex::AddFrame(input, k, this->GetThreads(), this->Gathered->Series);
   }
 }
 
@@ -417,27 +427,26 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   bool done = false;
   if (this->InputMode == INPUT_LABELS)
   {
-    const voxplex::LabelImage<4> labels = series.MakeLabelImage(frame.Grid, threads);
+    voxplex::LabelImage<4> labels = series.MakeLabelImage(frame.Grid, threads);
     series.Clear();
-    done = run.Mesh(labels, labels, mesh);
+    done = run.Mesh(std::move(labels), mesh);
   }
   else
   {
     voxplex::Isosurface surface = run.ChosenIsosurface();
     surface.PeriodicInTime = this->Periodic;
-    const auto image = series.MakeIsosurface(frame.Grid, surface, threads);
-    done = run.Mesh(image, image.Labels(), mesh);
+    done = run.Mesh(series.MakeIsosurface(frame.Grid, surface, threads), mesh);
   }
   if (!done)
   {
     return;
   }
   const voxplex::Stopwatch writing;
-  voxplex::MoveToOutput(std::move(mesh), frame, run.Figures().Run.Planes.Times,
+  voxplex::MoveToOutput(std::move(mesh), frame, run.Statistics().Planes.Times,
     vtkUnstructuredGrid::GetData(outputVector, 0), vtkUnstructuredGrid::GetData(outputVector, 1),
     threads);
-  run.Figures().Run.Times.LabelField += this->Gathered->Seconds;
-  run.Figures().Run.Times.Extraction += writing.Seconds();
+  run.Statistics().Times.LabelField += this->Gathered->Seconds;
+  run.Statistics().Times.Extraction += writing.Seconds();
 }
 
 //----------------------------------------------------------------------------------------------------

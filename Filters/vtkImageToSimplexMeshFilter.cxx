@@ -3,10 +3,10 @@
 #include "vtkImageToSimplexMeshFilter.h"
 
 #include "MeshingParameters.h"
+#include "Private/Execution.h"
 #include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
 #include "Private/SimplexMeshRun.h"
-#include "Private/SmpThreads.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -14,12 +14,9 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkVersion.h"
 
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <new>
 #include <sstream>
 
 namespace
@@ -282,6 +279,18 @@ vtkMeshingStatistics* vtkImageToSimplexMeshFilter::GetStatistics() const
   return this->Private->Statistics;
 }
 
+int vtkImageToSimplexMeshFilter::GetNumberOfWarnings() const
+{
+  return static_cast<int>(this->Private->Warnings.size());
+}
+
+const std::string& vtkImageToSimplexMeshFilter::GetWarning(int i) const
+{
+  static const std::string none;
+  const auto& warnings = this->Private->Warnings;
+  return i >= 0 && i < this->GetNumberOfWarnings() ? warnings[static_cast<std::size_t>(i)] : none;
+}
+
 //----------------------------------------------------------------------------------------------------
 int vtkImageToSimplexMeshFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -307,22 +316,7 @@ int vtkImageToSimplexMeshFilter::RequestInformation(
 int vtkImageToSimplexMeshFilter::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    if (info == nullptr)
-    {
-      continue;
-    }
-    if (info->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
-    }
-    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
+  voxplex::RequestWholeInputs(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
@@ -333,13 +327,11 @@ int vtkImageToSimplexMeshFilter::RequestData(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   this->ErrorMessage.clear();
   this->Aborted = false;
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
   if (!request->Get(Pipeline::CONTINUE_EXECUTING()))
   {
-    // What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to it.
-    this->AbortExecute = 0;
+    VOXPLEX_FORGET_ABORT();
   }
-#endif
+  this->Private->Warnings.clear();
   this->Private->Statistics->Initialize();
   const auto clearOutputs = [this, outputVector]
   {
@@ -356,38 +348,24 @@ int vtkImageToSimplexMeshFilter::RequestData(
     return 1;
   }
 
-  try
-  {
-    this->CheckParameters();
-    if (!this->Gather(request, inputVector))
+  bool isGathered = true;
+  this->ErrorMessage = voxplex::FailureOf(
+    [&]
     {
-      this->ErrorMessage = "The input failed before it had delivered all time steps."; // if it does
-      request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-      return 1;
-    }
-    if (!this->Aborted)
-    {
-      this->Mesh(inputVector, outputVector);
-    }
-  }
-  catch (const voxplex::Error& error)
+      this->CheckParameters();
+      isGathered = this->Gather(request, inputVector);
+      if (isGathered && !this->Aborted)
+      {
+        this->Mesh(inputVector, outputVector);
+      }
+    },
+    "There is not enough memory for this mesh; increase {delta}, or mesh fewer labels.",
+    "Meshing failed: ");
+  if (!isGathered)
   {
-    this->ErrorMessage = error.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->ErrorMessage =
-      "There is not enough memory for this mesh; increase {delta}, or mesh fewer "
-      "labels.";
-  }
-  catch (const std::exception& error)
-  {
-    this->ErrorMessage = std::string("Meshing failed: ") + error.what();
-  }
-  catch (...)
-  {
-    this->ErrorMessage = "Meshing failed: the size function threw something that is not a "
-                         "std::exception.";
+    this->ErrorMessage = "The input failed before it had delivered all time steps."; // if it does
+    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+    return 1;
   }
   this->ErrorMessage = InTermsOf(this->Vocabulary, this->ErrorMessage);
   request->Remove(Pipeline::CONTINUE_EXECUTING());
@@ -399,10 +377,12 @@ int vtkImageToSimplexMeshFilter::RequestData(
     {
       vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
     }
-    for (const std::string& warning : voxplex::WarningsOf(this->Private->Statistics->Edit(),
-           this->GetContentionManagerAsString(), this->ExactComponents))
+    for (const std::string& warning :
+      voxplex::WarningsOf(this->Private->Statistics->Edit(), voxplex::LabelNames(fields),
+        this->GetContentionManagerAsString(), this->ExactComponents))
     {
-      vtkWarningMacro(<< InTermsOf(this->Vocabulary, warning));
+      this->Private->Warnings.push_back(InTermsOf(this->Vocabulary, warning));
+      vtkWarningMacro(<< this->Private->Warnings.back());
     }
     return 1;
   }
@@ -475,17 +455,12 @@ const char* vtkImageToSimplexMeshFilter::GetInsideAsString() const
 
 unsigned vtkImageToSimplexMeshFilter::GetThreads() const
 {
-  return static_cast<unsigned>(
-    this->NumberOfThreads > 0 ? this->NumberOfThreads : voxplex::SmpThreads());
+  return voxplex::ThreadsFor(this->NumberOfThreads);
 }
 
 bool vtkImageToSimplexMeshFilter::StopRequested()
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  const bool stop = this->CheckAbort();
-#else
-  const bool stop = this->GetAbortExecute() != 0;
-#endif
+  const bool stop = voxplex::IsStopRequested(this);
   this->Aborted = this->Aborted || stop;
   return stop;
 }

@@ -436,20 +436,6 @@ public:
   void SetElementSizeData(vtkImageData* image);
   ///@}
 
-#ifndef __VTK_WRAP__
-  /**
-   * Upper bound of circumradii at a point inside the label with this value. x has the three
-   * physical coordinates; in 4D the fourth coordinate is the time.
-   */
-  using SizeFunctionType = std::function<double(const double* x, vtkTypeInt64 label)>;
-  /**
-   * An upper bound of circumradii as a C++ callable; an empty one removes it. All meshing threads
-   * call it at the same time, so it must be thread-safe. If it throws an exception, the execution
-   * ends and the exception is reported as an error.
-   */
-  void SetSizeFunction(SizeFunctionType function);
-#endif
-
   ///@{
   /**
    * Number of threads of every stage. 0, the default, uses VTK's SMP setting:
@@ -503,22 +489,10 @@ public:
    */
   vtkSetClampMacro(ContentionManager, int, CONTENTION_AGGRESSIVE, CONTENTION_LOCAL);
   vtkGetMacro(ContentionManager, int);
-  void SetContentionManagerToAggressive()
-  {
-    this->SetContentionManager(CONTENTION_AGGRESSIVE);
-  }
-  void SetContentionManagerToRandom()
-  {
-    this->SetContentionManager(CONTENTION_RANDOM);
-  }
-  void SetContentionManagerToGlobal()
-  {
-    this->SetContentionManager(CONTENTION_GLOBAL);
-  }
-  void SetContentionManagerToLocal()
-  {
-    this->SetContentionManager(CONTENTION_LOCAL);
-  }
+  void SetContentionManagerToAggressive() { this->SetContentionManager(CONTENTION_AGGRESSIVE); }
+  void SetContentionManagerToRandom() { this->SetContentionManager(CONTENTION_RANDOM); }
+  void SetContentionManagerToGlobal() { this->SetContentionManager(CONTENTION_GLOBAL); }
+  void SetContentionManagerToLocal() { this->SetContentionManager(CONTENTION_LOCAL); }
   /** "aggressive", "random", "global" or "local". */
   const char* GetContentionManagerAsString() const;
   ///@}
@@ -543,10 +517,7 @@ public:
    */
   vtkSetClampMacro(LoadBalancer, int, RANDOM_WORK_STEALING, HIERARCHICAL_WORK_STEALING);
   vtkGetMacro(LoadBalancer, int);
-  void SetLoadBalancerToRandomWorkStealing()
-  {
-    this->SetLoadBalancer(RANDOM_WORK_STEALING);
-  }
+  void SetLoadBalancerToRandomWorkStealing() { this->SetLoadBalancer(RANDOM_WORK_STEALING); }
   void SetLoadBalancerToHierarchicalWorkStealing()
   {
     this->SetLoadBalancer(HIERARCHICAL_WORK_STEALING);
@@ -620,16 +591,30 @@ public:
   vtkMeshingStatistics* GetStatistics() const;
 
   /** Why the last execution failed; empty if it did not. */
-  const std::string& GetErrorMessage() const
-  {
-    return this->ErrorMessage;
-  }
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
+  ///@{
+  /** How the mesh of the last execution differs from what was asked for, as it was reported. */
+  int GetNumberOfWarnings() const;
+  const std::string& GetWarning(int i) const;
+  ///@}
 
   /** Whether the last execution was stopped by AbortExecute. */
-  bool GetAborted() const
-  {
-    return this->Aborted;
-  }
+  bool GetAborted() const { return this->Aborted; }
+
+#ifndef __VTK_WRAP__
+  /**
+   * Upper bound of circumradii at a point inside the label with this value. x has the three
+   * physical coordinates; in 4D the fourth coordinate is the time.
+   */
+  using SizeFunctionType = std::function<double(const double* x, vtkTypeInt64 label)>;
+  /**
+   * An upper bound of circumradii as a C++ callable; an empty one removes it. All meshing threads
+   * call it at the same time, so it must be thread-safe. If it throws an exception, the execution
+   * ends and the exception is reported as an error.
+   */
+  void SetSizeFunction(SizeFunctionType function);
+#endif
 
 protected:
   vtkImageToSimplexMeshFilter();

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToTetMeshFilter.h"
 
-#include "Image/DropComponents.h"
-#include "Image/GreyValues.h"
 #include "Image/IsosurfaceImage.h"
-#include "Private/ImageLabels.h"
 #include "Private/MeshOutput.h"
 #include "Private/SimplexMeshRun.h"
 
@@ -16,7 +13,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <utility>
-#include <vector>
 
 vtkStandardNewMacro(vtkImageToTetMeshFilter);
 
@@ -110,45 +106,28 @@ void vtkImageToTetMeshFilter::Mesh(
   run.Options.Optimisation.Seconds = this->OptimisationTimeLimit;
   run.Options.Interfaces.SampleJunctions = this->SampleJunctions;
   run.Sizes->Implicit = this->SizeImplicitFunction;
+  run.Options.SmallestVolume = this->MinimumComponentVolume;
+  const unsigned threads = run.Options.Team.Threads;
   voxplex::SimplexMesh<3> mesh;
-  const auto meshImage = [&](auto& image, voxplex::LabelImage<3>& labels)
-  {
-    // Noise is dropped before the kernel can see it.
-    if (this->InputMode == INPUT_LABELS && this->MinimumComponentVolume > 0.0 && !this->Force)
-    {
-      voxplex::CheckSegmented(labels, run.Options.Team.Threads);
-    }
-    std::vector<voxplex::ComponentReport> dropped =
-      voxplex::DropComponents(labels, this->MinimumComponentVolume, run.Options.Team.Threads);
-    const bool done = run.Mesh(image, labels, mesh);
-    if (done)
-    {
-      run.Figures().DroppedComponents = std::move(dropped);
-    }
-    return done;
-  };
+  bool done = false;
   if (this->InputMode == INPUT_LABELS)
   {
-    auto labels = ReadLabels(input, run.SelectedLabels(), run.Options.Team.Threads);
-    if (!meshImage(labels, labels))
-    {
-      return;
-    }
+    done = run.Mesh(ReadLabels(input, run.SelectedLabels(), threads), mesh);
   }
   else
   {
     const voxplex::Isosurface surface = run.ChosenIsosurface();
     const vtkSmartPointer<vtkDataArray> values = voxplex::Contiguous(input.Array);
-    auto image = ReadIsosurface(values, input.Frame, surface, run.Options.Team.Threads);
-    if (!meshImage(image, image.Labels()))
-    {
-      return;
-    }
+    done = run.Mesh(ReadIsosurface(values, input.Frame, surface, threads), mesh);
+  }
+  if (!done)
+  {
+    return;
   }
   const voxplex::Stopwatch writing;
   voxplex::MoveToOutput(std::move(mesh), input.Frame, vtkUnstructuredGrid::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1), run.Options.Team.Threads);
-  run.Figures().Run.Times.Extraction += writing.Seconds();
+    vtkPolyData::GetData(outputVector, 1), threads);
+  run.Statistics().Times.Extraction += writing.Seconds();
 }
 
 //----------------------------------------------------------------------------------------------------

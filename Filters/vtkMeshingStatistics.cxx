@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshingStatistics.h"
 
+#include "Mesher/MeshingStatistics.h"
+#include "Private/FiguresJson.h"
 #include "Private/Lists.h"
-#include "Private/MeshingFigures.h"
-#include "Private/MeshingJson.h"
 
 #include "vtkObjectFactory.h"
 
@@ -19,7 +19,7 @@ using voxplex::ItemAt;
 vtkStandardNewMacro(vtkMeshingStatistics);
 
 vtkMeshingStatistics::vtkMeshingStatistics()
-  : Values(std::make_unique<Figures>())
+  : Values(std::make_unique<voxplex::MeshingStatistics>())
 {
 }
 
@@ -27,11 +27,11 @@ vtkMeshingStatistics::~vtkMeshingStatistics() = default;
 
 void vtkMeshingStatistics::Initialize()
 {
-  *this->Values = Figures();
+  *this->Values = voxplex::MeshingStatistics();
   this->Modified();
 }
 
-vtkMeshingStatistics::Figures& vtkMeshingStatistics::Edit()
+voxplex::MeshingStatistics& vtkMeshingStatistics::Edit()
 {
   this->Modified();
   return *this->Values;
@@ -48,12 +48,12 @@ VOXPLEX_FIGURE(int, Dimension, Dimension)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfElements, Elements)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfVertices, Vertices)
 VOXPLEX_FIGURE(vtkTypeInt64, NumberOfInterfaceFacets, InterfaceFacets)
-VOXPLEX_FIGURE(double, Delta, Run.Delta)
-VOXPLEX_FIGURE(int, NumberOfThreads, Threads)
+VOXPLEX_FIGURE(double, Delta, Delta)
+VOXPLEX_FIGURE(int, NumberOfThreads, NumberOfThreads)
 VOXPLEX_FIGURE(int, NumberOfLostLabels, LostLabels.size())
 VOXPLEX_FIGURE(int, NumberOfShrunkLabels, ShrunkLabels.size())
-VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Run.Components.Found)
-VOXPLEX_FIGURE(int, NumberOfLostComponents, Run.Components.Lost.size())
+VOXPLEX_FIGURE(vtkTypeInt64, NumberOfComponents, Components.Found)
+VOXPLEX_FIGURE(int, NumberOfLostComponents, Components.Lost.size())
 VOXPLEX_FIGURE(int, NumberOfDroppedComponents, DroppedComponents.size())
 VOXPLEX_FIGURE(bool, HasQuality, HasQuality)
 VOXPLEX_FIGURE(int, NumberOfLabels, Quality.Labels.size())
@@ -64,18 +64,18 @@ VOXPLEX_FIGURE(double, MinimumPlanarAngle, Quality.MinimumFacetAngle)
 VOXPLEX_FIGURE(vtkTypeInt64, RadiusEdgeViolations, Quality.RadiusEdgeViolations)
 VOXPLEX_FIGURE(vtkTypeInt64, FacetAngleViolations, Quality.FacetAngleViolations)
 VOXPLEX_FIGURE(vtkTypeInt64, InvertedElements, Quality.InvertedSimplices)
-VOXPLEX_FIGURE(double, LabelFieldTime, Run.Times.LabelField)
-VOXPLEX_FIGURE(double, DistanceTransformTime, Run.Times.DistanceTransform)
-VOXPLEX_FIGURE(double, GradingTime, Run.Times.Grading)
-VOXPLEX_FIGURE(double, ComponentsTime, Run.Times.Components)
-VOXPLEX_FIGURE(double, InterfacesTime, Run.Times.Interfaces)
-VOXPLEX_FIGURE(double, RefinementTime, Run.Times.Refinement)
-VOXPLEX_FIGURE(double, ExtractionTime, Run.Times.Extraction)
-VOXPLEX_FIGURE(double, OptimisationTime, Run.Times.Optimisation)
-VOXPLEX_FIGURE(bool, Optimised, Run.Optimisation.Ran)
-VOXPLEX_FIGURE(double, TotalTime, Run.Times.Total())
-VOXPLEX_FIGURE(bool, SwitchedToLocal, Run.SwitchedToLocal)
-VOXPLEX_FIGURE(int, NumberOfRuns, Run.Runs.size())
+VOXPLEX_FIGURE(double, LabelFieldTime, Times.LabelField)
+VOXPLEX_FIGURE(double, DistanceTransformTime, Times.DistanceTransform)
+VOXPLEX_FIGURE(double, GradingTime, Times.Grading)
+VOXPLEX_FIGURE(double, ComponentsTime, Times.Components)
+VOXPLEX_FIGURE(double, InterfacesTime, Times.Interfaces)
+VOXPLEX_FIGURE(double, RefinementTime, Times.Refinement)
+VOXPLEX_FIGURE(double, ExtractionTime, Times.Extraction)
+VOXPLEX_FIGURE(double, OptimisationTime, Times.Optimisation)
+VOXPLEX_FIGURE(bool, Optimised, Optimisation.Ran)
+VOXPLEX_FIGURE(double, TotalTime, Times.Total())
+VOXPLEX_FIGURE(bool, SwitchedToLocal, SwitchedToLocal)
+VOXPLEX_FIGURE(int, NumberOfRuns, Runs.size())
 #undef VOXPLEX_FIGURE
 
 vtkTypeInt64 vtkMeshingStatistics::GetLostLabel(int index) const
@@ -110,7 +110,7 @@ double vtkMeshingStatistics::GetLabelVolume(int index) const
 
 int vtkMeshingStatistics::GetNumberOfYieldingRegions() const
 {
-  const auto& steps = this->Values->Run.Yielding;
+  const auto& steps = this->Values->Yielding;
   return static_cast<int>(std::count_if(steps.begin(), steps.end(),
     [](const voxplex::YieldingReport& region) { return region.Step == 1; }));
 }

@@ -29,6 +29,11 @@
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
+namespace voxplex
+{
+struct MeshingStatistics;
+}
+
 class VTKVOXPLEX_EXPORT vtkMeshingStatistics : public vtkObject
 {
 public:
@@ -179,9 +184,8 @@ public:
   void Initialize();
 
 #ifndef __VTK_WRAP__
-  struct Figures;
-  /** For the filters: the figures behind the getters (Private/MeshingFigures.h, not installed). */
-  Figures& Edit();
+  /** For the filters: the kernel's record of a run, which is behind the getters. */
+  voxplex::MeshingStatistics& Edit();
 #endif
 
 protected:
@@ -192,7 +196,7 @@ private:
   vtkMeshingStatistics(const vtkMeshingStatistics&) = delete;
   void operator=(const vtkMeshingStatistics&) = delete;
 
-  std::unique_ptr<Figures> Values;
+  std::unique_ptr<voxplex::MeshingStatistics> Values;
 };
 
 #endif

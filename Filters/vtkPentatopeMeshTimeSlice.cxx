@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Mesh/TimeSlice.h"
+#include "Private/Execution.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
@@ -24,13 +25,11 @@
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkVersion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <new>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -326,26 +325,19 @@ bool vtkPentatopeMeshTimeSlice::FindRange(vtkInformation* inputInformation, doub
 int vtkPentatopeMeshTimeSlice::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->ErrorMessage.clear();
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
-  // What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to it.
-  this->AbortExecute = 0;
-#endif
+  VOXPLEX_FORGET_ABORT();
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputVector);
   output->Initialize();
-  try
+  this->ErrorMessage = voxplex::FailureOf(
+    [&]
+    {
+      this->Cut(vtkUnstructuredGrid::GetData(inputVector[0]), outputVector->GetInformationObject(0),
+        output);
+    },
+    "There is not enough memory to cut this mesh.", "The mesh cannot be cut: ");
+  if (this->ErrorMessage.empty())
   {
-    this->Cut(
-      vtkUnstructuredGrid::GetData(inputVector[0]), outputVector->GetInformationObject(0), output);
     return 1;
-  }
-  catch (const voxplex::Error& error)
-  {
-    this->ErrorMessage = error.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->ErrorMessage = "There is not enough memory to cut this mesh.";
   }
   output->Initialize();
   vtkErrorMacro(<< this->ErrorMessage);
@@ -355,20 +347,20 @@ int vtkPentatopeMeshTimeSlice::RequestData(
 void vtkPentatopeMeshTimeSlice::Cut(
   vtkUnstructuredGrid* mesh, vtkInformation* outputInformation, vtkUnstructuredGrid* output)
 {
-  if (this->AbortRequested()) // the executive has reported the start
+  if (voxplex::IsStopRequested(this)) // the executive has reported the start
   {
     return;
   }
   this->Private->Prepare(mesh, this->TimeArrayName);
   const double time = this->ChooseTime(outputInformation);
   this->UpdateProgress(0.4);
-  if (this->AbortRequested())
+  if (voxplex::IsStopRequested(this))
   {
     return;
   }
   const voxplex::TimeSlice slice = this->Private->Slicer->Slice(time);
   this->UpdateProgress(0.8);
-  if (this->AbortRequested())
+  if (voxplex::IsStopRequested(this))
   {
     return;
   }
@@ -394,15 +386,6 @@ double vtkPentatopeMeshTimeSlice::ChooseTime(vtkInformation* outputInformation) 
     time = this->SliceTime;
   }
   return std::min(std::max(time, range[0]), range[1]);
-}
-
-bool vtkPentatopeMeshTimeSlice::AbortRequested()
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return this->CheckAbort();
-#else
-  return this->GetAbortExecute() != 0;
-#endif
 }
 
 //----------------------------------------------------------------------------------------------------

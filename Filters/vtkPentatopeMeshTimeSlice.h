@@ -146,7 +146,6 @@ private:
   void Cut(
     vtkUnstructuredGrid* mesh, vtkInformation* outputInformation, vtkUnstructuredGrid* output);
   double ChooseTime(vtkInformation* outputInformation) const;
-  bool AbortRequested();
 
   std::string ErrorMessage;
 

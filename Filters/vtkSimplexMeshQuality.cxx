@@ -4,9 +4,10 @@
 
 #include "Base/Error.h"
 #include "MeshingParameters.h"
+#include "Private/Execution.h"
+#include "Private/FiguresJson.h"
 #include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
-#include "Private/QualityJson.h"
 #include "Private/QualityRun.h"
 
 #include "vtkDataSetAttributes.h"
@@ -18,15 +19,12 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkVersion.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <iterator>
-#include <new>
 
 vtkStandardNewMacro(vtkSimplexMeshQuality);
 
@@ -133,21 +131,7 @@ int vtkSimplexMeshQuality::RequestInformation(
 int vtkSimplexMeshQuality::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // Always the whole: interfaces and distances cannot be found piece by piece.
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkInformation* const input = inputVector[port]->GetInformationObject(0);
-    if (input != nullptr)
-    {
-      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      if (input->Has(Pipeline::WHOLE_EXTENT()))
-      {
-        input->Set(Pipeline::UPDATE_EXTENT(), input->Get(Pipeline::WHOLE_EXTENT()), 6);
-      }
-    }
-  }
+  voxplex::RequestWholeInputs(inputVector, 2);
   return 1;
 }
 
@@ -158,28 +142,16 @@ int vtkSimplexMeshQuality::RequestData(
   this->ErrorMessage.clear();
   this->Aborted = false;
   this->Private->Clear();
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
-  // What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to it.
-  this->AbortExecute = 0;
-#endif
+  VOXPLEX_FORGET_ABORT();
   bool done = false;
-  try
-  {
-    this->CheckParameters();
-    done = this->Measure(inputVector, outputVector);
-  }
-  catch (const voxplex::Error& error)
-  {
-    this->ErrorMessage = voxplex::InTermsOf(voxplex::UserInterface::VTK, error.what());
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->ErrorMessage = "There is not enough memory to measure this mesh.";
-  }
-  catch (const std::exception& error) // no thread can be started
-  {
-    this->ErrorMessage = std::string("The mesh cannot be measured: ") + error.what();
-  }
+  this->ErrorMessage = voxplex::InTermsOf(voxplex::UserInterface::VTK,
+    voxplex::FailureOf( // also if no thread can be started
+      [&]
+      {
+        this->CheckParameters();
+        done = this->Measure(inputVector, outputVector);
+      },
+      "There is not enough memory to measure this mesh.", "The mesh cannot be measured: "));
   if (done)
   {
     return 1;
@@ -216,11 +188,7 @@ bool vtkSimplexMeshQuality::Measure(
 
 bool vtkSimplexMeshQuality::StopRequested()
 {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return this->CheckAbort();
-#else
-  return this->GetAbortExecute() != 0;
-#endif
+  return voxplex::IsStopRequested(this);
 }
 
 //----------------------------------------------------------------------------------------------------
@@ -228,10 +196,10 @@ namespace
 {
 
 /** The comparison of the frame that is farthest from its cut; null if there is none. */
-const voxplex::ImageComparison* FarthestFrame(const voxplex::SpaceTimeFigures& figures)
+const voxplex::ImageComparison* FarthestFrame(const voxplex::SpaceTimeMeasurement& figures)
 {
   const voxplex::ImageComparison* farthest = nullptr;
-  for (const voxplex::FrameFigures& frame : figures.Frames)
+  for (const voxplex::FrameMeasurement& frame : figures.Frames)
   {
     const auto& image = frame.Measured.Image;
     if (image && !(farthest && !(image->Voxels.Distance() > farthest->Voxels.Distance())))
@@ -305,7 +273,7 @@ vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostLabels() const
 {
   if (this->Private->SpaceTime)
   {
-    return std::ssize(voxplex::LostLabelsOf(*this->Private->SpaceTime));
+    return std::ssize(this->Private->SpaceTime->LostLabels());
   }
   const auto& image = this->Private->Figures.Image;
   return image ? std::ssize(image->LostLabels) : 0;
@@ -325,12 +293,7 @@ vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostComponents() const
 std::string vtkSimplexMeshQuality::ToJSON() const
 {
   const Internals& figures = *this->Private;
-  nlohmann::ordered_json json = {
-    { "elements", figures.Elements },
-    { "vertices", figures.Vertices },
-    { "interface_facets", figures.InterfaceFacets },
-    { "faces_of_three_elements", figures.FacesOfThreeElements },
-  };
+  nlohmann::ordered_json json;
   if (figures.SpaceTime)
   {
     voxplex::AddMeasurement(json, *figures.SpaceTime);

@@ -3,7 +3,8 @@
 /**
  * @file PrintTable.cxx
  * @brief Prints the parameters of meshing, for what is made from them or compared with them: as JSON for scripts,
- * or, if the argument is "setters", as lines for Applications/FilterParameters.cxx.
+ * if the argument is "setters", as lines for Applications/FilterParameters.cxx, and if it is "python", as a module
+ * with TABLE.
  */
 #include "MeshingParameters.h"
 
@@ -31,10 +32,10 @@ ordered_json Describe(const MeshingParameter& p)
 {
   ordered_json row = { { "name", p.Name }, { "group", TitleOf(p.Group) },
     { "kind", Kinds[static_cast<int>(p.Kind)] }, { "property", PropertyOf(p) },
-    { "default", p.Default }, { "unit", p.Unit }, { "dimension", p.Dimension },
-    { "words", p.Words }, { "range", Range(p.Range) },
-    { "usual", Range(p.Usual.value_or(p.Range)) }, { "low_is_outside", p.Range.LowIsOutside },
-    { "force", nullptr } };
+    { "label", LabelOf(p) }, { "default", p.Default }, { "zero", p.Zero }, { "step", p.Step },
+    { "unit", p.Unit }, { "dimension", p.Dimension }, { "words", p.Words },
+    { "range", Range(p.Range) }, { "usual", Range(p.Usual.value_or(p.Range)) },
+    { "low_is_outside", p.Range.LowIsOutside }, { "force", nullptr } };
   if (const auto limit = p.ForceBelow ? p.ForceBelow : p.ForceAbove)
   {
     row["force"] = *limit;
@@ -68,7 +69,8 @@ void PrintSetter(const MeshingParameter& p)
 
 int main(int argc, char* argv[])
 {
-  if (argc > 1 && argv[1] == std::string_view("setters"))
+  const std::string_view form = argc > 1 ? argv[1] : "";
+  if (form == "setters")
   {
     for (const MeshingParameter& parameter : MeshingParameters())
     {
@@ -80,6 +82,11 @@ int main(int argc, char* argv[])
   for (const MeshingParameter& parameter : MeshingParameters())
   {
     table.push_back(Describe(parameter));
+  }
+  if (form == "python")
+  {
+    std::cout << "import json\n\nTABLE = json.loads(r'''" << table.dump(1) << "''')\n";
+    return 0;
   }
   std::cout << table.dump(1) << '\n';
 }

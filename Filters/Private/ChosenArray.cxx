@@ -3,10 +3,20 @@
 #include "Private/ChosenArray.h"
 
 #include "Base/Error.h"
+#include "Base/NumberText.h"
 #include "Private/HiddenVoxels.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace voxplex
 {
@@ -36,6 +46,63 @@ vtkDataArray* RequireNumbers(vtkAbstractArray* chosen, const std::string& what)
   return array;
 }
 
+/** Throws InputError unless all are finite, and positive if they must be. */
+void Check(const Point<3>& vector, bool positive, const std::string& name)
+{
+  for (const double component : vector)
+  {
+    if (!std::isfinite(component) || (positive && !(component > 0.0)))
+    {
+      const auto number = [&vector](std::size_t i) { return NumberText(vector[i]); };
+      throw InputError("The " + name + " is (" + number(0) + ", " + number(1) + ", " + number(2) +
+        "): each component must be " + (positive ? "positive and finite." : "finite."));
+    }
+  }
+}
+
+/**
+ * @param cells whether voxels are the image's cells (then they lie at the cell centres) or its points
+ * @throws InputError if the image is empty, the spacing is not positive and finite, the origin or
+ * the direction is not finite, or the direction matrix is singular
+ */
+ImageFrame FrameOf(vtkImageData* image, bool cells, const std::string& what)
+{
+  Point<3> spacing;
+  Point<3> origin;
+  image->GetSpacing(spacing.data());
+  image->GetOrigin(origin.data());
+  Check(spacing, true, "spacing of the " + what);
+  Check(origin, false, "origin of the " + what);
+  GridGeometry<3>::Index dimensions;
+  std::array<Point<3>, 3> steps;
+  Point<3> first = origin;
+  const int* const extent = image->GetExtent();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    const std::int64_t points = std::int64_t{ extent[2 * axis + 1] } - extent[2 * axis] + 1;
+    if (points < 1)
+    {
+      throw InputError("The " + what + " is empty.");
+    }
+    // VTK takes an image that is one point thick for one layer of cells.
+    dimensions[a] = cells ? std::max<std::int64_t>(points - 1, 1) : points;
+    const double index = extent[2 * axis] + (cells && points > 1 ? 0.5 : 0.0);
+    for (int r = 0; r < 3; ++r)
+    {
+      const double cosine = image->GetDirectionMatrix()->GetElement(r, axis);
+      if (!std::isfinite(cosine))
+      {
+        throw InputError(
+          "The direction matrix of the " + what + " has elements that are not finite.");
+      }
+      steps[a][static_cast<std::size_t>(r)] = cosine * spacing[a];
+      first[static_cast<std::size_t>(r)] += index * steps[a][static_cast<std::size_t>(r)];
+    }
+  }
+  return MakeImageFrame(dimensions, steps, first, what);
+}
+
 } // namespace
 
 ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
@@ -44,7 +111,7 @@ ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int associatio
   const bool cells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
   ChosenArray result;
   result.Array = RequireNumbers(chosen, what);
-  result.Frame = MakeImageFrame(image, cells, what);
+  result.Frame = FrameOf(image, cells, what);
   const auto& n = result.Frame.Grid.Dimensions;
   if (result.Array->GetNumberOfTuples() != n[0] * n[1] * n[2])
   {
@@ -82,6 +149,50 @@ vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)
   auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   copy->DeepCopy(array);
   return copy;
+}
+
+LabelImage<3> ReadLabels(const ChosenArray& input, const LabelSelection& selection,
+  unsigned threads, const std::stop_token& stop)
+{
+  const vtkSmartPointer<vtkDataArray> array = Contiguous(input.Array);
+  const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
+  switch (array->GetDataType())
+  {
+    vtkTemplateMacro(return LabelImage<3>::FromScalars<VTK_TT>(
+      std::span<const VTK_TT>(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), count),
+      input.Frame.Grid, selection, threads, stop));
+  }
+  throw InputError(
+    "Scalars of type " + std::string(array->GetDataTypeAsString()) + " cannot be read as labels.");
+}
+
+void AddFrame(const ChosenArray& frame, int component, unsigned threads, FrameSeries& series)
+{
+  const vtkSmartPointer<vtkDataArray> array = Contiguous(frame.Array);
+  const auto stride = static_cast<std::size_t>(array->GetNumberOfComponents());
+  switch (array->GetDataType())
+  {
+    vtkTemplateMacro(series.Add(static_cast<const VTK_TT*>(array->GetVoidPointer(0)) + component,
+      stride, frame.Frame, NameOf(frame.Array), threads));
+    default:
+      throw InputError("Scalars of type " + std::string(array->GetDataTypeAsString()) +
+        " cannot be read as " + (series.IsOfLabels() ? "labels." : "grey values."));
+  }
+}
+
+double FindVoxelVolume(vtkInformation* input)
+{
+  if (input == nullptr || !input->Has(vtkDataObject::SPACING()))
+  {
+    return 0.0;
+  }
+  const double* const spacing = input->Get(vtkDataObject::SPACING());
+  double volume = spacing[0] * spacing[1] * spacing[2];
+  if (input->Has(vtkDataObject::DIRECTION()))
+  {
+    volume *= std::abs(vtkMatrix3x3::Determinant(input->Get(vtkDataObject::DIRECTION())));
+  }
+  return volume > 0.0 && std::isfinite(volume) ? volume : 0.0;
 }
 
 } // namespace voxplex

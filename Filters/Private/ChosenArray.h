@@ -7,15 +7,19 @@
 #ifndef voxplex_ChosenArray_h
 #define voxplex_ChosenArray_h
 
-#include "Private/ImageFrame.h"
+#include "Image/FrameSeries.h"
+#include "Image/ImageFrame.h"
+#include "Image/LabelImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
+#include <stop_token>
 #include <string>
 
 class vtkAbstractArray;
 class vtkImageData;
+class vtkInformation;
 
 namespace voxplex
 {
@@ -42,7 +46,7 @@ struct ChosenArray
  * @param association vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS
  * @param what what the image is called in messages
  * @throws InputError if there is no array, if it does not hold numbers, if it has not as many tuples
- * as the image has voxels, and what MakeImageFrame() and FindHiddenVoxels() throw
+ * as the image has voxels, if the image is empty or lies nowhere, and what FindHiddenVoxels() throws
  */
 ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
   ImageContent content, const std::string& what);
@@ -57,6 +61,26 @@ ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int ass
 
 /** The array itself if its values lie contiguously in memory in a type with a name, else a copy. */
 vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array);
+
+/**
+ * The label image of an array of one component, of any type that VTK has for numbers.
+ * @param threads 0 means all cores
+ * @throws InputError for values that are no labels, and what else LabelImage::FromScalars() throws
+ */
+LabelImage<3> ReadLabels(const ChosenArray& input, const LabelSelection& selection,
+  unsigned threads, const std::stop_token& stop = {});
+
+/**
+ * Adds one component of an array to a series, as its next frame.
+ * @throws InputError for a type that VTK has no numbers of, and what FrameSeries::Add() throws
+ */
+void AddFrame(const ChosenArray& frame, int component, unsigned threads, FrameSeries& series);
+
+/**
+ * The volume of a voxel of an input, as the pipeline announces it; 0 if it does not, or if it is not
+ * positive and finite.
+ */
+double FindVoxelVolume(vtkInformation* input);
 
 } // namespace voxplex
 

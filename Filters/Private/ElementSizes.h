@@ -7,8 +7,8 @@
 #ifndef voxplex_ElementSizes_h
 #define voxplex_ElementSizes_h
 
-#include "Private/ImageFrame.h"
-#include "Private/SpaceTimeFrame.h"
+#include "Image/ImageFrame.h"
+#include "Image/SpaceTimeFrame.h"
 #include "Sizing/SizeFunction.h"
 
 #include "vtkSmartPointer.h"

@@ -4,14 +4,13 @@
 
 #include "Base/Error.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
-#include "vtkPointData.h"
+#include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -21,96 +20,41 @@ namespace voxplex
 namespace
 {
 
-using Index = std::array<int, 3>;
+using Attributes = vtkDataSetAttributes;
+constexpr int HiddenBits = Attributes::HIDDENCELL | Attributes::REFINEDCELL; // of cells
 
-/** Which points or cells have one of these bits; empty if none has. */
-std::vector<char> FindMarked(
-  vtkDataSetAttributes* data, vtkIdType count, int bits, const std::string& what)
+/**
+ * Whether a point or cell has one of these bits; the array may be null.
+ * @throws InputError unless each of `count` points or cells has a value
+ */
+bool HasMarked(vtkUnsignedCharArray* ghosts, int bits, vtkIdType count, const std::string& what)
 {
-  auto* const ghosts =
-    vtkUnsignedCharArray::SafeDownCast(data->GetArray(vtkDataSetAttributes::GhostArrayName()));
   if (ghosts == nullptr)
   {
-    return {};
+    return false;
   }
   if (ghosts->GetNumberOfValues() != count)
   {
-    throw InputError("The array '" + std::string(vtkDataSetAttributes::GhostArrayName()) +
-      "' of the " + what + " has " + std::to_string(ghosts->GetNumberOfValues()) +
+    throw InputError("The array '" + std::string(Attributes::GhostArrayName()) + "' of the " +
+      what + " has " + std::to_string(ghosts->GetNumberOfValues()) +
       " values; the dimensions ask for " + std::to_string(count) + ".");
   }
   const unsigned char* const first = ghosts->GetPointer(0);
-  const auto isMarked = [bits](unsigned char ghost) { return (ghost & bits) != 0; };
-  if (std::none_of(first, first + count, isMarked))
-  {
-    return {};
-  }
-  std::vector<char> marked(static_cast<std::size_t>(count));
-  std::transform(first, first + count, marked.begin(), isMarked);
-  return marked;
+  return std::any_of(
+    first, first + count, [bits](unsigned char ghost) { return (ghost & bits) != 0; });
 }
 
-/** The range of indices of the points of a cell, or of the cells around a point, along an axis. */
-struct Range
+/** Whether there are cells around a point, and all are hidden themselves. */
+bool IsAmongHiddenCells(vtkImageData* image, vtkIdType point, vtkIdList* cells)
 {
-  int First;
-  int Last;
-};
-
-/**
- * Whether all (or any) of the given points or cells beside each of the others are marked.
- * @param n the number of results along each axis
- * @param of the number of `marked` along each axis
- * @param step -1: cells beside points; 1: points of cells
- */
-std::vector<char> Spread(
-  const std::vector<char>& marked, const Index& n, const Index& of, int step, bool all)
-{
-  const auto beside = [&](int i, std::size_t axis)
+  vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray();
+  image->GetPointCells(point, cells);
+  bool isHidden = cells->GetNumberOfIds() > 0;
+  for (vtkIdType i = 0; i < cells->GetNumberOfIds(); ++i)
   {
-    return Range{ std::max(std::min(i, i + step), 0),
-      std::min(std::max(i, i + step), of[axis] - 1) };
-  };
-  std::vector<char> result;
-  result.reserve(static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
-    static_cast<std::size_t>(n[2]));
-  for (int k = 0; k < n[2]; ++k)
-  {
-    for (int j = 0; j < n[1]; ++j)
-    {
-      for (int i = 0; i < n[0]; ++i)
-      {
-        const Range x = beside(i, 0);
-        const Range y = beside(j, 1);
-        const Range z = beside(k, 2);
-        bool found = all;
-        for (int c = z.First; c <= z.Last; ++c)
-        {
-          for (int b = y.First; b <= y.Last; ++b)
-          {
-            const std::size_t row = (static_cast<std::size_t>(c) * static_cast<std::size_t>(of[1]) +
-                                      static_cast<std::size_t>(b)) *
-              static_cast<std::size_t>(of[0]);
-            for (int a = x.First; a <= x.Last; ++a)
-            {
-              const bool is = marked[row + static_cast<std::size_t>(a)] != 0;
-              found = all ? found && is : found || is;
-            }
-          }
-        }
-        result.push_back(found ? 1 : 0);
-      }
-    }
+    isHidden = isHidden && (ghosts->GetValue(cells->GetId(i)) & HiddenBits) != 0;
   }
-  return result;
-}
-
-/** Marks in `hidden`, which may be empty, what is marked in `more`. */
-void Add(const std::vector<char>& more, std::vector<char>& hidden)
-{
-  hidden.resize(more.size());
-  std::transform(more.begin(), more.end(), hidden.begin(), hidden.begin(),
-    [](char a, char b) { return static_cast<char>(a | b); });
+  return isHidden;
 }
 
 } // namespace
@@ -118,24 +62,23 @@ void Add(const std::vector<char>& more, std::vector<char>& hidden)
 //----------------------------------------------------------------------------------------------------
 std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells, const std::string& what)
 {
-  using Attributes = vtkDataSetAttributes;
-  const std::vector<char> points =
-    FindMarked(image->GetPointData(), image->GetNumberOfPoints(), Attributes::HIDDENPOINT, what);
-  const std::vector<char> ofCells = FindMarked(image->GetCellData(), image->GetNumberOfCells(),
-    Attributes::HIDDENCELL | Attributes::REFINEDCELL, what);
-  Index n;
-  image->GetDimensions(n.data());
-  Index cellsAlong;
-  std::transform(
-    n.begin(), n.end(), cellsAlong.begin(), [](int along) { return std::max(along - 1, 1); });
-  std::vector<char> hidden = cells ? ofCells : points;
-  if (cells && !points.empty())
+  const bool hasHiddenPoints = HasMarked(
+    image->GetPointGhostArray(), Attributes::HIDDENPOINT, image->GetNumberOfPoints(), what);
+  const bool hasHiddenCells =
+    HasMarked(image->GetCellGhostArray(), HiddenBits, image->GetNumberOfCells(), what);
+  if (!hasHiddenPoints && !hasHiddenCells)
   {
-    Add(Spread(points, cellsAlong, n, 1, false), hidden);
+    return {};
   }
-  else if (!cells && !ofCells.empty())
+  std::vector<char> hidden;
+  vtkNew<vtkIdList> around;
+  const vtkIdType count = cells ? image->GetNumberOfCells() : image->GetNumberOfPoints();
+  for (vtkIdType voxel = 0; voxel < count; ++voxel)
   {
-    Add(Spread(ofCells, n, cellsAlong, -1, true), hidden);
+    const bool isHidden = cells ? !image->IsCellVisible(voxel)
+                                : !image->IsPointVisible(voxel) ||
+        (hasHiddenCells && IsAmongHiddenCells(image, voxel, around));
+    hidden.push_back(isHidden ? 1 : 0);
   }
   return hidden;
 }

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
-#include <utility>
 
 namespace voxplex
 {
@@ -119,8 +118,7 @@ bool HasPentatopes(vtkUnstructuredGrid* grid)
   return grid->GetNumberOfCells() > 0 && grid->GetCellType(0) == VTK_POLY_VERTEX;
 }
 
-SimplexMesh<3> ReadTetrahedra(
-  vtkUnstructuredGrid* grid, vtkAbstractArray* labels, const ImageFrame& frame)
+SimplexMesh<3> ReadTetrahedra(vtkUnstructuredGrid* grid, vtkAbstractArray* labels)
 {
   SimplexMesh<3> mesh;
   if (grid->GetNumberOfCells() == 0)
@@ -130,16 +128,9 @@ SimplexMesh<3> ReadTetrahedra(
   mesh.Points.resize(static_cast<std::size_t>(grid->GetNumberOfPoints()));
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
-    mesh.Points[i] = frame.ToFrame(PointOf(grid, i));
+    mesh.Points[i] = PointOf(grid, i);
   }
   ReadCells<3>(grid, labels, VTK_TETRA, mesh);
-  for (auto& simplex : mesh.Simplices)
-  {
-    if (frame.LeftHanded) // so that volumes are positive in the frame, too
-    {
-      std::swap(simplex[2], simplex[3]);
-    }
-  }
   return mesh;
 }
 

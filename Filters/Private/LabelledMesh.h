@@ -8,7 +8,6 @@
 #define voxplex_LabelledMesh_h
 
 #include "Mesh/SimplexMesh.h"
-#include "Private/ImageFrame.h"
 
 class vtkAbstractArray;
 class vtkUnstructuredGrid;
@@ -20,12 +19,11 @@ namespace voxplex
 bool HasPentatopes(vtkUnstructuredGrid* grid);
 
 /**
- * The tetrahedra in the frame of an image, positively oriented if they are so in VTK's order.
+ * The tetrahedra, as they lie.
  * @param labels the chosen array of labels, may be null
  * @throws InputError if it is no mesh of labelled tetrahedra, or if a point is not finite
  */
-SimplexMesh<3> ReadTetrahedra(
-  vtkUnstructuredGrid* grid, vtkAbstractArray* labels, const ImageFrame& frame);
+SimplexMesh<3> ReadTetrahedra(vtkUnstructuredGrid* grid, vtkAbstractArray* labels);
 
 /**
  * The pentatopes in the world; the fourth coordinate is the point array `Time`, multiplied.

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/MeshingJson.h"
-
-#include "Private/QualityJson.h"
+#include "Private/FiguresJson.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,16 +18,16 @@ namespace
 {
 
 /** Null for labels. */
-ordered_json IsosurfaceToJson(const IsosurfaceFigures& isosurface)
+ordered_json IsosurfaceToJson(const std::optional<MeshedIsosurface>& isosurface)
 {
-  if (!isosurface.Meshed)
+  if (!isosurface)
   {
     return nullptr;
   }
   return {
-    { "value", isosurface.Value },
-    { "inside", isosurface.InsideIsAbove ? "above" : "below" },
-    { "range", isosurface.Range },
+    { "value", isosurface->Surface.Value },
+    { "inside", isosurface->Surface.Inside == IsosurfaceSide::Above ? "above" : "below" },
+    { "range", isosurface->Range },
   };
 }
 
@@ -199,42 +197,42 @@ ordered_json ThreadsToJson(const std::vector<ThreadStatistics>& threads)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
+ordered_json FiguresToJson(const MeshingStatistics& v)
 {
   ordered_json json = {
     { "dimension", v.Dimension },
     { "elements", v.Elements },
     { "vertices", v.Vertices },
     { "interface_facets", v.InterfaceFacets },
-    { "delta", v.Run.Delta },
-    { "largest_delta", v.Run.LargestDelta },
-    { "grading", { { "samples", v.Run.GradingSamples }, { "poles", v.Run.GradingPoles } } },
+    { "delta", v.Delta },
+    { "largest_delta", v.LargestDelta },
+    { "grading", { { "samples", v.GradingSamples }, { "poles", v.GradingPoles } } },
   };
-  AddRuns(json, v.Run);
+  AddRuns(json, v);
   json.update({
-    { "smoothing_sigma", v.Run.SmoothingSigma },
-    { "frame_steps", v.Run.FrameSteps },
-    { "threads", v.Threads },
-    { "contention", ContentionPolicyNames[static_cast<std::size_t>(v.Run.Contention)] },
-    { "balance", BalancePolicyNames[static_cast<std::size_t>(v.Run.Balance)] },
-    { "switched_to_local", v.Run.SwitchedToLocal },
-    { "seeding_seconds", v.Run.SeedingSeconds },
-    { "estimated_elements", v.Run.EstimatedElements },
-    { "sizes_raised_to", v.Run.SizesRaisedTo },
+    { "smoothing_sigma", v.SmoothingSigma },
+    { "frame_steps", v.FrameSteps },
+    { "threads", v.NumberOfThreads },
+    { "contention", ContentionPolicyNames[static_cast<std::size_t>(v.Contention)] },
+    { "balance", BalancePolicyNames[static_cast<std::size_t>(v.Balance)] },
+    { "switched_to_local", v.SwitchedToLocal },
+    { "seeding_seconds", v.SeedingSeconds },
+    { "estimated_elements", v.EstimatedElements },
+    { "sizes_raised_to", v.SizesRaisedTo },
     { "isosurface", IsosurfaceToJson(v.Isosurface) },
     { "lost_labels", v.LostLabels },
     { "shrunk_labels", ShrunkToJson(v.ShrunkLabels) },
-    { "components", v.Run.Components.Found },
-    { "lost_components", ComponentsToJson(v.Run.Components.Lost) },
-    { "broken_components", BrokenToJson(v.Run.Components.Broken) },
+    { "components", v.Components.Found },
+    { "lost_components", ComponentsToJson(v.Components.Lost) },
+    { "broken_components", BrokenToJson(v.Components.Broken) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },
-    { "frame_components", v.Run.FrameComponents.Found },
-    { "lost_frame_components", ComponentsToJson(v.Run.FrameComponents.Lost) },
-    { "largest_regional_work", v.Run.Rules.LargestRegionalWork },
-    { "yielding_regions", YieldingToJson(v.Run.Yielding) },
-    { "time_planes", PlanesToJson(v.Run.Planes) },
-    { "interfaces", InterfacesToJson(v.Run.Interfaces) },
-    { "optimisation", OptimisationToJson(v.Run.Optimisation, v.Dimension == 4) },
+    { "frame_components", v.FrameComponents.Found },
+    { "lost_frame_components", ComponentsToJson(v.FrameComponents.Lost) },
+    { "largest_regional_work", v.Rules.LargestRegionalWork },
+    { "yielding_regions", YieldingToJson(v.Yielding) },
+    { "time_planes", PlanesToJson(v.Planes) },
+    { "interfaces", InterfacesToJson(v.Interfaces) },
+    { "optimisation", OptimisationToJson(v.Optimisation, v.Dimension == 4) },
   });
   if (v.HasQuality)
   {
@@ -246,9 +244,9 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
     }
     json["quality"] = QualityToJson(v.Quality);
   }
-  const auto& rules = v.Run.Rules;
-  const auto& predicates = v.Run.Predicates;
-  const auto& times = v.Run.Times;
+  const auto& rules = v.Rules;
+  const auto& predicates = v.Predicates;
+  const auto& times = v.Times;
   json.update({
     { "rules", RulesToJson(rules) },
     { "cavities", { { "mean", MeanCavitySize(rules) }, { "largest", rules.LargestCavity } } },
@@ -265,9 +263,8 @@ ordered_json FiguresToJson(const vtkMeshingStatistics::Figures& v)
         { "extraction", times.Extraction }, { "optimisation", times.Optimisation },
         { "total", times.Total() } } },
     { "memory",
-      { { "label_field_bytes", v.Run.LabelFieldBytes },
-        { "distance_bytes", v.Run.DistanceBytes } } },
-    { "thread_statistics", ThreadsToJson(v.Run.Threads) },
+      { { "label_field_bytes", v.LabelFieldBytes }, { "distance_bytes", v.DistanceBytes } } },
+    { "thread_statistics", ThreadsToJson(v.Threads) },
   });
   return json;
 }

@@ -6,6 +6,10 @@
 #include "Base/NumberText.h"
 #include "MeshingParameters.h"
 
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkStringArray.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -89,31 +93,6 @@ std::string ListLabels(std::span<const std::int64_t> labels)
   return ListSome(labels, [](std::int64_t label) { return std::to_string(label); });
 }
 
-std::vector<std::int64_t> FindLostLabels(
-  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements)
-{
-  std::vector<char> found(labels.size(), 0);
-  std::int64_t last = 0;
-  for (const std::int64_t label : elements)
-  {
-    if (label != last) // neighbours in the list mostly have the same label
-    {
-      last = label;
-      found[static_cast<std::size_t>(
-        std::lower_bound(labels.begin(), labels.end(), label) - labels.begin())] = 1;
-    }
-  }
-  std::vector<std::int64_t> lost;
-  for (std::size_t i = 0; i < found.size(); ++i)
-  {
-    if (!found[i])
-    {
-      lost.push_back(labels[i]);
-    }
-  }
-  return lost;
-}
-
 void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
   std::span<const std::int64_t> labels)
 {
@@ -130,47 +109,64 @@ void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& me
   }
 }
 
-std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures,
-  const std::string& contentionManager, bool exactComponents)
+std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields)
 {
+  std::map<std::int64_t, std::string> names;
+  vtkDataArray* const values = fields->GetArray("LabelValues");
+  auto* const texts = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames"));
+  for (vtkIdType i = 0; values && texts && i < values->GetNumberOfTuples(); ++i)
+  {
+    if (i < texts->GetNumberOfValues() && !texts->GetValue(i).empty())
+    {
+      names[static_cast<std::int64_t>(values->GetComponent(i, 0))] = texts->GetValue(i);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> WarningsOf(const MeshingStatistics& run,
+  const std::map<std::int64_t, std::string>& names, const std::string& contentionManager,
+  bool exactComponents)
+{
+  const auto describeLabel = [&names](std::int64_t label)
+  {
+    const auto name = names.find(label);
+    return std::to_string(label) + (name == names.end() ? "" : " (" + name->second + ")");
+  };
   std::vector<std::string> warnings;
-  const MeshingStatistics& run = figures.Run;
   if (run.SizesRaisedTo > 0.0)
   {
     warnings.push_back("Some element sizes are below a tenth of {delta} and were raised to " +
       NumberText(run.SizesRaisedTo) + "; use a smaller {delta} for smaller elements.");
   }
-  if (!figures.LostLabels.empty())
+  if (!run.LostLabels.empty())
   {
     warnings.push_back(
       "The mesh lacks these labels of the image, which are too small for a {delta} of " +
-      NumberText(run.Delta) + ": " + ListLabels(figures.LostLabels) + ".");
+      NumberText(run.Delta) + ": " +
+      ListSome(std::span<const std::int64_t>(run.LostLabels), describeLabel) + ".");
   }
-  if (!figures.ShrunkLabels.empty())
+  if (!run.ShrunkLabels.empty())
   {
-    const auto describe = [](const ShrunkLabel& label)
+    const auto describe = [&describeLabel](const ShrunkLabel& label)
     {
-      return std::to_string(label.Label) + " (" +
+      return describeLabel(label.Label) + " (" +
         std::to_string(std::lround(100.0 * label.Fraction)) + " %)";
     };
     warnings.push_back("The mesh has less than half of the volume of these labels, which are "
                        "thin for a {delta} of " +
       NumberText(run.Delta) + ": " +
-      ListSome(std::span<const ShrunkLabel>(figures.ShrunkLabels), describe) +
+      ListSome(std::span<const ShrunkLabel>(run.ShrunkLabels), describe) +
       (exactComponents ? ". A smaller {delta} keeps them."
                        : ". {exact-components} or a smaller {delta} keeps them."));
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {
-    std::string text;
-    for (const ComponentReport& component : components.Lost)
+    if (!components.Lost.empty())
     {
-      text += (text.empty() ? "" : ", ") + Describe(component);
-    }
-    if (!text.empty())
-    {
-      warnings.push_back(
-        "The mesh lacks these connected components of " + std::string(of) + ": " + text + ".");
+      const auto describe = [](const ComponentReport& component) { return Describe(component); };
+      warnings.push_back("The mesh lacks these connected components of " + std::string(of) + ": " +
+        ListSome(std::span<const ComponentReport>(components.Lost), describe) + ".");
     }
   };
   warnOfLost(run.Components, "the image");
@@ -202,9 +198,14 @@ std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures
   }
   if (run.SwitchedToLocal)
   {
+    std::uint64_t rollbacks = 0;
+    for (const ThreadStatistics& thread : run.Threads)
+    {
+      rollbacks += thread.Rollbacks;
+    }
     warnings.push_back("The threads made no progress with the contention manager '" +
-      contentionManager +
-      "', which cannot exclude a livelock, and the local one took over; set "
+      contentionManager + "' (" + std::to_string(rollbacks) +
+      " rollbacks), which cannot exclude a livelock, and the local one took over; set "
       "{contention} to local.");
   }
   return warnings;

@@ -7,12 +7,15 @@
 #ifndef voxplex_MeshingMessages_h
 #define voxplex_MeshingMessages_h
 
-#include "Private/MeshingFigures.h"
+#include "Mesher/MeshingStatistics.h"
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
+
+class vtkFieldData;
 
 namespace voxplex
 {
@@ -38,17 +41,18 @@ std::string ListLabels(std::span<const std::int64_t> labels);
 void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
   std::span<const std::int64_t> labels);
 
-/** Those of `labels`, which is sorted, that no element has. */
-std::vector<std::int64_t> FindLostLabels(
-  std::span<const std::int64_t> labels, std::span<const std::int64_t> elements);
+/** The names that an image's field data (arrays LabelValues, LabelNames) gives to labels. */
+std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields);
 
 /**
  * How the mesh differs from what was asked for, a sentence or two each.
+ * @param names of labels
  * @param contentionManager the one that was asked for
  * @param exactComponents whether ExactComponents was asked for: no warning suggests it then
  */
-std::vector<std::string> WarningsOf(const vtkMeshingStatistics::Figures& figures,
-  const std::string& contentionManager, bool exactComponents);
+std::vector<std::string> WarningsOf(const MeshingStatistics& run,
+  const std::map<std::int64_t, std::string>& names, const std::string& contentionManager,
+  bool exactComponents);
 
 } // namespace voxplex
 

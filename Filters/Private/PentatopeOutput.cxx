@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/PentatopeOutput.h"
+#include "Private/MeshOutput.h"
 
-#include "Geometry/SimplexQuality.h"
-#include "Geometry/SymmetricEigen.h"
+#include "Mesh/BoundaryMotion.h"
 #include "Private/OutputArrays.h"
 
 #include "vtkCellData.h"
@@ -16,9 +15,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 namespace voxplex
@@ -48,56 +44,6 @@ void SetPoints(vtkUnstructuredGrid* grid, std::size_t n, const SpaceTimeFrame& f
   grid->GetPointData()->AddArray(times);
 }
 
-/** Values of the cell array Side. */
-enum class Side : unsigned char
-{
-  Lateral,
-  Initial, ///< the flat end at the time of the first frame
-  Final
-};
-
-/** Whether a boundary tetrahedron lies in a flat end. */
-Side SideOf(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
-{
-  if (mesh.FacetLabels[facet][1] != 0)
-  {
-    return Side::Lateral;
-  }
-  bool isInitial = true;
-  bool isFinal = true;
-  for (const std::uint32_t id : mesh.Facets[facet])
-  {
-    const double time = frame.Time(mesh.Points[id]);
-    isInitial &= time == frame.FirstTime;
-    isFinal &= time == frame.LastTime;
-  }
-  return isInitial ? Side::Initial : isFinal ? Side::Final : Side::Lateral;
-}
-
-/** A normal of a boundary tetrahedron in the world; its length is proportional to the area. */
-Point<4> NormalOf(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
-{
-  std::array<Point<4>, 4> p;
-  for (std::size_t k = 0; k < 4; ++k)
-  {
-    p[k] = frame.ToWorld(mesh.Points[mesh.Facets[facet][k]]);
-  }
-  return Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
-}
-
-/**
- * The velocity of a lateral tetrahedron along its normal in space, out of the region of its first
- * label: -n_t / |n_x|, where n is the normal in space-time. NaN if n_x is 0.
- */
-double NormalVelocity(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, std::size_t facet)
-{
-  // That of the frame, or its opposite if axes are left-handed.
-  const Point<4> normal = NormalOf(mesh, frame, facet);
-  const double sign = frame.Space.LeftHanded ? -1.0 : 1.0;
-  const double length = std::hypot(normal[0], normal[1], normal[2]);
-  return length > 0.0 ? -sign * normal[3] / length : std::numeric_limits<double>::quiet_NaN();
-}
-
 /** The arrays Side and NormalVelocity. */
 void AddSides(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame,
   vtkUnstructuredGrid* boundary, unsigned threads)
@@ -116,90 +62,29 @@ void AddSides(const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame,
     {
       for (std::size_t f = first; f < last; ++f)
       {
-        const Side one = SideOf(mesh, frame, f);
+        const BoundarySide one = SideOf(mesh, frame, f);
         side[f] = static_cast<unsigned char>(one);
-        velocity[f] = one == Side::Lateral ? NormalVelocity(mesh, frame, f) : 0.0;
+        velocity[f] = one == BoundarySide::Lateral ? NormalVelocity(mesh, frame, f) : 0.0;
       }
     });
   boundary->GetCellData()->AddArray(sides);
   boundary->GetCellData()->AddArray(velocities);
 }
 
-/** A direction is normal to a boundary if this part of its area faces it. Less is curvature. */
-constexpr double NormalShare = 0.15;
-
-/** What the lateral tetrahedra around a point say about its velocity. */
-struct VelocityEquations
-{
-  std::array<Point<3>, 3> Matrix{};
-  Point<3> Right{};
-
-  /** The tetrahedron stays on the boundary: n_x . v + n_t = 0. */
-  void Add(const Point<4>& normal)
-  {
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    for (std::size_t a = 0; a < 3 && length > 0.0; ++a)
-    {
-      for (std::size_t b = 0; b < 3; ++b)
-      {
-        this->Matrix[a][b] += normal[a] * normal[b] / length;
-      }
-      this->Right[a] -= normal[a] * normal[3] / length;
-    }
-  }
-
-  /** Least squares, in the directions that are normal to a boundary. 0 in all others. */
-  Point<3> Solve() const
-  {
-    const SymmetricEigen<3> eigen = EigenOf<3>(this->Matrix);
-    const double trace = eigen.Values[0] + eigen.Values[1] + eigen.Values[2];
-    Point<3> velocity{};
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      if (eigen.Values[k] > NormalShare * trace)
-      {
-        const double part = Dot(eigen.Vectors[k], this->Right) / eigen.Values[k];
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          velocity[a] += part * eigen.Vectors[k][a];
-        }
-      }
-    }
-    return velocity;
-  }
-};
-
 /** The array BoundaryVelocity of all points of the mesh. */
 vtkSmartPointer<vtkDoubleArray> MakeVelocities(
   const SimplexMesh<4>& mesh, const SpaceTimeFrame& frame, unsigned threads)
 {
-  std::vector<VelocityEquations> equations(mesh.Points.size());
-  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  const std::vector<Point<3>> velocities = BoundaryVelocities(mesh, frame, threads);
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("BoundaryVelocity");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(velocities.size()));
+  for (std::size_t i = 0; i < velocities.size(); ++i)
   {
-    if (SideOf(mesh, frame, f) == Side::Lateral)
-    {
-      const Point<4> normal = NormalOf(mesh, frame, f);
-      for (const std::uint32_t id : mesh.Facets[f])
-      {
-        equations[id].Add(normal);
-      }
-    }
+    array->SetTypedTuple(static_cast<vtkIdType>(i), velocities[i].data());
   }
-  auto velocities = vtkSmartPointer<vtkDoubleArray>::New();
-  velocities->SetName("BoundaryVelocity");
-  velocities->SetNumberOfComponents(3);
-  velocities->SetNumberOfTuples(static_cast<vtkIdType>(equations.size()));
-  double* const out = velocities->GetPointer(0);
-  ParallelFor(0, equations.size(), OutputGrain, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const Point<3> velocity = equations[i].Solve();
-        std::copy(velocity.begin(), velocity.end(), out + 3 * i);
-      }
-    });
-  return velocities;
+  return array;
 }
 
 /** The boundary tetrahedra, on a compact copy of the points that they use. */

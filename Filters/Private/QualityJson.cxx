@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/QualityJson.h"
+#include "Private/FiguresJson.h"
 
 #include "Private/QualityTables.h"
 
@@ -17,6 +17,14 @@ namespace voxplex
 namespace
 {
 
+void AddCounts(ordered_json& json, const MeshCounts& counts)
+{
+  json["elements"] = counts.Elements;
+  json["vertices"] = counts.Vertices;
+  json["interface_facets"] = counts.InterfaceFacets;
+  json["faces_of_three_elements"] = counts.FacesOfThreeElements;
+}
+
 ordered_json LabelsToJson(const MeshMeasurement& measurement)
 {
   ordered_json labels = ordered_json::object();
@@ -26,10 +34,9 @@ ordered_json LabelsToJson(const MeshMeasurement& measurement)
       { "volume", figures.Comparison.Volume } };
     if (measurement.Image)
     {
-      const double volume = figures.Comparison.ImageVolume;
       one["voxels"] = figures.Comparison.Voxels;
-      one["image_volume"] = volume;
-      one["volume_error"] = (figures.Comparison.Volume - volume) / volume;
+      one["image_volume"] = figures.Comparison.ImageVolume;
+      one["volume_error"] = figures.Comparison.VolumeError();
     }
     one["fragments"] = figures.Fragments;
     one["boundary_edges"] = figures.Topology.BoundaryEdges;
@@ -151,6 +158,7 @@ void AppendLabel(ordered_json& labels, std::int64_t label, ordered_json figures)
 
 void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
 {
+  AddCounts(json, measurement.Counts);
   json["labels"] = LabelsToJson(measurement);
   json["quality"] = QualityToJson(measurement.Quality);
   json["topology"] = TopologyToJson(measurement);
@@ -164,15 +172,9 @@ void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
 namespace
 {
 
-ordered_json FrameToJson(const FrameFigures& frame)
+ordered_json FrameToJson(const FrameMeasurement& frame)
 {
-  ordered_json json = {
-    { "time", frame.Time },
-    { "elements", frame.Elements },
-    { "vertices", frame.Vertices },
-    { "interface_facets", frame.InterfaceFacets },
-    { "faces_of_three_elements", frame.FacesOfThreeElements },
-  };
+  ordered_json json = { { "time", frame.Time } };
   AddMeasurement(json, frame.Measured);
   if (!frame.Measured.Image)
   {
@@ -200,10 +202,11 @@ ordered_json WorstToJson(const std::vector<WorstElement>& worst)
 
 } // namespace
 
-void AddMeasurement(ordered_json& json, const SpaceTimeFigures& figures)
+void AddMeasurement(ordered_json& json, const SpaceTimeMeasurement& figures)
 {
+  AddCounts(json, figures.Counts);
   ordered_json labels = ordered_json::object();
-  for (const SpaceTimeLabel& label : LabelsOf(figures))
+  for (const SpaceTimeLabel& label : figures.Labels())
   {
     ordered_json one = { { "elements", label.Elements }, { "volume", label.Volume },
       { "components", label.Components } };
@@ -220,13 +223,13 @@ void AddMeasurement(ordered_json& json, const SpaceTimeFigures& figures)
   if (figures.Components)
   {
     json["image"] = {
-      { "lost_labels", LostLabelsOf(figures) },
+      { "lost_labels", figures.LostLabels() },
       { "components", figures.Components->Wanted },
       { "lost_components", ComponentsToJson(figures.Components->Lost) },
     };
   }
   ordered_json frames = ordered_json::array();
-  for (const FrameFigures& frame : figures.Frames)
+  for (const FrameMeasurement& frame : figures.Frames)
   {
     frames.push_back(FrameToJson(frame));
   }

@@ -3,12 +3,11 @@
 #include "Private/QualityRun.h"
 
 #include "Base/Error.h"
-#include "Mesh/FindInterfaces.h"
+#include "Image/LabelValue.h"
 #include "Parallel/ParallelFor.h"
-#include "Private/ImageLabels.h"
+#include "Private/Execution.h"
 #include "Private/LabelledMesh.h"
 #include "Private/QualityTables.h"
-#include "Private/SmpThreads.h"
 
 #include "vtkDataArray.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -21,6 +20,7 @@
 
 #include <chrono>
 #include <future>
+#include <set>
 #include <string>
 
 using voxplex::InputError;
@@ -30,23 +30,19 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/** Unless there is an image, the frame of the mesh is the world. */
-voxplex::ImageFrame WorldFrame()
+/** Whether a voxel has a label that is selected. */
+bool HasForeground(vtkDataArray* array, const voxplex::LabelSelection& selection)
 {
-  voxplex::ImageFrame frame;
-  for (std::size_t k = 0; k < 3; ++k)
+  const std::set<double> only(selection.Only.begin(), selection.Only.end());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    frame.Rotation[k][k] = 1.0;
+    const double label = voxplex::NearestLabel(array->GetComponent(i, 0));
+    if (label != 0.0 && (only.empty() || only.count(label) > 0))
+    {
+      return true;
+    }
   }
-  return frame;
-}
-
-void MoveToWorld(const voxplex::ImageFrame& frame, voxplex::HausdorffFigures& figures)
-{
-  for (voxplex::DistanceFigures* direction : { &figures.MeshToImage, &figures.ImageToMesh })
-  {
-    direction->Place = frame.ToWorld(direction->Place);
-  }
+  return false;
 }
 
 } // namespace
@@ -94,8 +90,13 @@ bool vtkSimplexMeshQuality::Execution::Run(
 
 unsigned vtkSimplexMeshQuality::Execution::Threads() const
 {
-  return static_cast<unsigned>(
-    this->Filter->NumberOfThreads > 0 ? this->Filter->NumberOfThreads : voxplex::SmpThreads());
+  return voxplex::ThreadsFor(this->Filter->NumberOfThreads);
+}
+
+voxplex::MeasurementOptions vtkSimplexMeshQuality::Execution::Options() const
+{
+  return { this->Filter->RadiusEdgeRatio, this->Filter->FacetAngle, this->Filter->SmallestComponent,
+    this->Filter->Distances, false, this->Filter->SmoothingSigma, this->Threads() };
 }
 
 bool vtkSimplexMeshQuality::Execution::MeasureTetrahedra()
@@ -112,38 +113,28 @@ bool vtkSimplexMeshQuality::Execution::MeasureTetrahedra()
     voxels = voxplex::ChooseScalars(
       image, scalars, association, voxplex::ImageContent::Labels, "image", "");
   }
-  const voxplex::ImageFrame frame = voxels ? voxels->Frame : WorldFrame();
-  voxplex::SimplexMesh<3> mesh = voxplex::ReadTetrahedra(
-    grid, this->Filter->GetInputAbstractArrayToProcess(0, this->Input), frame);
+  voxplex::SimplexMesh<3> mesh =
+    voxplex::ReadTetrahedra(grid, this->Filter->GetInputAbstractArrayToProcess(0, this->Input));
   this->Filter->UpdateProgress(0.1);
 
-  const voxplex::MeasurementOptions options{ this->Filter->RadiusEdgeRatio,
-    this->Filter->FacetAngle, this->Filter->SmallestComponent, this->Filter->Distances,
-    this->Filter->SmoothDistances, this->Filter->SmoothingSigma, threads };
+  voxplex::MeasurementOptions options = this->Options();
+  options.SmoothDistances = this->Filter->SmoothDistances;
   Internals& figures = *this->Filter->Private;
   const bool done = this->Run(
     [&](const std::stop_token& stop)
     {
-      figures.FacesOfThreeElements = voxplex::FindInterfaces(mesh, threads, stop);
       std::optional<voxplex::LabelImage<3>> labels;
       if (voxels)
       {
         labels = voxplex::ReadLabels(*voxels, figures.Selection(), threads, stop);
       }
-      figures.Figures = voxplex::MeasureMesh(mesh, labels ? &*labels : nullptr, options, stop);
+      figures.Figures = voxplex::MeasureMesh(mesh, labels ? &*labels : nullptr,
+        voxels ? voxels->Frame : voxplex::ImageFrame(), options, stop);
     },
     0.1, 0.95);
   if (!done)
   {
     return false;
-  }
-  figures.Elements = mesh.Simplices.size();
-  figures.Vertices = mesh.Points.size();
-  figures.InterfaceFacets = mesh.Facets.size();
-  if (figures.Figures.Image)
-  {
-    MoveToWorld(frame, figures.Figures.Image->Voxels);
-    MoveToWorld(frame, figures.Figures.Image->Smooth);
   }
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(this->Output, 0);
   output->ShallowCopy(grid);
@@ -157,13 +148,10 @@ bool vtkSimplexMeshQuality::Execution::MeasureTetrahedra()
 bool vtkSimplexMeshQuality::Execution::MeasurePentatopes()
 {
   vtkUnstructuredGrid* const grid = vtkUnstructuredGrid::GetData(this->Input[0]);
-  const voxplex::MeasurementOptions options{ this->Filter->RadiusEdgeRatio,
-    this->Filter->FacetAngle, this->Filter->SmallestComponent, this->Filter->Distances, false,
-    this->Filter->SmoothingSigma, this->Threads() };
-  voxplex::SpaceTimeQuality quality(
+  voxplex::SpaceTimeMeasurer quality(
     voxplex::ReadPentatopes(
       grid, this->Filter->GetInputAbstractArrayToProcess(0, this->Input), this->Filter->TimeScale),
-    this->Filter->TimeScale, options);
+    this->Filter->TimeScale, this->Options());
   const auto worst = static_cast<std::size_t>(this->Filter->NumberOfWorstElements);
   if (!this->Run(
         [&](const std::stop_token& stop) { quality.MeasureElements(worst, stop); }, 0.0, 0.2) ||
@@ -172,11 +160,7 @@ bool vtkSimplexMeshQuality::Execution::MeasurePentatopes()
     return false;
   }
   Internals& figures = *this->Filter->Private;
-  figures.SpaceTime = quality.Figures();
-  figures.Elements = quality.Mesh().Simplices.size();
-  figures.Vertices = quality.Mesh().Points.size();
-  figures.InterfaceFacets = figures.SpaceTime->Topology.InterfaceFacets;
-  figures.FacesOfThreeElements = figures.SpaceTime->Topology.FacetsOfThreeElements;
+  figures.SpaceTime = quality.Measurement();
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(this->Output, 0);
   output->ShallowCopy(grid);
   voxplex::AddElementMeasures(*figures.SpaceTime, output->GetCellData());
@@ -186,7 +170,7 @@ bool vtkSimplexMeshQuality::Execution::MeasurePentatopes()
   return true;
 }
 
-bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& quality)
+bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeMeasurer& quality)
 {
   constexpr double start = 0.2; // of the progress
   const voxplex::LabelSelection selection = this->Filter->Private->Selection();
@@ -197,7 +181,7 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
       {
         for (const double time : this->Filter->Private->FrameTimes)
         {
-          quality.MeasureCut(time, stop);
+          quality.MeasureCut(time, nullptr, voxplex::ImageFrame(), stop);
         }
       },
       start, 0.95);
@@ -212,7 +196,7 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
       " frames; give one time for each frame.");
   }
   voxplex::FrameSeries series;
-  series.Start(times, voxplex::ImageContent::Labels, selection);
+  series.Start(times, true, selection);
   for (std::size_t k = 0; k < times.size(); ++k)
   {
     const voxplex::ChosenArray frame = this->FrameOfImage(given, k);
@@ -221,8 +205,13 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
     const bool done = this->Run(
       [&](const std::stop_token& stop)
       {
-        series.Add(frame, 0, this->Threads());
-        quality.MeasureCut(times[k], frame, selection, stop);
+        voxplex::AddFrame(frame, 0, this->Threads(), series);
+        std::optional<voxplex::LabelImage<3>> labels;
+        if (HasForeground(frame.Array, selection)) // else there is nothing to compare with
+        {
+          labels = voxplex::ReadLabels(frame, selection, this->Threads(), stop);
+        }
+        quality.MeasureCut(times[k], labels ? &*labels : nullptr, frame.Frame, stop);
       },
       progress(k), progress(k + 1));
     if (!done)
@@ -231,7 +220,12 @@ bool vtkSimplexMeshQuality::Execution::MeasureFrames(voxplex::SpaceTimeQuality& 
     }
   }
   return this->Run(
-    [&](const std::stop_token& stop) { quality.MeasureImage(series, stop); }, 0.9, 0.95);
+    [&](const std::stop_token& stop)
+    {
+      const voxplex::SpaceTimeFrame frame = series.MakeFrame(this->Filter->TimeScale);
+      quality.MeasureImage(series.MakeLabelImage(frame.Grid, this->Threads()), frame, stop);
+    },
+    0.9, 0.95);
 }
 
 // Of components without times the numbers of the frames, which AddFrameTime() replaces.

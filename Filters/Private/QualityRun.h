@@ -8,13 +8,12 @@
 #define voxplex_QualityRun_h
 
 #include "Private/ChosenArray.h"
-#include "Private/SpaceTimeQuality.h"
 #include "Quality/MeshMeasurement.h"
+#include "Quality/SpaceTimeMeasurement.h"
 
 #include "vtkSimplexMeshQuality.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <set>
@@ -27,15 +26,11 @@ struct vtkSimplexMeshQuality::Internals
   std::vector<double> FrameTimes;
 
   // Of the last execution.
-  std::optional<voxplex::SpaceTimeFigures> SpaceTime; ///< of pentatopes, in place of Figures
+  std::optional<voxplex::SpaceTimeMeasurement> SpaceTime; ///< of pentatopes, in place of Figures
   voxplex::MeshMeasurement Figures;
-  std::uint64_t Elements = 0;
-  std::uint64_t Vertices = 0;
-  std::uint64_t InterfaceFacets = 0;
-  std::uint64_t FacesOfThreeElements = 0;
 
   /** Forgets the last execution. */
-  void Clear() { *this = Internals{ this->Labels, this->FrameTimes, {}, {}, 0, 0, 0, 0 }; }
+  void Clear() { *this = Internals{ this->Labels, this->FrameTimes, {}, {} }; }
 
   /** The comparison with an image, of a pentatope mesh that of the farthest frame; may be null. */
   const voxplex::ImageComparison* Farthest() const;
@@ -68,13 +63,15 @@ public:
 private:
   bool MeasureTetrahedra();
   bool MeasurePentatopes();
-  bool MeasureFrames(voxplex::SpaceTimeQuality& quality);
+  bool MeasureFrames(voxplex::SpaceTimeMeasurer& quality);
   /** The times at which the image has frames. */
   std::vector<double> TimesOfImage() const;
   voxplex::ChosenArray FrameOfImage(const std::vector<double>& times, std::size_t k) const;
   /** Progress goes from one value towards the other. False if stopped. */
   bool Run(const std::function<void(const std::stop_token&)>& work, double from, double to);
   unsigned Threads() const;
+  /** Without smooth distances. */
+  voxplex::MeasurementOptions Options() const;
 
   vtkSimplexMeshQuality* const Filter;
   vtkInformationVector** const Input;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace voxplex
@@ -31,10 +32,13 @@ double* AddDoubles(vtkCellData* cells, const char* name, std::size_t size)
   return array->GetPointer(0);
 }
 
-/** A column with a value for each of `rows`. */
-template <typename Array, typename Rows, typename ValueOf>
+/** A column with a value for each of `rows`: real or whole numbers, as valueOf() returns them. */
+template <typename Rows, typename ValueOf>
 void AddColumn(vtkTable* table, const char* name, const Rows& rows, ValueOf&& valueOf)
 {
+  using Value = decltype(valueOf(*rows.begin()));
+  using Array =
+    std::conditional_t<std::is_floating_point_v<Value>, vtkDoubleArray, vtkTypeInt64Array>;
   vtkNew<Array> column;
   column->SetName(name);
   for (const auto& row : rows)
@@ -49,7 +53,7 @@ template <std::size_t N>
 void AddStarts(
   vtkTable* table, const char* name, const std::array<std::uint64_t, N>& bins, double width)
 {
-  AddColumn<vtkDoubleArray>(table, name, bins,
+  AddColumn(table, name, bins,
     [&bins, width](const std::uint64_t& bin)
     { return width * static_cast<double>(&bin - bins.data()); });
 }
@@ -57,7 +61,7 @@ void AddStarts(
 template <std::size_t N>
 void AddBins(vtkTable* table, const char* name, const std::array<std::uint64_t, N>& bins)
 {
-  AddColumn<vtkTypeInt64Array>(table, name, bins, [](std::uint64_t count) { return count; });
+  AddColumn(table, name, bins, [](std::uint64_t count) { return count; });
 }
 
 } // namespace
@@ -113,33 +117,20 @@ void AddElementMeasures(const SimplexMesh<3>& mesh, unsigned threads, vtkCellDat
 void FillLabelTable(const MeshMeasurement& measurement, vtkTable* table)
 {
   const std::map<std::int64_t, LabelFigures> rows = CollectLabels(measurement);
-  const auto count = [&](const char* name, auto&& valueOf)
-  {
-    AddColumn<vtkTypeInt64Array>(
-      table, name, rows, [&](const auto& row) { return valueOf(row.second); });
-  };
-  const auto number = [&](const char* name, auto&& valueOf)
-  {
-    AddColumn<vtkDoubleArray>(
-      table, name, rows, [&](const auto& row) { return valueOf(row.second); });
-  };
-  count("Label", [](const LabelFigures& row) { return row.Comparison.Label; });
-  count("Elements", [](const LabelFigures& row) { return row.Comparison.Elements; });
-  number("Volume", [](const LabelFigures& row) { return row.Comparison.Volume; });
-  count("BoundaryEdges", [](const LabelFigures& row) { return row.Topology.BoundaryEdges; });
-  count("NonManifoldEdges", [](const LabelFigures& row) { return row.Topology.NonManifoldEdges; });
-  count("NonManifoldEdgesAtJunctions",
+  const auto add = [&](const char* name, auto&& valueOf)
+  { AddColumn(table, name, rows, [&](const auto& row) { return valueOf(row.second); }); };
+  add("Label", [](const LabelFigures& row) { return row.Comparison.Label; });
+  add("Elements", [](const LabelFigures& row) { return row.Comparison.Elements; });
+  add("Volume", [](const LabelFigures& row) { return row.Comparison.Volume; });
+  add("BoundaryEdges", [](const LabelFigures& row) { return row.Topology.BoundaryEdges; });
+  add("NonManifoldEdges", [](const LabelFigures& row) { return row.Topology.NonManifoldEdges; });
+  add("NonManifoldEdgesAtJunctions",
     [](const LabelFigures& row) { return row.Topology.NonManifoldEdgesAtJunctions; });
   if (measurement.Image)
   {
-    count("Voxels", [](const LabelFigures& row) { return row.Comparison.Voxels; });
-    number("ImageVolume", [](const LabelFigures& row) { return row.Comparison.ImageVolume; });
-    number("VolumeError",
-      [](const LabelFigures& row)
-      {
-        const LabelComparison& label = row.Comparison;
-        return (label.Volume - label.ImageVolume) / label.ImageVolume;
-      });
+    add("Voxels", [](const LabelFigures& row) { return row.Comparison.Voxels; });
+    add("ImageVolume", [](const LabelFigures& row) { return row.Comparison.ImageVolume; });
+    add("VolumeError", [](const LabelFigures& row) { return row.Comparison.VolumeError(); });
   }
 }
 
@@ -153,7 +144,7 @@ void FillHistograms(const MeshQuality& quality, vtkTable* table)
 }
 
 //----------------------------------------------------------------------------------------------------
-void AddElementMeasures(const SpaceTimeFigures& figures, vtkCellData* cells)
+void AddElementMeasures(const SpaceTimeMeasurement& figures, vtkCellData* cells)
 {
   const auto add = [cells](const char* name, const std::vector<double>& values)
   { std::copy(values.begin(), values.end(), AddDoubles(cells, name, values.size())); };
@@ -171,27 +162,22 @@ void AddElementMeasures(const SpaceTimeFigures& figures, vtkCellData* cells)
   cells->AddArray(ranks);
 }
 
-void FillLabelTable(const SpaceTimeFigures& figures, vtkTable* table)
+void FillLabelTable(const SpaceTimeMeasurement& figures, vtkTable* table)
 {
-  const std::vector<SpaceTimeLabel> rows = LabelsOf(figures);
-  AddColumn<vtkTypeInt64Array>(
-    table, "Label", rows, [](const SpaceTimeLabel& row) { return row.Label; });
-  AddColumn<vtkTypeInt64Array>(
-    table, "Elements", rows, [](const SpaceTimeLabel& row) { return row.Elements; });
-  AddColumn<vtkDoubleArray>(
-    table, "Volume", rows, [](const SpaceTimeLabel& row) { return row.Volume; });
-  AddColumn<vtkTypeInt64Array>(
-    table, "Components", rows, [](const SpaceTimeLabel& row) { return row.Components; });
+  const std::vector<SpaceTimeLabel> rows = figures.Labels();
+  const auto add = [&](const char* name, auto&& valueOf) { AddColumn(table, name, rows, valueOf); };
+  add("Label", [](const SpaceTimeLabel& row) { return row.Label; });
+  add("Elements", [](const SpaceTimeLabel& row) { return row.Elements; });
+  add("Volume", [](const SpaceTimeLabel& row) { return row.Volume; });
+  add("Components", [](const SpaceTimeLabel& row) { return row.Components; });
   if (figures.Components)
   {
-    AddColumn<vtkDoubleArray>(
-      table, "ImageVolume", rows, [](const SpaceTimeLabel& row) { return row.ImageVolume; });
-    AddColumn<vtkDoubleArray>(
-      table, "VolumeError", rows, [](const SpaceTimeLabel& row) { return row.VolumeError(); });
+    add("ImageVolume", [](const SpaceTimeLabel& row) { return row.ImageVolume; });
+    add("VolumeError", [](const SpaceTimeLabel& row) { return row.VolumeError(); });
   }
 }
 
-void FillHistograms(const SpaceTimeFigures& figures, vtkTable* table)
+void FillHistograms(const SpaceTimeMeasurement& figures, vtkTable* table)
 {
   const MeshQuality& quality = figures.Quality;
   // Bins of both figures are 0.05 wide. Normalized volumes are at most 1.
@@ -203,15 +189,15 @@ void FillHistograms(const SpaceTimeFigures& figures, vtkTable* table)
   AddBins(table, "NormalizedVolumes", volumes);
 }
 
-void FillFrameTable(const SpaceTimeFigures& figures, vtkTable* table)
+void FillFrameTable(const SpaceTimeMeasurement& figures, vtkTable* table)
 {
   struct Row
   {
-    const FrameFigures* Frame;
+    const FrameMeasurement* Frame;
     LabelComparison Label;
   };
   std::vector<Row> rows;
-  for (const FrameFigures& frame : figures.Frames)
+  for (const FrameMeasurement& frame : figures.Frames)
   {
     if (frame.Measured.Image)
     {
@@ -227,30 +213,32 @@ void FillFrameTable(const SpaceTimeFigures& figures, vtkTable* table)
         { &frame, { label.Label, 0, MeshQuality::NotApplicable, label.Elements, label.Volume } });
     }
   }
-  const auto count = [&](const char* name, auto&& valueOf)
-  { AddColumn<vtkTypeInt64Array>(table, name, rows, valueOf); };
-  const auto number = [&](const char* name, auto&& valueOf)
-  { AddColumn<vtkDoubleArray>(table, name, rows, valueOf); };
-  number("Time", [](const Row& row) { return row.Frame->Time; });
-  count("Label", [](const Row& row) { return row.Label.Label; });
-  count("Elements", [](const Row& row) { return row.Label.Elements; });
-  number("Volume", [](const Row& row) { return row.Label.Volume; });
-  number("ImageVolume", [](const Row& row) { return row.Label.ImageVolume; });
-  number("VolumeError",
-    [](const Row& row)
-    { return (row.Label.Volume - row.Label.ImageVolume) / row.Label.ImageVolume; });
-  number("HausdorffDistance",
-    [](const Row& row)
-    {
-      const auto& image = row.Frame->Measured.Image;
-      return image ? image->Voxels.Distance() : MeshQuality::NotApplicable;
-    });
-  count("Components",
-    [](const Row& row)
-    { return row.Frame->Measured.Image ? row.Frame->Measured.Image->Components : 0; });
-  count("LostComponents",
-    [](const Row& row)
-    { return row.Frame->Measured.Image ? row.Frame->Measured.Image->LostComponents.size() : 0; });
+  const auto add = [&](const char* name, auto&& valueOf) { AddColumn(table, name, rows, valueOf); };
+  const auto addOfImage = [&](const char* name, auto&& valueOf, auto without)
+  {
+    add(name,
+      [&](const Row& row)
+      {
+        const auto& image = row.Frame->Measured.Image;
+        return image ? valueOf(*image) : without;
+      });
+  };
+  add("Time", [](const Row& row) { return row.Frame->Time; });
+  add("Label", [](const Row& row) { return row.Label.Label; });
+  add("Elements", [](const Row& row) { return row.Label.Elements; });
+  add("Volume", [](const Row& row) { return row.Label.Volume; });
+  add("ImageVolume", [](const Row& row) { return row.Label.ImageVolume; });
+  add("VolumeError", [](const Row& row) { return row.Label.VolumeError(); });
+  addOfImage(
+    "HausdorffDistance", [](const ImageComparison& image) { return image.Voxels.Distance(); },
+    MeshQuality::NotApplicable);
+  addOfImage(
+    "Components", [](const ImageComparison& image) { return image.Components; },
+    std::uint64_t{ 0 });
+  addOfImage(
+    "LostComponents",
+    [](const ImageComparison& image) { return std::uint64_t{ image.LostComponents.size() }; },
+    std::uint64_t{ 0 });
 }
 
 } // namespace voxplex

@@ -8,8 +8,8 @@
 #define voxplex_QualityTables_h
 
 #include "Mesh/SimplexMesh.h"
-#include "Private/SpaceTimeQuality.h"
 #include "Quality/MeshMeasurement.h"
+#include "Quality/SpaceTimeMeasurement.h"
 
 #include <cstdint>
 #include <map>
@@ -42,13 +42,13 @@ void FillHistograms(const MeshQuality& quality, vtkTable* table);
 
 ///@{
 /** The same of pentatopes; the arrays are NormalizedVolume, RadiusEdgeRatio, Volume, WorstElement. */
-void AddElementMeasures(const SpaceTimeFigures& figures, vtkCellData* cells);
-void FillLabelTable(const SpaceTimeFigures& figures, vtkTable* table);
-void FillHistograms(const SpaceTimeFigures& figures, vtkTable* table);
+void AddElementMeasures(const SpaceTimeMeasurement& figures, vtkCellData* cells);
+void FillLabelTable(const SpaceTimeMeasurement& figures, vtkTable* table);
+void FillHistograms(const SpaceTimeMeasurement& figures, vtkTable* table);
 ///@}
 
 /** A row for each frame and each label in its cut or its image. */
-void FillFrameTable(const SpaceTimeFigures& figures, vtkTable* table);
+void FillFrameTable(const SpaceTimeMeasurement& figures, vtkTable* table);
 
 } // namespace voxplex
 

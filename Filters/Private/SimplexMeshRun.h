@@ -13,10 +13,7 @@
 #include "Mesher/ImageMesher.h"
 #include "Private/ChosenArray.h"
 #include "Private/ElementSizes.h"
-#include "Private/MeshingFigures.h"
 #include "Private/MeshingMessages.h"
-#include "Quality/MeshQuality.h"
-#include "Quality/ShrunkLabels.h"
 
 #include "vtkImageData.h"
 #include "vtkImageToSimplexMeshFilter.h"
@@ -24,13 +21,10 @@
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -45,6 +39,7 @@ struct vtkImageToSimplexMeshFilter::Internals
   std::set<std::int64_t> ExcludedLabels;
   SizeFunctionType SizeFunction;
   vtkNew<vtkMeshingStatistics> Statistics;
+  std::vector<std::string> Warnings; ///< of the last execution
 
   voxplex::LabelSelection Selection() const
   {
@@ -54,7 +49,7 @@ struct vtkImageToSimplexMeshFilter::Internals
 };
 
 /**
- * One execution: make it, adjust Options and Sizes, read the labels, Mesh(), write the outputs.
+ * One execution: make it, adjust Options and Sizes, read the image, Mesh(), write the outputs.
  */
 template <int D>
 class vtkImageToSimplexMeshFilter::Run
@@ -108,6 +103,7 @@ public:
     this->Options.Team.Reproducible = filter->Reproducible;
     this->Options.Limits.Force = filter->Force;
     this->Options.Limits.Memory = filter->MemoryLimit;
+    this->Options.MeasureQuality = filter->ComputeQuality;
   }
 
   voxplex::MeshingOptions<D> Options;
@@ -138,18 +134,23 @@ public:
   }
 
   /**
-   * Calls the kernel and fills the statistics, its quality included if the filter asks for it. The
-   * time since the run was made is counted as reading the labels.
-   * @param image what is meshed: the label image, or the isosurface that it belongs to
+   * Calls the kernel and fills the statistics. The time since the run was made is counted as reading
+   * the image.
+   * @param image a LabelImage or an IsosurfaceImage
    * @return false if stopped; the mesh is then empty
    * @throws voxplex::Error, std::bad_alloc, what the size function throws
    */
   template <typename Image>
-  bool Mesh(const Image& image, const voxplex::LabelImage<D>& labels, voxplex::SimplexMesh<D>& mesh)
+  bool Mesh(Image image, voxplex::SimplexMesh<D>& mesh)
   {
-    vtkImageToSimplexMeshFilter* const filter = this->Filter;
-    const auto values = labels.Values().subspan(1); // without background
-    this->CheckLabels(values);
+    if constexpr (std::is_same_v<Image, voxplex::IsosurfaceImage<D>>)
+    {
+      this->CheckLabels(image.Labels());
+    }
+    else
+    {
+      this->CheckLabels(image);
+    }
     if (this->Sizes->Any())
     {
       this->Options.Sampling.Size = this->Sizes;
@@ -163,68 +164,32 @@ public:
         this->ProgressBefore + (KernelProgress - this->ProgressBefore) * fraction);
       return !this->Sizes->Failed() && !this->Filter->StopRequested();
     };
-    const voxplex::MeshingOutcome outcome = mesher.Run(image, mesh);
+    const voxplex::MeshingOutcome outcome = mesher.Run(std::move(image), mesh);
     this->Sizes->Rethrow();
-    if (outcome == voxplex::MeshingOutcome::Cancelled || filter->StopRequested())
+    if (outcome == voxplex::MeshingOutcome::Cancelled || this->Filter->StopRequested())
     {
-      filter->Aborted = true;
+      this->Filter->Aborted = true;
       return false;
     }
 
-    vtkMeshingStatistics::Figures& figures = this->Figures();
-    figures.Dimension = D;
-    if constexpr (std::is_same_v<Image, voxplex::IsosurfaceImage<D>>)
-    {
-      figures.Isosurface = { true, image.Surface().Value,
-        image.Surface().Inside == voxplex::IsosurfaceSide::Above, image.Range() };
-    }
-    figures.Run = mesher.Statistics();
-    figures.Threads = static_cast<int>(this->Options.Team.Threads);
-    figures.Elements = std::ssize(mesh.Simplices);
-    figures.Vertices = std::ssize(mesh.Points);
-    figures.InterfaceFacets = std::ssize(mesh.Facets);
-    figures.LostLabels = voxplex::FindLostLabels(values, mesh.Labels);
-    std::erase_if(figures.LostLabels, // what was left out on request is not lost
-      [&](std::int64_t value)
-      {
-        const auto all = labels.Values();
-        const auto id = std::lower_bound(all.begin() + 1, all.end(), value) - all.begin();
-        return labels.Counts()[static_cast<std::size_t>(id)] == 0;
-      });
+    this->Statistics() = mesher.Statistics();
     if (mesh.Simplices.empty())
     {
       throw voxplex::InputError(
         "The mesh is empty, because every label is too small for a {delta} of " +
-        voxplex::NumberText(figures.Run.Delta) + "; use a smaller one.");
+        voxplex::NumberText(this->Statistics().Delta) + "; use a smaller one.");
     }
-    if constexpr (D == 3)
-    {
-      figures.ShrunkLabels = voxplex::FindShrunkLabels(mesh, labels, this->Options.Team.Threads);
-    }
-    if (filter->ComputeQuality)
-    {
-      figures.Quality = voxplex::MeasureQuality(
-        mesh, this->RadiusEdgeBound(), this->Options.Shape.FacetAngle, this->Options.Team.Threads);
-      figures.HasQuality = true;
-    }
-    figures.Run.Times.LabelField += readingTime;
+    this->Statistics().Times.LabelField += readingTime;
     return true;
   }
 
-  /** What the elements are to keep. */
-  double RadiusEdgeBound() const
-  {
-    return D == 3 && this->Options.Optimisation.Run
-      ? std::max(voxplex::OptimisedRadiusEdgeRatio, this->Options.Shape.RadiusEdgeRatio)
-      : this->Options.Shape.RadiusEdgeRatio;
-  }
-
-  vtkMeshingStatistics::Figures& Figures() { return this->Filter->Private->Statistics->Edit(); }
+  voxplex::MeshingStatistics& Statistics() { return this->Filter->Private->Statistics->Edit(); }
 
 private:
   /** Of sizes, against those of the image. */
-  void CheckLabels(std::span<const std::int64_t> labels) const
+  void CheckLabels(const voxplex::LabelImage<D>& image) const
   {
+    const auto labels = image.Values().subspan(1); // without background
     const Internals& filter = *this->Filter->Private;
     const bool selected = !filter.Labels.empty() || !filter.ExcludedLabels.empty();
     std::vector<std::int64_t> sized;

@@ -17,30 +17,36 @@ namespace voxplex
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-MeshingOutcome ImageMesher<D>::Run(const LabelImage<D>& image, SimplexMesh<D>& mesh)
+MeshingOutcome ImageMesher<D>::Run(LabelImage<D> image, SimplexMesh<D>& mesh)
 {
   return this->Run(image, nullptr, mesh);
 }
 
 template <int D>
-MeshingOutcome ImageMesher<D>::Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh)
+MeshingOutcome ImageMesher<D>::Run(IsosurfaceImage<D> image, SimplexMesh<D>& mesh)
 {
   return this->Run(image.Labels(), &image, mesh);
 }
 
 template <int D>
 MeshingOutcome ImageMesher<D>::Run(
-  const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh)
+  LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh)
 {
   mesh = SimplexMesh<D>();
   this->Stats = MeshingStatistics();
   CheckOptions(this->Options);
+  this->Stats.Dimension = D;
+  this->Stats.NumberOfThreads = this->Options.Team.Threads;
   this->Stats.Delta = this->Options.Sampling.Delta > 0.0
     ? this->Options.Sampling.Delta
     : DefaultDelta<D>(image.Grid().VoxelVolume());
   this->Stats.ElementsAskedFor = this->Options.Sampling.Elements;
   this->Stats.SmoothingSigma =
     isosurface ? isosurface->Surface().SmoothingSigma : this->Options.SmoothingSigma;
+  if (isosurface)
+  {
+    this->Stats.Isosurface = MeshedIsosurface{ isosurface->Surface(), isosurface->Range() };
+  }
   this->Stats.Contention = this->Options.Team.Contention;
   this->Stats.Balance = this->Options.Team.Balance;
 
@@ -49,8 +55,13 @@ MeshingOutcome ImageMesher<D>::Run(
   const auto run = [&]
   {
     const ThreadTeam team(this->Options.Team.Threads); // for the loops of the stages
-    return RunPipeline(
-      image, isosurface, this->Options, this->Stats, progress, stop.get_token(), mesh);
+    if (!RunPipeline(
+          image, isosurface, this->Options, this->Stats, progress, stop.get_token(), mesh))
+    {
+      return false;
+    }
+    this->Measure(image, mesh);
+    return true;
   };
   const bool done = this->Progress ? this->RunReporting(run, progress, stop) : run();
   if (!done)
@@ -59,6 +70,30 @@ MeshingOutcome ImageMesher<D>::Run(
     return MeshingOutcome::Cancelled;
   }
   return MeshingOutcome::Done;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void ImageMesher<D>::Measure(const LabelImage<D>& image, const SimplexMesh<D>& mesh)
+{
+  const ShapeOptions& shape = this->Options.Shape;
+  const unsigned threads = this->Options.Team.Threads;
+  this->Stats.Elements = mesh.Simplices.size();
+  this->Stats.Vertices = mesh.Points.size();
+  this->Stats.InterfaceFacets = mesh.Facets.size();
+  this->Stats.LostLabels = FindLostLabels(mesh, image);
+  if constexpr (D == 3)
+  {
+    this->Stats.ShrunkLabels = FindShrunkLabels(mesh, image, threads);
+  }
+  if (this->Options.MeasureQuality)
+  {
+    const double ratio = D == 3 && this->Options.Optimisation.Run
+      ? std::max(OptimisedRadiusEdgeRatio, shape.RadiusEdgeRatio)
+      : shape.RadiusEdgeRatio;
+    this->Stats.Quality = MeasureQuality(mesh, ratio, shape.FacetAngle, threads);
+    this->Stats.HasQuality = true;
+  }
 }
 
 //------------------------------------------------------------------------------------------------

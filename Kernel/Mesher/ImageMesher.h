@@ -32,6 +32,9 @@ enum class MeshingOutcome
 /**
  * @brief Meshes one label image, or the inside of an isosurface.
  *
+ * Arrays and a grid go in, as LabelImage or IsosurfaceImage, with options; arrays (SimplexMesh) and a
+ * record of the run (MeshingStatistics) come out, in the frame of the grid (GridGeometry).
+ *
  * Run() may be called repeatedly. Distinct instances may run at the same time in one process. With
  * one thread, or with TeamOptions::Reproducible, the mesh is bit-for-bit reproducible.
  */
@@ -52,21 +55,23 @@ public:
   std::function<bool(double fraction)> Progress;
 
   /**
-   * @param image label image; the caller may release it after Run() returns
+   * Removes noise, makes the mesh, and measures what the statistics say of it.
+   * @param image the label image; to be moved here, unless the caller needs it afterwards
    * @param mesh receives the mesh; empty when cancelled
    * @throws InputError, also if no delta gives the requested number of elements; TooLargeError;
    *   std::bad_alloc
    */
-  MeshingOutcome Run(const LabelImage<D>& image, SimplexMesh<D>& mesh);
+  MeshingOutcome Run(LabelImage<D> image, SimplexMesh<D>& mesh);
   /** As above, for the inside of an isosurface of a grey-value image. */
-  MeshingOutcome Run(const IsosurfaceImage<D>& image, SimplexMesh<D>& mesh);
+  MeshingOutcome Run(IsosurfaceImage<D> image, SimplexMesh<D>& mesh);
 
   const MeshingStatistics& Statistics() const { return this->Stats; }
 
 private:
   /** @param isosurface the isosurface whose labels `image` has, or null */
   MeshingOutcome Run(
-    const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
+    LabelImage<D>& image, const IsosurfaceImage<D>* isosurface, SimplexMesh<D>& mesh);
+  void Measure(const LabelImage<D>& image, const SimplexMesh<D>& mesh);
   bool RunReporting(
     const std::function<bool()>& run, const RunProgress& progress, std::stop_source& stop);
 

@@ -109,6 +109,11 @@ struct MeshingOptions
    */
   double SmoothingSigma = 1.0;
   /**
+   * Connected components with less (hyper)volume are left out before all else (DropComponents()). The
+   * grid's unit of length to the power D; 0 keeps all. The statistics list what was left out.
+   */
+  double SmallestVolume = 0.0;
+  /**
    * Steps between two frames of a label image; labels are interpolated between them
    * (InterpolateFrames()). 0: as many as the motion asks for (FrameStepsFor()). At most
    * MaximumFrameSteps; 4D only.
@@ -123,6 +128,7 @@ struct MeshingOptions
   OptimisationStageOptions Optimisation;
   TeamOptions Team = TeamOptions::Default<D>();
   LimitOptions Limits;
+  bool MeasureQuality = false; ///< of the finished mesh, for MeshingStatistics::Quality
 
   bool LooksAfterComponents() const { return this->Components.Smallest > 0; }
 };

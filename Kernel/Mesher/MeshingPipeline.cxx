@@ -167,7 +167,7 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+bool RunPipeline(LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, RunProgress& progress,
   const std::stop_token& stop, SimplexMesh<D>& mesh)
 {
@@ -195,11 +195,9 @@ bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurfac
   }
 }
 
-template bool RunPipeline<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
-  const MeshingOptions<3>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
-  SimplexMesh<3>&);
-template bool RunPipeline<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
-  const MeshingOptions<4>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
-  SimplexMesh<4>&);
+template bool RunPipeline<3>(LabelImage<3>&, const IsosurfaceImage<3>*, const MeshingOptions<3>&,
+  MeshingStatistics&, RunProgress&, const std::stop_token&, SimplexMesh<3>&);
+template bool RunPipeline<4>(LabelImage<4>&, const IsosurfaceImage<4>*, const MeshingOptions<4>&,
+  MeshingStatistics&, RunProgress&, const std::stop_token&, SimplexMesh<4>&);
 
 } // namespace voxplex

@@ -24,6 +24,7 @@ namespace voxplex
  * the options request a number of elements, tries several sampling distances until it is met
  * (DeltaSearch). Then calls FinishMesh(), once.
  *
+ * @param image loses what is noise, see Prepare()
  * @param isosurface the isosurface to mesh, or null to mesh the labels alone
  * @param statistics must have the sampling distance, unless a number of elements is requested
  * @param progress other threads may read it during the run
@@ -31,14 +32,14 @@ namespace voxplex
  * @throws InputError, TooLargeError, std::bad_alloc as ImageMesher::Run()
  */
 template <int D>
-bool RunPipeline(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+bool RunPipeline(LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, RunProgress& progress,
   const std::stop_token& stop, SimplexMesh<D>& mesh);
 
-extern template bool RunPipeline<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+extern template bool RunPipeline<3>(LabelImage<3>&, const IsosurfaceImage<3>*,
   const MeshingOptions<3>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
   SimplexMesh<3>&);
-extern template bool RunPipeline<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+extern template bool RunPipeline<4>(LabelImage<4>&, const IsosurfaceImage<4>*,
   const MeshingOptions<4>&, MeshingStatistics&, RunProgress&, const std::stop_token&,
   SimplexMesh<4>&);
 

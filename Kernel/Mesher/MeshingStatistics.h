@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingStatistics.h
- * @brief Statistics of a run: counts, times, predicates.
+ * @brief Statistics of a run: the mesh, what it lacks, counts, times, predicates.
  */
 #ifndef voxplex_MeshingStatistics_h
 #define voxplex_MeshingStatistics_h
@@ -10,10 +10,16 @@
 #include "Conformity/ComponentStatistics.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Geometry/PredicateStatistics.h"
+#include "Image/DropComponents.h"
+#include "Image/IsosurfaceImage.h"
 #include "Parallel/Policies.h"
+#include "Quality/MeshQuality.h"
+#include "Quality/ShrunkLabels.h"
 #include "Refinement/RefinementStatistics.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace voxplex
@@ -86,8 +92,26 @@ struct YieldingReport
   std::vector<std::int64_t> Voxel; ///< the index of a voxel of the region, in the whole image
 };
 
+/** What was meshed, if not labels. */
+struct MeshedIsosurface
+{
+  Isosurface Surface;
+  std::array<double, 2> Range{}; ///< of the image's values
+};
+
 struct MeshingStatistics
 {
+  int Dimension = 3;
+  std::uint64_t Elements = 0;
+  std::uint64_t Vertices = 0;
+  std::uint64_t InterfaceFacets = 0;
+  unsigned NumberOfThreads = 0; ///< TeamOptions::Threads
+  std::optional<MeshedIsosurface> Isosurface;
+  std::vector<ComponentReport> DroppedComponents; ///< by MeshingOptions::SmallestVolume
+  std::vector<std::int64_t> LostLabels;           ///< FindLostLabels()
+  std::vector<ShrunkLabel> ShrunkLabels;          ///< FindShrunkLabels(); 3D only
+  bool HasQuality = false;                        ///< MeshingOptions::MeasureQuality
+  MeshQuality Quality;
   RuleStatistics Rules;
   PredicateStatistics Predicates;
   StageTimes Times;

@@ -6,6 +6,7 @@
 #include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomain.h"
+#include "Image/DropComponents.h"
 #include "Image/FrameInterpolation.h"
 #include "Image/GreyValues.h"
 #include "Parallel/ParallelFor.h"
@@ -137,6 +138,17 @@ void CheckPeriodicLabels(const LabelImage<D>& image, const IsosurfaceImage<D>& i
   LabelImage<D>(image).MakePeriodicInTime();
 }
 
+/** Small components go. @return how long it took */
+template <int D>
+double RemoveNoise(LabelImage<D>& image, const MeshingOptions<D>& options,
+  MeshingStatistics& statistics, const std::stop_token& stop)
+{
+  const Stopwatch time;
+  statistics.DroppedComponents =
+    DropComponents(image, options.SmallestVolume, options.Team.Threads, stop);
+  return time.Seconds();
+}
+
 /** Stores a domain, and computes everything that depends on the type of its field. */
 template <int D, typename Field>
 void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
@@ -157,9 +169,14 @@ void TakeDomain(std::unique_ptr<const ImageDomain<D, Field>> domain,
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+PreparedImage<D> Prepare(LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop)
 {
+  if (!isosurface && !options.Limits.Force)
+  {
+    CheckSegmented(image, options.Team.Threads, stop); // with its noise, which tells grey values
+  }
+  double seconds = RemoveNoise(image, options, statistics, stop);
   PreparedImage<D> prepared{ image, nullptr, nullptr, nullptr, std::nullopt, std::nullopt,
     std::nullopt, nullptr, {}, {} };
   if (isosurface)
@@ -174,23 +191,19 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   }
   else
   {
-    if (!options.Limits.Force)
-    {
-      CheckSegmented(image, options.Team.Threads, stop);
-    }
     const Stopwatch time;
     AddFrames(options, prepared, statistics, stop);
-    const double seconds = time.Seconds();
+    seconds += time.Seconds();
     TakeDomain<D>(std::make_unique<const ImageDomain<D>>(
                     prepared.OfDomain(), options.SmoothingSigma, options.Team.Threads, stop),
       options, prepared, statistics, stop);
-    statistics.Times.LabelField += seconds;
     for (std::size_t label = 0; D == 3 && label < image.Counts().size(); ++label)
     {
       prepared.Volumes.push_back(
         static_cast<double>(image.Counts()[label]) * image.Grid().VoxelVolume());
     }
   }
+  statistics.Times.LabelField += seconds;
   prepared.Planes = FindPlanes(options, image, *prepared.Surfaces);
   if (options.LooksAfterComponents())
   {
@@ -211,9 +224,9 @@ PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* i
   return prepared;
 }
 
-template PreparedImage<3> Prepare<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+template PreparedImage<3> Prepare<3>(LabelImage<3>&, const IsosurfaceImage<3>*,
   const MeshingOptions<3>&, MeshingStatistics&, const std::stop_token&);
-template PreparedImage<4> Prepare<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+template PreparedImage<4> Prepare<4>(LabelImage<4>&, const IsosurfaceImage<4>*,
   const MeshingOptions<4>&, MeshingStatistics&, const std::stop_token&);
 
 } // namespace voxplex

@@ -48,21 +48,21 @@ struct PreparedImage
 };
 
 /**
- * Adds frames between frames, makes the domain, finds junctions and components, and limits the growth of element sizes.
+ * Removes noise, adds frames between frames, makes the domain, finds junctions and components, and limits the growth of element sizes.
  *
- * @param image must outlive the result, and so must the isosurface
+ * @param image loses its small components (MeshingOptions::SmallestVolume); must outlive the result, and so must the isosurface
  * @param isosurface the isosurface to mesh, or null to mesh the labels alone
  * @param statistics receives times, numbers and bytes
- * @throws InputError if the image has grey values (CheckSegmented), or does not suit the time planes;
+ * @throws InputError if the image has grey values (CheckSegmented), is nothing but noise, or does not suit the time planes;
  *   Cancelled; std::bad_alloc
  */
 template <int D>
-PreparedImage<D> Prepare(const LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
+PreparedImage<D> Prepare(LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
   const MeshingOptions<D>& options, MeshingStatistics& statistics, const std::stop_token& stop);
 
-extern template PreparedImage<3> Prepare<3>(const LabelImage<3>&, const IsosurfaceImage<3>*,
+extern template PreparedImage<3> Prepare<3>(LabelImage<3>&, const IsosurfaceImage<3>*,
   const MeshingOptions<3>&, MeshingStatistics&, const std::stop_token&);
-extern template PreparedImage<4> Prepare<4>(const LabelImage<4>&, const IsosurfaceImage<4>*,
+extern template PreparedImage<4> Prepare<4>(LabelImage<4>&, const IsosurfaceImage<4>*,
   const MeshingOptions<4>&, MeshingStatistics&, const std::stop_token&);
 
 } // namespace voxplex

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/MeshMeasurement.h"
 
-#include "Quality/Fragments.h"
 #include "Domain/ImageDomain.h"
 #include "Domain/InterfacePoints.h"
 #include "Image/Components.h"
+#include "Mesh/FindInterfaces.h"
 #include "Parallel/ParallelFor.h"
+#include "Quality/Fragments.h"
 #include "Quality/LostComponents.h"
 
 #include <cmath>
@@ -73,6 +74,29 @@ void CompareInterfaces(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
   }
 }
 
+void MoveToFrame(const ImageFrame& frame, SimplexMesh<3>& mesh)
+{
+  for (Point<3>& p : mesh.Points)
+  {
+    p = frame.ToFrame(p);
+  }
+  if (frame.LeftHanded) // so that volumes are positive in the frame, too
+  {
+    for (auto& simplex : mesh.Simplices)
+    {
+      std::swap(simplex[2], simplex[3]);
+    }
+  }
+}
+
+void MoveToWorld(const ImageFrame& frame, HausdorffFigures& figures)
+{
+  for (DistanceFigures* direction : { &figures.MeshToImage, &figures.ImageToMesh })
+  {
+    direction->Place = frame.ToWorld(direction->Place);
+  }
+}
+
 } // namespace
 
 template <int D>
@@ -85,13 +109,7 @@ ComponentComparison CompareComponents(const SimplexMesh<D>& mesh, const LabelIma
   comparison.Wanted = static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
   for (const std::uint32_t c : FindLostComponents(components, image, mesh, wanted, threads, stop))
   {
-    const Component<D>& component = components.All()[c];
-    ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      report.Voxel.push_back(image.CropOrigin()[a] + component.First[a]);
-    }
-    comparison.Lost.push_back(std::move(report));
+    comparison.Lost.push_back(ReportOf(components.All()[c], image));
   }
   return comparison;
 }
@@ -101,10 +119,13 @@ template ComponentComparison CompareComponents<3>(
 template ComponentComparison CompareComponents<4>(
   const SimplexMesh<4>&, const LabelImage<4>&, std::int64_t, unsigned, const std::stop_token&);
 
-MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* image,
-  const MeasurementOptions& options, const std::stop_token& stop)
+MeshMeasurement MeasureMesh(SimplexMesh<3>& mesh, const LabelImage<3>* image,
+  const ImageFrame& frame, const MeasurementOptions& options, const std::stop_token& stop)
 {
+  MoveToFrame(frame, mesh);
   MeshMeasurement measurement;
+  const std::uint64_t faces = FindInterfaces(mesh, options.Threads, stop);
+  measurement.Counts = { mesh.Simplices.size(), mesh.Points.size(), mesh.Facets.size(), faces };
   measurement.Quality =
     MeasureQuality(mesh, options.RadiusEdgeBound, options.FacetAngleBound, options.Threads);
   ThrowIfStopped(stop);
@@ -121,6 +142,8 @@ MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* ima
     if (options.Distances)
     {
       CompareInterfaces(mesh, *image, options, stop, comparison);
+      MoveToWorld(frame, comparison.Voxels);
+      MoveToWorld(frame, comparison.Smooth);
     }
   }
   return measurement;

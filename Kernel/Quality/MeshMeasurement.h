@@ -9,6 +9,7 @@
 #define voxplex_MeshMeasurement_h
 
 #include "Image/DropComponents.h"
+#include "Image/ImageFrame.h"
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexMesh.h"
 #include "Quality/InterfaceDistance.h"
@@ -48,6 +49,7 @@ struct LabelComparison
   double ImageVolume = 0.0; ///< voxels times the volume of a voxel
   std::uint64_t Elements = 0;
   double Volume = 0.0; ///< of the mesh
+  double VolumeError() const { return (this->Volume - this->ImageVolume) / this->ImageVolume; }
 };
 
 /** Distances are NaN where they were not measured. */
@@ -68,8 +70,17 @@ struct ImageComparison
   HausdorffFigures Smooth; ///< to the interfaces of the label field
 };
 
+struct MeshCounts
+{
+  std::uint64_t Elements = 0;
+  std::uint64_t Vertices = 0;
+  std::uint64_t InterfaceFacets = 0;
+  std::uint64_t FacesOfThreeElements = 0; ///< which no conforming mesh has
+};
+
 struct MeshMeasurement
 {
+  MeshCounts Counts;
   MeshQuality Quality;
   InterfaceTopology Topology;
   std::map<std::int64_t, std::uint64_t> Fragments; ///< CountFragments()
@@ -93,18 +104,21 @@ ComponentComparison CompareComponents(const SimplexMesh<D>& mesh, const LabelIma
   std::int64_t smallest, unsigned threads, const std::stop_token& stop = {});
 
 /**
- * Measures a mesh. The mesh must have Facets and FacetLabels (FindInterfaces() makes them).
+ * Measures a mesh.
  *
  * The result does not depend on the number of threads. Without distances, it takes about as long as
  * writing the mesh to a file. With distances, it takes a few microseconds for each facet and each
  * face between voxels.
  *
- * @param image in the mesh's frame, or null
+ * @param mesh points, tetrahedra and labels in the world, positive as the axes are; it is moved into
+ *   the frame, and gets interfaces (FindInterfaces())
+ * @param image the image, or null
+ * @param frame where the image lies, or the world's own; places in the result are in the world
  * @throws Cancelled if a stop was requested before the end; InputError if SmoothingSigma is out of
  *   range; std::bad_alloc
  */
-MeshMeasurement MeasureMesh(const SimplexMesh<3>& mesh, const LabelImage<3>* image,
-  const MeasurementOptions& options, const std::stop_token& stop = {});
+MeshMeasurement MeasureMesh(SimplexMesh<3>& mesh, const LabelImage<3>* image,
+  const ImageFrame& frame, const MeasurementOptions& options, const std::stop_token& stop = {});
 
 } // namespace voxplex
 

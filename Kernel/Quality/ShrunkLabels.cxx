@@ -13,6 +13,36 @@ namespace voxplex
 {
 
 //------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<std::int64_t> FindLostLabels(const SimplexMesh<D>& mesh, const LabelImage<D>& image)
+{
+  const std::span<const std::int64_t> values = image.Values();
+  std::vector<char> found(values.size(), 0);
+  std::int64_t last = 0;
+  for (const std::int64_t label : mesh.Labels)
+  {
+    if (label != last) // neighbours in the list mostly have the same label
+    {
+      last = label;
+      found[static_cast<std::size_t>(
+        std::lower_bound(values.begin(), values.end(), label) - values.begin())] = 1;
+    }
+  }
+  std::vector<std::int64_t> lost;
+  for (std::size_t id = 1; id < values.size(); ++id)
+  {
+    if (!found[id] && image.Counts()[id] > 0)
+    {
+      lost.push_back(values[id]);
+    }
+  }
+  return lost;
+}
+
+template std::vector<std::int64_t> FindLostLabels<3>(const SimplexMesh<3>&, const LabelImage<3>&);
+template std::vector<std::int64_t> FindLostLabels<4>(const SimplexMesh<4>&, const LabelImage<4>&);
+
+//------------------------------------------------------------------------------------------------
 // Volumes are summed in blocks of elements, and then over the blocks, so that the sums do not depend
 // on the threads.
 std::vector<ShrunkLabel> FindShrunkLabels(

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ShrunkLabels.h
- * @brief Labels of which a mesh has much less volume than its image.
+ * @brief Labels of which a mesh has no element, or much less volume than its image.
  */
 #ifndef voxplex_ShrunkLabels_h
 #define voxplex_ShrunkLabels_h
@@ -31,6 +31,13 @@ inline constexpr double ShrunkFraction = 0.5;
 inline constexpr std::int64_t FewestVoxelsOfShrunk = 8;
 
 /**
+ * The labels of the image without an element, in increasing order. Those without a voxel, which
+ * DropComponents() has removed, are not among them. O(elements).
+ */
+template <int D>
+std::vector<std::int64_t> FindLostLabels(const SimplexMesh<D>& mesh, const LabelImage<D>& image);
+
+/**
  * The shrunk labels, in increasing order. Labels without an element are not among them.
  *
  * O(elements).
@@ -41,6 +48,11 @@ inline constexpr std::int64_t FewestVoxelsOfShrunk = 8;
  */
 std::vector<ShrunkLabel> FindShrunkLabels(
   const SimplexMesh<3>& mesh, const LabelImage<3>& image, unsigned threads = 1);
+
+extern template std::vector<std::int64_t> FindLostLabels<3>(
+  const SimplexMesh<3>&, const LabelImage<3>&);
+extern template std::vector<std::int64_t> FindLostLabels<4>(
+  const SimplexMesh<4>&, const LabelImage<4>&);
 
 } // namespace voxplex
 

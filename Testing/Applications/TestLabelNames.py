@@ -161,7 +161,7 @@ class Output(NamesTestCase):
         path = images.write_nrrd(self.folder / "lost.nrrd", array)
         (self.folder / "names.txt").write_text(self.TABLE + "9 Speck\n")
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 3, "--stats", "s.json",
-                  "--smallest-component", 0, warning=r"not in the mesh: label 9 \(Speck\); use a smaller")
+                  "--smallest-component", 0, warning=r"lacks these labels of the image.*: 9 \(Speck\)\.")
         report = json.loads((self.folder / "s.json").read_text())
         self.assertEqual({label: list(figures)[0] for label, figures in report["labels"].items()},
                          {"3": "name", "7": "name"})
@@ -173,8 +173,8 @@ class Output(NamesTestCase):
         array[:, 2:5, 2:5] = 9  # a rod that is thin for delta
         path = images.write_nrrd(self.folder / "rod.nrrd", array)
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 7, "--stats", "s.json",
-                  warning=r"less than half of the volume of \d labels, which are thin for this delta: .*"
-                          r"9 \(Speck, \d+ %\).*; --exact-components or a smaller --delta keeps them")
+                  warning=r"less than half of the volume of these labels, which are thin for a --delta of 7: .*"
+                          r"9 \(Speck\) \(\d+ %\).*\. --exact-components or a smaller --delta keeps them\.")
         shrunk = json.loads((self.folder / "s.json").read_text())["shrunk_labels"]
         self.assertIn((9, "Speck"), [(one["label"], one["name"]) for one in shrunk])
 

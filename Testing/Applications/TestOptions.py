@@ -37,7 +37,7 @@ class Options(ProgramTestCase):
                             "--input", self.input, *coarse)
         done = self.call("--input", self.input, "--output", "mesh.vtu", "--force", *coarse)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stderr, "not in the mesh")
+        self.assertRegex(done.stderr, "The mesh lacks these labels")
 
     def test_sizes_below_the_floor_are_announced(self):
         done = self.call("--input", self.input, "--delta", 8, "--size", 0.01, "--stats", "s.json")
@@ -57,10 +57,10 @@ class Options(ProgramTestCase):
         [broken] = report["broken_components"]
         self.assertEqual((broken["label"], broken["voxels"], broken["voxel"]), (1, 64, [4, 4, 4]))
         self.assertEqual(broken["fragments"], report["labels"]["1"]["fragments"])
-        self.assertRegex(done.stderr, r"warning: 1 connected component of the image is in pieces that no common faces "
-                                      r"connect: label 1 at voxel \[4,4,4\] in %d pieces; --exact-components"
+        self.assertRegex(done.stderr, r"warning: Tetrahedra of these connected components of the image are in several pieces that "
+                                      r"no common faces connect: 64 voxels of label 1 at \(4, 4, 4\) in %d\. --exact-components"
                          % broken["fragments"])
-        self.assertRegex(done.stderr, "less than half of the volume of 1 label")
+        self.assertRegex(done.stderr, r"less than half of the volume of these labels, .*: 1 \(")
         done = self.call("--input", path, "--delta", 2, "--exact-components", "--quality", "--stats", "s.json")
         report = json.loads((self.folder / "s.json").read_text())
         self.assertEqual((report["broken_components"], report["labels"]["1"]["fragments"]), ([], 1))
@@ -72,7 +72,7 @@ class Options(ProgramTestCase):
         images.write_nrrd(self.input, self.array)
         done = self.call("--input", self.input, "--delta", 4, "--smallest-component", 0, "--stats", "s.json")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stderr, "^voxplex: warning: .*not in the mesh: label 5;.*--delta.*\n$")
+        self.assertRegex(done.stderr, "^voxplex: warning: The mesh lacks these labels .*--delta.*: 5\\.\n$")
         self.assertEqual(json.loads((self.folder / "s.json").read_text())["lost_labels"], [5])
         self.assertEqual(self.statistics("--input", self.input, "--delta", 4)["lost_labels"], [])
 
@@ -351,8 +351,8 @@ class Threads(ProgramTestCase):
         self.assertNotRegex(done.stdout, "rollback")  # they are the business of --stats
         report = json.loads((self.folder / "s.json").read_text())
         if report["switched_to_local"] and report["contention"] in ("aggressive", "random"):
-            self.assertRegex(done.stderr, r"^voxplex: warning: .* --contention %s \([\d,]+ rollbacks\), and local "
-                                          r"took over.*\n$" % report["contention"])
+            self.assertRegex(done.stderr, r"^voxplex: warning: .* contention manager '%s' \(\d+ rollbacks\), .* the local one "
+                                          r"took over; set --contention to local\.\n$" % report["contention"])
         else:
             self.assertEqual(done.stderr, "")
             self.assertIs(report["switched_to_local"], False)

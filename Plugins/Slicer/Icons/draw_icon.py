@@ -5,11 +5,10 @@
 
 usage: draw_icon.py
 
-Writes Icons/Voxplex.png (128 x 128), the icon of the scripted module (the same) and the logo of the CLI
-module (64 x 64, SegmentationToTetMesh/Logo.h: RGBA rows from the top, zlib, base 64).
+Writes the icon of the scripted module and the extension (128 x 128) and the logo of the CLI module (64 x 64,
+SegmentationToTetMesh/Logo.h: RGBA rows from the top, zlib, base 64).
 """
 import base64
-import shutil
 import textwrap
 import zlib
 from pathlib import Path
@@ -119,11 +118,7 @@ def write_logo(pixels, path):
 
 
 def main():
-    icon = HERE / "Voxplex.png"
-    write_png(draw(SIZE), icon)
-    module_icon = HERE.parent / "VoxplexMesher" / "Resources" / "Icons" / "VoxplexMesher.png"
-    module_icon.parent.mkdir(parents=True, exist_ok=True)
-    shutil.copyfile(icon, module_icon)
+    write_png(draw(SIZE), HERE.parent / "VoxplexMesher" / "Resources" / "Icons" / "VoxplexMesher.png")
     write_logo(draw(64), HERE.parent / "SegmentationToTetMesh" / "Logo.h")
 
 

@@ -182,7 +182,7 @@ void RunJob(const Arguments& arguments)
   WriteResults(filter->GetStatistics(), comparison, arguments.ReturnFile, files);
   report.Finish();
   cli::CommitFiles(files);
-  PrintResults(filter->GetStatistics(), comparison);
+  PrintResults(filter, comparison);
 }
 
 } // namespace voxplex::slicer

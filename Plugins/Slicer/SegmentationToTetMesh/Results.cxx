@@ -3,8 +3,10 @@
 #include "Results.h"
 
 #include "Description.h"
+#include "FilterParameters.h"
 #include "WholeFiles.h"
 
+#include <vtkImageToTetMeshFilter.h>
 #include <vtkMeshingStatistics.h>
 #include <vtkSimplexMeshQuality.h>
 #include <vtkTable.h>
@@ -25,18 +27,6 @@ std::string MissingLabels(vtkMeshingStatistics* statistics)
   for (int i = 0; i < statistics->GetNumberOfLostLabels(); ++i)
   {
     list += (i == 0 ? "" : ",") + std::to_string(statistics->GetLostLabel(i));
-  }
-  return list;
-}
-
-/** The labels of which the mesh has too little, and how much it has. */
-std::string ShrunkLabels(vtkMeshingStatistics* statistics)
-{
-  std::string list;
-  for (int i = 0; i < statistics->GetNumberOfShrunkLabels(); ++i)
-  {
-    list += (i == 0 ? "" : ", ") + std::to_string(statistics->GetShrunkLabel(i)) + " (" +
-      std::to_string(std::lround(100.0 * statistics->GetShrunkLabelFraction(i))) + " %)";
   }
   return list;
 }
@@ -87,8 +77,10 @@ void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparis
     });
 }
 
-void PrintResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison)
+void PrintResults(
+  const vtkImageToTetMeshFilter* filter, const std::optional<Comparison>& comparison)
 {
+  const vtkMeshingStatistics* const statistics = filter->GetStatistics();
   std::cout << statistics->GetNumberOfElements() << " tetrahedra with "
             << statistics->GetNumberOfVertices() << " nodes, "
             << statistics->GetNumberOfInterfaceFacets() << " triangles on the interfaces; delta "
@@ -104,19 +96,9 @@ void PrintResults(vtkMeshingStatistics* statistics, const std::optional<Comparis
               << " non-manifold edges, volumes of labels off by up to "
               << 100.0 * comparison->VolumeError << " %\n";
   }
-  if (const std::string missing = MissingLabels(statistics); !missing.empty())
+  for (const std::string& warning : cli::WarningsOf(filter))
   {
-    Warn("the mesh lacks labels that are too small for delta: " + missing);
-  }
-  if (const std::string shrunk = ShrunkLabels(statistics); !shrunk.empty())
-  {
-    Warn("the mesh has less than half of the volume of labels that are thin for delta: " + shrunk +
-      "; exact components or a smaller delta keep them");
-  }
-  if (const int missing = statistics->GetNumberOfLostComponents(); missing > 0)
-  {
-    Warn("the mesh lacks connected components of labels: " + std::to_string(missing) +
-      "; a smaller delta may keep them");
+    Warn(warning);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+class vtkImageToTetMeshFilter;
 class vtkMeshingStatistics;
 class vtkSimplexMeshQuality;
 
@@ -42,8 +43,9 @@ Comparison CompareWithImage(vtkSimplexMeshQuality* filter);
 void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison,
   const std::string& path, const io::WholeFiles& files);
 
-/** Lines for people, on standard output; on standard error what the mesh lacks. */
-void PrintResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison);
+/** Lines for people, on standard output; warnings of the filter on standard error. */
+void PrintResults(
+  const vtkImageToTetMeshFilter* filter, const std::optional<Comparison>& comparison);
 
 /** A line on standard error. */
 void Warn(const std::string& warning);

@@ -4,7 +4,6 @@
 #include "FilterTesting.h"
 
 #include "MeshingParameters.h"
-#include "Private/MeshingFigures.h"
 #include "Private/MeshingMessages.h"
 
 #include <string>
@@ -15,10 +14,11 @@ using namespace testing;
 namespace
 {
 
-void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& part,
-  bool exactComponents = false)
+void ExpectOne(
+  const voxplex::MeshingStatistics& figures, const std::string& part, bool exactComponents = false)
 {
-  const std::vector<std::string> warnings = voxplex::WarningsOf(figures, "Local", exactComponents);
+  const std::vector<std::string> warnings =
+    voxplex::WarningsOf(figures, { { 8, "Rib" } }, "Local", exactComponents);
   CHECK(warnings.size() == 1, "one warning");
   const std::string text = voxplex::InTermsOf(voxplex::UserInterface::VTK, warnings.front());
   CHECK(text.find(part) != std::string::npos, text);
@@ -28,24 +28,31 @@ void ExpectOne(const vtkMeshingStatistics::Figures& figures, const std::string& 
 
 int TestMeshingMessages(int, char*[])
 {
-  CHECK(voxplex::WarningsOf({}, "Local", false).empty(), "nothing to warn of");
+  CHECK(voxplex::WarningsOf({}, {}, "Local", false).empty(), "nothing to warn of");
 
-  vtkMeshingStatistics::Figures closed;
-  closed.Run.Planes.Refused = 1;
+  voxplex::MeshingStatistics closed;
+  closed.Planes.Refused = 1;
   ExpectOne(closed, "Slabs asked each other for points on their time planes again and again");
 
-  vtkMeshingStatistics::Figures switched;
-  switched.Run.SwitchedToLocal = true;
-  ExpectOne(switched, "contention manager 'Local'");
+  voxplex::MeshingStatistics switched;
+  switched.SwitchedToLocal = true;
+  switched.Threads.resize(2);
+  switched.Threads[0].Rollbacks = 20;
+  switched.Threads[1].Rollbacks = 3;
+  ExpectOne(switched, "contention manager 'Local' (23 rollbacks)");
 
-  vtkMeshingStatistics::Figures shrunk;
+  voxplex::MeshingStatistics shrunk;
   shrunk.ShrunkLabels = { { .Label = 7, .Fraction = 0.25 } };
   ExpectOne(shrunk, "7 (25 %). ExactComponents or a smaller Delta keeps them.");
   ExpectOne(shrunk, "7 (25 %). A smaller Delta keeps them.", true);
 
-  vtkMeshingStatistics::Figures broken;
-  broken.Run.Components.Broken = { { { 3, 64, { 4, 4, 4 } }, 21, 0.1 } };
+  voxplex::MeshingStatistics lost;
+  lost.LostLabels = { 7, 8 };
+  ExpectOne(lost, ": 7, 8 (Rib).");
+
+  voxplex::MeshingStatistics broken;
+  broken.Components.Broken = { { { 3, 64, { 4, 4, 4 } }, 21, 0.1 } };
   ExpectOne(broken, "64 voxels of label 3 at (4, 4, 4) in 21. ExactComponents or a smaller Delta");
   ExpectOne(broken, "in 21. A smaller Delta, or an image with smaller voxels", true);
-  return EXIT_SUCCESS;
+  return Result();
 }

@@ -3,7 +3,7 @@
 // vtkMeshingStatistics on figures that are made up: threads, sums, JSON, what is out of range.
 #include "FilterTesting.h"
 
-#include "Private/MeshingFigures.h"
+#include "Mesher/MeshingStatistics.h"
 
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
@@ -19,7 +19,7 @@ namespace
 /** Two threads; every figure differs from all others. */
 void FillThreads(vtkMeshingStatistics* statistics)
 {
-  auto& run = statistics->Edit().Run;
+  auto& run = statistics->Edit();
   run.Threads.resize(2);
   run.Threads[0] = { 1001, 11, 21, 31, 0.5, 1.5, 2.5, { 41, 42, 43 }, 51, 71, 81, 3.5 };
   run.Threads[1] = { 1002, 12, 22, 32, 0.25, 1.25, 2.25, { 44, 45, 46 }, 52, 72, 82, 3.25 };
@@ -70,7 +70,7 @@ void TestQuality()
   {
     quality.NormalizedVolumes[i] = 100 + i;
   }
-  auto& rules = figures.Run.Rules;
+  auto& rules = figures.Rules;
   rules.Fired = { 1, 2, 3, 4, 5 };
   rules.FiredBySize = 1;
   rules.CavitySimplices = 40;

@@ -379,6 +379,45 @@ TEST(ImageMesher, TinySizesAreRaisedToTheFloor)
   ExpectSound(MeshOf(phantoms::Ball(4.0), options));
 }
 
+// Beside a ball there are a speck, which is noise, and a voxel of a label that delta is too large for.
+TEST(ImageMesher, StatisticsSayWhatTheMeshHasAndLacks)
+{
+  const LabelImage<3> image = phantoms::Make(phantoms::Cube(32),
+    [](const Point<3>& p) -> std::int16_t
+    {
+      const bool isBall = Distance2(p, Point<3>{ 14.0, 14.0, 14.0 }) < 100.0;
+      const bool isSpeck = Distance2(p, Point<3>{ 28.0, 28.0, 28.0 }) < 1.5;
+      const bool isVoxel = Distance2(p, Point<3>{ 2.0, 28.0, 2.0 }) < 0.5;
+      return static_cast<std::int16_t>(isBall || isSpeck ? 3 : isVoxel ? 7 : 0);
+    });
+  MeshingOptions<3> options;
+  options.Sampling.Delta = 6.0;
+  options.Components.Smallest = 0;
+  options.Interfaces.Rounds = 0;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> mesh;
+  mesher.Run(image, mesh);
+  EXPECT_TRUE(mesher.Statistics().DroppedComponents.empty());
+  EXPECT_EQ(mesher.Statistics().LostLabels, std::vector<std::int64_t>{ 7 });
+  EXPECT_FALSE(mesher.Statistics().HasQuality);
+
+  options.SmallestVolume = 10.0;
+  options.MeasureQuality = true;
+  mesher = ImageMesher<3>(options);
+  mesher.Run(image, mesh);
+  const MeshingStatistics& statistics = mesher.Statistics();
+  ASSERT_EQ(statistics.DroppedComponents.size(), 2u);
+  EXPECT_EQ(statistics.DroppedComponents[0].Label, 7);
+  EXPECT_EQ(statistics.DroppedComponents[1].Voxels, 7);
+  EXPECT_TRUE(statistics.LostLabels.empty()) << "what was left out on request is not lost";
+  EXPECT_EQ(statistics.Elements, mesh.Simplices.size());
+  EXPECT_EQ(statistics.Vertices, mesh.Points.size());
+  EXPECT_EQ(statistics.InterfaceFacets, mesh.Facets.size());
+  ASSERT_TRUE(statistics.HasQuality);
+  EXPECT_NEAR(statistics.Quality.Labels.at(0).Volume, MeshVolume(mesh), 1e-6);
+  EXPECT_EQ(image.Counts()[2], 1) << "the image of the caller stays";
+}
+
 TEST(ImageMesher, TwoMeshesAtOnce)
 {
   const LabelImage<3> large = phantoms::Ball(600.0, 50.0);

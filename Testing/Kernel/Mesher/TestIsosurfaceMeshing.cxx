@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of what isosurfaces of grey-value images bound: accuracy, invariants, borders, components.
 #include "Base/Error.h"
-#include "Image/DropComponents.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
 #include "Phantoms.h"
@@ -260,8 +259,13 @@ TEST(IsosurfaceMeshing, SmallComponentsAreKeptOrLeftOut)
   EXPECT_TRUE(statistics.Components.Lost.empty());
   const auto isBeyond = [](const Point<3>& p) { return p[0] > 20.0; };
   EXPECT_TRUE(std::any_of(mesh.Points.begin(), mesh.Points.end(), isBeyond));
-  EXPECT_EQ(DropComponents(grey.Image.Labels(), 100.0).size(), 1u);
-  const SimplexMesh<3> rest = Mesh(grey, 1.5);
+  MeshingOptions<3> options;
+  options.Sampling.Delta = 1.5;
+  options.SmallestVolume = 100.0;
+  ImageMesher<3> mesher(options);
+  SimplexMesh<3> rest;
+  mesher.Run(grey.Image, rest);
+  EXPECT_EQ(mesher.Statistics().DroppedComponents.size(), 1u);
   EXPECT_FALSE(std::any_of(rest.Points.begin(), rest.Points.end(), isBeyond));
   EXPECT_NEAR(WholeVolume(rest), BallVolume(8.0), 0.06 * BallVolume(8.0));
 }

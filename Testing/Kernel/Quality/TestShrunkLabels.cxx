@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// FindShrunkLabels(): volumes of a mesh made by hand against the voxels of an image.
+// FindLostLabels(), FindShrunkLabels(): volumes of a mesh made by hand against the voxels of an image.
 #include "Quality/ShrunkLabels.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +60,21 @@ TEST(ShrunkLabels, AreThoseWithLessThanHalfOfTheirVolume)
     EXPECT_EQ(shrunk[1].Label, 40);
     EXPECT_DOUBLE_EQ(shrunk[1].Fraction, 0.3);
   }
+}
+
+TEST(LostLabels, AreThoseWithVoxelsButWithoutElements)
+{
+  LabelImage<3> image = Layers({ 7, 2, 5, 40, 2 });
+  SimplexMesh<3> mesh;
+  Add(mesh, 2, 3);
+  Add(mesh, 40, 1);
+  Add(mesh, 2, 1);
+  EXPECT_EQ(FindLostLabels(mesh, image), (std::vector<std::int64_t>{ 5, 7 }));
+  for (std::int64_t y = 0; y < 10; ++y)
+  {
+    image.Relabel({ 0, y, 0 }, 10, 1); // the layer of 7 becomes one of 2
+  }
+  EXPECT_EQ(FindLostLabels(mesh, image), (std::vector<std::int64_t>{ 5 }));
 }
 
 TEST(ShrunkLabels, SpecksAreNotAmongThem)

@@ -16,7 +16,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from execution_model import find_faults
 from module import LIBRARY, ModuleTestCase
 
-ICONS = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "Icons"
+ICON = Path(__file__).resolve().parents[3] / "Plugins/Slicer/VoxplexMesher/Resources/Icons/VoxplexMesher.png"
 
 
 class Description(ModuleTestCase):
@@ -93,7 +93,7 @@ class Description(ModuleTestCase):
 
     def test_logo_is_the_icon(self):
         reader = vtkPNGReader()
-        reader.SetFileName(str(ICONS / "Voxplex.png"))
+        reader.SetFileName(str(ICON))
         reader.Update()
         image = reader.GetOutput()
         self.assertEqual(image.GetDimensions(), (128, 128, 1))  # what the Extensions Index wants

@@ -78,6 +78,7 @@ class Extension(unittest.TestCase):
         self.assertIn("VOXPLEX_SLICER_CLI_OUTPUT_DIRECTORY:PATH=%s/lib/Slicer-5.8/cli-modules\n" % self.build, cache)
         scripts = (self.build / "VoxplexMesher" / "cmake_install.cmake").read_text()
         self.assertIn("qt-scripted-modules/VoxplexMesherLib", scripts)
+        self.assertIn("VoxplexMesherLib/Table.py", scripts)
 
     def test_slicer_is_needed(self):
         with tempfile.TemporaryDirectory() as folder:

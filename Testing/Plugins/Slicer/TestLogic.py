@@ -8,7 +8,6 @@ import subprocess
 import sys
 import unittest
 from dataclasses import fields, replace
-from pathlib import Path
 from xml.etree import ElementTree
 
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -16,13 +15,9 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import images
-from module import EXECUTABLE, ModuleTestCase
-
-MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"
-sys.path.insert(0, str(MODULE))
-
-from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,  # noqa: E402
-                                    commandParameters, describeMesh, describeQuality, labelMesh, measureLabels,
+from module import EXECUTABLE, MODULE, ModuleTestCase
+from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Segment, Settings, commandParameters,
+                                    describeMesh, describeQuality, labelMesh, measureLabels,
                                     mergeChoices, parseInterfaceSizes, parseSize, storeChoices)
 
 SEGMENTS = [Segment("s1", "Bone", (1.0, 0.9, 0.7)), Segment("s2", "Mark", (0.8, 0.1, 0.1)),
@@ -116,8 +111,9 @@ class FilterRunner:
 
 class Choices(unittest.TestCase):
     def test_needs_no_slicer(self):
-        code = "import sys; sys.path.insert(0, %r); import VoxplexMesherLib.Logic; " \
-               "sys.exit(any(m in sys.modules for m in ('slicer', 'qt', 'ctk')))" % str(MODULE)
+        code = "import sys; sys.path.insert(0, %r); import VoxplexMesherLib; VoxplexMesherLib.__path__.append(%r); " \
+               "import VoxplexMesherLib.Logic; sys.exit(any(m in sys.modules for m in ('slicer', 'qt', 'ctk')))" % (
+                   str(MODULE), os.environ["VOXPLEX_SLICER_TABLE"])
         environment = {**os.environ, "PYTHONPATH": ""}
         self.assertEqual(subprocess.run([sys.executable, "-B", "-c", code], env=environment).returncode, 0)
 
@@ -268,7 +264,7 @@ class Runs(ModuleTestCase):
         images.write_nrrd(self.folder / "labels.nrrd", self.array)
         self.logic.start(SEGMENTS, Settings(delta=3.0, smallestComponent=0))
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)
-        self.assertTrue(any("the mesh lacks labels" in line for line in self.lines), self.lines)
+        self.assertTrue(any("The mesh lacks these labels" in line for line in self.lines), self.lines)
         self.assertIn("  Muscle, left: none; it is too small for this delta",
                       describeMesh(self.logic.runner.mesh(), SEGMENTS))
 

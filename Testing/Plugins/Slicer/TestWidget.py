@@ -15,13 +15,13 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-MODULE = HERE.parents[2] / "Plugins" / "Slicer" / "VoxplexMesher"
-sys.path[:0] = [str(HERE / "standins"), str(MODULE)]
+sys.path.insert(0, str(HERE / "standins"))
 
 import images  # noqa: E402
 import qt  # noqa: E402
 import slicer  # noqa: E402
 import vtk  # noqa: E402
+from module import MODULE  # noqa: E402
 import VoxplexMesher  # noqa: E402
 from VoxplexMesherLib.Logic import Phase, Settings, measureLabels  # noqa: E402
 from VoxplexMesherLib.Scene import isVolume  # noqa: E402

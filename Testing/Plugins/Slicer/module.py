@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the CLI module as an application does. The environment says where it is: VOXPLEX_SLICER_CLI (the executable)
-and VOXPLEX_SLICER_LIBRARY (the module library)."""
+and VOXPLEX_SLICER_LIBRARY (the module library). The scripted module can be imported; VOXPLEX_SLICER_TABLE is the folder with
+what the build adds to it."""
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,6 +15,12 @@ import images  # noqa: F401 (of Testing/Applications, for the tests)
 
 EXECUTABLE = os.environ["VOXPLEX_SLICER_CLI"]
 LIBRARY = os.environ["VOXPLEX_SLICER_LIBRARY"]
+MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"
+sys.path.insert(0, str(MODULE))
+
+import VoxplexMesherLib  # noqa: E402
+
+VoxplexMesherLib.__path__.append(os.environ["VOXPLEX_SLICER_TABLE"])
 
 
 class ModuleTestCase(unittest.TestCase):

@@ -14,12 +14,14 @@ from __future__ import annotations
 import enum
 import json
 import math
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields, make_dataclass, replace
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import VTK_TETRA
+
+from VoxplexMesherLib.Table import TABLE
 
 
 class MeshingError(Exception):
@@ -36,35 +38,20 @@ class Segment:
     size: float = 0.0  # upper bound of its elements' circumradii; 0: none
 
 
-@dataclass
-class Settings:
-    """Lengths are in millimetres. Names and defaults are those of the CLI module, whose description says more."""
-    delta: float = 0.0  # 0: derived from the spacing
-    elements: int = 0  # number of tetrahedra, in place of delta; 0: delta counts
-    grading: str = "uniform"  # or lfs: by the local feature size
-    size: float = 0.0  # 0: no bound
-    optimise: str = "on"  # or off
-    smallestComponent: int = 8  # in voxels; 0: no guarantee
-    exactComponents: bool = False  # for every delta
-    quality: bool = False  # compare with the label map
-    interfaceSizes: str = ""  # see parseInterfaceSizes()
-    gradation: float = 0.3  # 0: no limit
-    featureRatio: float = 1.0  # with grading lfs
-    largestFeature: float = 12.0  # in voxels; with grading lfs
-    smoothing: float = 1.0  # in voxels
-    radiusEdge: float = 2.0
-    facetAngle: float = 30.0  # degrees
-    sliverAngle: float = 9.0  # degrees; 0: slivers stay
-    optimiseSeconds: float = 0.0  # 0: no limit
-    junctions: str = "on"  # or off
-    interfaceRounds: int = 8
-    minimumVolume: float = 0.0  # of components, in cubic millimetres; 0: none is left out
-    isovalue: float = 0.0  # of a volume, as the next two
-    inside: str = "above"  # or below
-    greySmoothing: float = 0.0  # in voxels
-    threads: int = 0  # 0: all cores
-    reproducible: bool = False  # the same mesh with any number of threads
-    force: bool = False
+# The parameters of meshing that are settings, by their names in the CLI module. The segments have the others.
+PARAMETERS = {p["slicer"]: p for p in TABLE if p["slicer"] not in ("", "insideLabel", "labels", "labelSizes")}
+
+
+def _default(parameter):
+    """As the CLI module has it: flags that are on by default are words there, and 0 is no number."""
+    kind, default = parameter["kind"], parameter["default"]
+    if kind == "flag":
+        return "on" if default == "on" else False
+    return {"real": float, "whole": int}.get(kind, str)(default or ("" if kind == "interface-sizes" else 0))
+
+
+class _Texts:
+    """Settings in a parameter node."""
 
     @classmethod
     def fromTexts(cls, text):
@@ -80,6 +67,12 @@ class Settings:
         """For a parameter node."""
         return {name: value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else repr(value)
                 for name, value in asdict(self).items()}
+
+
+DEFAULTS = {**{name: _default(parameter) for name, parameter in PARAMETERS.items()}, "quality": False}
+Settings = make_dataclass("Settings", [(name, type(value), value) for name, value in DEFAULTS.items()], bases=(_Texts,))
+Settings.__doc__ = """Lengths are in millimetres. Names and defaults are those of the CLI module, whose description says more.
+Interface sizes are those of parseInterfaceSizes()."""
 
 
 def _parse(text, default):

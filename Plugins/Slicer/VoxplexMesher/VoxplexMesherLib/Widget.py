@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The module's panel. All that it knows is in the parameter node, so that scenes keep it."""
-from dataclasses import fields
-
 import ctk
 import qt
 import slicer
@@ -10,7 +8,7 @@ import vtk
 from slicer.ScriptedLoadableModule import ScriptedLoadableModuleWidget
 from slicer.util import VTKObservationMixin
 
-from VoxplexMesherLib.Logic import MeshingError, Phase, Settings, parseSize
+from VoxplexMesherLib.Logic import DEFAULTS, PARAMETERS, MeshingError, Phase, parseSize
 from VoxplexMesherLib.ModuleLogic import VoxplexMesherLogic
 from VoxplexMesherLib.Scene import isVolume
 
@@ -18,12 +16,18 @@ COLUMNS = ("Segment", "Mesh it", "Size (mm)")
 NAME, MESH, SIZE = range(3)
 SEGMENT_ID = qt.Qt.UserRole
 LARGEST_WHOLE = 2147483647
+LARGEST_REAL = 1e9
 # Settings by the kind of widget that shows them, which is called after the setting.
-DEFAULTS = {field.name: field.default for field in fields(Settings)}
 SPIN_BOXES = [name for name, default in DEFAULTS.items() if type(default) in (int, float)]
 COMBO_BOXES = ["grading", "inside"]
 SWITCHES = [name for name, default in DEFAULTS.items() if default in ("on", "off")]  # check boxes
 FLAGS = [name for name, default in DEFAULTS.items() if type(default) is bool]  # check boxes of true or false
+# The sections for groups of parameters; the others are advanced.
+SECTIONS = {"Grey-value images": "Isosurface", **{title: title for title in (
+    "Sampling distance and element sizes", "Shapes and small objects")}}
+UNITS = {"LENGTH": " (mm)", "LABELS=LENGTH": " (mm)", "VOLUME": " (mm³)", "VOXELS": " (voxels)", "SECONDS": " (s)"}
+CHOICES = {"above": "above the isovalue", "below": "below the isovalue", "uniform": "the same everywhere",
+           "lfs": "coarser where shapes allow it"}
 
 
 class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
@@ -45,10 +49,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.logic.onChange = self.showState
         self.buildNodes()
         self.buildSegments()
-        self.buildIsosurface()
-        self.buildSampling()
-        self.buildShapes()
-        self.buildAdvanced()
+        self.buildSettings()
         self.buildRun()
         self.layout.addStretch(1)
         self.addObserver(slicer.mrmlScene, slicer.mrmlScene.StartCloseEvent, self.onSceneStartClose)
@@ -100,115 +101,46 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.segmentTable.connect("itemChanged(QTableWidgetItem*)", self.onSegmentItemChanged)
         form.addRow(self.segmentTable)
 
-    def buildIsosurface(self):
-        form = self.addSection("Isosurface")
-        self.addSpinBox(form, "isovalue", "Isovalue:", -1e9, 1e9, 1.0, 3, "",
-                        "The value of the isosurface; it must lie within the range of the volume")
-        self.addComboBox(form, "inside", "Inside:", {"above": "above the isovalue", "below": "below the isovalue"},
-                         "On which side of the isosurface the object lies")
-        self.addSpinBox(form, "greySmoothing", "Smoothing (voxels):", 0.0, 5.0, 0.1, 2, "off",
-                        "How far grey values are smoothed against noise, in voxels")
+    def buildSettings(self):
+        """A row for each parameter of the table, and what the module has beside."""
+        forms = {title: self.addSection(title) for title in SECTIONS.values()}
+        forms["Advanced"] = self.addSection("Advanced", collapsed=True)
+        for name, parameter in PARAMETERS.items():
+            self.addSetting(forms[SECTIONS.get(parameter["group"], "Advanced")], name, parameter)
+        self.addBox(forms["Shapes and small objects"], "qualityCheckBox", "Compare with the segments:", qt.QCheckBox(),
+                    "toggled(bool)", "Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, "
+                    "non-manifold edges. The log has the figures")
 
-    def buildSampling(self):
-        form = self.addSection("Sampling distance and element sizes")
-        self.addSpinBox(form, "delta", "Delta (mm):", 0.0, 1000.0, 0.1, 3, "from the spacing",
-                        "Sampling distance of the interfaces: the edges of their triangles are about one to two times as long")
-        self.addWholeSpinBox(form, "elements", "Number of elements:", LARGEST_WHOLE, 10000, "from delta",
-                             "The number of tetrahedra, to within a tenth. Delta is then found by trying, which takes two or three "
-                             "times as long")
-        self.addComboBox(form, "grading", "Grading:", {"uniform": "the same everywhere", "lfs": "coarser where shapes allow it"},
-                         "The second samples interfaces by their local feature size, the distance to the medial axis: about "
-                         "half the thickness of a thin part. Delta is then the shortest sampling distance")
-        self.addSpinBox(form, "size", "Largest element (mm):", 0.0, 1000.0, 0.5, 3, "no bound",
-                        "Upper bound of the circumradii of all elements")
+    def addSetting(self, form, name, parameter):
+        toolTip = parameter["slicer_help"]
+        if name in SPIN_BOXES:
+            kind, box = "SpinBox", self.makeSpinBox(parameter)
+            signal = "valueChanged(int)" if parameter["kind"] == "whole" else "valueChanged(double)"
+        elif name in COMBO_BOXES:
+            kind, box, signal = "ComboBox", qt.QComboBox(), "currentIndexChanged(int)"
+            for word in parameter["words"]:
+                box.addItem(CHOICES[word], word)
+        elif name in SWITCHES + FLAGS:
+            kind, box, signal = "CheckBox", qt.QCheckBox(), "toggled(bool)"
+        else:
+            kind, box, signal = "LineEdit", qt.QLineEdit(), "editingFinished()"
+            box.placeholderText = "Bone = 0.5; Bone : Muscle = 0.4; Skin : background = 2"
+            toolTip = ("In place of delta for all interfaces of a segment, or for the interface between two, in millimetres; "
+                       "with the names of segments, and semicolons between")
+        self.addBox(form, name + kind, parameter["label"] + UNITS.get(parameter["unit"], "") + ":", box, signal, toolTip)
 
-    def buildShapes(self):
-        form = self.addSection("Shapes and small objects")
-        self.addCheckBox(form, "optimise", "Optimise:",
-                         "Improve shapes after refinement: dihedral angles of 18 to 150 degrees, with few exceptions, "
-                         "radius-edge ratios up to 2.5")
-        self.addWholeSpinBox(form, "smallestComponent", "Smallest component (voxels):", LARGEST_WHOLE, 1, "no guarantee",
-                             "Connected components of a segment with at least this number of voxels, and its largest one, get "
-                             "tetrahedra for every delta")
-        self.addCheckBox(form, "exactComponents", "Exact for every delta:",
-                         "Sample these components as finely as their thickness requires, for every delta, and as it takes to "
-                         "connect their tetrahedra through faces. Otherwise those that are thin compared with delta have few "
-                         "tetrahedra")
-        self.addCheckBox(form, "quality", "Compare with the segments:",
-                         "Measure the finished mesh beside the label map: Hausdorff distance, errors of volumes, non-manifold "
-                         "edges. The log has the figures")
-
-    def buildAdvanced(self):
-        form = self.addSection("Advanced", collapsed=True)
-        self.buildInterfaces(form)
-        self.buildBounds(form)
-        self.addWholeSpinBox(form, "threads", "Threads:", 4096, 1, "all cores",
-                             "With 1, or with Reproducible, the mesh is the same in every run")
-        self.addCheckBox(form, "reproducible", "Reproducible:", "Make the same mesh with any number of threads")
-        self.addCheckBox(form, "force", "Force:",
-                         "Go on although the mesh is estimated not to fit into memory, the labels look like grey values, the "
-                         "radius-edge ratio is too low, or the sliver angle too large")
-
-    def buildInterfaces(self, form):
-        """How interfaces are sampled."""
-        self.interfaceSizesLineEdit = qt.QLineEdit()
-        self.interfaceSizesLineEdit.placeholderText = "Bone = 0.5; Bone : Muscle = 0.4; Skin : background = 2"
-        self.interfaceSizesLineEdit.setToolTip("In place of delta for all interfaces of a segment, or for the interface between two, "
-                                               "in millimetres")
-        self.interfaceSizesLineEdit.connect("editingFinished()", self.updateParameterNodeFromGUI)
-        form.addRow("Interface sizes (mm):", self.interfaceSizesLineEdit)
-        self.addSpinBox(form, "gradation", "Gradation:", 0.0, 10.0, 0.1, 2, "no limit",
-                        "How much sizes, and interface sizes, may change over a millimetre")
-        self.addSpinBox(form, "featureRatio", "Feature ratio:", 0.1, 4.0, 0.1, 2, "",
-                        "With grading: sampling distance over local feature size where that gives more than delta")
-        self.addSpinBox(form, "largestFeature", "Largest feature (voxels):", 1.0, 100.0, 1.0, 1, "",
-                        "With grading: upper bound of the local feature size, in voxels")
-        self.addSpinBox(form, "smoothing", "Smoothing (voxels):", 0.0, 5.0, 0.1, 2, "off",
-                        "How far voxel stairs are smoothed, in voxels")
-        self.addCheckBox(form, "junctions", "Sample junctions:",
-                         "Sample the curves where three segments meet before all else, so that edges follow them")
-        self.addWholeSpinBox(form, "interfaceRounds", "Interface rounds:", 100, 1, "never",
-                             "How often, at most, to refine again where interfaces are farther than 1.5 delta from the mesh, or "
-                             "are not manifold")
-
-    def buildBounds(self, form):
-        """What is asked of elements, and what is left out."""
-        self.addSpinBox(form, "radiusEdge", "Radius-edge ratio:", 1.0, 10.0, 0.1, 3, "",
-                        "Upper bound of circumradius over shortest edge; below 1.93 only with Force")
-        self.addSpinBox(form, "facetAngle", "Facet angle:", 0.0, 30.0, 1.0, 1, "",
-                        "Lower bound of the angles of triangles on the interfaces, in degrees")
-        self.addSpinBox(form, "sliverAngle", "Sliver angle:", 0.0, 59.0, 1.0, 1, "slivers stay",
-                        "Tetrahedra with a dihedral angle below this, or above 180 minus this, are split, in degrees; above "
-                        "15 only with Force")
-        self.addSpinBox(form, "optimiseSeconds", "Time for optimising (s):", 0.0, 1e6, 10.0, 1, "no limit",
-                        "Stop optimising after this time")
-        self.addSpinBox(form, "minimumVolume", "Smallest volume (mm³):", 0.0, 1e9, 1.0, 3, "none is left out",
-                        "Connected components with less volume, such as specks, get the label around them")
-
-    def addSpinBox(self, form, name, label, low, high, step, decimals, textOfLow, toolTip):
-        box = qt.QDoubleSpinBox()
-        box.decimals = decimals
-        box.setRange(low, high)
-        box.singleStep = step
-        box.specialValueText = textOfLow
-        self.addBox(form, name + "SpinBox", label, box, "valueChanged(double)", toolTip)
-
-    def addWholeSpinBox(self, form, name, label, high, step, textOfZero, toolTip):
-        box = qt.QSpinBox()
-        box.setRange(0, high)
-        box.singleStep = step
-        box.specialValueText = textOfZero
-        self.addBox(form, name + "SpinBox", label, box, "valueChanged(int)", toolTip)
-
-    def addComboBox(self, form, name, label, textsOfValues, toolTip):
-        box = qt.QComboBox()
-        for value, text in textsOfValues.items():
-            box.addItem(text, value)
-        self.addBox(form, name + "ComboBox", label, box, "currentIndexChanged(int)", toolTip)
-
-    def addCheckBox(self, form, name, label, toolTip):
-        box = qt.QCheckBox()
-        self.addBox(form, name + "CheckBox", label, box, "toggled(bool)", toolTip)
+    def makeSpinBox(self, parameter):
+        """With the range that the CLI module takes; 0 where no value need be given."""
+        isWhole = parameter["kind"] == "whole"
+        box, number, largest = (qt.QSpinBox(), int, LARGEST_WHOLE) if isWhole else (qt.QDoubleSpinBox(), float, LARGEST_REAL)
+        if not isWhole:
+            box.decimals = 3  # before the range, which is rounded to them
+        low, high = parameter["usual" if parameter["step"] else "range"]
+        low = 0 if parameter["default"] == "" and not parameter["step"] else low
+        box.setRange(number(low), number(largest if high is None else high))
+        box.singleStep = number(parameter["step"] or (1 if isWhole else 0.1))
+        box.specialValueText = parameter["zero"] if low == 0 else ""
+        return box
 
     def addBox(self, form, name, label, box, signal, toolTip):
         """A row of the form; the box becomes an attribute of the panel."""

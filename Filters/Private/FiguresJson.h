@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file QualityJson.h
- * @brief What is measured of meshes, in JSON; the keys are documented in Documentation/Reference.md.
+ * @file FiguresJson.h
+ * @brief What is known of runs and of meshes, in JSON; the keys are documented in Documentation/Reference.md.
  */
-#ifndef voxplex_QualityJson_h
-#define voxplex_QualityJson_h
+#ifndef voxplex_FiguresJson_h
+#define voxplex_FiguresJson_h
 
 #include "Image/DropComponents.h"
-#include "Private/SpaceTimeQuality.h"
+#include "Mesher/MeshingStatistics.h"
 #include "Quality/MeshMeasurement.h"
 #include "Quality/MeshQuality.h"
+#include "Quality/SpaceTimeMeasurement.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,6 +20,9 @@
 
 namespace voxplex
 {
+
+/** All figures of a run. */
+nlohmann::ordered_json FiguresToJson(const MeshingStatistics& figures);
 
 /** The object "quality". */
 nlohmann::ordered_json QualityToJson(const MeshQuality& quality);
@@ -33,14 +37,14 @@ nlohmann::ordered_json ComponentsToJson(const std::vector<ComponentReport>& comp
 void AppendLabel(
   nlohmann::ordered_json& labels, std::int64_t label, nlohmann::ordered_json figures);
 
-/** Adds objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
+/** Adds counts, objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
 void AddMeasurement(nlohmann::ordered_json& json, const MeshMeasurement& measurement);
 
 /**
- * Adds objects "labels", "quality", a list "worst_elements", if there was an image an object "image",
+ * Adds counts, objects "labels", "quality", a list "worst_elements", if there was an image an object "image",
  * and a list "frames".
  */
-void AddMeasurement(nlohmann::ordered_json& json, const SpaceTimeFigures& figures);
+void AddMeasurement(nlohmann::ordered_json& json, const SpaceTimeMeasurement& figures);
 
 } // namespace voxplex
 

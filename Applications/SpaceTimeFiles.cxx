@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SliceFiles.h"
+#include "SpaceTimeFiles.h"
 
 #include "Errors.h"
 #include "OutputFiles.h"
 #include "Text.h"
 #include "WholeFiles.h"
 
+#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -15,6 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <filesystem>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -50,6 +52,13 @@ std::vector<double> SliceTimes(const std::vector<double>& frameTimes, std::optio
   }
   times.push_back(last);
   return times;
+}
+
+/** Planes at the ends of the series are none, so there may be no plane. */
+int NumberOfPlanes(vtkUnstructuredGrid* mesh)
+{
+  vtkDataArray* const planes = mesh->GetFieldData()->GetArray("TimePlanes");
+  return planes ? static_cast<int>(planes->GetNumberOfTuples()) : 0;
 }
 
 } // namespace
@@ -127,6 +136,42 @@ void WriteCollection(const SliceFiles& slices, const io::WholeFiles& files)
       }
       file << "  </Collection>\n</VTKFile>\n";
     });
+}
+
+//----------------------------------------------------------------------------------------------------
+SlabFiles::SlabFiles(std::string prefix, const std::string& output)
+  : Prefix(std::move(prefix))
+  , Extension(output.empty() ? ".vtu" : std::filesystem::path(output).extension().string())
+{
+}
+
+std::string SlabFiles::NameOf(int slab) const
+{
+  return this->Prefix + std::to_string(slab) + this->Extension;
+}
+
+void SlabFiles::AnnounceFirst(io::WholeFiles& files) const
+{
+  AnnounceMesh(files, this->NameOf(0));
+}
+
+void SlabFiles::AnnounceOthers(io::WholeFiles& files, vtkUnstructuredGrid* mesh) const
+{
+  for (int slab = 1; slab <= NumberOfPlanes(mesh); ++slab)
+  {
+    AnnounceMesh(files, this->NameOf(slab));
+  }
+}
+
+void SlabFiles::Write(
+  vtkUnstructuredGrid* mesh, vtkUnstructuredGrid* boundary, const io::WholeFiles& files) const
+{
+  const int planes = NumberOfPlanes(mesh);
+  for (int slab = 0; slab <= planes; ++slab)
+  {
+    WriteMeshFile(mesh, boundary, vtkSimplexMeshWriter::CONTENT_MESH, this->NameOf(slab), files,
+      planes > 0 ? slab : -1);
+  }
 }
 
 } // namespace voxplex::cli

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/FrameSeries.h"
+#include "Image/FrameSeries.h"
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "Image/FrameInterpolation.h"
 #include "Image/LabelValue.h"
+#include "Image/ScalarTypes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -146,14 +147,13 @@ Point<3> EndOf(const ImageFrame& frame, std::size_t axis)
 
 } // namespace
 
-//----------------------------------------------------------------------------------------------------
-void FrameSeries::Start(
-  std::vector<double> times, ImageContent content, const LabelSelection& selection)
+//------------------------------------------------------------------------------------------------
+void FrameSeries::Start(std::vector<double> times, bool isOfLabels, const LabelSelection& selection)
 {
   this->Clear();
   ScheduleFrames(times); // before the first frame is read
   this->Times = std::move(times);
-  this->Content = content;
+  this->HasLabels = isOfLabels;
   this->Selection = selection;
 }
 
@@ -167,11 +167,11 @@ std::string FrameSeries::NameOf(std::size_t frame) const
   return "frame " + std::to_string(frame) + " (time " + Number(this->Times[frame]) + ")";
 }
 
-void FrameSeries::CheckSameGrid(const ChosenArray& frame) const
+void FrameSeries::CheckSameGrid(const ImageFrame& frame, const std::string& arrayName) const
 {
   const std::string both = this->NameOf(0) + " and " + this->NameOf(this->Added);
   const ImageFrame& a = this->FirstFrame;
-  const ImageFrame& b = frame.Frame;
+  const ImageFrame& b = frame;
   if (a.Grid.Dimensions != b.Grid.Dimensions)
   {
     throw InputError("All frames must have the same dimensions, but those of " + both + " are " +
@@ -202,15 +202,14 @@ void FrameSeries::CheckSameGrid(const ChosenArray& frame) const
         " differ in axis " + std::to_string(axis) + ".");
     }
   }
-  const char* name = frame.Array->GetName();
-  if (this->ArrayName != (name ? name : ""))
+  if (this->ArrayName != arrayName)
   {
     throw InputError("All frames must have the labels in an array of the same name, but those of " +
-      both + " are '" + this->ArrayName + "' and '" + (name ? name : "") + "'.");
+      both + " are '" + this->ArrayName + "' and '" + arrayName + "'.");
   }
 }
 
-//----------------------------------------------------------------------------------------------------
+//------------------------------------------------------------------------------------------------
 std::size_t FrameSeries::VoxelsOfFrame() const
 {
   const auto& n = this->FirstFrame.Grid.Dimensions;
@@ -299,31 +298,34 @@ void FrameSeries::CopyGreyValues(const T* values, std::size_t stride, unsigned t
   this->Copy(values, stride, threads);
 }
 
-void FrameSeries::Add(const ChosenArray& frame, int component, unsigned threads)
+template <typename T>
+void FrameSeries::Add(const T* values, std::size_t stride, const ImageFrame& frame,
+  const std::string& arrayName, unsigned threads)
 {
   if (this->Added == 0)
   {
-    this->FirstFrame = frame.Frame;
-    this->ArrayName = frame.Array->GetName() ? frame.Array->GetName() : "";
+    this->FirstFrame = frame;
+    this->ArrayName = arrayName;
   }
-  this->CheckSameGrid(frame);
-  const vtkSmartPointer<vtkDataArray> array = Contiguous(frame.Array);
-  const auto stride = static_cast<std::size_t>(array->GetNumberOfComponents());
-  switch (array->GetDataType())
+  this->CheckSameGrid(frame, arrayName);
+  if (this->HasLabels)
   {
-    vtkTemplateMacro(
-      const auto* const values = static_cast<const VTK_TT*>(array->GetVoidPointer(0)) + component;
-      this->Content == ImageContent::Labels ? this->CopyLabels(values, stride, threads)
-                                            : this->CopyGreyValues(values, stride, threads));
-    default:
-      throw InputError("Scalars of type " + std::string(array->GetDataTypeAsString()) +
-        " cannot be read as " +
-        (this->Content == ImageContent::Labels ? "labels." : "grey values."));
+    this->CopyLabels(values, stride, threads);
+  }
+  else
+  {
+    this->CopyGreyValues(values, stride, threads);
   }
   ++this->Added;
 }
 
-//----------------------------------------------------------------------------------------------------
+#define VOXPLEX_ADD(T)                                                                             \
+  template void FrameSeries::Add<T>(                                                               \
+    const T*, std::size_t, const ImageFrame&, const std::string&, unsigned)
+VOXPLEX_FOR_EACH_SCALAR_TYPE(VOXPLEX_ADD);
+#undef VOXPLEX_ADD
+
+//------------------------------------------------------------------------------------------------
 FrameSchedule FrameSeries::MakeSchedule() const
 {
   const auto& n = this->FirstFrame.Grid.Dimensions;

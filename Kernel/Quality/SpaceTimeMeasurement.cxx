@@ -1,20 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/SpaceTimeQuality.h"
+#include "Quality/SpaceTimeMeasurement.h"
 
 #include "Geometry/SimplexQuality.h"
-#include "Image/LabelValue.h"
-#include "Mesh/FindInterfaces.h"
 #include "Mesh/SliceTetrahedra.h"
 #include "Parallel/ParallelFor.h"
-#include "Private/ImageLabels.h"
-
-#include "vtkDataArray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <set>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -25,31 +20,8 @@ namespace
 
 constexpr std::size_t Grain = 4096;
 
-/** Whether a voxel has a label that is selected. */
-bool HasForeground(vtkDataArray* array, const LabelSelection& selection)
-{
-  const std::set<double> only(selection.Only.begin(), selection.Only.end());
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
-    const double label = NearestLabel(array->GetComponent(i, 0));
-    if (label != 0.0 && (only.empty() || only.count(label) > 0))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-void MoveToWorld(const ImageFrame& frame, HausdorffFigures& figures)
-{
-  for (DistanceFigures* direction : { &figures.MeshToImage, &figures.ImageToMesh })
-  {
-    direction->Place = frame.ToWorld(direction->Place);
-  }
-}
-
 /** The volume of a label in a frame of the image. */
-double ImageVolume(const FrameFigures& frame, std::int64_t label)
+double ImageVolume(const FrameMeasurement& frame, std::int64_t label)
 {
   if (!frame.Measured.Image)
   {
@@ -63,8 +35,8 @@ double ImageVolume(const FrameFigures& frame, std::int64_t label)
 
 } // namespace
 
-//----------------------------------------------------------------------------------------------------
-SpaceTimeQuality::SpaceTimeQuality(
+//------------------------------------------------------------------------------------------------
+SpaceTimeMeasurer::SpaceTimeMeasurer(
   SimplexMesh<4> mesh, double timeScale, const MeasurementOptions& options)
   : Pentatopes(std::move(mesh))
   , TimeScale(timeScale)
@@ -85,13 +57,15 @@ SpaceTimeQuality::SpaceTimeQuality(
     SpaceTimeMesh{ this->Positions, this->Times, this->Offsets, this->Connectivity });
 }
 
-void SpaceTimeQuality::MeasureElements(std::size_t worst, const std::stop_token& stop)
+void SpaceTimeMeasurer::MeasureElements(std::size_t worst, const std::stop_token& stop)
 {
   const SimplexMesh<4>& mesh = this->Pentatopes;
   this->All.Quality = MeasureQuality(
     mesh, this->Options.RadiusEdgeBound, this->Options.FacetAngleBound, this->Options.Threads);
   this->All.Topology = MeasureTopology(mesh, stop);
   const std::size_t n = mesh.Simplices.size();
+  this->All.Counts = { n, mesh.Points.size(), this->All.Topology.InterfaceFacets,
+    this->All.Topology.FacetsOfThreeElements };
   std::vector<double>& ratios = this->All.RadiusEdgeRatios;
   std::vector<double>& shapes = this->All.NormalizedVolumes;
   ratios.resize(n);
@@ -112,10 +86,7 @@ void SpaceTimeQuality::MeasureElements(std::size_t worst, const std::stop_token&
     stop);
 
   std::vector<std::uint32_t> order(n);
-  for (std::uint32_t s = 0; s < n; ++s)
-  {
-    order[s] = s;
-  }
+  std::iota(order.begin(), order.end(), 0u);
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(worst, n));
   std::partial_sort(order.begin(), end, order.end(),
     [&](std::uint32_t a, std::uint32_t b)
@@ -135,69 +106,19 @@ void SpaceTimeQuality::MeasureElements(std::size_t worst, const std::stop_token&
   }
 }
 
-//----------------------------------------------------------------------------------------------------
-SimplexMesh<3> SpaceTimeQuality::Cut(double time, const ImageFrame* frame) const
+//------------------------------------------------------------------------------------------------
+void SpaceTimeMeasurer::MeasureCut(
+  double time, const LabelImage<3>* image, const ImageFrame& frame, const std::stop_token& stop)
 {
   SimplexMesh<3> cut =
     SplitIntoTetrahedra(this->Slicer->Slice(time), std::span(this->Pentatopes.Labels));
-  if (frame == nullptr)
-  {
-    return cut;
-  }
-  for (Point<3>& p : cut.Points)
-  {
-    p = frame->ToFrame(p);
-  }
-  for (auto& simplex : cut.Simplices)
-  {
-    if (frame->LeftHanded) // so that volumes are positive in the frame, too
-    {
-      std::swap(simplex[2], simplex[3]);
-    }
-  }
-  return cut;
+  this->All.Frames.push_back({ time, MeasureMesh(cut, image, frame, this->Options, stop) });
 }
 
-void SpaceTimeQuality::Add(double time, SimplexMesh<3> cut, const LabelImage<3>* image,
-  const ImageFrame* frame, const std::stop_token& stop)
+//------------------------------------------------------------------------------------------------
+void SpaceTimeMeasurer::MeasureImage(
+  const LabelImage<4>& image, const SpaceTimeFrame& frame, const std::stop_token& stop)
 {
-  FrameFigures figures;
-  figures.Time = time;
-  figures.FacesOfThreeElements = FindInterfaces(cut, this->Options.Threads, stop);
-  figures.Elements = cut.Simplices.size();
-  figures.Vertices = cut.Points.size();
-  figures.InterfaceFacets = cut.Facets.size();
-  figures.Measured = MeasureMesh(cut, image, this->Options, stop);
-  if (frame != nullptr && figures.Measured.Image)
-  {
-    MoveToWorld(*frame, figures.Measured.Image->Voxels);
-    MoveToWorld(*frame, figures.Measured.Image->Smooth);
-  }
-  this->All.Frames.push_back(std::move(figures));
-}
-
-void SpaceTimeQuality::MeasureCut(double time, const std::stop_token& stop)
-{
-  this->Add(time, this->Cut(time, nullptr), nullptr, nullptr, stop);
-}
-
-void SpaceTimeQuality::MeasureCut(double time, const ChosenArray& frame,
-  const LabelSelection& selection, const std::stop_token& stop)
-{
-  if (!HasForeground(frame.Array, selection)) // there is nothing to compare with
-  {
-    this->MeasureCut(time, stop);
-    return;
-  }
-  const LabelImage<3> image = ReadLabels(frame, selection, this->Options.Threads, stop);
-  this->Add(time, this->Cut(time, &frame.Frame), &image, &frame.Frame, stop);
-}
-
-//----------------------------------------------------------------------------------------------------
-void SpaceTimeQuality::MeasureImage(const FrameSeries& series, const std::stop_token& stop)
-{
-  const SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
-  const LabelImage<4> image = series.MakeLabelImage(frame.Grid, this->Options.Threads);
   SimplexMesh<4> mesh = this->Pentatopes;
   for (Point<4>& p : mesh.Points)
   {
@@ -224,32 +145,32 @@ void SpaceTimeQuality::MeasureImage(const FrameSeries& series, const std::stop_t
   }
 }
 
-//----------------------------------------------------------------------------------------------------
-std::vector<SpaceTimeLabel> LabelsOf(const SpaceTimeFigures& figures)
+//------------------------------------------------------------------------------------------------
+std::vector<SpaceTimeLabel> SpaceTimeMeasurement::Labels() const
 {
   std::map<std::int64_t, SpaceTimeLabel> labels;
-  for (const LabelMeasure& measure : figures.Quality.Labels)
+  for (const LabelMeasure& measure : this->Quality.Labels)
   {
     labels[measure.Label] = { measure.Label, measure.Elements, measure.Volume,
-      figures.Topology.Components.at(measure.Label), 0.0 };
+      this->Topology.Components.at(measure.Label), 0.0 };
   }
-  for (const auto& [label, volume] : figures.ImageHypervolumes)
+  for (const auto& [label, volume] : this->ImageHypervolumes)
   {
     labels[label].Label = label;
     labels[label].ImageVolume = volume;
   }
   std::vector<SpaceTimeLabel> all;
-  for (const auto& [label, figuresOfLabel] : labels)
+  for (const auto& [label, figures] : labels)
   {
-    all.push_back(figuresOfLabel);
+    all.push_back(figures);
   }
   return all;
 }
 
-std::vector<std::int64_t> LostLabelsOf(const SpaceTimeFigures& figures)
+std::vector<std::int64_t> SpaceTimeMeasurement::LostLabels() const
 {
   std::vector<std::int64_t> lost;
-  for (const SpaceTimeLabel& label : LabelsOf(figures))
+  for (const SpaceTimeLabel& label : this->Labels())
   {
     if (label.Elements == 0)
     {

@@ -12,7 +12,7 @@
 #ifndef voxplex_SpaceTimeFrame_h
 #define voxplex_SpaceTimeFrame_h
 
-#include "Private/ImageFrame.h"
+#include "Image/ImageFrame.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,8 +4,8 @@
  * @file FrameSeries.h
  * @brief Gathers the images of a time series as one array of labels or grey values.
  *
- * An image of the series is called a frame here. The kernel wants the voxels of all frames in one
- * array: x fastest, then y, z, time. Labels are kept in 8, 16 or 64 bits each, as few as those seen
+ * An image of the series is called a frame here. LabelImage and IsosurfaceImage want the voxels of all
+ * frames in one array: x fastest, then y, z, time. Labels are kept in 8, 16 or 64 bits each, as few as those seen
  * so far need. The type of the images' scalars does not count. Grey values are kept as float if
  * that holds the values of their type exactly, otherwise as double.
  */
@@ -16,8 +16,7 @@
 #include "Image/FrameSchedule.h"
 #include "Image/IsosurfaceImage.h"
 #include "Image/LabelImage.h"
-#include "Private/ChosenArray.h"
-#include "Private/SpaceTimeFrame.h"
+#include "Image/SpaceTimeFrame.h"
 
 #include <array>
 #include <cstddef>
@@ -34,10 +33,11 @@ class FrameSeries
 public:
   /**
    * Starts anew.
-   * @param selection the labels to mesh, if the content is labels
+   * @param isOfLabels whether frames have labels; otherwise they have grey values
+   * @param selection the labels to mesh, if there are labels
    * @throws InputError if there are no equally spaced frames for the times (ScheduleFrames())
    */
-  void Start(std::vector<double> times, ImageContent content, const LabelSelection& selection = {});
+  void Start(std::vector<double> times, bool isOfLabels, const LabelSelection& selection = {});
   /** Forgets everything and releases the memory. */
   void Clear();
 
@@ -50,12 +50,17 @@ public:
   double TimeOf(std::size_t frame) const { return this->Times[frame]; }
 
   /**
-   * Copies the values of the next frame: one component of an array.
+   * Copies the values of the next frame: those at 0, stride, 2 stride, ...
+   * @param frame where it lies
+   * @param arrayName in which the image has them
    * @param threads 0 means all cores
    * @throws InputError, which names the frames, if the grid or the array's name is not the first
    * frame's, or if there is a value that cannot be a label; std::bad_alloc
    */
-  void Add(const ChosenArray& frame, int component, unsigned threads);
+  template <typename T>
+  void Add(const T* values, std::size_t stride, const ImageFrame& frame,
+    const std::string& arrayName, unsigned threads);
+  bool IsOfLabels() const { return this->HasLabels; }
 
   /**
    * Where the complete series lies: its grid has equally spaced frames from the first to the last
@@ -95,13 +100,13 @@ private:
   /** Makes room for values of type U. */
   template <typename U>
   void WidenTo(unsigned threads);
-  void CheckSameGrid(const ChosenArray& frame) const;
+  void CheckSameGrid(const ImageFrame& frame, const std::string& arrayName) const;
 
   std::vector<double> Times;
   std::size_t Added = 0;
   ImageFrame FirstFrame;
   std::string ArrayName;
-  ImageContent Content = ImageContent::Labels;
+  bool HasLabels = true;
   LabelSelection Selection;
   /** Of all frames; those not yet added are uninitialised. Alternatives in order of width. */
   std::variant<UninitialisedVector<std::uint8_t>, UninitialisedVector<std::uint16_t>,

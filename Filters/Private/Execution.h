@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file Execution.h
+ * @brief What the executions of all filters have in common.
+ */
+#ifndef voxplex_Private_Execution_h
+#define voxplex_Private_Execution_h
+
+#include "Base/Error.h"
+#include "Private/SmpThreads.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVersion.h"
+
+#include <exception>
+#include <new>
+#include <string>
+
+/**
+ * What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to
+ * it. (It is no function, because SetAbortExecute() would modify the filter.)
+ */
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
+#define VOXPLEX_FORGET_ABORT() this->AbortExecute = 0
+#else
+#define VOXPLEX_FORGET_ABORT()
+#endif
+
+namespace voxplex
+{
+
+inline bool IsStopRequested(vtkAlgorithm* filter)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  return filter->CheckAbort(); // also knows of filters further down the pipeline
+#else
+  return filter->GetAbortExecute() != 0;
+#endif
+}
+
+/** @param chosen 0: as many threads as vtkSMPTools uses */
+inline unsigned ThreadsFor(int chosen)
+{
+  return static_cast<unsigned>(chosen > 0 ? chosen : SmpThreads());
+}
+
+/** Neither meshes nor their measures can be made piece by piece. Optional inputs may be missing. */
+inline void RequestWholeInputs(vtkInformationVector** inputs, int ports)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < ports; ++port)
+  {
+    vtkInformation* const input = inputs[port]->GetInformationObject(0);
+    if (input == nullptr)
+    {
+      continue;
+    }
+    if (input->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      input->Set(Pipeline::UPDATE_EXTENT(), input->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+}
+
+/**
+ * Calls work().
+ * @param outOfMemory what to say if there is not enough of it
+ * @param failed begins what to say of exceptions that are no Error
+ * @return the message for the user, for InTermsOf(); empty if nothing was thrown
+ */
+template <typename Work>
+std::string FailureOf(Work&& work, const char* outOfMemory, const std::string& failed)
+{
+  try
+  {
+    work();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return outOfMemory;
+  }
+  catch (const std::exception& error)
+  {
+    return failed + error.what();
+  }
+  catch (...) // of a size function; nothing else throws such things
+  {
+    return failed + "the size function threw something that is not a std::exception.";
+  }
+  return {};
+}
+
+} // namespace voxplex
+
+#endif
