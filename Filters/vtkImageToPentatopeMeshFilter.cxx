@@ -408,7 +408,6 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   const voxplex::SpaceTimeFrame frame = series.MakeFrame(this->TimeScale);
   Run<4> run(this, inputVector, frame);
   run.Options.FrameSteps = static_cast<unsigned>(this->FrameSteps);
-  run.Options.Interfaces.Fit = this->FitInterfaces;
   run.Options.Planes.Times =
     PlanesInFrame(this->TimePlanes, series, this->TimePlanesAtFrames, this->TimeScale);
   run.Options.Planes.Periodic = this->Periodic;
@@ -458,7 +457,6 @@ void vtkImageToPentatopeMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeSpacing: " << this->TimeSpacing << "\n";
   voxplex::PrintList(os, indent, "FrameTimes", this->FrameTimes, " (of the input)");
   os << indent << "FrameSteps: " << this->FrameSteps << "\n";
-  os << indent << "FitInterfaces: " << (this->FitInterfaces ? "On" : "Off") << "\n";
   voxplex::PrintList(os, indent, "TimePlanes", this->TimePlanes, "");
   os << indent << "TimePlanesAtFrames: " << (this->TimePlanesAtFrames ? "On" : "Off") << "\n";
   os << indent << "Periodic: " << (this->Periodic ? "On" : "Off") << "\n";

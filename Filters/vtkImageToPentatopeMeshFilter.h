@@ -177,17 +177,6 @@ public:
 
   ///@{
   /**
-   * Whether to move the vertices of interfaces a little, so that volumes are right: facets are
-   * chords, and cut convex shapes short. Default on. If it is off, these vertices lie on the
-   * interfaces, and the mesh is Delaunay.
-   */
-  vtkSetMacro(FitInterfaces, bool);
-  vtkGetMacro(FitInterfaces, bool);
-  vtkBooleanMacro(FitInterfaces, bool);
-  ///@}
-
-  ///@{
-  /**
    * Times of planes that the mesh conforms to, in the input's unit and in any order: no pentatope has
    * points before and after a plane. So the mesh is a stack of slabs, whose facets on a plane are the same
    * on both sides, with the same labels. They need not be times of frames. Those of the first and the last frame
@@ -338,7 +327,6 @@ protected:
   double TimeSpacing = 1.0;
   std::vector<double> FrameTimes;
   int FrameSteps = 0;
-  bool FitInterfaces = true;
   std::vector<double> TimePlanes;
   bool TimePlanesAtFrames = false;
   bool Periodic = false;

@@ -480,6 +480,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "InterfaceRounds: " << this->InterfaceRounds << "\n";
   os << indent << "Manifold: " << this->Manifold << "\n";
+  os << indent << "FitInterfaces: " << this->FitInterfaces << "\n";
   os << indent << "Optimise: " << this->Optimise << "\n";
   os << indent << "SmallestComponent: " << this->SmallestComponent << "\n";
   os << indent << "ExactComponents: " << this->ExactComponents << "\n";

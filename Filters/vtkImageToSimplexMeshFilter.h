@@ -238,6 +238,17 @@ public:
 
   ///@{
   /**
+   * Whether to move the vertices of interfaces a little, so that volumes are right: facets are
+   * chords, and cut convex shapes short. Default on. If it is off, these vertices lie on the
+   * interfaces. In 3D it has no effect if Optimise is off.
+   */
+  vtkSetMacro(FitInterfaces, bool);
+  vtkGetMacro(FitInterfaces, bool);
+  vtkBooleanMacro(FitInterfaces, bool);
+  ///@}
+
+  ///@{
+  /**
    * Improve shapes after refinement with flips and smoothing. Default on.
    *
    * In 3D all dihedral angles but a few become 18 to 150 degrees. The price: radius-edge ratios up
@@ -671,6 +682,7 @@ protected:
   double RadiusEdgeRatio = 2.0;
   int InterfaceRounds = 8;
   bool Manifold = true;
+  bool FitInterfaces = true;
   bool Optimise = true;
   int SmallestComponent = 8;
   bool ExactComponents = false;

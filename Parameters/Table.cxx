@@ -214,6 +214,12 @@ Parameters Quality()
       "triangles "
       "with more than two tetrahedra), if necessary with pieces of elements that are not Delaunay",
       { .Zero = "such places stay", .Slicer = None }),
+    Flag("fit", 0, "on", "move vertices of interfaces a little, so that volumes are right",
+      { .Property = "FitInterfaces",
+        .Label = "Fit interfaces",
+        .Zero = "they lie on the interfaces",
+        .Slicer = None,
+        .Python = "fit_interfaces" }),
   };
 }
 
@@ -231,11 +237,6 @@ Parameters SpaceTime()
       "steps between two frames; labels are interpolated between them, so that fast motion is "
       "followed (1: no frames are added)",
       { .Step = 1.0, .Zero = "as many as the motion asks for" }),
-    Flag("fit", 4, "on", "move vertices of interfaces a little, so that volumes are right",
-      { .Property = "FitInterfaces",
-        .Label = "Fit interfaces",
-        .Zero = "they lie on the interfaces, and the mesh is Delaunay",
-        .Python = "fit_interfaces" }),
     Flag("periodic", 4, "off",
       "make both ends of the mesh congruent; the last frame must be the first one again"),
     Word("rule-order", 4, "radius-edge", { "radius-edge", "surface" },

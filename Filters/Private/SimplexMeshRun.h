@@ -91,6 +91,7 @@ public:
     this->Options.Shape.RadiusEdgeRatio = filter->RadiusEdgeRatio;
     this->Options.Interfaces.Rounds = static_cast<unsigned>(filter->InterfaceRounds);
     this->Options.Interfaces.Manifold = filter->Manifold;
+    this->Options.Interfaces.Fit = filter->FitInterfaces;
     this->Options.Optimisation.Run = filter->Optimise;
     this->Options.Components.Smallest = filter->SmallestComponent;
     this->Options.Components.Exact = filter->ExactComponents;

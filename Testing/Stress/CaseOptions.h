@@ -32,6 +32,7 @@ void VisitOptions(const StressCase<D>& of, Visit&& visit)
   visit("--exact-components", VOXPLEX_OPTION(Components.Exact));
   visit("--interface-rounds", VOXPLEX_OPTION(Interfaces.Rounds), 0);
   visit("--no-manifold", VOXPLEX_OPTION(Interfaces.Manifold));
+  visit("--no-fit", VOXPLEX_OPTION(Interfaces.Fit), false);
   visit("--no-optimise", VOXPLEX_OPTION(Optimisation.Run), false);
   visit("--grading", VOXPLEX_OPTION(Sampling.Grading.Mode));
   if (of.Options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize)
@@ -54,7 +55,6 @@ void VisitOptions(const StressCase<D>& of, Visit&& visit)
   {
     visit("--periodic", VOXPLEX_OPTION(Planes.Periodic));
     visit("--frame-steps", VOXPLEX_OPTION(FrameSteps), 1);
-    visit("--no-fit", VOXPLEX_OPTION(Interfaces.Fit), false);
     visit("--rule-order", VOXPLEX_OPTION(SpaceTime.Order));
     visit("--no-fine-grained", VOXPLEX_OPTION(Team.FineGrained));
     visit("--no-picking", VOXPLEX_OPTION(SpaceTime.Slivers.Fight), false);

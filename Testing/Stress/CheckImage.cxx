@@ -33,7 +33,11 @@ constexpr double SearchPrecisionOfIsosurfaces = 0.1;
 constexpr double OptimisationTolerance = 0.25;
 constexpr double LargestTolerance = 0.5;
 
-/** How far FitInterfaces() and OptimisePentatopes() may each move vertices along each axis, in voxels. */
+/** How far FitInterfaces() may move vertices along each axis, in voxels. */
+template <int D>
+constexpr double FitTolerance = D == 3 ? 1.0 : 0.5;
+
+/** The same of OptimisePentatopes(). */
 constexpr double MoveTolerance = 0.5;
 
 /**
@@ -119,7 +123,7 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
   const MeshingOptions<D>& options = subject.Of.Options;
   const double tolerance = ToleranceOf(image, options);
   const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
-    (D == 4 && options.Interfaces.Fit ? MoveTolerance : 0.0) +
+    (subject.IsFitted() ? FitTolerance<D> : 0.0) +
     (D == 4 && options.Optimisation.Run ? MoveTolerance : 0.0);
   std::uint64_t off = 0;
   std::size_t first = 0;

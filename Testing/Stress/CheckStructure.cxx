@@ -299,7 +299,7 @@ void CheckConformity(const Subject<D>& subject, Findings& findings)
 {
   const SimplexMesh<D>& mesh = subject.Mesh;
   const MeshingOptions<D>& options = subject.Of.Options;
-  const bool hasMoved = options.Optimisation.Run || (D == 4 && options.Interfaces.Fit);
+  const bool hasMoved = options.Optimisation.Run || subject.IsFitted();
   const bool isDelaunay = !hasMoved && subject.Stats.Interfaces.NonManifoldOpened == 0;
   // Each slab is Delaunay, their union is not.
   const std::vector<double> planes = subject.PlaneTimes();

@@ -44,6 +44,12 @@ struct Subject
     return corners;
   }
 
+  /** Whether vertices of interfaces may have been moved off them, so that volumes are right. */
+  bool IsFitted() const
+  {
+    return this->Of.Options.Interfaces.Fit && (D == 4 || this->Of.Options.Optimisation.Run);
+  }
+
   /** The times of planes and of the ends of a periodic mesh, ascending. */
   std::vector<double> PlaneTimes() const
   {

@@ -228,6 +228,7 @@ void DrawOptions(StressCase<D>& of, Random& random)
   if constexpr (D == 3)
   {
     of.Options.Interfaces.Manifold = random.Chance(0.9);
+    of.Options.Interfaces.Fit = random.Chance(0.7);
   }
   of.Options.Team.Reproducible = random.Chance(0.2);
   if (of.Options.Team.Reproducible)
