@@ -74,6 +74,9 @@ public:
   FragmentCheck(const Subject& subject, const ComponentOptions& options, bool mayRefine,
     LocalDelta<3>& local, ComponentStatistics& statistics, const std::stop_token& stop);
 
+  /** Whether an inspection may ask for more points. Otherwise it lists components in fragments. */
+  bool MayRefine() const { return this->RoundsLeft > 0; }
+
   Remedy<3> Inspect(const LabelledTriangulation<3>& elements);
 
 private:

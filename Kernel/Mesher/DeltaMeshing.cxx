@@ -137,7 +137,6 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
     Remedy<D> remedy = inspection.Inspect();
     if (!remedy.IsNeeded)
     {
-      inspection.Finish();
       Extract(run, *stage, inspection.Labels(), mesh);
       return !run.Stop.stop_requested();
     }

@@ -3,6 +3,7 @@
 #include "Mesher/Inspection.h"
 
 #include "Base/Stopwatch.h"
+#include "Conformity/InterfaceVertices.h"
 #include "Geometry/ShapeBounds.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Mesher/Dimension.h"
@@ -103,12 +104,6 @@ std::vector<FeatureSeed<D>> Inspection<D>::TakeSeeds()
   return seeds;
 }
 
-template <int D>
-void Inspection<D>::Finish()
-{
-  this->Interfaces.Finish();
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 Remedy<D> Inspection<D>::Inspect()
@@ -116,11 +111,8 @@ Remedy<D> Inspection<D>::Inspect()
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
-    Remedy<D> remedy = this->Interfaces.InspectVertices();
-    if (!remedy.IsNeeded)
-    {
-      this->MakeLabels();
-    }
+    this->MakeLabels();
+    Remedy<D> remedy = this->Interfaces.InspectSampled(this->Made);
     times.Interfaces += time.Seconds();
     if (remedy.IsNeeded)
     {
@@ -139,15 +131,29 @@ Remedy<D> Inspection<D>::Inspect()
     this->Take(
       all, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
   }
-  this->Take(all, ChangedInterfaces, times.Interfaces,
-    [&] { return this->Interfaces.InspectLabels(this->Made); });
-  if constexpr (D == 3)
+  this->Take(
+    all, BadRidges, times.Interfaces, [&] { return this->Interfaces.InspectRidges(this->Made); });
+  const auto inspectFragments = [&](bool mayRefine)
   {
-    if (this->Fragments)
+    if constexpr (D == 3)
     {
-      this->Take(
-        all, LooseFragments, times.Components, [&] { return this->Fragments->Inspect(elements); });
+      if (this->Fragments && this->Fragments->MayRefine() == mayRefine)
+      {
+        this->Take(all, LooseFragments, times.Components,
+          [&] { return this->Fragments->Inspect(elements); });
+      }
     }
+  };
+  inspectFragments(true);
+  if (!all.IsNeeded)
+  {
+    const Stopwatch time;
+    all = this->Interfaces.InspectAll(this->Made);
+    times.Interfaces += time.Seconds();
+  }
+  if (!all.IsNeeded)
+  {
+    inspectFragments(false);
   }
   return all;
 }
@@ -179,6 +185,8 @@ void Inspection<D>::MakeLabels()
   else
   {
     this->Made.Labels = this->Labeller.MakePlain();
+    MarkInterfaceVertices<D>(
+      this->Source, this->Made.Labels, this->Run.Options.Team.Threads, this->Run.Stop);
   }
 }
 

@@ -36,16 +36,19 @@ std::function<bool(SimplexId)> KeepsItsLabel(
 /**
  * @brief Inspects the refined triangulation.
  *
- * What refinement has to go on for is found in this order:
- * 1. faces of voxels that are far from all vertices of interfaces (InterfaceCheck). If there are any,
- *    inspection ends here. Otherwise the simplices get their labels (ManifoldLabeller);
+ * The simplices get their labels (ManifoldLabeller). What refinement has to go on for is found in this
+ * order:
+ * 1. faces of voxels that are far from the interfaces of the mesh (InterfaceCheck), of those that were
+ *    sampled; the first time, of all. If there are any, inspection ends here;
  * 2. components, in 4D also those of frames, that have no simplex (ComponentCheck);
- * 3. interfaces that labels have changed (InterfaceCheck);
- * 4. components whose simplices do not hold together (FragmentCheck; 3D).
+ * 3. edges that are not manifold (InterfaceCheck; 3D);
+ * 4. components whose simplices do not hold together (FragmentCheck; 3D);
+ * 5. if nothing was found, far faces among all.
+ * If nothing was found again, and components in fragments are to be listed only, they are.
  *
- * Steps 2 to 4 look at the same labels, and refinement goes on for all of them together. One that
- * needed nothing the last time is left out if another needs something already. Each gives up after a
- * limited number of remedies, so the run ends.
+ * Refinement goes on for what steps 2 to 4 find together. One that needed nothing the last time is
+ * left out if another needs something already. Each gives up after a limited number of remedies, so the
+ * run ends.
  *
  * Components may lower local bounds already in the constructor. Not thread safe.
  */
@@ -68,16 +71,13 @@ public:
   /** Valid if the last Inspect() needed no remedy. */
   const ManifoldLabels<D>& Labels() const { return this->Made; }
 
-  /** Frees what only further inspections need. Labels() stay. */
-  void Finish();
-
 private:
   /** The finders of steps 2 to 4. */
   enum Finder : std::size_t
   {
     LostComponents,
     LostInFrames,
-    ChangedInterfaces,
+    BadRidges,
     LooseFragments,
     NumberOfFinders
   };
@@ -87,7 +87,7 @@ private:
   void Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find);
 
   const RunEnvironment<D> Run;
-  const Triangulation<D>& Source;
+  Triangulation<D>& Source;
   InterfaceCheck<D> Interfaces;
   ManifoldLabeller<D> Labeller;
   std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked
