@@ -124,7 +124,6 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
     { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
       estimate.InterfaceVertices });
   Inspection<D> inspection(run, *stage, sizing.LocalBounds());
-  stage->FollowLocalBounds();
   std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());
   const std::vector<FeatureSeed<D>> more = inspection.TakeSeeds();
   seeds.insert(seeds.end(), more.begin(), more.end());
@@ -141,7 +140,6 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
       return !run.Stop.stop_requested();
     }
     seeds = std::move(remedy.Points);
-    stage->FollowLocalBounds();
   }
   return false;
 }

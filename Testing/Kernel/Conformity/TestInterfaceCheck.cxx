@@ -98,7 +98,6 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
       {
         break;
       }
-      context.Sizing.FollowLocalBounds();
       ASSERT_TRUE(Refiner<Rules3D>(context, {}, seeds, RefinementStart::AtSeeds).Run(nullptr));
     }
   }
