@@ -72,8 +72,8 @@ public:
 
   ///@{
   /**
-   * The faces that are far, ascending: of all, or among some. The vertices on interfaces have to be
-   * marked (MarkInterfaceVertices).
+   * The faces that are far: of all, in the order of voxels, or among some, in their order. The vertices
+   * on interfaces have to be marked (MarkInterfaceVertices).
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   std::vector<VoxelFace<D>> FindFar(const LabelledTriangulation<D>& elements) const;

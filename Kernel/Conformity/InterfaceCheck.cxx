@@ -4,29 +4,30 @@
 
 #include "Mesh/LabelledTriangulation.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace voxplex
 {
 
 template <int D>
-InterfaceCheck<D>::InterfaceCheck(const Subject& subject, unsigned rounds, LocalDelta<D>& local,
-  InterfaceStatistics& statistics, const std::stop_token& stop)
+InterfaceCheck<D>::InterfaceCheck(const Subject& subject, unsigned rounds,
+  LocalSampling<D>& sampling, InterfaceStatistics& statistics, const std::stop_token& stop)
   : Mesh(subject.Mesh)
   , Rounds(rounds)
   , Statistics(statistics)
   , Distances(subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, subject.Threads, stop)
-  , Sampling(subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, stop)
+  , Sampling(sampling)
 {
 }
 
 template <int D>
-Remedy<D> InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
+bool InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
 {
   this->HasSeenAll = false;
   if (!this->MayGoOn())
   {
-    return {};
+    return false;
   }
   if (std::exchange(this->IsFirst, false))
   {
@@ -34,37 +35,39 @@ Remedy<D> InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
   }
   const std::vector<VoxelFace<D>> far = this->Distances.FindFar(
     LabelledTriangulation<D>(this->Mesh, made.Labels), this->Sampling.Sampled());
-  return far.empty() ? Remedy<D>() : this->Sample(far, made);
+  return !far.empty() && this->Sample(far, made);
 }
 
 template <int D>
-Remedy<D> InterfaceCheck<D>::InspectRidges(const ManifoldLabels<D>& made)
+bool InterfaceCheck<D>::InspectRidges(const ManifoldLabels<D>& made)
 {
-  return this->MayGoOn() ? this->Sample({}, made) : Remedy<D>();
+  return D == 3 && this->MayGoOn() &&
+    std::any_of(made.Places.begin(), made.Places.end(),
+      [](const NonManifoldPlace<D>& place) { return !place.IsJunction; }) &&
+    this->Sample({}, made);
 }
 
 template <int D>
-Remedy<D> InterfaceCheck<D>::InspectAll(const ManifoldLabels<D>& made)
+bool InterfaceCheck<D>::InspectAll(const ManifoldLabels<D>& made)
 {
   if (!this->MayGoOn() || std::exchange(this->HasSeenAll, true))
   {
-    return {};
+    return false;
   }
   const std::vector<VoxelFace<D>> far =
     this->Distances.FindFar(LabelledTriangulation<D>(this->Mesh, made.Labels));
-  return far.empty() ? Remedy<D>() : this->Sample(far, made);
+  return !far.empty() && this->Sample(far, made);
 }
 
-/** Makes a remedy of the points around these faces and edges. If there are any, counts a round. */
+/** Has these faces and the edges sampled. If there are any points, counts a round. */
 template <int D>
-Remedy<D> InterfaceCheck<D>::Sample(
-  const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made)
+bool InterfaceCheck<D>::Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made)
 {
-  std::vector<FeatureSeed<D>> points =
-    this->Sampling.AroundIfBad(far, D == 3 ? made.Places : std::vector<NonManifoldPlace<D>>());
-  this->Statistics.Rounds += points.empty() ? 0 : 1;
-  this->Statistics.Seeds += points.size();
-  return { !points.empty(), std::move(points) };
+  const std::size_t points =
+    this->Sampling.SampleInterfaces(far, D == 3 ? made.Places : std::vector<NonManifoldPlace<D>>());
+  this->Statistics.Rounds += points == 0 ? 0 : 1;
+  this->Statistics.Seeds += points;
+  return points > 0;
 }
 
 template class InterfaceCheck<3>;

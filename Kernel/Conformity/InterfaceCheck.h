@@ -9,10 +9,9 @@
 
 #include "Conformity/ConformityOptions.h"
 #include "Conformity/DistanceCheck.h"
-#include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Conformity/Remedy.h"
 #include "Delaunay/Triangulation.h"
 
 #include <stop_token>
@@ -31,7 +30,7 @@ namespace voxplex
  *   for the same purpose. Triangles (4D) are not sampled: on noise the mesh would become many times as
  *   large.
  *
- * InterfaceSampling proposes points around them. All faces are looked at in the first inspection, and
+ * LocalSampling samples around them. All faces are looked at in the first inspection, and
  * when nothing else is wrong. In between only those are that were sampled before: a face seldom becomes
  * far where refinement was not asked for.
  *
@@ -54,35 +53,36 @@ public:
 
   /**
    * All references must outlive the check.
-   * @param rounds the number of remedies after which nothing more is requested
-   * @param local receives the spacing of the points to be inserted, and bounds
+   * @param rounds the number of rounds after which nothing more is requested
+   * @param sampling where to sample more finely
    * @param statistics counts rounds and points
    */
-  InterfaceCheck(const Subject& subject, unsigned rounds, LocalDelta<D>& local,
+  InterfaceCheck(const Subject& subject, unsigned rounds, LocalSampling<D>& sampling,
     InterfaceStatistics& statistics, const std::stop_token& stop);
 
   /**
-   * Begins an inspection. Requests points near far faces, of those that were sampled before; the first
-   * time, of all. If there are any, also at edges that are not manifold.
+   * Begins an inspection. Requests finer sampling near far faces, of those that were sampled before; the
+   * first time, of all. If there are any, also at edges that are not manifold.
+   * @return whether anything was requested; the same holds below
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  Remedy<D> InspectSampled(const ManifoldLabels<D>& made);
+  bool InspectSampled(const ManifoldLabels<D>& made);
 
-  /** Requests points at edges that are not manifold, unless all of them are at junctions. */
-  Remedy<D> InspectRidges(const ManifoldLabels<D>& made);
+  /** Requests finer sampling at edges that are not manifold, unless all of them are at junctions. */
+  bool InspectRidges(const ManifoldLabels<D>& made);
 
-  /** Requests points near far faces, unless this inspection has looked at all faces. */
-  Remedy<D> InspectAll(const ManifoldLabels<D>& made);
+  /** Requests finer sampling near far faces, unless this inspection has looked at all faces. */
+  bool InspectAll(const ManifoldLabels<D>& made);
 
 private:
   bool MayGoOn() const { return this->Statistics.Rounds < this->Rounds; }
-  Remedy<D> Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made);
+  bool Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made);
 
   const Triangulation<D>& Mesh;
   const unsigned Rounds;
   InterfaceStatistics& Statistics;
   const DistanceCheck<D> Distances;
-  InterfaceSampling<D> Sampling;
+  LocalSampling<D>& Sampling;
   bool IsFirst = true;
   bool HasSeenAll = false; ///< in this inspection
 };

@@ -8,8 +8,8 @@
 #ifndef voxplex_ManifoldLabels_h
 #define voxplex_ManifoldLabels_h
 
-#include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldRepair.h"
 #include "Mesh/SimplexLabels.h"
 

@@ -132,14 +132,12 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
-    sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
-    Remedy<D> remedy = inspection.Inspect();
-    if (!remedy.IsNeeded)
+    if (!inspection.Inspect())
     {
       Extract(run, *stage, inspection.Labels(), mesh);
       return !run.Stop.stop_requested();
     }
-    seeds = std::move(remedy.Points);
+    seeds = inspection.TakeSeeds();
   }
   return false;
 }

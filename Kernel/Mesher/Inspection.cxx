@@ -56,9 +56,11 @@ Inspection<D>::Inspection(
   const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local)
   : Run(run)
   , Source(stage.Mesh())
+  , Sampling(run.Prepared.Image, run.Prepared.OfDomain(), *run.Prepared.Sites,
+      *run.Prepared.Surfaces, stage.Sizing(), local, run.Stop)
   , Interfaces({ stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
                  stage.Sizing(), run.Options.Team.Threads },
-      Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, local,
+      Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, this->Sampling,
       run.Statistics.Interfaces, run.Stop)
   , Labeller(stage.Mesh(), RepairOptionsOf(run, stage), run.Options.Team.Threads, run.Stop)
 {
@@ -70,8 +72,8 @@ Inspection<D>::Inspection(
   {
     if (all)
     {
-      check.emplace(prepared.Image, *prepared.Surfaces, *all, stage.Sizing(), options.Smallest,
-        options.Exact, Dimension<D>::MayRefine(run), local, statistics, run.Options.Team.Threads,
+      check.emplace(prepared.Image, *all, stage.Sizing(), options.Smallest, options.Exact,
+        Dimension<D>::MayRefine(run), this->Sampling, statistics, run.Options.Team.Threads,
         run.Stop);
     }
   };
@@ -81,96 +83,81 @@ Inspection<D>::Inspection(
   {
     if (prepared.AllComponents)
     {
-      this->Fragments.emplace(FragmentCheck::Subject{ prepared.Image, *prepared.Sites,
-                                *prepared.Surfaces, stage.Sizing(), *prepared.AllComponents },
-        options, run.Options.Interfaces.Rounds > 0, local, run.Statistics.Components, run.Stop);
+      this->Fragments.emplace(
+        FragmentCheck::Subject{ prepared.Image, *prepared.Sites, *prepared.AllComponents }, options,
+        run.Options.Interfaces.Rounds > 0, this->Sampling, run.Statistics.Components, run.Stop);
     }
   }
   run.Statistics.Times.Components += time.Seconds();
 }
 
-template <int D>
-std::vector<FeatureSeed<D>> Inspection<D>::TakeSeeds()
-{
-  std::vector<FeatureSeed<D>> seeds;
-  for (std::optional<ComponentCheck<D>>* const check : { &this->Components, &this->OfFrames })
-  {
-    if (*check)
-    {
-      const std::vector<FeatureSeed<D>> more = (*check)->TakeSeeds();
-      seeds.insert(seeds.end(), more.begin(), more.end());
-    }
-  }
-  return seeds;
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
-Remedy<D> Inspection<D>::Inspect()
+bool Inspection<D>::Inspect()
 {
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
     this->MakeLabels();
-    Remedy<D> remedy = this->Interfaces.InspectSampled(this->Made);
+    const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
     times.Interfaces += time.Seconds();
-    if (remedy.IsNeeded)
+    if (isNeeded)
     {
-      return remedy;
+      return true;
     }
   }
-  Remedy<D> all;
+  bool isNeeded = false;
   const LabelledTriangulation<D> elements(this->Source, this->Made.Labels);
   if (this->Components)
   {
-    this->Take(
-      all, LostComponents, times.Components, [&] { return this->Components->Inspect(elements); });
+    this->Look(isNeeded, LostComponents, times.Components,
+      [&] { return this->Components->Inspect(elements); });
   }
   if (this->OfFrames)
   {
-    this->Take(
-      all, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
+    this->Look(
+      isNeeded, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
   }
-  this->Take(
-    all, BadRidges, times.Interfaces, [&] { return this->Interfaces.InspectRidges(this->Made); });
+  this->Look(isNeeded, BadRidges, times.Interfaces,
+    [&] { return this->Interfaces.InspectRidges(this->Made); });
   const auto inspectFragments = [&](bool mayRefine)
   {
     if constexpr (D == 3)
     {
       if (this->Fragments && this->Fragments->MayRefine() == mayRefine)
       {
-        this->Take(all, LooseFragments, times.Components,
+        this->Look(isNeeded, LooseFragments, times.Components,
           [&] { return this->Fragments->Inspect(elements); });
       }
     }
   };
   inspectFragments(true);
-  if (!all.IsNeeded)
+  if (!isNeeded)
   {
     const Stopwatch time;
-    all = this->Interfaces.InspectAll(this->Made);
+    isNeeded = this->Interfaces.InspectAll(this->Made);
     times.Interfaces += time.Seconds();
   }
-  if (!all.IsNeeded)
+  if (!isNeeded)
   {
     inspectFragments(false);
   }
-  return all;
+  return isNeeded;
 }
 
-/** Adds what a finder needs. */
+/** Lets a finder look. */
 template <int D>
 template <typename Find>
-void Inspection<D>::Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find)
+void Inspection<D>::Look(bool& isNeeded, Finder finder, double& seconds, const Find& find)
 {
-  if (all.IsNeeded && this->NeededNothing[finder])
+  if (isNeeded && this->NeededNothing[finder])
   {
     return;
   }
   const Stopwatch time;
-  const Remedy<D> remedy = find();
-  this->NeededNothing[finder] = !remedy.IsNeeded;
-  all += remedy;
+  const bool needs = find();
+  this->NeededNothing[finder] = !needs;
+  isNeeded |= needs;
   seconds += time.Seconds();
 }
 

@@ -10,10 +10,9 @@
 #include "Conformity/ComponentCheck.h"
 #include "Conformity/FragmentCheck.h"
 #include "Conformity/InterfaceCheck.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Conformity/Remedy.h"
 #include "Mesher/RefinementStage.h"
-#include "Sizing/LocalDelta.h"
 
 #include <array>
 #include <cstddef>
@@ -47,7 +46,7 @@ std::function<bool(SimplexId)> KeepsItsLabel(
  * If nothing was found again, and components in fragments are to be listed only, they are.
  *
  * Refinement goes on for what steps 2 to 4 find together. One that needed nothing the last time is
- * left out if another needs something already. Each gives up after a limited number of remedies, so the
+ * left out if another needs something already. Each gives up after a limited number of rounds, so the
  * run ends.
  *
  * Components may lower local bounds already in the constructor. Not thread safe.
@@ -59,16 +58,17 @@ public:
   /** All references must outlive this object. */
   Inspection(const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local);
 
-  /** Points for thin components, to be inserted before refinement. */
-  std::vector<FeatureSeed<D>> TakeSeeds();
+  /** Points to be inserted before refinement: at first for thin components, then for what is missing. */
+  std::vector<FeatureSeed<D>> TakeSeeds() { return this->Sampling.TakeSeeds(); }
 
   /**
    * To be called after each refinement.
+   * @return whether refinement has to go on
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  Remedy<D> Inspect();
+  bool Inspect();
 
-  /** Valid if the last Inspect() needed no remedy. */
+  /** Valid if the last Inspect() was false. */
   const ManifoldLabels<D>& Labels() const { return this->Made; }
 
 private:
@@ -84,10 +84,11 @@ private:
 
   void MakeLabels();
   template <typename Find>
-  void Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find);
+  void Look(bool& isNeeded, Finder finder, double& seconds, const Find& find);
 
   const RunEnvironment<D> Run;
   Triangulation<D>& Source;
+  LocalSampling<D> Sampling;
   InterfaceCheck<D> Interfaces;
   ManifoldLabeller<D> Labeller;
   std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked
