@@ -8,13 +8,10 @@
 #define voxplex_ComponentCheck_h
 
 #include "Conformity/ComponentStatistics.h"
-#include "Conformity/Remedy.h"
-#include "Domain/Domain.h"
+#include "Conformity/LocalSampling.h"
 #include "Image/Components.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Quality/LostComponents.h"
-#include "Refinement/FeatureSeed.h"
-#include "Sizing/SizingField.h"
 
 #include <cstdint>
 #include <stop_token>
@@ -28,7 +25,7 @@ namespace voxplex
  *
  * If an interface is sampled with delta, objects much thinner than delta can be lost: a Delaunay
  * mesh of too few points joins the regions on both sides. So some components may have no element
- * after refinement. FindLost() finds them, and SampleFiner() chooses points for them:
+ * after refinement. FindLost() finds them, and SampleFiner() has them sampled (LocalSampling):
  * - First, a few points where the component is thickest (ThinPart), with a smaller delta
  *   (LocalDelta) only there.
  * - If the component still has no element, the same points again, more finely.
@@ -41,7 +38,7 @@ namespace voxplex
  * whole from the start. The mean thickness of a component is estimated from the ratio of its volume
  * to its surface. This ratio is a third of the thickness for a ball or cube, and half of it for a
  * sheet or a rod. If the thickness is small compared with delta, the component's surroundings get a
- * smaller delta, and points on all of its faces are inserted before refinement (FeatureSeed). R1
+ * smaller delta, and points on all of its faces are inserted before refinement. R1
  * alone may never see a small component, because it looks only at the interface closest to a
  * circumcentre.
  *
@@ -53,27 +50,27 @@ class ComponentCheck
 {
 public:
   /**
-   * @param image, domain, components must outlive the check
+   * @param image, components must outlive the check
    * @param sizing the sampling distances elsewhere; needed during construction only
    * @param fewestVoxels smaller components are not checked, except the largest of each label
    * @param exact whether components that are thin compared with delta are sampled as a whole from
    *   the start
    * @param mayRefine false: nothing is requested
-   * @param local where to sample more finely; receives bounds
+   * @param sampling where to sample more finely; must outlive the check
    * @param statistics counts rounds and points
    * @param threads 0 means all cores; results do not depend on it
    * @throws Cancelled if a stop was requested before the end
    */
-  ComponentCheck(const LabelImage<D>& image, const Domain<D>& domain,
-    const Components<D>& components, const SizingField<D>& sizing, std::int64_t fewestVoxels,
-    bool exact, bool mayRefine, LocalDelta<D>& local, ComponentStatistics& statistics,
-    unsigned threads, const std::stop_token& stop);
+  ComponentCheck(const LabelImage<D>& image, const Components<D>& components,
+    const SizingField<D>& sizing, std::int64_t fewestVoxels, bool exact, bool mayRefine,
+    LocalSampling<D>& sampling, ComponentStatistics& statistics, unsigned threads,
+    const std::stop_token& stop);
 
-  /** The points chosen since the last call, in the order of components. */
-  std::vector<FeatureSeed<D>> TakeSeeds();
-
-  /** Requests points for components without elements. Gives up those that cannot get one. */
-  Remedy<D> Inspect(const LabelledTriangulation<D>& elements);
+  /**
+   * Requests finer sampling for components without elements. Gives up those that cannot get one.
+   * @return whether anything was requested
+   */
+  bool Inspect(const LabelledTriangulation<D>& elements);
 
   /**
    * Components without an element of their label within a voxel of them, in increasing order.
@@ -87,32 +84,25 @@ public:
   }
 
   /**
-   * Adds seeds for these components, and bounds near them.
+   * Requests finer sampling for these components.
    * @return false if none of them can be sampled more finely
    */
   bool SampleFiner(const std::vector<std::uint32_t>& lost);
 
 private:
-  using Index = typename GridGeometry<D>::Index;
-
   /** The delta that suits the mean thickness of a component. */
   double OwnDelta(std::uint32_t component) const;
-  void SampleThickest(std::uint32_t component);
   void Sample(std::uint32_t component, double delta);
 
   const LabelImage<D>& Image;
-  const Domain<D>& Surfaces;
   const Components<D>& All;
+  LocalSampling<D>& Sampling;
   std::vector<double> Delta;      ///< by component
   std::vector<unsigned> Attempts; ///< by component, times it was sampled where it is thickest
-  double FinestDelta;             ///< no component is sampled more finely
   std::vector<bool> Wanted;       ///< by component
   const bool MayRefine;
   unsigned Threads;
   std::stop_token Stop;
-  const double LargestSpacing; ///< upper bound of all sampling distances
-  LocalDelta<D>& Local;
-  std::vector<FeatureSeed<D>> Seeds; ///< not taken yet
   ComponentStatistics& Statistics;
 };
 

@@ -44,8 +44,7 @@ struct InterfaceOptions
   bool SampleJunctions = true;
   /**
    * How many times, at most, refinement is resumed because interfaces of the image are too far from
-   * those of the mesh (UniformInterfaceCheck, GradedInterfaceCheck), or because interfaces of the
-   * mesh are not manifold. 0: never.
+   * those of the mesh (DistanceCheck), or because interfaces of the mesh are not manifold. 0: never.
    */
   unsigned Rounds = 8;
   /**

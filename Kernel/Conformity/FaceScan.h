@@ -25,8 +25,8 @@ namespace voxplex
 {
 
 /**
- * Finds the faces on the upper sides of some voxels for which is(face, hint) is true, in ascending
- * order.
+ * Finds the faces on the upper sides of some voxels for which is(face, hint) is true, in the order of
+ * voxels, the first axis fastest.
  *
  * @param voxels voxels of the crop and the layer around it, as FindSurfaceVoxels() returns them
  * @param is called by several threads at once, for faces of interfaces (IsOfInterface). The hint is

@@ -3,8 +3,6 @@
 #include "Conformity/FragmentCheck.h"
 
 #include "Base/GridIndex.h"
-#include "Conformity/FinestSpacing.h"
-#include "Conformity/InterfaceSampling.h"
 #include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
@@ -20,22 +18,6 @@ namespace
 {
 
 using Index = GridGeometry<3>::Index;
-
-/**
- * The spacing of points at a visit of a place, in spacings of the visit before; at the first visit in
- * sampling distances. With 0.4, meshes of thin sheets have up to six times as many elements.
- */
-constexpr double NextSpacing = 0.6;
-
-/** The sampling distance of R1 is this factor times the spacing of points. */
-constexpr double BoundFactor = 2.0;
-
-/**
- * The finest spacing of points, as FinestSpacing() takes it. A vessel of one voxel is 0.8 voxels thick
- * in the label field along an axis, and where it leaves a thick part much less. With 0.2, vessels stay
- * in fragments there, and if voxels are much longer along them.
- */
-constexpr double FinestVoxels = 0.1;
 
 /**
  * Points are asked for this many times at most. Each time the spacing becomes finer where they are asked
@@ -112,21 +94,20 @@ void ForEachCentreIn(std::array<Point<3>, 4> points, const LabelImage<3>& image,
 
 //------------------------------------------------------------------------------------------------
 FragmentCheck::FragmentCheck(const Subject& subject, const ComponentOptions& options,
-  bool mayRefine, LocalDelta<3>& local, ComponentStatistics& statistics,
+  bool mayRefine, LocalSampling<3>& sampling, ComponentStatistics& statistics,
   const std::stop_token& stop)
   : Of(subject)
   , Wanted(subject.All.FindWanted(options.Smallest))
   , Exact(options.Exact)
   , RoundsLeft(options.Exact && mayRefine ? MostRounds : 0)
-  , Local(local)
+  , Sampling(sampling)
   , Statistics(statistics)
   , Stop(stop)
-  , FinestSpacing(voxplex::FinestSpacing<3>(subject.Image.Grid(), FinestVoxels))
 {
 }
 
 //------------------------------------------------------------------------------------------------
-Remedy<3> FragmentCheck::Inspect(const LabelledTriangulation<3>& elements)
+bool FragmentCheck::Inspect(const LabelledTriangulation<3>& elements)
 {
   ElementFragments fragments(elements, this->Stop);
   fragments.FindComponents(this->Of.All, this->Of.Image);
@@ -134,18 +115,18 @@ Remedy<3> FragmentCheck::Inspect(const LabelledTriangulation<3>& elements)
   this->Report(pieces);
   if (this->RoundsLeft == 0 || this->Statistics.Broken.empty())
   {
-    return {};
+    return false;
   }
-  std::vector<FeatureSeed<3>> points =
-    this->Sample(this->FacesNear(this->FindGaps(fragments, pieces), pieces));
-  if (points.empty())
+  const std::size_t points =
+    this->Sampling.SampleGaps(this->FacesNear(this->FindGaps(fragments, pieces), pieces));
+  if (points == 0)
   {
-    return {};
+    return false;
   }
   --this->RoundsLeft;
   ++this->Statistics.Rounds;
-  this->Statistics.Seeds += points.size();
-  return { true, std::move(points) };
+  this->Statistics.Seeds += points;
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -277,42 +258,6 @@ std::vector<VoxelFace<3>> FragmentCheck::FacesNear(
   std::erase_if(faces,
     [&](const VoxelFace<3>& face) { return !isBrokenAt(face.Voxel) && !isBrokenAt(face.Next()); });
   return faces;
-}
-
-//------------------------------------------------------------------------------------------------
-std::vector<FeatureSeed<3>> FragmentCheck::Sample(const std::vector<VoxelFace<3>>& faces)
-{
-  constexpr double Done = 0.0;
-  std::vector<FeatureSeed<3>> seeds;
-  std::map<Index, double> now;
-  for (const VoxelFace<3>& face : faces)
-  {
-    const LabelId before = this->Of.Image.At(face.Voxel);
-    const LabelId after = this->Of.Image.At(face.Next());
-    const Index cell = InterfaceSampling<3>::CellOf(face);
-    auto spacing = now.find(cell);
-    if (spacing == now.end())
-    {
-      const auto visited = this->Spacings.find(cell);
-      const double last = visited != this->Spacings.end()
-        ? visited->second
-        : this->Of.Sizing.SamplingDistance(CentreOf(face, this->Of.Image), before, after);
-      const double next =
-        last > this->FinestSpacing ? std::max(NextSpacing * last, this->FinestSpacing) : Done;
-      spacing = now.emplace(cell, next).first;
-      this->Spacings[cell] = next;
-    }
-    Point<3> z;
-    if (spacing->second != Done &&
-      this->Of.Surfaces.FirstCrossing(
-        this->Of.Image.CentreOf(face.Voxel), before, this->Of.Image.CentreOf(face.Next()), z))
-    {
-      seeds.push_back({ z, spacing->second });
-      this->Local.SetBound(face.Voxel, 1, std::max(before, after), BoundFactor * spacing->second);
-    }
-  }
-  this->Local.Grade(this->Of.Sizing.Largest());
-  return seeds;
 }
 
 } // namespace voxplex

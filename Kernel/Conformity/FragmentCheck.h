@@ -10,16 +10,13 @@
 #include "Conformity/ComponentStatistics.h"
 #include "Conformity/ConformityOptions.h"
 #include "Conformity/ElementFragments.h"
-#include "Conformity/Remedy.h"
-#include "Domain/Domain.h"
+#include "Conformity/LocalSampling.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
 #include "Image/FacesNear.h"
 #include "Image/LabelImage.h"
-#include "Sizing/SizingField.h"
 
 #include <cstdint>
-#include <map>
 #include <stop_token>
 #include <vector>
 
@@ -57,8 +54,6 @@ public:
   {
     const LabelImage<3>& Image;
     const BitMask<3>& Sites; ///< surface voxels of the image
-    const Domain<3>& Surfaces;
-    const SizingField<3>& Sizing;
     const Components<3>& All;
   };
 
@@ -67,14 +62,18 @@ public:
    * Unless they are to be exact, they are listed only, if the largest fragment has less than 90 % of
    * the volume
    * @param mayRefine false: components in fragments are listed only
-   * @param local receives the spacing of the points, and bounds; must outlive the check
+   * @param sampling where to sample more finely; must outlive the check
    * @param statistics lists components in fragments, and counts rounds and points; must outlive the
    * check
    */
   FragmentCheck(const Subject& subject, const ComponentOptions& options, bool mayRefine,
-    LocalDelta<3>& local, ComponentStatistics& statistics, const std::stop_token& stop);
+    LocalSampling<3>& sampling, ComponentStatistics& statistics, const std::stop_token& stop);
 
-  Remedy<3> Inspect(const LabelledTriangulation<3>& elements);
+  /** Whether an inspection may ask for more points. Otherwise it lists components in fragments. */
+  bool MayRefine() const { return this->RoundsLeft > 0; }
+
+  /** @return whether finer sampling was requested */
+  bool Inspect(const LabelledTriangulation<3>& elements);
 
 private:
   using Index = GridGeometry<3>::Index;
@@ -97,18 +96,14 @@ private:
   /** The faces of broken components in these balls. */
   std::vector<VoxelFace<3>> FacesNear(
     const std::vector<SearchBall<3>>& gaps, const std::vector<Pieces>& pieces) const;
-  /** Points on these faces, and bounds there. Each cell is sampled once in a call. */
-  std::vector<FeatureSeed<3>> Sample(const std::vector<VoxelFace<3>>& faces);
 
   const Subject Of;
   const std::vector<bool> Wanted; ///< by component
   const bool Exact;
   unsigned RoundsLeft;
-  LocalDelta<3>& Local;
+  LocalSampling<3>& Sampling;
   ComponentStatistics& Statistics;
   const std::stop_token Stop;
-  const double FinestSpacing;
-  std::map<Index, double> Spacings; ///< of the last points, by cell of LocalDelta; 0: no more
 };
 
 } // namespace voxplex

@@ -4,73 +4,70 @@
 
 #include "Mesh/LabelledTriangulation.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace voxplex
 {
 
 template <int D>
-InterfaceCheck<D>::InterfaceCheck(const Subject& subject, unsigned rounds, LocalDelta<D>& local,
-  InterfaceStatistics& statistics, const std::stop_token& stop)
-  : Of(subject)
+InterfaceCheck<D>::InterfaceCheck(const Subject& subject, unsigned rounds,
+  LocalSampling<D>& sampling, InterfaceStatistics& statistics, const std::stop_token& stop)
+  : Mesh(subject.Mesh)
   , Rounds(rounds)
   , Statistics(statistics)
-  , Vertices(subject.Mesh, subject.Surfaces, subject.Threads, stop)
+  , Distances(subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, subject.Threads, stop)
+  , Sampling(sampling)
 {
-  if constexpr (D == 3)
-  {
-    if (subject.Sizing.Base().Graded)
-    {
-      this->Graded.emplace(subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local,
-        subject.Threads, stop);
-      return;
-    }
-  }
-  this->Uniform.emplace(
-    subject.Image, subject.Sites, subject.Surfaces, subject.Sizing, local, subject.Threads, stop);
 }
 
 template <int D>
-Remedy<D> InterfaceCheck<D>::InspectVertices()
+bool InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
 {
-  return this->Uniform && this->MayGoOn()
-    ? this->Counted(this->Uniform->InspectVertices(this->Vertices.Update()))
-    : Remedy<D>();
-}
-
-template <int D>
-Remedy<D> InterfaceCheck<D>::InspectLabels(const ManifoldLabels<D>& made)
-{
+  this->HasSeenAll = false;
   if (!this->MayGoOn())
   {
-    return {};
+    return false;
   }
-  if constexpr (D == 3)
+  if (std::exchange(this->IsFirst, false))
   {
-    return this->Counted(this->Graded
-        ? this->Graded->Inspect(LabelledTriangulation<3>(this->Of.Mesh, made.Labels), made.Places)
-        : this->Uniform->InspectLabels(made.Gone, made.Places));
+    return this->InspectAll(made);
   }
-  else
-  {
-    return this->Counted(this->Uniform->InspectLabels(made.Gone, {}));
-  }
+  const std::vector<VoxelFace<D>> far = this->Distances.FindFar(
+    LabelledTriangulation<D>(this->Mesh, made.Labels), this->Sampling.Sampled());
+  return !far.empty() && this->Sample(far, made);
 }
 
 template <int D>
-void InterfaceCheck<D>::Finish()
+bool InterfaceCheck<D>::InspectRidges(const ManifoldLabels<D>& made)
 {
-  this->Vertices.Forget();
-  this->Uniform.reset();
+  return D == 3 && this->MayGoOn() &&
+    std::any_of(made.Places.begin(), made.Places.end(),
+      [](const NonManifoldPlace<D>& place) { return !place.IsJunction; }) &&
+    this->Sample({}, made);
 }
 
-/** Makes a remedy of these points. If there are any, counts a round. */
 template <int D>
-Remedy<D> InterfaceCheck<D>::Counted(std::vector<FeatureSeed<D>> points)
+bool InterfaceCheck<D>::InspectAll(const ManifoldLabels<D>& made)
 {
-  this->Statistics.Rounds += points.empty() ? 0 : 1;
-  this->Statistics.Seeds += points.size();
-  return { !points.empty(), std::move(points) };
+  if (!this->MayGoOn() || std::exchange(this->HasSeenAll, true))
+  {
+    return false;
+  }
+  const std::vector<VoxelFace<D>> far =
+    this->Distances.FindFar(LabelledTriangulation<D>(this->Mesh, made.Labels));
+  return !far.empty() && this->Sample(far, made);
+}
+
+/** Has these faces and the edges sampled. If there are any points, counts a round. */
+template <int D>
+bool InterfaceCheck<D>::Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made)
+{
+  const std::size_t points =
+    this->Sampling.SampleInterfaces(far, D == 3 ? made.Places : std::vector<NonManifoldPlace<D>>());
+  this->Statistics.Rounds += points == 0 ? 0 : 1;
+  this->Statistics.Seeds += points;
+  return points > 0;
 }
 
 template class InterfaceCheck<3>;

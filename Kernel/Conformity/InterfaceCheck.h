@@ -8,15 +8,12 @@
 #define voxplex_InterfaceCheck_h
 
 #include "Conformity/ConformityOptions.h"
-#include "Conformity/GradedInterfaceCheck.h"
+#include "Conformity/DistanceCheck.h"
 #include "Conformity/InterfaceStatistics.h"
-#include "Conformity/InterfaceVertices.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Conformity/Remedy.h"
-#include "Conformity/UniformInterfaceCheck.h"
 #include "Delaunay/Triangulation.h"
 
-#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -26,13 +23,16 @@ namespace voxplex
 /**
  * @brief Decides where refinement has to be resumed to correct interfaces.
  *
- * Distances are measured to the vertices of interfaces (UniformInterfaceCheck), first without
- * labels, then where labels have changed interfaces. So no label is made before all faces of voxels
- * have a vertex near them. If sampling distances are graded, distances are measured to facets
- * (GradedInterfaceCheck), which have to have labels; 3D only.
+ * It looks for
+ * - faces between voxels of different labels that are far from the interfaces of the mesh
+ *   (DistanceCheck);
+ * - edges that are not manifold with the labels, in 3D. CGAL's Mesh_3 refines facets around such edges
+ *   for the same purpose. Triangles (4D) are not sampled: on noise the mesh would become many times as
+ *   large.
  *
- * Edges that are not manifold with the labels are sampled, too. Triangles (4D) are not: on noise the
- * mesh would become many times as large.
+ * LocalSampling samples around them. All faces are looked at in the first inspection, and
+ * when nothing else is wrong. In between only those are that were sampled before: a face seldom becomes
+ * far where refinement was not asked for.
  *
  * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
  */
@@ -53,40 +53,38 @@ public:
 
   /**
    * All references must outlive the check.
-   * @param rounds the number of remedies after which nothing more is requested
-   * @param local receives the spacing of the points to be inserted, and bounds
+   * @param rounds the number of rounds after which nothing more is requested
+   * @param sampling where to sample more finely
    * @param statistics counts rounds and points
    */
-  InterfaceCheck(const Subject& subject, unsigned rounds, LocalDelta<D>& local,
+  InterfaceCheck(const Subject& subject, unsigned rounds, LocalSampling<D>& sampling,
     InterfaceStatistics& statistics, const std::stop_token& stop);
 
   /**
-   * Requests points near faces of voxels that have no vertex of interfaces near them; nothing if
-   * sampling distances are graded.
+   * Begins an inspection. Requests finer sampling near far faces, of those that were sampled before; the
+   * first time, of all. If there are any, also at edges that are not manifold.
+   * @return whether anything was requested; the same holds below
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  Remedy<D> InspectVertices();
+  bool InspectSampled(const ManifoldLabels<D>& made);
 
-  /**
-   * To be called after InspectVertices() has requested nothing. Requests points where the labels
-   * have taken vertices from the interfaces, and at edges that are not manifold.
-   * @throws as InspectVertices()
-   */
-  Remedy<D> InspectLabels(const ManifoldLabels<D>& made);
+  /** Requests finer sampling at edges that are not manifold, unless all of them are at junctions. */
+  bool InspectRidges(const ManifoldLabels<D>& made);
 
-  /** Frees all memory that only further inspections need. */
-  void Finish();
+  /** Requests finer sampling near far faces, unless this inspection has looked at all faces. */
+  bool InspectAll(const ManifoldLabels<D>& made);
 
 private:
   bool MayGoOn() const { return this->Statistics.Rounds < this->Rounds; }
-  Remedy<D> Counted(std::vector<FeatureSeed<D>> points);
+  bool Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made);
 
-  const Subject Of;
+  const Triangulation<D>& Mesh;
   const unsigned Rounds;
   InterfaceStatistics& Statistics;
-  InterfaceVertices<D> Vertices;
-  std::optional<UniformInterfaceCheck<D>> Uniform; ///< one of both
-  std::optional<GradedInterfaceCheck> Graded;
+  const DistanceCheck<D> Distances;
+  LocalSampling<D>& Sampling;
+  bool IsFirst = true;
+  bool HasSeenAll = false; ///< in this inspection
 };
 
 extern template class InterfaceCheck<3>;

@@ -2,91 +2,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file InterfaceVertices.h
- * @brief The vertices on the interfaces of a triangulation, without a mesh.
+ * @brief Marks the vertices on the interfaces of a triangulation (VertexRecord::OnInterface).
  */
 #ifndef voxplex_InterfaceVertices_h
 #define voxplex_InterfaceVertices_h
 
-#include "Base/UninitialisedVector.h"
-#include "Conformity/SeenSimplices.h"
 #include "Delaunay/Triangulation.h"
-#include "Domain/Domain.h"
+#include "Image/LabelImage.h"
 
-#include <cstdint>
 #include <span>
 #include <stop_token>
-#include <utility>
 #include <vector>
 
 namespace voxplex
 {
 
 /**
- * @brief The vertices of all facets between simplices of different labels. ExtractMesh() makes the
- * same facets. The set can be updated after further refinement.
+ * Marks the vertices of all facets between simplices of different labels. Facets on the box do not count.
+ * Takes time linear in the numbers of simplices and vertices.
  *
- * Not thread safe; uses threads of its own. No thread may change the triangulation during a call.
+ * No thread may change the triangulation during the call.
+ * @param labels of each simplex id
+ * @param threads 0 means all cores; the result does not depend on it
+ * @throws Cancelled if a stop was requested before the end
  */
 template <int D>
-class InterfaceVertices
-{
-public:
-  /** Positions, each in the order of the vertices' ids. */
-  struct Changes
-  {
-    std::span<const Point<D>> Added; ///< valid until the next call
-    std::vector<Point<D>> Gone;
-  };
+void MarkInterfaceVertices(Triangulation<D>& triangulation, std::span<const LabelId> labels,
+  unsigned threads, const std::stop_token& stop);
 
-  /**
-   * The references must outlive the object.
-   * @param threads 0 means all cores; results do not depend on it
-   */
-  InterfaceVertices(const Triangulation<D>& triangulation, const Domain<D>& image,
-    unsigned threads = 1, const std::stop_token& stop = {});
+/**
+ * Marks the vertices of simplices that are new or have another label than when vertices were marked
+ * last. The rest keep their marks. Takes time linear in the sizes of the vertices' stars.
+ */
+template <int D>
+void MarkInterfaceVerticesOf(Triangulation<D>& triangulation, std::span<const LabelId> labels,
+  const std::vector<SimplexId>& changed, unsigned threads, const std::stop_token& stop);
 
-  /**
-   * Returns the changes since the last call. At the first call, all vertices are added. The
-   * triangulation must be refined then: if SimplexState::NearSurface of a simplex is not set, its
-   * circumball meets no interface.
-   *
-   * The first call takes time linear in the numbers of simplices and vertices. A later call takes
-   * little time for each of these, and time linear in the sizes of the stars of the vertices with
-   * new simplices. If most simplices are new, it takes as long as the first, and some time to
-   * compare positions.
-   * @throws Cancelled if a stop was requested before the end
-   */
-  Changes Update();
-
-  /** Frees all memory. The next Update() is then a first one. */
-  void Forget();
-
-private:
-  void FindAll(bool isRefined);
-  Changes FindAllAgain();
-  Changes FindChanges(const UninitialisedVector<VertexId>& candidates);
-  UninitialisedVector<VertexId> VerticesOfNewSimplices();
-  LabelId LabelOf(SimplexId s) const;
-  /** Which of the known vertices are no longer alive: 1 or 0. */
-  UninitialisedVector<std::uint8_t> AreRemoved() const;
-  /** Drops known vertices. @return their positions */
-  std::vector<Point<D>> Drop(std::span<const std::uint8_t> isGone);
-  /** Which of these vertices are on interfaces: 1 or 0. */
-  UninitialisedVector<std::uint8_t> AreOnInterfaces(std::span<const VertexId> vertices) const;
-  bool IsOnInterface(VertexId v) const;
-
-  const Triangulation<D>& Source;
-  const Domain<D>& Image;
-  const unsigned Threads;
-  const std::stop_token Stop;
-  SeenSimplices<D> Seen;
-  UninitialisedVector<VertexId> Known;     ///< interface vertices at the last call, ascending
-  UninitialisedVector<Point<D>> Positions; ///< of these
-  std::vector<Point<D>> LastAdded;         ///< by a call that was not the first
-};
-
-extern template class InterfaceVertices<3>;
-extern template class InterfaceVertices<4>;
+extern template void MarkInterfaceVertices<3>(
+  Triangulation<3>&, std::span<const LabelId>, unsigned, const std::stop_token&);
+extern template void MarkInterfaceVertices<4>(
+  Triangulation<4>&, std::span<const LabelId>, unsigned, const std::stop_token&);
+extern template void MarkInterfaceVerticesOf<3>(Triangulation<3>&, std::span<const LabelId>,
+  const std::vector<SimplexId>&, unsigned, const std::stop_token&);
+extern template void MarkInterfaceVerticesOf<4>(Triangulation<4>&, std::span<const LabelId>,
+  const std::vector<SimplexId>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

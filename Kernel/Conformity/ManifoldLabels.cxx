@@ -4,8 +4,8 @@
 
 #include "Base/UninitialisedVector.h"
 #include "Conformity/Crumbs.h"
+#include "Conformity/InterfaceVertices.h"
 #include "Conformity/RepairNeighbourhood.h"
-#include "Delaunay/VertexStar.h"
 #include "Parallel/ParallelCollect.h"
 
 #include <cstddef>
@@ -20,42 +20,6 @@ namespace
 {
 
 constexpr std::size_t Grain = 8192;
-
-/** Vertices of these simplices that are inside of a label. */
-template <int D>
-std::vector<Point<D>> VerticesWithin(const Triangulation<D>& triangulation,
-  const SimplexLabels& labels, const std::vector<SimplexId>& simplices, unsigned threads,
-  const std::stop_token& stop)
-{
-  const std::vector<VertexId> vertices = VerticesOf(triangulation, simplices);
-  const auto isWithin = [&](VertexId v)
-  {
-    const SimplexId incident = triangulation.GetVertex(v).Incident;
-    return !AnyInStar(triangulation, v, incident,
-      [&, label = labels[incident]](SimplexId s) { return labels[s] != label; });
-  };
-  constexpr std::size_t VerticesAtOnce = 256;
-  UninitialisedVector<std::uint8_t> areWithin(vertices.size());
-  ParallelFor(
-    0, vertices.size(), VerticesAtOnce, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t k = first; k < last; ++k)
-      {
-        areWithin[k] = isWithin(vertices[k]) ? 1 : 0;
-      }
-    },
-    stop);
-  std::vector<Point<D>> within;
-  for (std::size_t k = 0; k < vertices.size(); ++k)
-  {
-    if (areWithin[k] != 0)
-    {
-      within.push_back(triangulation.Position(vertices[k]));
-    }
-  }
-  return within;
-}
 
 template <int D>
 Point<D> CentroidOf(const Triangulation<D>& triangulation,
@@ -122,9 +86,15 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
   {
     made.Places.push_back({ CentroidOf(this->Source, ridge.Vertices), ridge.IsJunction });
   }
-  made.Gone = VerticesWithin(
-    this->Source, made.Labels, this->FindRelabelled(made.Labels), this->Threads, this->Stop);
-  this->KeepLabels(made.Labels, made.NonManifold);
+  changed = this->KeepLabels(made.Labels, made.NonManifold);
+  if (changed.size() <= this->Source.SimplexIdEnd() / Share)
+  {
+    MarkInterfaceVerticesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop);
+  }
+  else
+  {
+    MarkInterfaceVertices<D>(this->Source, made.Labels, this->Threads, this->Stop);
+  }
   return made;
 }
 
@@ -161,41 +131,23 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
     this->Stop);
 }
 
-/** The simplices that have another label than that at their circumcentre. */
+/** Returns the simplices that are new, were examined again or have another label than before. */
 template <int D>
-auto ManifoldLabeller<D>::FindRelabelled(const SimplexLabels& labels) const -> Simplices
+auto ManifoldLabeller<D>::KeepLabels(
+  const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left) -> Simplices
 {
-  return ParallelCollect<SimplexId>(
+  Simplices changed = ParallelCollect<SimplexId>(
     labels.size(), Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& found)
+    [&](std::size_t first, std::size_t last, Simplices& some)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (this->Source.IsAlive(s) &&
-          labels[s] != LabelAtCentre(this->Source, *this->Options.Surfaces, s))
+        SimplexState& state = this->Source.State(s);
+        if (this->Source.IsAlive(s) && !(state.Examined && state.Given == labels[s]))
         {
-          found.push_back(s);
-        }
-      }
-    },
-    this->Stop);
-}
-
-template <int D>
-void ManifoldLabeller<D>::KeepLabels(
-  const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left)
-{
-  ParallelFor(
-    0, labels.size(), Grain, this->Threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-      {
-        if (this->Source.IsAlive(s))
-        {
-          SimplexState& state = this->Source.State(s);
           state.Given = labels[s];
           state.Examined = true;
+          some.push_back(s);
         }
       }
     },
@@ -208,6 +160,7 @@ void ManifoldLabeller<D>::KeepLabels(
       this->Source.State(s).Examined = false;
     }
   }
+  return changed;
 }
 
 template class ManifoldLabeller<3>;

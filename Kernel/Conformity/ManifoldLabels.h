@@ -8,8 +8,8 @@
 #ifndef voxplex_ManifoldLabels_h
 #define voxplex_ManifoldLabels_h
 
-#include "Conformity/InterfaceSampling.h"
 #include "Conformity/InterfaceStatistics.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldRepair.h"
 #include "Mesh/SimplexLabels.h"
 
@@ -26,7 +26,6 @@ struct ManifoldLabels
   SimplexLabels Labels;                       ///< of each simplex id
   std::vector<InterfaceRidge<D>> NonManifold; ///< ridges that are not manifold with these labels
   std::vector<NonManifoldPlace<D>> Places;    ///< of these ridges
-  std::vector<Point<D>> Gone; ///< vertices that relabelling has left inside of a label
 };
 
 /**
@@ -37,7 +36,7 @@ struct ManifoldLabels
  *
  * A simplex keeps the label that it was given as long as it lives (SimplexState::Given). After further
  * refinement, defects are looked for at the simplices that are not Examined: those that are new,
- * and those around defects that nothing has mended.
+ * and those around defects that nothing has mended. Vertices on interfaces are marked in the same way.
  *
  * Not thread safe; uses threads of its own.
  */
@@ -69,8 +68,7 @@ private:
   using Simplices = std::vector<SimplexId>;
 
   Simplices TakeLabels(SimplexLabels& labels) const;
-  Simplices FindRelabelled(const SimplexLabels& labels) const;
-  void KeepLabels(const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left);
+  Simplices KeepLabels(const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left);
 
   Triangulation<D>& Source;
   const ManifoldRepairOptions<D> Options;

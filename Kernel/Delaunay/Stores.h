@@ -60,6 +60,7 @@ struct VertexRecord
   WorkerId Owner;      ///< the worker that may change the star; 0 if none; accessed atomically
   VertexKind Kind;
   bool Alive;
+  bool OnInterface; ///< by the labels of the last inspection; see MarkInterfaceVertices()
 };
 
 /** In 3D a record is one cache line. A step of the cavity search reads one record. */

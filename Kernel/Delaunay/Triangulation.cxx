@@ -25,7 +25,7 @@ constexpr std::uint32_t VertexBlock = 64;
 template <int D>
 Triangulation<D>::Triangulation(const Box<D>& box)
   : Domain(box)
-  , Vertices(Vertex{ {}, None, 0, 0, VertexKind::Box, false })
+  , Vertices(Vertex{ {}, None, 0, 0, VertexKind::Box, false, false })
   , Marks(SimplexMark::Unused)
   , States(SimplexState{ 0, 0, false, false, false, 0 })
 {

@@ -329,6 +329,12 @@ public:
   const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }
   const Point<D>& Position(VertexId v) const { return this->Vertices[v].Position; }
 
+  /** Several threads may call this at once, those for the same vertex with the same answer. */
+  void SetOnInterface(VertexId v, bool isOn)
+  {
+    // Relaxed: nobody reads it before the threads are joined.
+    std::atomic_ref<bool>(this->Vertices[v].OnInterface).store(isOn, std::memory_order_relaxed);
+  }
   SimplexState& State(SimplexId s) { return this->States[s]; }
   const SimplexState& State(SimplexId s) const { return this->States[s]; }
   bool IsAlive(SimplexId s) const { return this->Marks[s] != SimplexMark::Unused; }

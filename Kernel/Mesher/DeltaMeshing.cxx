@@ -124,7 +124,6 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
     { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
       estimate.InterfaceVertices });
   Inspection<D> inspection(run, *stage, sizing.LocalBounds());
-  stage->FollowLocalBounds();
   std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());
   const std::vector<FeatureSeed<D>> more = inspection.TakeSeeds();
   seeds.insert(seeds.end(), more.begin(), more.end());
@@ -133,16 +132,12 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
        start = RefinementStart::AtSeeds)
   {
     progress.EndRefinement();
-    sizing.LocalBounds().ForgetLowered(); // refinement has applied the lowered bounds
-    Remedy<D> remedy = inspection.Inspect();
-    if (!remedy.IsNeeded)
+    if (!inspection.Inspect())
     {
-      inspection.Finish();
       Extract(run, *stage, inspection.Labels(), mesh);
       return !run.Stop.stop_requested();
     }
-    seeds = std::move(remedy.Points);
-    stage->FollowLocalBounds();
+    seeds = inspection.TakeSeeds();
   }
   return false;
 }

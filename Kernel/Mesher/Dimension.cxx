@@ -3,7 +3,7 @@
 #include "Mesher/Dimension.h"
 
 #include "Base/Stopwatch.h"
-#include "Conformity/GradedInterfaceCheck.h"
+#include "Conformity/DistanceCheck.h"
 #include "Junctions/JunctionSeeds.h"
 #include "Mesher/SlabRefinement.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
@@ -100,7 +100,7 @@ OwnedBaseDistance<3> Dimension<3>::GradeBase(const RunEnvironment<3>& run, doubl
   }
   GradingParameters parameters = ParametersOf(run, delta);
   parameters.Tolerance =
-    GradingTolerance * GradedInterfaceCheck::LargestDistance(run.Prepared.Image.Grid(), delta);
+    GradingTolerance * DistanceCheck<3>::LargestDistanceToFacets(run.Prepared.Image.Grid(), delta);
   return Grade(run, parameters);
 }
 

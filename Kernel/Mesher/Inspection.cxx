@@ -3,6 +3,7 @@
 #include "Mesher/Inspection.h"
 
 #include "Base/Stopwatch.h"
+#include "Conformity/InterfaceVertices.h"
 #include "Geometry/ShapeBounds.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Mesher/Dimension.h"
@@ -55,9 +56,11 @@ Inspection<D>::Inspection(
   const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local)
   : Run(run)
   , Source(stage.Mesh())
+  , Sampling(run.Prepared.Image, run.Prepared.OfDomain(), *run.Prepared.Sites,
+      *run.Prepared.Surfaces, stage.Sizing(), local, run.Stop)
   , Interfaces({ stage.Mesh(), run.Prepared.OfDomain(), *run.Prepared.Sites, *run.Prepared.Surfaces,
                  stage.Sizing(), run.Options.Team.Threads },
-      Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, local,
+      Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, this->Sampling,
       run.Statistics.Interfaces, run.Stop)
   , Labeller(stage.Mesh(), RepairOptionsOf(run, stage), run.Options.Team.Threads, run.Stop)
 {
@@ -69,8 +72,8 @@ Inspection<D>::Inspection(
   {
     if (all)
     {
-      check.emplace(prepared.Image, *prepared.Surfaces, *all, stage.Sizing(), options.Smallest,
-        options.Exact, Dimension<D>::MayRefine(run), local, statistics, run.Options.Team.Threads,
+      check.emplace(prepared.Image, *all, stage.Sizing(), options.Smallest, options.Exact,
+        Dimension<D>::MayRefine(run), this->Sampling, statistics, run.Options.Team.Threads,
         run.Stop);
     }
   };
@@ -80,91 +83,81 @@ Inspection<D>::Inspection(
   {
     if (prepared.AllComponents)
     {
-      this->Fragments.emplace(FragmentCheck::Subject{ prepared.Image, *prepared.Sites,
-                                *prepared.Surfaces, stage.Sizing(), *prepared.AllComponents },
-        options, run.Options.Interfaces.Rounds > 0, local, run.Statistics.Components, run.Stop);
+      this->Fragments.emplace(
+        FragmentCheck::Subject{ prepared.Image, *prepared.Sites, *prepared.AllComponents }, options,
+        run.Options.Interfaces.Rounds > 0, this->Sampling, run.Statistics.Components, run.Stop);
     }
   }
   run.Statistics.Times.Components += time.Seconds();
 }
 
-template <int D>
-std::vector<FeatureSeed<D>> Inspection<D>::TakeSeeds()
-{
-  std::vector<FeatureSeed<D>> seeds;
-  for (std::optional<ComponentCheck<D>>* const check : { &this->Components, &this->OfFrames })
-  {
-    if (*check)
-    {
-      const std::vector<FeatureSeed<D>> more = (*check)->TakeSeeds();
-      seeds.insert(seeds.end(), more.begin(), more.end());
-    }
-  }
-  return seeds;
-}
-
-template <int D>
-void Inspection<D>::Finish()
-{
-  this->Interfaces.Finish();
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
-Remedy<D> Inspection<D>::Inspect()
+bool Inspection<D>::Inspect()
 {
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
-    Remedy<D> remedy = this->Interfaces.InspectVertices();
-    if (!remedy.IsNeeded)
-    {
-      this->MakeLabels();
-    }
+    this->MakeLabels();
+    const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
     times.Interfaces += time.Seconds();
-    if (remedy.IsNeeded)
+    if (isNeeded)
     {
-      return remedy;
+      return true;
     }
   }
-  Remedy<D> all;
+  bool isNeeded = false;
   const LabelledTriangulation<D> elements(this->Source, this->Made.Labels);
   if (this->Components)
   {
-    this->Take(
-      all, LostComponents, times.Components, [&] { return this->Components->Inspect(elements); });
+    this->Look(isNeeded, LostComponents, times.Components,
+      [&] { return this->Components->Inspect(elements); });
   }
   if (this->OfFrames)
   {
-    this->Take(
-      all, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
+    this->Look(
+      isNeeded, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
   }
-  this->Take(all, ChangedInterfaces, times.Interfaces,
-    [&] { return this->Interfaces.InspectLabels(this->Made); });
-  if constexpr (D == 3)
+  this->Look(isNeeded, BadRidges, times.Interfaces,
+    [&] { return this->Interfaces.InspectRidges(this->Made); });
+  const auto inspectFragments = [&](bool mayRefine)
   {
-    if (this->Fragments)
+    if constexpr (D == 3)
     {
-      this->Take(
-        all, LooseFragments, times.Components, [&] { return this->Fragments->Inspect(elements); });
+      if (this->Fragments && this->Fragments->MayRefine() == mayRefine)
+      {
+        this->Look(isNeeded, LooseFragments, times.Components,
+          [&] { return this->Fragments->Inspect(elements); });
+      }
     }
+  };
+  inspectFragments(true);
+  if (!isNeeded)
+  {
+    const Stopwatch time;
+    isNeeded = this->Interfaces.InspectAll(this->Made);
+    times.Interfaces += time.Seconds();
   }
-  return all;
+  if (!isNeeded)
+  {
+    inspectFragments(false);
+  }
+  return isNeeded;
 }
 
-/** Adds what a finder needs. */
+/** Lets a finder look. */
 template <int D>
 template <typename Find>
-void Inspection<D>::Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find)
+void Inspection<D>::Look(bool& isNeeded, Finder finder, double& seconds, const Find& find)
 {
-  if (all.IsNeeded && this->NeededNothing[finder])
+  if (isNeeded && this->NeededNothing[finder])
   {
     return;
   }
   const Stopwatch time;
-  const Remedy<D> remedy = find();
-  this->NeededNothing[finder] = !remedy.IsNeeded;
-  all += remedy;
+  const bool needs = find();
+  this->NeededNothing[finder] = !needs;
+  isNeeded |= needs;
   seconds += time.Seconds();
 }
 
@@ -179,6 +172,8 @@ void Inspection<D>::MakeLabels()
   else
   {
     this->Made.Labels = this->Labeller.MakePlain();
+    MarkInterfaceVertices<D>(
+      this->Source, this->Made.Labels, this->Run.Options.Team.Threads, this->Run.Stop);
   }
 }
 

@@ -10,10 +10,9 @@
 #include "Conformity/ComponentCheck.h"
 #include "Conformity/FragmentCheck.h"
 #include "Conformity/InterfaceCheck.h"
+#include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Conformity/Remedy.h"
 #include "Mesher/RefinementStage.h"
-#include "Sizing/LocalDelta.h"
 
 #include <array>
 #include <cstddef>
@@ -36,16 +35,19 @@ std::function<bool(SimplexId)> KeepsItsLabel(
 /**
  * @brief Inspects the refined triangulation.
  *
- * What refinement has to go on for is found in this order:
- * 1. faces of voxels that are far from all vertices of interfaces (InterfaceCheck). If there are any,
- *    inspection ends here. Otherwise the simplices get their labels (ManifoldLabeller);
+ * The simplices get their labels (ManifoldLabeller). What refinement has to go on for is found in this
+ * order:
+ * 1. faces of voxels that are far from the interfaces of the mesh (InterfaceCheck), of those that were
+ *    sampled; the first time, of all. If there are any, inspection ends here;
  * 2. components, in 4D also those of frames, that have no simplex (ComponentCheck);
- * 3. interfaces that labels have changed (InterfaceCheck);
- * 4. components whose simplices do not hold together (FragmentCheck; 3D).
+ * 3. edges that are not manifold (InterfaceCheck; 3D);
+ * 4. components whose simplices do not hold together (FragmentCheck; 3D);
+ * 5. if nothing was found, far faces among all.
+ * If nothing was found again, and components in fragments are to be listed only, they are.
  *
- * Steps 2 to 4 look at the same labels, and refinement goes on for all of them together. One that
- * needed nothing the last time is left out if another needs something already. Each gives up after a
- * limited number of remedies, so the run ends.
+ * Refinement goes on for what steps 2 to 4 find together. One that needed nothing the last time is
+ * left out if another needs something already. Each gives up after a limited number of rounds, so the
+ * run ends.
  *
  * Components may lower local bounds already in the constructor. Not thread safe.
  */
@@ -56,20 +58,18 @@ public:
   /** All references must outlive this object. */
   Inspection(const RunEnvironment<D>& run, RefinementStage<D>& stage, LocalDelta<D>& local);
 
-  /** Points for thin components, to be inserted before refinement. */
-  std::vector<FeatureSeed<D>> TakeSeeds();
+  /** Points to be inserted before refinement: at first for thin components, then for what is missing. */
+  std::vector<FeatureSeed<D>> TakeSeeds() { return this->Sampling.TakeSeeds(); }
 
   /**
    * To be called after each refinement.
+   * @return whether refinement has to go on
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  Remedy<D> Inspect();
+  bool Inspect();
 
-  /** Valid if the last Inspect() needed no remedy. */
+  /** Valid if the last Inspect() was false. */
   const ManifoldLabels<D>& Labels() const { return this->Made; }
-
-  /** Frees what only further inspections need. Labels() stay. */
-  void Finish();
 
 private:
   /** The finders of steps 2 to 4. */
@@ -77,17 +77,18 @@ private:
   {
     LostComponents,
     LostInFrames,
-    ChangedInterfaces,
+    BadRidges,
     LooseFragments,
     NumberOfFinders
   };
 
   void MakeLabels();
   template <typename Find>
-  void Take(Remedy<D>& all, Finder finder, double& seconds, const Find& find);
+  void Look(bool& isNeeded, Finder finder, double& seconds, const Find& find);
 
   const RunEnvironment<D> Run;
-  const Triangulation<D>& Source;
+  Triangulation<D>& Source;
+  LocalSampling<D> Sampling;
   InterfaceCheck<D> Interfaces;
   ManifoldLabeller<D> Labeller;
   std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked

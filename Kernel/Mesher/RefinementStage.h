@@ -65,8 +65,6 @@ public:
   /** The same, for states of simplices. Only the stage itself changes points and simplices. */
   virtual Triangulation<D>& Mesh() = 0;
   virtual const SizingField<D>& Sizing() const = 0;
-  /** Call this after bounds were added to the local ones. */
-  virtual void FollowLocalBounds() = 0;
   /**
    * Call this if there is no more refinement. It frees what only that needs. Afterwards only the
    * points and the simplices of the mesh can be read. It may do nothing.
@@ -112,7 +110,6 @@ public:
   const Triangulation<D>& Mesh() const override { return this->Context.Mesh; }
   Triangulation<D>& Mesh() override { return this->Context.Mesh; }
   const SizingField<D>& Sizing() const override { return this->Context.Sizing; }
-  void FollowLocalBounds() override { this->Context.Sizing.FollowLocalBounds(); }
   void Finish() override
   {
     this->Context.Mesh.Freeze();

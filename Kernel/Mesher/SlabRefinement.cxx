@@ -96,15 +96,6 @@ std::unique_ptr<SlabRefinement::Slab> SlabRefinement::MakeSlab(double first, dou
     this->Plan.InterfaceVertices / this->Run.Prepared.Planes.NumberOfSlabs() + 1);
 }
 
-void SlabRefinement::FollowLocalBounds()
-{
-  this->WholeSizing.FollowLocalBounds();
-  for (const auto& slab : this->Slabs)
-  {
-    slab->Context.Sizing.FollowLocalBounds();
-  }
-}
-
 //------------------------------------------------------------------------------------------------
 bool SlabRefinement::Refine(
   const std::vector<FeatureSeed<4>>& seeds, RefinementStart start, RunProgress& progress)

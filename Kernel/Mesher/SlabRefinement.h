@@ -55,7 +55,6 @@ public:
   const Triangulation<4>& Mesh() const override { return this->Whole; }
   Triangulation<4>& Mesh() override { return this->Whole; }
   const SizingField<4>& Sizing() const override { return this->WholeSizing; }
-  void FollowLocalBounds() override;
   std::span<const std::array<VertexId, 2>> Twins() const override { return this->Pairs; }
 
 private:

@@ -51,8 +51,8 @@ struct SizingSources
  *   points of the first.
  * - The *element size* is an upper bound of circumradii.
  *
- * A query takes one or a few look-ups. Queries are safe in any number of threads, but not beside
- * FollowLocalBounds().
+ * A query takes one or a few look-ups. Queries are safe in any number of threads, but not while local
+ * bounds are set.
  */
 template <int D>
 class SizingField
@@ -64,23 +64,11 @@ public:
     , Of(sources)
     , SmallestSize(
         sources.SizeFloor > 0.0 ? sources.SizeFloor : SpacingFloorFraction * sources.Base.Finest())
+    , SmallestSpacing(std::min(SmallestSize,
+        SpacingFloorFraction *
+          std::min(sources.Base.Finest(),
+            sources.Interfaces ? sources.Interfaces->Smallest() : sources.Base.Finest())))
   {
-    this->FollowLocalBounds();
-  }
-
-  /** Call this after bounds were added to the local ones. */
-  void FollowLocalBounds()
-  {
-    double smallest = this->Of.Base.Finest();
-    if (this->Of.Interfaces)
-    {
-      smallest = std::min(smallest, this->Of.Interfaces->Smallest());
-    }
-    if (this->Of.Local)
-    {
-      smallest = std::min(smallest, this->Of.Local->Smallest());
-    }
-    this->SmallestSpacing = std::min(this->SmallestSize, SpacingFloorFraction * smallest);
   }
 
   const SizingSources<D>& Sources() const { return this->Of; }
@@ -89,7 +77,12 @@ public:
   double SizeFloor() const { return this->SmallestSize; }
 
   /** No point is ever inserted closer to a vertex. */
-  double SpacingFloor() const { return this->SmallestSpacing; }
+  double SpacingFloor() const
+  {
+    return this->Of.Local
+      ? std::min(this->SmallestSpacing, SpacingFloorFraction * this->Of.Local->Smallest())
+      : this->SmallestSpacing;
+  }
 
   ///@{
   /** Delta, uniform or graded, without interface sizes, local bounds and sizes of elements. */
@@ -140,7 +133,7 @@ public:
   double SamplingDistanceBehind(const Point<D>& p, LabelId label, const Point<D>& z) const
   {
     const Point<D> behind =
-      Interpolate(p, z, 1.0 + this->SmallestSpacing / std::max(Distance(p, z), 1e-300));
+      Interpolate(p, z, 1.0 + this->SpacingFloor() / std::max(Distance(p, z), 1e-300));
     return this->SamplingDistance(z, label, this->Image.Label(behind));
   }
 
@@ -212,7 +205,7 @@ private:
   const Domain<D>& Image;
   const SizingSources<D> Of;
   const double SmallestSize;
-  double SmallestSpacing = 0.0;
+  const double SmallestSpacing; ///< before local bounds
 };
 
 } // namespace voxplex

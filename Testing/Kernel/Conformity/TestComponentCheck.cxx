@@ -527,8 +527,9 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
     const Components<3> components(image);
     const SizingField<3> sizing(domain, { .Base = { 3.0 } });
     LocalDelta<3> local(image);
+    LocalSampling<3> sampling(image, image, domain.GetSites(), domain, sizing, local, {});
     const ComponentCheck<3> check(
-      image, domain, components, sizing, 1, false, true, local, statistics.Components, 1, {});
+      image, components, sizing, 1, false, true, sampling, statistics.Components, 1, {});
     EXPECT_GT(components.All().size(), 100u);
     EXPECT_TRUE(check.FindLost(mesh).empty());
   }
@@ -565,8 +566,10 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   const SizingField<3> sizing(domain, { .Base = { 5.0 } });
   LocalDelta<3> local(islands.Image);
   ComponentStatistics counts;
+  LocalSampling<3> sampling(
+    islands.Image, islands.Image, domain.GetSites(), domain, sizing, local, {});
   ComponentCheck<3> check(
-    islands.Image, domain, components, sizing, 8, false, true, local, counts, 2, {});
+    islands.Image, components, sizing, 8, false, true, sampling, counts, 2, {});
   MeshingOptions<3> options;
   options.Sampling.Delta = 5.0;
   MeshingStatistics statistics;
@@ -623,7 +626,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   int rounds = 0;
   while (check.SampleFiner(lost))
   {
-    const std::vector<FeatureSeed<3>> seeds = check.TakeSeeds();
+    const std::vector<FeatureSeed<3>> seeds = sampling.TakeSeeds();
     EXPECT_EQ(seeds.size(), rounds < 2 ? 6u : 24u) << rounds;
     EXPECT_EQ(counts.Seeds, before += seeds.size());
     EXPECT_LE(local.Smallest(), smallest);

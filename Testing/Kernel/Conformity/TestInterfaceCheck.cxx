@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Refinement goes on for the sake of interfaces where it has to, and nowhere else.
-#include "Conformity/Crumbs.h"
 #include "Conformity/InterfaceCheck.h"
-#include "Conformity/ManifoldRepair.h"
+#include "Conformity/ManifoldLabels.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "RefinementChecks.h"
-#include "RepairTesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +20,7 @@ namespace
 bool HasFarFaces(const LabelImage<3>& image, const SimplexMesh<3>& mesh, double delta)
 {
   const double limit =
-    std::max(UniformInterfaceCheck<3>::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
+    std::max(DistanceCheck<3>::LargestDistance * delta, std::sqrt(3.0)); // voxels of 1 mm
   FeatureGrid<3> vertices({ 0.0, 0.0, 0.0 }, limit, mesh.Points.size());
   for (const auto& facet : mesh.Facets)
   {
@@ -66,43 +64,42 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
     ASSERT_TRUE(Refiner<Rules3D>(context).Run(nullptr));
     const InterfaceOptions options;
     InterfaceStatistics figures;
+    LocalSampling<3> sampling(image, image, domain.GetSites(), domain, context.Sizing, local, {});
     InterfaceCheck<3> check({ context.Mesh, image, domain.GetSites(), domain, context.Sizing, 1 },
-      options.Rounds, local, figures, {});
+      options.Rounds, sampling, figures, {});
     ManifoldRepairOptions<3> repairOptions;
     repairOptions.Surfaces = &domain;
     repairOptions.Sizing = &context.Sizing;
     ManifoldLabeller<3> labeller(context.Mesh, repairOptions, 1, {});
     for (bool hadPinches = false;;)
     {
-      local.ForgetLowered();
-      SimplexLabels labels = LabelSimplices<3>(context.Mesh, domain);
-      const auto extract = [&]
+      const auto extract = [&](const SimplexLabels& labels)
       {
         SimplexMesh<3> mesh;
         ExtractMesh<3>(context.Mesh, domain, labels, mesh);
         return mesh;
       };
-      const bool wasFar = HasFarFaces(image, extract(), delta);
-      RelabelCrumbs(
-        context.Mesh, labels, FindSmallFragments(context.Mesh, labels, 1, {}), {}, 1, {});
-      const Repaired<3> repair = RepairAll<3>(context.Mesh, labels);
-      const bool hasPinches = std::any_of(repair.Left.begin(), repair.Left.end(),
+      const bool wasFar = HasFarFaces(image, extract(labeller.MakePlain()), delta);
+      const ManifoldLabels<3> made = labeller.Make(figures);
+      const bool hasPinches = std::any_of(made.NonManifold.begin(), made.NonManifold.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
-      const bool isFar = HasFarFaces(image, extract(), delta);
-      std::vector<FeatureSeed<3>> seeds = check.InspectVertices().Points;
-      if (seeds.empty())
+      const bool isFar = HasFarFaces(image, extract(made.Labels), delta);
+      bool isNeeded = false;
+      for (const auto inspect : { &InterfaceCheck<3>::InspectSampled,
+             &InterfaceCheck<3>::InspectRidges, &InterfaceCheck<3>::InspectAll })
       {
-        seeds = check.InspectLabels(labeller.Make(figures)).Points;
+        isNeeded = isNeeded || (check.*inspect)(made);
       }
-      EXPECT_EQ(!seeds.empty(), wasFar || hasPinches || isFar);
+      EXPECT_EQ(isNeeded, hasPinches || isFar);
       afterRepair += isFar && !wasFar && !hasPinches ? 1 : 0;
-      afterPinches += hadPinches && seeds.empty() ? 1 : 0;
-      hadPinches = hasPinches && !wasFar;
-      if (seeds.empty() || figures.Rounds == options.Rounds)
+      afterPinches += hadPinches && !isNeeded ? 1 : 0;
+      hadPinches = hasPinches;
+      if (!isNeeded || figures.Rounds == options.Rounds)
       {
         break;
       }
-      context.Sizing.FollowLocalBounds();
+      const std::vector<FeatureSeed<3>> seeds = sampling.TakeSeeds();
+      EXPECT_FALSE(seeds.empty());
       ASSERT_TRUE(Refiner<Rules3D>(context, {}, seeds, RefinementStart::AtSeeds).Run(nullptr));
     }
   }

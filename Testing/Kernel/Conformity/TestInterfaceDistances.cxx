@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the check of interfaces looks at and samples, face by face.
 #include "Base/Error.h"
+#include "Conformity/DistanceCheck.h"
+#include "Conformity/InterfaceCheck.h"
 #include "Conformity/InterfaceVertices.h"
-#include "Conformity/UniformInterfaceCheck.h"
+#include "Conformity/LocalSampling.h"
 #include "Domain/ImageDomain.h"
 #include "Domain/InterfacePoints.h"
 #include "InterfaceChecks.h"
+#include "Mesh/SimplexLabels.h"
 #include "Quality/InterfaceDistance.h"
+#include "RefinementChecks.h"
 #include "Sanitizers.h"
 
 #include <algorithm>
@@ -225,17 +229,21 @@ TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
   const ImageDomain<3> domain(image, 1.0);
   LocalDelta<3> local(image);
   const SizingField<3> sizing(domain, { .Base = { 4.0 } });
-  UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
+  const DistanceCheck<3> check(image, domain.GetSites(), domain, sizing, 1, {});
+  const std::vector<VoxelFace<3>> far = check.FindFar(MeshInterfaces<3>{});
+  EXPECT_GT(far.size(), 100u);
+  LocalSampling<3> sampling(image, image, domain.GetSites(), domain, sizing, local, {});
   double spacing = 0.8 * 4.0;
   int visits = 0;
   for (;;)
   {
-    const std::vector<FeatureSeed<3>> seeds = check.InspectVertices({});
+    const std::size_t number = sampling.SampleInterfaces(far, {});
+    const std::vector<FeatureSeed<3>> seeds = sampling.TakeSeeds();
+    EXPECT_EQ(seeds.size(), number);
     if (seeds.empty())
     {
       break;
     }
-    EXPECT_GT(check.NumberOfFarFaces(), 100u);
     for (const FeatureSeed<3>& seed : seeds)
     {
       EXPECT_DOUBLE_EQ(seed.Delta, spacing);
@@ -248,7 +256,6 @@ TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
     EXPECT_EQ(local.At(seeds.front().Position).Delta,
       visits > 0 ? static_cast<float>(bound) : std::numeric_limits<float>::infinity());
     EXPECT_EQ(local.At(seeds.front().Position).Label, visits > 0 ? 1 : 0);
-    local.ForgetLowered();
     spacing *= 0.5;
     ASSERT_LT(++visits, 10);
   }
@@ -262,19 +269,29 @@ TEST(InterfaceDistances, GoesOnForEdgesOffJunctionsOnly)
   const ImageDomain<3> domain(image, 1.0);
   const double delta = 2.0;
   const std::vector<Point<3>> vertices = InterfaceVerticesOf(Mesh(image, delta, 5));
+  const auto refined = Refined(domain, delta);
   for (const bool atJunction : { false, true })
   {
     LocalDelta<3> local(image);
     const SizingField<3> sizing(domain, { .Base = { delta } });
-    UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
-    EXPECT_TRUE(check.InspectVertices({ vertices, {} }).empty());
-    EXPECT_TRUE(check.InspectLabels({}, {}).empty());
-    EXPECT_EQ(check.InspectLabels({}, { { vertices[0], atJunction } }).empty(), atJunction);
-    EXPECT_EQ(check.NumberOfFarFaces(), 0u);
+    const DistanceCheck<3> check(image, domain.GetSites(), domain, sizing, 1, {});
+    EXPECT_TRUE(check.FindFar(MeshInterfaces<3>{ vertices, {} }).empty());
+    LocalSampling<3> sampling(image, image, domain.GetSites(), domain, sizing, local, {});
+    InterfaceStatistics figures;
+    InterfaceCheck<3> edges(
+      { refined->Mesh, image, domain.GetSites(), domain, sizing, 1 }, 5, sampling, figures, {});
+    EXPECT_FALSE(edges.InspectRidges({}));
+    ManifoldLabels<3> made;
+    made.Places = { { vertices[0], atJunction } };
+    EXPECT_EQ(edges.InspectRidges(made), !atJunction);
+    made.Places = { { vertices[0], false } };
+    sampling.TakeSeeds();
+    EXPECT_TRUE(edges.InspectRidges(made));
     // Along with one that is a reason, those at junctions are sampled, too.
-    const std::size_t one = check.InspectLabels({}, { { vertices[0], false } }).size();
-    EXPECT_GT(
-      check.InspectLabels({}, { { vertices[0], false }, { vertices.back(), true } }).size(), one);
+    const std::size_t one = sampling.TakeSeeds().size();
+    made.Places.push_back({ vertices.back(), true });
+    EXPECT_TRUE(edges.InspectRidges(made));
+    EXPECT_GT(sampling.TakeSeeds().size(), one);
   }
 }
 
@@ -282,13 +299,11 @@ TEST(InterfaceDistances, CanBeCancelled)
 {
   const LabelImage<3> image = BlockWithHair();
   const ImageDomain<3> domain(image, 1.0);
-  LocalDelta<3> local(image);
   std::stop_source stop;
   const SizingField<3> sizing(domain, { .Base = { 4.0 } });
-  UniformInterfaceCheck<3> check(
-    image, domain.GetSites(), domain, sizing, local, 1, stop.get_token());
+  const DistanceCheck<3> check(image, domain.GetSites(), domain, sizing, 1, stop.get_token());
   stop.request_stop();
-  EXPECT_THROW(check.InspectVertices({}), Cancelled);
+  EXPECT_THROW(check.FindFar(MeshInterfaces<3>{}), Cancelled);
 }
 
 // Around an edge it samples all that is near, also where the axes of the image are oblique and voxels long.
@@ -310,7 +325,6 @@ TEST(InterfaceDistances, ReachesAsFarInShearedImages)
     options.Sampling.Delta = delta;
     SimplexMesh<3> mesh;
     ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
-    const std::vector<Point<3>> vertices = InterfaceVerticesOf(mesh);
     for (std::size_t f = 0; f < mesh.Facets.size(); f += 7)
     {
       const Point<3> middle =
@@ -318,14 +332,13 @@ TEST(InterfaceDistances, ReachesAsFarInShearedImages)
       const std::set<Point<3>> expected = CrossingsNear(image, domain, middle, 0.5 * delta);
       LocalDelta<3> local(image);
       const SizingField<3> sizing(domain, { .Base = { delta } });
-      UniformInterfaceCheck<3> check(image, domain.GetSites(), domain, sizing, local, 1, {});
-      check.InspectVertices({ vertices, {} });
+      LocalSampling<3> sampling(image, image, domain.GetSites(), domain, sizing, local, {});
       std::set<Point<3>> found;
-      for (const FeatureSeed<3>& seed : check.InspectLabels({}, { { middle, false } }))
+      sampling.SampleInterfaces({}, { { middle, false } });
+      for (const FeatureSeed<3>& seed : sampling.TakeSeeds())
       {
         found.insert(seed.Position);
       }
-      EXPECT_EQ(check.NumberOfFarFaces(), 0u);
       EXPECT_GT(expected.size(), 10u);
       EXPECT_EQ(found, expected) << f;
     }
@@ -352,7 +365,7 @@ TEST(InterfaceDistances, FindsAllFacesThatAreFarFromVertices)
       });
     const ImageDomain<3> domain(image, 1.0);
     const double delta = 2.5;
-    const double limit = std::max(UniformInterfaceCheck<3>::LargestDistance * delta,
+    const double limit = std::max(DistanceCheck<3>::LargestDistance * delta,
       std::sqrt(grid.Spacing(0) * grid.Spacing(0) + grid.Spacing(1) * grid.Spacing(1) +
         grid.Spacing(2) * grid.Spacing(2)));
     std::vector<Point<3>> centres;
@@ -381,89 +394,62 @@ TEST(InterfaceDistances, FindsAllFacesThatAreFarFromVertices)
       EXPECT_LT(static_cast<std::size_t>(expected), centres.size());
       for (const unsigned threads : { 1u, 3u })
       {
-        LocalDelta<3> local(image);
         const SizingField<3> sizing(domain, { .Base = { delta } });
-        UniformInterfaceCheck<3> check(
-          image, domain.GetSites(), domain, sizing, local, threads, {});
-        check.InspectVertices({ vertices, {} });
-        EXPECT_EQ(check.NumberOfFarFaces(), static_cast<std::size_t>(expected)) << step;
+        const DistanceCheck<3> check(image, domain.GetSites(), domain, sizing, threads, {});
+        EXPECT_EQ(check.FindFar(MeshInterfaces<3>{ vertices, {} }).size(),
+          static_cast<std::size_t>(expected))
+          << step;
       }
     }
   }
 }
 
-// Later inspections look only around vertices that have gone, and find the same as one that looks at all.
-TEST(InterfaceDistances, LooksAgainWhereVerticesHaveGone)
+// Among some faces it finds those that it finds among all. In a mesh it takes the marked vertices, graded ones their facets.
+TEST(InterfaceDistances, FindsTheSameAmongSomeFaces)
 {
   const LabelImage<3> image = phantoms::TouchingLabels(30);
   const ImageDomain<3> domain(image, 1.0);
-  const BaseDistance<3> base{ 3.0 };
-  InterfaceSize size;
-  size.Label = image.Values()[1];
-  size.Size = 5.0;
-  const InterfaceSizes<3> sizes(image, { size }, base, 0.3, 1);
-  const std::set<Point<3>> all =
-    CrossingsNear(image, domain, { 0.0, 0.0, 0.0 }, std::numeric_limits<double>::infinity());
-  ASSERT_GT(all.size(), 1000u);
-  for (const bool withSizes : { false, true })
+  const auto refined = Refined(domain, 6.0);
+  const SimplexLabels labels = LabelSimplices<3>(refined->Mesh, domain);
+  MarkInterfaceVertices<3>(refined->Mesh, labels, 1, {});
+  const LabelledTriangulation<3> elements(refined->Mesh, labels);
+  MeshInterfaces<3> interfaces;
+  for (VertexId v = 0; v < refined->Mesh.VertexIdEnd(); ++v)
   {
-    const double limit = UniformInterfaceCheck<3>::LargestDistance * (withSizes ? 5.0 : 3.0);
-    const SizingField<3> sizing(
-      domain, { .Base = base, .Interfaces = withSizes ? &sizes : nullptr });
-    const auto makeCheck = [&](LocalDelta<3>& local)
-    { return UniformInterfaceCheck<3>(image, domain.GetSites(), domain, sizing, local, 1, {}); };
-    std::size_t holes = 0;
-    std::size_t number = 0;
-    for (const Point<3>& centre : all)
+    const VertexRecord<3>& vertex = refined->Mesh.GetVertex(v);
+    if (vertex.Alive && vertex.OnInterface)
     {
-      if (++number % 100 != 0)
-      {
-        continue;
-      }
-      // A hole with a vertex near its rim, and then without.
-      std::vector<Point<3>> vertices;
-      const Point<3>* inside = nullptr;
-      for (const Point<3>& p : all)
-      {
-        const double distance = Distance(p, centre);
-        if (distance > limit + 0.6)
-        {
-          vertices.push_back(p);
-        }
-        else if (distance < limit - 0.8 && (!inside || distance > Distance(*inside, centre)))
-        {
-          inside = &p;
-        }
-      }
-      LocalDelta<3> local(image);
-      UniformInterfaceCheck<3> again = makeCheck(local);
-      vertices.push_back(*inside);
-      const bool isNear = again.InspectVertices({ vertices, {} }).empty();
-      vertices.pop_back();
-      LocalDelta<3> other(image);
-      const auto expected = makeCheck(other).InspectVertices({ vertices, {} });
-      if (!isNear || expected.empty())
-      {
-        continue;
-      }
-      ++holes;
-      const auto found = again.InspectVertices({ {}, { *inside } });
-      ASSERT_EQ(found.size(), expected.size());
-      for (std::size_t i = 0; i < found.size(); ++i)
-      {
-        EXPECT_EQ(found[i].Position, expected[i].Position);
-      }
-      // The same if labels take the vertex off interfaces. That holds for one inspection only.
-      LocalDelta<3> third(image);
-      UniformInterfaceCheck<3> before = makeCheck(third);
-      vertices.push_back(*inside);
-      EXPECT_TRUE(before.InspectVertices({ vertices, {} }).empty());
-      EXPECT_TRUE(before.InspectLabels({}, {}).empty());
-      const Point<3> nowhere{ -100.0, 0.0, 0.0 };
-      EXPECT_EQ(before.InspectLabels({ *inside, nowhere }, {}).size(), expected.size());
-      EXPECT_GT(before.NumberOfFarFaces(), 0u);
-      EXPECT_TRUE(before.InspectVertices({}).empty());
+      interfaces.Vertices.push_back(vertex.Position);
     }
-    EXPECT_GT(holes, 3u) << withSizes;
+  }
+  const std::vector<VoxelFace<3>> every =
+    FindFacesNear<3>(image, domain.GetSites(), { { {}, 1e3 } }, {});
+  GradedDelta<3> graded(domain.Bounds(), 5.0);
+  graded.Lower({ 15.0, 15.0, 15.0 }, 1.0);
+  graded.Cap(1.0);
+  const BaseDistance<3> base{ 2.0 };
+  const InterfaceSizes<3> sizes(
+    image, { { image.Values()[1], InterfaceSize::AnyLabel, 1.5 } }, base, 0.3, 1);
+  for (const SizingSources<3>& sources :
+    { SizingSources<3>{ .Base = base }, SizingSources<3>{ .Base = base, .Interfaces = &sizes },
+      SizingSources<3>{ .Base = { 1.0, &graded } } })
+  {
+    const SizingField<3> sizing(domain, sources);
+    for (const unsigned threads : { 1u, 3u })
+    {
+      const DistanceCheck<3> check(image, domain.GetSites(), domain, sizing, threads, {});
+      const std::vector<VoxelFace<3>> all = check.FindFar(elements);
+      EXPECT_GT(all.size(), 20u);
+      EXPECT_LT(all.size(), every.size());
+      if (!sources.Base.Graded)
+      {
+        EXPECT_TRUE(check.FindFar(interfaces) == all);
+      }
+      const std::vector<VoxelFace<3>> some(all.begin(), all.begin() + 10);
+      EXPECT_TRUE(check.FindFar(elements, some) == some);
+      std::vector<VoxelFace<3>> sorted = all;
+      std::sort(sorted.begin(), sorted.end());
+      EXPECT_TRUE(check.FindFar(elements, every) == sorted);
+    }
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The vertices on the interfaces of a triangulation, and how they are followed.
+// The vertices on the interfaces of a triangulation are marked, and stay so while it changes.
 #include "Base/Error.h"
 #include "Conformity/InterfaceVertices.h"
-#include "Conformity/PositionDifference.h"
+#include "Conformity/ManifoldLabels.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "Mesh/MeshExtraction.h"
@@ -12,11 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <random>
 #include <set>
-#include <span>
 #include <vector>
 
 using namespace voxplex;
@@ -25,11 +23,25 @@ using namespace voxplex::checks;
 namespace
 {
 
-/** Of the facets of the mesh. */
-std::set<Point<3>> VerticesOfFacets(const RefinementContext<3>& refined, const Domain<3>& domain)
+std::set<Point<3>> MarkedVertices(const Triangulation<3>& mesh)
+{
+  std::set<Point<3>> marked;
+  for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
+  {
+    if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).OnInterface)
+    {
+      EXPECT_TRUE(marked.insert(mesh.Position(v)).second);
+    }
+  }
+  return marked;
+}
+
+/** Of the facets of the mesh with these labels. */
+std::set<Point<3>> VerticesOfFacets(
+  const Triangulation<3>& triangulation, const Domain<3>& domain, const SimplexLabels& labels)
 {
   SimplexMesh<3> mesh;
-  ExtractMesh<3>(refined.Mesh, domain, mesh);
+  ExtractMesh<3>(triangulation, domain, labels, mesh);
   std::set<Point<3>> vertices;
   for (const auto& facet : mesh.Facets)
   {
@@ -41,21 +53,6 @@ std::set<Point<3>> VerticesOfFacets(const RefinementContext<3>& refined, const D
   return vertices;
 }
 
-std::set<Point<3>> AsSet(std::span<const Point<3>> points)
-{
-  const std::set<Point<3>> set(points.begin(), points.end());
-  EXPECT_EQ(set.size(), points.size());
-  return set;
-}
-
-std::set<Point<3>> Difference(const std::set<Point<3>>& from, const std::set<Point<3>>& without)
-{
-  std::set<Point<3>> left;
-  std::set_difference(
-    from.begin(), from.end(), without.begin(), without.end(), std::inserter(left, left.begin()));
-  return left;
-}
-
 VertexId InsertFree(Triangulation<3>& mesh, Triangulation<3>::Worker& worker, const Point<3>& p)
 {
   const SimplexId conflict = mesh.FindConflict(worker, p, mesh.FirstAlive());
@@ -63,26 +60,27 @@ VertexId InsertFree(Triangulation<3>& mesh, Triangulation<3>::Worker& worker, co
   return worker.NewVertex;
 }
 
-/** Compares each update with the facets of the mesh. */
+/** Makes the labels again, which marks vertices, and compares these with the facets of the mesh. */
 class CheckedVertices
 {
 public:
-  CheckedVertices(const RefinementContext<3>& refined, const Domain<3>& domain, unsigned threads)
-    : Refined(refined)
+  CheckedVertices(Triangulation<3>& mesh, const Domain<3>& domain, unsigned threads)
+    : Mesh(mesh)
     , Image(domain)
-    , Vertices(refined.Mesh, domain, threads)
-    , Before(AsSet(this->Vertices.Update().Added))
+    , Labeller(mesh, ManifoldRepairOptions<3>{ .Surfaces = &domain }, threads, {})
   {
+    this->Update();
+    this->Added = 0;
   }
 
   void Update()
   {
-    const std::set<Point<3>> now = VerticesOfFacets(this->Refined, this->Image);
-    const InterfaceVertices<3>::Changes changes = this->Vertices.Update();
-    EXPECT_EQ(AsSet(changes.Added), Difference(now, this->Before));
-    EXPECT_EQ(AsSet(changes.Gone), Difference(this->Before, now));
-    this->Added += changes.Added.size();
-    this->Gone += changes.Gone.size();
+    InterfaceStatistics figures;
+    const ManifoldLabels<3> made = this->Labeller.Make(figures);
+    const std::set<Point<3>> now = MarkedVertices(this->Mesh);
+    EXPECT_EQ(now, VerticesOfFacets(this->Mesh, this->Image, made.Labels));
+    this->Added += Difference(now, this->Before).size();
+    this->Gone += Difference(this->Before, now).size();
     this->Before = now;
   }
 
@@ -90,9 +88,18 @@ public:
   std::size_t Gone = 0;
 
 private:
-  const RefinementContext<3>& Refined;
+  static std::set<Point<3>> Difference(
+    const std::set<Point<3>>& from, const std::set<Point<3>>& without)
+  {
+    std::set<Point<3>> left;
+    std::set_difference(
+      from.begin(), from.end(), without.begin(), without.end(), std::inserter(left, left.begin()));
+    return left;
+  }
+
+  Triangulation<3>& Mesh;
   const Domain<3>& Image;
-  InterfaceVertices<3> Vertices;
+  ManifoldLabeller<3> Labeller;
   std::set<Point<3>> Before;
 };
 
@@ -100,22 +107,32 @@ void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
 {
   SCOPED_TRACE(delta);
   const auto refined = Refined(domain, delta);
-  const std::set<Point<3>> expected = VerticesOfFacets(*refined, domain);
+  Triangulation<3>& mesh = refined->Mesh;
+  const SimplexLabels labels = LabelSimplices<3>(mesh, domain);
+  const std::set<Point<3>> expected = VerticesOfFacets(mesh, domain, labels);
   EXPECT_GT(expected.size(), 3u);
   for (const unsigned threads : { 1u, 3u })
   {
-    InterfaceVertices<3> vertices(refined->Mesh, domain, threads);
-    const InterfaceVertices<3>::Changes all = vertices.Update();
-    EXPECT_EQ(AsSet(all.Added), expected);
-    EXPECT_TRUE(all.Gone.empty());
-    const InterfaceVertices<3>::Changes none = vertices.Update();
-    EXPECT_TRUE(none.Added.empty());
-    EXPECT_TRUE(none.Gone.empty());
+    MarkInterfaceVertices<3>(mesh, labels, threads, {});
+    EXPECT_EQ(MarkedVertices(mesh), expected);
   }
+  std::vector<SimplexId> all;
+  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+  {
+    if (mesh.IsAlive(s))
+    {
+      all.push_back(s);
+    }
+  }
+  for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
+  {
+    mesh.SetOnInterface(v, v % 2 == 0);
+  }
+  MarkInterfaceVerticesOf<3>(mesh, labels, all, 3, {});
+  EXPECT_EQ(MarkedVertices(mesh), expected);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(
-    InterfaceVertices<3>(refined->Mesh, domain, 1, stop.get_token()).Update(), Cancelled);
+  EXPECT_THROW(MarkInterfaceVertices<3>(mesh, labels, 1, stop.get_token()), Cancelled);
 }
 
 } // namespace
@@ -142,7 +159,7 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
     const auto refined = Refined(domain, 4.0);
     Triangulation<3>& mesh = refined->Mesh;
     Triangulation<3>::Worker worker(mesh);
-    CheckedVertices vertices(*refined, domain, threads);
+    CheckedVertices vertices(mesh, domain, threads);
     std::vector<VertexId> inserted;
     for (int round = 0; round < 40; ++round)
     {
@@ -165,7 +182,7 @@ TEST(InterfaceVertices, FollowATriangulationThatChanges)
   }
 }
 
-// All ids are others then. Positions tell which vertices are new.
+// All ids are others then. Marks move with the vertices.
 TEST(InterfaceVertices, FollowARenumberedTriangulation)
 {
   const LabelImage<3> image = Blobs(1);
@@ -176,7 +193,7 @@ TEST(InterfaceVertices, FollowARenumberedTriangulation)
     std::uniform_real_distribution<double> uniform(4.0, 27.0);
     const auto refined = Refined(domain, 4.0);
     Triangulation<3>& mesh = refined->Mesh;
-    CheckedVertices vertices(*refined, domain, threads);
+    CheckedVertices vertices(mesh, domain, threads);
     for (const int insertions : { 0, 6, 6, 6, 300, 6 })
     {
       {
@@ -199,20 +216,4 @@ TEST(InterfaceVertices, FollowARenumberedTriangulation)
     EXPECT_GT(vertices.Added, 100u);
     EXPECT_GT(vertices.Gone, 100u);
   }
-}
-
-// Points that differ in the last place only, and the two zeros.
-TEST(PositionDifference, TellsEqualPositionsOnly)
-{
-  const double next = std::nextafter(1.0, 2.0);
-  const std::vector<Point<3>> first{ { 1.0, 2.0, 3.0 }, { 0.0, 5.0, 5.0 }, { 7.0, 7.0, 7.0 } };
-  const std::vector<Point<3>> second{ { next, 2.0, 3.0 }, { 7.0, 7.0, 7.0 }, { -0.0, 5.0, 5.0 } };
-  for (const unsigned threads : { 1u, 3u })
-  {
-    const PositionDifference<3> difference = DifferenceOf<3>(first, second, threads, {});
-    EXPECT_EQ(difference.OfFirst, (std::vector<Point<3>>{ { 1.0, 2.0, 3.0 } }));
-    EXPECT_EQ(difference.OfSecond, (std::vector<Point<3>>{ { next, 2.0, 3.0 } }));
-  }
-  const PositionDifference<3> none = DifferenceOf<3>({}, {}, 1, {});
-  EXPECT_TRUE(none.OfFirst.empty() && none.OfSecond.empty());
 }

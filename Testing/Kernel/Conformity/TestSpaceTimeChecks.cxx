@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Space-time: components of the image and of frames, and interfaces far from the mesh.
-#include "Conformity/UniformInterfaceCheck.h"
+#include "Conformity/DistanceCheck.h"
 #include "Image/Components.h"
 #include "Quality/LostComponents.h"
 #include "SpaceTimeCases.h"
@@ -283,7 +283,7 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     MeshingOptions<4> options = SpaceTimeOptions(5.0);
     SimplexMesh<4> mesh;
     const MeshingStatistics statistics = MeshWith(image, options, mesh);
-    const double limit = UniformInterfaceCheck<4>::LargestDistance * options.Sampling.Delta;
+    const double limit = DistanceCheck<4>::LargestDistance * options.Sampling.Delta;
     EXPECT_GT(statistics.Interfaces.Rounds, 0u);
     EXPECT_LT(LargestDistance(image, mesh), limit);
     // Seeds of components, and vertices where triangles were opened, are off interfaces. Pieces of opened ones have

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Graded space-time meshes have every guarantee of uniform ones, and fewer pentatopes.
-#include "Conformity/UniformInterfaceCheck.h"
+#include "Conformity/DistanceCheck.h"
 #include "MeshChecks.h"
 #include "Sanitizers.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
@@ -129,7 +129,7 @@ TEST(GradedSpaceTime, InterfacesAreNearThoseOfTheImage)
       nearest = std::min(nearest, Distance(v, z));
     }
     // From a point of the interface to the face of voxels that it lies at: half a time step at most.
-    ASSERT_LT(nearest, UniformInterfaceCheck<4>::LargestDistance * delta + 1.0) << delta;
+    ASSERT_LT(nearest, DistanceCheck<4>::LargestDistance * delta + 1.0) << delta;
   }
   EXPECT_GT(coarse, 200u);
 }

@@ -88,7 +88,6 @@ TEST(Refinement, FollowsBoundsThatWereLowered)
 
     local.SetBound({ 24, 24, 0 }, 2, 1, 1.0);
     local.Grade();
-    context.Sizing.FollowLocalBounds();
     Refiner<Rules3D> near(context, team, {}, RefinementStart::AtSeeds);
     ASSERT_TRUE(near.Run(nullptr));
     EXPECT_GT(context.Features.Size(), features + 10);

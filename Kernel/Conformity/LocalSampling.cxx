@@ -1,0 +1,366 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/LocalSampling.h"
+
+#include "Domain/ThinPart.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace voxplex
+{
+
+namespace
+{
+
+// Chosen on the knee atlas. Around edges, a larger radius adds elements, and makes new non-manifold
+// edges at its rim. Around far faces, a smaller radius leaves out the parts that the tips of
+// processes hang on.
+
+/**
+ * Faces are sampled within this many sampling distances of a far face, or of the midpoint of a
+ * non-manifold edge.
+ */
+constexpr double RadiusAtFace = 1.0;
+constexpr double RadiusAtEdge = 0.5;
+
+/**
+ * Spacing at the first visit of a far face or an edge, in sampling distances. With 0.5, there is one
+ * round less, but meshes of atlases with thin labels have up to a sixth more elements.
+ */
+constexpr double FirstSpacing = 0.8;
+
+/**
+ * Spacing at a visit of a gap, in spacings of the visit before, and at the first in sampling
+ * distances. With 0.4, meshes of thin sheets have up to six times as many elements.
+ */
+constexpr double NextSpacingAtGap = 0.6;
+
+/**
+ * The sampling distance of R1 is this factor times the spacing of points, because the points already
+ * give the shape of interfaces. With 1, islands of the knee atlas get twice as many additional
+ * elements; if single voxels are kept, too, the run takes three times as long. With 3, refinement is
+ * then resumed twice rather than once.
+ */
+constexpr double BoundFactor = 2.0;
+
+/**
+ * The finest spacings, as FinestSpacing() takes them. A vessel of one voxel is 0.8 voxels thick in the
+ * label field along an axis, and where it leaves a thick part much less. With 0.2, vessels stay in
+ * fragments there, and if voxels are much longer along them.
+ */
+constexpr double FinestOfInterfaces = 0.2;
+constexpr double FinestInsideComponents = 0.1;
+
+/**
+ * The largest number of voxels searched for the thickest part. In a larger component, only every
+ * k-th voxel is searched.
+ */
+constexpr std::int64_t MostVoxelsLookedAt = 1000;
+
+/**
+ * Where a component is thickest, points are at least the first factor times its thickness apart,
+ * and delta is at most the second factor times its thickness. The six points around a grain are
+ * 0.71 of its thickness apart. Any larger factors from 0.6 and 1.5 on give about as many elements.
+ */
+constexpr double SpacingAtThickest = 0.7;
+constexpr double BoundAtThickest = 2.0;
+
+/**
+ * The smallest thickness, in finest spacings. In a thinner part, points would be too close to each
+ * other.
+ */
+constexpr double LeastThickness = 5.0;
+
+/**
+ * The largest number of voxels that get points. In a larger component, only every k-th voxel gets
+ * points; R1 finds the rest.
+ */
+constexpr std::int64_t MostSeededVoxels = 20000;
+
+/**
+ * A fraction of the smallest voxel spacing: the label field has no finer features. In 4D half the
+ * spacing makes about ten times as many elements. So it is 2.5 times as large there, and the smallest
+ * spacing counts as at least half of the mean one: the step between frames may be short.
+ */
+template <int D>
+double FinestSpacing(const GridGeometry<D>& grid, double fraction)
+{
+  if constexpr (D == 3)
+  {
+    return fraction * grid.SmallestSpacing();
+  }
+  else
+  {
+    const double mean = std::pow(grid.VoxelVolume(), 1.0 / D);
+    return 2.5 * fraction * std::max(grid.SmallestSpacing(), 0.5 * mean);
+  }
+}
+
+/** Calls visit(voxel) for voxels of a component, for every k-th if there are more than `most`. */
+template <int D, typename Visit>
+void ForSomeVoxels(const Components<D>& components, std::uint32_t component, std::int64_t most,
+  const std::stop_token& stop, const Visit& visit)
+{
+  const std::int64_t step = components.All()[component].Voxels / most + 1;
+  std::int64_t count = 0;
+  components.ForEachRun(component,
+    [&](const typename GridGeometry<D>::Index& first, std::int64_t length)
+    {
+      ThrowIfStopped(stop);
+      typename GridGeometry<D>::Index voxel = first;
+      for (; voxel[0] < first[0] + length; ++voxel[0])
+      {
+        if (count++ % step == 0)
+        {
+          visit(voxel);
+        }
+      }
+    });
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+LocalSampling<D>::LocalSampling(const LabelImage<D>& image, const LabelImage<D>& ofDomain,
+  const BitMask<D>& sites, const Domain<D>& domain, const SizingField<D>& sizing,
+  LocalDelta<D>& local, const std::stop_token& stop)
+  : Image(image)
+  , OfDomain(ofDomain)
+  , Sites(sites)
+  , Surfaces(domain)
+  , Sizing(sizing)
+  , Local(local)
+  , Stop(stop)
+  , OfInterfaces{ FirstSpacing, 0.5, FinestSpacing<D>(image.Grid(), FinestOfInterfaces), 2, 1.0 }
+  , OfGaps{ NextSpacingAtGap, NextSpacingAtGap,
+    FinestSpacing<D>(image.Grid(), FinestInsideComponents), 1, BoundFactor }
+  , FinestOfComponent(OfGaps.Finest)
+{
+  for (std::size_t label = 1; label < image.Values().size(); ++label)
+  {
+    this->FinestOfComponent =
+      std::min(this->FinestOfComponent, sizing.LargestOf(static_cast<LabelId>(label)));
+  }
+}
+
+template <int D>
+std::vector<FeatureSeed<D>> LocalSampling<D>::TakeSeeds()
+{
+  this->Begin(); // if nothing was requested, no bound is new
+  this->Local.Grade(this->Sizing.Largest());
+  this->AreTaken = true;
+  return std::exchange(this->Seeds, {});
+}
+
+/** Begins a request. The first one after TakeSeeds() forgets which bounds were new. */
+template <int D>
+void LocalSampling<D>::Begin()
+{
+  ++this->Requests;
+  if (std::exchange(this->AreTaken, false))
+  {
+    this->Local.ForgetLowered();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::size_t LocalSampling<D>::SampleInterfaces(
+  const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges)
+{
+  std::vector<SearchBall<D>> balls;
+  balls.reserve(far.size() + edges.size());
+  for (const VoxelFace<D>& face : far)
+  {
+    balls.push_back({ CentreOf(face, this->OfDomain), RadiusAtFace * this->AskedDistance(face) });
+  }
+  for (const NonManifoldPlace<D>& edge : edges)
+  {
+    balls.push_back({ edge.Middle, RadiusAtEdge * this->Sizing.AskedNear(edge.Middle) });
+  }
+  const std::vector<VoxelFace<D>> faces =
+    FindFacesNear(this->OfDomain, this->Sites, balls, this->Stop);
+  std::vector<VoxelFace<D>> all;
+  std::set_union(
+    this->Faces.begin(), this->Faces.end(), faces.begin(), faces.end(), std::back_inserter(all));
+  this->Faces = std::move(all);
+  const std::size_t points = this->SampleFaces(faces, this->OfInterfaces,
+    [this](const VoxelFace<D>& face) { return this->AskedDistance(face); });
+  this->Bound(far, this->OfInterfaces);
+  return points;
+}
+
+template <int D>
+std::size_t LocalSampling<D>::SampleGaps(const std::vector<VoxelFace<D>>& faces)
+{
+  const std::size_t points = this->SampleFaces(faces, this->OfGaps,
+    [this](const VoxelFace<D>& face)
+    {
+      return this->Sizing.SamplingDistance(CentreOf(face, this->OfDomain),
+        this->OfDomain.At(face.Voxel), this->OfDomain.At(face.Next()));
+    });
+  this->Bound(faces, this->OfGaps);
+  return points;
+}
+
+/** The requested sampling distance. If it is graded, at most the finest one. */
+template <int D>
+double LocalSampling<D>::AskedDistance(const VoxelFace<D>& face) const
+{
+  const double distance = this->Sizing.AskedDistance(
+    CentreOf(face, this->OfDomain), this->OfDomain.At(face.Voxel), this->OfDomain.At(face.Next()));
+  const BaseDistance<D>& base = this->Sizing.Base();
+  return base.Graded ? std::min(distance, base.Asked) : distance;
+}
+
+/** The voxel of the image of LocalDelta that has the lower voxel of a face. */
+template <int D>
+auto LocalSampling<D>::VoxelAt(const VoxelFace<D>& face) const -> Index
+{
+  if (&this->OfDomain == &this->Image)
+  {
+    return face.Voxel;
+  }
+  const Point<D> at = this->Image.Grid().ToIndex(this->OfDomain.CentreOf(face.Voxel));
+  Index voxel;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxel[a] = std::llround(at[a]) - this->Image.CropOrigin()[a];
+  }
+  return voxel;
+}
+
+/** The place that a face is sampled with. */
+template <int D>
+auto LocalSampling<D>::PlaceAt(const VoxelFace<D>& face, Schedule& schedule) -> Place&
+{
+  Index cell = this->VoxelAt(face);
+  for (std::int64_t& c : cell)
+  {
+    c = (c + 1) / LocalDelta<D>::Cell;
+  }
+  return schedule.Places[cell];
+}
+
+/** @param distanceOf distanceOf(face) is the distance that sampling begins with */
+template <int D>
+template <typename DistanceOf>
+std::size_t LocalSampling<D>::SampleFaces(
+  const std::vector<VoxelFace<D>>& faces, Schedule& schedule, const DistanceOf& distanceOf)
+{
+  this->Begin();
+  const std::size_t before = this->Seeds.size();
+  for (const VoxelFace<D>& face : faces)
+  {
+    Place& place = this->PlaceAt(face, schedule);
+    if (place.Request != this->Requests)
+    {
+      place.Request = this->Requests;
+      const double spacing =
+        place.Visits == 0 ? schedule.First * distanceOf(face) : schedule.Next * place.Spacing;
+      const bool isDone = place.Visits > 0 && place.Spacing <= schedule.Finest;
+      place.Spacing = isDone ? 0.0 : std::max(spacing, schedule.Finest);
+      ++place.Visits;
+    }
+    Point<D> z;
+    if (place.Spacing > 0.0 &&
+      this->Surfaces.FirstCrossing(this->OfDomain.CentreOf(face.Voxel),
+        this->OfDomain.At(face.Voxel), this->OfDomain.CentreOf(face.Next()), z))
+    {
+      this->Seeds.push_back({ z, place.Spacing });
+      if (schedule.FirstBound > 1) // with a bound at each visit, that one is enough
+      {
+        this->Local.SetSpacing(this->VoxelAt(face), 1, place.Spacing);
+      }
+    }
+  }
+  return this->Seeds.size() - before;
+}
+
+/** Bounds the sampling distance at faces that were sampled. */
+template <int D>
+void LocalSampling<D>::Bound(const std::vector<VoxelFace<D>>& faces, Schedule& schedule)
+{
+  for (const VoxelFace<D>& face : faces)
+  {
+    const Place& place = this->PlaceAt(face, schedule);
+    if (place.Spacing > 0.0 && place.Visits >= schedule.FirstBound)
+    {
+      const double factor = place.Spacing <= schedule.Finest ? schedule.BoundAtFinest : BoundFactor;
+      this->Local.SetBound(this->VoxelAt(face), 1,
+        std::max(this->OfDomain.At(face.Voxel), this->OfDomain.At(face.Next())),
+        factor * place.Spacing);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::size_t LocalSampling<D>::SampleComponent(
+  const Components<D>& components, std::uint32_t component, double spacing)
+{
+  this->Begin();
+  const std::size_t before = this->Seeds.size();
+  const LabelId label = components.All()[component].Label;
+  components.ForEachRun(component,
+    [&](const Index& first, std::int64_t length)
+    { this->Local.SetBound(first, length, label, BoundFactor * spacing); });
+  ForSomeVoxels(components, component, MostSeededVoxels, this->Stop,
+    [&](const Index& voxel)
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        for (const std::int64_t direction : { -1, 1 })
+        {
+          Index neighbour = voxel;
+          neighbour[a] += direction;
+          Point<D> z;
+          if (components.At(neighbour) != component &&
+            this->Surfaces.FirstCrossing(
+              this->Image.CentreOf(voxel), label, this->Image.CentreOf(neighbour), z))
+          {
+            this->Seeds.push_back({ z, spacing });
+          }
+        }
+      }
+    });
+  return this->Seeds.size() - before;
+}
+
+template <int D>
+std::size_t LocalSampling<D>::SampleThickest(
+  const Components<D>& components, std::uint32_t component, unsigned attempt, double largest)
+{
+  this->Begin();
+  std::optional<ThinPart<D>> thickest;
+  ForSomeVoxels(components, component, MostVoxelsLookedAt, this->Stop,
+    [&](const Index& voxel)
+    {
+      ThinPart<D> part(this->Image, this->Surfaces, voxel);
+      if (!thickest || part.IsBetterThan(*thickest))
+      {
+        thickest = std::move(part);
+      }
+    });
+  const double thickness =
+    std::ldexp(std::max(thickest->Thickness(), LeastThickness * this->FinestOfComponent),
+      -static_cast<int>(attempt));
+  for (const Point<D>& z : thickest->Ends())
+  {
+    this->Seeds.push_back({ z, SpacingAtThickest * thickness });
+  }
+  this->Local.SetBound(thickest->Voxel(), 1, components.All()[component].Label,
+    std::min(largest, BoundAtThickest * thickness));
+  return thickest->Ends().size();
+}
+
+template class LocalSampling<3>;
+template class LocalSampling<4>;
+
+} // namespace voxplex
