@@ -219,28 +219,11 @@ double LocalSampling<D>::AskedDistance(const VoxelFace<D>& face) const
   return base.Graded ? std::min(distance, base.Asked) : distance;
 }
 
-/** The voxel of the image of LocalDelta that has the lower voxel of a face. */
-template <int D>
-auto LocalSampling<D>::VoxelAt(const VoxelFace<D>& face) const -> Index
-{
-  if (&this->OfDomain == &this->Image)
-  {
-    return face.Voxel;
-  }
-  const Point<D> at = this->Image.Grid().ToIndex(this->OfDomain.CentreOf(face.Voxel));
-  Index voxel;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxel[a] = std::llround(at[a]) - this->Image.CropOrigin()[a];
-  }
-  return voxel;
-}
-
 /** The place that a face is sampled with. */
 template <int D>
 auto LocalSampling<D>::PlaceAt(const VoxelFace<D>& face, Schedule& schedule) -> Place&
 {
-  Index cell = this->VoxelAt(face);
+  Index cell = face.Voxel;
   for (std::int64_t& c : cell)
   {
     c = (c + 1) / LocalDelta<D>::Cell;
@@ -276,7 +259,7 @@ std::size_t LocalSampling<D>::SampleFaces(
       this->Seeds.push_back({ z, place.Spacing });
       if (schedule.FirstBound > 1) // with a bound at each visit, that one is enough
       {
-        this->Local.SetSpacing(this->VoxelAt(face), 1, place.Spacing);
+        this->Local.SetSpacing(face.Voxel, 1, place.Spacing);
       }
     }
   }
@@ -293,7 +276,7 @@ void LocalSampling<D>::Bound(const std::vector<VoxelFace<D>>& faces, Schedule& s
     if (place.Spacing > 0.0 && place.Visits >= schedule.FirstBound)
     {
       const double factor = place.Spacing <= schedule.Finest ? schedule.BoundAtFinest : BoundFactor;
-      this->Local.SetBound(this->VoxelAt(face), 1,
+      this->Local.SetBound(face.Voxel, 1,
         std::max(this->OfDomain.At(face.Voxel), this->OfDomain.At(face.Next())),
         factor * place.Spacing);
     }

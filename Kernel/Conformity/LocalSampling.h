@@ -56,7 +56,8 @@ public:
   /**
    * All references must outlive the object.
    * @param image of the components and of LocalDelta
-   * @param ofDomain of the faces; it may have more frames (4D)
+   * @param ofDomain of the faces; it may have more frames (4D), whose numbers are taken for those of
+   *   `image` where bounds are set
    * @param sites surface voxels of `ofDomain` (FindSurfaceVoxels)
    * @param local receives the spacing of the points, and bounds
    */
@@ -121,7 +122,6 @@ private:
   };
 
   double AskedDistance(const VoxelFace<D>& face) const;
-  Index VoxelAt(const VoxelFace<D>& face) const;
   Place& PlaceAt(const VoxelFace<D>& face, Schedule& schedule);
   void Begin();
   template <typename DistanceOf>
