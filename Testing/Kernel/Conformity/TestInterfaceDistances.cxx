@@ -450,6 +450,11 @@ TEST(InterfaceDistances, FindsTheSameAmongSomeFaces)
       std::vector<VoxelFace<3>> sorted = all;
       std::sort(sorted.begin(), sorted.end());
       EXPECT_TRUE(check.FindFar(elements, every) == sorted);
+      for (std::size_t f = 0; f < every.size(); f += 50) // vertices around one face only are taken
+      {
+        EXPECT_EQ(check.FindFar(elements, { every[f] }).size(),
+          std::binary_search(sorted.begin(), sorted.end(), every[f]) ? 1u : 0u);
+      }
     }
   }
 }
