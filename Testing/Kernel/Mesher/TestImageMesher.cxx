@@ -414,7 +414,7 @@ TEST(ImageMesher, StatisticsSayWhatTheMeshHasAndLacks)
   EXPECT_EQ(statistics.Vertices, mesh.Points.size());
   EXPECT_EQ(statistics.InterfaceFacets, mesh.Facets.size());
   ASSERT_TRUE(statistics.HasQuality);
-  EXPECT_NEAR(statistics.Quality.Labels.at(0).Volume, MeshVolume(mesh), 1e-6);
+  EXPECT_NEAR(statistics.Quality.Labels.at(0).Volume, WholeVolume(mesh), 1e-6);
   EXPECT_EQ(image.Counts()[2], 1) << "the image of the caller stays";
 }
 
