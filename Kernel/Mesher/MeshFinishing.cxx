@@ -105,9 +105,9 @@ FittedPositions<D> Fit(const RunEnvironment<D>& run, const RefinementStage<D>& s
   {
     bounds.NormalizedVolume = run.Options.SpaceTime.Slivers.VolumeBound;
     bounds.RadiusEdgeRatio = run.Options.Shape.RadiusEdgeRatio;
+    bounds.Sizing = sizes;
   }
   bounds.FacetAngle = run.Options.Shape.FacetAngle;
-  bounds.Sizing = sizes;
   bounds.Twins = stage.Twins();
   bounds.Volumes = run.Prepared.Volumes;
   bounds.Guard = &guard;
@@ -210,7 +210,7 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   SpindleContext<D> context;
   const std::unique_ptr<const SizingField<D>> sizes = SizesOf(run);
   context.Sizing = sizes.get();
-  // In 3D shapes are left to optimisation.
+  // In 3D shapes and sizes are left to optimisation.
   if (run.Options.Interfaces.Fit && (D == 4 || run.Options.Optimisation.Run))
   {
     positions = Fit(run, stage, labels, context.Sizing).Positions;

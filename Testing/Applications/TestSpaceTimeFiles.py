@@ -401,7 +401,7 @@ class Elements(SpaceTimeTestCase):
 class Flags(SpaceTimeTestCase):
     SPACE_TIME = (("--time-scale", 2), ("--slices", "s_"), ("--slices", "s_", "--slice-count", 3),
                   ("--rule-order", "surface"), ("--no-picking",), ("--picks", 5), ("--sliver-bound", 0.02),
-                  ("--seed", 1), ("--no-fine-grained",), ("--frame-steps", 2), ("--no-fit",))
+                  ("--seed", 1), ("--no-fine-grained",), ("--frame-steps", 2))
 
     def test_of_space_time_on_a_3d_image(self):
         path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))

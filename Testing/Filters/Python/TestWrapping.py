@@ -39,6 +39,7 @@ class Tetrahedra(unittest.TestCase):
         mesher.SetInputModeToIsosurface()
         mesher.SetIsovalue(40.0)
         mesher.SetDelta(1.0)
+        mesher.FitInterfacesOff()
         mesher.Update()
         contour = vtkFlyingEdges3D()
         contour.SetInputData(voxplex.image_from_array(density))
