@@ -118,12 +118,9 @@ public:
   bool IsFarFrom(const VoxelFace<D>& face, Hint& hint) const
   {
     const Point<D> centre = CentreOf(face, this->Check.Image);
-    if constexpr (D == 3)
+    if (this->Check.MeasuresFacets)
     {
-      if (this->Check.MeasuresFacets)
-      {
-        return this->AreFacetsFarFrom(face, centre, hint.Facet);
-      }
+      return this->AreFacetsFarFrom(face, centre, hint.Facet);
     }
     const double asked = this->Check.Sizing.AskedDistance(
       centre, this->Check.Image.At(face.Voxel), this->Check.Image.At(face.Next()));
@@ -142,9 +139,9 @@ public:
   }
 
 private:
-  /** Checks the face, and the smooth interface near it, which is the interface that is meshed. */
+  /** Checks the face, and the smooth interface near it, which is the interface that is meshed; 3D. */
   bool AreFacetsFarFrom(
-    const VoxelFace<D>& face, const Point<D>& centre, std::uint32_t& facet) const requires(D == 3)
+    const VoxelFace<D>& face, const Point<D>& centre, std::uint32_t& facet) const
   {
     const LabelImage<D>& image = this->Check.Image;
     const double half = 0.5 * image.Grid().Spacing(static_cast<int>(face.Axis));
@@ -152,16 +149,20 @@ private:
     {
       return false;
     }
-    const double distance = std::sqrt(this->Facets.Distance2To(centre, facet));
-    if (distance > StairFactor * this->Largest)
+    if constexpr (D == 3)
     {
-      return true;
+      const double distance = std::sqrt(this->Facets.Distance2To(centre, facet));
+      if (distance > StairFactor * this->Largest)
+      {
+        return true;
+      }
+      Point<D> z;
+      return distance + half > this->Largest &&
+        this->Check.Surfaces.FirstCrossing(
+          image.CentreOf(face.Voxel), image.At(face.Voxel), image.CentreOf(face.Next()), z) &&
+        this->Facets.Distance2To(z, facet) > this->Largest * this->Largest;
     }
-    Point<D> z;
-    return distance + half > this->Largest &&
-      this->Check.Surfaces.FirstCrossing(
-        image.CentreOf(face.Voxel), image.At(face.Voxel), image.CentreOf(face.Next()), z) &&
-      this->Facets.Distance2To(z, facet) > this->Largest * this->Largest;
+    return true;
   }
 
   const DistanceCheck& Check;
