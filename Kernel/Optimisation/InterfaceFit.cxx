@@ -3,8 +3,8 @@
 #include "Optimisation/InterfaceFit.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Optimisation/FitShapes.h"
 #include "Optimisation/InterfaceOffsets.h"
-#include "Optimisation/InterfaceRules.h"
 #include "Optimisation/MoveLimits.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
@@ -49,12 +49,6 @@ constexpr double ShortestStep = 0.005;
 /** How often a step is halved before it is dropped. */
 constexpr unsigned Halvings = 1;
 
-/** Squared circumradii stay below this times the squared size: a little less, for rounding. */
-constexpr double BelowSize = 1.0 - 1e-9;
-
-/** Simplices without bounds keep at least this part of their volume. */
-constexpr double VolumeKept = 0.1;
-
 /** The steps of a fit, and the data that one step passes to the next. */
 template <int D>
 class Fit
@@ -67,9 +61,7 @@ public:
     , Labels(labels)
     , Bounds(bounds)
     , Limits(bounds.Image, surfaces, bounds.Planes)
-    , AnyBounds(
-        bounds.NormalizedVolume > 0.0 || std::isfinite(bounds.RadiusEdgeRatio) || bounds.Sizing)
-    , LargestCosine(std::cos(bounds.FacetAngle / DegreesPerRadian))
+    , Shapes(triangulation, surfaces, labels, bounds, this->Positions)
     , Threads(threads)
     , Stop(stop)
   {
@@ -84,11 +76,7 @@ public:
     this->MeasureFacets();
     this->FindInterfaces();
     this->FindSimplices();
-    if (this->Bounds.Guard)
-    {
-      this->AreHolders = this->Bounds.Guard->FindHolders(
-        LabelledTriangulation<D>(this->Source, this->Labels), this->Threads, this->Stop);
-    }
+    this->Shapes.FindHolders(this->Threads, this->Stop);
     for (unsigned round = 0; round < Rounds<D>; ++round)
     {
       for (unsigned iteration = 0; iteration < Iterations<D>; ++iteration)
@@ -104,8 +92,6 @@ public:
   }
 
 private:
-  using Corners = typename ComponentGuard<D>::Corners;
-
   /** A facet between two labels. What vertices ask for comes first. */
   struct Facet
   {
@@ -142,6 +128,17 @@ private:
   {
     ParallelFor(0, iterations, ChunkCounts::Grain, this->Threads, std::forward<Function>(function),
       this->Stop);
+  }
+
+  template <typename Function>
+  void ForFacets(Function&& function)
+  {
+    this->ForChunks(this->Facets.size(),
+      [&](std::size_t first, std::size_t last)
+      {
+        std::for_each(this->Facets.begin() + static_cast<std::ptrdiff_t>(first),
+          this->Facets.begin() + static_cast<std::ptrdiff_t>(last), function);
+      });
   }
 
   /** Vertices of the last end of a periodic mesh are known by their twins at the first one. */
@@ -284,14 +281,7 @@ private:
 
   void MeasureFacets()
   {
-    this->ForChunks(this->Facets.size(),
-      [this](std::size_t first, std::size_t last)
-      {
-        for (std::size_t f = first; f < last; ++f)
-        {
-          this->Measure(this->Facets[f]);
-        }
-      });
+    this->ForFacets([this](Facet& facet) { this->Measure(facet); });
   }
 
   void Measure(Facet& facet) const
@@ -421,14 +411,7 @@ private:
   /** Finds what facets have gained, and what they are missing. */
   void MeasureGains()
   {
-    this->ForChunks(this->Facets.size(),
-      [this](std::size_t first, std::size_t last)
-      {
-        for (std::size_t f = first; f < last; ++f)
-        {
-          this->MeasureGain(this->Facets[f]);
-        }
-      });
+    this->ForFacets([this](Facet& facet) { this->MeasureGain(facet); });
   }
 
   void MeasureGain(Facet& facet) const
@@ -569,8 +552,7 @@ private:
           if (touches(s))
           {
             this->Simplices[k] = s;
-            this->LeastVolumes[k++] =
-              this->HasBounds(s) ? 0.0 : VolumeKept * SignedVolume<D>(this->Before(s).data());
+            this->LeastVolumes[k++] = this->Shapes.LeastVolume(s);
           }
         }
       });
@@ -589,7 +571,7 @@ private:
           {
             const SimplexId s = this->Simplices[k];
             if (this->HasChangedVertex(this->Source.GetSimplex(s).V) &&
-              !this->IsGood(s, this->LeastVolumes[k]))
+              !this->Shapes.IsGood(s, this->LeastVolumes[k]))
             {
               anyBad.store(true, std::memory_order_relaxed);
               this->MarkCornersOf(this->Source.GetSimplex(s).V);
@@ -598,17 +580,13 @@ private:
         });
       if constexpr (D == 3)
       {
-        this->ForChunks(this->Facets.size(),
-          [&](std::size_t first, std::size_t last)
+        this->ForFacets(
+          [&](const Facet& facet)
           {
-            for (std::size_t f = first; f < last; ++f)
+            if (this->HasChangedVertex(facet.V) && !this->Shapes.HasGoodAngles(facet.V))
             {
-              if (this->HasChangedVertex(this->Facets[f].V) &&
-                !this->HasGoodAngles(this->Facets[f].V))
-              {
-                anyBad.store(true, std::memory_order_relaxed);
-                this->MarkCornersOf(this->Facets[f].V);
-              }
+              anyBad.store(true, std::memory_order_relaxed);
+              this->MarkCornersOf(facet.V);
             }
           });
       }
@@ -673,122 +651,12 @@ private:
     }
   }
 
-  /** Whether no angle of an interface triangle is below the bound, or smaller than before. */
-  bool HasGoodAngles(const std::array<VertexId, 3>& v) const
-  {
-    const double cosine =
-      CosineOfSmallestAngle(this->Positions[v[0]], this->Positions[v[1]], this->Positions[v[2]]);
-    return cosine <= this->LargestCosine ||
-      cosine <= CosineOfSmallestAngle(this->Source.Position(v[0]), this->Source.Position(v[1]),
-                  this->Source.Position(v[2]));
-  }
-
-  Corners Before(SimplexId s) const
-  {
-    const auto& v = this->Source.GetSimplex(s).V;
-    Corners corners;
-    for (std::size_t k = 0; k <= D; ++k)
-    {
-      corners[k] = &this->Source.Position(v[k]);
-    }
-    return corners;
-  }
-
-  /** Whether bounds of shapes or sizes apply. */
-  bool HasBounds(SimplexId s) const { return this->Labels[s] != 0 && this->AnyBounds; }
-
-  /** Whether the moved simplex is positively oriented, and keeps the bounds or gets no worse. */
-  bool IsGood(SimplexId s, double leastVolume) const
-  {
-    const auto& v = this->Source.GetSimplex(s).V;
-    Corners after;
-    for (std::size_t k = 0; k <= D; ++k)
-    {
-      after[k] = &this->Positions[v[k]];
-    }
-    const double volume = SignedVolume<D>(after.data());
-    if (!(volume > leastVolume) ||
-      (!this->AreHolders.empty() && this->AreHolders[s] != 0 &&
-        !this->Bounds.Guard->Keeps(this->Labels[s], this->Before(s), after)))
-    {
-      return false;
-    }
-    if (!this->HasBounds(s))
-    {
-      return true;
-    }
-    const Shape shape = ShapeOf(after, volume);
-    const bool isWithin = shape.NormalizedVolume >= this->Bounds.NormalizedVolume &&
-      shape.RadiusEdge2 <= this->Bounds.RadiusEdgeRatio * this->Bounds.RadiusEdgeRatio;
-    if (isWithin && !this->Bounds.Sizing)
-    {
-      return true;
-    }
-    const Corners before = this->Before(s);
-    const Shape shapeBefore = ShapeOf(before, SignedVolume<D>(before.data()));
-    return (isWithin ||
-             (shape.NormalizedVolume >=
-                 std::min(this->Bounds.NormalizedVolume, shapeBefore.NormalizedVolume) &&
-               shape.RadiusEdge2 <=
-                 std::max(this->Bounds.RadiusEdgeRatio * this->Bounds.RadiusEdgeRatio,
-                   shapeBefore.RadiusEdge2))) &&
-      this->HasRightSize(shape.Ball, shapeBefore.Ball, this->Labels[s]);
-  }
-
-  /**
-   * Whether a simplex of a label is below the element size at its new centre, or, compared with that
-   * size, no larger than before. Sizes are asked for where the label is only, as in refinement.
-   */
-  bool HasRightSize(const Circumball<D>& ball, const Circumball<D>& before, LabelId label) const
-  {
-    if (!this->Bounds.Sizing)
-    {
-      return true;
-    }
-    if (this->Surfaces.Label(ball.Center) != label)
-    {
-      return false;
-    }
-    const double size = this->Bounds.Sizing->ElementSize(ball.Center, label);
-    if (ball.Radius2 < BelowSize * size * size)
-    {
-      return true;
-    }
-    if (this->Surfaces.Label(before.Center) != label)
-    {
-      return false;
-    }
-    const double sizeBefore = this->Bounds.Sizing->ElementSize(before.Center, label);
-    return ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size;
-  }
-
-  /** What shape bounds apply to. */
-  struct Shape
-  {
-    Circumball<D> Ball;
-    double NormalizedVolume;
-    double RadiusEdge2; ///< the square of the radius-edge ratio
-  };
-
-  static Shape ShapeOf(const Corners& points, double volume)
-  {
-    Shape shape;
-    if (!ComputeCircumball<D>(points.data(), shape.Ball))
-    {
-      ComputeCircumballExactly<D>(points.data(), shape.Ball);
-    }
-    shape.NormalizedVolume = NormalizedVolume<D>(volume, shape.Ball.Radius2);
-    shape.RadiusEdge2 = shape.Ball.Radius2 / ShortestEdge2<D>(points.data());
-    return shape;
-  }
-
   const Triangulation<D>& Source;
   const Domain<D>& Surfaces;
   const SimplexLabels& Labels;
   const FitBounds<D> Bounds;
   const MoveLimits<D> Limits;
-  const bool AnyBounds;       ///< of shapes or sizes
-  const double LargestCosine; ///< of the smallest angle of an interface triangle
+  FitShapes<D> Shapes;
   const unsigned Threads;
   const std::stop_token& Stop;
   UninitialisedVector<Facet> Facets;
@@ -798,13 +666,12 @@ private:
     Wanted;              ///< the volume that each label is to gain; of background it is not used
   bool HasSteps = false; ///< whether any vertex has been moved
   UninitialisedVector<SimplexId> Simplices; ///< those with a corner
-  UninitialisedVector<double> LeastVolumes; ///< of these
-  std::vector<std::uint8_t> AreHolders;     ///< by simplex id; empty if there are none
+  UninitialisedVector<double> LeastVolumes; ///< of these: FitShapes::LeastVolume()
   std::vector<std::size_t> FirstFacet;      ///< of each corner, in FacetsOf; and the end
   UninitialisedVector<std::uint32_t> FacetsOf;
   UninitialisedVector<Point<D>> Positions; ///< of each vertex id, with the steps of this round
   std::vector<std::uint8_t> HasChanged;    ///< of each vertex id, since its simplices were checked
-  std::vector<std::uint32_t> Ranks;        ///< place in Corners of each vertex id, or None
+  std::vector<std::uint32_t> Ranks;        ///< place in Moving of each vertex id, or None
   std::vector<VertexId> Twins;             ///< of each vertex id, or None; empty if there are none
 };
 

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file FitShapes.h
+ * @brief Internal to InterfaceFit: the shapes that the fit keeps.
+ */
+#ifndef voxplex_FitShapes_h
+#define voxplex_FitShapes_h
+
+#include "Base/UninitialisedVector.h"
+#include "Geometry/SimplexQuality.h"
+#include "Optimisation/InterfaceFit.h"
+#include "Optimisation/InterfaceRules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+namespace voxplex
+{
+
+/**
+ * @brief Says whether simplices and facets with moved vertices keep the bounds of a fit.
+ *
+ * After FindHolders(), any number of threads may ask, while nobody changes the positions.
+ */
+template <int D>
+class FitShapes
+{
+public:
+  /** All references must outlive this object. @param positions the moved ones, of each vertex id */
+  FitShapes(const Triangulation<D>& triangulation, const Domain<D>& surfaces,
+    const SimplexLabels& labels, const FitBounds<D>& bounds,
+    const UninitialisedVector<Point<D>>& positions)
+    : Source(triangulation)
+    , Surfaces(surfaces)
+    , Labels(labels)
+    , Bounds(bounds)
+    , Positions(positions)
+    , AnyBounds(
+        bounds.NormalizedVolume > 0.0 || std::isfinite(bounds.RadiusEdgeRatio) || bounds.Sizing)
+    , LargestCosine(std::cos(bounds.FacetAngle / DegreesPerRadian))
+  {
+  }
+
+  /** Finds the simplices that hold components (ComponentGuard); before all questions. */
+  void FindHolders(unsigned threads, const std::stop_token& stop)
+  {
+    if (this->Bounds.Guard)
+    {
+      this->AreHolders = this->Bounds.Guard->FindHolders(
+        LabelledTriangulation<D>(this->Source, this->Labels), threads, stop);
+    }
+  }
+
+  /** A simplex must have a larger volume than this. */
+  double LeastVolume(SimplexId s) const
+  {
+    return this->HasBounds(s) ? 0.0 : VolumeKept * SignedVolume<D>(this->Before(s).data());
+  }
+
+  /**
+   * Whether the moved simplex is positively oriented, and keeps the bounds or gets no worse.
+   * @param leastVolume LeastVolume(s)
+   */
+  bool IsGood(SimplexId s, double leastVolume) const
+  {
+    const auto& v = this->Source.GetSimplex(s).V;
+    Corners after;
+    for (std::size_t k = 0; k <= D; ++k)
+    {
+      after[k] = &this->Positions[v[k]];
+    }
+    const double volume = SignedVolume<D>(after.data());
+    if (!(volume > leastVolume) ||
+      (!this->AreHolders.empty() && this->AreHolders[s] != 0 &&
+        !this->Bounds.Guard->Keeps(this->Labels[s], this->Before(s), after)))
+    {
+      return false;
+    }
+    if (!this->HasBounds(s))
+    {
+      return true;
+    }
+    const Shape shape = ShapeOf(after, volume);
+    const bool isWithin = shape.NormalizedVolume >= this->Bounds.NormalizedVolume &&
+      shape.RadiusEdge2 <= this->Bounds.RadiusEdgeRatio * this->Bounds.RadiusEdgeRatio;
+    if (isWithin && !this->Bounds.Sizing)
+    {
+      return true;
+    }
+    const Corners before = this->Before(s);
+    const Shape shapeBefore = ShapeOf(before, SignedVolume<D>(before.data()));
+    return (isWithin ||
+             (shape.NormalizedVolume >=
+                 std::min(this->Bounds.NormalizedVolume, shapeBefore.NormalizedVolume) &&
+               shape.RadiusEdge2 <=
+                 std::max(this->Bounds.RadiusEdgeRatio * this->Bounds.RadiusEdgeRatio,
+                   shapeBefore.RadiusEdge2))) &&
+      this->HasRightSize(shape.Ball, shapeBefore.Ball, this->Labels[s]);
+  }
+
+  /** Whether no angle of an interface triangle is below the bound, or smaller than before. */
+  bool HasGoodAngles(const std::array<VertexId, 3>& v) const
+  {
+    const double cosine =
+      CosineOfSmallestAngle(this->Positions[v[0]], this->Positions[v[1]], this->Positions[v[2]]);
+    return cosine <= this->LargestCosine ||
+      cosine <= CosineOfSmallestAngle(this->Source.Position(v[0]), this->Source.Position(v[1]),
+                  this->Source.Position(v[2]));
+  }
+
+private:
+  using Corners = typename ComponentGuard<D>::Corners;
+
+  /** Squared circumradii stay below this times the squared size: a little less, for rounding. */
+  static constexpr double BelowSize = 1.0 - 1e-9;
+
+  /** Simplices without bounds keep at least this part of their volume. */
+  static constexpr double VolumeKept = 0.1;
+
+  /** What shape bounds apply to. */
+  struct Shape
+  {
+    Circumball<D> Ball;
+    double NormalizedVolume;
+    double RadiusEdge2; ///< the square of the radius-edge ratio
+  };
+
+  static Shape ShapeOf(const Corners& points, double volume)
+  {
+    Shape shape;
+    if (!ComputeCircumball<D>(points.data(), shape.Ball))
+    {
+      ComputeCircumballExactly<D>(points.data(), shape.Ball);
+    }
+    shape.NormalizedVolume = NormalizedVolume<D>(volume, shape.Ball.Radius2);
+    shape.RadiusEdge2 = shape.Ball.Radius2 / ShortestEdge2<D>(points.data());
+    return shape;
+  }
+
+  Corners Before(SimplexId s) const
+  {
+    const auto& v = this->Source.GetSimplex(s).V;
+    Corners corners;
+    for (std::size_t k = 0; k <= D; ++k)
+    {
+      corners[k] = &this->Source.Position(v[k]);
+    }
+    return corners;
+  }
+
+  /** Whether bounds of shapes or sizes apply. */
+  bool HasBounds(SimplexId s) const { return this->Labels[s] != 0 && this->AnyBounds; }
+
+  /**
+   * Whether a simplex of a label is below the element size at its new centre, or, compared with that
+   * size, no larger than before. Sizes are asked for where the label is only, as in refinement.
+   */
+  bool HasRightSize(const Circumball<D>& ball, const Circumball<D>& before, LabelId label) const
+  {
+    if (!this->Bounds.Sizing)
+    {
+      return true;
+    }
+    if (this->Surfaces.Label(ball.Center) != label)
+    {
+      return false;
+    }
+    const double size = this->Bounds.Sizing->ElementSize(ball.Center, label);
+    if (ball.Radius2 < BelowSize * size * size)
+    {
+      return true;
+    }
+    if (this->Surfaces.Label(before.Center) != label)
+    {
+      return false;
+    }
+    const double sizeBefore = this->Bounds.Sizing->ElementSize(before.Center, label);
+    return ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size;
+  }
+
+  const Triangulation<D>& Source;
+  const Domain<D>& Surfaces;
+  const SimplexLabels& Labels;
+  const FitBounds<D> Bounds;
+  const UninitialisedVector<Point<D>>& Positions;
+  const bool AnyBounds;                 ///< of shapes or sizes
+  const double LargestCosine;           ///< of the smallest angle of an interface triangle
+  std::vector<std::uint8_t> AreHolders; ///< by simplex id; empty if there are none
+};
+
+} // namespace voxplex
+
+#endif
