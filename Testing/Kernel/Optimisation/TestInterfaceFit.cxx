@@ -4,6 +4,7 @@
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
 #include "CallableSize.h"
+#include "Domain/ImageDomain.h"
 #include "Geometry/Circumball.h"
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
@@ -306,4 +307,40 @@ TEST(InterfaceOffsets, GiveEachLabelWhatItIsMissing)
   EXPECT_NEAR(20.0 * offsets[outside2] + 5.0 * offsets[between], -1.0, 1e-6);
   offsets.Share({ 0.0, 1e6, 0.0 }); // a tenth of the facets' edges at most
   EXPECT_DOUBLE_EQ(offsets[outside1], 10.0);
+}
+
+// The outer vertices of a face where the image cuts the object move within it, the others along it.
+TEST(InterfaceFit, KeepsFacesWhereTheImageCutsFlat)
+{
+  const LabelImage<3> image = phantoms::CutBall(9);
+  const ImageDomain<3> domain(image, 1.0);
+  const auto flatArea = [&](const SimplexMesh<3>& mesh)
+  {
+    double area = 0.0;
+    for (const auto& facet : mesh.Facets)
+    {
+      unsigned faces = ~0u;
+      std::array<Point<3>, 3> p;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        p[k] = mesh.Points[facet[k]];
+        faces &= domain.Border()->FacesAt(p[k]);
+      }
+      const Point<3> normal = FacetNormal(p);
+      area += faces != 0 ? 0.5 * std::sqrt(Dot(normal, normal)) : 0.0;
+    }
+    return area;
+  };
+  for (const double delta : { 1.0, 2.0 })
+  {
+    const double wanted = flatArea(MeshOf(image, Optimised(delta, false)));
+    EXPECT_GT(wanted, 50.0);
+    EXPECT_GE(flatArea(MeshOf(image, Optimised(delta, true))), wanted) << delta;
+  }
+}
+
+// Smoothing moves some of the vertices along interfaces, and not back onto them.
+TEST(InterfaceFit, StaysInOptimisation)
+{
+  EXPECT_LT(WorstVolume(BallOfThree(), MeshOf(BallOfThree(), Optimised(2.0, true))), 0.002);
 }
