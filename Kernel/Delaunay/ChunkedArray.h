@@ -8,6 +8,7 @@
 #define voxplex_ChunkedArray_h
 
 #include "Base/PageMemory.h"
+#include "Parallel/ParallelFor.h"
 
 #include <array>
 #include <atomic>
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 
 namespace voxplex
@@ -98,6 +100,28 @@ public:
         break;
       }
     }
+  }
+
+  /**
+   * Element i becomes a copy of what element order[i] was. Elements beyond are as in a new array. No
+   * other thread may use the array meanwhile. Needs memory for both.
+   */
+  void Reorder(std::span<const std::uint32_t> order, unsigned threads)
+  {
+    ChunkedArray ordered;
+    ordered.Initial = this->Initial;
+    ordered.Initialise = this->Initialise;
+    ordered.Grow(static_cast<std::uint32_t>(order.size()));
+    ParallelFor(0, order.size(), ChunkSize, threads,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+        {
+          ordered[i] = (*this)[order[i]];
+        }
+      });
+    this->Chunks.swap(ordered.Chunks);
+    ordered.HighestChunk = this->HighestChunk.exchange(ordered.HighestChunk);
   }
 
   T& operator[](std::uint32_t i)

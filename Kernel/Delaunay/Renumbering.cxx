@@ -3,14 +3,18 @@
 // New numbers for all records, from the points alone.
 #include "Delaunay/Triangulation.h"
 
+#include "Base/UninitialisedVector.h"
 #include "Geometry/HilbertOrder.h"
+#include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
+#include "Parallel/SharedCounts.h"
 
 #include <algorithm>
-#include <bit>
-#include <functional>
-#include <utility>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace voxplex
@@ -19,19 +23,13 @@ namespace voxplex
 namespace
 {
 
-constexpr std::size_t Grain = 8192;
-
-struct Keyed
-{
-  std::uint64_t Key;
-  std::uint32_t Id;
-};
+using Numbers = UninitialisedVector<std::uint32_t>;
 
 /** Calls function(i) for all i below n, in several threads. */
 template <typename Function>
 void ForAll(std::size_t n, unsigned threads, Function&& function)
 {
-  ParallelFor(0, n, Grain, threads,
+  ParallelFor(0, n, ChunkCounts::Grain, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
@@ -41,92 +39,124 @@ void ForAll(std::size_t n, unsigned threads, Function&& function)
     });
 }
 
-/**
- * Sorts by the upper bits of the key in linear time, then the records that have them in common by
- * `less`.
- * @param first the number of the lowest bit that is sorted in linear time
- * @param last all keys are below 2^last
- */
-template <typename Less>
-void Sort(std::vector<Keyed>& records, unsigned first, unsigned last, unsigned threads, Less&& less)
+/** The vertices along a Hilbert curve; those at the same place of the curve, by their coordinates. */
+template <int D>
+Numbers OrderVertices(const Triangulation<D>& triangulation, unsigned threads)
 {
-  std::vector<Keyed> scratch(records.size());
-  const std::span<Keyed> sorted = ParallelRadixSort<Keyed>(
-    records, scratch, last - first, [first](const Keyed& k) { return k.Key >> first; }, threads);
-  std::vector<std::uint8_t> begins(sorted.size() + 1, 1); // whether a group begins
-  ForAll(sorted.size(), threads,
+  struct Ranked
+  {
+    std::uint64_t Key;
+    VertexId Id;
+  };
+  std::vector<Ranked> all;
+  all.reserve(triangulation.VertexIdEnd());
+  for (VertexId v = 0; v < triangulation.VertexIdEnd(); ++v)
+  {
+    if (triangulation.GetVertex(v).Alive)
+    {
+      all.push_back({ 0, v });
+    }
+  }
+  ForAll(all.size(), threads,
     [&](std::size_t i)
-    { begins[i] = i == 0 || sorted[i].Key >> first != sorted[i - 1].Key >> first ? 1 : 0; });
-  ForAll(sorted.size(), threads,
+    { all[i].Key = HilbertIndex<D>(triangulation.Position(all[i].Id), triangulation.GetBox()); });
+  std::vector<Ranked> scratch(all.size());
+  const std::span<Ranked> sorted = ParallelRadixSort<Ranked>(
+    all, scratch, 63, [](const Ranked& ranked) { return ranked.Key; }, threads);
+
+  for (auto begin = sorted.begin(); begin != sorted.end();)
+  {
+    const auto end = std::find_if(
+      begin, sorted.end(), [begin](const Ranked& ranked) { return ranked.Key != begin->Key; });
+    std::sort(begin, end,
+      [&](const Ranked& a, const Ranked& b)
+      { return triangulation.Position(a.Id) < triangulation.Position(b.Id); });
+    begin = end;
+  }
+  Numbers order(sorted.size());
+  ForAll(order.size(), threads, [&](std::size_t i) { order[i] = sorted[i].Id; });
+  return order;
+}
+
+/**
+ * The simplices by their smallest vertex. Those with the same one are ordered by their other
+ * vertices.
+ */
+template <int D>
+Numbers OrderSimplices(const Triangulation<D>& triangulation, const Numbers& newVertices,
+  std::size_t vertices, unsigned threads)
+{
+  using Vertices = std::array<VertexId, static_cast<std::size_t>(D + 1)>;
+  const auto verticesOf = [&](SimplexId s) // ascending
+  {
+    Vertices v = triangulation.GetSimplex(s).V;
+    std::transform(v.begin(), v.end(), v.begin(), [&](VertexId old) { return newVertices[old]; });
+    std::sort(v.begin(), v.end());
+    return v;
+  };
+  struct Ranked
+  {
+    std::uint64_t Key; ///< differs between nearly all simplices with the same smallest vertex
+    SimplexId Id;
+  };
+  const std::size_t ids = triangulation.SimplexIdEnd();
+  Numbers smallest(ids);
+  SharedCounts lists(vertices, threads, {});
+  ForAll(ids, threads,
     [&](std::size_t i)
     {
-      if (begins[i] != 0)
+      const auto s = static_cast<SimplexId>(i);
+      if (triangulation.IsAlive(s))
       {
-        const auto end =
-          std::find(begins.begin() + static_cast<std::ptrdiff_t>(i) + 1, begins.end(), 1);
-        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(i),
-          sorted.begin() + (end - begins.begin()), less);
+        const auto& v = triangulation.GetSimplex(s).V;
+        smallest[s] = newVertices[v[0]];
+        for (const VertexId old : v)
+        {
+          smallest[s] = std::min(smallest[s], newVertices[old]);
+        }
+        lists.Add(smallest[s]);
       }
     });
-  if (sorted.data() == scratch.data())
-  {
-    records.swap(scratch);
-  }
-}
-
-/** The old number of each new one: first the sorted records, then all that are not in use. */
-std::vector<std::uint32_t> OldNumbers(const std::vector<Keyed>& sorted, std::uint32_t end)
-{
-  std::vector<std::uint32_t> old;
-  old.reserve(end);
-  std::vector<bool> isUsed(end);
-  for (const Keyed& record : sorted)
-  {
-    old.push_back(record.Id);
-    isUsed[record.Id] = true;
-  }
-  for (std::uint32_t id = 0; id < end; ++id)
-  {
-    if (!isUsed[id])
+  UninitialisedVector<Ranked> sorted(lists.TurnIntoPlaces());
+  ForAll(ids, threads,
+    [&](std::size_t i)
     {
-      old.push_back(id);
-    }
-  }
-  return old;
+      const auto s = static_cast<SimplexId>(i);
+      if (triangulation.IsAlive(s))
+      {
+        const auto& v = triangulation.GetSimplex(s).V;
+        std::uint32_t largest = 0;
+        std::uint32_t sum = 0;
+        for (const VertexId old : v)
+        {
+          largest = std::max(largest, newVertices[old]);
+          sum += newVertices[old];
+        }
+        sorted[lists.Next(smallest[s])] = { std::uint64_t{ largest } << 32 | sum, s };
+      }
+    });
+  Numbers order(sorted.size());
+  ForAll(vertices, threads,
+    [&](std::size_t v)
+    {
+      std::sort(sorted.data() + lists.BeginOf(v), sorted.data() + lists.EndOf(v),
+        [&](const Ranked& a, const Ranked& b)
+        { return a.Key != b.Key ? a.Key < b.Key : verticesOf(a.Id) < verticesOf(b.Id); });
+      for (std::uint32_t i = lists.BeginOf(v); i < lists.EndOf(v); ++i)
+      {
+        order[i] = sorted[i].Id;
+      }
+    });
+  return order;
 }
 
-std::vector<std::uint32_t> Inverse(const std::vector<std::uint32_t>& old, unsigned threads)
+/** The new number of each old one that is in use. */
+Numbers Inverse(const Numbers& order, std::uint32_t end, unsigned threads)
 {
-  std::vector<std::uint32_t> inverse(old.size());
-  ForAll(
-    old.size(), threads, [&](std::size_t i) { inverse[old[i]] = static_cast<std::uint32_t>(i); });
+  Numbers inverse(end);
+  ForAll(order.size(), threads,
+    [&](std::size_t i) { inverse[order[i]] = static_cast<std::uint32_t>(i); });
   return inverse;
-}
-
-/**
- * Moves record old[i] to i, for all i, cycle by cycle. Needs no second array.
- */
-template <typename Record, unsigned ChunkBits>
-void Permute(ChunkedArray<Record, ChunkBits>& records, std::vector<std::uint32_t> old)
-{
-  for (std::uint32_t first = 0; first < old.size(); ++first)
-  {
-    if (old[first] == first)
-    {
-      continue;
-    }
-    const Record kept = records[first];
-    std::uint32_t to = first;
-    for (std::uint32_t from = old[to]; from != first; from = old[to])
-    {
-      __builtin_prefetch(&records[old[from]]);
-      records[to] = records[from];
-      old[to] = to;
-      to = from;
-    }
-    records[to] = kept;
-    old[to] = to;
-  }
 }
 
 } // namespace
@@ -135,81 +165,34 @@ void Permute(ChunkedArray<Record, ChunkBits>& records, std::vector<std::uint32_t
 template <int D>
 void Triangulation<D>::Renumber(unsigned threads)
 {
-  std::vector<Keyed> vertices;
-  for (VertexId v = 0; v < this->VertexIdEnd(); ++v)
-  {
-    if (this->Vertices[v].Alive)
-    {
-      vertices.push_back({ 0, v });
-    }
-  }
-  ForAll(vertices.size(), threads,
-    [&](std::size_t i)
-    { vertices[i].Key = HilbertIndex<D>(this->Position(vertices[i].Id), this->Domain); });
-  Sort(vertices, 0, 63, threads,
-    [this](const Keyed& a, const Keyed& b) { return this->Position(a.Id) < this->Position(b.Id); });
-  const std::vector<VertexId> oldVertices = OldNumbers(vertices, this->VertexIdEnd());
-  const std::vector<VertexId> newVertices = Inverse(oldVertices, threads);
+  const Numbers vertices = OrderVertices(*this, threads);
+  const Numbers newVertices = Inverse(vertices, this->VertexIdEnd(), threads);
+  const Numbers simplices = OrderSimplices(*this, newVertices, vertices.size(), threads);
+  const Numbers newSimplices = Inverse(simplices, this->SimplexIdEnd(), threads);
 
-  std::vector<Keyed> simplices;
-  std::uint32_t latest = 0;
-  for (SimplexId s = 0; s < this->SimplexIdEnd(); ++s)
-  {
-    latest = std::max(latest, this->States[s].Generation);
-    if (this->IsAlive(s))
-    {
-      simplices.push_back({ 0, s });
-    }
-  }
-  const auto newVerticesOf = [&](SimplexId s) // ascending
-  {
-    std::array<VertexId, N> v = this->Simplices[s].V;
-    for (VertexId& w : v)
-    {
-      w = newVertices[w];
-    }
-    std::sort(v.begin(), v.end());
-    return v;
-  };
-  ForAll(simplices.size(), threads,
-    [&](std::size_t i)
-    {
-      const std::array<VertexId, N> v = newVerticesOf(simplices[i].Id);
-      simplices[i].Key = std::uint64_t{ v[0] } << 32 | v[1];
-    });
-  Sort(simplices, 32, 32 + static_cast<unsigned>(std::bit_width(vertices.size())), threads,
-    [&](const Keyed& a, const Keyed& b)
-    { return a.Key != b.Key ? a.Key < b.Key : newVerticesOf(a.Id) < newVerticesOf(b.Id); });
-  const std::vector<SimplexId> oldSimplices = OldNumbers(simplices, this->SimplexIdEnd());
-  const std::vector<SimplexId> newSimplices = Inverse(oldSimplices, threads);
+  this->Vertices.Reorder(vertices, threads);
+  this->Simplices.Reorder(simplices, threads);
+  this->States.Reorder(simplices, threads);
+  this->Marks.Reorder(simplices, threads);
+  this->NextVertex.store(static_cast<VertexId>(vertices.size()), std::memory_order_relaxed);
+  this->NextSimplex.store(static_cast<SimplexId>(simplices.size()), std::memory_order_relaxed);
 
   ForAll(simplices.size(), threads,
     [&](std::size_t i)
     {
-      Simplex& simplex = this->Simplices[simplices[i].Id];
+      Simplex& simplex = this->Simplices[static_cast<SimplexId>(i)];
       for (unsigned k = 0; k < N; ++k)
       {
         simplex.V[k] = newVertices[simplex.V[k]];
         simplex.N[k] = simplex.N[k] == None ? None : newSimplices[simplex.N[k]];
       }
-      // No simplex has a generation that a caller may have seen at its new number.
-      this->States[simplices[i].Id].Generation = latest + 1;
     });
   ForAll(vertices.size(), threads,
     [&](std::size_t i)
     {
-      Vertex& vertex = this->Vertices[vertices[i].Id];
+      Vertex& vertex = this->Vertices[static_cast<VertexId>(i)];
       vertex.Incident = newSimplices[vertex.Incident];
     });
-  const std::array<std::function<void()>, 4> moves = {
-    [&] { Permute(this->Simplices, oldSimplices); },
-    [&] { Permute(this->States, oldSimplices); },
-    [&] { Permute(this->Marks, oldSimplices); },
-    [&] { Permute(this->Vertices, oldVertices); },
-  };
-  ParallelFor(0, moves.size(), 1, threads, [&](std::size_t i, std::size_t) { moves[i](); });
-  this->NextVertex.store(static_cast<VertexId>(vertices.size()), std::memory_order_relaxed);
-  this->NextSimplex.store(static_cast<SimplexId>(simplices.size()), std::memory_order_relaxed);
 }
 
 template void Triangulation<3>::Renumber(unsigned);

@@ -273,11 +273,11 @@ public:
 
   /**
    * Gives vertices and simplices the numbers 0, 1, ... in an order that depends on the points
-   * alone: vertices along a Hilbert curve, simplices by their vertices. So neighbours lie near each
-   * other in memory. Ids from before the call are void. The generation of every simplex is one that
-   * no simplex has had. No worker from before the call may operate again.
+   * alone: vertices along a Hilbert curve, simplices by their smallest vertex. So neighbours lie near
+   * each other in memory. Ids and generations from before the call are void. No worker from before
+   * the call may operate again.
    *
-   * Takes time O(n log n), and about 45 bytes for each simplex while it runs.
+   * Takes O(n log n) time, and about 75 bytes for each simplex while it runs.
    * @throws std::bad_alloc; then the triangulation cannot be used any more
    */
   void Renumber(unsigned threads);

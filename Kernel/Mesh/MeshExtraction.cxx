@@ -3,15 +3,12 @@
 #include "Mesh/MeshExtraction.h"
 
 #include "Base/UninitialisedVector.h"
-#include "Geometry/HilbertOrder.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/ParallelSort.h"
-#include "Parallel/SharedCounts.h"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
+#include <iterator>
 #include <utility>
 
 namespace voxplex
@@ -26,33 +23,35 @@ class Extraction
 {
 public:
   Extraction(const Triangulation<D>& triangulation, const Domain<D>& image,
-    std::span<const LabelId> labels, std::span<const Point<D>> positions, std::size_t spare,
-    unsigned threads, const std::stop_token& stop)
+    std::span<const LabelId> labels, const MeshChanges<D>& changes, unsigned threads,
+    const std::stop_token& stop)
     : Source(triangulation)
     , Image(image)
     , Labels(labels)
-    , Positions(positions)
-    , Spare(spare)
+    , Changes(changes)
     , Threads(threads)
     , Stop(stop)
     , Ids(labels.size())
     , Vertices(triangulation.VertexIdEnd())
+    , IsReplaced(changes.Parts.Replaced.empty() ? 0 : Ids)
     , Inside(Ids)
+    , FacetCounts(Ids)
   {
+    for (const SimplexId s : changes.Parts.Replaced)
+    {
+      this->IsReplaced[s] = 1;
+    }
+    std::copy_if(changes.Parts.Pieces.begin(), changes.Parts.Pieces.end(),
+      std::back_inserter(this->Pieces), [](const Piece<D>& piece) { return piece.Label != 0; });
   }
 
-  /** @param keepsNumbers for TakeNumbers() */
-  SimplexMesh<D> Run(bool keepsNumbers)
+  SimplexMesh<D> Run()
   {
     this->MarkVertices();
     this->NumberPoints();
-    this->SortSimplices();
     this->WriteSimplices();
-    if (!keepsNumbers)
-    {
-      this->Numbers = UninitialisedVector<std::uint32_t>();
-    }
     this->WriteFacets();
+    this->AddFacetsOfPieces();
     return std::move(this->Mesh);
   }
 
@@ -60,14 +59,8 @@ public:
 
 private:
   static constexpr unsigned N = D + 1;
+  using Corners = std::array<VertexId, N>;
   using Facet = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
-
-  /** A sort key and its vertex. */
-  struct Ranked
-  {
-    std::uint64_t Key;
-    VertexId Id;
-  };
 
   template <typename Function>
   void ForChunks(std::size_t iterations, Function&& function)
@@ -76,33 +69,67 @@ private:
       this->Stop);
   }
 
-  /** Marks the vertices of the simplices inside, and counts these simplices. */
+  bool Replaced(SimplexId s) const { return !this->IsReplaced.empty() && this->IsReplaced[s] != 0; }
+
+  /** Calls function(s) for all whole simplices of the mesh in a chunk of ids. */
+  template <typename Function>
+  void ForSimplices(std::size_t first, std::size_t last, Function&& function)
+  {
+    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+    {
+      if (this->Labels[s] != 0 && !this->Replaced(s))
+      {
+        function(s);
+      }
+    }
+  }
+
+  /**
+   * Calls function(i) for each facet i between whole simplices that s has to write. Each one is
+   * written once, from the side of the larger label. Ids ascend with the image's values.
+   */
+  template <typename Function>
+  void ForFacets(SimplexId s, Function&& function)
+  {
+    const auto& neighbours = this->Source.GetSimplex(s).N;
+    for (unsigned i = 0; i < N; ++i)
+    {
+      const SimplexId next = neighbours[i];
+      if (next == None || (this->Labels[next] < this->Labels[s] && !this->Replaced(next)))
+      {
+        function(i);
+      }
+    }
+  }
+
+  /** Marks the vertices of the mesh, and counts its whole simplices. */
   void MarkVertices()
   {
-    this->Numbers.resize(this->Vertices);
-    this->ForChunks(this->Vertices,
+    this->Numbers.resize(this->Vertices + this->Changes.Parts.Points.size());
+    this->ForChunks(this->Numbers.size(),
       [this](std::size_t first, std::size_t last)
       { std::fill(this->Numbers.data() + first, this->Numbers.data() + last, None); });
     this->ForChunks(this->Ids,
       [this](std::size_t first, std::size_t last)
       {
         std::size_t inside = 0;
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-        {
-          if (this->Labels[s] != 0)
+        this->ForSimplices(first, last,
+          [&](SimplexId s)
           {
             ++inside;
-            this->MarkVerticesOf(s);
-          }
-        }
+            this->Mark(this->Source.GetSimplex(s).V);
+          });
         this->Inside.OfChunk(first) = inside;
       });
-    this->NumberOfSimplices = this->Inside.TurnIntoPlaces();
+    for (const Piece<D>& piece : this->Pieces)
+    {
+      this->Mark(piece.V);
+    }
   }
 
-  void MarkVerticesOf(SimplexId s)
+  void Mark(const Corners& corners)
   {
-    for (const VertexId v : this->Source.GetSimplex(s).V)
+    for (const VertexId v : corners)
     {
       // Relaxed: threads write the same number, and the end of the loop orders it before its
       // readers. Most vertices are marked already. Reading first leaves the cache line with the
@@ -115,25 +142,18 @@ private:
     }
   }
 
-  /**
-   * Numbers points along a Hilbert curve. Points at the same place of the curve are sorted by their
-   * ids.
-   */
   void NumberPoints()
   {
-    ChunkCounts places(this->Vertices);
-    this->ForChunks(this->Vertices,
+    ChunkCounts places(this->Numbers.size());
+    this->ForChunks(this->Numbers.size(),
       [&](std::size_t first, std::size_t last)
       {
         const std::uint32_t* const numbers = this->Numbers.data();
         places.OfChunk(first) = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(last - first) -
           std::count(numbers + first, numbers + last, None));
       });
-    const std::size_t points = places.TurnIntoPlaces();
-
-    UninitialisedVector<Ranked> memory(2 * points);
-    const std::span<Ranked> records(memory);
-    this->ForChunks(this->Vertices,
+    this->Mesh.Points.resize(places.TurnIntoPlaces());
+    this->ForChunks(this->Numbers.size(),
       [&](std::size_t first, std::size_t last)
       {
         std::size_t place = places.OfChunk(first);
@@ -141,163 +161,139 @@ private:
         {
           if (this->Numbers[v] != None)
           {
-            records[place++] = { HilbertIndex<D>(this->Source.Position(v), this->Source.GetBox()),
-              v };
+            this->Mesh.Points[place] = this->Position(v);
+            this->Numbers[v] = static_cast<std::uint32_t>(place++);
           }
-        }
-      });
-    const std::span<Ranked> sorted = ParallelRadixSort(
-      records.first(points), records.last(points), 63,
-      [](const Ranked& record) { return record.Key; }, this->Threads, this->Stop);
-
-    this->Mesh.Points.reserve(points + this->Spare);
-    this->Mesh.Points.resize(points);
-    this->ForChunks(points,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          this->Numbers[sorted[i].Id] = static_cast<std::uint32_t>(i);
-          this->Mesh.Points[i] = this->Positions.empty() ? this->Source.Position(sorted[i].Id)
-                                                         : this->Positions[sorted[i].Id];
         }
       });
   }
 
-  /**
-   * Sorts the ids of the simplices inside by their smallest point, then by themselves. Counts the
-   * simplices of each point, and writes their ids into lists. Threads write in any order, so each
-   * list, of a few ids, is sorted in the end.
-   */
-  void SortSimplices()
+  const Point<D>& Position(VertexId v) const
   {
-    const std::size_t points = this->Mesh.Points.size();
-    SharedCounts places(points, this->Threads, this->Stop);
-    UninitialisedVector<std::uint32_t> smallest(this->NumberOfSimplices);
-    this->ForSimplices(
-      [&](std::size_t k, SimplexId s)
-      {
-        smallest[k] = this->SmallestPoint(s);
-        places.Add(smallest[k]);
-      });
-    places.TurnIntoPlaces();
-    this->Sorted.resize(this->NumberOfSimplices);
-    this->ForSimplices(
-      [&](std::size_t k, SimplexId s) { this->Sorted[places.Next(smallest[k])] = s; });
-    if (!places.IsInOrder())
+    if (v >= this->Vertices)
     {
-      this->ForChunks(points,
-        [&](std::size_t first, std::size_t last)
-        {
-          for (std::size_t p = first; p < last; ++p)
-          {
-            std::sort(
-              this->Sorted.data() + places.BeginOf(p), this->Sorted.data() + places.EndOf(p));
-          }
-        });
+      return this->Changes.Parts.Points[v - this->Vertices];
     }
+    return this->Changes.Positions.empty() ? this->Source.Position(v) : this->Changes.Positions[v];
   }
 
-  /**
-   * Calls function(number of the simplex, id) for all simplices inside, ascending in each chunk.
-   * Neighbours may write to the counts of the same points.
-   */
-  template <typename Function>
-  void ForSimplices(Function&& function)
-  {
-    ParallelFor(
-      0, this->Ids, ChunkCounts::Grain, this->Threads,
-      [&](std::size_t first, std::size_t last)
-      {
-        std::size_t k = this->Inside.OfChunk(first);
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-        {
-          if (this->Labels[s] != 0)
-          {
-            function(k++, s);
-          }
-        }
-      },
-      this->Stop);
-  }
-
-  std::uint32_t SmallestPoint(SimplexId s) const
-  {
-    std::uint32_t smallest = None;
-    for (const VertexId v : this->Source.GetSimplex(s).V)
-    {
-      smallest = std::min(smallest, this->Numbers[v]);
-    }
-    return smallest;
-  }
-
-  /** Writes the simplices and labels, and notes which facets are interfaces. */
+  /** Writes the simplices and labels, and counts the facets between whole simplices. */
   void WriteSimplices()
   {
-    const std::size_t n = this->NumberOfSimplices;
-    this->Mesh.Simplices.reserve(n + this->Spare);
-    this->Mesh.Simplices.resize(n);
-    this->Mesh.Labels.reserve(n + this->Spare);
-    this->Mesh.Labels.resize(n);
-    this->Interfaces.resize(n);
-    this->FacetCounts = ChunkCounts(n);
-    this->ForChunks(n,
-      [this, n](std::size_t first, std::size_t last)
+    std::size_t next = this->Inside.TurnIntoPlaces();
+    this->Mesh.Simplices.resize(next + this->Pieces.size());
+    this->Mesh.Labels.resize(next + this->Pieces.size());
+    this->ForChunks(this->Ids,
+      [this](std::size_t first, std::size_t last)
       {
-        // Neighbours in the mesh are at any places in the triangulation.
-        constexpr std::size_t Ahead = 16;
+        std::size_t k = this->Inside.OfChunk(first);
         std::size_t facets = 0;
-        for (std::size_t k = first; k < last; ++k)
-        {
-          __builtin_prefetch(&this->Source.GetSimplex(this->Sorted[std::min(k + Ahead, n - 1)]));
-          facets += this->WriteSimplex(k);
-        }
+        this->ForSimplices(first, last,
+          [&](SimplexId s)
+          {
+            this->WriteSimplex(k++, this->Source.GetSimplex(s).V, this->Labels[s]);
+            this->ForFacets(s, [&facets](unsigned) { ++facets; });
+          });
         this->FacetCounts.OfChunk(first) = facets;
       });
+    for (const Piece<D>& piece : this->Pieces)
+    {
+      this->WriteSimplex(next++, piece.V, piece.Label);
+    }
   }
 
-  /** Returns the number of the simplex' facets to write. */
-  unsigned WriteSimplex(std::size_t k)
+  void WriteSimplex(std::size_t k, const Corners& corners, LabelId label)
   {
-    const SimplexId s = this->Sorted[k];
-    const auto& simplex = this->Source.GetSimplex(s);
-    unsigned interfaces = 0;
     for (unsigned i = 0; i < N; ++i)
     {
-      this->Mesh.Simplices[k][i] = this->Numbers[simplex.V[i]];
-      // Each facet is written once, from the side of the larger label. Ids ascend with the image's
-      // values.
-      interfaces |= (this->LabelOrBackground(simplex.N[i]) < this->Labels[s] ? 1u : 0u) << i;
+      this->Mesh.Simplices[k][i] = this->Numbers[corners[i]];
     }
-    this->Mesh.Labels[k] = this->Image.LabelValue(this->Labels[s]);
-    this->Interfaces[k] = static_cast<std::uint8_t>(interfaces);
-    return static_cast<unsigned>(std::popcount(interfaces));
+    this->Mesh.Labels[k] = this->Image.LabelValue(label);
   }
 
   void WriteFacets()
   {
     const std::size_t facets = this->FacetCounts.TurnIntoPlaces();
-    this->Mesh.Facets.reserve(facets + N * this->Spare);
-    this->Mesh.FacetLabels.reserve(facets + N * this->Spare);
     this->Mesh.Facets.resize(facets);
     this->Mesh.FacetLabels.resize(facets);
-    this->ForChunks(this->NumberOfSimplices,
+    this->ForChunks(this->Ids,
       [this](std::size_t first, std::size_t last)
       {
+        std::size_t k = this->Inside.OfChunk(first);
         std::size_t f = this->FacetCounts.OfChunk(first);
-        for (std::size_t k = first; k < last; ++k)
-        {
-          for (unsigned rest = this->Interfaces[k]; rest != 0; rest &= rest - 1)
+        this->ForSimplices(first, last,
+          [&](SimplexId s)
           {
-            const auto i = static_cast<unsigned>(std::countr_zero(rest));
-            const SimplexId other = this->Source.GetSimplex(this->Sorted[k]).N[i];
-            this->Mesh.Facets[f] = OutwardFacet(this->Mesh.Simplices[k], i);
-            this->Mesh.FacetLabels[f] = { this->Mesh.Labels[k],
-              this->Image.LabelValue(this->LabelOrBackground(other)) };
-            ++f;
-          }
-        }
+            this->ForFacets(s,
+              [&](unsigned i)
+              {
+                const SimplexId other = this->Source.GetSimplex(s).N[i];
+                this->Mesh.Facets[f] = OutwardFacet(this->Mesh.Simplices[k], i);
+                this->Mesh.FacetLabels[f] = { this->Mesh.Labels[k],
+                  this->Image.LabelValue(this->LabelOrBackground(other)) };
+                ++f;
+              });
+            ++k;
+          });
       });
+  }
+
+  /** One side of a facet that a piece has. */
+  struct Side
+  {
+    Facet Sorted;  ///< the vertices, the same on both sides
+    Facet Outward; ///< as OutwardFacet() has them
+    LabelId Label;
+  };
+
+  /** Adds the facets of pieces, which are found by their vertices. */
+  void AddFacetsOfPieces()
+  {
+    std::vector<Side> sides;
+    const auto add = [&sides](const Corners& corners, unsigned i, LabelId label)
+    {
+      const Facet outward = OutwardFacet(corners, i);
+      sides.push_back({ outward, outward, label });
+      std::sort(sides.back().Sorted.begin(), sides.back().Sorted.end());
+    };
+    for (const Piece<D>& piece : this->Changes.Parts.Pieces)
+    {
+      for (unsigned i = 0; i < N; ++i)
+      {
+        add(piece.V, i, piece.Label);
+      }
+    }
+    for (const SimplexId s : this->Changes.Parts.Replaced)
+    {
+      for (const SimplexId next : this->Source.GetSimplex(s).N)
+      {
+        if (next != None && !this->Replaced(next))
+        {
+          const auto& simplex = this->Source.GetSimplex(next);
+          const auto back = std::find(simplex.N.begin(), simplex.N.end(), s) - simplex.N.begin();
+          add(simplex.V, static_cast<unsigned>(back), this->Labels[next]);
+        }
+      }
+    }
+    std::sort(sides.begin(), sides.end(),
+      [](const Side& a, const Side& b)
+      { return a.Sorted != b.Sorted ? a.Sorted < b.Sorted : a.Label > b.Label; });
+    for (auto side = sides.begin(); side != sides.end();)
+    {
+      const auto other = std::next(side);
+      const bool isPair = other != sides.end() && other->Sorted == side->Sorted;
+      const LabelId beyond = isPair ? other->Label : LabelId(0); // the box ends at a flat end
+      if (side->Label != beyond)
+      {
+        Facet facet;
+        std::transform(side->Outward.begin(), side->Outward.end(), facet.begin(),
+          [this](VertexId v) { return this->Numbers[v]; });
+        this->Mesh.Facets.push_back(facet);
+        this->Mesh.FacetLabels.push_back(
+          { this->Image.LabelValue(side->Label), this->Image.LabelValue(beyond) });
+      }
+      side += isPair ? 2 : 1;
+    }
   }
 
   LabelId LabelOrBackground(SimplexId s) const { return s == None ? LabelId(0) : this->Labels[s]; }
@@ -334,21 +330,18 @@ private:
 
   const Triangulation<D>& Source;
   const Domain<D>& Image;
-  const std::span<const LabelId> Labels;     ///< of each simplex id
-  const std::span<const Point<D>> Positions; ///< of each vertex id, or empty
-  const std::size_t Spare;                   ///< simplices to be added later
+  const std::span<const LabelId> Labels; ///< of each simplex id
+  const MeshChanges<D>& Changes;
   const unsigned Threads;
   const std::stop_token& Stop;
-  const std::size_t Ids;      ///< all simplex ids are smaller
-  const std::size_t Vertices; ///< all vertex ids are smaller
+  const std::size_t Ids;                ///< all simplex ids are smaller
+  const std::size_t Vertices;           ///< all vertex ids of the triangulation are smaller
+  std::vector<std::uint8_t> IsReplaced; ///< by simplex id; empty if none is
+  std::vector<Piece<D>> Pieces;         ///< those of the mesh
   SimplexMesh<D> Mesh;
-  ChunkCounts Inside;                         ///< simplices inside, by chunks of simplex ids
-  std::size_t NumberOfSimplices = 0;          ///< number of simplices inside
-  UninitialisedVector<std::uint32_t> Numbers; ///< number of each vertex in the mesh, or None
-  UninitialisedVector<SimplexId> Sorted;      ///< the simplices inside, as the mesh has them
-  /** For each simplex of the mesh, a bit for each facet. */
-  UninitialisedVector<std::uint8_t> Interfaces;
-  ChunkCounts FacetCounts; ///< by chunks of simplices of the mesh
+  UninitialisedVector<std::uint32_t> Numbers; ///< point of each vertex id, or None
+  ChunkCounts Inside;                         ///< whole simplices, by chunks of simplex ids
+  ChunkCounts FacetCounts;                    ///< facets between these, by the same chunks
 };
 
 } // namespace
@@ -357,12 +350,12 @@ private:
 template <int D>
 void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
   std::span<const LabelId> labels, SimplexMesh<D>& mesh, unsigned threads,
-  const std::stop_token& stop, std::span<const Point<D>> positions,
-  UninitialisedVector<std::uint32_t>* numbers, std::size_t spare)
+  const std::stop_token& stop, const MeshChanges<D>& changes,
+  UninitialisedVector<std::uint32_t>* numbers)
 {
   mesh = SimplexMesh<D>();
-  Extraction<D> extraction(triangulation, image, labels, positions, spare, threads, stop);
-  mesh = extraction.Run(numbers != nullptr);
+  Extraction<D> extraction(triangulation, image, labels, changes, threads, stop);
+  mesh = extraction.Run();
   if (numbers)
   {
     *numbers = extraction.TakeNumbers();
@@ -379,11 +372,11 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& image,
 }
 
 template void ExtractMesh<3>(const Triangulation<3>&, const Domain<3>&, std::span<const LabelId>,
-  SimplexMesh<3>&, unsigned, const std::stop_token&, std::span<const Point<3>>,
-  UninitialisedVector<std::uint32_t>*, std::size_t);
+  SimplexMesh<3>&, unsigned, const std::stop_token&, const MeshChanges<3>&,
+  UninitialisedVector<std::uint32_t>*);
 template void ExtractMesh<4>(const Triangulation<4>&, const Domain<4>&, std::span<const LabelId>,
-  SimplexMesh<4>&, unsigned, const std::stop_token&, std::span<const Point<4>>,
-  UninitialisedVector<std::uint32_t>*, std::size_t);
+  SimplexMesh<4>&, unsigned, const std::stop_token&, const MeshChanges<4>&,
+  UninitialisedVector<std::uint32_t>*);
 template void ExtractMesh<3>(
   const Triangulation<3>&, const Domain<3>&, SimplexMesh<3>&, unsigned, const std::stop_token&);
 template void ExtractMesh<4>(

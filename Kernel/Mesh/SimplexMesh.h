@@ -21,8 +21,8 @@ namespace voxplex
 /**
  * @brief Simplices with labels, and the interfaces between labels.
  *
- * - Points: D coordinates in the mesher's frame (GridGeometry), sorted along a Hilbert curve. Every
- *   point is used by a simplex.
+ * - Points: D coordinates in the mesher's frame (GridGeometry). Every point is used by a simplex. The
+ *   order of points and simplices is mostly that of places along a Hilbert curve.
  * - Simplices: D+1 point indices, positively oriented: det(p1-p0, ..., pD-p0) > 0 in the frame. In
  *   3D this is the vertex order of VTK_TETRA.
  * - Labels: the image's own label value of each simplex; never background.

@@ -217,25 +217,23 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   }
   context.Positions = positions;
   context.Keeps = KeepsItsLabel(run, source);
-  const SpindleResult<D> opened =
+  SpindleResult<D> opened =
     MakeSpindles<D>(source, surfaces, labels.Labels, labels.NonManifold, run.Stop, context);
   run.Statistics.Interfaces.CountOpened(labels.NonManifold.size(), opened.Left.size());
   if constexpr (D == 3)
   {
     stage.Finish(); // in 4D it is asked which pentatopes are around the mesh
   }
+  const MeshChanges<D> changes{ positions, std::move(opened.Parts) };
   UninitialisedVector<std::uint32_t> numbers;
-  ExtractMesh<D>(source, surfaces, labels.Labels, mesh.Mesh, threads, run.Stop, positions, &numbers,
-    opened.Parts.Pieces.size());
-  Subdivide<D>(
-    source, surfaces, opened.Parts, mesh.Mesh, threads, run.Stop, { positions, &numbers });
+  ExtractMesh<D>(source, surfaces, labels.Labels, mesh.Mesh, threads, run.Stop, changes, &numbers);
   if constexpr (D == 4)
   {
     MakeTwins(run, stage, numbers, mesh.Mesh);
     if (run.Options.Optimisation.Run)
     {
       mesh.Outside = SurroundingsOf(
-        source, labels.Labels, opened.Parts, positions, numbers, mesh.Mesh.Points.size());
+        source, labels.Labels, changes.Parts, positions, numbers, mesh.Mesh.Points.size());
     }
   }
   run.Statistics.Times.Extraction += time.Seconds();

@@ -91,10 +91,20 @@ bool RefineContext(const RunEnvironment<D>& run, RefinementContext<D>& context,
     TiledRefiner<Rules> refiner(context, team, seeds, start);
     return RunRefiner(run, refiner, expectedVertices, others, progress);
   }
-  Refiner<Rules> refiner(context, team, seeds, start);
-  const bool done = RunRefiner(run, refiner, expectedVertices, others, progress);
-  run.Statistics.SeedingSeconds += refiner.GetSecondsToSeed();
-  run.Statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
+  const bool done = [&]
+  {
+    Refiner<Rules> refiner(context, team, seeds, start);
+    const bool isDone = RunRefiner(run, refiner, expectedVertices, others, progress);
+    run.Statistics.SeedingSeconds += refiner.GetSecondsToSeed();
+    run.Statistics.SwitchedToLocal |= refiner.SwitchedToLocal();
+    return isDone;
+  }();
+  if (done && start == RefinementStart::Everywhere)
+  {
+    const Stopwatch time;
+    context.Mesh.Renumber(team.Threads); // all that follows finds neighbours near in memory
+    run.Statistics.Times.Refinement += time.Seconds();
+  }
   return done;
 }
 

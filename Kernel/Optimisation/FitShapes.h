@@ -57,17 +57,10 @@ public:
     }
   }
 
-  /** A simplex must have a larger volume than this. */
-  double LeastVolume(SimplexId s) const
-  {
-    return this->HasBounds(s) ? 0.0 : VolumeKept * SignedVolume<D>(this->Before(s).data());
-  }
-
   /**
    * Whether the moved simplex is positively oriented, and keeps the bounds or gets no worse.
-   * @param leastVolume LeastVolume(s)
    */
-  bool IsGood(SimplexId s, double leastVolume) const
+  bool IsGood(SimplexId s) const
   {
     const auto& v = this->Source.GetSimplex(s).V;
     Corners after;
@@ -76,7 +69,9 @@ public:
       after[k] = &this->Positions[v[k]];
     }
     const double volume = SignedVolume<D>(after.data());
-    if (!(volume > leastVolume) ||
+    const double least =
+      this->HasBounds(s) ? 0.0 : VolumeKept * SignedVolume<D>(this->Before(s).data());
+    if (!(volume > least) ||
       (!this->AreHolders.empty() && this->AreHolders[s] != 0 &&
         !this->Bounds.Guard->Keeps(this->Labels[s], this->Before(s), after)))
     {

@@ -75,7 +75,6 @@ public:
     this->FindVertices();
     this->MeasureFacets();
     this->FindInterfaces();
-    this->FindSimplices();
     this->Shapes.FindHolders(this->Threads, this->Stop);
     for (unsigned round = 0; round < Rounds<D>; ++round)
     {
@@ -521,57 +520,19 @@ private:
       });
   }
 
-  /** Lists the simplices with a vertex of a facet. */
-  void FindSimplices()
-  {
-    const auto touches = [this](SimplexId s)
-    {
-      const auto& v = this->Source.GetSimplex(s).V;
-      return this->Source.IsAlive(s) &&
-        std::any_of(v.begin(), v.end(), [this](VertexId x) { return this->Ranks[x] != None; });
-    };
-    ChunkCounts counts(this->Labels.size());
-    this->ForChunks(this->Labels.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        std::size_t n = 0;
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-        {
-          n += touches(s) ? 1 : 0;
-        }
-        counts.OfChunk(first) = n;
-      });
-    this->Simplices.resize(counts.TurnIntoPlaces());
-    this->LeastVolumes.resize(this->Simplices.size());
-    this->ForChunks(this->Labels.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        std::size_t k = counts.OfChunk(first);
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-        {
-          if (touches(s))
-          {
-            this->Simplices[k] = s;
-            this->LeastVolumes[k++] = this->Shapes.LeastVolume(s);
-          }
-        }
-      });
-  }
-
   /** Shortens steps until every simplex is good. Each pass shortens at least one. */
   void KeepShapes()
   {
     for (bool areGood = false; !areGood;)
     {
       std::atomic<bool> anyBad{ false };
-      this->ForChunks(this->Simplices.size(),
+      this->ForChunks(this->Labels.size(),
         [&](std::size_t first, std::size_t last)
         {
-          for (std::size_t k = first; k < last; ++k)
+          for (auto s = static_cast<SimplexId>(first); s < last; ++s)
           {
-            const SimplexId s = this->Simplices[k];
-            if (this->HasChangedVertex(this->Source.GetSimplex(s).V) &&
-              !this->Shapes.IsGood(s, this->LeastVolumes[k]))
+            if (this->Source.IsAlive(s) && this->HasChangedVertex(this->Source.GetSimplex(s).V) &&
+              !this->Shapes.IsGood(s))
             {
               anyBad.store(true, std::memory_order_relaxed);
               this->MarkCornersOf(this->Source.GetSimplex(s).V);
@@ -665,9 +626,7 @@ private:
   std::vector<double>
     Wanted;              ///< the volume that each label is to gain; of background it is not used
   bool HasSteps = false; ///< whether any vertex has been moved
-  UninitialisedVector<SimplexId> Simplices; ///< those with a corner
-  UninitialisedVector<double> LeastVolumes; ///< of these: FitShapes::LeastVolume()
-  std::vector<std::size_t> FirstFacet;      ///< of each corner, in FacetsOf; and the end
+  std::vector<std::size_t> FirstFacet; ///< of each corner, in FacetsOf; and the end
   UninitialisedVector<std::uint32_t> FacetsOf;
   UninitialisedVector<Point<D>> Positions; ///< of each vertex id, with the steps of this round
   std::vector<std::uint8_t> HasChanged;    ///< of each vertex id, since its simplices were checked

@@ -4,7 +4,6 @@
 #include "Base/Error.h"
 #include "Conformity/EdgeSpindles.h"
 #include "Domain/ImageDomain.h"
-#include "Geometry/HilbertOrder.h"
 #include "Geometry/SimplexQuality.h"
 #include "InterfaceChecks.h"
 #include "Mesh/LabelledTriangulation.h"
@@ -63,10 +62,10 @@ struct Opened
     std::span<const LabelId> labels, unsigned threads = 1)
   {
     ExtractMesh<3>(triangulation, domain, labels, this->Before, threads);
-    this->After = this->Before;
     this->Edges = BadEdgesOf(triangulation, this->Before);
     this->Result = MakeSpindles<3>(triangulation, domain, labels, this->Edges);
-    Subdivide<3>(triangulation, domain, this->Result.Parts, this->After, threads);
+    ExtractMesh<3>(
+      triangulation, domain, labels, this->After, threads, {}, { {}, this->Result.Parts });
   }
 
   /** Checks what must hold with all labels. */
@@ -297,29 +296,25 @@ TEST(EdgeSpindles, LeaveNoDentsWhereTheImageCuts)
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(Subdivision, KeepsTheOrderOfPointsAndTetrahedra)
+TEST(MeshExtraction, PiecesAreBehindTheOtherTetrahedra)
 {
   const ShuffledBall shuffled;
-  const Triangulation<3>& source = shuffled.Context->Mesh;
   const SimplexLabels labels = shuffled.Labels(3, 2, true);
-  const Opened opened(source, PlainLabels(), labels);
-  std::uint64_t last = 0;
-  for (const Point<3>& p : opened.After.Points)
+  const Opened opened(shuffled.Context->Mesh, PlainLabels(), labels);
+  ASSERT_GT(opened.After.Points.size(), opened.Before.Points.size());
+  EXPECT_TRUE(std::equal(
+    opened.Before.Points.begin(), opened.Before.Points.end(), opened.After.Points.begin()));
+  const auto pieces = std::count_if(opened.Result.Parts.Pieces.begin(),
+    opened.Result.Parts.Pieces.end(), [](const Piece<3>& piece) { return piece.Label != 0; });
+  auto before = opened.Before.Simplices.begin();
+  for (std::size_t t = 0; t + static_cast<std::size_t>(pieces) < opened.After.Simplices.size(); ++t)
   {
-    const std::uint64_t index = HilbertIndex<3>(p, source.GetBox());
-    EXPECT_GE(index, last);
-    last = index;
-  }
-  std::uint32_t first = 0;
-  for (const auto& v : opened.After.Simplices)
-  {
-    const std::uint32_t smallest = *std::min_element(v.begin(), v.end());
-    EXPECT_GE(smallest, first);
-    first = smallest;
+    before = std::find(before, opened.Before.Simplices.end(), opened.After.Simplices[t]);
+    ASSERT_NE(before, opened.Before.Simplices.end()) << t;
   }
 }
 
-TEST(Subdivision, DoesNotDependOnThreads)
+TEST(MeshExtraction, PiecesDoNotDependOnThreads)
 {
   const ShuffledBall shuffled;
   const SimplexLabels labels = shuffled.Labels(4, 3, false);

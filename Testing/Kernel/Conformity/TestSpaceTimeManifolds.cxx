@@ -4,7 +4,6 @@
 #include "CallableSize.h"
 #include "Conformity/EdgeSpindles.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Geometry/HilbertOrder.h"
 #include "MeshChecks.h"
 #include "Refinement/Rules4D.h"
 #include "RefinementChecks.h"
@@ -94,11 +93,10 @@ struct Opened
     const SimplexLabels& labels, unsigned threads = 1)
   {
     ExtractMesh<4>(triangulation, domain, labels, this->Before, threads, {}, {}, &this->Numbers);
-    this->After = this->Before;
     this->Triangles = BadTriangles(this->Before, this->Numbers);
     this->Result = MakeSpindles<4>(triangulation, domain, labels, this->Triangles);
-    Subdivide<4>(
-      triangulation, domain, this->Result.Parts, this->After, threads, {}, { {}, &this->Numbers });
+    ExtractMesh<4>(triangulation, domain, labels, this->After, threads, {},
+      { {}, this->Result.Parts }, &this->Numbers);
   }
 
   void Check() const
@@ -261,21 +259,6 @@ TEST(SpaceTimeSpindles, DoNotDependOnThreads)
   EXPECT_EQ(one.After.Labels, three.After.Labels);
   EXPECT_EQ(one.After.Facets, three.After.Facets);
   EXPECT_EQ(one.Numbers, three.Numbers);
-}
-
-TEST(SpaceTimeSpindles, KeepPointsAndPentatopesInOrder)
-{
-  const AnyLabels ball(3.0);
-  const RefinedObject refined(ball, 1.4);
-  const Opened opened(refined.Mesh(), ball, Shuffled(refined.Object, 3, 2, false));
-  const auto placeOf = [&](const Point<4>& p)
-  { return HilbertIndex<4>(p, refined.Mesh().GetBox()); };
-  EXPECT_GT(opened.After.Points.size(), opened.Before.Points.size());
-  EXPECT_TRUE(std::is_sorted(opened.After.Points.begin(), opened.After.Points.end(),
-    [&](const Point<4>& a, const Point<4>& b) { return placeOf(a) < placeOf(b); }));
-  const auto smallest = [](const auto& v) { return *std::min_element(v.begin(), v.end()); };
-  EXPECT_TRUE(std::is_sorted(opened.After.Simplices.begin(), opened.After.Simplices.end(),
-    [&](const auto& a, const auto& b) { return smallest(a) < smallest(b); }));
 }
 
 //------------------------------------------------------------------------------------------------

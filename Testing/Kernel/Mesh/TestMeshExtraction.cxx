@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The extracted mesh against its definition, written down without threads.
 #include "Base/Error.h"
-#include "Geometry/HilbertOrder.h"
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 
@@ -159,9 +158,7 @@ template <int D>
 SimplexMesh<D> Expected(const Triangulation<D>& triangulation, const Domain<D>& image)
 {
   std::map<SimplexId, LabelId> labels;
-  std::map<std::pair<std::uint64_t, VertexId>, std::uint32_t> order;
-  const auto rank = [&](VertexId v)
-  { return std::pair(HilbertIndex<D>(triangulation.Position(v), triangulation.GetBox()), v); };
+  std::map<VertexId, std::uint32_t> order;
   for (SimplexId s = 0; s < triangulation.SimplexIdEnd(); ++s)
   {
     if (!triangulation.IsAlive(s))
@@ -176,39 +173,29 @@ SimplexMesh<D> Expected(const Triangulation<D>& triangulation, const Domain<D>& 
       labels[s] = label;
       for (const VertexId v : triangulation.GetSimplex(s).V)
       {
-        order[rank(v)] = 0;
+        order[v] = 0;
       }
     }
   }
   SimplexMesh<D> mesh;
-  for (auto& [key, number] : order)
+  for (auto& [v, number] : order)
   {
     number = static_cast<std::uint32_t>(mesh.Points.size());
-    mesh.Points.push_back(triangulation.Position(key.second));
+    mesh.Points.push_back(triangulation.Position(v));
   }
-  std::multimap<std::uint32_t, SimplexId> sorted; // keeps the order of equal keys
   for (const auto& [s, label] : labels)
-  {
-    std::uint32_t smallest = None;
-    for (const VertexId v : triangulation.GetSimplex(s).V)
-    {
-      smallest = std::min(smallest, order.at(rank(v)));
-    }
-    sorted.emplace(smallest, s);
-  }
-  for (const auto& [smallest, s] : sorted)
   {
     auto& simplex = mesh.Simplices.emplace_back();
     for (std::size_t i = 0; i < simplex.size(); ++i)
     {
-      simplex[i] = order.at(rank(triangulation.GetSimplex(s).V[i]));
+      simplex[i] = order.at(triangulation.GetSimplex(s).V[i]);
     }
-    mesh.Labels.push_back(image.LabelValue(labels[s]));
+    mesh.Labels.push_back(image.LabelValue(label));
     for (unsigned i = 0; i < simplex.size(); ++i)
     {
       const auto other = labels.find(triangulation.GetSimplex(s).N[i]);
       const LabelId otherLabel = other == labels.end() ? LabelId(0) : other->second;
-      if (otherLabel < labels[s])
+      if (otherLabel < label)
       {
         auto& facet = mesh.Facets.emplace_back();
         std::copy(simplex.begin() + i + 1, simplex.end(),
