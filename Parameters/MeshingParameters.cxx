@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
 
 namespace voxplex
@@ -253,11 +252,19 @@ std::optional<std::string> Resolved(UserInterface interface, const std::string& 
 /** The methods that messages of readers name. */
 std::string WithoutMethods(UserInterface interface, std::string message)
 {
-  static const std::regex series("SetSeriesUID\\(\"([^\"]*)\"\\)");
-  message = std::regex_replace(message, series,
-    interface == UserInterface::CommandLine ? "--series $1"
-      : interface == UserInterface::Python  ? "series_uid=\"$1\""
-                                            : "$&");
+  // By hand: to compile one std::regex takes longer than the rest of the table.
+  constexpr std::string_view series = "SetSeriesUID(\"";
+  const bool isOption = interface == UserInterface::CommandLine;
+  const bool isNamed = isOption || interface == UserInterface::Python;
+  for (std::size_t at = 0; isNamed && (at = message.find(series, at)) != std::string::npos; ++at)
+  {
+    const std::size_t quote = message.find('"', at + series.size());
+    if (quote != std::string::npos && message.compare(quote, 2, "\")") == 0)
+    {
+      message.replace(quote, 2, isOption ? "" : "\"");
+      message.replace(at, series.size(), isOption ? "--series " : "series_uid=\"");
+    }
+  }
   for (const Term& term : Terms)
   {
     const std::string_view method = NameIn(UserInterface::VTK, term);
