@@ -103,12 +103,11 @@ std::size_t RowsAtOnce(std::size_t rowLength)
   return std::max<std::size_t>(1, (std::size_t{ 1 } << 18) / rowLength);
 }
 
-/** The values in the rows that one thread reads. */
-template <typename T, int D>
+/** The labels in the rows that one thread reads. */
+template <int D>
 struct Census
 {
-  SlotTable<T> Slots;
-  std::vector<T> Values; ///< value of each slot
+  std::vector<std::int64_t> Values; ///< of each slot
   std::vector<std::int64_t> Counts;
   std::vector<char> Kept;
   std::array<std::int64_t, static_cast<std::size_t>(D)> Min;
@@ -262,21 +261,21 @@ public:
   }
 
   /** @throws InputError if a value is not a label, or there are too many */
-  std::vector<std::unique_ptr<Census<T, D>>> Run(unsigned threads, const std::stop_token& stop)
+  std::vector<Census<D>> Run(unsigned threads, const std::stop_token& stop)
   {
-    std::vector<std::unique_ptr<Census<T, D>>> all; // those that no chunk uses now are in `idle`
-    std::vector<Census<T, D>*> idle;
+    std::vector<std::unique_ptr<TypedCensus>> all; // those that no chunk uses now are in `idle`
+    std::vector<TypedCensus*> idle;
     std::mutex mutex;
     ParallelFor(
       0, this->Scalars.size() / this->RowLength, RowsAtOnce(this->RowLength), threads,
       [&](std::size_t begin, std::size_t end)
       {
-        Census<T, D>* census = nullptr;
+        TypedCensus* census = nullptr;
         {
           const std::scoped_lock lock(mutex);
           if (idle.empty())
           {
-            all.push_back(std::make_unique<Census<T, D>>());
+            all.push_back(std::make_unique<TypedCensus>());
             idle.push_back(all.back().get());
           }
           census = idle.back();
@@ -299,11 +298,21 @@ public:
     {
       ThrowTooManyLabels();
     }
-    return all;
+    std::vector<Census<D>> censuses;
+    for (const auto& census : all)
+    {
+      censuses.push_back(std::move(*census));
+    }
+    return censuses;
   }
 
 private:
-  void ReadRow(Census<T, D>& census, std::size_t row)
+  struct TypedCensus : Census<D>
+  {
+    SlotTable<T> Slots;
+  };
+
+  void ReadRow(TypedCensus& census, std::size_t row)
   {
     const std::size_t n = this->RowLength;
     const T* values = this->Scalars.data() + row * n;
@@ -344,7 +353,7 @@ private:
   }
 
   /** None if the value is none of the labels that were asked for, or if there are too many. */
-  std::uint16_t SlotOf(Census<T, D>& census, T value)
+  std::uint16_t SlotOf(TypedCensus& census, T value)
   {
     if (!IsLabel(value))
     {
@@ -366,7 +375,7 @@ private:
     }
     slot = static_cast<std::uint16_t>(census.Values.size());
     census.Slots.Insert(value, slot);
-    census.Values.push_back(value);
+    census.Values.push_back(static_cast<std::int64_t>(value));
     census.Counts.push_back(0);
     census.Kept.push_back(this->Labels.Keeps(value) ? 1 : 0);
     return slot;
@@ -379,6 +388,69 @@ private:
   std::atomic<std::size_t> FirstBad; ///< the first voxel without a label, or the number of voxels
   std::atomic<bool> TooMany{ false };
 };
+
+/**
+ * The labels to mesh, in increasing order after background, from the censuses of all threads.
+ * @throws InputError as FromScalars()
+ */
+template <int D>
+Census<D> Join(
+  const std::vector<Census<D>>& censuses, const Choice& choice, std::size_t numberOfVoxels)
+{
+  Census<D> labels;
+  std::vector<std::pair<std::int64_t, std::int64_t>> all;
+  for (const Census<D>& census : censuses)
+  {
+    for (std::size_t s = 0; s < census.Values.size(); ++s)
+    {
+      all.emplace_back(census.Values[s], census.Counts[s]);
+    }
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      labels.Min[a] = std::min(labels.Min[a], census.Min[a]);
+      labels.Max[a] = std::max(labels.Max[a], census.Max[a]);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<std::int64_t> occurring;
+  labels.Values.push_back(0);
+  labels.Counts.push_back(0);
+  for (std::size_t i = 0; i < all.size();)
+  {
+    const std::int64_t value = all[i].first;
+    std::int64_t count = 0;
+    for (; i < all.size() && all[i].first == value; ++i)
+    {
+      count += all[i].second;
+    }
+    if (value != 0)
+    {
+      occurring.push_back(value);
+    }
+    const bool kept = choice.Keeps(value);
+    if (kept && labels.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
+    {
+      ThrowTooManyLabels();
+    }
+    if (kept)
+    {
+      labels.Values.push_back(value);
+      labels.Counts.push_back(count);
+    }
+  }
+  CheckSelected(choice.Only, occurring, "asked for", "{labels}, the labels to keep");
+  CheckSelected(choice.But, occurring, "excluded", "the labels to exclude");
+  if (labels.Values.size() == 1)
+  {
+    if (!occurring.empty())
+    {
+      throw InputError("All labels of the image are excluded; correct the labels to exclude.");
+    }
+    throw InputError("The image has no foreground: all " + std::to_string(numberOfVoxels) +
+      " voxels are 0.{array: Choose the array that holds the segmentation.}");
+  }
+  return labels;
+}
 
 } // namespace
 
@@ -443,66 +515,18 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   const Choice choice(selection);
   const auto censuses = CensusTaker<T, D>(scalars, grid, choice).Run(threads, stop);
 
-  // Join the censuses of the threads: all values in increasing order.
   LabelImage image;
   image.WholeGrid = grid;
-  std::vector<std::pair<T, std::int64_t>> all;
-  Index min;
-  Index max;
-  min.fill(std::numeric_limits<std::int64_t>::max());
-  max.fill(-1);
-  for (const auto& census : censuses)
-  {
-    for (std::size_t s = 0; s < census->Values.size(); ++s)
-    {
-      all.emplace_back(census->Values[s], census->Counts[s]);
-    }
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      min[a] = std::min(min[a], census->Min[a]);
-      max[a] = std::max(max[a], census->Max[a]);
-    }
-  }
-  std::sort(all.begin(), all.end());
+  const Census<D> labels = Join(censuses, choice, scalars.size());
+  image.LabelValues = labels.Values;
+  image.LabelCounts = labels.Counts;
   SlotTable<T> ids;
-  std::vector<std::int64_t> occurring;
-  image.LabelValues.push_back(0);
-  image.LabelCounts.push_back(0);
-  for (std::size_t i = 0; i < all.size();)
+  for (std::size_t id = 1; id < labels.Values.size(); ++id)
   {
-    const T value = all[i].first;
-    std::int64_t count = 0;
-    for (; i < all.size() && all[i].first == value; ++i)
-    {
-      count += all[i].second;
-    }
-    if (value != T(0))
-    {
-      occurring.push_back(static_cast<std::int64_t>(value));
-    }
-    const bool kept = choice.Keeps(value);
-    if (kept && image.LabelValues.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
-    {
-      ThrowTooManyLabels();
-    }
-    if (kept)
-    {
-      ids.Insert(value, static_cast<std::uint16_t>(image.LabelValues.size()));
-      image.LabelValues.push_back(static_cast<std::int64_t>(value));
-      image.LabelCounts.push_back(count);
-    }
+    ids.Insert(static_cast<T>(labels.Values[id]), static_cast<std::uint16_t>(id));
   }
-  CheckSelected(choice.Only, occurring, "asked for", "{labels}, the labels to keep");
-  CheckSelected(choice.But, occurring, "excluded", "the labels to exclude");
-  if (image.LabelValues.size() == 1)
-  {
-    if (!occurring.empty())
-    {
-      throw InputError("All labels of the image are excluded; correct the labels to exclude.");
-    }
-    throw InputError("The image has no foreground: all " + std::to_string(scalars.size()) +
-      " voxels are 0.{array: Choose the array that holds the segmentation.}");
-  }
+  const Index& min = labels.Min;
+  const Index& max = labels.Max;
 
   // Second pass: writes the dense ids of the bounding box.
   image.Origin = min;
