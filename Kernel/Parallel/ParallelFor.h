@@ -8,18 +8,12 @@
 #define voxplex_ParallelFor_h
 
 #include "Base/Error.h"
-#include "Parallel/ChunkShares.h"
-#include "Parallel/ThreadTeam.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <stop_token>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 namespace voxplex
 {
@@ -42,67 +36,30 @@ inline void ThrowIfStopped(const std::stop_token& stop)
 namespace detail
 {
 
-/**
- * Calls function(chunk) for the chunks of a loop, in several threads. See ParallelFor().
- * @param workers the number of threads; thread w has share w, or the only one
- */
-template <typename Function>
-void RunChunks(
-  ChunkShares& shares, std::size_t workers, const Function& function, const std::stop_token& stop)
+/** A function of a loop without its type. The code that runs loops is not a template, and is compiled once. */
+template <typename... Arguments>
+class LoopFunction
 {
-  std::exception_ptr error;
-  std::mutex errorMutex;
-  auto work = [&](std::size_t worker)
+public:
+  /** @param function must outlive this */
+  template <typename Function>
+  explicit LoopFunction(const Function& function)
+    : Data(std::addressof(function))
+    , Call([](const void* data, Arguments... arguments)
+        { (*static_cast<const Function*>(data))(arguments...); })
   {
-    while (const std::optional<std::size_t> chunk = shares.Take(worker))
-    {
-      try
-      {
-        ThrowIfStopped(stop);
-        function(*chunk);
-      }
-      catch (...)
-      {
-        const std::scoped_lock lock(errorMutex);
-        if (!error)
-        {
-          error = std::current_exception();
-        }
-        shares.Clear();
-      }
-    }
-  };
+  }
+  void operator()(Arguments... arguments) const { this->Call(this->Data, arguments...); }
 
-  if (workers == 1)
-  {
-    work(0);
-  }
-  else if (ThreadTeam* const team = ThreadTeam::Idle())
-  {
-    team->Run(workers - 1, work);
-  }
-  else
-  {
-    std::vector<std::jthread> others;
-    others.reserve(workers - 1);
-    try
-    {
-      for (std::size_t w = 1; w < workers; ++w)
-      {
-        others.emplace_back(work, w);
-      }
-    }
-    catch (const std::system_error&)
-    {
-      // The system cannot start more threads: go on with the threads that run.
-    }
-    work(0);
-  } // joins
-  if (error)
-  {
-    std::rethrow_exception(error);
-  }
-}
+private:
+  const void* Data;
+  void (*Call)(const void* data, Arguments... arguments);
+};
+
+void RunLoop(std::size_t begin, std::size_t end, std::size_t grain, unsigned threads,
+  const LoopFunction<std::size_t, std::size_t>& function, const std::stop_token& stop);
+void RunTasks(std::size_t count, unsigned threads, const LoopFunction<std::size_t>& function,
+  const std::stop_token& stop);
 
 } // namespace detail
 
@@ -132,22 +89,8 @@ template <typename Function>
 void ParallelFor(std::size_t begin, std::size_t end, std::size_t grain, unsigned threads,
   Function&& function, const std::stop_token& stop = {})
 {
-  if (begin >= end)
-  {
-    return;
-  }
-  grain = std::max<std::size_t>(grain, 1);
-  const std::size_t chunks = (end - begin - 1) / grain + 1;
-  const std::size_t workers = std::min<std::size_t>(NumberOfThreads(threads), chunks);
-  ChunkShares shares(chunks, workers);
-  detail::RunChunks(
-    shares, workers,
-    [&](std::size_t chunk)
-    {
-      const std::size_t first = begin + chunk * grain;
-      function(first, std::min(end, first + std::min(grain, end - first)));
-    },
-    stop);
+  detail::RunLoop(
+    begin, end, grain, threads, detail::LoopFunction<std::size_t, std::size_t>(function), stop);
 }
 
 /**
@@ -160,12 +103,7 @@ template <typename Function>
 void ParallelTasks(
   std::size_t count, unsigned threads, Function&& function, const std::stop_token& stop = {})
 {
-  if (count != 0)
-  {
-    ChunkShares shares(count, 1);
-    detail::RunChunks(
-      shares, std::min<std::size_t>(NumberOfThreads(threads), count), function, stop);
-  }
+  detail::RunTasks(count, threads, detail::LoopFunction<std::size_t>(function), stop);
 }
 
 } // namespace voxplex
