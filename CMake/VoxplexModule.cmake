@@ -56,7 +56,7 @@ vtk_module_add_module(VTK::Voxplex
     Filters/Private/QualityTables.cxx
     Filters/Private/SmpThreads.cxx
     $<TARGET_OBJECTS:VoxplexExact>
-    $<TARGET_OBJECTS:VoxplexKernel>
+    $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)
 
 vtk_module_include(VTK::Voxplex
