@@ -23,12 +23,6 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 //------------------------------------------------------------------------------------------------
 bool Flips::Improve(std::uint32_t t)
 {
-  this->ConsiderAll(t);
-  return this->Apply();
-}
-
-void Flips::ConsiderAll(std::uint32_t t)
-{
   this->Best.Gain = 0.0;
   for (unsigned i = 0; i < 4; ++i)
   {
@@ -36,19 +30,12 @@ void Flips::ConsiderAll(std::uint32_t t)
     {
       this->ConsiderEdge(t, j, i);
     }
-    this->ConsiderFacet(t, i);
   }
-}
-
-bool Flips::Apply()
-{
   if (this->Best.Gain <= 0.0 || !this->Target.Replace(this->Best.Old, this->Best.Fresh))
   {
     return false;
   }
-  ++(this->Best.OnInterface        ? this->Done.InterfaceFlips
-      : this->Best.Old.size() == 2 ? this->Done.FacetFlips
-                                   : this->Done.EdgeRemovals);
+  ++(this->Best.OnInterface ? this->Done.InterfaceFlips : this->Done.EdgeRemovals);
   this->Done.Dropped += this->Best.Fresh.empty() ? 1 : 0;
   return true;
 }
@@ -81,46 +68,6 @@ void Flips::Consider(double before)
   {
     std::swap(this->Best, this->Current);
   }
-}
-
-//------------------------------------------------------------------------------------------------
-void Flips::ConsiderFacet(std::uint32_t t, unsigned i)
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  const std::uint32_t other = mesh.Cells[t].N[i];
-  if (other == TetrahedralComplex::None || mesh.Labels[other] != mesh.Labels[t] ||
-    !this->Target.MayChange(t) || !this->Target.MayChange(other))
-  {
-    return;
-  }
-  const auto v = StartingAt(mesh.Cells[t].V, i);
-  const auto& w = mesh.Cells[other].V;
-  const std::uint32_t p = v[0];
-  std::uint32_t q = w[0];
-  for (unsigned k = 1; q == v[1] || q == v[2] || q == v[3]; ++k)
-  {
-    q = w[k];
-  }
-  const std::array<std::uint32_t, 2> old = { t, other };
-  const double before = this->ScoreOf(old);
-  const double floor = this->LeastScoreFrom(before);
-  Plan& plan = this->Current;
-  plan.Fresh.clear();
-  plan.Score = 1.0;
-  for (unsigned k = 0; k < 3; ++k)
-  {
-    // (v1, v2, v3) are clockwise when seen from p.
-    const TetrahedralComplex::Vertices fresh = { v[1 + (k + 1) % 3], v[1 + k], q, p };
-    plan.Score = std::min(plan.Score, mesh.Score(fresh));
-    if (plan.Score < floor)
-    {
-      return;
-    }
-    plan.Fresh.push_back({ fresh, mesh.Labels[t] });
-  }
-  plan.Old.assign(old.begin(), old.end());
-  plan.OnInterface = false;
-  this->Consider(before);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -348,233 +295,11 @@ bool Flips::IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b)
     [&](std::uint32_t cell) { return mesh.Labels[cell] != mesh.Labels[t]; });
 }
 
-//------------------------------------------------------------------------------------------------
-bool Flips::ImproveByRelabelling(std::uint32_t t)
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  const TetrahedralComplex::Label own = mesh.Labels[t];
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    const TetrahedralComplex::Label label = mesh.LabelOf(mesh.Cells[t].N[i]);
-    bool again = label == own;
-    for (unsigned j = 0; j < i; ++j)
-    {
-      again = again || mesh.LabelOf(mesh.Cells[t].N[j]) == label;
-    }
-    if (again || !this->MayRelabel(t, label))
-    {
-      continue;
-    }
-    if (label == 0)
-    {
-      const std::array<std::uint32_t, 1> old = { t };
-      ++this->Done.Dropped;
-      return this->Target.Replace(old, {});
-    }
-    this->Target.Relabel(t, label);
-    this->ConsiderAll(t);
-    if (this->Apply())
-    {
-      ++this->Done.Relabelled;
-      return true;
-    }
-    this->Target.Relabel(t, own);
-  }
-  return false;
-}
-
-bool Flips::MayRelabel(std::uint32_t t, TetrahedralComplex::Label label)
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  const TetrahedralComplex::Label own = mesh.Labels[t];
-  const auto& cell = mesh.Cells[t];
-  if (!this->Target.MayChange(t) || mesh.IsHolder(t))
-  {
-    return false;
-  }
-  const auto facetIsAtJunction = [&](unsigned i)
-  { return this->IsAtJunction(cell.V[(i + 1) & 3], cell.V[(i + 2) & 3], cell.V[(i + 3) & 3]); };
-  unsigned shared = 0;
-  FacetBounds bounds(this->Rules);
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    const TetrahedralComplex::Label other = mesh.LabelOf(cell.N[i]);
-    shared += other == label ? 1 : 0;
-    if (label == 0 && other == 0 && this->BorderFacesOfFacet(t, i) != 0)
-    {
-      return false; // would leave a hole in a flat face
-    }
-    if (other != own)
-    {
-      bounds.Replace(this->CosineOfFacet(t, i), facetIsAtJunction(i));
-    }
-  }
-  if (shared < 2 || !this->IsFlatTowards(t, label))
-  {
-    return false;
-  }
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    const bool isNew = mesh.LabelOf(cell.N[i]) == own;
-    if (isNew && !bounds.Allow(this->CosineOfFacet(t, i), facetIsAtJunction(i)))
-    {
-      return false;
-    }
-  }
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    for (unsigned j = 0; j < i; ++j)
-    {
-      if (!this->EdgeRunsAllow(t, i, j, label))
-      {
-        return false;
-      }
-    }
-  }
-  // At no vertex may a label get more pieces than before, and the old label must remain at a vertex
-  // of t.
-  bool goesOn = false;
-  for (const std::uint32_t v : cell.V)
-  {
-    if (!this->Target.GatherStar(v, this->Star))
-    {
-      return false;
-    }
-    const std::size_t pieces = this->PiecesInStar(t, label, own);
-    goesOn = goesOn || pieces > 0;
-    if (pieces > this->PiecesInStar(t, own, own) ||
-      (label != 0 && this->PiecesInStar(t, label, label) > this->PiecesInStar(t, own, label)))
-    {
-      return false;
-    }
-  }
-  return goesOn;
-}
-
 bool Flips::IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const
 {
   const auto& kinds = this->Target.Mesh().Kinds;
   return kinds[u] == VertexRole::Fixed || kinds[v] == VertexRole::Fixed ||
     kinds[w] == VertexRole::Fixed;
-}
-
-/** The faces of the image that facet i of t lies on. */
-unsigned Flips::BorderFacesOfFacet(std::uint32_t t, unsigned i) const
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  const auto& v = mesh.Cells[t].V;
-  return mesh.BorderFacesOf(v[(i + 1) & 3]) & mesh.BorderFacesOf(v[(i + 2) & 3]) &
-    mesh.BorderFacesOf(v[(i + 3) & 3]);
-}
-
-/** The cosine of the smallest angle of facet i of t. */
-double Flips::CosineOfFacet(std::uint32_t t, unsigned i) const
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  return CosineOfSmallestAngle(
-    mesh.PointOf(t, (i + 1) & 3), mesh.PointOf(t, (i + 2) & 3), mesh.PointOf(t, (i + 3) & 3));
-}
-
-/** Whether the facets of t towards a label make no larger angle than a crease. */
-bool Flips::IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  std::array<Point<3>, 4> normals;
-  std::size_t number = 0;
-  for (unsigned i = 0; i < 4; ++i)
-  {
-    if (mesh.LabelOf(mesh.Cells[t].N[i]) == label)
-    {
-      const auto v = StartingAt(mesh.Cells[t].V, i);
-      normals[number++] = Cross(Subtract(mesh.Points[v[2]], mesh.Points[v[1]]),
-        Subtract(mesh.Points[v[3]], mesh.Points[v[1]]));
-    }
-  }
-  for (std::size_t k = 0; k < number; ++k)
-  {
-    for (std::size_t m = 0; m < k; ++m)
-    {
-      if (!(CosineBetween(normals[k], normals[m]) >= this->Rules.CreaseCosine))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-/**
- * Whether labels change around an edge of t at most as often as before, or twice, if t gets another
- * label.
- */
-bool Flips::EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label)
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  EdgeRing& ring = this->OtherRing;
-  if (!this->Target.GatherRing(t, i, j, 4 * LongestRing, ring))
-  {
-    return false;
-  }
-  unsigned before = ring.Closed ? 0 : 2; // to background and back
-  unsigned after = before;
-  const std::size_t cells = ring.Cells.size();
-  const auto changed = [&](std::uint32_t cell) { return cell == t ? label : mesh.Labels[cell]; };
-  for (std::size_t k = 0; k + (ring.Closed ? 0 : 1) < cells; ++k)
-  {
-    const std::uint32_t one = ring.Cells[k];
-    const std::uint32_t next = ring.Cells[(k + 1) % cells];
-    before += mesh.Labels[one] != mesh.Labels[next] ? 1 : 0;
-    after += changed(one) != changed(next) ? 1 : 0;
-  }
-  if (!ring.Closed && label == 0)
-  {
-    // If t is at an end of the ring, it joins background there.
-    after -= ring.Cells.front() == t ? 1 : 0;
-    after -= ring.Cells.back() == t ? 1 : 0;
-  }
-  return after <= std::max(before, 2u);
-}
-
-/**
- * The number of pieces of a label in Star if t has the label ofT. A piece is connected through
- * facets.
- */
-std::size_t Flips::PiecesInStar(
-  std::uint32_t t, TetrahedralComplex::Label ofT, TetrahedralComplex::Label label)
-{
-  const TetrahedralComplex& mesh = this->Target.Mesh();
-  const auto& cells = this->Star.Cells;
-  const auto has = [&](std::uint32_t cell)
-  { return (cell == t ? ofT : mesh.Labels[cell]) == label; };
-  this->Reached.assign(cells.size(), 0);
-  std::size_t pieces = 0;
-  std::vector<std::size_t>& stack = this->Stack;
-  for (std::size_t first = 0; first < cells.size(); ++first)
-  {
-    if (this->Reached[first] != 0 || !has(cells[first]))
-    {
-      continue;
-    }
-    ++pieces;
-    this->Reached[first] = 1;
-    stack.assign({ first });
-    while (!stack.empty())
-    {
-      const std::size_t k = stack.back();
-      stack.pop_back();
-      for (const std::uint32_t next : mesh.Cells[cells[k]].N)
-      {
-        const auto at =
-          static_cast<std::size_t>(std::find(cells.begin(), cells.end(), next) - cells.begin());
-        if (at < cells.size() && this->Reached[at] == 0 && has(next))
-        {
-          this->Reached[at] = 1;
-          stack.push_back(at);
-        }
-      }
-    }
-  }
-  return pieces;
 }
 
 } // namespace voxplex

@@ -24,23 +24,19 @@ struct FlipStatistics
 {
   FlipStatistics& operator+=(const FlipStatistics& other)
   {
-    this->FacetFlips += other.FacetFlips;
     this->EdgeRemovals += other.EdgeRemovals;
     this->InterfaceFlips += other.InterfaceFlips;
-    this->Relabelled += other.Relabelled;
     this->Dropped += other.Dropped;
     return *this;
   }
 
-  std::uint64_t FacetFlips = 0;
   std::uint64_t EdgeRemovals = 0;
   std::uint64_t InterfaceFlips = 0; ///< edge removals at edges on an interface
-  std::uint64_t Relabelled = 0;     ///< tetrahedra that got the label of a neighbour
   std::uint64_t Dropped = 0;        ///< tetrahedra on the mesh's boundary that were removed
 };
 
 /**
- * @brief Flips: edge removal, including edges on interfaces, and the flip of a facet into an edge.
+ * @brief Flips: edge removal, including edges on interfaces.
  *
  * Edge removal deletes the tetrahedra around an edge ab. The polygon around the edge is
  * triangulated, and the hole is filled with two tetrahedra for each triangle, one with a and one
@@ -67,15 +63,6 @@ public:
   /** Makes the change that raises the smallest score around t most; false if there is none. */
   bool Improve(std::uint32_t t);
 
-  /**
-   * The last resort for a flat tetrahedron with two or more facets on interfaces: gives it to the
-   * label across two of them, if a flip around it then helps. If that label is background, drops
-   * it. Returns false if neither is possible. The change must not make the interface non-manifold
-   * at further places. A label may lose its last tetrahedron around a vertex only if other
-   * tetrahedra of the label are near. InterfaceRules hold for new triangles.
-   */
-  bool ImproveByRelabelling(std::uint32_t t);
-
   const FlipStatistics& Counts() const { return this->Done; }
 
 private:
@@ -91,24 +78,13 @@ private:
     bool OnInterface = false;
   };
 
-  void ConsiderAll(std::uint32_t t);
-  bool Apply();
-  bool MayRelabel(std::uint32_t t, TetrahedralComplex::Label label);
-  bool IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
-  unsigned BorderFacesOfFacet(std::uint32_t t, unsigned i) const;
-  double CosineOfFacet(std::uint32_t t, unsigned i) const;
-  bool IsFlatTowards(std::uint32_t t, TetrahedralComplex::Label label) const;
-  bool EdgeRunsAllow(std::uint32_t t, unsigned i, unsigned j, TetrahedralComplex::Label label);
-  std::size_t PiecesInStar(
-    std::uint32_t t, TetrahedralComplex::Label ofT, TetrahedralComplex::Label label);
-
   void ConsiderEdge(std::uint32_t t, unsigned i, unsigned j);
-  void ConsiderFacet(std::uint32_t t, unsigned i);
   double LeastScoreFrom(double before) const;
   void Consider(double before);
 
   double ScoreOf(std::span<const std::uint32_t> cells) const;
   bool MayFlipInterface(std::size_t firstRun);
+  bool IsAtJunction(std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
   bool MayBeEdge(std::uint32_t a, std::uint32_t b);
   bool IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b);
   double Triangulate(
@@ -122,8 +98,6 @@ private:
   EdgeRing Ring;
   EdgeRing OtherRing;
   VertexStar Star;
-  std::vector<char> Reached;
-  std::vector<std::size_t> Stack;
   Plan Best;
   Plan Current;
   std::array<std::array<double, LongestRing + 1>, LongestRing + 1> Table;

@@ -81,9 +81,9 @@ struct OptimisationStatistics
 
 /**
  * Brings tetrahedra within the shape bounds where possible. It uses flips (Flips) and smoothing
- * (Smoother). For the remaining poor tetrahedra, it changes the labels of slivers between labels,
- * inserts vertices inside labels, and moves vertices on interfaces by small distances. If that does
- * not help, tetrahedra around are first improved beyond the bounds, which makes room.
+ * (Smoother). For the remaining poor tetrahedra, it inserts vertices inside labels, and moves
+ * vertices on interfaces by small distances. If that does not help, tetrahedra around are first
+ * improved beyond the bounds, which makes room.
  *
  * Only poor tetrahedra are improved. A change is made only if the smallest score (ShapeScore) of
  * the changed tetrahedra grows, so the worst shape of the mesh never gets worse. Optimisation keeps

@@ -147,12 +147,6 @@ public:
     this->LastSpare = last;
   }
 
-  /** Gives a tetrahedron another label, not background. */
-  void Relabel(std::uint32_t t, TetrahedralComplex::Label label)
-  {
-    this->Complex.Labels[t] = label;
-  }
-
   /** Tetrahedra that changes left with a score below 1. Some may have been deleted since. */
   std::vector<std::uint32_t> Poor;
 

@@ -105,10 +105,6 @@ bool PatchWorker::Mend(std::uint32_t t, Effort effort)
 
 bool PatchWorker::MendByLastMeans(std::uint32_t t, Effort effort)
 {
-  if (this->Topology.ImproveByRelabelling(t))
-  {
-    return true;
-  }
   for (unsigned i = 0; i < 4; ++i)
   {
     for (unsigned j = 0; j < i; ++j)

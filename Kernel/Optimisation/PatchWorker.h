@@ -26,7 +26,7 @@ namespace voxplex
 enum class Effort
 {
   Plain,
-  Insertions,        ///< also relabels slivers and inserts vertices
+  Insertions,        ///< also inserts vertices
   MovesOffInterfaces ///< also moves vertices off interfaces
 };
 
