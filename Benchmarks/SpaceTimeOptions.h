@@ -7,7 +7,7 @@
 #ifndef voxplex_SpaceTimeOptions_h
 #define voxplex_SpaceTimeOptions_h
 
-#include "Refinement/RuleOptions.h"
+#include "Refinement/Rules/RuleOptions.h"
 #include "Sizing/Grading/GradingOptions.h"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "Geometry/BoundingTree.h"
 #include "Geometry/CellGrid.h"
 #include "Parallel/ParallelCollect.h"
-#include "Refinement/FeatureGrid.h"
+#include "Refinement/Rules/FeatureGrid.h"
 
 #include <algorithm>
 #include <cmath>

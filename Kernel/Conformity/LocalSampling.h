@@ -12,7 +12,7 @@
 #include "Image/Components.h"
 #include "Image/FacesNear.h"
 #include "Image/LabelImage.h"
-#include "Refinement/FeatureSeed.h"
+#include "Refinement/Rules/FeatureSeed.h"
 #include "Sizing/SizingField.h"
 
 #include <cstddef>

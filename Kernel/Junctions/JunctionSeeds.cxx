@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Junctions/JunctionSeeds.h"
 
-#include "Refinement/FeatureGrid.h"
+#include "Refinement/Rules/FeatureGrid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #define voxplex_JunctionSeeds_h
 
 #include "Junctions/JunctionCurves.h"
-#include "Refinement/FeatureSeed.h"
+#include "Refinement/Rules/FeatureSeed.h"
 
 #include <array>
 #include <functional>

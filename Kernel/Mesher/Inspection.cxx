@@ -7,7 +7,7 @@
 #include "Geometry/ShapeBounds.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Mesher/Dimension.h"
-#include "Refinement/PlaneLabels.h"
+#include "Refinement/Rules/PlaneLabels.h"
 
 namespace voxplex
 {

@@ -8,8 +8,8 @@
 #define voxplex_MeshingOptions_h
 
 #include "Conformity/ConformityOptions.h"
-#include "Refinement/RuleOptions.h"
-#include "Refinement/TeamOptions.h"
+#include "Refinement/Rules/RuleOptions.h"
+#include "Refinement/Scheduling/TeamOptions.h"
 #include "Sizing/Grading/GradingOptions.h"
 #include "Sizing/InterfaceSizes.h"
 #include "Sizing/SizeFunction.h"

@@ -5,8 +5,8 @@
 #include "Base/Stopwatch.h"
 #include "Parallel/ParallelFor.h"
 #include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
-#include "Refinement/Rules4D.h"
+#include "Refinement/Rules/Rules3D.h"
+#include "Refinement/Rules/Rules4D.h"
 #include "Refinement/Tiles/TiledRefiner.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
 #include "Mesh/SimplexLabels.h"
-#include "Refinement/PlaneLabels.h"
+#include "Refinement/Rules/PlaneLabels.h"
 
 #include <algorithm>
 #include <array>

@@ -10,12 +10,12 @@
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 #include "Parallel/CacheLine.h"
-#include "Refinement/FeatureGrid.h"
-#include "Refinement/FeatureSeed.h"
 #include "Refinement/PoorElementList.h"
 #include "Refinement/RefinementStatistics.h"
-#include "Refinement/RegionalWork.h"
-#include "Refinement/RuleOptions.h"
+#include "Refinement/Rules/FeatureGrid.h"
+#include "Refinement/Rules/FeatureSeed.h"
+#include "Refinement/Rules/RegionalWork.h"
+#include "Refinement/Rules/RuleOptions.h"
 #include "Sizing/SizingField.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "Refinement/Refiner.h"
 
-#include "Refinement/Seeding.h"
+#include "Refinement/Rules/Seeding.h"
 
 namespace voxplex
 {

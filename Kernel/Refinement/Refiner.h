@@ -10,12 +10,12 @@
 #include "Parallel/CacheLine.h"
 #include "Parallel/CycleClock.h"
 #include "Parallel/HardwareCounters.h"
-#include "Refinement/FeatureSeed.h"
-#include "Refinement/RefinementTeam.h"
 #include "Refinement/RefinerBase.h"
-#include "Refinement/Rules3D.h"
-#include "Refinement/Rules4D.h"
-#include "Refinement/TeamOptions.h"
+#include "Refinement/Rules/FeatureSeed.h"
+#include "Refinement/Rules/Rules3D.h"
+#include "Refinement/Rules/Rules4D.h"
+#include "Refinement/Scheduling/RefinementTeam.h"
+#include "Refinement/Scheduling/TeamOptions.h"
 
 #include <memory>
 #include <utility>

@@ -19,7 +19,8 @@ KNEE = DATA / "spl-knee-atlas.nrrd"
 HEAD_NECK = DATA / "spl-head-neck-atlas.nrrd"
 CASES = DATA / "cases"
 
-# Insertions of a region of a space-time mesh, as bounded by Kernel/Refinement/Rules4D.h: four times WorkLimit, and R1's.
+# Insertions of a region of a space-time mesh, as bounded by Kernel/Refinement/Rules/Rules4D.h: four times WorkLimit, and
+# those of R1.
 MOST_WORK = 2000
 # At a coarse delta some labels are mostly lost, and the program says so.
 SHRUNK = "less than half of the volume of"

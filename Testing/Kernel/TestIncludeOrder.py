@@ -10,13 +10,14 @@ import sys
 from pathlib import Path
 
 ORDER = (
-    "Base", "Parallel", "Geometry", "Image", "Domain", "Delaunay", "Sizing", "Refinement", "Junctions", "Mesh",
-    "Quality", "Conformity", "Optimisation", "Mesher",
+    "Base", "Parallel", "Geometry", "Image", "Domain", "Delaunay", "Sizing", "Refinement/Scheduling", "Refinement",
+    "Junctions", "Mesh", "Quality", "Conformity", "Optimisation", "Mesher",
 )
 
 
 def folder_of(path):
-    return path.parts[0]
+    two = "/".join(path.parts[:2])
+    return two if two in ORDER else path.parts[0]
 
 
 def faults_of(kernel):

@@ -3,7 +3,7 @@
 
 #include "Refinement/Tiles/TiledRefiner.h"
 
-#include "Refinement/Seeding.h"
+#include "Refinement/Rules/Seeding.h"
 #include "Refinement/Tiles/CoarseLattice.h"
 
 #include <algorithm>

@@ -7,11 +7,11 @@
 #ifndef voxplex_TiledRefiner_h
 #define voxplex_TiledRefiner_h
 
-#include "Refinement/FeatureSeed.h"
 #include "Refinement/RefinerBase.h"
-#include "Refinement/Rules3D.h"
-#include "Refinement/Rules4D.h"
-#include "Refinement/TeamOptions.h"
+#include "Refinement/Rules/FeatureSeed.h"
+#include "Refinement/Rules/Rules3D.h"
+#include "Refinement/Rules/Rules4D.h"
+#include "Refinement/Scheduling/TeamOptions.h"
 #include "Refinement/Tiles/Tiles.h"
 
 #include <atomic>

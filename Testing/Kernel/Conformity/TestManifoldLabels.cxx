@@ -7,7 +7,7 @@
 #include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
-#include "Refinement/Rules4D.h"
+#include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "Conformity/EdgeSpindles.h"
 #include "Conformity/ManifoldLabels.h"
 #include "MeshChecks.h"
-#include "Refinement/Rules4D.h"
+#include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
 #include "SpaceTimeCases.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel/LoopSharing.h"
 #include "Parallel/ParkingSpot.h"
-#include "Refinement/ContentionManager.h"
-#include "Refinement/LoadBalancer.h"
+#include "Refinement/Scheduling/ContentionManager.h"
+#include "Refinement/Scheduling/LoadBalancer.h"
 #include "Sanitizers.h"
 #include "ThreadTesting.h"
 

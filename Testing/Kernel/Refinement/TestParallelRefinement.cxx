@@ -7,7 +7,7 @@
 #include "MeshChecks.h"
 #include "Parallel/CycleClock.h"
 #include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
+#include "Refinement/Rules/Rules3D.h"
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
 #include "ThreadTesting.h"

@@ -7,9 +7,9 @@
 #include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
-#include "Refinement/FeatureGrid.h"
 #include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
+#include "Refinement/Rules/FeatureGrid.h"
+#include "Refinement/Rules/Rules3D.h"
 #include "RefinementChecks.h"
 #include "TriangulationChecks.h"
 

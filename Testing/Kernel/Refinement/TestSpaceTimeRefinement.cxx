@@ -6,7 +6,7 @@
 #include "CallableSize.h"
 #include "Mesh/MeshExtraction.h"
 #include "Refinement/Refiner.h"
-#include "Refinement/Rules4D.h"
+#include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
 #include "SpaceTimeCases.h"

@@ -7,8 +7,8 @@
 #include "MeshChecks.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
-#include "Refinement/FeatureGrid.h"
 #include "Refinement/RefinementContext.h"
+#include "Refinement/Rules/FeatureGrid.h"
 #include "Sizing/InterfaceSizes.h"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "MeshChecks.h"
 #include "Refinement/RefinementContext.h"
 #include "Refinement/Refiner.h"
-#include "Refinement/Rules3D.h"
+#include "Refinement/Rules/Rules3D.h"
 
 #include <gtest/gtest.h>
 
