@@ -46,7 +46,7 @@ inline constexpr unsigned MaximumNumberOfWorkers = 0xffffu;
 enum class VertexKind : std::uint8_t
 {
   Box,     ///< on the box: a corner or a projected circumcentre; never removed
-  Free,    ///< a circumcentre, inside or on a flat end of the object; R6 may remove it
+  Free,    ///< a circumcentre, inside or on a flat end of the object; refinement may remove it
   Feature, ///< on an interface; never removed
   Shared   ///< a circumcentre on a plane that two slabs of space-time share; never removed
 };

@@ -24,9 +24,9 @@ using JunctionDelta = std::function<double(const Point<3>&, const std::array<Lab
  * Seeds at the corners of junctions, and at equal steps of about delta along the curves between
  * them.
  *
- * Inserted before refinement, they make edges of the mesh follow the junctions. Without them R1 and
- * R3 insert vertices beside the junctions, and the mesh's junctions zigzag. The seeds replace the
- * protecting balls of Boltcheva, Yvinec and Boissonnat (Mesh generation from 3D multi-material
+ * Inserted before refinement, they make edges of the mesh follow the junctions. Without them the
+ * rules insert vertices beside the junctions, and the mesh's junctions zigzag. The seeds replace
+ * the protecting balls of Boltcheva, Yvinec and Boissonnat (Mesh generation from 3D multi-material
  * images, 2009), which need weighted points.
  *
  * Closed curves around parts smaller than delta are left out. So are corners near other corners.

@@ -99,8 +99,8 @@ struct RefinementContext
   }
 
   /**
-   * z, or its projection onto a flat end if it is so near that a vertex there would make pentatopes without a volume.
-   * Interfaces along an end lie there up to rounding.
+   * z, or its projection onto a flat end if it is so near that a vertex there would make pentatopes
+   * without a volume. Interfaces along an end lie there up to rounding.
    */
   Point<D> OnEndIfNextTo(const Point<D>& z, double delta) const
   {
@@ -154,8 +154,8 @@ struct RefinementContext
   SizingField<D> Sizing;
   const std::array<bool, 2> HasTimeBorder; ///< Domain::HasTimeBorder; the box ends there
   /**
-   * Flat ends that are planes between slabs: pentatopes with a facet there get the label of the plane
-   * (SlabRefinement). To be set before refinement.
+   * Flat ends that are planes between slabs: pentatopes with a facet there get the label of the
+   * plane (SlabRefinement). To be set before refinement.
    */
   std::array<bool, 2> IsPlane{ false, false };
   /** Flat ends where the rules insert nothing. To be set between refinements. */
@@ -174,7 +174,7 @@ enum class RuleOutcome
   Contended ///< given up because another thread owns a vertex; to be tried again
 };
 
-/** A removal by R6 that was given up because of another thread. */
+/** A removal by the removal rule that was given up because of another thread. */
 template <int D>
 struct PendingRemoval
 {
@@ -195,7 +195,7 @@ template <int D>
 struct WorkerZone
 {
   HalfOpenBox<D> Extent;
-  /** R7, in 4D R4, waits until the rest of the box has been refined. */
+  /** The sliver rule waits until the rest of the box has been refined. */
   bool PutsSliversOff = false;
   /** The current evaluation needs to know something outside. */
   bool HasLeft = false;

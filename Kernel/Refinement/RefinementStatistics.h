@@ -17,35 +17,34 @@
 namespace voxplex
 {
 
-/** The indices of the rules of a dimension in RuleStatistics::Fired. */
+/** The indices of rules in RuleStatistics::Fired: the thesis' numbers, see RefinementRules.h. */
 template <int D>
 struct RuleNumber;
 
-/** Rules3D.h describes the rules. R6 removes vertices, and R7 is counted separately. */
+/** In 3D removals (R6) and slivers (R7) are counted separately. */
 template <>
 struct RuleNumber<3>
 {
   enum : std::size_t
   {
-    InterfaceSampling, ///< R1
-    InterfaceBall,     ///< R2
-    InterfaceFacet,    ///< R3
-    RadiusEdgeRatio,   ///< R4
-    ElementSize        ///< R5
+    SampleSpacing, ///< R1
+    Ball,          ///< R2
+    Facet,         ///< R3
+    RadiusEdge,    ///< R4
+    Size           ///< R5
   };
 };
 
-/** Rules4D.h describes the rules. */
 template <>
 struct RuleNumber<4>
 {
   enum : std::size_t
   {
-    InterfaceSampling, ///< R1
-    InterfaceBall,     ///< R2
-    RadiusEdgeRatio,   ///< R3
-    Sliver,            ///< R4
-    InterfaceFacet     ///< R5
+    SampleSpacing, ///< R1
+    Ball,          ///< R2
+    RadiusEdge,    ///< R3
+    Sliver,        ///< R4
+    Facet          ///< R5
   };
 };
 
@@ -53,9 +52,9 @@ struct RuleNumber<4>
 struct RuleStatistics
 {
   std::array<std::uint64_t, 5> Fired{}; ///< insertions by R1 ... R5, see RuleNumber
-  std::uint64_t FiredBySize = 0;        ///< insertions because of the size function; 4D (3D: R5)
-  std::uint64_t SliversSplit = 0;       ///< free points inserted by R7; 3D (4D: R4)
-  std::uint64_t SliversSampled = 0;     ///< feature points inserted by R7; 3D
+  std::uint64_t FiredBySize = 0;        ///< insertions by the size rule; 4D (3D: R5)
+  std::uint64_t SliversSplit = 0;       ///< free points inserted by the sliver rule; 3D (4D: R4)
+  std::uint64_t SliversSampled = 0;     ///< feature points inserted by the sliver rule; 3D
   std::uint64_t Projected = 0;          ///< circumcentres moved onto the box
   std::uint64_t Removed = 0;            ///< free vertices removed near new feature vertices
   std::uint64_t RefusedTooClose = 0;    ///< points closer than the spacing floor to a vertex

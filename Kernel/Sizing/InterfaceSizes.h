@@ -45,8 +45,8 @@ struct InterfaceSize
  * Interfaces meet at junctions, and interfaces with different distances may run near each other. If
  * the gradation g is positive, distances change by at most g over a unit of length: near a fine
  * interface, coarse interfaces become finer (GradedGrid over all voxel faces between labels). If
- * the gradation is 0, R6 still has to spare the vertices of a finer interface: GradedAt() then has
- * the slope SafeSlope.
+ * the gradation is 0, the removal rule still has to spare the vertices of a finer interface:
+ * GradedAt() then has the slope SafeSlope.
  *
  * Immutable after construction; safe to query from any thread.
  */

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file SizeFunction.h
- * @brief The upper bound of the circumradius of elements (sf of the thesis, section 2.2, rule R5).
+ * @brief The upper bound of the circumradius of elements (sf of the thesis, section 2.2, size
+ *   rule).
  */
 #ifndef voxplex_SizeFunction_h
 #define voxplex_SizeFunction_h

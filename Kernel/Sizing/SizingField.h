@@ -43,16 +43,16 @@ struct SizingSources
  * - The *sampling distance* of an interface is the Delta of the thesis: a larger one is coarser. It
  *   is the distance of InterfaceSizes for the two labels, or else the base distance. LocalDelta and
  *   the sizes of the elements on both sides may lower it. If an interface were sampled more
- *   coarsely than its neighbourhood is meshed, R3 would insert the missing points one by one, and
- *   R6 would remove the points of R5.
+ *   coarsely than its neighbourhood is meshed, the facet rule would insert the missing points one
+ *   by one, and the removal rule would remove the points of the size rule.
  * - The *spacing* at a point is the smallest sampling distance of the interfaces near it. It grows
  *   slowly with the distance from them. Every rule that keeps points apart or removes points asks
  *   for the spacing. If one rule kept a smaller distance than another, the second would remove the
  *   points of the first.
  * - The *element size* is an upper bound of circumradii.
  *
- * A query takes one or a few look-ups. Queries are safe in any number of threads, but not while local
- * bounds are set.
+ * A query takes one or a few look-ups. Queries are safe in any number of threads, but not while
+ * local bounds are set.
  */
 template <int D>
 class SizingField

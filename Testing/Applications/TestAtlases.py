@@ -19,8 +19,8 @@ KNEE = DATA / "spl-knee-atlas.nrrd"
 HEAD_NECK = DATA / "spl-head-neck-atlas.nrrd"
 CASES = DATA / "cases"
 
-# Insertions of a region of a space-time mesh, as bounded by Kernel/Refinement/Rules/Rules4D.h: four times WorkLimit, and
-# those of R1.
+# Insertions of a region of a space-time mesh, as bounded by Kernel/Refinement/Rules/Rules4D.h: four times WorkLimit,
+# and those of the sample spacing rule.
 MOST_WORK = 2000
 # At a coarse delta some labels are mostly lost, and the program says so.
 SHRUNK = "less than half of the volume of"

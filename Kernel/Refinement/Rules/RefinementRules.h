@@ -2,8 +2,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file RefinementRules.h
- * @brief The operations that the rules of 3D and 4D share: circumballs, closest feature points,
- * insertions.
+ * @brief The rules by which elements are refined, and what those of 3D and 4D share.
+ *
+ * A rule is named by what it bounds. The thesis has numbers for them, which differ between sections
+ * 3.1 (3D) and 4.2 (4D); statistics are shown under these numbers.
+ *
+ * | rule           | 3D | 4D | bounds                                                          |
+ * | -------------- | -- | -- | --------------------------------------------------------------- |
+ * | sample spacing | R1 | R1 | distance from an interface to the feature vertices              |
+ * | ball           | R2 | R2 | circumradius, if the circumball meets an interface              |
+ * | facet          | R3 | R5 | angles of interface facets (3D), and where their vertices are   |
+ * | radius-edge    | R4 | R3 | circumradius over shortest edge                                 |
+ * | size           | R5 | -  | circumradius, by a size function                                |
+ * | removal        | R6 | -  | distance of free vertices from new feature vertices; 4D: in R5  |
+ * | sliver         | R7 | R4 | dihedral angles (3D; section 2.6.2), normalized volume (4D)     |
+ *
+ * Let c(t) and r(t) be the centre and radius of the circumball of an element t, dOmega the union of
+ * the interfaces, cfp(p) the feature point (point of an interface) closest to p, and Delta(z) the
+ * sampling distance at a feature point z (SizingField::SamplingDistance). Each rule gives a
+ * condition and an operation:
+ *
+ * - Sample spacing: the circumball of t meets dOmega, and no feature vertex is nearer than Delta(z)
+ *   to z = cfp(c(t)): insert z.
+ * - Ball: the circumball of t meets dOmega, and r(t) >= 2 Delta(z): insert c(t). If c(t) is outside
+ *   the box, insert its projection onto the box.
+ * - Radius-edge: c(t) is inside the object, and r(t) / shortest edge >= rho-bar: insert c(t). In 4D
+ *   see also Rules4D::PreferredRatio.
+ * - Size: c(t) is inside the object, and r(t) >= sf(c(t)): insert c(t).
+ * - Removal: a rule inserted a feature vertex z: remove the free vertices of its star that are
+ *   nearer than RemovalRadius Delta(z).
+ * - Facet, sliver: see Rules3D.h and Rules4D.h.
  */
 #ifndef voxplex_RefinementRules_h
 #define voxplex_RefinementRules_h
@@ -28,8 +56,8 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * @brief The base of a set of rules: one instance per thread. It has no state except references and
  * scratch memory.
  *
- * The derived class Rules has `bool IsSliver(SimplexId, double radius2)`, where radius2 is the squared
- * circumradius.
+ * The derived class Rules has `bool IsSliver(SimplexId, double radius2)`, where radius2 is the
+ * squared circumradius.
  *
  * **Flat ends** (Domain::HasTimeBorder, in 4D). Elements near a flat end are good under two
  * conditions. No vertex lies near the end without being on it. No vertex of the end lies near an
@@ -44,7 +72,8 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * or the feature point. A region needs a few dozen insertions at most. `Rules::WorkLimit` is
  * several times the largest count that was seen where refinement goes well. Beyond the limit the
  * rules give way step by step (Yielding). So a region takes at most 4 WorkLimit insertions, plus
- * those of R1, whose points keep Delta(z) from each other. Hence refinement ends on every input.
+ * those of the sample spacing rule, which keep Delta(z) from each other. Hence refinement ends on
+ * every input.
  */
 template <int D, typename Rules>
 class RefinementRules
@@ -79,9 +108,9 @@ public:
   }
 
   /**
-   * Inserts a feature point and applies R6, unless the point would crowd others. A point near a
-   * flat end is moved to where an interface meets the end. A shared point is inserted as it is. No
-   * other thread may operate meanwhile.
+   * Inserts a feature point and applies the removal rule, unless the point would crowd others. A
+   * point near a flat end is moved to where an interface meets the end. A shared point is inserted
+   * as it is. No other thread may operate meanwhile.
    * @param near a living simplex, where the search begins; receives one near the point if the point
    *   is inserted
    * @return whether the point is inserted; then the worker's NewVertex has it
@@ -227,7 +256,8 @@ protected:
 
   /**
    * Whether a neighbour that was judged before may have got a restricted facet: its ball meets an
-   * interface, and the labels at the two circumcentres differ, or, beside planes, those in the mesh may.
+   * interface, and the labels at the two circumcentres differ, or, beside planes, those in the mesh
+   * may.
    */
   bool MayRestrictNeighbour(SimplexId t, LabelId label) const
   {
@@ -248,7 +278,7 @@ protected:
 
   /**
    * A quick test: most simplices near an interface have a feature vertex near cfp(c(t)). Returns
-   * true if neither R1 nor R2 applies.
+   * true if neither the sample spacing rule nor the ball rule applies.
    * @param search receives the start of the search for cfp(c(t)), if it was started
    */
   bool IsSampled(const Element& t, typename Domain<D>::Search& search) const
@@ -264,7 +294,7 @@ protected:
     return t.Radius < 2.0 * delta && error < delta && this->FeatureVertexNear(t, z, delta - error);
   }
 
-  /** R1 and R2 (thesis, sections 3.1 and 4.2). */
+  /** The sample spacing rule and the ball rule. */
   RuleOutcome SampleInterface(const Element& t)
   {
     typename Domain<D>::Search search;
@@ -280,18 +310,18 @@ protected:
       return RuleOutcome::Good;
     }
     const double delta = this->DeltaBehind(t, z);
-    const RuleOutcome verdict = this->R1(t, z, delta);
-    return verdict == RuleOutcome::Good ? this->R2(t, delta) : verdict;
+    const RuleOutcome verdict = this->SampleSpacingRule(t, z, delta);
+    return verdict == RuleOutcome::Good ? this->BallRule(t, delta) : verdict;
   }
 
-  RuleOutcome R1(const Element& t, const Point<D>& closest, double delta)
+  RuleOutcome SampleSpacingRule(const Element& t, const Point<D>& closest, double delta)
   {
     const Point<D> z = this->Context.OnEndIfNextTo(closest, delta);
     if (this->FeatureVertexNear(t, z, delta))
     {
       return RuleOutcome::Good;
     }
-    std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling];
+    std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<D>::SampleSpacing];
     Point<D> snapped;
     if (!this->Context.SnapToEnd(z, delta, snapped))
     {
@@ -302,23 +332,32 @@ protected:
       : this->InsertFeature(snapped, delta, delta, t.Id, None, fired);
   }
 
-  RuleOutcome R2(const Element& t, double delta)
+  RuleOutcome BallRule(const Element& t, double delta)
   {
     return t.Radius >= 2.0 * delta
-      ? this->InsertCircumcentre(
-          t, this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceBall], delta)
+      ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<D>::Ball], delta)
       : RuleOutcome::Good;
   }
 
-  bool HasBadRatio(const Element& t) const
+  RuleOutcome RadiusEdgeRule(const Element& t)
   {
-    return t.LabelInMesh != 0 &&
+    const bool isBad = t.LabelInMesh != 0 &&
       this->IsRatioBad(t.Ball.Center, t.Radius, this->ShortestEdge(t.Id), t.LabelInMesh);
+    return isBad
+      ? this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<D>::RadiusEdge])
+      : RuleOutcome::Good;
+  }
+
+  RuleOutcome SizeRule(const Element& t, std::uint64_t& fired)
+  {
+    const bool isTooLarge = t.LabelInMesh != 0 &&
+      t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.LabelInMesh);
+    return isTooLarge ? this->InsertCircumcentre(t, fired) : RuleOutcome::Good;
   }
 
   /**
-   * Whether the radius-edge ratio is not below its bound, or not below the preferred part of it while
-   * the circumcentre is far enough from all vertices, and not near a face of the box.
+   * Whether the radius-edge ratio is not below its bound, or not below the preferred part of it
+   * while the circumcentre is far enough from all vertices, and not near a face of the box.
    */
   bool IsRatioBad(const Point<D>& centre, double radius, double shortestEdge, LabelId label) const
   {
@@ -331,17 +370,13 @@ protected:
         !this->PlaceOf(centre, CentreMargin * radius).Moved);
   }
 
-  /** Whether it is the turn of slivers: nothing else is left, and the zone does not put them off. */
+  /**
+   * Whether it is the turn of slivers: nothing else is left, and the zone does not put them off.
+   */
   bool AreSliversNext() const
   {
     return this->Worker.Poor.OnlyLast() &&
       !(this->Worker.Zone && this->Worker.Zone->PutsSliversOff);
-  }
-
-  bool IsTooLarge(const Element& t) const
-  {
-    return t.LabelInMesh != 0 &&
-      t.Radius >= BoundSafety * this->Context.Sizing.ElementSize(t.Ball.Center, t.LabelInMesh);
   }
 
   /**
@@ -414,7 +449,10 @@ protected:
     bool OnEnd;
   };
 
-  /** Moves p into the box, onto a face next to it, and onto a flat end if p itself is that near or beyond it. */
+  /**
+   * Moves p into the box, onto a face next to it, and onto a flat end if p itself is that near or
+   * beyond it.
+   */
   Place PlaceOf(const Point<D>& p, double margin) const
   {
     const Point<D> inBox =
@@ -513,18 +551,25 @@ protected:
     return this->InsertFeature(z, delta, spacing, t.Id, otherSeed, fired);
   }
 
-  // These and EndMargin were chosen on a beating ventricle. Without the last two, R3 and R5 answer
-  // each other as long as there is room, and elements of ratio 15 remain.
+  // These and EndMargin were chosen on a beating ventricle. Without the last two, the
+  // radius-edge rule and the facet rule answer each other as long as there is room, and elements of
+  // ratio 15 remain.
   /** A circumcentre nearer to a flat end than this, in circumradii, is moved onto it. */
   static constexpr double CentreMargin = 0.5;
-  /** In spacing floors. Points nearer to a face of the box make balls so large that rounding tells what they meet. */
+  /**
+   * In spacing floors. Points nearer to a face of the box make balls so large that rounding tells
+   * what they meet.
+   */
   static constexpr double FaceMargin = 1e-5;
   /**
    * A point on an end that is nearer to an interface than this, in delta, is moved onto the
    * interface.
    */
   static constexpr double InterfaceMargin = 0.7;
-  /** Smallest distance of feature vertices on an end, in delta, except for those of R1. */
+  /**
+   * Smallest distance of feature vertices on an end, in delta, except for those of the sample
+   * spacing rule.
+   */
   static constexpr double EndSpacing = 0.6;
 
 private:
@@ -556,8 +601,8 @@ private:
   }
 
   /**
-   * Whether R6 removes a vertex. Where the spacing is smaller than Delta, the vertex may serve a
-   * finer interface, and the radius is smaller, too.
+   * Whether the removal rule removes a vertex. Where the spacing is smaller than Delta, the vertex
+   * may serve a finer interface, and the radius is smaller, too.
    */
   bool IsTooNear(const Point<D>& vertex, const Point<D>& feature, double radius) const
   {

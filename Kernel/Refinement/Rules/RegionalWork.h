@@ -27,9 +27,9 @@ namespace voxplex
 enum class Yielding : unsigned
 {
   Nothing,
-  Slivers, ///< slivers stay, and R5 of 4D inserts centres of surface balls only
+  Slivers, ///< slivers stay, and the facet rule of 4D inserts centres of surface balls only
   Spacing, ///< points inserted for the sake of facets keep half the spacing instead of a tenth
-  All      ///< only R1 inserts points, and nothing is removed
+  All      ///< only the sample spacing rule inserts points, and nothing is removed
 };
 
 /**

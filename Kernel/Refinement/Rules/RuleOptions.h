@@ -15,8 +15,8 @@ namespace voxplex
 /** In 4D: which rules come first. */
 enum class RuleOrder
 {
-  RadiusEdgeFirst, ///< section 4.6.1 of the thesis: R3, then R1, R2, R4, R5
-  SurfaceFirst     ///< section 4.2: R1 to R5
+  RadiusEdgeFirst, ///< section 4.6.1 of the thesis: radius-edge, sample spacing, ball
+  SurfaceFirst     ///< section 4.2: sample spacing, ball, radius-edge
 };
 
 /**
@@ -25,7 +25,7 @@ enum class RuleOrder
  */
 inline constexpr double LargestSliverAngle = 15.0;
 
-/** In 3D: the removal of slivers (rule R7). */
+/** In 3D: the removal of slivers (sliver rule). */
 struct TetSliverOptions
 {
   /**
@@ -71,7 +71,10 @@ inline constexpr double LargestSliverBound = 0.03;
 struct SliverOptions
 {
   bool Fight = true;
-  /** zeta: radius of picking regions over that of the ball, 0 to 1; R5 takes 0.5 at most. */
+  /**
+   * zeta: radius of picking regions over that of the ball, 0 to 1; the facet rule takes 0.5 at
+   * most.
+   */
   double PickingRadius = 0.5;
   /** b: a new sliver is small if its circumradius is below this times the radius of the ball. */
   double RadiusFactor = 4.0;

@@ -27,23 +27,18 @@ RuleOutcome Rules3D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   const Element t = this->MakeElement(id);
-  RuleOutcome outcome = this->SampleInterface(t); // R1, R2
-  outcome = outcome == RuleOutcome::Good ? this->R3(t) : outcome;
-  if (outcome == RuleOutcome::Good && this->HasBadRatio(t)) // R4
+  RuleOutcome outcome = this->SampleInterface(t);
+  outcome = outcome == RuleOutcome::Good ? this->FacetRule(t) : outcome;
+  outcome = outcome == RuleOutcome::Good ? this->RadiusEdgeRule(t) : outcome;
+  if (outcome == RuleOutcome::Good)
   {
-    outcome =
-      this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<3>::RadiusEdgeRatio]);
-  }
-  if (outcome == RuleOutcome::Good && this->IsTooLarge(t)) // R5
-  {
-    outcome =
-      this->InsertCircumcentre(t, this->Worker.Statistics.Fired[RuleNumber<3>::ElementSize]);
+    outcome = this->SizeRule(t, this->Worker.Statistics.Fired[RuleNumber<3>::Size]);
   }
   if (outcome == RuleOutcome::Good && t.Label != 0 && this->IsToSplit(t))
   {
     if (this->AreSliversNext())
     {
-      return this->R7(t);
+      return this->SliverRule(t);
     }
     this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
   }
@@ -51,7 +46,10 @@ RuleOutcome Rules3D::Refine(SimplexId id)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Whether R7 applies. Of the slivers that optimisation can improve, only the worst are split. */
+/**
+ * Whether the sliver rule applies. Of the slivers that optimisation can improve, only the worst are
+ * split.
+ */
 bool Rules3D::IsToSplit(const Element& t)
 {
   if (this->SineOfSliverAngle <= 0.0)
@@ -96,7 +94,8 @@ public:
   /**
    * @param bound of the smallest sine of the dihedral angles
    * @param only the label that every simplex of the star must have; 0: any
-   * @param tolerance the factor by which radius-edge ratios may exceed the bound: R4 repairs them
+   * @param tolerance the factor by which radius-edge ratios may exceed the bound: the
+   *   radius-edge rule repairs them
    */
   BetterStar(const RefinementContext<3>& context, const Point<3>& first, double bound, LabelId only,
     double tolerance)
@@ -167,9 +166,9 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-// First only points that leave nothing for R4 to do. If none is found, the elements that R4 makes
-// are usually better.
-RuleOutcome Rules3D::R7(const Element& t)
+// First only points that leave nothing for the radius-edge rule to do. If none is found, the
+// elements that this rule makes are usually better.
+RuleOutcome Rules3D::SliverRule(const Element& t)
 {
   ++this->Worker.Statistics.SliversFound;
   RuleOutcome outcome = RuleOutcome::Good;
@@ -316,7 +315,7 @@ RuleOutcome Rules3D::SampleNear(
 }
 
 //------------------------------------------------------------------------------------------------
-RuleOutcome Rules3D::R3(const Element& t)
+RuleOutcome Rules3D::FacetRule(const Element& t)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex& simplex = mesh.GetSimplex(t.Id);
@@ -368,7 +367,7 @@ RuleOutcome Rules3D::R3(const Element& t)
       continue;
     }
     const RuleOutcome outcome = this->InsertFeature(
-      z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[RuleNumber<3>::InterfaceFacet]);
+      z, delta, clearance, t.Id, n, this->Worker.Statistics.Fired[RuleNumber<3>::Facet]);
     if (outcome != RuleOutcome::Good)
     {
       return outcome; // z need not conflict with t: if t is alive, the caller judges it again

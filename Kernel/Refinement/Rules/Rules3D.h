@@ -2,44 +2,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Rules3D.h
- * @brief The rules R1 to R6 of the thesis' section 3.1, with the projection onto the box of section
- * 2.2, and a rule against slivers (section 2.6.2).
+ * @brief The rules of the thesis' section 3.1, with the projection onto the box of section 2.2, and
+ * the sliver rule (section 2.6.2).
  *
- * Let c(t) and r(t) be the centre and radius of the circumball of a tetrahedron t, dOmega the union
- * of the interfaces, cfp(p) the feature point (point of an interface) closest to p, and Delta(z)
- * the sampling distance at a feature point z (SizingField::SamplingDistance). Each rule gives a
- * condition and an operation:
+ * RefinementRules.h has the names and what 3D and 4D share. The order is sample spacing, ball,
+ * facet, radius-edge, size, sliver; removal follows an insertion. In 3D:
  *
- * - R1: the circumball of t meets dOmega, and no feature vertex is nearer than Delta(z) to z =
- *   cfp(c(t)): insert z.
- * - R2: the circumball of t meets dOmega, and r(t) >= 2 Delta(z): insert c(t). If c(t) is outside
- *   the box, insert its projection onto the box.
- * - R3: the dual edge of a facet f meets dOmega at z, and an angle of f is below the bound or a
+ * - Facet: the dual edge of a facet f meets dOmega at z, and an angle of f is below the bound or a
  *   vertex of f is not a feature vertex: insert z. Or z lies on a face where the image cuts the
  *   object, and a vertex of f does not: insert z or a point nearby on an edge of that face, unless
  *   a feature vertex is nearer than CutClearance Delta(z). A z of the first kind that is nearer to
  *   such a face than this is moved to an edge of the face nearby.
- * - R4: c(t) is inside the object, and r(t) / shortest edge >= rho-bar: insert c(t).
- * - R5: c(t) is inside the object, and r(t) >= sf(c(t)): insert c(t).
- * - R6: a feature vertex z was inserted (by R1, R3 or R7): remove the free vertices of its star
- *   that are nearer than 2 Delta(z).
- * - R7: c(t) is inside the object, a dihedral angle of t is below the bound or above 180 degrees
- *   minus the bound, and no other poor element is left: insert a point near c(t) if its star has
- *   one label. Else insert a point of the interface near the dual edge of a restricted facet of t
- *   or of a neighbour, else near cfp(c(t)). Several points of the picking region are tried (as in
- *   chapter 4 of the thesis). The first whose star has no slivers is inserted, else the best.
+ * - Sliver: c(t) is inside the object, a dihedral angle of t is below the bound or above 180
+ *   degrees minus the bound, and no other poor element is left: insert a point near c(t) if its
+ *   star has one label. Else insert a point of the interface near the dual edge of a restricted
+ *   facet of t or of a neighbour, else near cfp(c(t)). Several points of the picking region are
+ *   tried (as in chapter 4 of the thesis). The first whose star has no slivers is inserted, else
+ *   the best.
  *
- * R7 follows section 2.6.2: a point that would eliminate facets of the interfaces is rejected in
- * favour of a point on these. The thesis tries the circumcentre alone and bounds the mean ratio. R7
- * bounds dihedral angles, because users ask for them. The thesis' conversion of illegal facets is
- * R3 with R6.
+ * The sliver rule follows section 2.6.2: a point that would eliminate facets of the interfaces is
+ * rejected in favour of a point on these. The thesis tries the circumcentre alone and bounds the
+ * mean ratio. Here dihedral angles are bounded, because users ask for them. The thesis' conversion
+ * of illegal facets is the facet rule with removal.
  *
  * **Termination** for every input. Feature vertices are never removed. None is inserted nearer than
- * SpacingFloor to another or to the box, so the box has room for finitely many, and R1 and R3 fire
- * finitely often. R6 fires only after such an insertion. Between two of them only R2, R4 and R5
- * insert points. Each point is at least min(2 Delta, rho-bar * shortest edge, size floor) from
- * every vertex, because the circumball is empty and projected points are tested. So they fire
- * finitely often, too. The points of R7 keep SliverSpacing from all vertices.
+ * SpacingFloor to another or to the box, so the box has room for finitely many. So the rules of
+ * sample spacing and of facets fire finitely often. Removal follows such an insertion only. Between
+ * two of them only the ball, radius-edge and size rules insert points. Each point is at least min(2
+ * Delta, rho-bar * shortest edge, size floor) from every vertex, because the circumball is empty
+ * and projected points are tested. So they fire finitely often, too. The points of the sliver rule
+ * keep SliverSpacing from all vertices.
  *
  * With several threads, two feature points may pass the test of their distance at the same time.
  * (If one is a vertex of the other's cavity, the distance is tested again under the locks.) Points
@@ -72,26 +64,27 @@ public:
 
 private:
   friend RefinementRules;
-  /** R6 removes free vertices nearer than this times Delta(z). */
+  /** Free vertices nearer than this times Delta(z) to a new feature vertex z are removed. */
   static constexpr double RemovalRadius = 2.0;
-  /** The bound of the radius-edge ratio is all that R4 asks for; see Rules4D. */
+  /** The bound of the radius-edge ratio is all that is asked for; see Rules4D. */
   static constexpr double PreferredRatio = 1.0;
   static constexpr double PreferredSpacing = 1.0;
   /**
-   * R7 keeps this distance from vertices, times Delta. Free vertices in the way of a feature point
-   * are excepted. With 0.4 a few slivers of the knee atlas stay, with 0.25 none.
+   * The sliver rule keeps this distance from vertices, times Delta. Free vertices in the way of a
+   * feature point are excepted. With 0.4 a few slivers of the knee atlas stay, with 0.25 none.
    */
   static constexpr double SliverSpacing = 0.25;
   /**
-   * Points that R3 inserts to make facets flat keep this distance from feature vertices, times
-   * Delta. Its other points keep it from faces where the image cuts the object, if they can.
+   * Points that the facet rule inserts to make facets flat keep this distance from feature
+   * vertices, times Delta. Its other points keep it from faces where the image cuts the object, if
+   * they can.
    */
   static constexpr double CutClearance = 0.25;
 
   class BetterStar;
-  RuleOutcome R3(const Element& t);
+  RuleOutcome FacetRule(const Element& t);
   bool IsSliver(SimplexId t, double radius2) const;
-  RuleOutcome R7(const Element& t);
+  RuleOutcome SliverRule(const Element& t);
   RuleOutcome SplitSliver(const Element& t, double tolerance);
   RuleOutcome SampleAtSliver(const Element& t, double tolerance);
   RuleOutcome SampleFacetsOf(SimplexId s, const Element& t, double tolerance);

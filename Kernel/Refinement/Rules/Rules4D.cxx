@@ -20,21 +20,21 @@ RuleOutcome Rules4D::Refine(SimplexId id)
   const std::optional<Point<4>> onPlane = this->CentreOnPlaneOf(id);
   s.LabelInMesh = onPlane ? this->Context.Image.Label(*onPlane) : s.Label;
   const bool ratioFirst = this->Context.Settings.SpaceTime.Order == RuleOrder::RadiusEdgeFirst;
-  RuleOutcome outcome = ratioFirst ? this->R3(s) : this->SampleInterface(s); // R1 and R2
+  RuleOutcome outcome = ratioFirst ? this->RadiusEdgeRule(s) : this->SampleInterface(s);
   if (outcome == RuleOutcome::Good)
   {
-    outcome = ratioFirst ? this->SampleInterface(s) : this->R3(s);
+    outcome = ratioFirst ? this->SampleInterface(s) : this->RadiusEdgeRule(s);
   }
-  outcome = outcome == RuleOutcome::Good ? this->R5(s, onPlane) : outcome;
-  if (outcome == RuleOutcome::Good && this->IsTooLarge(s))
+  outcome = outcome == RuleOutcome::Good ? this->FacetRule(s, onPlane) : outcome;
+  if (outcome == RuleOutcome::Good)
   {
-    outcome = this->InsertCircumcentre(s, this->Worker.Statistics.FiredBySize);
+    outcome = this->SizeRule(s, this->Worker.Statistics.FiredBySize);
   }
   if (outcome == RuleOutcome::Good && s.LabelInMesh != 0 && this->IsSliver(id, s.Ball.Radius2))
   {
     if (this->AreSliversNext())
     {
-      return this->R4(s);
+      return this->SliverRule(s);
     }
     this->Worker.Poor.PushLast(id, this->Context.Mesh.State(id).Generation);
   }
@@ -67,14 +67,6 @@ bool Rules4D::IsSliver(SimplexId s, double radius2) const
   return slivers.Fight &&
     !(NormalizedVolume<4>(mesh.Points(mesh.GetSimplex(s).V).data(), radius2) >=
       slivers.VolumeBound);
-}
-
-//------------------------------------------------------------------------------------------------
-RuleOutcome Rules4D::R3(const Element& s)
-{
-  return this->HasBadRatio(s)
-    ? this->InsertCircumcentre(s, this->Worker.Statistics.Fired[RuleNumber<4>::RadiusEdgeRatio])
-    : RuleOutcome::Good;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -139,7 +131,7 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-RuleOutcome Rules4D::R4(const Element& s)
+RuleOutcome Rules4D::SliverRule(const Element& s)
 {
   RuleStatistics& statistics = this->Worker.Statistics;
   const SliverOptions& options = this->Context.Settings.SpaceTime.Slivers;
@@ -179,7 +171,7 @@ RuleOutcome Rules4D::R4(const Element& s)
 }
 
 //------------------------------------------------------------------------------------------------
-RuleOutcome Rules4D::R5(const Element& s, const std::optional<Point<4>>& onPlane)
+RuleOutcome Rules4D::FacetRule(const Element& s, const std::optional<Point<4>>& onPlane)
 {
   const Triangulation<4>& mesh = this->Context.Mesh;
   const Triangulation<4>::Simplex& simplex = mesh.GetSimplex(s.Id);
@@ -234,7 +226,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
     return RuleOutcome::Good;
   }
   double clearance = FacetClearance(spacing, step);
-  std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet];
+  std::uint64_t& fired = this->Worker.Statistics.Fired[RuleNumber<4>::Facet];
   Point<4> snapped;
   if (this->Context.SnapToEnd(z, delta, snapped))
   {
@@ -285,7 +277,7 @@ RuleOutcome Rules4D::InsertFeaturePick(
     [&](const Point<4>& p)
     {
       return this->InsertFeature(p, delta, clearance, s.Id, other,
-        this->Worker.Statistics.Fired[RuleNumber<4>::InterfaceFacet], &veto);
+        this->Worker.Statistics.Fired[RuleNumber<4>::Facet], &veto);
     });
 }
 

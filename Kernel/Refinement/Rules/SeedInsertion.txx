@@ -13,7 +13,10 @@ namespace voxplex
 {
 
 //------------------------------------------------------------------------------------------------
-/** Moves a point near a flat end onto it. @return false if the point cannot be moved, or crowds others */
+/**
+ * Moves a point near a flat end onto it. @return false if the point cannot be moved, or crowds
+ * others
+ */
 template <int D, typename Rules>
 bool RefinementRules<D, Rules>::HasPlace(const FeatureSeed<D>& seed, Point<D>& z) const
 {
@@ -45,7 +48,7 @@ bool RefinementRules<D, Rules>::InsertSeed(const FeatureSeed<D>& seed, SimplexId
   this->Context.Mesh.Lock( // no other thread operates, so it succeeds
     this->Worker.Kernel, conflict, this->Context.Mesh.State(conflict).Generation);
   const RuleOutcome outcome = this->InsertFeature(z, seed.Delta, 0.0, conflict, None,
-    this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
+    this->Worker.Statistics.Fired[RuleNumber<D>::SampleSpacing]);
   near = this->Worker.Kernel.Created.Empty() ? near : this->Worker.Kernel.Created[0];
   return outcome == RuleOutcome::Changed;
 }
@@ -73,13 +76,16 @@ RuleOutcome RefinementRules<D, Rules>::InsertSeedBesideOthers(
       break;
   }
   const RuleOutcome outcome = this->InsertFeature(z, seed.Delta, seed.Delta, conflict, None,
-    this->Worker.Statistics.Fired[RuleNumber<D>::InterfaceSampling]);
+    this->Worker.Statistics.Fired[RuleNumber<D>::SampleSpacing]);
   near = outcome == RuleOutcome::Changed ? this->Worker.Kernel.NewVertex : near;
   return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
-/** Inserts a point that another slab has on the common plane. R6 follows a feature point. */
+/**
+ * Inserts a point that another slab has on the common plane. The removal rule follows a feature
+ * point.
+ */
 template <int D, typename Rules>
 bool RefinementRules<D, Rules>::InsertShared(const FeatureSeed<D>& seed, SimplexId& near)
 {

@@ -25,9 +25,9 @@ namespace voxplex
 {
 
 /**
- * Feature points closest to the nodes of a lattice over the domain. No point is near a flat end. R1
- * might insert the same points, so the guarantees of the rules stay the same. InsertSeeds() skips
- * points that are nearer than delta to another.
+ * Feature points closest to the nodes of a lattice over the domain. No point is near a flat end.
+ * The sample spacing rule might insert the same points, so the guarantees of the rules stay the
+ * same. InsertSeeds() skips points that are nearer than delta to another.
  *
  * @param spacing of the nodes
  * @param reach nodes that are farther from all interfaces give no point
@@ -262,7 +262,8 @@ void InsertSeeds(RefinementContext<D>& context,
  *
  * The thesis starts all threads from the few simplices of the box and loses its first seconds to
  * rollbacks and idling (section 3.4.3, figure 3.6). With a few dozen points per thread, every
- * thread begins with work of its own. The points are counted as insertions by R1.
+ * thread begins with work of its own. The points are counted as insertions by the
+ * sample spacing rule.
  *
  * @param Rules as in Refiner
  * @param workers insert; no other thread may operate meanwhile. Nothing is screened: most of the

@@ -42,7 +42,8 @@ struct LatticeNode
  * result does not depend on the number of threads.
  *
  * @param spacing near interfaces
- * @param clearance no node is nearer to an interface, since R1 inserts points there
+ * @param clearance no node is nearer to an interface, since the sample spacing rule inserts
+ *   points there
  */
 template <int D>
 std::vector<LatticeNode<D>> MakeCoarseLattice(

@@ -31,10 +31,10 @@ namespace voxplex
  * the others. Nothing that a tile's thread reads is written by another (WorkerZone). So the result
  * for a tile does not depend on when it is refined, or by which thread. There are no locks.
  *
- * An element is put off if it cannot be refined inside of its tile: for example, if its cavity has a
- * vertex outside. When all tiles are done, space is cut elsewhere, and the elements that were put
- * off are tried again. What is left after some tilings is refined by one thread. Slivers (R7) come
- * last, as in Refiner.
+ * An element is put off if it cannot be refined inside of its tile: for example, if its cavity has
+ * a vertex outside. When all tiles are done, space is cut elsewhere, and the elements that were put
+ * off are tried again. What is left after some tilings is refined by one thread. Slivers come last,
+ * as in Refiner.
  *
  * The order of all lists is that of tiles, not that of threads. Ids depend on threads. No rule asks
  * for their order, and in the end they are replaced (Triangulation::Renumber).
@@ -135,7 +135,7 @@ private:
   /**
    * Refines with one tiling after the other. What does not fit into the tiles of the last one is
    * refined by one thread.
-   * @param putsSliversOff R7 is not applied
+   * @param putsSliversOff the sliver rule is not applied
    * @return the slivers that were put off
    */
   Work RefineAll(Work work, bool putsSliversOff);

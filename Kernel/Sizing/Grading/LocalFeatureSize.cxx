@@ -26,9 +26,9 @@ template <int D>
 constexpr std::uint32_t Stride = D == 3 ? 4 : 2;
 
 /**
- * Largest growth of Delta over a unit of length. If Delta grows faster, R2 and R6 undo each other's
- * work. With a slope of 1, refinement of the knee atlas creates 1.5 times as many elements, and the
- * same number stays.
+ * Largest growth of Delta over a unit of length. If Delta grows faster, the ball and removal rules
+ * undo each other's work. With a slope of 1, refinement of the knee atlas creates 1.5 times as many
+ * elements, and the same number stays.
  */
 constexpr double LargestSlope = 0.3;
 
@@ -42,8 +42,8 @@ constexpr double BendFactor = 1.2;
 
 /**
  * Root mean square roughness of interfaces, in largest voxel spacings. With 0, the stairs of voxels
- * count as bends where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements. The spacing of
- * frames does not count: stairs between frames are as high as an interface moves meanwhile.
+ * count as bends where Delta is small: the AAL atlas at ratio 2 gets 8 % more elements. The spacing
+ * of frames does not count: stairs between frames are as high as an interface moves meanwhile.
  */
 constexpr double Roughness = 0.15;
 
@@ -54,8 +54,8 @@ constexpr double Roughness = 0.15;
 constexpr int MostBends = 4;
 
 /**
- * @brief The distance to the nearest of a set of points. It is nearly always exact to an eighth of a cell's
- * diagonal, in 4D to a quarter. Otherwise it is too large, by about a diagonal at most.
+ * @brief The distance to the nearest of a set of points. It is nearly always exact to an eighth of
+ * a cell's diagonal, in 4D to a quarter. Otherwise it is too large, by about a diagonal at most.
  */
 template <int D>
 class NearestPole

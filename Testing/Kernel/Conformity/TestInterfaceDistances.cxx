@@ -250,7 +250,7 @@ TEST(InterfaceDistances, SamplesMoreFinelyEachTime)
       EXPECT_LE(domain.DistanceBound(seed.Position), 1e-6);
     }
     EXPECT_LE(local.GradedAt(seeds.front().Position), spacing + 1e-6);
-    // From the second time on R1 is to keep twice that spacing, too, and at last the spacing.
+    // From the second time on samples are to keep twice that spacing, too, and at last the spacing.
     EXPECT_EQ(local.HasLowered(), visits > 0);
     const double bound = visits < 4 ? 2.0 * spacing : spacing;
     EXPECT_EQ(local.At(seeds.front().Position).Delta,

@@ -168,7 +168,7 @@ TEST(GradedMeshing, LargeRatiosAndFeaturesDoNotTakeMoreElements)
   }
 }
 
-// R6 spares free vertices that serve finer interfaces; otherwise R2 puts them back again and again.
+// Removal spares free vertices that serve finer interfaces; otherwise the ball rule puts them back again and again.
 TEST(GradedMeshing, RulesDoNotUndoEachOther)
 {
   VOXPLEX_NOT_WITH_SANITIZERS();

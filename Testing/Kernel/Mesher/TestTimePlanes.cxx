@@ -310,7 +310,7 @@ TEST(TimePlanes, AFlatSlabAtTheBeginningTakesFewPoints)
 }
 
 // A circumcentre lay 1e-14 inside of a face of the box. Rounding made the balls of the flat pentatopes beside it meet the
-// interface, and R2 covered the face: 6,775 points.
+// interface, and the ball rule covered the face: 6,775 points.
 TEST(TimePlanes, PointsNextToAFaceOfTheBoxAreMovedOntoIt)
 {
   const double voxel = 20.535581761938751;

@@ -148,7 +148,7 @@ void ExpectConsistentStatistics(const RefinementContext<3>& context, Refiner<Rul
     std::accumulate(rules.Fired.begin(), rules.Fired.end(), std::uint64_t{ 0 }) +
       rules.SliversSplit + rules.SliversSampled);
   EXPECT_EQ(removals, rules.Removed);
-  // R1 and R3 insert feature points, R7 either kind, the other rules free ones, or some on the box.
+  // The sample spacing and facet rules insert feature points, the sliver rule either kind, the others free ones, or some on the box.
   const std::uint64_t features = CountVertices(context.Mesh, { VertexKind::Feature });
   EXPECT_EQ(features, context.Features.Size());
   EXPECT_EQ(features, rules.Fired[0] + rules.Fired[2] + rules.SliversSampled);
@@ -214,7 +214,7 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
   EXPECT_GT(rollbacks, 0u) << "the threads never met: the test tests nothing";
 }
 
-// R6 with removals that are put off: free vertices crowd around the interface before refinement, and
+// The removal rule with removals that are put off: free vertices crowd around the interface before refinement, and
 // all must have made way for feature vertices, as they do with one thread.
 TEST_P(ParallelRefinement, FreeVerticesNearFeatureVerticesAreRemoved)
 {

@@ -55,7 +55,8 @@ TEST(Refinement, NoRuleAppliesAfterwards)
       Refiner<Rules3D> refiner(context);
       ASSERT_TRUE(refiner.Run(nullptr));
       const RuleStatistics rules = refiner.GetRuleStatistics();
-      EXPECT_LE(rules.RefusedTooClose, rules.PicksTried) << "only R7 may ask for such points";
+      EXPECT_LE(rules.RefusedTooClose, rules.PicksTried)
+        << "only the sliver rule may ask for such points";
       EXPECT_EQ(rules.RemovalsFailed, 0u);
       EXPECT_GT(rules.Fired[0], 0u);
       EXPECT_GT(rules.Fired[1], 0u);
@@ -116,8 +117,9 @@ TEST(Refinement, ExtractedBallIsASphere)
   EXPECT_LT(jump / static_cast<double>(mesh.Points.size()), 3.0 * delta);
 }
 
-// R6: circumcentres come before feature points in places, and then have to go. R2 inserts centres of balls that are
-// empty up to 2 delta. R4 and R7 may insert nearer ones and are off, so that what R6 promises holds of every pair.
+// Removal: circumcentres come before feature points in places, and then have to go. The ball rule inserts centres of
+// balls that are empty up to 2 delta. The radius-edge and sliver rules may insert nearer ones and are off, so that what
+// removal promises holds of every pair.
 TEST(Refinement, FreeVerticesNearFeatureVerticesAreRemoved)
 {
   const BallDomain ball(5.0);

@@ -165,7 +165,7 @@ TEST(SpaceTimeRefinement, SliversWaitWhereTheyArePutOff)
     }
   }
   EXPECT_GT(worker.Poor.Size(), 0u);
-  EXPECT_EQ(worker.Statistics.SliversFound, 0u) << "R4 has acted";
+  EXPECT_EQ(worker.Statistics.SliversFound, 0u) << "the sliver rule has acted";
 }
 
 TEST(SpaceTimeRefinement, PickingRegionsLeaveNoSlivers)
@@ -206,7 +206,7 @@ TEST(SpaceTimeRefinement, PickingRegionsLeaveNoVertexOffInterfaces)
   }
 }
 
-// Large picking regions of facets let R3 and R5 answer each other, with many times the points.
+// Large picking regions of facets let the radius-edge and facet rules answer each other, with many times the points.
 TEST(SpaceTimeRefinement, LargePickingRegionsTakeFewPoints)
 {
   const auto grid = GridGeometry<4>::Orthogonal({ 5, 6, 6, 3 }, { 0.5, 0.5, 2.0, 6.0 });

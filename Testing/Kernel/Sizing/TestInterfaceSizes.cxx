@@ -304,7 +304,7 @@ TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
   EXPECT_NEAR(static_cast<double>(elements[1]) / static_cast<double>(elements[0]), 1.0, 0.01);
 }
 
-// R6 of a coarse interface leaves vertices that a finer one beside it needs. Otherwise the two undo each other's work.
+// Removal at a coarse interface leaves vertices that a finer one beside it needs. Otherwise the two undo each other's work.
 TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
 {
   const std::pair<LabelImage<3>, std::vector<InterfaceSize>> cases[] = {

@@ -117,8 +117,8 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
       const double local = context.Sizing.SamplingDistance(z, 1, 0);
       ASSERT_TRUE(std::any_of(features.begin(), features.end(),
         [&](const Point<D>& f) { return Distance(f, z) < local; }))
-        << "R1";
-      ASSERT_LT(radius, 2.0 * local) << "R2";
+        << "sample spacing";
+      ASSERT_LT(radius, 2.0 * local) << "ball";
     }
     const auto& v = mesh.GetSimplex(s).V;
     double shortest = 1e300;

@@ -22,7 +22,7 @@ using namespace voxplex::checks;
 namespace
 {
 
-/** Points of R1 keep Delta(z) from all others: a region has room for no more than this number of them. */
+/** Points of the sample spacing rule keep Delta(z) from all others: a region has room for no more than this number of them. */
 constexpr std::uint64_t MostSampled = 1000;
 
 template <int D>
