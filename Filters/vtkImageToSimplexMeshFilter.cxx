@@ -349,7 +349,7 @@ int vtkImageToSimplexMeshFilter::RequestData(
   }
 
   bool isGathered = true;
-  this->ErrorMessage = voxplex::FailureOf(
+  this->ErrorMessage = voxplex::CatchFailure(
     [&]
     {
       this->CheckParameters();

@@ -110,9 +110,9 @@ double vtkMeshingStatistics::GetLabelVolume(int index) const
 
 int vtkMeshingStatistics::GetNumberOfYieldingRegions() const
 {
-  const auto& steps = this->Values->Yielding;
+  const auto& steps = this->Values->RelaxedRegions;
   return static_cast<int>(std::count_if(steps.begin(), steps.end(),
-    [](const voxplex::YieldingReport& region) { return region.Step == 1; }));
+    [](const voxplex::RelaxationReport& region) { return region.Step == 1; }));
 }
 
 //----------------------------------------------------------------------------------------------------

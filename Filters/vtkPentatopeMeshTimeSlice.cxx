@@ -328,7 +328,7 @@ int vtkPentatopeMeshTimeSlice::RequestData(
   VOXPLEX_FORGET_ABORT();
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputVector);
   output->Initialize();
-  this->ErrorMessage = voxplex::FailureOf(
+  this->ErrorMessage = voxplex::CatchFailure(
     [&]
     {
       this->Cut(vtkUnstructuredGrid::GetData(inputVector[0]), outputVector->GetInformationObject(0),

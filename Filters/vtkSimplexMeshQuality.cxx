@@ -145,7 +145,7 @@ int vtkSimplexMeshQuality::RequestData(
   VOXPLEX_FORGET_ABORT();
   bool done = false;
   this->ErrorMessage = voxplex::InTermsOf(voxplex::UserInterface::VTK,
-    voxplex::FailureOf( // also if no thread can be started
+    voxplex::CatchFailure( // also if no thread can be started
       [&]
       {
         this->CheckParameters();

@@ -33,7 +33,7 @@ std::string Excerpt(std::string_view text, std::size_t longest)
   return shown.size() < text.size() ? shown + "..." : shown;
 }
 
-Character FirstOf(std::string_view text)
+Character FirstCharacter(std::string_view text)
 {
   constexpr std::array<char32_t, 5> smallest{ 0, 0, 0x80, 0x800, 0x10000 };
   const auto first = static_cast<unsigned char>(text.front());
@@ -54,7 +54,7 @@ bool IsUTF8(std::string_view text)
 {
   while (!text.empty())
   {
-    const Character first = FirstOf(text);
+    const Character first = FirstCharacter(text);
     if (first.Code == Character::None)
     {
       return false;

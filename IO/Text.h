@@ -33,7 +33,7 @@ struct Character
 };
 
 /** Of a text that is not empty. */
-Character FirstOf(std::string_view text);
+Character FirstCharacter(std::string_view text);
 
 /** Whether a text is well-formed UTF-8, without overlong forms and surrogates. */
 bool IsUTF8(std::string_view text);

@@ -76,7 +76,7 @@ inline void RequestWholeInputs(vtkInformationVector** inputs, int ports)
  * @return the message for the user, for InTermsOf(); empty if nothing was thrown
  */
 template <typename Work>
-std::string FailureOf(Work&& work, const char* outOfMemory, const std::string& failed)
+std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string& failed)
 {
   try
   {

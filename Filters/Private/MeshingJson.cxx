@@ -68,14 +68,14 @@ ordered_json BrokenToJson(const std::vector<BrokenComponent>& components)
   return broken;
 }
 
-ordered_json YieldingToJson(const std::vector<YieldingReport>& yielding)
+ordered_json RelaxationToJson(const std::vector<RelaxationReport>& regions)
 {
-  ordered_json regions = ordered_json::array();
-  for (const YieldingReport& region : yielding)
+  ordered_json json = ordered_json::array();
+  for (const RelaxationReport& region : regions)
   {
-    regions.push_back({ { "step", region.Step }, { "voxel", region.Voxel } });
+    json.push_back({ { "step", region.Step }, { "voxel", region.Voxel } });
   }
-  return regions;
+  return json;
 }
 
 ordered_json RulesToJson(const RuleStatistics& rules)
@@ -229,7 +229,7 @@ ordered_json FiguresToJson(const MeshingStatistics& v)
     { "frame_components", v.FrameComponents.Found },
     { "lost_frame_components", ComponentsToJson(v.FrameComponents.Lost) },
     { "largest_regional_work", v.Rules.LargestRegionalWork },
-    { "yielding_regions", YieldingToJson(v.Yielding) },
+    { "yielding_regions", RelaxationToJson(v.RelaxedRegions) },
     { "time_planes", PlanesToJson(v.Planes) },
     { "interfaces", InterfacesToJson(v.Interfaces) },
     { "optimisation", OptimisationToJson(v.Optimisation, v.Dimension == 4) },

@@ -36,12 +36,12 @@ std::string Describe(const ComponentReport& component)
 }
 
 /** The places of the first few, and how many there are. */
-std::string Describe(const std::vector<YieldingReport>& regions)
+std::string Describe(const std::vector<RelaxationReport>& regions)
 {
   constexpr std::size_t Most = 5;
   std::string text;
   std::size_t count = 0;
-  for (const YieldingReport& region : regions)
+  for (const RelaxationReport& region : regions)
   {
     if (region.Step == 1 && ++count <= Most)
     {
@@ -182,9 +182,9 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
                        : ". {exact-components} or a smaller {delta} connects them."));
   }
   warnOfLost(run.FrameComponents, "frames of the image");
-  if (!run.Yielding.empty())
+  if (!run.RelaxedRegions.empty())
   {
-    warnings.push_back("In " + Describe(run.Yielding) +
+    warnings.push_back("In " + Describe(run.RelaxedRegions) +
       " refinement took many times the work that it should need, and stopped improving shapes "
       "there: elements and interface triangles may be out of bounds. A smaller {delta}, or more "
       "smoothing of the labels, helps where the image is rougher than {delta}.");

@@ -142,7 +142,7 @@ std::vector<std::vector<double>> ParseVectors(const std::string& text, std::size
 
 /** One for each axis. */
 template <typename T>
-void CheckNumberOf(const std::vector<T>& values, const std::vector<Axis>& axes, const char* field)
+void CheckLength(const std::vector<T>& values, const std::vector<Axis>& axes, const char* field)
 {
   RefuseIf(values.size() != axes.size(), "its header has ", axes.size(), " axes, and ",
     values.size(), " of '", field, "': correct the header");
@@ -156,7 +156,7 @@ std::vector<std::string> AxisWords(
   const std::vector<std::string_view> words = Words(text);
   if (header.FindAny(keys))
   {
-    CheckNumberOf(words, axes, *keys.begin());
+    CheckLength(words, axes, *keys.begin());
   }
   return { words.begin(), words.end() };
 }
@@ -176,7 +176,7 @@ std::vector<Axis> ReadAxes(const TextHeader& header, const Space& space)
   if (const std::string* text = header.Find("space directions"))
   {
     directions = ParseVectors(*text, space.Dimension);
-    CheckNumberOf(directions, axes, "space directions");
+    CheckLength(directions, axes, "space directions");
   }
   const std::vector<double> spacings = header.Numbers({ "spacings" }, axes.size());
   const std::vector<double> mins = header.Numbers({ "axis mins", "axismins" }, axes.size());

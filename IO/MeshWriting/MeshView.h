@@ -44,7 +44,7 @@ public:
   std::int64_t LabelOf(vtkIdType i) const { return this->LabelOfTetrahedron[At(i)]; }
   vtkIdType NumberOfFacets() const { return static_cast<vtkIdType>(this->Triangles.size()); }
   std::array<vtkIdType, 3> Facet(vtkIdType i) const { return this->Triangles[At(i)]; }
-  std::int64_t NumberOf(vtkIdType i) const
+  std::int64_t FacetNumber(vtkIdType i) const
   {
     return this->PairNumber.at(this->PairOfTriangle[At(i)]);
   }

@@ -52,7 +52,7 @@ std::string MakeLegal(std::string_view name, const NameRules& rules)
   bool isReplacing = false;
   while (!name.empty())
   {
-    const auto [code, length] = FirstOf(name);
+    const auto [code, length] = FirstCharacter(name);
     if (IsNoCharacter(code) || !rules.Allows(code))
     {
       isReplacing = true;

@@ -59,7 +59,7 @@ SidedPair PairOf(const PlaneFacet& facet)
 
 SpaceTimeMeshView::SpaceTimeMeshView(const SpaceTimeMeshData& mesh)
   : Slab(mesh.Slab)
-  , Pentatopes(this->IsSlab() ? SlabOf(mesh.Pentatopes, mesh.Slab).Get() : mesh.Pentatopes)
+  , Pentatopes(this->IsSlab() ? ExtractSlab(mesh.Pentatopes, mesh.Slab).Get() : mesh.Pentatopes)
   , Times(RequireArray(this->Pentatopes->GetPointData(), "Time"))
   , Labels(RequireArray(this->Pentatopes->GetCellData(), "Label"))
   , Planes(TimePlanesOf(mesh.Pentatopes))

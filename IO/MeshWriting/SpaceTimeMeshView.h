@@ -58,7 +58,7 @@ public:
     return this->Facets[static_cast<std::size_t>(i)].Vertices;
   }
   /** Of its pair of labels and its side. */
-  std::int64_t NumberOf(vtkIdType i) const
+  std::int64_t FacetNumber(vtkIdType i) const
   {
     return this->Facets[static_cast<std::size_t>(i)].Number;
   }

@@ -114,7 +114,7 @@ std::vector<PlaneFacet> FindPlaneFacets(
 }
 
 //------------------------------------------------------------------------------------------------
-vtkSmartPointer<vtkUnstructuredGrid> SlabOf(vtkUnstructuredGrid* mesh, int slab)
+vtkSmartPointer<vtkUnstructuredGrid> ExtractSlab(vtkUnstructuredGrid* mesh, int slab)
 {
   vtkDataArray* const slabs = mesh->GetCellData()->GetArray("Slab");
   std::vector<vtkIdType> cells;

@@ -29,7 +29,7 @@ std::vector<double> TimePlanesOf(vtkUnstructuredGrid* pentatopes);
  * have the same vertex on their plane where the ids are equal. The field data array SlabTimes has the first and
  * the last time of the slab's points. Points and cells keep their order.
  */
-vtkSmartPointer<vtkUnstructuredGrid> SlabOf(vtkUnstructuredGrid* pentatopes, int slab);
+vtkSmartPointer<vtkUnstructuredGrid> ExtractSlab(vtkUnstructuredGrid* pentatopes, int slab);
 
 /** A facet with all four vertices on a time plane, inside of a label. */
 struct PlaneFacet

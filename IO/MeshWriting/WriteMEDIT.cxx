@@ -33,7 +33,7 @@ void WriteCells(TextFile& file, const TView& view, const char* facets, const cha
   file << facets << '\n' << view.NumberOfFacets() << '\n';
   for (vtkIdType i = 0; i < view.NumberOfFacets(); ++i)
   {
-    WriteElement(file, view.Facet(i), view.NumberOf(i));
+    WriteElement(file, view.Facet(i), view.FacetNumber(i));
   }
   file << elements << '\n' << view.NumberOfElements() << '\n';
   for (vtkIdType i = 0; i < view.NumberOfElements(); ++i)

@@ -103,7 +103,7 @@ void WriteBoundary(TextFile& file, const TView& view, int geometry)
   file << "\nboundary\n" << view.NumberOfFacets() << '\n';
   for (vtkIdType i = 0; i < view.NumberOfFacets(); ++i)
   {
-    WriteElement(file, view.NumberOf(i), geometry, view.Facet(i));
+    WriteElement(file, view.FacetNumber(i), geometry, view.Facet(i));
   }
 }
 

@@ -236,7 +236,7 @@ void WriteVTP(const MeshData& mesh, const std::string& path)
 
 void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 {
-  WriteGrid(mesh.Slab < 0 ? mesh.Pentatopes : SlabOf(mesh.Pentatopes, mesh.Slab).Get(), path);
+  WriteGrid(mesh.Slab < 0 ? mesh.Pentatopes : ExtractSlab(mesh.Pentatopes, mesh.Slab).Get(), path);
 }
 
 void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)

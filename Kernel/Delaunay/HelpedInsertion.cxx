@@ -40,13 +40,13 @@ bool Triangulation<D>::ExpandLevel(
   Worker& worker, const Point<D>& p, unsigned planes, std::size_t first, std::size_t last)
 {
   const std::size_t most = N * (last - first);
-  worker.Deleted.MakeRoom(most);
-  worker.Touched.MakeRoom(most);
-  worker.Boundary.MakeRoom(most);
-  worker.Joined.MakeRoom(most);
-  worker.Owned.MakeRoom(last - first);
+  worker.Deleted.ReserveMore(most);
+  worker.Touched.ReserveMore(most);
+  worker.Boundary.ReserveMore(most);
+  worker.Joined.ReserveMore(most);
+  worker.Owned.ReserveMore(last - first);
   worker.Candidates.Clear();
-  worker.Candidates.MakeRoom(most);
+  worker.Candidates.ReserveMore(most);
   for (std::size_t k = std::max<std::size_t>(first, 1); k < last; ++k)
   {
     if (!this->TryOwn(worker, worker.Joined[k + N - 1]))

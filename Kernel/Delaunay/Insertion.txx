@@ -89,11 +89,11 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
   {
     return false;
   }
-  worker.Deleted.MakeRoom(1);
+  worker.Deleted.ReserveMore(1);
   worker.Deleted.Push(seed);
   this->Marks[seed] = SimplexMark::Cavity;
   worker.Joined.Clear();
-  worker.Joined.MakeRoom(N);
+  worker.Joined.ReserveMore(N);
   for (VertexId v : this->Simplices[seed].V)
   {
     worker.Joined.Push(v);
@@ -106,11 +106,11 @@ bool Triangulation<D>::CollectCavity(Worker& worker, const Point<D>& p, SimplexI
   {
     const SimplexId s = worker.Deleted[k];
     const Simplex& simplex = this->Simplices[s];
-    worker.Deleted.MakeRoom(N);
-    worker.Touched.MakeRoom(N);
-    worker.Boundary.MakeRoom(N);
-    worker.Joined.MakeRoom(N);
-    worker.Owned.MakeRoom(1);
+    worker.Deleted.ReserveMore(N);
+    worker.Touched.ReserveMore(N);
+    worker.Boundary.ReserveMore(N);
+    worker.Joined.ReserveMore(N);
+    worker.Owned.ReserveMore(1);
     if (k > 0 && !this->TryOwn(worker, worker.Joined[k + N - 1])) // the vertex that s added
     {
       return false;

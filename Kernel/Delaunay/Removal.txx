@@ -45,7 +45,7 @@ RemovalOutcome Triangulation<D>::Remove(Worker& worker, VertexId v)
       return RemovalOutcome::Failed;
     }
     this->ReserveSimplices(worker, worker.Star.Simplices.Size());
-    worker.FreeVertices.MakeRoom(1);
+    worker.FreeVertices.ReserveMore(1);
   }
   catch (...)
   {
@@ -73,15 +73,15 @@ bool Triangulation<D>::CollectStar(Worker& worker, VertexId v)
   {
     return false;
   }
-  worker.Deleted.MakeRoom(1);
+  worker.Deleted.ReserveMore(1);
   worker.Deleted.Push(first);
   this->Marks[first] = SimplexMark::Cavity;
   for (std::size_t k = 0; k < worker.Deleted.Size(); ++k)
   {
     const SimplexId s = worker.Deleted[k];
     const Simplex& simplex = this->Simplices[s];
-    worker.Deleted.MakeRoom(N);
-    worker.Boundary.MakeRoom(1);
+    worker.Deleted.ReserveMore(N);
+    worker.Boundary.ReserveMore(1);
     if (!this->TryLockAll(worker, simplex.V))
     {
       return false;
@@ -137,7 +137,7 @@ template <int D>
 void Triangulation<D>::NumberStar(Worker& worker)
 {
   worker.Link.Clear();
-  worker.Link.MakeRoom(worker.Boundary.Size() * static_cast<std::size_t>(D));
+  worker.Link.ReserveMore(worker.Boundary.Size() * static_cast<std::size_t>(D));
   for (std::size_t k = 0; k < worker.Boundary.Size(); ++k)
   {
     BoundaryFacet& facet = worker.Boundary[k];
@@ -186,8 +186,8 @@ bool Triangulation<D>::FillStar(Worker& worker, unsigned planes)
     }
     worker.Boundary[k].Closed = true;
     BoundaryFacet facet = worker.Boundary[k];
-    star.Simplices.MakeRoom(1);
-    worker.Boundary.MakeRoom(N);
+    star.Simplices.ReserveMore(1);
+    worker.Boundary.ReserveMore(N);
     FillingSimplex<D>& filling = star.Simplices.PushUninitialised();
     if (!this->FindApex(worker, facet, this->GuessApex(worker, k), filling.Ball) ||
       !this->FillFacet(worker, facet, planes) || star.Simplices.Size() > limit)

@@ -44,13 +44,13 @@ public:
     const std::size_t wanted = std::bit_ceil(std::max<std::size_t>(64, 2 * n + 1));
     if (wanted > this->Entries.size())
     {
-      this->Entries.assign(wanted, Entry{});
+      this->Entries.assign(wanted, RidgeEntry{});
       this->Stamp = 0;
     }
     this->Count = 0;
     if (++this->Stamp == 0)
     {
-      std::fill(this->Entries.begin(), this->Entries.end(), Entry{});
+      std::fill(this->Entries.begin(), this->Entries.end(), RidgeEntry{});
       this->Stamp = 1;
     }
   }
@@ -66,14 +66,14 @@ public:
       this->Enlarge();
     }
     const Key key = MakeKey(face);
-    Entry& e = this->Find(key);
+    RidgeEntry& e = this->Find(key);
     if (e.Stamp == this->Stamp)
     {
       const std::uint32_t other = e.Payload;
       e.Payload = Nothing;
       return other;
     }
-    e = Entry{ key, this->Stamp, payload };
+    e = RidgeEntry{ key, this->Stamp, payload };
     ++this->Count;
     return Nothing;
   }
@@ -81,7 +81,7 @@ public:
 private:
   /** Up to three vertex numbers per word, the smallest first. */
   using Key = std::array<std::uint64_t, (K + 2) / 3>;
-  struct Entry
+  struct RidgeEntry
   {
     Key Set{};
     std::uint32_t Stamp = 0;
@@ -108,7 +108,7 @@ private:
     return key;
   }
 
-  Entry& Find(const Key& key)
+  RidgeEntry& Find(const Key& key)
   {
     const std::size_t mask = this->Entries.size() - 1;
     std::uint64_t h = key[0] * 0x9e3779b97f4a7c15ull;
@@ -126,10 +126,10 @@ private:
 
   void Enlarge()
   {
-    std::vector<Entry> old(2 * this->Entries.size());
+    std::vector<RidgeEntry> old(2 * this->Entries.size());
     old.swap(this->Entries);
     const std::uint32_t stamp = this->Stamp;
-    for (const Entry& e : old)
+    for (const RidgeEntry& e : old)
     {
       if (e.Stamp == stamp)
       {
@@ -138,7 +138,7 @@ private:
     }
   }
 
-  std::vector<Entry> Entries;
+  std::vector<RidgeEntry> Entries;
   std::uint32_t Stamp = 0;
   std::size_t Count = 0;
 };

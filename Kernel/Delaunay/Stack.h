@@ -29,16 +29,16 @@ class Stack
 
 public:
   /** Makes room for n more elements. Throws std::bad_alloc with the contents unchanged. */
-  void MakeRoom(std::size_t n)
+  void ReserveMore(std::size_t n)
   {
     if (this->Count + n > this->Capacity)
     {
       this->Grow(n);
     }
   }
-  /** Call MakeRoom() before. */
+  /** Call ReserveMore() before. */
   void Push(const T& x) { this->Data[this->Count++] = x; }
-  /** Returns the new top, which is uninitialised. Call MakeRoom() before. */
+  /** Returns the new top, which is uninitialised. Call ReserveMore() before. */
   T& PushUninitialised() { return this->Data[this->Count++]; }
   T Pop() { return this->Data[--this->Count]; }
   void Clear() { this->Count = 0; }
@@ -47,7 +47,7 @@ public:
   {
     if (n > this->Count)
     {
-      this->MakeRoom(n - this->Count);
+      this->ReserveMore(n - this->Count);
     }
     this->Count = n;
   }

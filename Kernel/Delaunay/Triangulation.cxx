@@ -50,7 +50,7 @@ void Triangulation<D>::BuildCorners()
     }
     this->ReserveVertex(worker);
     v[c] = this->NewVertex(worker, p, VertexKind::Box);
-    worker.Link.MakeRoom(1);
+    worker.Link.ReserveMore(1);
     this->NumberVertex(worker, v[c]);
   }
 
@@ -149,7 +149,7 @@ void Triangulation<D>::ReserveSimplices(Worker& worker, std::size_t n)
 {
   Stack<SimplexId>& free = worker.FreeSimplices;
   worker.Created.Resize(n);
-  free.MakeRoom(n + SimplexBlock + worker.Deleted.Size());
+  free.ReserveMore(n + SimplexBlock + worker.Deleted.Size());
   while (free.Size() < n)
   {
     // Ids are handed out only when their records exist. So a loop over all ids finds only records
@@ -185,7 +185,7 @@ void Triangulation<D>::ReserveVertex(Worker& worker)
   {
     return;
   }
-  free.MakeRoom(VertexBlock);
+  free.ReserveMore(VertexBlock);
   VertexId first = this->NextVertex.load(std::memory_order_relaxed);
   do
   {

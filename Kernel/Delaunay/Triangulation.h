@@ -564,7 +564,7 @@ inline bool Triangulation<D>::OwnsFacet(const Worker& worker, SimplexId s) const
 template <int D>
 inline bool Triangulation<D>::TryLock(Worker& worker, VertexId v)
 {
-  worker.Owned.MakeRoom(1);
+  worker.Owned.ReserveMore(1);
   return this->TryOwn(worker, v);
 }
 
@@ -573,7 +573,7 @@ template <int D>
 [[gnu::always_inline]] inline bool Triangulation<D>::TryLockAll(
   Worker& worker, const std::array<VertexId, N>& v)
 {
-  worker.Owned.MakeRoom(N);
+  worker.Owned.ReserveMore(N);
   for (const VertexId w : v)
   {
     if (!this->TryOwn(worker, w))

@@ -98,7 +98,7 @@ private:
     {
       if (isWithinOne || block.High[axis] - block.Low[axis] < LeafEdge)
       {
-        this->AddFacesOf(block, own);
+        this->AddFaces(block, own);
       }
       else
       {
@@ -215,13 +215,13 @@ private:
     return any;
   }
 
-  void AddFacesOf(const Block<D>& block, std::size_t first)
+  void AddFaces(const Block<D>& block, std::size_t first)
   {
     ThrowIfStopped(this->Stop);
     this->ForEachSite(block,
       [&](const Index& voxel)
       {
-        this->AddFacesOf(voxel, first);
+        this->AddFaces(voxel, first);
         return true;
       });
   }
@@ -244,7 +244,7 @@ private:
   }
 
   /** Adds the faces on the voxel's upper sides. */
-  void AddFacesOf(const Index& voxel, std::size_t first)
+  void AddFaces(const Index& voxel, std::size_t first)
   {
     for (unsigned a = 0; a < D; ++a)
     {

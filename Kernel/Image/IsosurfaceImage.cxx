@@ -29,10 +29,10 @@ constexpr std::size_t Grain = std::size_t{ 1 } << 18;
 /**
  * The margin of a value, before scaling. Its sign is exact. It is 0 only for the isovalue itself.
  */
-class MarginOf
+class SurfaceMargin
 {
 public:
-  explicit MarginOf(const Isosurface& surface)
+  explicit SurfaceMargin(const Isosurface& surface)
     : Value(surface.Value)
     , Sign(surface.Inside == IsosurfaceSide::Above ? 1.0 : -1.0)
   {
@@ -65,7 +65,7 @@ struct Census
 };
 
 template <typename T>
-Census TakeCensus(std::span<const T> scalars, const MarginOf& marginOf, unsigned threads,
+Census TakeCensus(std::span<const T> scalars, const SurfaceMargin& marginOf, unsigned threads,
   const std::stop_token& stop)
 {
   Census all;
@@ -335,7 +335,7 @@ IsosurfaceImage<D> IsosurfaceImage<D>::FromScalars(std::span<const T> scalars,
 {
   CheckGrid(grid, scalars.size());
   CheckSurface(surface);
-  const MarginOf marginOf(surface);
+  const SurfaceMargin marginOf(surface);
   const Census census = TakeCensus(scalars, marginOf, threads, stop);
   IsosurfaceImage image;
   image.Which = surface;

@@ -44,7 +44,7 @@ struct FineTetrahedron
   std::array<LabelId, 4> Labels;
 
   /** The facet opposite to corner i. */
-  Place Facet(unsigned i) const
+  LatticeSimplex Facet(unsigned i) const
   {
     const unsigned first = i == 0 ? 1 : 0;
     const unsigned second = i <= 1 ? 2 : 1;
@@ -201,7 +201,7 @@ public:
       todo.pop_back();
       Index cell;
       if (!open.contains(place) ||
-        !this->FindUntracedCell(this->Numbers.PlaceOf(place), followed, cell))
+        !this->FindUntracedCell(this->Numbers.Decode(place), followed, cell))
       {
         continue;
       }
@@ -239,7 +239,8 @@ private:
    * Finds the cell at a triangle that was not traced yet, among the two cells that share the
    * triangle.
    */
-  bool FindUntracedCell(const Place& place, const std::set<Index>& followed, Index& cell) const
+  bool FindUntracedCell(
+    const LatticeSimplex& place, const std::set<Index>& followed, Index& cell) const
   {
     for (unsigned side = 0; side < 2; ++side)
     {
@@ -460,7 +461,7 @@ private:
     std::array<LabelId, 4> labels = t.Labels;
     const unsigned distinct = CountDistinct(labels.data(), labels.data() + 4);
     const Numbering::Number corner =
-      this->Numbers.NumberOf({ t.Corners[0], t.Steps[1], t.Steps[2], true });
+      this->Numbers.Encode({ t.Corners[0], t.Steps[1], t.Steps[2], true });
     Segment segment;
     unsigned found = 0;
     for (unsigned i = 0; i < 4; ++i)
@@ -473,11 +474,11 @@ private:
       if (distinct == 4)
       {
         segments.push_back(
-          { { corner, this->Numbers.NumberOf(t.Facet(i)) }, { t.FacetLabels(3), facet } });
+          { { corner, this->Numbers.Encode(t.Facet(i)) }, { t.FacetLabels(3), facet } });
       }
       else
       {
-        segment.Ends[found] = this->Numbers.NumberOf(t.Facet(i));
+        segment.Ends[found] = this->Numbers.Encode(t.Facet(i));
         segment.Labels[found++] = facet;
       }
     }

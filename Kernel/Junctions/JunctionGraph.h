@@ -39,7 +39,7 @@ public:
   std::array<double, 3> At(const Index& fine, const std::array<LabelId, 3>& labels)
   {
     std::array<double, 3> margins;
-    Entry& entry = this->Entries[Hash(fine)];
+    CachedMargins& entry = this->Entries[Hash(fine)];
     if (entry.Fine == fine && entry.Find(labels, margins))
     {
       return margins;
@@ -52,7 +52,7 @@ public:
 private:
   static constexpr std::size_t NumberOfEntries = 4096; ///< a power of two
 
-  struct Entry
+  struct CachedMargins
   {
     Index Fine{ -1, -1, -1 };
     std::array<LabelId, 3> Labels{};
@@ -82,7 +82,7 @@ private:
   }
 
   const LabelledSpace<Field>& Space;
-  std::vector<Entry> Entries;
+  std::vector<CachedMargins> Entries;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -98,7 +98,7 @@ public:
   }
 
   /** Lattice coordinates of the point of a triangle where the labels of its corners are equal. */
-  Point<3> Locate(const Place& place, const std::array<LabelId, 3>& labels)
+  Point<3> Locate(const LatticeSimplex& place, const std::array<LabelId, 3>& labels)
   {
     const std::array<Index, 3> corners = CornersOf(place);
     std::array<Point<3>, 3> x;
@@ -163,7 +163,7 @@ public:
   }
 
 private:
-  static std::array<Index, 3> CornersOf(const Place& place)
+  static std::array<Index, 3> CornersOf(const LatticeSimplex& place)
   {
     std::array<Index, 3> corners;
     for (unsigned a = 0; a < 3; ++a)
@@ -347,7 +347,7 @@ private:
           if (!this->IsCorner(n))
           {
             this->Positions[n] = this->Space.ToFrame(
-              locator.Locate(this->Numbers.PlaceOf(this->Places[n]), this->Labels[n]));
+              locator.Locate(this->Numbers.Decode(this->Places[n]), this->Labels[n]));
           }
         }
       },

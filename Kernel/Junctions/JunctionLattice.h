@@ -22,7 +22,7 @@ using Index = GridGeometry<3>::Index;
 inline constexpr std::int64_t Fine = 2;
 
 /** The place of a point of a curve: a triangle or a tetrahedron of the subdivision. */
-struct Place
+struct LatticeSimplex
 {
   std::array<std::int64_t, 3> Base; ///< first corner, on the fine lattice
   std::uint8_t Second; ///< steps from the first corner to the second, one bit for each axis
@@ -49,14 +49,14 @@ public:
     return 7 + static_cast<unsigned>(std::bit_width(this->Side[0] * this->Side[1] * this->Layers));
   }
 
-  Number NumberOf(const Place& place) const
+  Number Encode(const LatticeSimplex& place) const
   {
     const auto x = [&](unsigned a) { return static_cast<std::uint64_t>(place.Base[a]); };
     const std::uint64_t base = (x(2) * this->Side[1] + x(1)) * this->Side[0] + x(0);
     return base << 7 | static_cast<std::uint64_t>(place.Third) << 4 |
       static_cast<std::uint64_t>(place.Second) << 1 | (place.IsCorner ? 1 : 0);
   }
-  Place PlaceOf(Number number) const
+  LatticeSimplex Decode(Number number) const
   {
     const std::uint64_t base = number >> 7;
     const std::uint64_t row = base / this->Side[0];

@@ -56,18 +56,18 @@ public:
   /** Numbers the corners and makes the points. */
   TimeSlice Finish()
   {
-    struct Place
+    struct NumberedCorner
     {
       Edge E;
       std::size_t Corner;
     };
-    std::vector<Place> places(this->Corners.size());
+    std::vector<NumberedCorner> places(this->Corners.size());
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       places[i] = { this->Corners[i], i };
     }
     std::sort(places.begin(), places.end(),
-      [](const Place& p, const Place& q)
+      [](const NumberedCorner& p, const NumberedCorner& q)
       { return p.E.A != q.E.A ? p.E.A < q.E.A : p.E.B < q.E.B; });
 
     this->Slice.Connectivity.resize(places.size());

@@ -76,7 +76,7 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-RefinementSettings<D> SettingsOf(const MeshingOptions<D>& options, const SizingSources<D>& sizing)
+RefinementSettings<D> MakeSettings(const MeshingOptions<D>& options, const SizingSources<D>& sizing)
 {
   RefinementSettings<D> settings;
   settings.Sizing = sizing;
@@ -92,7 +92,7 @@ RefinementSettings<D> SettingsOf(const MeshingOptions<D>& options, const SizingS
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-MeshSizeEstimate EstimateOf(const RunEnvironment<D>& run, double distance, double sizeFloor)
+MeshSizeEstimate EstimateSize(const RunEnvironment<D>& run, double distance, double sizeFloor)
 {
   MeshSizeEstimate estimate = EstimateMeshSize<D>(run.Prepared.Image, distance, sizeFloor,
     run.Prepared.Size.get(), run.Options.Team.Threads, run.Stop);
@@ -118,10 +118,10 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
 {
   MeshSizing<D> sizing(run);
   const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
-  const MeshSizeEstimate estimate = EstimateOf(run, planned.Equivalent(), planned.SizeFloor());
+  const MeshSizeEstimate estimate = EstimateSize(run, planned.Equivalent(), planned.SizeFloor());
 
   const std::unique_ptr<RefinementStage<D>> stage = Dimension<D>::MakeStage(run,
-    { SettingsOf(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
+    { MakeSettings(run.Options, sizing.Sources()), planned.Largest(), estimate.Vertices,
       estimate.InterfaceVertices });
   Inspection<D> inspection(run, *stage, sizing.LocalBounds());
   std::vector<FeatureSeed<D>> seeds = Dimension<D>::SampleJunctions(run, stage->Sizing());

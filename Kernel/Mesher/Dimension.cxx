@@ -61,7 +61,7 @@ double ShortestSlab(const RunEnvironment<4>& run)
 
 /** What grading has in common in space and space-time. */
 template <int D>
-GradingParameters ParametersOf(const RunEnvironment<D>& run, double delta)
+GradingParameters MakeGradingParameters(const RunEnvironment<D>& run, double delta)
 {
   const double volume = run.Prepared.Image.Grid().VoxelVolume();
   const GridGeometry<D>& grid = run.Prepared.OfDomain().Grid();
@@ -98,7 +98,7 @@ OwnedBaseDistance<3> Dimension<3>::GradeBase(const RunEnvironment<3>& run, doubl
   {
     return { BaseDistance<3>{ delta }, nullptr };
   }
-  GradingParameters parameters = ParametersOf(run, delta);
+  GradingParameters parameters = MakeGradingParameters(run, delta);
   parameters.Tolerance =
     GradingTolerance * DistanceCheck<3>::LargestDistanceToFacets(run.Prepared.Image.Grid(), delta);
   return Grade(run, parameters);
@@ -111,7 +111,7 @@ OwnedBaseDistance<4> Dimension<4>::GradeBase(const RunEnvironment<4>& run, doubl
   {
     return { BaseDistance<4>{ delta }, nullptr };
   }
-  GradingParameters parameters = ParametersOf(run, delta);
+  GradingParameters parameters = MakeGradingParameters(run, delta);
   parameters.Coarsest = ShortestSlab(run);
   parameters.Tolerance = SpaceTimeTolerance * delta;
   return Grade(run, parameters);

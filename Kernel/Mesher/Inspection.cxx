@@ -16,7 +16,7 @@ namespace
 {
 
 template <int D>
-ManifoldRepairOptions<D> RepairOptionsOf(
+ManifoldRepairOptions<D> MakeRepairOptions(
   const RunEnvironment<D>& run, const RefinementStage<D>& stage)
 {
   ManifoldRepairOptions<D> options;
@@ -62,7 +62,7 @@ Inspection<D>::Inspection(
                  stage.Sizing(), run.Options.Team.Threads },
       Dimension<D>::MayRefine(run) ? run.Options.Interfaces.Rounds : 0, this->Sampling,
       run.Statistics.Interfaces, run.Stop)
-  , Labeller(stage.Mesh(), RepairOptionsOf(run, stage), run.Options.Team.Threads, run.Stop)
+  , Labeller(stage.Mesh(), MakeRepairOptions(run, stage), run.Options.Team.Threads, run.Stop)
 {
   const Stopwatch time;
   const PreparedImage<D>& prepared = run.Prepared;

@@ -52,7 +52,7 @@ void ForComponents(const RunEnvironment<D>& run, const Visit& visit)
 }
 
 template <int D>
-ComponentGuard<D> GuardOf(const RunEnvironment<D>& run)
+ComponentGuard<D> MakeGuard(const RunEnvironment<D>& run)
 {
   ComponentGuard<D> guard(run.Prepared.Image);
   ForComponents(run,
@@ -82,7 +82,7 @@ void ListLostComponents(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh
 
 /** The sizes that users give; null if they give none. */
 template <int D>
-std::unique_ptr<const SizingField<D>> SizesOf(const RunEnvironment<D>& run)
+std::unique_ptr<const SizingField<D>> MakeSizes(const RunEnvironment<D>& run)
 {
   if (!run.Prepared.Size)
   {
@@ -99,7 +99,7 @@ template <int D>
 FittedPositions<D> Fit(const RunEnvironment<D>& run, const RefinementStage<D>& stage,
   const ManifoldLabels<D>& labels, const SizingField<D>* sizes)
 {
-  ComponentGuard<D> guard = GuardOf(run);
+  ComponentGuard<D> guard = MakeGuard(run);
   FitBounds<D> bounds{ .Image = run.Prepared.OfDomain(), .Planes = run.Prepared.Planes };
   if (D == 4)
   {
@@ -154,7 +154,7 @@ void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
 {
   const MeshingOptions<3>& asked = run.Options;
   const LabelImage<3>& image = run.Prepared.Image;
-  ComponentGuard<3> guard = GuardOf(run);
+  ComponentGuard<3> guard = MakeGuard(run);
   OptimisationOptions options;
   options.Shape = ShapeBounds::With(
     std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
@@ -176,8 +176,8 @@ void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
 
 void Optimise(const RunEnvironment<4>& run, ExtractedMesh<4>& extracted)
 {
-  const std::unique_ptr<const SizingField<4>> sizes = SizesOf(run);
-  ComponentGuard<4> guard = GuardOf(run);
+  const std::unique_ptr<const SizingField<4>> sizes = MakeSizes(run);
+  ComponentGuard<4> guard = MakeGuard(run);
   PentatopeBounds bounds;
   bounds.Target = OptimisedNormalizedVolume;
   bounds.RadiusEdgeRatio = run.Options.Shape.RadiusEdgeRatio;
@@ -208,7 +208,7 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   const unsigned threads = run.Options.Team.Threads;
   UninitialisedVector<Point<D>> positions; // empty: those of the triangulation
   SpindleContext<D> context;
-  const std::unique_ptr<const SizingField<D>> sizes = SizesOf(run);
+  const std::unique_ptr<const SizingField<D>> sizes = MakeSizes(run);
   context.Sizing = sizes.get();
   // In 3D shapes and sizes are left to optimisation.
   if (run.Options.Interfaces.Fit && (D == 4 || run.Options.Optimisation.Run))

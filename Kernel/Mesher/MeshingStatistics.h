@@ -86,7 +86,7 @@ struct MeshingRun
  * (RegionalWork). Step 1: slivers stay. Step 2: facets of interfaces may also violate bounds. Step
  * 3: ratios and sizes of elements may, too.
  */
-struct YieldingReport
+struct RelaxationReport
 {
   unsigned Step = 0;
   std::vector<std::int64_t> Voxel; ///< the index of a voxel of the region, in the whole image
@@ -138,10 +138,11 @@ struct MeshingStatistics
   InterfaceStatistics Interfaces;
   TimePlaneStatistics Planes;
   OptimisationSummary Optimisation;
-  std::vector<YieldingReport> Yielding; ///< the steps of all regions, in the order they were taken
-  double SizesRaisedTo = 0.0;           ///< the floor of sizes if some sizes were below it, else 0
-  std::uint64_t LabelFieldBytes = 0;    ///< dense labels and smoothed values
-  std::uint64_t DistanceBytes = 0;      ///< feature transform
+  std::vector<RelaxationReport>
+    RelaxedRegions;                  ///< the steps of all regions, in the order they were taken
+  double SizesRaisedTo = 0.0;        ///< the floor of sizes if some sizes were below it, else 0
+  std::uint64_t LabelFieldBytes = 0; ///< dense labels and smoothed values
+  std::uint64_t DistanceBytes = 0;   ///< feature transform
 };
 
 } // namespace voxplex

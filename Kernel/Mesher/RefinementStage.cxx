@@ -24,7 +24,7 @@ template <int D>
 using RulesOf = std::conditional_t<D == 3, Rules3D, Rules4D>;
 
 /** With the numbers of threads that the machine has. */
-TeamOptions TeamOf(TeamOptions team)
+TeamOptions LimitThreads(TeamOptions team)
 {
   team.Threads = std::min(NumberOfThreads(team.Threads), MaximumNumberOfWorkers);
   team.FineGrained = team.FineGrained && team.Threads <= NumberOfThreads(0);
@@ -33,19 +33,19 @@ TeamOptions TeamOf(TeamOptions team)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void AddYielding(MeshingStatistics& statistics, const GridGeometry<D>& grid,
-  const std::vector<YieldingRegion<D>>& regions)
+void AddRelaxedRegions(MeshingStatistics& statistics, const GridGeometry<D>& grid,
+  const std::vector<RelaxedRegion<D>>& regions)
 {
-  for (const YieldingRegion<D>& region : regions)
+  for (const RelaxedRegion<D>& region : regions)
   {
-    const Point<D> index = grid.ToIndex(region.Place);
-    YieldingReport report{ static_cast<unsigned>(region.Step), {} };
+    const Point<D> index = grid.ToIndex(region.Position);
+    RelaxationReport report{ static_cast<unsigned>(region.Step), {} };
     for (std::size_t a = 0; a < D; ++a)
     {
       const auto last = static_cast<double>(grid.Dimensions[a] - 1);
       report.Voxel.push_back(std::llround(std::clamp(index[a], 0.0, last)));
     }
-    statistics.Yielding.push_back(std::move(report));
+    statistics.RelaxedRegions.push_back(std::move(report));
   }
 }
 
@@ -72,7 +72,7 @@ bool RunRefiner(const RunEnvironment<D>& run, AnyRefiner& refiner, std::uint64_t
   {
     statistics.Threads[t] += threads[t];
   }
-  AddYielding(statistics, run.Prepared.Image.Grid(), refiner.GetYielded());
+  AddRelaxedRegions(statistics, run.Prepared.Image.Grid(), refiner.GetRelaxedRegions());
   return done;
 }
 
@@ -85,7 +85,7 @@ bool RefineContext(const RunEnvironment<D>& run, RefinementContext<D>& context,
   RunProgress& progress, std::uint64_t others)
 {
   using Rules = RulesOf<D>;
-  const TeamOptions team = TeamOf(run.Options.Team);
+  const TeamOptions team = LimitThreads(run.Options.Team);
   if (team.Reproducible)
   {
     TiledRefiner<Rules> refiner(context, team, seeds, start);

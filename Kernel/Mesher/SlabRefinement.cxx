@@ -133,7 +133,7 @@ bool SlabRefinement::Refine(
   return !this->Run.Stop.stop_requested();
 }
 
-std::vector<FeatureSeed<4>> SlabRefinement::SeedsOf(
+std::vector<FeatureSeed<4>> SlabRefinement::MakeSeeds(
   const Slab& slab, const std::vector<FeatureSeed<4>>& seeds) const
 {
   std::vector<FeatureSeed<4>> own;
@@ -170,7 +170,7 @@ bool SlabRefinement::RefineSlab(Slab& slab, const std::vector<FeatureSeed<4>>& s
   {
     others += other.get() != &slab ? other->Context.Mesh.VertexIdEnd() : 0;
   }
-  if (!RefineContext(this->Run, slab.Context, this->SeedsOf(slab, seeds), start,
+  if (!RefineContext(this->Run, slab.Context, this->MakeSeeds(slab, seeds), start,
         this->Plan.Vertices, progress, others))
   {
     return false;

@@ -64,7 +64,7 @@ private:
 
   std::unique_ptr<Slab> MakeSlab(double first, double last) const;
   /** The seeds in a slab, and the points that its planes have and the slab does not. */
-  std::vector<FeatureSeed<4>> SeedsOf(
+  std::vector<FeatureSeed<4>> MakeSeeds(
     const Slab& slab, const std::vector<FeatureSeed<4>>& seeds) const;
   bool RefineSlab(Slab& slab, const std::vector<FeatureSeed<4>>& seeds, RefinementStart start,
     RunProgress& progress);

@@ -69,7 +69,7 @@ std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
           corners[i] = &elements.PointOf(witnesses[c], i);
         }
         bool isIn = false;
-        set.Voxels.ForEachOf(
+        set.Voxels.ForEachVoxel(
           corners, [&](const auto& voxel) { isIn = isIn || set.All.At(voxel) == c; });
         set.IsBeside[c] = !isIn;
       }
@@ -95,7 +95,7 @@ bool ComponentGuard<D>::Keeps(LabelId label, const Corners& before, std::span<co
     const auto componentsOf = [&](const Corners& element)
     {
       std::vector<std::uint32_t> found;
-      set.Voxels.ForEachOf(element,
+      set.Voxels.ForEachVoxel(element,
         [&](const auto& centre)
         {
           const std::uint32_t own = guardedAt(centre);

@@ -43,7 +43,7 @@ public:
    * frames: with the voxels that contain the centroid of its cut at each frame.
    */
   template <typename Visit>
-  void ForEachOf(const Corners& element, const Visit& visit) const
+  void ForEachVoxel(const Corners& element, const Visit& visit) const
   {
     if (this->Extent == D)
     {

@@ -77,7 +77,7 @@ DistanceFigures Measure(const std::vector<Point<3>>& points, unsigned threads,
 }
 
 /** The vertices and the centroids of the interfaces. */
-std::vector<Point<3>> SamplesOf(const SimplexMesh<3>& mesh)
+std::vector<Point<3>> MakeSamples(const SimplexMesh<3>& mesh)
 {
   std::vector<char> isUsed(mesh.Points.size());
   for (const auto& facet : mesh.Facets)
@@ -138,7 +138,7 @@ HausdorffFigures MeasureHausdorff(const SimplexMesh<3>& mesh, const std::vector<
       { return std::sqrt(triangles.Distance2To(p, hint)); });
   }
   const BoundingTree<Point<3>> points(image, threads, stop);
-  figures.MeshToImage = Measure(SamplesOf(mesh), threads, stop,
+  figures.MeshToImage = Measure(MakeSamples(mesh), threads, stop,
     [&](const Point<3>& p, std::uint32_t& hint)
     {
       const double distance = std::sqrt(points.Distance2To(p, hint));

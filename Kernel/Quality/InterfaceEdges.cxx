@@ -102,7 +102,7 @@ std::vector<InterfaceRidge<D>> FindNonManifold(
     [&](std::size_t first, std::size_t last, std::vector<InterfaceRidge<D>>& ridges)
     {
       LabelsAtRidge<Label> around(labels);
-      lists.ForRidgesOf(first, last,
+      lists.ForEachRidge(first, last,
         [&](const auto& vertices, std::span<const RidgeUse<D>> uses)
         {
           if (uses.size() == 2) // most ridges: both facets have the same two labels

@@ -63,12 +63,12 @@ public:
   template <typename Visit>
   void ForEachRidge(Visit&& visit) const
   {
-    this->ForRidgesOf(0, this->Points, visit);
+    this->ForEachRidge(0, this->Points, visit);
   }
 
   /** The same for the ridges whose smallest vertices are first ... last - 1. */
   template <typename Visit>
-  void ForRidgesOf(std::size_t first, std::size_t last, Visit&& visit) const
+  void ForEachRidge(std::size_t first, std::size_t last, Visit&& visit) const
   {
     std::vector<RidgeUse<D>> uses;
     for (std::size_t low = first; low < last; ++low)

@@ -121,7 +121,7 @@ public:
     this->ForEachOfMissing(
       [&](std::size_t s, LabelId label)
       {
-        this->Voxels.ForEachOf(
+        this->Voxels.ForEachVoxel(
           CornersOf(this->Of, s), [&](const Index& voxel) { this->Mark(voxel, label, s); });
       });
     std::vector<std::uint32_t> found = this->Copy();
@@ -142,7 +142,7 @@ public:
     this->ForEachOfMissing(
       [&](std::size_t s, LabelId label)
       {
-        this->Voxels.ForEachOf(CornersOf(this->Of, s),
+        this->Voxels.ForEachVoxel(CornersOf(this->Of, s),
           [&](const Index& centre)
           {
             if (near.Contain(centre))

@@ -52,24 +52,24 @@ public:
   class Directory
   {
   public:
-    struct Place
+    struct Slot
     {
       std::uint32_t List;
       std::uint32_t Index;
     };
     /** @return List is None if the simplex was never in a list */
-    Place Find(SimplexId s)
+    Slot Find(SimplexId s)
     {
       this->Places.Grow(s + 1);
       const std::uint64_t place =
         std::atomic_ref<std::uint64_t>(this->Places[s]).load(std::memory_order_relaxed);
       return { static_cast<std::uint32_t>(place >> 32), static_cast<std::uint32_t>(place) };
     }
-    void Set(SimplexId s, Place place)
+    void Set(SimplexId s, Slot slot)
     {
       this->Places.Grow(s + 1);
       std::atomic_ref<std::uint64_t>(this->Places[s])
-        .store((std::uint64_t{ place.List } << 32) | place.Index, std::memory_order_relaxed);
+        .store((std::uint64_t{ slot.List } << 32) | slot.Index, std::memory_order_relaxed);
     }
 
   private:
@@ -104,7 +104,7 @@ public:
     const Guard guard(*this);
     if (this->Last.size() == this->Last.capacity())
     {
-      this->MakeRoom(this->Last);
+      this->ReserveOneMore(this->Last);
     }
     this->Last.push_back({ s, generation });
   }
@@ -241,7 +241,7 @@ private:
   }
 
   /** For one more entry. */
-  void MakeRoom(std::vector<Entry>& entries)
+  void ReserveOneMore(std::vector<Entry>& entries)
   {
     if (this->MayBeAlive)
     {
@@ -258,7 +258,7 @@ private:
   {
     if (this->Entries.size() == this->Entries.capacity())
     {
-      this->MakeRoom(this->Entries);
+      this->ReserveOneMore(this->Entries);
       this->NoteAll();
     }
     this->Entries.push_back(e);

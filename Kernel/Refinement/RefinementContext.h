@@ -31,12 +31,12 @@ namespace voxplex
  * The spacing factor of points that are inserted for the sake of facets, where a region has taken
  * too much work.
  */
-inline constexpr double YieldingFraction = 0.5;
+inline constexpr double RelaxedSpacingFraction = 0.5;
 
 /** The clearance of a feature point that is inserted for the sake of facets. */
-constexpr double FacetClearance(double spacing, Yielding step)
+constexpr double FacetClearance(double spacing, Relaxation step)
 {
-  return (step < Yielding::Spacing ? SpacingFloorFraction : YieldingFraction) * spacing;
+  return (step < Relaxation::Spacing ? SpacingFloorFraction : RelaxedSpacingFraction) * spacing;
 }
 
 /** A feature point nearer to a flat end than this, in delta, is moved onto it. */
@@ -196,9 +196,9 @@ struct WorkerZone
 {
   HalfOpenBox<D> Extent;
   /** The sliver rule waits until the rest of the box has been refined. */
-  bool PutsSliversOff = false;
+  bool DefersSlivers = false;
   /** The current evaluation needs to know something outside. */
-  bool HasLeft = false;
+  bool NeedsOutside = false;
   /** The insertions that this worker has counted here, by region. RegionalWork gets them later. */
   std::unordered_map<typename RegionalWork<D>::Region, std::uint32_t> Work;
 
@@ -211,10 +211,10 @@ struct WorkerZone
 
 /** A region where rules give way, given by a point in it. */
 template <int D>
-struct YieldingRegion
+struct RelaxedRegion
 {
-  Point<D> Place;
-  Yielding Step;
+  Point<D> Position;
+  Relaxation Step;
 };
 
 /** The lists of poor elements from which a dead simplex may be taken out. */
@@ -249,12 +249,11 @@ struct alignas(CacheLineSize) RefinementWorker
     }
     for (const SimplexId s : this->Kernel.Deleted)
     {
-      const PoorElementList::Directory::Place place = this->Eager->Directory.Find(s);
-      if (place.List != None &&
-        this->Eager->Socket[place.List] == this->Eager->Socket[this->Number])
+      const PoorElementList::Directory::Slot slot = this->Eager->Directory.Find(s);
+      if (slot.List != None && this->Eager->Socket[slot.List] == this->Eager->Socket[this->Number])
       {
         const std::uint32_t generation = mesh.State(s).CurrentGeneration() - 1;
-        this->Eager->Lists[place.List]->Remove({ s, generation }, place.Index);
+        this->Eager->Lists[slot.List]->Remove({ s, generation }, slot.Index);
       }
     }
   }
@@ -265,8 +264,8 @@ struct alignas(CacheLineSize) RefinementWorker
   unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval<D>> PendingRemovals;
-  std::vector<YieldingRegion<D>> Yielded; ///< the regions where rules began to give way
-  WorkerZone<D>* Zone = nullptr;          ///< null: the worker may refine everywhere
+  std::vector<RelaxedRegion<D>> RelaxedRegions; ///< the regions where rules began to give way
+  WorkerZone<D>* Zone = nullptr;                ///< null: the worker may refine everywhere
   /** New simplices are not screened now. The caller screens them at the end. */
   bool ScreensLater = false;
   RuleStatistics Statistics;

@@ -49,12 +49,12 @@ public:
     return sum;
   }
   /** The regions where rules began to give way, of all threads. */
-  std::vector<YieldingRegion<D>> GetYielded() const
+  std::vector<RelaxedRegion<D>> GetRelaxedRegions() const
   {
-    std::vector<YieldingRegion<D>> regions;
+    std::vector<RelaxedRegion<D>> regions;
     for (const auto& worker : this->Workers)
     {
-      regions.insert(regions.end(), worker->Yielded.begin(), worker->Yielded.end());
+      regions.insert(regions.end(), worker->RelaxedRegions.begin(), worker->RelaxedRegions.end());
     }
     return regions;
   }
@@ -142,7 +142,7 @@ protected:
     worker.Kernel.Created.Clear();
     for (; first != last; ++first)
     {
-      worker.Kernel.Created.MakeRoom(1);
+      worker.Kernel.Created.ReserveMore(1);
       worker.Kernel.Created.Push(*first);
     }
     Rules(this->Context, worker).ScreenCreated();

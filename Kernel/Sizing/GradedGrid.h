@@ -134,7 +134,7 @@ public:
   std::array<double, 2> Range() const
   {
     std::array<double, 2> range{ std::numeric_limits<double>::infinity(), 0.0 };
-    for (const Place& place : this->Places)
+    for (const CellSamples& place : this->Places)
     {
       if (std::isfinite(place.Length))
       {
@@ -152,7 +152,7 @@ private:
    * The smallest length of a cell's samples, and the bounding box in the frame of the samples with
    * it.
    */
-  struct Place
+  struct CellSamples
   {
     float Length = None;
     std::array<float, static_cast<std::size_t>(D)> Low{};
@@ -200,16 +200,16 @@ private:
           sample(voxel, id, add);
         }
       });
-    this->Places[cell] = this->MakePlace(smallest, low, high);
+    this->Places[cell] = this->MakeCellSamples(smallest, low, high);
   }
 
   /**
    * If the axes are oblique, the box in the frame is larger than the box of indices, and lengths
    * come out smaller.
    */
-  Place MakePlace(double length, const Point<D>& low, const Point<D>& high) const
+  CellSamples MakeCellSamples(double length, const Point<D>& low, const Point<D>& high) const
   {
-    Place place;
+    CellSamples place;
     place.Length = static_cast<float>(length);
     for (std::size_t r = 0; r < D; ++r)
     {
@@ -322,7 +322,7 @@ private:
   /** The length at p by the samples of one cell. */
   double From(std::uint32_t source, const Point<D>& p) const
   {
-    const Place& place = this->Places[source];
+    const CellSamples& place = this->Places[source];
     double distance2 = 0.0;
     for (std::size_t a = 0; a < D; ++a)
     {
@@ -365,7 +365,7 @@ private:
   Index Cells{};
   std::int64_t Edge = SmallestCell; ///< edge of a cell, in voxels
   double Slope = 0.0;
-  std::vector<Place> Places;         ///< by cell
+  std::vector<CellSamples> Places;   ///< by cell
   std::vector<std::uint32_t> Source; ///< by cell: the source of its centre
 };
 

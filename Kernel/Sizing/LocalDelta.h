@@ -49,7 +49,7 @@ public:
   explicit LocalDelta(const LabelImage<D>& image)
     : Grid(image.Grid())
     , Origin(image.CropOrigin())
-    , Cells(CellsOf(image))
+    , Cells(CellCounts(image))
     , VoxelsPerLength(image.Grid().VoxelsPerLength())
     , Values(Cells, Bound())
     , Graded(Cells, std::numeric_limits<float>::infinity())
@@ -221,7 +221,7 @@ public:
   }
 
 private:
-  static Index CellsOf(const LabelImage<D>& image)
+  static Index CellCounts(const LabelImage<D>& image)
   {
     Index cells;
     for (std::size_t a = 0; a < D; ++a)

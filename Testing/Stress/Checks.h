@@ -78,10 +78,10 @@ struct Subject
   std::uint64_t Excused() const
   {
     const RuleStatistics& rules = this->Stats.Rules;
-    return this->Stats.Yielding.empty() ? rules.RefusedTooClose + rules.RefusedOnClosedEnd +
+    return this->Stats.RelaxedRegions.empty() ? rules.RefusedTooClose + rules.RefusedOnClosedEnd +
         rules.RefusedNoConflict + rules.RefusedDuplicate + rules.RemovalsFailed +
         PiecesOfARidge * this->Stats.Interfaces.NonManifoldOpened
-                                        : this->Mesh.Simplices.size() * (D + 1);
+                                              : this->Mesh.Simplices.size() * (D + 1);
   }
 };
 

@@ -71,7 +71,7 @@ inline constexpr double BoundSafety = 1.0 - 10.0 * CircumballTolerance;
  * **Bounded work.** Every insertion is counted in the region of the point that asked for it: c(t),
  * or the feature point. A region needs a few dozen insertions at most. `Rules::WorkLimit` is
  * several times the largest count that was seen where refinement goes well. Beyond the limit the
- * rules give way step by step (Yielding). So a region takes at most 4 WorkLimit insertions, plus
+ * rules give way step by step (Relaxation). So a region takes at most 4 WorkLimit insertions, plus
  * those of the sample spacing rule, which keep Delta(z) from each other. Hence refinement ends on
  * every input.
  */
@@ -367,7 +367,7 @@ protected:
         radius >= Rules::PreferredSpacing *
             std::max(
               this->Context.Sizing.Spacing(centre, label), this->Context.Sizing.Base().Asked) &&
-        !this->PlaceOf(centre, CentreMargin * radius).Moved);
+        !this->MakeInsertionPoint(centre, CentreMargin * radius).Moved);
   }
 
   /**
@@ -375,8 +375,7 @@ protected:
    */
   bool AreSliversNext() const
   {
-    return this->Worker.Poor.OnlyLast() &&
-      !(this->Worker.Zone && this->Worker.Zone->PutsSliversOff);
+    return this->Worker.Poor.OnlyLast() && !(this->Worker.Zone && this->Worker.Zone->DefersSlivers);
   }
 
   /**
@@ -416,7 +415,7 @@ protected:
   {
     if (this->Worker.Zone && !this->Worker.Zone->Extent.ContainsBall(p, distance))
     {
-      this->Worker.Zone->HasLeft = true;
+      this->Worker.Zone->NeedsOutside = true;
       return true;
     }
     return this->Context.Features.AnyWithin(p, distance);
@@ -426,7 +425,7 @@ protected:
   InsertionOutcome Insert(const Point<D>& p, VertexKind kind, SimplexId seed, double clearance,
     typename Mesh::InsertionVeto* veto = nullptr)
   {
-    if (this->Worker.Zone && this->Worker.Zone->HasLeft)
+    if (this->Worker.Zone && this->Worker.Zone->NeedsOutside)
     {
       return InsertionOutcome::Contended;
     }
@@ -441,7 +440,7 @@ protected:
   /**
    * Where a point is inserted that must keep a margin from flat ends, and as which kind of vertex.
    */
-  struct Place
+  struct InsertionPoint
   {
     Point<D> Position;
     VertexKind Kind;
@@ -453,12 +452,12 @@ protected:
    * Moves p into the box, onto a face next to it, and onto a flat end if p itself is that near or
    * beyond it.
    */
-  Place PlaceOf(const Point<D>& p, double margin) const
+  InsertionPoint MakeInsertionPoint(const Point<D>& p, double margin) const
   {
     const Point<D> inBox =
       this->Context.Mesh.GetBox().Clamp(p, FaceMargin * this->Context.Sizing.SpacingFloor());
     const bool moved = inBox != p;
-    Place place{ inBox, moved ? VertexKind::Box : VertexKind::Free, moved, false };
+    InsertionPoint place{ inBox, moved ? VertexKind::Box : VertexKind::Free, moved, false };
     double& time = place.Position[static_cast<std::size_t>(D) - 1];
     const double end = this->Context.NearestFlatEnd(time);
     if (time == end || std::abs(p[D - 1] - end) < margin)
@@ -479,7 +478,7 @@ protected:
   RuleOutcome InsertCircumcentre(const Element& t, std::uint64_t& fired,
     double deltaBeside = std::numeric_limits<double>::infinity())
   {
-    const Place place = this->PlaceOf(t.Ball.Center, CentreMargin * t.Radius);
+    const InsertionPoint place = this->MakeInsertionPoint(t.Ball.Center, CentreMargin * t.Radius);
     Point<D> z;
     const double delta = place.OnEnd && this->Context.Sizing.DependsOnLabels(place.Position)
       ? this->Context.Sizing.SamplingDistance(
@@ -487,7 +486,7 @@ protected:
       : this->Context.Sizing.BaseAt(place.Position);
     const double spacing =
       std::min(deltaBeside, this->Context.Sizing.Spacing(place.Position, t.Label));
-    if (this->YieldingAt(place.Position, spacing) == Yielding::All)
+    if (this->RelaxationAt(place.Position, spacing) == Relaxation::All)
     {
       return RuleOutcome::Good;
     }
@@ -530,7 +529,7 @@ protected:
       this->CountWork(z, spacing);
       this->Context.Features.Add(z);
       this->ScreenCreated();
-      if (this->YieldingAt(z, spacing) != Yielding::All)
+      if (this->RelaxationAt(z, spacing) != Relaxation::All)
       {
         this->RemoveFreeVertices(this->Worker.Kernel.NewVertex, Rules::RemovalRadius * delta);
       }
@@ -574,7 +573,7 @@ protected:
 
 private:
   bool InsertShared(const FeatureSeed<D>& seed, SimplexId& near);
-  bool HasPlace(const FeatureSeed<D>& seed, Point<D>& z) const;
+  bool FindSeedPosition(const FeatureSeed<D>& seed, Point<D>& z) const;
 
   /**
    * Removes the free vertices adjacent to z that are nearer than the radius. A removal can make
@@ -651,11 +650,11 @@ private:
 
 protected:
   /** How far the rules give way in the region of a point. */
-  Yielding YieldingAt(const Point<D>& place, double spacing) const
+  Relaxation RelaxationAt(const Point<D>& place, double spacing) const
   {
     const auto region = RegionalWork<D>::RegionOf(place, spacing);
     const std::uint32_t own = this->Worker.Zone ? this->Worker.Zone->WorkIn(region) : 0;
-    return YieldingOf(this->Context.Work.At(region) + own, Rules::WorkLimit);
+    return RelaxationAfter(this->Context.Work.At(region) + own, Rules::WorkLimit);
   }
 
   /** Counts an insertion in the region of a point. */
@@ -667,10 +666,10 @@ protected:
       : this->Context.Work.Add(region) + 1;
     std::uint64_t& most = this->Worker.Statistics.LargestRegionalWork;
     most = std::max<std::uint64_t>(most, work);
-    const Yielding step = YieldingOf(work, Rules::WorkLimit);
-    if (step != YieldingOf(work - 1, Rules::WorkLimit))
+    const Relaxation step = RelaxationAfter(work, Rules::WorkLimit);
+    if (step != RelaxationAfter(work - 1, Rules::WorkLimit))
     {
-      this->Worker.Yielded.push_back({ place, step });
+      this->Worker.RelaxedRegions.push_back({ place, step });
     }
   }
 

@@ -24,7 +24,7 @@ namespace voxplex
  * How far the rules give way in a region that has taken many times the usual work. Each step
  * includes those before it.
  */
-enum class Yielding : unsigned
+enum class Relaxation : unsigned
 {
   Nothing,
   Slivers, ///< slivers stay, and the facet rule of 4D inserts centres of surface balls only
@@ -36,12 +36,12 @@ enum class Yielding : unsigned
  * The step for a number of insertions counted in a region. No region should need `limit`
  * insertions.
  */
-constexpr Yielding YieldingOf(std::uint32_t work, std::uint32_t limit)
+constexpr Relaxation RelaxationAfter(std::uint32_t work, std::uint32_t limit)
 {
-  return work < limit  ? Yielding::Nothing
-    : work < 2 * limit ? Yielding::Slivers
-    : work < 4 * limit ? Yielding::Spacing
-                       : Yielding::All;
+  return work < limit  ? Relaxation::Nothing
+    : work < 2 * limit ? Relaxation::Slivers
+    : work < 4 * limit ? Relaxation::Spacing
+                       : Relaxation::All;
 }
 
 /**

@@ -189,7 +189,7 @@ RuleOutcome Rules3D::SplitSliver(const Element& t, double tolerance)
 {
   const TetSliverOptions& options = this->Context.Settings.Shape.Slivers;
   const double spacing = this->Context.Sizing.Spacing(t.Ball.Center, t.Label);
-  if (this->YieldingAt(t.Ball.Center, spacing) != Yielding::Nothing)
+  if (this->RelaxationAt(t.Ball.Center, spacing) != Relaxation::Nothing)
   {
     return RuleOutcome::Good;
   }
@@ -223,7 +223,7 @@ RuleOutcome Rules3D::SampleAtSliver(const Element& t, double tolerance)
 {
   Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex simplex = mesh.GetSimplex(t.Id);
-  RuleOutcome outcome = this->SampleFacetsOf(t.Id, t, tolerance);
+  RuleOutcome outcome = this->SampleFacets(t.Id, t, tolerance);
   for (unsigned i = 0; i < 4 && outcome == RuleOutcome::Good; ++i)
   {
     const SimplexId n = simplex.N[i];
@@ -238,13 +238,13 @@ RuleOutcome Rules3D::SampleAtSliver(const Element& t, double tolerance)
         return RuleOutcome::Contended;
       }
     }
-    outcome = this->SampleFacetsOf(n, t, tolerance);
+    outcome = this->SampleFacets(n, t, tolerance);
   }
   return outcome;
 }
 
 //------------------------------------------------------------------------------------------------
-RuleOutcome Rules3D::SampleFacetsOf(SimplexId s, const Element& t, double tolerance)
+RuleOutcome Rules3D::SampleFacets(SimplexId s, const Element& t, double tolerance)
 {
   const Triangulation<3>& mesh = this->Context.Mesh;
   const Triangulation<3>::Simplex simplex = mesh.GetSimplex(s);
@@ -290,7 +290,7 @@ RuleOutcome Rules3D::SampleNear(
 {
   const TetSliverOptions& options = this->Context.Settings.Shape.Slivers;
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
-  if (this->YieldingAt(z, spacing) != Yielding::Nothing)
+  if (this->RelaxationAt(z, spacing) != Relaxation::Nothing)
   {
     return RuleOutcome::Good;
   }
@@ -346,8 +346,8 @@ RuleOutcome Rules3D::FacetRule(const Element& t)
     }
     const double delta = this->Context.Sizing.SamplingDistance(z, t.Label, other);
     const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
-    const Yielding step = this->YieldingAt(z, spacing);
-    if (step == Yielding::All)
+    const Relaxation step = this->RelaxationAt(z, spacing);
+    if (step == Relaxation::All)
     {
       continue;
     }

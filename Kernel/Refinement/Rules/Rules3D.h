@@ -87,7 +87,7 @@ private:
   RuleOutcome SliverRule(const Element& t);
   RuleOutcome SplitSliver(const Element& t, double tolerance);
   RuleOutcome SampleAtSliver(const Element& t, double tolerance);
-  RuleOutcome SampleFacetsOf(SimplexId s, const Element& t, double tolerance);
+  RuleOutcome SampleFacets(SimplexId s, const Element& t, double tolerance);
   RuleOutcome SampleBeside(const Element& t, double tolerance);
   RuleOutcome SampleNear(
     const Point<3>& z, double radius, double delta, const Element& t, double tolerance);

@@ -17,7 +17,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
 {
   ++this->Worker.Statistics.Evaluated;
   Element s = this->MakeElement(id);
-  const std::optional<Point<4>> onPlane = this->CentreOnPlaneOf(id);
+  const std::optional<Point<4>> onPlane = this->FacetCentreOnPlane(id);
   s.LabelInMesh = onPlane ? this->Context.Image.Label(*onPlane) : s.Label;
   const bool ratioFirst = this->Context.Settings.SpaceTime.Order == RuleOrder::RadiusEdgeFirst;
   RuleOutcome outcome = ratioFirst ? this->RadiusEdgeRule(s) : this->SampleInterface(s);
@@ -42,7 +42,7 @@ RuleOutcome Rules4D::Refine(SimplexId id)
 }
 
 //------------------------------------------------------------------------------------------------
-std::optional<Point<4>> Rules4D::CentreOnPlaneOf(SimplexId s) const
+std::optional<Point<4>> Rules4D::FacetCentreOnPlane(SimplexId s) const
 {
   const std::array<bool, 2>& isPlane = this->Context.IsPlane;
   if (!this->Context.HasPlanes())
@@ -137,7 +137,7 @@ RuleOutcome Rules4D::SliverRule(const Element& s)
   const SliverOptions& options = this->Context.Settings.SpaceTime.Slivers;
   ++statistics.SliversFound;
   const double spacing = this->Context.Sizing.Spacing(s.Ball.Center, s.Label);
-  if (this->YieldingAt(s.Ball.Center, spacing) != Yielding::Nothing)
+  if (this->RelaxationAt(s.Ball.Center, spacing) != Relaxation::Nothing)
   {
     ++statistics.SliversKept;
     return RuleOutcome::Good;
@@ -154,7 +154,7 @@ RuleOutcome Rules4D::SliverRule(const Element& s)
     },
     [&](Point<4>& p)
     {
-      const Place place = this->PlaceOf(p, CentreMargin * s.Radius);
+      const InsertionPoint place = this->MakeInsertionPoint(p, CentreMargin * s.Radius);
       p = place.Position;
       const RuleOutcome inserted =
         this->CountOutcome(this->Insert(p, place.Kind, s.Id, clearance, &veto),
@@ -184,7 +184,7 @@ RuleOutcome Rules4D::FacetRule(const Element& s, const std::optional<Point<4>>& 
       continue;
     }
     const LabelId atOther = this->LabelOf(n);
-    const std::optional<Point<4>> otherOnPlane = this->CentreOnPlaneOf(n);
+    const std::optional<Point<4>> otherOnPlane = this->FacetCentreOnPlane(n);
     const LabelId other = otherOnPlane ? this->Context.Image.Label(*otherOnPlane) : atOther;
     if (other == s.LabelInMesh || this->FacetIsGood(simplex.V, i))
     {
@@ -220,8 +220,8 @@ RuleOutcome Rules4D::InsertFeatureAt(
   const double delta = this->Context.Sizing.SamplingDistance(crossing, s.LabelInMesh, labelOfOther);
   const Point<4> z = this->Context.OnEndIfNextTo(crossing, delta);
   const double spacing = std::min(delta, this->Context.Sizing.Spacing(z));
-  const Yielding step = this->YieldingAt(z, spacing);
-  if (step == Yielding::All)
+  const Relaxation step = this->RelaxationAt(z, spacing);
+  if (step == Relaxation::All)
   {
     return RuleOutcome::Good;
   }
@@ -242,7 +242,7 @@ RuleOutcome Rules4D::InsertFeatureAt(
     ++this->Worker.Statistics.RefusedTooClose;
     return RuleOutcome::Good;
   }
-  return this->Context.Settings.SpaceTime.Slivers.Fight && step == Yielding::Nothing
+  return this->Context.Settings.SpaceTime.Slivers.Fight && step == Relaxation::Nothing
     ? this->InsertFeaturePick(z, delta, clearance, s, other)
     : this->InsertFeature(z, delta, clearance, s.Id, other, fired);
 }

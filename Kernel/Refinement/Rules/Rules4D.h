@@ -106,7 +106,7 @@ private:
    * The centre of a pentatope's facet on a plane between slabs, if it has one. The mesh has the
    * label there.
    */
-  std::optional<Point<4>> CentreOnPlaneOf(SimplexId s) const;
+  std::optional<Point<4>> FacetCentreOnPlane(SimplexId s) const;
   bool IsSliver(SimplexId s, double radius2) const;
   RuleOutcome SliverRule(const Element& s);
   RuleOutcome FacetRule(const Element& s, const std::optional<Point<4>>& onPlane);

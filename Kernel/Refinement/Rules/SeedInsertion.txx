@@ -18,7 +18,7 @@ namespace voxplex
  * others
  */
 template <int D, typename Rules>
-bool RefinementRules<D, Rules>::HasPlace(const FeatureSeed<D>& seed, Point<D>& z) const
+bool RefinementRules<D, Rules>::FindSeedPosition(const FeatureSeed<D>& seed, Point<D>& z) const
 {
   z = seed.Position;
   Point<D> onEnd;
@@ -36,7 +36,7 @@ bool RefinementRules<D, Rules>::InsertSeed(const FeatureSeed<D>& seed, SimplexId
     return this->InsertShared(seed, near);
   }
   Point<D> z;
-  if (!this->HasPlace(seed, z))
+  if (!this->FindSeedPosition(seed, z))
   {
     return false;
   }
@@ -54,14 +54,14 @@ bool RefinementRules<D, Rules>::InsertSeed(const FeatureSeed<D>& seed, SimplexId
 }
 
 //------------------------------------------------------------------------------------------------
-// Another thread may insert a point nearby after HasPlace(). So the distance to feature vertices is
+// Another thread may insert a point nearby after FindSeedPosition(). So the distance to feature vertices is
 // checked again when the cavity is locked.
 template <int D, typename Rules>
 RuleOutcome RefinementRules<D, Rules>::InsertSeedBesideOthers(
   const FeatureSeed<D>& seed, VertexId& near)
 {
   Point<D> z;
-  if (!this->HasPlace(seed, z))
+  if (!this->FindSeedPosition(seed, z))
   {
     return RuleOutcome::Good;
   }

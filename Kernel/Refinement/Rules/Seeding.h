@@ -107,15 +107,15 @@ template <int D>
 std::vector<std::size_t> SeedsAlongCurve(
   const Triangulation<D>& mesh, const std::vector<FeatureSeed<D>>& seeds)
 {
-  struct Place
+  struct SeedOnCurve
   {
     bool IsLate;
     std::uint64_t Index;
     std::size_t Seed;
 
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const SeedOnCurve&) const = default;
   };
-  std::vector<Place> along;
+  std::vector<SeedOnCurve> along;
   along.reserve(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
@@ -125,7 +125,7 @@ std::vector<std::size_t> SeedsAlongCurve(
   std::sort(along.begin(), along.end());
   std::vector<std::size_t> order;
   order.reserve(along.size());
-  for (const Place& place : along)
+  for (const SeedOnCurve& place : along)
   {
     order.push_back(place.Seed);
   }
@@ -298,42 +298,43 @@ void SeedTriangulation(RefinementContext<D>& context,
 template <int D>
 std::vector<SimplexId> LivingAlongCurve(const Triangulation<D>& mesh, unsigned threads)
 {
-  struct Place
+  struct SimplexOnCurve
   {
     std::uint32_t Index;
     SimplexId Id;
   };
   constexpr std::size_t grain = 4096;
   constexpr unsigned dropped = 63 / D * D - 30; // bits: 30 are enough for places
-  std::vector<Place> places = ParallelCollect<Place>(mesh.SimplexIdEnd(), grain, threads,
-    [&](std::size_t first, std::size_t last, std::vector<Place>& found)
-    {
-      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+  std::vector<SimplexOnCurve> places =
+    ParallelCollect<SimplexOnCurve>(mesh.SimplexIdEnd(), grain, threads,
+      [&](std::size_t first, std::size_t last, std::vector<SimplexOnCurve>& found)
       {
-        if (!mesh.IsAlive(s))
+        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
         {
-          continue;
-        }
-        Point<D> centre{};
-        for (const VertexId v : mesh.GetSimplex(s).V)
-        {
-          for (std::size_t a = 0; a < D; ++a)
+          if (!mesh.IsAlive(s))
           {
-            centre[a] += mesh.Position(v)[a] / (D + 1);
+            continue;
           }
+          Point<D> centre{};
+          for (const VertexId v : mesh.GetSimplex(s).V)
+          {
+            for (std::size_t a = 0; a < D; ++a)
+            {
+              centre[a] += mesh.Position(v)[a] / (D + 1);
+            }
+          }
+          const std::uint64_t index =
+            HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()) >> dropped;
+          found.push_back({ static_cast<std::uint32_t>(index), s });
         }
-        const std::uint64_t index =
-          HilbertIndex<D>(mesh.GetBox().Clamp(centre), mesh.GetBox()) >> dropped;
-        found.push_back({ static_cast<std::uint32_t>(index), s });
-      }
-    });
-  std::vector<Place> scratch(places.size());
-  const std::span<const Place> along = ParallelRadixSort(
-    std::span<Place>(places), std::span<Place>(scratch), 30,
-    [](const Place& place) { return place.Index; }, threads);
+      });
+  std::vector<SimplexOnCurve> scratch(places.size());
+  const std::span<const SimplexOnCurve> along = ParallelRadixSort(
+    std::span<SimplexOnCurve>(places), std::span<SimplexOnCurve>(scratch), 30,
+    [](const SimplexOnCurve& place) { return place.Index; }, threads);
   std::vector<SimplexId> simplices;
   simplices.reserve(along.size());
-  for (const Place& place : along)
+  for (const SimplexOnCurve& place : along)
   {
     simplices.push_back(place.Id);
   }

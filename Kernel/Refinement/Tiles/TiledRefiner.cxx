@@ -117,13 +117,13 @@ auto TiledRefiner<Rules>::FindWork() -> Work
 }
 
 template <typename Rules>
-auto TiledRefiner<Rules>::RefineAll(Work work, bool putsSliversOff) -> Work
+auto TiledRefiner<Rules>::RefineAll(Work work, bool defersSlivers) -> Work
 {
   const Box<D>& box = this->Context.Mesh.GetBox();
   Work slivers;
   for (unsigned pass = 0; work.Size() > 0 && !this->IsStopped(); ++pass)
   {
-    std::vector<TileItem<D>> items = this->ItemsOf(work);
+    std::vector<TileItem<D>> items = this->MakeItems(work);
     const bool isLittle = items.size() < this->Fewest || pass >= MostTilings;
     std::vector<Tile<D>> tiles =
       isLittle ? TileCutter<D>::Whole(items) : TileCutter<D>::Cut(items, box);
@@ -133,11 +133,11 @@ auto TiledRefiner<Rules>::RefineAll(Work work, bool putsSliversOff) -> Work
       : 0.0;
     this->NumberOfTiles += tiles.size() > 1 ? tiles.size() : 0;
     std::vector<TileTask> tasks = this->Distribute(tiles, work);
-    this->RefineTiles(tasks, smallest, putsSliversOff);
+    this->RefineTiles(tasks, smallest, defersSlivers);
     work = {};
     for (TileTask& task : tasks)
     {
-      if (putsSliversOff)
+      if (defersSlivers)
       {
         slivers.Slivers.insert(
           slivers.Slivers.end(), task.PutOff.Slivers.begin(), task.PutOff.Slivers.end());
@@ -154,7 +154,7 @@ auto TiledRefiner<Rules>::RefineAll(Work work, bool putsSliversOff) -> Work
 }
 
 template <typename Rules>
-auto TiledRefiner<Rules>::ItemsOf(const Work& work) const -> std::vector<TileItem<D>>
+auto TiledRefiner<Rules>::MakeItems(const Work& work) const -> std::vector<TileItem<D>>
 {
   constexpr std::size_t grain = 4096;
   constexpr double nothing = -1.0; // a reach
@@ -233,7 +233,7 @@ auto TiledRefiner<Rules>::Distribute(const std::vector<Tile<D>>& tiles, const Wo
 
 template <typename Rules>
 void TiledRefiner<Rules>::RefineTiles(
-  std::vector<TileTask>& tasks, double smallest, bool putsSliversOff)
+  std::vector<TileTask>& tasks, double smallest, bool defersSlivers)
 {
   std::vector<std::size_t> order(tasks.size()); // long tasks first
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
@@ -251,7 +251,7 @@ void TiledRefiner<Rules>::RefineTiles(
       for (std::size_t k = mayTake ? next++ : order.size(); k < order.size(); k = next++)
       {
         const Finished finished(unfinished);
-        this->RefineTile(*this->Workers[thread], tasks[order[k]], smallest, putsSliversOff);
+        this->RefineTile(*this->Workers[thread], tasks[order[k]], smallest, defersSlivers);
       }
       while (this->Sharing && unfinished != 0)
       {
@@ -263,9 +263,9 @@ void TiledRefiner<Rules>::RefineTiles(
 
 template <typename Rules>
 void TiledRefiner<Rules>::RefineTile(
-  RefinementWorker<D>& me, TileTask& task, double smallest, bool putsSliversOff)
+  RefinementWorker<D>& me, TileTask& task, double smallest, bool defersSlivers)
 {
-  WorkerZone<D> zone{ task.Extent, putsSliversOff, false, {} };
+  WorkerZone<D> zone{ task.Extent, defersSlivers, false, {} };
   me.Zone = &zone;
   me.Kernel.Zone = &zone.Extent;
   for (const Entry& e : task.ToDo.Entries)
@@ -286,7 +286,7 @@ void TiledRefiner<Rules>::RefineTile(
     {
       this->RemovePending(me, rules, task.PutOff);
     }
-    else if (putsSliversOff ? me.Poor.OnlyLast() : me.Poor.Empty())
+    else if (defersSlivers ? me.Poor.OnlyLast() : me.Poor.Empty())
     {
       break;
     }
@@ -322,10 +322,10 @@ void TiledRefiner<Rules>::RefineNext(
   {
     return;
   }
-  me.Zone->HasLeft = false;
+  me.Zone->NeedsOutside = false;
   const RuleOutcome outcome =
     this->Fits(me, e, smallest) ? rules.Refine(e.Id) : RuleOutcome::Contended;
-  if (outcome == RuleOutcome::Contended || (outcome == RuleOutcome::Good && me.Zone->HasLeft))
+  if (outcome == RuleOutcome::Contended || (outcome == RuleOutcome::Good && me.Zone->NeedsOutside))
   {
     putOff.Entries.push_back(e);
   }

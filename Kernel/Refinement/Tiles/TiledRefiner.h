@@ -135,24 +135,24 @@ private:
   /**
    * Refines with one tiling after the other. What does not fit into the tiles of the last one is
    * refined by one thread.
-   * @param putsSliversOff the sliver rule is not applied
+   * @param defersSlivers the sliver rule is not applied
    * @return the slivers that were put off
    */
-  Work RefineAll(Work work, bool putsSliversOff);
+  Work RefineAll(Work work, bool defersSlivers);
 
   /**
    * Where the work is: entries, then slivers, then removals. An entry is at its circumcentre. What
    * is void has no item.
    */
-  std::vector<TileItem<D>> ItemsOf(const Work& work) const;
+  std::vector<TileItem<D>> MakeItems(const Work& work) const;
 
   /** Items that do not fit into their tiles are put off, so no thread looks at them. */
   static std::vector<TileTask> Distribute(const std::vector<Tile<D>>& tiles, const Work& work);
 
   /** @param smallest simplices with a smaller circumradius are put off */
-  void RefineTiles(std::vector<TileTask>& tasks, double smallest, bool putsSliversOff);
+  void RefineTiles(std::vector<TileTask>& tasks, double smallest, bool defersSlivers);
 
-  void RefineTile(RefinementWorker<D>& me, TileTask& task, double smallest, bool putsSliversOff);
+  void RefineTile(RefinementWorker<D>& me, TileTask& task, double smallest, bool defersSlivers);
 
   void RemovePending(RefinementWorker<D>& me, Rules& rules, Work& putOff);
 

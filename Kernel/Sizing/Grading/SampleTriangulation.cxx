@@ -36,7 +36,7 @@ Box<D> MakeBox(const std::vector<Point<D>>& sample, double margin)
 }
 
 /** The round of the k-th point. Rounds are spread evenly over the sample. */
-std::size_t RoundOf(std::size_t k, std::size_t rounds)
+std::size_t InsertionRound(std::size_t k, std::size_t rounds)
 {
   std::size_t round = rounds - 1;
   std::uint64_t h = MixBits(k + 1);
@@ -61,13 +61,13 @@ SampleTriangulation<D>::SampleTriangulation(
   {
     ++rounds;
   }
-  std::vector<std::vector<Entry>> entries(rounds);
+  std::vector<std::vector<CurvePoint>> entries(rounds);
   for (std::size_t k = 0; k < sample.size(); ++k)
   {
-    entries[RoundOf(k, rounds)].push_back(
+    entries[InsertionRound(k, rounds)].push_back(
       { HilbertIndex<D>(sample[k], this->Triangulated.GetBox()), sample[k] });
   }
-  const auto before = [](const Entry& a, const Entry& b)
+  const auto before = [](const CurvePoint& a, const CurvePoint& b)
   { return a.Key != b.Key ? a.Key < b.Key : a.Position < b.Position; };
   ParallelFor(0, rounds, 1, threads,
     [&](std::size_t first, std::size_t last)
@@ -95,7 +95,7 @@ SampleTriangulation<D>::SampleTriangulation(
 //------------------------------------------------------------------------------------------------
 template <int D>
 void SampleTriangulation<D>::InsertAlone(
-  const std::vector<Entry>& entries, std::vector<Entry>* inserted)
+  const std::vector<CurvePoint>& entries, std::vector<CurvePoint>* inserted)
 {
   Triangulation<D>& mesh = this->Triangulated;
   Worker worker(mesh);
@@ -123,7 +123,8 @@ void SampleTriangulation<D>::InsertAlone(
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void SampleTriangulation<D>::InsertTogether(const std::vector<Entry>& entries, unsigned threads)
+void SampleTriangulation<D>::InsertTogether(
+  const std::vector<CurvePoint>& entries, unsigned threads)
 {
   std::atomic<std::size_t> next{ 0 };
   const auto team = std::min<std::size_t>(threads, MaximumNumberOfWorkers - 1);
@@ -143,13 +144,14 @@ void SampleTriangulation<D>::InsertTogether(const std::vector<Entry>& entries, u
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void SampleTriangulation<D>::InsertPiece(Worker& worker, const Entry* begin, const Entry* end)
+void SampleTriangulation<D>::InsertPiece(
+  Worker& worker, const CurvePoint* begin, const CurvePoint* end)
 {
   Triangulation<D>& mesh = this->Triangulated;
-  std::vector<Entry> left;
+  std::vector<CurvePoint> left;
   SimplexId near = None;
   std::uint32_t generation = 0;
-  for (const Entry* entry = begin; entry != end; ++entry)
+  for (const CurvePoint* entry = begin; entry != end; ++entry)
   {
     if (near == None || mesh.Lock(worker, near, generation) != LockOutcome::Locked)
     {
@@ -181,10 +183,10 @@ void SampleTriangulation<D>::InsertPiece(Worker& worker, const Entry* begin, con
 // another thread owns one of the simplex' vertices. While a thread owns a vertex, no other thread
 // can delete the simplices at it.
 template <int D>
-SimplexId SampleTriangulation<D>::LockNear(Worker& worker, const Entry& entry)
+SimplexId SampleTriangulation<D>::LockNear(Worker& worker, const CurvePoint& entry)
 {
   const auto found = std::lower_bound(this->Before.begin(), this->Before.end(), entry.Key,
-    [](const Entry& e, std::uint64_t key) { return e.Key < key; });
+    [](const CurvePoint& e, std::uint64_t key) { return e.Key < key; });
   const VertexId v = (found == this->Before.end() ? this->Before.back() : *found).Vertex;
   if (!this->Triangulated.TryLock(worker, v))
   {

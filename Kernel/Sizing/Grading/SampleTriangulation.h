@@ -51,7 +51,7 @@ public:
 
 private:
   /** A point, its position along the curve, and its vertex if it has been inserted. */
-  struct Entry
+  struct CurvePoint
   {
     std::uint64_t Key;
     Point<D> Position;
@@ -59,17 +59,17 @@ private:
   };
   using Worker = typename Triangulation<D>::Worker;
 
-  void InsertAlone(const std::vector<Entry>& entries, std::vector<Entry>* inserted);
-  void InsertTogether(const std::vector<Entry>& entries, unsigned threads);
-  void InsertPiece(Worker& worker, const Entry* begin, const Entry* end);
-  SimplexId LockNear(Worker& worker, const Entry& entry);
+  void InsertAlone(const std::vector<CurvePoint>& entries, std::vector<CurvePoint>* inserted);
+  void InsertTogether(const std::vector<CurvePoint>& entries, unsigned threads);
+  void InsertPiece(Worker& worker, const CurvePoint* begin, const CurvePoint* end);
+  SimplexId LockNear(Worker& worker, const CurvePoint& entry);
   SimplexId WalkLocking(Worker& worker, const Point<D>& p, SimplexId from);
 
   Triangulation<D> Triangulated;
   std::stop_token Stop;
-  std::vector<Entry> Before; ///< the points of the earlier rounds, sorted by key
-  std::mutex Mutex;          ///< guards Left
-  std::vector<Entry> Left;   ///< the points that one thread inserts at the end
+  std::vector<CurvePoint> Before; ///< the points of the earlier rounds, sorted by key
+  std::mutex Mutex;               ///< guards Left
+  std::vector<CurvePoint> Left;   ///< the points that one thread inserts at the end
 };
 
 extern template class SampleTriangulation<3>;

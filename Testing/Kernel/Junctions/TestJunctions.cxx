@@ -146,7 +146,7 @@ std::array<double, 4> Steps(double constant, double s, double t)
 }
 
 /** A triangle of the fine lattice with the corners (1, 2, 3), (1.5, 2, 3) and (1.5, 2.5, 3). */
-constexpr junctions::Place Triangle{ { 2, 4, 6 }, 1, 3, false };
+constexpr junctions::LatticeSimplex Triangle{ { 2, 4, 6 }, 1, 3, false };
 
 Point<3> Locate(const LinearField& field, const std::array<LabelId, 3>& labels)
 {

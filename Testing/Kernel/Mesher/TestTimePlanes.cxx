@@ -306,7 +306,7 @@ TEST(TimePlanes, AFlatSlabAtTheBeginningTakesFewPoints)
   const Result result = RunOf(image, options);
   EXPECT_FALSE(result.Mesh.Simplices.empty());
   EXPECT_LT(result.Statistics.Rules.Insertions(), 3000u);
-  EXPECT_TRUE(result.Statistics.Yielding.empty());
+  EXPECT_TRUE(result.Statistics.RelaxedRegions.empty());
 }
 
 // A circumcentre lay 1e-14 inside of a face of the box. Rounding made the balls of the flat pentatopes beside it meet the
@@ -328,7 +328,7 @@ TEST(TimePlanes, PointsNextToAFaceOfTheBoxAreMovedOntoIt)
   const Result result = RunOf(image, options);
   EXPECT_FALSE(result.Mesh.Simplices.empty());
   EXPECT_LT(result.Statistics.Rules.Insertions(), 1000u);
-  EXPECT_TRUE(result.Statistics.Yielding.empty());
+  EXPECT_TRUE(result.Statistics.RelaxedRegions.empty());
 }
 
 // The closest point of an interface lay on a plane, and was one bit beside it. Its pentatopes had no volume.

@@ -76,9 +76,9 @@ TEST(PoorElementList, FindsEntriesAfterDeadOnesWereDropped)
   EXPECT_LT(list.Size(), number);
   for (SimplexId s = 0; s < number; s += 2)
   {
-    const PoorElementList::Directory::Place place = directory.Find(s);
-    EXPECT_EQ(place.List, 3u);
-    list.Remove({ s, 7 }, place.Index);
+    const PoorElementList::Directory::Slot slot = directory.Find(s);
+    EXPECT_EQ(slot.List, 3u);
+    list.Remove({ s, 7 }, slot.Index);
   }
   while (!list.Empty())
   {

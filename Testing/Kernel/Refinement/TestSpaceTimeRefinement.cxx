@@ -53,7 +53,7 @@ public:
   using Rules4D::Rules4D;
   Point<4> At(const Point<4>& p, double radius) const
   {
-    return this->PlaceOf(p, CentreMargin * radius).Position;
+    return this->MakeInsertionPoint(p, CentreMargin * radius).Position;
   }
 };
 
@@ -226,7 +226,7 @@ TEST(SpaceTimeRefinement, LargePickingRegionsTakeFewPoints)
     MeshingStatistics statistics;
     MeshOf(image, options, &statistics);
     insertions[k] = statistics.Rules.Insertions();
-    EXPECT_TRUE(statistics.Yielding.empty());
+    EXPECT_TRUE(statistics.RelaxedRegions.empty());
   }
   EXPECT_LT(insertions[1], 2 * insertions[0]);
 }

@@ -97,12 +97,12 @@ TEST(RegionalWork, CountsWhatThreadsInsertAtOnce)
 
 TEST(RegionalWork, RulesGiveWayStepByStep)
 {
-  EXPECT_EQ(YieldingOf(0, 100), Yielding::Nothing);
-  EXPECT_EQ(YieldingOf(99, 100), Yielding::Nothing);
-  EXPECT_EQ(YieldingOf(100, 100), Yielding::Slivers);
-  EXPECT_EQ(YieldingOf(200, 100), Yielding::Spacing);
-  EXPECT_EQ(YieldingOf(399, 100), Yielding::Spacing);
-  EXPECT_EQ(YieldingOf(400, 100), Yielding::All);
+  EXPECT_EQ(RelaxationAfter(0, 100), Relaxation::Nothing);
+  EXPECT_EQ(RelaxationAfter(99, 100), Relaxation::Nothing);
+  EXPECT_EQ(RelaxationAfter(100, 100), Relaxation::Slivers);
+  EXPECT_EQ(RelaxationAfter(200, 100), Relaxation::Spacing);
+  EXPECT_EQ(RelaxationAfter(399, 100), Relaxation::Spacing);
+  EXPECT_EQ(RelaxationAfter(400, 100), Relaxation::All);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -123,10 +123,10 @@ TEST(RegionalWork, EndsWhereSliverBoundsCannotBeKept)
     ExpectSound(MeshOf(phantoms::Ball(8.0), options, &statistics));
     EXPECT_GE(statistics.Rules.LargestRegionalWork, Rules3D::WorkLimit);
     EXPECT_LE(statistics.Rules.LargestRegionalWork, 4 * Rules3D::WorkLimit + MostSampled);
-    ASSERT_FALSE(statistics.Yielding.empty());
-    EXPECT_TRUE(std::any_of(statistics.Yielding.begin(), statistics.Yielding.end(),
-      [](const YieldingReport& region) { return region.Step == 1; }));
-    EXPECT_EQ(statistics.Yielding.front().Voxel.size(), 3u);
+    ASSERT_FALSE(statistics.RelaxedRegions.empty());
+    EXPECT_TRUE(std::any_of(statistics.RelaxedRegions.begin(), statistics.RelaxedRegions.end(),
+      [](const RelaxationReport& region) { return region.Step == 1; }));
+    EXPECT_EQ(statistics.RelaxedRegions.front().Voxel.size(), 3u);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(RegionalWork, IsModestOnPhantoms)
   MeshOf(phantoms::NestedBalls(9.0), WithDelta<3>(1.5), &statistics);
   EXPECT_GT(statistics.Rules.LargestRegionalWork, 0u);
   EXPECT_LT(statistics.Rules.LargestRegionalWork, Rules3D::WorkLimit / 2);
-  EXPECT_TRUE(statistics.Yielding.empty());
+  EXPECT_TRUE(statistics.RelaxedRegions.empty());
 }
 
 /** Two frames so near to each other that all circumcentres lie far beyond them. */
@@ -169,7 +169,7 @@ TEST(RegionalWork, EndsWhereVolumeBoundsCannotBeKept)
     ExpectSound(MeshOf(ImageOf(phantoms::FourBall(4.0)), options, &statistics));
     EXPECT_GE(statistics.Rules.LargestRegionalWork, Rules4D::WorkLimit);
     EXPECT_LE(statistics.Rules.LargestRegionalWork, 4 * Rules4D::WorkLimit + MostSampled);
-    ASSERT_FALSE(statistics.Yielding.empty());
-    EXPECT_EQ(statistics.Yielding.front().Voxel.size(), 4u);
+    ASSERT_FALSE(statistics.RelaxedRegions.empty());
+    EXPECT_EQ(statistics.RelaxedRegions.front().Voxel.size(), 4u);
   }
 }

@@ -53,7 +53,7 @@ protected:
     {
       if (this->Context.Mesh.IsAlive(s))
       {
-        this->One.Kernel.Created.MakeRoom(1);
+        this->One.Kernel.Created.ReserveMore(1);
         this->One.Kernel.Created.Push(s);
       }
     }
