@@ -28,13 +28,6 @@ enum class RemovalOutcome
   Contended ///< another worker owns a vertex of the star; the triangulation is unchanged
 };
 
-enum class LocationOutcome
-{
-  Found,
-  IsVertex, ///< the point is a vertex, so no simplex is in conflict with it
-  Contended ///< another worker owns a vertex on the way
-};
-
 enum class LockOutcome
 {
   Locked,

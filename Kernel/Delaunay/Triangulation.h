@@ -289,15 +289,6 @@ public:
    */
   SimplexId FindConflict(Worker& worker, const Point<D>& p, SimplexId hint) const;
 
-  /**
-   * As FindConflict(), while other workers operate. The worker takes the vertices of all simplices
-   * on the way, so a walk that is not short is in the way of others.
-   * @param near a living vertex, where the walk begins. No other worker may remove it meanwhile.
-   * @param conflict receives the simplex if it is found; the worker owns its vertices
-   */
-  LocationOutcome FindConflictBesideOthers(
-    Worker& worker, const Point<D>& p, VertexId near, SimplexId& conflict);
-
   /** True if p is in the (perturbed) open circumball of a simplex. The answer is exact. Forced
    * inline, since a call costs more than the test. */
   [[gnu::always_inline]] bool InConflict(Worker& worker, SimplexId s, const Point<D>& p) const
@@ -369,10 +360,7 @@ private:
 
   bool InConflictExactly(Worker& worker, SimplexId s, const Point<D>& p) const;
   Circumball<D> ComputeBallExactly(SimplexId s) const;
-  template <typename Enter>
-  bool WalkTo(Worker& worker, const Point<D>& p, SimplexId& s, Enter&& enter) const;
-  template <typename Enter>
-  bool WalkExactly(Worker& worker, const Point<D>& p, SimplexId& s, Enter&& enter) const;
+  SimplexId WalkExactly(Worker& worker, const Point<D>& p, SimplexId s) const;
   static std::uint32_t IndexOfNeighbour(const Simplex& simplex, SimplexId neighbour);
   std::uint32_t NumberVertex(Worker& worker, VertexId v);
   bool TryOwn(Worker& worker, VertexId v);

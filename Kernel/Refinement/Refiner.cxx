@@ -77,7 +77,7 @@ void Refiner<Rules>::PushAll()
     this->StartAtSeeds();
     return;
   }
-  SeedTriangulation<Rules>(this->Context, this->Workers, this->Seeds, 0);
+  SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds, 0, 1);
   const std::vector<SimplexId> simplices = this->LivingSimplices();
   this->template Screen<Rules>(
     *this->Workers[0], simplices.data(), simplices.data() + simplices.size());
@@ -86,7 +86,7 @@ void Refiner<Rules>::PushAll()
 template <typename Rules>
 void Refiner<Rules>::StartAtSeeds()
 {
-  InsertSeeds<Rules>(this->Context, this->Workers, this->Seeds);
+  InsertSeeds<Rules>(this->Context, *this->Workers[0], this->Seeds);
   const std::vector<SimplexId> changed = this->FindReaching();
   this->template Screen<Rules>(*this->Workers[0], changed.data(), changed.data() + changed.size());
 }
@@ -114,8 +114,8 @@ void Refiner<Rules>::MakeWorkers(unsigned threads)
     this->StartAtSeeds();
     return;
   }
-  SeedTriangulation<Rules>(this->Context, this->Workers, this->Seeds,
-    std::size_t{ this->Options.SeedsPerThread } * threads);
+  SeedTriangulation<Rules>(this->Context, *this->Workers[0], this->Seeds,
+    std::size_t{ this->Options.SeedsPerThread } * threads, threads);
   const std::vector<SimplexId> simplices = LivingAlongCurve(this->Context.Mesh, threads);
   // By one thread: screening a simplex also writes what it finds out about its neighbours.
   for (std::size_t t = 0; t < threads; ++t)

@@ -118,14 +118,6 @@ public:
   bool InsertSeed(const FeatureSeed<D>& seed, SimplexId& near);
 
   /**
-   * As InsertSeed() for a point that is not shared, while other threads operate.
-   * @param near a vertex that is not free, where the search begins; receives the new
-   *   vertex
-   * @return Contended if another thread is in the way
-   */
-  RuleOutcome InsertSeedBesideOthers(const FeatureSeed<D>& seed, VertexId& near);
-
-  /**
    * Tries the last of the worker's pending removals again. Vertices that a removal brings within
    * reach are removed after it.
    */

@@ -54,34 +54,6 @@ bool RefinementRules<D, Rules>::InsertSeed(const FeatureSeed<D>& seed, SimplexId
 }
 
 //------------------------------------------------------------------------------------------------
-// Another thread may insert a point nearby after FindSeedPosition(). So the distance to feature vertices is
-// checked again when the cavity is locked.
-template <int D, typename Rules>
-RuleOutcome RefinementRules<D, Rules>::InsertSeedBesideOthers(
-  const FeatureSeed<D>& seed, VertexId& near)
-{
-  Point<D> z;
-  if (!this->FindSeedPosition(seed, z))
-  {
-    return RuleOutcome::Good;
-  }
-  SimplexId conflict = None;
-  switch (this->Context.Mesh.FindConflictBesideOthers(this->Worker.Kernel, z, near, conflict))
-  {
-    case LocationOutcome::IsVertex:
-      return RuleOutcome::Good;
-    case LocationOutcome::Contended:
-      return RuleOutcome::Contended;
-    case LocationOutcome::Found:
-      break;
-  }
-  const RuleOutcome outcome = this->InsertFeature(z, seed.Delta, seed.Delta, conflict, None,
-    this->Worker.Statistics.Fired[RuleNumber<D>::SampleSpacing]);
-  near = outcome == RuleOutcome::Changed ? this->Worker.Kernel.NewVertex : near;
-  return outcome;
-}
-
-//------------------------------------------------------------------------------------------------
 /**
  * Inserts a point that another slab has on the common plane. The removal rule follows a feature
  * point.

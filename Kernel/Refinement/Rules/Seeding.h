@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -155,109 +154,6 @@ void InsertSeeds(RefinementContext<D>& context, RefinementWorker<D>& worker,
 }
 
 /**
- * As above, with all workers at the same time.
- *
- * The curve is cut into a few stretches for each worker. The first worker inserts the first points
- * of all stretches. So the others start near their points, and apart from each other. Then each
- * worker inserts the rest of its stretches. A point that another worker is in the way of is tried
- * again at the end; the first worker inserts what is left then. Few points are inserted by one
- * worker alone.
- *
- * @param workers have distinct numbers
- */
-template <typename Rules, int D = Rules::Dimension>
-void InsertSeeds(RefinementContext<D>& context,
-  const std::vector<std::unique_ptr<RefinementWorker<D>>>& workers,
-  const std::vector<FeatureSeed<D>>& seeds)
-{
-  constexpr std::size_t StretchesPerWorker = 8;
-  constexpr std::size_t FewestOfStretch = 8; // with fewer, there is nothing to gain
-  const std::size_t stretches = StretchesPerWorker * workers.size();
-  const auto shared = static_cast<std::size_t>(std::count_if(
-    seeds.begin(), seeds.end(), [](const FeatureSeed<D>& seed) { return seed.IsShared; }));
-  if (workers.size() == 1 || seeds.size() - shared < FewestOfStretch * stretches)
-  {
-    InsertSeeds<Rules>(context, *workers[0], seeds);
-    return;
-  }
-  Triangulation<D>& mesh = context.Mesh;
-  const std::vector<std::size_t> order = SeedsAlongCurve(mesh, seeds);
-  SimplexId near = mesh.FirstAlive();
-  VertexId last = 0; // it is not free, so it is never removed
-  while (!mesh.GetVertex(last).Alive || mesh.GetVertex(last).Kind == VertexKind::Free)
-  {
-    ++last;
-  }
-  Rules first(context, *workers[0]);
-  const auto insertAlone = [&](std::size_t i)
-  {
-    if (first.InsertSeed(seeds[i], near))
-    {
-      last = workers[0]->Kernel.NewVertex;
-    }
-    near = mesh.IsAlive(near) ? near : mesh.FirstAlive();
-  };
-  for (std::size_t n = 0; n < shared; ++n)
-  {
-    insertAlone(order[n]);
-  }
-  const auto beginOf = [&](std::size_t stretch)
-  { return shared + (order.size() - shared) * stretch / stretches; };
-  std::vector<VertexId> starts(stretches);
-  for (std::size_t k = 0; k < stretches; ++k)
-  {
-    insertAlone(order[beginOf(k)]);
-    starts[k] = last;
-  }
-  mesh.Unlock(workers[0]->Kernel);
-
-  std::vector<std::vector<std::size_t>> left(workers.size());
-  ParallelFor(0, workers.size(), 1, static_cast<unsigned>(workers.size()),
-    [&](std::size_t w, std::size_t)
-    {
-      struct Attempt
-      {
-        std::size_t Seed;
-        VertexId Near;
-      };
-      Rules rules(context, *workers[w]);
-      std::vector<Attempt> contended;
-      const auto insert = [&](std::size_t i, VertexId& from)
-      {
-        const RuleOutcome outcome = rules.InsertSeedBesideOthers(seeds[i], from);
-        mesh.Unlock(workers[w]->Kernel);
-        return outcome != RuleOutcome::Contended;
-      };
-      for (std::size_t k = StretchesPerWorker * w; k < StretchesPerWorker * (w + 1); ++k)
-      {
-        VertexId from = starts[k];
-        for (std::size_t n = beginOf(k) + 1; n < beginOf(k + 1); ++n)
-        {
-          if (!insert(order[n], from))
-          {
-            contended.push_back({ order[n], from });
-          }
-        }
-      }
-      for (Attempt& again : contended)
-      {
-        if (!insert(again.Seed, again.Near))
-        {
-          left[w].push_back(again.Seed);
-        }
-      }
-    });
-  for (const std::vector<std::size_t>& ofWorker : left)
-  {
-    for (const std::size_t i : ofWorker)
-    {
-      insertAlone(i);
-    }
-  }
-  mesh.Unlock(workers[0]->Kernel);
-}
-
-/**
  * Inserts the given seeds and a sample of the interfaces.
  *
  * The thesis starts all threads from the few simplices of the box and loses its first seconds to
@@ -266,29 +162,21 @@ void InsertSeeds(RefinementContext<D>& context,
  * sample spacing rule.
  *
  * @param Rules as in Refiner
- * @param workers insert; no other thread may operate meanwhile. Nothing is screened: most of the
- *   new simplices do not last.
+ * @param worker inserts; no other thread may operate meanwhile. Nothing is screened: most of the new
+ *   simplices do not last.
  * @param seeds are inserted before the sample
  * @param nodes approximate number of points of the sample, 0 for none
+ * @param threads find the points of the sample
  */
 template <typename Rules, int D = Rules::Dimension>
-void SeedTriangulation(RefinementContext<D>& context,
-  const std::vector<std::unique_ptr<RefinementWorker<D>>>& workers,
-  const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes)
+void SeedTriangulation(RefinementContext<D>& context, RefinementWorker<D>& worker,
+  const std::vector<FeatureSeed<D>>& seeds, std::size_t nodes, unsigned threads)
 {
-  const auto screenLater = [&](bool later)
-  {
-    for (const auto& worker : workers)
-    {
-      worker->ScreensLater = later;
-    }
-  };
-  screenLater(true);
+  worker.ScreensLater = true;
   // The seeds come first: points of the sample would be in the way of junctions.
-  InsertSeeds<Rules>(context, workers, seeds);
-  InsertSeeds<Rules>(
-    context, workers, SampleInterfaces(context, nodes, static_cast<unsigned>(workers.size())));
-  screenLater(false);
+  InsertSeeds<Rules>(context, worker, seeds);
+  InsertSeeds<Rules>(context, worker, SampleInterfaces(context, nodes, threads));
+  worker.ScreensLater = false;
 }
 
 /**

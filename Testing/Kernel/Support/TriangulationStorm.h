@@ -219,33 +219,8 @@ private:
     Nowhere     ///< stuck
   };
 
-  /** Walks towards p, with all simplices on the way locked. */
-  Place LocateLocked(const Point<D>& p, Met& met)
-  {
-    for (;;)
-    {
-      const LocationOutcome outcome =
-        this->T.FindConflictBesideOthers(this->Worker, p, this->AnyStaying(), met.Id);
-      this->MayYield();
-      if (outcome == LocationOutcome::Found)
-      {
-        this->ExpectOwned(met.Id);
-        EXPECT_TRUE(this->T.InConflict(this->Worker, met.Id, p));
-        return Place::InConflict;
-      }
-      if (outcome == LocationOutcome::IsVertex)
-      {
-        return Place::IsVertex;
-      }
-      if (!this->RollBack())
-      {
-        return Place::Nowhere;
-      }
-    }
-  }
-
   /** Walks towards p, one simplex locked at a time. */
-  Place LocateLoosely(const Point<D>& p, Met& met)
+  Place Locate(const Point<D>& p, Met& met)
   {
     if (!this->Restart(met))
     {
@@ -315,8 +290,7 @@ private:
     for (;;)
     {
       Met met;
-      const Place place =
-        this->Chance(2) ? this->LocateLocked(p, met) : this->LocateLoosely(p, met);
+      const Place place = this->Locate(p, met);
       if (place != Place::InConflict)
       {
         this->Duplicates += place == Place::IsVertex ? 1 : 0;

@@ -66,20 +66,6 @@ protected:
     return this->Rules.Refine(e.Id);
   }
 
-  /** Ascending. */
-  std::vector<SimplexId> InConflictWith(const Point<3>& p)
-  {
-    std::vector<SimplexId> conflict;
-    for (SimplexId s = 0; s < this->Context.Mesh.SimplexIdEnd(); ++s)
-    {
-      if (this->Context.Mesh.IsAlive(s) && this->Context.Mesh.InConflict(this->One.Kernel, s, p))
-      {
-        conflict.push_back(s);
-      }
-    }
-    return conflict;
-  }
-
   const BallDomain Ball;
   RefinementContext<3> Context;
   RefinementWorker<3> One, Two;
@@ -136,56 +122,6 @@ TEST_F(RulesInContention, AContendedElementIsLeftAsItWas)
     }
   }
   EXPECT_GT(contended, 20);
-}
-
-// The second worker holds the vertices of the cavity, one after the other.
-TEST_F(RulesInContention, AContendedSeedIsTriedAgain)
-{
-  Triangulation<3>& mesh = this->Context.Mesh;
-  const FeatureSeed<3> seed{ { 3.0, 4.0, 0.0 }, 1.0 };
-  const std::vector<SimplexId> cavity = this->InConflictWith(seed.Position);
-  std::set<VertexId> vertices;
-  for (const SimplexId s : cavity)
-  {
-    vertices.insert(mesh.GetSimplex(s).V.begin(), mesh.GetSimplex(s).V.end());
-  }
-  const VertexId corner = 0;
-  VertexId near = corner;
-  for (const VertexId v : vertices)
-  {
-    ASSERT_TRUE(mesh.TryLock(this->Two.Kernel, v));
-    EXPECT_EQ(this->Rules.InsertSeedBesideOthers(seed, near), RuleOutcome::Contended);
-    EXPECT_EQ(near, corner);
-    EXPECT_EQ(this->InConflictWith(seed.Position), cavity);
-    EXPECT_EQ(this->Context.Features.Size(), 0u);
-    mesh.Unlock(this->One.Kernel);
-    mesh.Unlock(this->Two.Kernel);
-  }
-  EXPECT_EQ(this->Rules.InsertSeedBesideOthers(seed, near), RuleOutcome::Changed);
-  EXPECT_EQ(mesh.Position(near), seed.Position);
-  EXPECT_TRUE(this->Context.Features.AnyWithin(seed.Position, 1e-9));
-  mesh.Unlock(this->One.Kernel);
-  ExpectSoundAndUnlocked(mesh);
-}
-
-// The second worker has inserted a feature vertex, and has not yet told the others.
-TEST_F(RulesInContention, ASeedKeepsAwayFromAVertexThatAppearedMeanwhile)
-{
-  Triangulation<3>& mesh = this->Context.Mesh;
-  const FeatureSeed<3> seed{ { 3.0, 4.0, 0.0 }, 1.0 };
-  const Point<3> meanwhile{ 3.0, 4.0, 0.9 };
-  const SimplexId conflict = this->InConflictWith(meanwhile).front();
-  ASSERT_EQ(
-    mesh.Lock(this->Two.Kernel, conflict, mesh.State(conflict).Generation), LockOutcome::Locked);
-  ASSERT_EQ(mesh.Insert(this->Two.Kernel, meanwhile, VertexKind::Feature, conflict),
-    InsertionOutcome::Inserted);
-  mesh.Unlock(this->Two.Kernel);
-  VertexId near = 0;
-  EXPECT_EQ(this->Rules.InsertSeedBesideOthers(seed, near), RuleOutcome::Good);
-  EXPECT_EQ(this->One.Statistics.RefusedTooClose, 1u);
-  EXPECT_EQ(near, 0u);
-  mesh.Unlock(this->One.Kernel);
-  ExpectSoundAndUnlocked(mesh);
 }
 
 // Removing the one makes others adjacent to the feature vertex, which then have to go, too.

@@ -1,94 +1,36 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Seeds that several workers insert side by side: none is lost, none crowds another, and all workers
-// take part.
+// Seeds: none is lost, none crowds another, and shared ones come first.
 #include "BallDomain.h"
 #include "Refinement/Rules/Rules3D.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "Refinement/Rules/Seeding.h"
 #include "RefinementChecks.h"
-#include "ThreadTesting.h"
 #include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
 #include <random>
-#include <string>
-#include <thread>
 #include <vector>
 
 using namespace voxplex;
 using namespace voxplex::checks;
-using voxplex::testing::Watchdog;
 
 namespace
 {
 
-/** Lets other threads run while its own holds what it has locked, so that threads meet. */
-template <typename Base>
-class SlowRules : public Base
-{
-public:
-  using Base::Base;
-
-  RuleOutcome InsertSeedBesideOthers(const FeatureSeed<Base::Dimension>& seed, VertexId& near)
-  {
-    const RuleOutcome outcome = this->Base::InsertSeedBesideOthers(seed, near);
-    Contended += outcome == RuleOutcome::Contended ? 1 : 0;
-    std::this_thread::yield();
-    return outcome;
-  }
-
-  static inline std::atomic<unsigned> Contended{ 0 };
-};
-
-template <int D>
-using Workers = std::vector<std::unique_ptr<RefinementWorker<D>>>;
-
-template <int D>
-Workers<D> MakeWorkers(RefinementContext<D>& context, unsigned number)
-{
-  Workers<D> workers;
-  for (unsigned w = 0; w < number; ++w)
-  {
-    workers.push_back(std::make_unique<RefinementWorker<D>>(
-      context, static_cast<WorkerId>(number > 1 ? w + 1 : 0)));
-  }
-  return workers;
-}
-
-template <int D>
-std::vector<Point<D>> FeaturePoints(const Triangulation<D>& mesh)
-{
-  std::vector<Point<D>> points;
-  for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
-  {
-    if (mesh.GetVertex(v).Alive && mesh.GetVertex(v).Kind == VertexKind::Feature)
-    {
-      points.push_back(mesh.Position(v));
-    }
-  }
-  return points;
-}
-
-/**
- * Seeds on a ball, twice as dense as delta allows. @param delta of the seeds and of the mesh
- * @return the number of times that threads met
- */
+/** Seeds on a ball, twice as dense as delta allows. */
 template <typename Rules>
-unsigned SeedBall(double delta, unsigned threads, std::size_t& inserted)
+void SeedBall(double delta)
 {
   constexpr int D = Rules::Dimension;
   const BallDomainOf<D> ball(5.0);
   RefinementContext<D> context(ball, SettingsFor<D>(delta), Around(ball, delta), 1000);
   const std::vector<FeatureSeed<D>> seeds = SampleInterfaces(context, 0.5 * delta, delta, 1);
-  const Workers<D> workers = MakeWorkers(context, threads);
-  SlowRules<Rules>::Contended = 0;
-  InsertSeeds<SlowRules<Rules>>(context, workers, seeds);
+  RefinementWorker<D> worker(context);
+  InsertSeeds<Rules>(context, worker, seeds);
 
   ExpectSoundAndUnlocked(context.Mesh);
   for (const FeatureSeed<D>& seed : seeds)
@@ -96,16 +38,16 @@ unsigned SeedBall(double delta, unsigned threads, std::size_t& inserted)
     EXPECT_TRUE(context.Features.AnyWithin(seed.Position, seed.Delta * (1.0 + 1e-9)))
       << "a seed is lost";
   }
-  const std::vector<Point<D>> points = FeaturePoints(context.Mesh);
-  inserted = points.size();
-  EXPECT_EQ(points.size(), context.Features.Size());
-  std::uint64_t counted = 0;
-  for (const auto& worker : workers)
+  std::vector<Point<D>> points;
+  for (VertexId v = 0; v < context.Mesh.VertexIdEnd(); ++v)
   {
-    EXPECT_GT(worker->Statistics.Insertions(), 0u) << "a worker does nothing";
-    counted += worker->Statistics.Insertions();
+    if (context.Mesh.GetVertex(v).Alive && context.Mesh.GetVertex(v).Kind == VertexKind::Feature)
+    {
+      points.push_back(context.Mesh.Position(v));
+    }
   }
-  EXPECT_EQ(counted, points.size());
+  EXPECT_EQ(points.size(), context.Features.Size());
+  EXPECT_EQ(worker.Statistics.Insertions(), points.size());
   std::size_t near = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -115,57 +57,40 @@ unsigned SeedBall(double delta, unsigned threads, std::size_t& inserted)
     }
   }
   EXPECT_EQ(near, 0u) << "vertices are nearer to each other than delta";
-  return SlowRules<Rules>::Contended;
-}
-
-template <typename Rules>
-void SeedBalls(double delta)
-{
-  std::size_t byOne = 0;
-  SeedBall<Rules>(delta, 1, byOne);
-  unsigned contended = 0;
-  for (const unsigned threads : { 2u, 4u, 8u })
-  {
-    SCOPED_TRACE(std::to_string(threads) + " threads");
-    std::size_t bySeveral = 0;
-    contended += SeedBall<Rules>(delta, threads, bySeveral);
-    EXPECT_GT(10 * bySeveral, 9 * byOne);
-    EXPECT_LT(10 * bySeveral, 11 * byOne);
-  }
-  EXPECT_GT(contended, 0u) << "the threads never met: the test tests nothing";
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(Seeding, WorkersInsertSideBySide)
+TEST(Seeding, SeedsKeepDeltaFromEachOther)
 {
-  const Watchdog watchdog("side by side");
-  SeedBalls<Rules3D>(0.4);
-  SeedBalls<Rules4D>(1.6);
+  SeedBall<Rules3D>(0.4);
+  SeedBall<Rules4D>(1.6);
 }
 
-// One worker inserts shared points, before the others. There may be nothing else.
+// Other points that are nearer to them than delta are left out.
 TEST(Seeding, SharedPointsComeFirst)
 {
   const BallDomainOf<3> ball(5.0);
-  for (const bool onlyShared : { true, false })
+  RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
+  std::vector<FeatureSeed<3>> seeds = SampleInterfaces(context, 0.2, 0.4, 1);
+  std::mt19937 random(1);
+  for (const Point<3>& p : RandomPoints<3>(500, 4.0, random))
   {
-    RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
-    std::vector<FeatureSeed<3>> seeds =
-      onlyShared ? std::vector<FeatureSeed<3>>() : SampleInterfaces(context, 0.2, 0.4, 1);
-    const std::size_t others = seeds.size();
-    std::mt19937 random(1);
-    for (const Point<3>& p : RandomPoints<3>(500, 4.0, random))
-    {
-      seeds.push_back({ p, 0.4, true, VertexKind::Shared });
-    }
-    const Workers<3> workers = MakeWorkers(context, 4);
-    InsertSeeds<Rules3D>(context, workers, seeds);
-    ExpectSoundAndUnlocked(context.Mesh);
-    EXPECT_EQ(workers[0]->Statistics.Shared, 500u);
-    EXPECT_EQ(others > 0, context.Features.Size() > 0);
-    EXPECT_EQ(others > 0, workers[3]->Statistics.Insertions() > 0);
+    seeds.push_back({ p, 0.4, true, VertexKind::Feature });
+  }
+  const FeatureSeed<3> beside{ { 5.0, 0.0, 0.1 }, 0.4, true, VertexKind::Feature };
+  seeds.push_back(beside);
+  RefinementWorker<3> worker(context);
+  InsertSeeds<Rules3D>(context, worker, seeds);
+  ExpectSoundAndUnlocked(context.Mesh);
+  EXPECT_EQ(worker.Statistics.Shared, 501u);
+  EXPECT_GT(worker.Statistics.Insertions(), 100u);
+  for (const FeatureSeed<3>& seed : seeds)
+  {
+    const bool isNear = !seed.IsShared && Distance(seed.Position, beside.Position) < 0.4;
+    const Point<3>* const found = context.Features.FindWithin(seed.Position, 1e-9);
+    EXPECT_FALSE(isNear && found) << "an earlier point is in the way of a shared one";
   }
 }
 
@@ -174,7 +99,8 @@ TEST(Seeding, LivingSimplicesAreOrderedForAnyNumberOfThreads)
 {
   const BallDomainOf<3> ball(5.0);
   RefinementContext<3> context(ball, SettingsFor<3>(0.4), Around(ball, 0.4), 1000);
-  InsertSeeds<Rules3D>(context, MakeWorkers(context, 1), SampleInterfaces(context, 0.2, 0.4, 1));
+  RefinementWorker<3> worker(context);
+  InsertSeeds<Rules3D>(context, worker, SampleInterfaces(context, 0.2, 0.4, 1));
   const std::vector<SimplexId> byOne = LivingAlongCurve(context.Mesh, 1);
   std::vector<SimplexId> sorted = byOne;
   std::sort(sorted.begin(), sorted.end());
